@@ -1,0 +1,20 @@
+# Everything the layers link from outside, found once. A layer names imported targets only:
+#   Eigen3::Eigen  TBB::tbb  nlohmann_json::nlohmann_json  muparser::muparser  CLI11::CLI11  Threads::Threads
+#   SuiteSparse::KLU and METIS::METIS exist only when BOUGH_HAS_KLU / BOUGH_HAS_METIS is true here.
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(muparser REQUIRED)
+
+set(BOUGH_HAS_KLU OFF)
+if(BOUGH_WITH_KLU)
+  find_package(KLU)
+  set(BOUGH_HAS_KLU ${KLU_FOUND})
+endif()
+
+set(BOUGH_HAS_METIS OFF)
+if(BOUGH_WITH_METIS)
+  find_package(METIS)
+  set(BOUGH_HAS_METIS ${METIS_FOUND})
+endif()

@@ -1,0 +1,17 @@
+# The installed package: find_package(bough) gives bough::bough and one target per layer. The find modules of the
+# optional libraries are installed beside the config file, since their packages bring none.
+include(CMakePackageConfigHelpers)
+set(_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/bough")
+
+install(FILES "${BOUGH_GENERATED_DIR}/bough/version.hpp" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/bough")
+install(EXPORT boughTargets NAMESPACE bough:: DESTINATION "${_package_dir}")
+configure_package_config_file("${CMAKE_CURRENT_SOURCE_DIR}/cmake/boughConfig.cmake.in"
+  "${CMAKE_CURRENT_BINARY_DIR}/boughConfig.cmake" INSTALL_DESTINATION "${_package_dir}")
+write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/boughConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${CMAKE_CURRENT_BINARY_DIR}/boughConfig.cmake"
+  "${CMAKE_CURRENT_BINARY_DIR}/boughConfigVersion.cmake"
+  cmake/FindKLU.cmake
+  cmake/FindMETIS.cmake
+  DESTINATION "${_package_dir}")

@@ -1,0 +1,73 @@
+# The layers, lowest first. cmake/check_includes.py holds the arrows between them.
+set(BOUGH_LAYERS lanes blocks motion laws scene elements plan tree solve schedule step results io study report)
+
+# What every layer and every user of a layer compiles with.
+#   -ffp-contract=off: kernels are templates and may be instantiated in a user's file; the linker keeps one copy, so
+#   all of them must give the same bits.
+#   EIGEN_MAX_ALIGN_BYTES: one alignment for all instruction sets, so that public structs keep one layout.
+add_library(bough_base INTERFACE)
+add_library(bough::base ALIAS bough_base)
+set_target_properties(bough_base PROPERTIES EXPORT_NAME base)
+target_compile_features(bough_base INTERFACE cxx_std_20)
+target_compile_options(bough_base INTERFACE -ffp-contract=off)
+target_compile_definitions(bough_base INTERFACE EIGEN_MAX_ALIGN_BYTES=64)
+target_include_directories(bough_base INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+  $<BUILD_INTERFACE:${BOUGH_GENERATED_DIR}>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+install(TARGETS bough_base EXPORT boughTargets)
+
+# What only this project's own files compile with; never exported.
+add_library(bough_warnings INTERFACE)
+target_compile_options(bough_warnings INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${BOUGH_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# bough_add_layer(NAME SOURCES a.cpp ... USES lower layers ... LIBS public targets ... PRIVATE_LIBS targets ...
+#                 PRIVATE_DEFS definitions ...)
+# makes the target bough_NAME (alias and export bough::NAME) with the headers of include/bough/NAME. Without SOURCES
+# the layer is header-only. Each layer is a library of its own, so that the algebra can be used without the
+# mechanics; BUILD_SHARED_LIBS makes all of them static or all of them shared. Symbols are hidden in static archives
+# and visible in shared libraries: an export macro on every type of fifteen layers would buy little here.
+function(bough_add_layer name)
+  cmake_parse_arguments(PARSE_ARGV 1 LAYER "" "" "SOURCES;USES;LIBS;PRIVATE_LIBS;PRIVATE_DEFS")
+  if(LAYER_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "bough_add_layer(${name}): unknown arguments ${LAYER_UNPARSED_ARGUMENTS}")
+  endif()
+  if(NOT name IN_LIST BOUGH_LAYERS)
+    message(FATAL_ERROR "bough_add_layer(${name}): not one of ${BOUGH_LAYERS}")
+  endif()
+
+  set(target bough_${name})
+  list(TRANSFORM LAYER_USES PREPEND bough_)
+  foreach(used IN LISTS LAYER_USES)
+    if(NOT TARGET ${used})
+      message(WARNING "bough_add_layer(${name}): ${used} is not there yet")
+    endif()
+  endforeach()
+  file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/bough/${name}/*.hpp")
+  if(LAYER_SOURCES)
+    add_library(${target} ${LAYER_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE ${LAYER_PRIVATE_LIBS} $<BUILD_INTERFACE:bough_warnings>)
+    target_compile_definitions(${target} PRIVATE ${LAYER_PRIVATE_DEFS})
+    add_dependencies(${target} bough_version)
+    set_target_properties(${target} PROPERTIES
+      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+      CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+    if(NOT BUILD_SHARED_LIBS)
+      set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    endif()
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(bough::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_link_libraries(${target} ${scope} bough_base ${LAYER_USES} ${LAYER_LIBS})
+  target_sources(${target} ${scope}
+    FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/include" FILES ${headers})
+  install(TARGETS ${target} EXPORT boughTargets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()

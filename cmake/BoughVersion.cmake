@@ -1,0 +1,17 @@
+# bough/version.hpp: the one version of project(), the commit, the compiler and its flags. The commit is read at
+# every build; the file is rewritten only when its text changes, so that nothing is compiled again without need.
+set(BOUGH_GENERATED_DIR "${CMAKE_CURRENT_BINARY_DIR}/generated/include")
+
+string(TOUPPER "${CMAKE_BUILD_TYPE}" _build_type)
+string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${_build_type}} -ffp-contract=off" _flags)
+set(_version_command
+  "${CMAKE_COMMAND}"
+  "-DTEMPLATE=${CMAKE_CURRENT_SOURCE_DIR}/cmake/version.hpp.in"
+  "-DOUTPUT=${BOUGH_GENERATED_DIR}/bough/version.hpp"
+  "-DSOURCE_DIR=${CMAKE_CURRENT_SOURCE_DIR}"
+  "-DBOUGH_VERSION=${PROJECT_VERSION}"
+  "-DBOUGH_COMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
+  "-DBOUGH_FLAGS=${_flags}"
+  -P "${CMAKE_CURRENT_SOURCE_DIR}/cmake/write_version.cmake")
+execute_process(COMMAND ${_version_command} COMMAND_ERROR_IS_FATAL ANY)
+add_custom_target(bough_version COMMAND ${_version_command} VERBATIM COMMENT "")

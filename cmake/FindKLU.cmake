@@ -1,0 +1,25 @@
+# KLU with the parts of SuiteSparse it needs, and nothing else: klu, btf, amd, colamd, suitesparseconfig.
+# (cholmod and umfpack carry other licences and pull BLAS, LAPACK and OpenMP; they are never linked.)
+# Result: KLU_FOUND and the imported target SuiteSparse::KLU with the definition BOUGH_HAS_KLU=1.
+include(FindPackageHandleStandardArgs)
+
+find_path(KLU_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse)
+set(_klu_required KLU_INCLUDE_DIR)
+set(_klu_libraries)
+foreach(part klu btf amd colamd suitesparseconfig)
+  find_library(KLU_${part}_LIBRARY ${part})
+  mark_as_advanced(KLU_${part}_LIBRARY)
+  list(APPEND _klu_required KLU_${part}_LIBRARY)
+  list(APPEND _klu_libraries "${KLU_${part}_LIBRARY}")
+endforeach()
+mark_as_advanced(KLU_INCLUDE_DIR)
+find_package_handle_standard_args(KLU REQUIRED_VARS ${_klu_required})
+
+if(KLU_FOUND AND NOT TARGET SuiteSparse::KLU)
+  add_library(SuiteSparse::KLU INTERFACE IMPORTED)
+  target_include_directories(SuiteSparse::KLU SYSTEM INTERFACE "${KLU_INCLUDE_DIR}")
+  target_link_libraries(SuiteSparse::KLU INTERFACE ${_klu_libraries})
+  target_compile_definitions(SuiteSparse::KLU INTERFACE BOUGH_HAS_KLU=1)
+endif()
+unset(_klu_required)
+unset(_klu_libraries)
