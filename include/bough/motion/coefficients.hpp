@@ -1,0 +1,156 @@
+#pragma once
+/// Coefficients of rotations as analytic functions of x = phi^2, with their derivatives by x, free of cancellation.
+///   c_n(x) = sum_k (-x)^k / (2k + n)!        (Stumpff functions: c_0 = cos phi, c_1 = sin phi / phi, ...)
+///   a = c_1 = sin(phi)/phi,  b = c_2 = (1 - cos phi)/phi^2,  c = c_3 = (phi - sin phi)/phi^3
+///   k = (1 - (phi/2) cot(phi/2)) / phi^2     (poles at phi = 2 pi, 4 pi, ...)
+/// Functions of x, not of phi: no square root is taken near zero, so all derivative types pass through phi = 0.
+#include <array>
+#include <cmath>
+
+#include "bough/motion/types.hpp"
+
+namespace bough::motion {
+
+namespace detail {
+
+/// Polynomial sum_k table[k] x^k, Horner.
+template <class S, std::size_t N>
+S horner(const std::array<long double, N>& table, const S& x) {
+  S r(static_cast<Literal<S>>(table[N - 1]));
+  for (std::size_t k = N - 1; k-- > 0;) r = r * x + static_cast<Literal<S>>(table[k]);
+  return r;
+}
+
+/// (-1)^k / (2k + n)! for k = 0 .. 13: at x = 16 the first term left out is below 3e-19 of the sum.
+constexpr std::array<long double, 14> stumpff_table(int n) {
+  std::array<long double, 14> t{};
+  long double f = 1.0L;
+  for (int j = 2; j <= n; ++j) f *= j;
+  for (int k = 0; k < 14; ++k) {
+    t[static_cast<std::size_t>(k)] = (k % 2 ? -1.0L : 1.0L) / f;
+    f *= static_cast<long double>(2 * k + n + 1) * static_cast<long double>(2 * k + n + 2);
+  }
+  return t;
+}
+inline constexpr std::array<long double, 14> stumpff_6 = stumpff_table(6);
+inline constexpr std::array<long double, 14> stumpff_7 = stumpff_table(7);
+
+/// 2 sum_{m >= 3} (2 pi m)^-(2n+2): k without its first two poles, a series that converges up to phi = 6 pi.
+inline constexpr std::array<long double, 15> inverse_rest = {
+    0.0200075935568722261809087L, 2.54381206886256215795349e-5L, 5.58456839049441513112409e-8L,
+    1.40882415747610468617681e-10L, 3.75671620021579781148421e-13L, 1.02801253753604610784426e-15L,
+    2.85002212921379123826149e-18L, 7.95557541071984498358231e-21L, 2.22893266455370115667057e-23L,
+    6.25747115080577223920474e-26L, 1.75867304929096798907852e-28L, 4.94584695005793873891076e-31L,
+    1.39138267890808799277361e-33L, 3.91504425254531424268482e-36L, 1.10172689146714187787501e-38L};
+
+/// Below this x = phi^2 (phi = 4) the polynomials hold, beyond it the closed forms: there 1/x^3 damps the rounding of
+/// sin and cos to one ulp of the highest coefficient, so one switch serves all coefficients and their derivatives.
+inline constexpr double switch_x = 16.0;
+
+}  // namespace detail
+
+/// c_0 .. c_7 at x = phi^2 >= 0. Two polynomials for c_6 and c_7 and the stable recurrence c_n = 1/n! - x c_{n+2} below
+/// phi = 4; half-angle sine and cosine and the recurrence upwards beyond. Round-off relative to the largest value.
+template <class S>
+lanes::Vec<S, 8> eval_stumpff(const S& x) {
+  using L = Literal<S>;
+  constexpr L one = 1, third = one / 3;
+  const auto small = less(x, S(detail::switch_x));
+  return choose(
+      small,
+      [&] {
+        lanes::Vec<S, 8> c;
+        c[7] = detail::horner(detail::stumpff_7, x);
+        c[6] = detail::horner(detail::stumpff_6, x);
+        c[5] = one / 120 - x * c[7];
+        c[4] = one / 24 - x * c[6];
+        c[3] = third / 2 - x * c[5];
+        c[2] = one / 2 - x * c[4];
+        c[1] = one - x * c[3];
+        c[0] = one - x * c[2];
+        return c;
+      },
+      [&] {
+        using std::cos;
+        using std::sin;
+        using std::sqrt;
+        const S safe = select(small, S(detail::switch_x), x), inv = S(1.0) / safe, phi = sqrt(safe);
+        const S half = L(0.5) * phi, s = sin(half), co = cos(half);
+        lanes::Vec<S, 8> c;
+        c[0] = (co - s) * (co + s);
+        c[1] = L(2) * s * co / phi;
+        c[2] = L(2) * s * s * inv;
+        c[3] = (one - c[1]) * inv;
+        c[4] = (one / 2 - c[2]) * inv;
+        c[5] = (third / 2 - c[3]) * inv;
+        c[6] = (one / 24 - c[4]) * inv;
+        c[7] = (one / 120 - c[5]) * inv;
+        return c;
+      });
+}
+
+/// a, b, c with first (d) and second (dd) derivatives by x = phi^2. What a caller does not read is not computed once
+/// the call is inlined. From c_n' = (n c_{n+2} - c_{n+1}) / 2, which divides by nothing.
+template <class S>
+struct AngleCoefficients {
+  S a, b, c;        ///< sin(phi)/phi, (1 - cos phi)/phi^2, (phi - sin phi)/phi^3
+  S da, db, dc;     ///< d/dx
+  S dda, ddb, ddc;  ///< d^2/dx^2
+};
+template <class S>
+AngleCoefficients<S> eval_angle_coefficients(const S& x) {
+  using L = Literal<S>;
+  const lanes::Vec<S, 8> c = eval_stumpff(x);
+  AngleCoefficients<S> r;
+  r.a = c[1];
+  r.b = c[2];
+  r.c = c[3];
+  r.da = L(0.5) * (c[3] - c[2]);
+  r.db = c[4] - L(0.5) * c[3];
+  r.dc = L(0.5) * (L(3) * c[5] - c[4]);
+  r.dda = L(0.25) * (c[3] + L(3) * (c[5] - c[4]));
+  r.ddb = L(0.25) * (c[4] - L(5) * c[5]) + L(2) * c[6];
+  r.ddc = L(0.25) * (c[5] - L(7) * c[6] + L(15) * c[7]);
+  return r;
+}
+
+/// k = (1 - (phi/2) cot(phi/2))/phi^2 with first and second derivatives by x = phi^2; not at phi = 2 pi, 4 pi, ...
+/// Below phi = 4 from the partial fractions of the cotangent, k = sum_m 2/((2 pi m)^2 - x): two poles and a polynomial,
+/// all terms positive, no trigonometric function. Beyond, with y = (phi/2) cot(phi/2): 2 x y' = y - y^2 - x/4.
+template <class S>
+struct InverseCoefficients {
+  S k, dk, ddk;
+};
+template <class S>
+InverseCoefficients<S> eval_inverse_coefficients(const S& x) {
+  using L = Literal<S>;
+  const auto small = less(x, S(detail::switch_x));
+  const lanes::Vec<S, 3> r = choose(
+      small,
+      [&] {
+        constexpr L pole1 = static_cast<L>(39.478417604357434475338L), pole2 = static_cast<L>(157.913670417429737901352L);
+        const S near = select(small, x, S(0.0));
+        const S p = S(1.0) / (pole1 - near), q = S(1.0) / (pole2 - near), pp = p * p, qq = q * q;
+        S f(0.0), df(0.0), hf(0.0);  // rest, its first derivative, half its second
+        for (std::size_t n = detail::inverse_rest.size(); n-- > 0;) {
+          hf = hf * near + df;
+          df = df * near + f;
+          f = f * near + static_cast<L>(detail::inverse_rest[n]);
+        }
+        return lanes::Vec<S, 3>{{f + L(2) * (p + q), df + L(2) * (pp + qq), L(2) * hf + L(4) * (p * pp + q * qq)}};
+      },
+      [&] {
+        using std::cos;
+        using std::sin;
+        using std::sqrt;
+        const S safe = select(small, S(detail::switch_x), x), inv = S(1.0) / safe, half = L(0.5) * sqrt(safe);
+        const S y = half * cos(half) / sin(half);
+        const S dy = L(0.5) * inv * (y - y * y) - L(0.125);
+        const S ddy = -L(0.5) * inv * (dy + L(2) * y * dy + L(0.25));
+        const S k = (L(1) - y) * inv, dk = -(dy + k) * inv;
+        return lanes::Vec<S, 3>{{k, dk, -(ddy + L(2) * dk) * inv}};
+      });
+  return {r[0], r[1], r[2]};
+}
+
+}  // namespace bough::motion
