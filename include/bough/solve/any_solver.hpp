@@ -1,0 +1,48 @@
+#pragma once
+/// Either solver behind one set of verbs, so that a caller can hold one without a template.
+#include <utility>
+#include <variant>
+
+#include "bough/solve/hierarchical.hpp"
+#include "bough/solve/monolithic.hpp"
+
+namespace bough::solve {
+
+/// A Hierarchical or a Monolithic; the verbs are those of Hierarchical.
+class AnySolver {
+ public:
+  AnySolver(Hierarchical solver) : solver_(std::move(solver)) {}
+  AnySolver(Monolithic solver) : solver_(std::move(solver)) {}
+
+  double* element_matrix(int element) {
+    return std::visit([&](auto& s) { return s.element_matrix(element); }, solver_);
+  }
+  void rescale() {
+    std::visit([](auto& s) { s.rescale(); }, solver_);
+  }
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}) {
+    return std::visit([&](auto& s) { return s.factor(walker, prepare); }, solver_);
+  }
+  [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x) {
+    return std::visit([&](auto& s) { return s.solve(walker, rhs, x); }, solver_);
+  }
+  void multiply(const tree::Walker& walker, const double* x, double* y) const {
+    std::visit([&](auto& s) { s.multiply(walker, x, y); }, solver_);
+  }
+  const FactorStatus& last_status() const {
+    return std::visit([](auto& s) -> const FactorStatus& { return s.last_status(); }, solver_);
+  }
+  SolverCounters counters() const {
+    return std::visit([](auto& s) { return s.counters(); }, solver_);
+  }
+  std::vector<int> blocks_not_unique() const {
+    return std::visit([](auto& s) { return s.blocks_not_unique(); }, solver_);
+  }
+  /// The hierarchical solver, or null when the monolithic one is held.
+  const Hierarchical* hierarchical() const { return std::get_if<Hierarchical>(&solver_); }
+
+ private:
+  std::variant<Hierarchical, Monolithic> solver_;
+};
+
+}  // namespace bough::solve

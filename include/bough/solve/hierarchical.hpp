@@ -1,0 +1,67 @@
+#pragma once
+/// The hierarchical direct solver: sub-domains condensed to their interfaces, level by level, then substituted back.
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bough/blocks/block_graph.hpp"
+#include "bough/solve/options.hpp"
+#include "bough/solve/report.hpp"
+#include "bough/tree/tree.hpp"
+#include "bough/tree/walker.hpp"
+
+namespace bough::solve {
+
+/// Solves A x = b, A = sum of dense element matrices over the blocks of a graph, generally unsymmetric with symmetric structure.
+///
+///   S_i = A_BB - A_BI A_II^-1 A_IB,   g_i = b_B - A_BI A_II^-1 b_I         upward, sub-domain i, interface B, interior I
+///   x_I = A_II^-1 (b_I - A_IB x_B),   l_i = (g_i - S_i x_B) / s            downward; l_i: its local multipliers
+///
+/// Everything is eliminated in scaled variables D_r A D_c (powers of two). The graph and the tree must outlive the solver.
+class Hierarchical {
+ public:
+  /// Sizes all storage; computes nothing. Preconditions: tree made from this graph; problems_in(options) empty.
+  Hierarchical(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options = {});
+  ~Hierarchical();
+  Hierarchical(Hierarchical&&) noexcept;
+  Hierarchical& operator=(Hierarchical&&) noexcept;
+
+  /// Where the assembler writes element e: row-major n_e x n_e in the element's block order, SI units. Values stay until overwritten;
+  /// elements of a leaf lie next to each other. Zero at the start.
+  double* element_matrix(int element);
+  const double* element_matrix(int element) const;
+
+  /// Take the scales anew from the element matrices at the next factor(). The first one always does. With a Prepare the scales are
+  /// those of the matrices present before it runs, so call rescale() after the element matrices have been evaluated once.
+  void rescale();
+
+  /// Assemble, factor and condense all sub-domains. Allocates only where delayed pivots enlarge a front, or rows are dependent.
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {});
+
+  /// Solve with the last factorization. rhs, x: num_unknowns, in the order of the blocks; may be the same array. Precondition: factor() ok.
+  /// Dependent constraint rows: the multipliers are those of least norm (each measured against its constraint row, free of units).
+  [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x);
+
+  /// y = A x with the element matrices present now (unscaled). y must not be x. No allocation.
+  void multiply(const tree::Walker& walker, const double* x, double* y) const;
+
+  const FactorStatus& last_status() const;
+  SolverCounters counters() const;
+  /// Interfaces of all sub-domains but the root, in order; computes condition numbers (dense eigenvalues: for reports, allocates).
+  std::vector<InterfaceReport> interfaces() const;
+  /// Local multipliers l_i of a sub-domain after solve(): generalised interface forces in the units of the right-hand side (times 1/s),
+  /// one per unknown of its boundary blocks, in that order.
+  std::vector<double> local_multipliers(tree::SubdomainId subdomain) const;
+  /// Blocks whose multipliers are not unique (they take part in a null vector), ascending. Empty without deficiency.
+  std::vector<int> blocks_not_unique() const;
+  /// Scale of every unknown and of every row (powers of two): scaled A = row_scale A column_scale.
+  std::span<const double> column_scale() const;
+  std::span<const double> row_scale() const;
+  const tree::Tree& tree() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bough::solve

@@ -1,0 +1,41 @@
+#pragma once
+/// The monolithic oracle: the same matrix, assembled to one sparse matrix and factored by KLU.
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bough/blocks/block_graph.hpp"
+#include "bough/solve/options.hpp"
+#include "bough/solve/report.hpp"
+#include "bough/tree/walker.hpp"
+
+namespace bough::solve {
+
+/// Same contract as Hierarchical, serial. Dependent constraint rows: if the factorization is singular or nearly so, the multipliers get a
+/// diagonal -d^2 (d^2 = rank_tolerance, in scaled variables) and the solution is refined with the true matrix; the limit is the
+/// solution with least multipliers. The deficiency is then not counted (-1).
+class Monolithic {
+ public:
+  static bool available();  ///< false when the library was built without KLU; then factor() answers FactorOutcome::backend.
+
+  Monolithic(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options = {});
+  ~Monolithic();
+  Monolithic(Monolithic&&) noexcept;
+  Monolithic& operator=(Monolithic&&) noexcept;
+
+  double* element_matrix(int element);
+  const double* element_matrix(int element) const;
+  void rescale();
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {});
+  [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x);
+  void multiply(const tree::Walker& walker, const double* x, double* y) const;
+  const FactorStatus& last_status() const;
+  SolverCounters counters() const;
+  std::vector<int> blocks_not_unique() const;  ///< always empty: not known here.
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bough::solve

@@ -1,0 +1,46 @@
+#pragma once
+/// What the solver knows of scheduling: function pointers that visit every sub-domain, children first or parents first.
+#include <cstdint>
+
+#include "bough/tree/tree.hpp"
+
+namespace bough::tree {
+
+/// Work on one sub-domain (its own fronts). Must not throw.
+struct Visit {
+  void (*run)(void* context, SubdomainId subdomain) = nullptr;
+  void* context = nullptr;
+};
+
+/// Work on a chunk [begin, end) of independent items. Must not throw.
+struct Chunk {
+  void (*run)(void* context, std::int64_t begin, std::int64_t end) = nullptr;
+  void* context = nullptr;
+};
+
+/// A way to walk the tree: `up` visits every child before its parent, `down` every parent before its children, `each` cuts [0, count) into
+/// chunks of `grain` items (the last may be shorter; the cuts do not depend on the number of threads). All return when all is done.
+struct Walker {
+  void (*up)(void* context, const Tree& tree, Visit visit) = nullptr;
+  void (*down)(void* context, const Tree& tree, Visit visit) = nullptr;
+  void (*each)(void* context, std::int64_t count, std::int64_t grain, Chunk chunk) = nullptr;
+  void* context = nullptr;
+
+  void walk_up(const Tree& tree, Visit visit) const { up(context, tree, visit); }
+  void walk_down(const Tree& tree, Visit visit) const { down(context, tree, visit); }
+  void for_each_chunk(std::int64_t count, std::int64_t grain, Chunk chunk) const { each(context, count, grain, chunk); }
+};
+
+/// A visit that calls `body(SubdomainId)`; body must outlive the walk.
+template <class Body>
+Visit make_visit(Body& body) {
+  return {[](void* context, SubdomainId s) { (*static_cast<Body*>(context))(s); }, &body};
+}
+
+/// A chunk that calls `body(begin, end)`; body must outlive the call.
+template <class Body>
+Chunk make_chunk(Body& body) {
+  return {[](void* context, std::int64_t begin, std::int64_t end) { (*static_cast<Body*>(context))(begin, end); }, &body};
+}
+
+}  // namespace bough::tree
