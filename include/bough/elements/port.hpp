@@ -1,0 +1,56 @@
+#pragma once
+/// Where an element meets the structure, and what it sees there.
+#include <cstdint>
+
+#include "bough/motion/group.hpp"
+#include "bough/motion/se3.hpp"
+
+namespace bough::elements {
+
+using lanes::Mat;
+using lanes::Vec;
+using motion::Frame;
+using motion::Mat3;
+using motion::Mat6;
+using motion::Vec3;
+using motion::Vec6;
+
+constexpr int ground = -1;  ///< node index of what is fixed in space
+
+/// A frame fixed to a node, at `offset` in the node's axes; node == ground: `offset` is the pose in the inertial frame.
+struct Port {
+  int node = ground;
+  bool has_offset = false;  ///< false: the offset is the identity and is not applied
+  Frame<double> offset = Frame<double>::identity();
+};
+
+/// Motion of a port's frame as a kernel sees it.
+///   H: pose, its position relative to the element's anchor (differences keep their digits far from the origin) [m]
+///   v: twist (linear; angular) in the port's own axes [m/s, rad/s];  a: its time derivative, component by component.
+template <class S>
+struct PortMotion {
+  Frame<S> H;
+  Vec6<S> v;
+  Vec6<S> a;
+};
+
+/// What all elements share at one instant.
+template <class S>
+struct Surroundings {
+  Vec3<S> gravity;      ///< acceleration in inertial axes [m/s^2]
+  const S* laws;        ///< value of each time function
+  bool has_inertia;     ///< false in statics: velocities and accelerations are not looked at
+};
+
+/// Energies [J], power [W] and momentum of one element, for the balances of a run.
+struct Measures {
+  double kinetic = 0.0;
+  double strain = 0.0;
+  double potential = 0.0;       ///< of gravity, about the inertial origin
+  double work_rate = 0.0;       ///< of loads, drives and efforts
+  double dissipation_rate = 0.0;  ///< taken by dampers, >= 0
+  Vec6<double> momentum = Vec6<double>::zero();  ///< (linear; angular about the inertial origin), inertial axes
+  Vec6<double> load = Vec6<double>::zero();      ///< resultant of gravity, loads and reactions of the ground, same point and axes
+};
+
+}  // namespace bough::elements

@@ -1,0 +1,111 @@
+#pragma once
+/// What a run hands to whoever records it: plain data, no file formats.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace bough::results {
+
+/// One row of the history: the values follow the columns of `HistoryHeader`.
+struct HistoryHeader {
+  std::vector<std::string> columns;  ///< "<sensor>.<component>" or "<sensor>"
+};
+struct HistoryRow {
+  double time = 0.0;  ///< [s], or the load factor
+  double step_size = 0.0;
+  int iterations = 0;
+  std::vector<double> values;
+};
+
+/// The moving structure at one time, for pictures and VTU.
+struct CurvePoint {
+  double position[3];
+  double axes[9];      ///< rotation matrix, row-major: columns are the section's axes
+  double force[6];     ///< section resultants (N, Q2, Q3, T, M2, M3)
+};
+struct Curve {
+  std::string name;
+  std::vector<CurvePoint> points;
+};
+struct BodyPose {
+  std::string name;
+  double position[3];   ///< of the body's reference point
+  double axes[9];
+  double center[3];     ///< centre of mass
+};
+struct Link {
+  std::string name;     ///< joint or spring, drawn as a segment (a joint may have length 0)
+  double first[3];
+  double second[3];
+};
+struct MotionFrame {
+  double time = 0.0;
+  std::vector<Curve> curves;
+  std::vector<BodyPose> bodies;
+  std::vector<Link> links;
+};
+
+enum class RunStatus : std::uint8_t { ok, failed, interrupted };
+
+struct StepCounts {
+  long accepted = 0, rejected = 0, newton_iterations = 0, factorizations = 0;
+};
+struct StepTimes {
+  double total = 0.0;                                                          ///< wall [s]
+  double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0, output = 0.0;  ///< CPU seconds summed over threads
+};
+struct Checks {
+  double energy_balance = 0.0;              ///< largest |kinetic + strain + potential - work - start| [J]
+  double energy_scale = 0.0;                ///< largest sum of the parts' magnitudes [J]
+  double numerical_dissipation = 0.0;       ///< energy taken by the integrator [J]
+  double momentum_balance = 0.0;            ///< largest |momentum - impulse - start| [kg m/s]
+  double constraint_violation_position = 0.0;  ///< [m] or [rad]
+  double constraint_violation_velocity = 0.0;  ///< [m/s] or [rad/s]
+  double linear_backward_error_max = 0.0;
+  bool round_off_floor_reached = false;
+};
+struct ExpectedResult {
+  std::string name;
+  double value = 0.0, reference = 0.0, tolerance = 0.0;
+  bool holds = false;
+  std::string source;
+};
+/// Nested plain options as they were used: JSON pointer (without the leading slash) to text of a JSON value.
+using EffectiveOptions = std::vector<std::pair<std::string, std::string>>;
+
+struct Summary {
+  RunStatus status = RunStatus::failed;
+  std::string cause;
+  std::string scene, title;
+  int threads = 1;
+  EffectiveOptions options;
+  StepCounts steps;
+  StepTimes times;
+  std::int64_t memory_peak_bytes = 0;
+  Checks checks;
+  std::vector<std::string> notes;     ///< warnings in words: dependent constraints, impulses at the start, floors reached ...
+  HistoryHeader header;
+  std::vector<double> final_values;   ///< by header
+  std::vector<ExpectedResult> expected;
+  std::vector<std::pair<std::string, double>> solver;  ///< figures of the tree: sub-domains, levels, interface unknowns, condition, ...
+};
+
+/// Receives a run as it goes. A writer throws std::runtime_error where it cannot write; the run then fails with that cause.
+class Recorder {
+ public:
+  virtual ~Recorder() = default;
+  virtual void begin(const HistoryHeader& header) = 0;
+  virtual void row(const HistoryRow& row) = 0;
+  virtual void motion(const MotionFrame& frame) = 0;
+  virtual void end(const Summary& summary) = 0;
+};
+
+/// Told of progress; returns false to ask the run to stop (interrupted).
+struct Progress {
+  double time = 0.0, end_time = 0.0, step_size = 0.0;
+  int iterations = 0;
+  long step = 0;
+};
+
+}  // namespace bough::results

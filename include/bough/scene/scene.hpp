@@ -1,0 +1,262 @@
+#pragma once
+/// A scene: what the user says, in SI units and radians, as plain data. Things are named and refer to each other by name
+/// (empty name = absent). Nothing is derived here; `plan` turns a scene into elements.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "bough/laws/law.hpp"
+#include "bough/motion/types.hpp"
+
+namespace bough::scene {
+
+using Vec3 = motion::Vec3<double>;
+using Vec6 = motion::Vec6<double>;
+using Mat3 = motion::Mat3<double>;
+using Mat6 = motion::Mat6<double>;
+using Frame = motion::Frame<double>;
+
+/// Pose in a named frame (empty: the inertial frame).
+struct Placement {
+  Frame pose = Frame::identity();
+  std::string frame;
+};
+
+/// Fixed frame, posed in another one.
+struct FrameDef {
+  std::string name;
+  Placement placement;
+};
+
+struct Material {
+  std::string name;
+  double young = 0.0;    ///< E [Pa]
+  double shear = 0.0;    ///< G [Pa] (the reader derives it from Poisson's ratio where that is given)
+  double density = 0.0;  ///< [kg/m^3]
+};
+
+/// Beam section about the reference axis, axes (1 along the beam, 2, 3), order (N, Q2, Q3, T, M2, M3).
+struct Section {
+  std::string name;
+  Mat6 stiffness;  ///< [N, N m, N m^2], symmetric positive definite
+  Mat6 mass;       ///< per length [kg/m, kg, kg m], symmetric positive semi-definite
+  Mat6 damping;    ///< of strain rates [N s, N m s, N m^2 s]; zero when absent
+};
+
+struct Node {
+  std::string name;
+  Placement placement;
+};
+
+/// Rigid body or point mass. Its frame is a node of its own name.
+struct Body {
+  std::string name;
+  Placement placement;                  ///< of the body's reference frame
+  double mass = 0.0;                    ///< [kg]
+  Mat3 inertia = Mat3::zero();          ///< about the centre of mass, in the body's axes [kg m^2]
+  Vec3 center_of_mass = Vec3::zero();   ///< in the body's frame [m]
+  bool is_point_mass = false;           ///< three unknowns would do; rotation is held where nothing else holds it
+};
+
+/// Something fixed to a node, a body or the ground: the pose `offset` in the frame of `to`; `to` empty = ground (then in the inertial
+/// frame). Named "ground" in files.
+struct Attachment {
+  std::string to;
+  Frame offset = Frame::identity();
+};
+
+enum class BeamCurve : std::uint8_t {
+  straight,   ///< from the start to the end
+  curvature,  ///< constant body curvature over a given length: circles and helices, exactly
+};
+
+/// A beam from one attachment to another. Its inner nodes are made by the plan and named `<beam>.<k>` (k = 0 at the start).
+struct Beam {
+  std::string name;
+  std::string section;
+  std::string start, end;             ///< nodes or bodies
+  std::optional<Vec3> start_offset;   ///< position of the beam's ends in the frames of `start` and `end` [m]
+  std::optional<Vec3> end_offset;
+  BeamCurve curve = BeamCurve::straight;
+  Vec3 axis_2 = Vec3::zero();         ///< a vector (inertial or in `frame`) that section axis 2 at the start lies nearest to; zero: chosen
+  std::string frame;                  ///< frame in which axis_2 and curvature start are given
+  double twist = 0.0;                 ///< rotation of the section about axis 1 from start to end [rad] (straight)
+  Vec3 curvature = Vec3::zero();      ///< body components (k1, k2, k3) [1/m] (curvature)
+  double length = 0.0;                ///< [m] (curvature)
+  Vec3 tangent = Vec3::zero();        ///< axis 1 at the start (curvature)
+  int elements = 1;
+  int order = 1;                      ///< polynomial order of the element: 1 (two nodes), 2, 3
+};
+
+enum class JointKind : std::uint8_t { fixed, revolute, spherical, prismatic, cylindrical, universal, planar, screw };
+
+/// What acts along a joint's free coordinate `coordinate` ("angle" or "displacement").
+struct JointForce {
+  std::string coordinate;
+  double stiffness = 0.0;  ///< [N m/rad] or [N/m]
+  double rest = 0.0;       ///< [rad] or [m]
+  double damping = 0.0;
+  laws::Law effort;        ///< torque [N m] or force [N] on the second body along the axis
+};
+
+/// What prescribes a joint's coordinate.
+struct JointDrive {
+  std::string coordinate;
+  bool is_rate = false;  ///< the law gives the rate; it is integrated exactly from the initial value
+  laws::Law law;
+};
+
+/// Joint frame axes: 3 is the axis of revolute, prismatic, cylindrical, screw and the normal of planar; universal: axis 1 of the first body is
+/// perpendicular to axis 2 of the second.
+struct Joint {
+  std::string name;
+  JointKind kind = JointKind::fixed;
+  Attachment first, second;  ///< a reaction is the wrench of the first body on the second, at the second's joint frame
+  double pitch = 0.0;        ///< screw: displacement per turn [m]
+  std::vector<JointForce> forces;
+  std::vector<JointDrive> drives;
+};
+
+/// Spring and damper between two points, along the line that joins them.
+struct Spring {
+  std::string name;
+  Attachment first, second;
+  double stiffness = 0.0;  ///< [N/m]
+  double rest_length = 0.0;
+  double damping = 0.0;  ///< [N s/m]
+};
+
+/// Elastic and viscous coupling of all six relative motions of two frames, stiffness in the first's axes at rest.
+struct Bushing {
+  std::string name;
+  Attachment first, second;
+  Mat6 stiffness = Mat6::zero();
+  Mat6 damping = Mat6::zero();
+};
+
+enum class LoadAxes : std::uint8_t { space, body };  ///< dead (fixed in space) or follower (turns with what it acts on)
+
+struct PointLoad {
+  std::string name;
+  Attachment at;
+  LoadAxes axes = LoadAxes::space;
+  Vec3 force = Vec3::zero();   ///< [N], times the law
+  Vec3 moment = Vec3::zero();  ///< [N m], times the law
+  laws::Law law;               ///< factor over time (statics: over the load factor)
+};
+
+struct LineLoad {
+  std::string name;
+  std::string beam;
+  LoadAxes axes = LoadAxes::space;
+  Vec3 force = Vec3::zero();   ///< per reference length [N/m]
+  Vec3 moment = Vec3::zero();  ///< [N]
+  laws::Law law;
+};
+
+/// Prescribed motion of a node or body along and about inertial axes from its initial pose: a joint to the ground for the components chosen.
+struct PrescribedMotion {
+  std::string name;
+  Attachment at;
+  /// x y z [m] translations along inertial axes; rotations only as one axis with an angle that counts turns.
+  std::optional<laws::Law> displacement[3];
+  std::optional<Vec3> rotation_axis;  ///< given: orientation is exp(angle(t) axis) times the initial one
+  laws::Law angle;
+  bool hold_rotation = false;         ///< orientation held at its initial value
+  bool is_rate = false;
+};
+
+struct InitialVelocity {
+  std::string of;                    ///< node, body, or beam (then all its nodes, as a rigid motion about its start)
+  LoadAxes axes = LoadAxes::space;
+  Vec3 velocity = Vec3::zero();      ///< of the frame's origin [m/s]
+  Vec3 angular_velocity = Vec3::zero();
+};
+
+enum class SensorKind : std::uint8_t {
+  position, rotation, quaternion, velocity, acceleration,
+  section_force, section_strain,
+  joint_reaction, joint_angle, joint_displacement, joint_rate,
+  kinetic_energy, strain_energy, potential_energy, total_energy,
+};
+
+struct Sensor {
+  std::string name;
+  SensorKind kind = SensorKind::position;
+  Attachment at;                    ///< node or body with offset (position, rotation, velocity, acceleration)
+  std::string beam;                 ///< section sensors, or a point on a beam's axis
+  double station = 0.0;             ///< fraction of the beam's length, 0 to 1
+  std::string joint;
+  LoadAxes axes = LoadAxes::space;  ///< resolved in inertial axes or in the body's own
+};
+
+enum class AnalysisKind : std::uint8_t { statics, dynamics };
+enum class Newton : std::uint8_t { full, single };
+
+struct Analysis {
+  AnalysisKind kind = AnalysisKind::dynamics;
+  // statics
+  int load_steps = 1;
+  // dynamics
+  double end_time = 0.0;       ///< [s]
+  double step_size = 1e-3;     ///< h [s]
+  double spectral_radius = 0.8;
+  // both
+  Newton newton = Newton::full;
+  double tolerance = 1e-8;     ///< of relative motions and of residuals relative to their contributions [-]
+  int max_iterations = 20;
+  int max_cuts = 10;           ///< halvings of a step before the run fails
+};
+
+enum class SolverKind : std::uint8_t { automatic, hierarchical, monolithic };
+
+struct Solver {
+  SolverKind kind = SolverKind::automatic;
+  int leaf_size = 0;              ///< elements; 0 = chosen
+  int depth = -1;                 ///< -1 = chosen
+  double penalty_factor = 1.0;    ///< times the interface's own stiffness
+  bool tasks = true;
+};
+
+struct Output {
+  int stride = 1;          ///< history rows: every n-th accepted step
+  bool motion = false;     ///< write motion.pvd and VTU
+  int motion_stride = 1;
+};
+
+struct Expected {
+  std::string quantity;  ///< "<sensor>.<component>" or "<sensor>"; final value, or at `time`
+  std::optional<double> time;
+  double value = 0.0;
+  double tolerance = 0.0;  ///< absolute, > 0
+  std::string source;
+};
+
+struct Scene {
+  std::string name;  ///< file name without ending
+  std::string title;
+  Vec3 gravity = Vec3::zero();  ///< [m/s^2], inertial
+  laws::Law gravity_law;        ///< factor over time
+  std::vector<FrameDef> frames;
+  std::vector<Material> materials;
+  std::vector<Section> sections;
+  std::vector<Node> nodes;
+  std::vector<Body> bodies;
+  std::vector<Beam> beams;
+  std::vector<Joint> joints;
+  std::vector<Spring> springs;
+  std::vector<Bushing> bushings;
+  std::vector<PointLoad> point_loads;
+  std::vector<LineLoad> line_loads;
+  std::vector<PrescribedMotion> motions;
+  std::vector<InitialVelocity> initial_velocities;
+  std::vector<Sensor> sensors;
+  Analysis analysis;
+  Solver solver;
+  Output output;
+  std::vector<Expected> expected;
+};
+
+}  // namespace bough::scene

@@ -1,0 +1,74 @@
+#include "bough/elements/evaluate.hpp"
+
+#include "evaluate_impl.hpp"
+
+namespace bough::elements {
+
+PortMotion<double> eval_port(const Port& port, const NodeMotion* nodes, const motion::Vec3Pair& anchor) {
+  PortMotion<double> p;
+  if (port.node == ground) {
+    p.H.R = port.offset.R;
+    p.H.x = motion::difference(motion::Vec3Pair{port.offset.x, Vec3<double>::zero()}, anchor);
+    p.v = p.a = Vec6<double>::zero();
+    return p;
+  }
+  const NodeMotion& n = nodes[port.node];
+  const Vec3<double> x = motion::difference(n.x, anchor);
+  if (!port.has_offset) return {{n.R, x}, n.v, n.a};
+  p.H.R = n.R * port.offset.R;
+  p.H.x = x + n.R * port.offset.x;
+  p.v = motion::inverse_adjoint_times(port.offset, n.v);
+  p.a = motion::inverse_adjoint_times(port.offset, n.a);
+  return p;
+}
+
+Mat6<double> make_mass_matrix(double mass, const Vec3<double>& center, const Mat3<double>& inertia) {
+  const Mat3<double> c = lanes::skew(center);
+  const Mat3<double> about_origin = inertia - mass * (c * c);  // Huygens and Steiner
+  Mat6<double> M = Mat6<double>::zero();
+  for (int i = 0; i < 3; ++i) {
+    M(i, i) = mass;
+    for (int j = 0; j < 3; ++j) {
+      M(i, 3 + j) = -mass * c(i, j);
+      M(3 + i, j) = mass * c(i, j);
+      M(3 + i, 3 + j) = about_origin(i, j);
+    }
+  }
+  return M;
+}
+
+void evaluate_constraint_series(const Joint& joint, const Field& field, const Vec6<double>* jerk,
+                                const lanes::Taylor<double, 3>* laws, double turns, lanes::Taylor<double, 3>* out) {
+  using T = lanes::Taylor<double, 3>;
+  const motion::Vec3Pair anchor = anchor_of(joint, field.nodes);
+  PortMotion<T> p[2];
+  for (int k = 0; k < 2; ++k) {
+    const Port& port = joint.ports[k];
+    Vec6<double> j = Vec6<double>::zero();
+    if (port.node != ground && jerk != nullptr)
+      j = port.has_offset ? motion::inverse_adjoint_times(port.offset, jerk[port.node]) : jerk[port.node];
+    p[k] = series_of<3>(eval_port(port, field.nodes, anchor), j);
+  }
+  const Frame<T> H = motion::relative(p[0].H, p[1].H);
+  Vec6<T> gradient;
+  for (int k = 0; k < joint.num_rows; ++k) out[k] = eval_row(joint.rows[k], H, turns, laws, gradient);
+}
+
+JointMotion eval_joint_motion(const Joint& joint, const Field& field, double turns) {
+  const motion::Vec3Pair anchor = anchor_of(joint, field.nodes);
+  const PortMotion<double> a = eval_port(joint.ports[0], field.nodes, anchor);
+  const PortMotion<double> b = eval_port(joint.ports[1], field.nodes, anchor);
+  JointMotion m;
+  m.relative = motion::relative(a.H, b.H);
+  m.twist = b.v - motion::inverse_adjoint_times(m.relative, a.v);
+  m.angle = eval_angle(m.relative.R, turns);
+  m.angle_rate = lanes::dot(angle_gradient(m.relative.R), lanes::angular_part(m.twist));
+  return m;
+}
+
+BOUGH_INSTANTIATE_ELEMENT(RigidBody)
+BOUGH_INSTANTIATE_ELEMENT(PointLoad)
+BOUGH_INSTANTIATE_ELEMENT(Spring)
+BOUGH_INSTANTIATE_ELEMENT(Bushing)
+
+}  // namespace bough::elements

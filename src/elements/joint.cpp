@@ -1,0 +1,7 @@
+#include "evaluate_impl.hpp"
+
+namespace bough::elements {
+
+BOUGH_INSTANTIATE_ELEMENT(Joint)
+
+}  // namespace bough::elements

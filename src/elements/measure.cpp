@@ -1,0 +1,210 @@
+#include "bough/elements/evaluate.hpp"
+
+namespace bough::elements {
+
+namespace {
+
+/// Wrench (port axes) at a port as (force; moment about the inertial origin) in inertial axes.
+Vec6<double> to_inertial(const PortMotion<double>& p, const Vec3<double>& anchor, const Vec6<double>& wrench) {
+  const Vec3<double> force = p.H.R * lanes::linear_part(wrench);
+  const Vec3<double> moment = p.H.R * lanes::angular_part(wrench) + lanes::cross(p.H.x + anchor, force);
+  return lanes::join(force, moment);
+}
+
+double power(const Vec6<double>& wrench, const Vec6<double>& twist) { return lanes::dot(wrench, twist); }
+
+/// Gravity on a mass given by its 6x6 mass in a frame: force and potential.
+void add_gravity(const Mat6<double>& mass, double factor, const PortMotion<double>& p, const Vec3<double>& anchor,
+                 const Vec3<double>& gravity, Measures& m) {
+  const Vec3<double> moment{{mass(5, 1), mass(3, 2), mass(4, 0)}};  // mass times the centre
+  const Vec3<double> x = mass(0, 0) * (p.H.x + anchor) + p.H.R * moment;
+  m.potential -= factor * lanes::dot(gravity, x);
+  const Vec3<double> force = (factor * mass(0, 0)) * gravity;
+  m.load += lanes::join(force, lanes::cross(factor * x, gravity));
+}
+
+template <class E>
+void eval_ports(const E& e, const Field& field, PortMotion<double>* p, Vec3<double>& anchor) {
+  const motion::Vec3Pair a = anchor_of(e, field.nodes);
+  for (int k = 0; k < E::num_ports; ++k) p[k] = eval_port(e.ports[k], field.nodes, a);
+  anchor = a.hi + a.lo;
+}
+
+/// Reactions of the ground on the structure through an element, from its residual at the ports.
+template <class E>
+void add_ground_reaction(const E& e, const PortMotion<double>* p, const Vec3<double>& anchor, const double* out,
+                         Measures& m) {
+  for (int k = 0; k < E::num_ports; ++k) {
+    if (e.ports[k].node != ground) continue;
+    Vec6<double> f;
+    for (int i = 0; i < 6; ++i) f[i] = out[6 * k + i];
+    m.load += to_inertial(p[k], anchor, f);  // what the element asks of the ground, the ground gives
+  }
+}
+
+template <class E>
+Measures measure_load(const E& e, const Field& field) {
+  PortMotion<double> p[E::num_ports];
+  Vec3<double> anchor;
+  eval_ports(e, field, p, anchor);
+  double out[6 * E::num_ports];
+  eval_residual(e, p, static_cast<const double*>(nullptr), field.around, out);
+  Measures m;
+  for (int k = 0; k < E::num_ports; ++k) {
+    Vec6<double> f;
+    for (int i = 0; i < 6; ++i) f[i] = -out[6 * k + i];
+    if (field.around.has_inertia) m.work_rate += power(f, p[k].v);
+    m.load += to_inertial(p[k], anchor, f);
+  }
+  return m;
+}
+
+template <class E>
+Measures measure_coupling(const E& e, const Field& field) {
+  PortMotion<double> p[2];
+  Vec3<double> anchor;
+  eval_ports(e, field, p, anchor);
+  double out[12], elastic[12];
+  eval_residual(e, p, static_cast<const double*>(nullptr), field.around, out);
+  Measures m;
+  m.strain = eval_strain_energy(e, p);
+  if (field.around.has_inertia) {
+    Surroundings<double> still = field.around;
+    still.has_inertia = false;
+    eval_residual(e, p, static_cast<const double*>(nullptr), still, elastic);
+    for (int k = 0; k < 12; ++k) m.dissipation_rate += (out[k] - elastic[k]) * p[k / 6].v[k % 6];
+  }
+  add_ground_reaction(e, p, anchor, out, m);
+  return m;
+}
+
+template <int N>
+Measures measure_beam(const Beam<N>& beam, const Field& field) {
+  PortMotion<double> p[N];
+  Vec3<double> anchor;
+  eval_ports(beam, field, p, anchor);
+  Measures m;
+  m.strain = eval_strain_energy(beam, p);
+  const BeamShape<double, N> b = eval_shape<double, N>(p);
+  const PortMotion<double>& r = p[Beam<N>::reference];
+  Vec6<double> rate[N];
+  const bool moves = field.around.has_inertia;
+  if (moves) eval_shape_rates<double, N>(b, p, rate);
+  if (moves && beam.has_damping) {
+    Vec6<double> viscous[N], elastic[N];
+    for (int i = 0; i < N; ++i) viscous[i] = elastic[i] = Vec6<double>::zero();
+    add_internal_forces<double, N>(beam, b, rate, viscous);
+    add_internal_forces<double, N>(beam, b, nullptr, elastic);
+    for (int i = 0; i < N; ++i)
+      if (i != Beam<N>::reference) m.dissipation_rate += lanes::dot(viscous[i] - elastic[i], rate[i]);
+  }
+  if (!beam.has_mass) return m;
+  const auto& rule = mass_rule<N>();
+  for (int g = 0; g < N; ++g) {
+    const double w = rule.weight[g] * beam.length;
+    const SectionMotion<double> s =
+        eval_section<double, N>(rule.shape[g], b, moves ? rate : nullptr, nullptr, r);
+    PortMotion<double> section;
+    section.H = motion::compose(r.H, s.relative);
+    if (moves) {
+      const Vec6<double> momentum = w * (beam.mass * s.v);
+      m.kinetic += 0.5 * lanes::dot(momentum, s.v);
+      m.momentum += to_inertial(section, anchor, momentum);
+    }
+    add_gravity(beam.mass, w, section, anchor, field.around.gravity, m);
+  }
+  return m;
+}
+
+}  // namespace
+
+template <>
+Measures measure(const Beam<2>& e, const Field& field, const double*, double) {
+  return measure_beam(e, field);
+}
+template <>
+Measures measure(const Beam<3>& e, const Field& field, const double*, double) {
+  return measure_beam(e, field);
+}
+template <>
+Measures measure(const Beam<4>& e, const Field& field, const double*, double) {
+  return measure_beam(e, field);
+}
+template <>
+Measures measure(const LineLoad<2>& e, const Field& field, const double*, double) {
+  return measure_load(e, field);
+}
+template <>
+Measures measure(const LineLoad<3>& e, const Field& field, const double*, double) {
+  return measure_load(e, field);
+}
+template <>
+Measures measure(const LineLoad<4>& e, const Field& field, const double*, double) {
+  return measure_load(e, field);
+}
+template <>
+Measures measure(const PointLoad& e, const Field& field, const double*, double) {
+  return measure_load(e, field);
+}
+template <>
+Measures measure(const Spring& e, const Field& field, const double*, double) {
+  return measure_coupling(e, field);
+}
+template <>
+Measures measure(const Bushing& e, const Field& field, const double*, double) {
+  return measure_coupling(e, field);
+}
+template <>
+Measures measure(const RigidBody& e, const Field& field, const double*, double) {
+  PortMotion<double> p[1];
+  Vec3<double> anchor;
+  eval_ports(e, field, p, anchor);
+  Measures m;
+  if (field.around.has_inertia) {
+    m.kinetic = eval_kinetic_energy(e, p);
+    m.momentum = to_inertial(p[0], anchor, e.mass * p[0].v);
+  }
+  add_gravity(e.mass, 1.0, p[0], anchor, field.around.gravity, m);
+  return m;
+}
+
+template <>
+Measures measure(const Joint& joint, const Field& field, const double* multipliers, double turns) {
+  PortMotion<double> p[2];
+  Vec3<double> anchor;
+  eval_ports(joint, field, p, anchor);
+  double out[12 + max_rows];
+  eval_residual(joint, p, multipliers, field.around, out, turns);
+  Measures m;
+  m.strain = eval_strain_energy(joint, p, turns);
+  add_ground_reaction(joint, p, anchor, out, m);
+  if (!field.around.has_inertia) return m;
+  const Frame<double> H = motion::relative(p[0].H, p[1].H);
+  const Vec6<double> twist = p[1].v - motion::inverse_adjoint_times(H, p[0].v);
+  Vec6<double> gradient;
+  for (int k = 0; k < joint.num_rows; ++k) {
+    eval_row(joint.rows[k], H, turns, field.around.laws, gradient);
+    m.work_rate -= multipliers[k] * lanes::dot(gradient, twist);
+  }
+  for (int k = 0; k < joint.num_efforts; ++k) {
+    const Effort& e = joint.efforts[k];
+    eval_coordinate(e.coordinate, H, turns, gradient);
+    const double rate = lanes::dot(gradient, twist);
+    m.dissipation_rate += e.damping * rate * rate;
+    if (e.law >= 0) m.work_rate += field.around.laws[e.law] * rate;
+  }
+  return m;
+}
+
+Vec6<double> eval_reaction(const Joint& joint, const Field& field, const double* multipliers, double turns) {
+  PortMotion<double> p[2];
+  Vec3<double> anchor;
+  eval_ports(joint, field, p, anchor);
+  double out[12 + max_rows];
+  eval_residual(joint, p, multipliers, field.around, out, turns);
+  Vec6<double> wrench;
+  for (int k = 0; k < 6; ++k) wrench[k] = -out[6 + k];
+  return wrench;
+}
+
+}  // namespace bough::elements
