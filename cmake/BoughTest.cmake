@@ -3,7 +3,8 @@ include(GoogleTest)
 
 # bough_add_test(name SOURCES a.cpp ... LAYERS layers ... LABEL unit|verification|slow [LIBS targets ...]
 #                [DEFS definitions ...] [TIMEOUT seconds] [NO_TRAPS])
-# makes one GoogleTest executable and one ctest entry for each of its tests. The main function is ours: it unmasks
+# makes one GoogleTest executable and one ctest entry FOLDER/name.Suite.case for each of its tests; the
+# targets tests_LABEL and tests_FOLDER_LABEL build all of them. The main function is ours: it unmasks
 # floating-point traps (tests/support/main.cpp); NO_TRAPS leaves them masked. BOUGH_SOURCE_DIR is defined as the path
 # of the source tree, for reading data/.
 function(bough_add_test name)
@@ -38,6 +39,13 @@ function(bough_add_test name)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_compile_definitions(${target} PRIVATE ${TEST_DEFS} BOUGH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
-  gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${TEST_LABEL};${name}" TIMEOUT ${TEST_TIMEOUT})
+  get_filename_component(folder "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
+  gtest_discover_tests(${target} TEST_PREFIX "${folder}/${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS ${TEST_LABEL} TIMEOUT ${TEST_TIMEOUT})
+  foreach(group tests_${TEST_LABEL} tests_${folder}_${TEST_LABEL})
+    if(NOT TARGET ${group})
+      add_custom_target(${group})
+    endif()
+    add_dependencies(${group} ${target})
+  endforeach()
 endfunction()

@@ -1,0 +1,66 @@
+# Sourced by .ci/run and .ci/check-all: named sections with their time, and one summary at the end.
+set -u
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+export CI=true DEBIAN_FRONTEND=noninteractive CLICOLOR=0
+jobs=$(nproc)
+mkdir -p build
+log=build/ci.log
+: > "$log"
+summary=()
+failed_sections=0
+
+# section NAME COMMAND...: runs the command, keeps its output, goes on after a failure.
+section() {
+  local name=$1 start=$SECONDS status
+  shift
+  printf '\n==== %s\n' "$name"
+  "$@" 2>&1 | tee -a "$log"
+  status=${PIPESTATUS[0]}
+  if [ "$status" -eq 0 ]; then
+    summary+=("$(printf 'ok      %4d s  %s' $((SECONDS - start)) "$name")")
+  else
+    summary+=("$(printf 'FAILED  %4d s  %s (status %d)' $((SECONDS - start)) "$name" "$status")")
+    failed_sections=$((failed_sections + 1))
+  fi
+  printf '%s\n' "${summary[-1]}"
+}
+
+# build_and_test PRESET TARGETS CTEST_ARGUMENTS...
+build_and_test() {
+  local preset=$1 targets=$2
+  shift 2
+  cmake --preset "$preset" > "build/configure-$preset.log" 2>&1 || { cat "build/configure-$preset.log"; return 1; }
+  # shellcheck disable=SC2086
+  cmake --build "build/$preset" --parallel "$jobs" --target $targets || return 1
+  run_ctest "build/$preset" "$@"
+}
+
+run_ctest() {
+  local folder=$1
+  shift
+  ${no_randomisation:-} ctest --test-dir "$folder" --output-on-failure --no-tests=error -j "$jobs" "$@"
+}
+
+# The thread sanitizer's runtime of clang 14 cannot start where the kernel randomises more than 28 bits of addresses.
+thread_sanitizer() {
+  local no_randomisation=
+  if [ "$(cat /proc/sys/vm/mmap_rnd_bits 2>/dev/null || echo 32)" -gt 28 ]; then
+    no_randomisation="setarch -R"
+  fi
+  sh cmake/build_tsan_tbb.sh || return 1
+  TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1" build_and_test tsan \
+    "tests_tree_unit tests_solve_unit tests_schedule_unit tests_step_unit" \
+    -L '^unit$' -R '^(tree|solve|schedule|step)/'
+}
+
+# The sum over all ctest runs in the log; non-zero when a section or a test failed.
+finish() {
+  printf '\n==== summary\n'
+  printf '%s\n' "${summary[@]}"
+  awk -v sections="$failed_sections" '
+    match($0, /[0-9]+ tests? failed out of [0-9]+/) {
+      split(substr($0, RSTART, RLENGTH), word, " ")
+      failed += word[1]; total += word[6] }
+    END { printf "%d passed, %d failed\n", total - failed, failed + (failed == 0 ? sections : 0)
+          exit failed + sections > 0 }' "$log"
+}

@@ -1,0 +1,67 @@
+# The front door. The work is done by CMake (CMakePresets.json), cmake/install_dependencies.sh and .ci/.
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+JOBS ?= $(shell nproc)
+PREFIX ?= /usr/local
+SCENARIO ?= data/scenarios/four_bar_misaligned.json
+RESULTS ?= build/results
+CTEST := ctest --test-dir build/release --output-on-failure --no-tests=error -j $(JOBS)
+NEED := sh cmake/install_dependencies.sh
+
+.PHONY: help run build test bench check-all install lint format clean
+
+help:
+	@echo "make run        install what is missing, build, simulate $(SCENARIO), write $(RESULTS)"
+	@echo "make build      install what is missing, build the library and the program in build/release"
+	@echo "make test       build and run the unit and verification tests"
+	@echo "make bench      build and run the benchmarks"
+	@echo "make lint       format, include arrows, file lengths;  make format repairs the first"
+	@echo "make check-all  everything: both compilers, slow tests, sanitizers, coverage, browser (an hour or more)"
+	@echo "make install    install into PREFIX ($(PREFIX)), with sudo only if the folder needs it"
+	@echo "make clean      remove build/"
+
+build/release/build.ninja:
+	@$(NEED) build
+	cmake --preset release -DBOUGH_BUILD_TESTS=OFF
+
+build: build/release/build.ninja
+	@$(NEED) build
+	cmake --build build/release --parallel $(JOBS)
+
+run: build/release/build.ninja
+	@$(NEED) build
+	cmake --build build/release --parallel $(JOBS) --target bough
+	build/release/bough run $(SCENARIO) --out $(RESULTS)
+	@echo "Results in $(RESULTS):" && ls -1 $(RESULTS)
+
+test:
+	@$(NEED) build test
+	cmake --preset release -DBOUGH_BUILD_TESTS=ON
+	cmake --build build/release --parallel $(JOBS)
+	$(CTEST) -L '^(unit|verification)$$'
+
+bench:
+	@$(NEED) build bench
+	cmake --preset bench
+	cmake --build build/bench --parallel $(JOBS)
+	sh benchmarks/run.sh build/bench
+
+lint:
+	@$(NEED) lint
+	sh tests/tools/lint.sh
+
+format:
+	@$(NEED) lint
+	find include src apps tests benchmarks \( -name '*.hpp' -o -name '*.cpp' \) -print0 | xargs -0 clang-format-14 -i
+
+check-all:
+	@$(NEED) all
+	.ci/check-all
+
+install: build
+	mkdir -p $(PREFIX) 2>/dev/null && test -w $(PREFIX) \
+	  && cmake --install build/release --prefix $(PREFIX) \
+	  || sudo cmake --install build/release --prefix $(PREFIX)
+
+clean:
+	rm -rf build

@@ -1,0 +1,78 @@
+#!/bin/sh
+# install_dependencies.sh GROUP...   installs the Debian packages of the groups that are not installed yet.
+#   build  what the library and the program need        bench  Google Benchmark
+#   test   GoogleTest and the Python of the checks      lint   clang-format and Python
+#   asan   clang with its sanitizers                    tsan   asan, and what rebuilding TBB from source needs
+#   all    everything, with coverage, clang-tidy and a browser for `make check-all`
+# dpkg is asked first: when nothing is missing, neither the network nor root is needed. With --list the packages are
+# printed and nothing is done.
+set -eu
+
+packages_of() {
+  case "$1" in
+    build)
+      echo g++ cmake ninja-build libeigen3-dev libtbb-dev nlohmann-json3-dev libcli11-dev libmuparser-dev \
+        libsuitesparse-dev libmetis-dev ;;
+    test) echo libgtest-dev libgmock-dev python3 python3-jsonschema ;;
+    bench) echo libbenchmark-dev python3 ;;
+    lint) echo clang-format-14 python3 ;;
+    asan) echo clang-14 libclang-rt-14-dev llvm-14 ;;
+    tsan) echo clang-14 libclang-rt-14-dev llvm-14 dpkg-dev util-linux ;;
+    all)
+      for group in build test bench lint asan tsan; do packages_of $group; done
+      echo ccache gcovr clang-tidy-14 chromium ;;
+    *)
+      echo "install_dependencies.sh: no group '$1'" >&2
+      return 1 ;;
+  esac
+}
+
+list_only=no
+if [ "${1:-}" = --list ]; then
+  list_only=yes
+  shift
+fi
+wanted=
+for group in "${@:-build}"; do
+  wanted="$wanted $(packages_of "$group")"
+done
+wanted=$(printf '%s\n' $wanted | sort -u)
+if [ "$list_only" = yes ]; then
+  echo "$wanted"
+  exit 0
+fi
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "This system has no dpkg. Please see to it that the equivalents of these Debian packages are installed:"
+  echo $wanted
+  exit 0
+fi
+
+missing=
+for package in $wanted; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+  case "$status" in
+    installed*) ;;
+    *) missing="$missing $package" ;;
+  esac
+done
+if [ -z "$missing" ]; then
+  exit 0
+fi
+
+as_root=
+if [ "$(id -u)" -ne 0 ]; then
+  as_root=sudo
+  if ! command -v sudo >/dev/null; then
+    echo "These packages are missing and this user is not root; please install them:$missing" >&2
+    exit 1
+  fi
+fi
+echo "Installing with apt-get${as_root:+ under sudo}:$missing"
+export DEBIAN_FRONTEND=noninteractive
+apt() {
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Acquire::Retries=3 -o Dpkg::Use-Pty=0 "$@"
+}
+apt update
+apt install -y --no-install-recommends $missing >/dev/null
+echo "Installed."
