@@ -37,7 +37,7 @@ inline constexpr std::array<long double, 14> stumpff_7 = stumpff_table(7);
 
 /// 2 sum_{m >= 3} (2 pi m)^-(2n+2): k without its first two poles, a series that converges up to phi = 6 pi.
 inline constexpr std::array<long double, 15> inverse_rest = {
-    0.0200075935568722261809087L, 2.54381206886256215795349e-5L, 5.58456839049441513112409e-8L,
+    0.0200075935568722261809087L,   2.54381206886256215795349e-5L,  5.58456839049441513112409e-8L,
     1.40882415747610468617681e-10L, 3.75671620021579781148421e-13L, 1.02801253753604610784426e-15L,
     2.85002212921379123826149e-18L, 7.95557541071984498358231e-21L, 2.22893266455370115667057e-23L,
     6.25747115080577223920474e-26L, 1.75867304929096798907852e-28L, 4.94584695005793873891076e-31L,
@@ -59,15 +59,16 @@ lanes::Vec<S, 8> eval_stumpff(const S& x) {
   return choose(
       small,
       [&] {
+        const S near = select(small, x, S(0.0));
         lanes::Vec<S, 8> c;
-        c[7] = detail::horner(detail::stumpff_7, x);
-        c[6] = detail::horner(detail::stumpff_6, x);
-        c[5] = one / 120 - x * c[7];
-        c[4] = one / 24 - x * c[6];
-        c[3] = third / 2 - x * c[5];
-        c[2] = one / 2 - x * c[4];
-        c[1] = one - x * c[3];
-        c[0] = one - x * c[2];
+        c[7] = detail::horner(detail::stumpff_7, near);
+        c[6] = detail::horner(detail::stumpff_6, near);
+        c[5] = one / 120 - near * c[7];
+        c[4] = one / 24 - near * c[6];
+        c[3] = third / 2 - near * c[5];
+        c[2] = one / 2 - near * c[4];
+        c[1] = one - near * c[3];
+        c[0] = one - near * c[2];
         return c;
       },
       [&] {
@@ -128,7 +129,8 @@ InverseCoefficients<S> eval_inverse_coefficients(const S& x) {
   const lanes::Vec<S, 3> r = choose(
       small,
       [&] {
-        constexpr L pole1 = static_cast<L>(39.478417604357434475338L), pole2 = static_cast<L>(157.913670417429737901352L);
+        constexpr L pole1 = static_cast<L>(39.478417604357434475338L),
+                    pole2 = static_cast<L>(157.913670417429737901352L);
         const S near = select(small, x, S(0.0));
         const S p = S(1.0) / (pole1 - near), q = S(1.0) / (pole2 - near), pp = p * p, qq = q * q;
         S f(0.0), df(0.0), hf(0.0);  // rest, its first derivative, half its second

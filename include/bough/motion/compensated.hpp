@@ -1,0 +1,69 @@
+#pragma once
+/// Positions as a pair of numbers, so that differences keep their digits far from the origin: 200 m away a double holds
+/// 3e-14 m, which is the strain resolution lost by an element of 1 m; the pair holds 1e-30 m.
+/// Exact under round-to-nearest without contraction or reassociation (-ffp-contract=off, no fast-math).
+#include "bough/motion/se3.hpp"
+
+namespace bough::motion {
+
+/// s + e = a + b exactly, s the rounded sum (Knuth's TwoSum).
+template <class S>
+void two_sum(const S& a, const S& b, S& s, S& e) {
+  s = a + b;
+  const S bb = s - a;
+  e = (a - (s - bb)) + (b - bb);
+}
+
+/// A position hi + lo [m], |lo| at most half an ulp of hi.
+template <class S>
+struct PositionPair {
+  Vec3<S> hi, lo;
+
+  static PositionPair from(const Vec3<S>& x) { return {x, Vec3<S>::zero()}; }
+  Vec3<S> rounded() const { return hi; }
+  /// Adds a displacement, in the same axes.
+  void add(const Vec3<S>& step) {
+    for (int i = 0; i < 3; ++i) {
+      S s, e;
+      two_sum(hi[i], step[i], s, e);
+      two_sum(s, S(lo[i] + e), hi[i], lo[i]);
+    }
+  }
+};
+using Vec3Pair = PositionPair<double>;
+
+/// a - b rounded once.
+template <class S>
+Vec3<S> difference(const PositionPair<S>& a, const PositionPair<S>& b) {
+  Vec3<S> r;
+  for (int i = 0; i < 3; ++i) {
+    S s, e;
+    two_sum(a.hi[i], S(-b.hi[i]), s, e);
+    r[i] = s + (e + (a.lo[i] - b.lo[i]));
+  }
+  return r;
+}
+
+/// Frame whose origin is a pair.
+template <class S>
+struct PreciseFrame {
+  Mat3<S> R;
+  PositionPair<S> x;
+  static PreciseFrame from(const Frame<S>& H) { return {H.R, PositionPair<S>::from(H.x)}; }
+  Frame<S> rounded() const { return {R, x.rounded()}; }
+};
+/// H_a^-1 H_b: the digits of the relative position do not depend on the distance to the origin.
+template <class S>
+Frame<S> relative(const PreciseFrame<S>& a, const PreciseFrame<S>& b) {
+  return {transpose_times(a.R, b.R), transpose_times(a.R, difference(b.x, a.x))};
+}
+/// H exp(eta): the origin moves by R exp(eta).x.
+template <class S>
+PreciseFrame<S> moved(const PreciseFrame<S>& H, const Vec6<S>& eta) {
+  const Frame<S> step = exp_se3(eta);
+  PreciseFrame<S> r{H.R * step.R, H.x};
+  r.x.add(H.R * step.x);
+  return r;
+}
+
+}  // namespace bough::motion
