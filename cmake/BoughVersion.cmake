@@ -14,4 +14,4 @@ set(_version_command
   "-DBOUGH_FLAGS=${_flags}"
   -P "${CMAKE_CURRENT_SOURCE_DIR}/cmake/write_version.cmake")
 execute_process(COMMAND ${_version_command} COMMAND_ERROR_IS_FATAL ANY)
-add_custom_target(bough_version COMMAND ${_version_command} VERBATIM COMMENT "")
+add_custom_target(bough_version COMMAND ${_version_command} VERBATIM COMMENT "Reading the commit")
