@@ -5,11 +5,16 @@ set(BOUGH_LAYERS lanes blocks motion laws scene elements plan tree solve schedul
 #   -ffp-contract=off: kernels are templates and may be instantiated in a user's file; the linker keeps one copy, so
 #   all of them must give the same bits.
 #   EIGEN_MAX_ALIGN_BYTES: one alignment for all instruction sets, so that public structs keep one layout.
+#   -march (BOUGH_ARCH): the whole library and its users are built for one instruction set. Single files built for a
+#   wider one would leak its instructions into template instances that the linker shares.
 add_library(bough_base INTERFACE)
 add_library(bough::base ALIAS bough_base)
 set_target_properties(bough_base PROPERTIES EXPORT_NAME base)
 target_compile_features(bough_base INTERFACE cxx_std_20)
 target_compile_options(bough_base INTERFACE -ffp-contract=off)
+if(BOUGH_ARCH)
+  target_compile_options(bough_base INTERFACE "-march=${BOUGH_ARCH}")
+endif()
 target_compile_definitions(bough_base INTERFACE EIGEN_MAX_ALIGN_BYTES=64)
 target_include_directories(bough_base INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>

@@ -3,7 +3,11 @@
 set(BOUGH_GENERATED_DIR "${CMAKE_CURRENT_BINARY_DIR}/generated/include")
 
 string(TOUPPER "${CMAKE_BUILD_TYPE}" _build_type)
-string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${_build_type}} -ffp-contract=off" _flags)
+set(_flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${_build_type}} -ffp-contract=off")
+if(BOUGH_ARCH)
+  string(APPEND _flags " -march=${BOUGH_ARCH}")
+endif()
+string(STRIP "${_flags}" _flags)
 set(_version_command
   "${CMAKE_COMMAND}"
   "-DTEMPLATE=${CMAKE_CURRENT_SOURCE_DIR}/cmake/version.hpp.in"
