@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bough/laws/law.hpp"
-#include "bough/motion/types.hpp"
+#include "bough/motion/se3.hpp"
 
 namespace bough::scene {
 
