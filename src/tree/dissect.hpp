@@ -1,0 +1,28 @@
+#pragma once
+/// Recursive dissection of the elements. Internal to tree.
+#include <string>
+#include <vector>
+
+#include "adjacency.hpp"
+#include "bough/tree/tree.hpp"
+
+namespace bough::tree {
+
+/// A set of elements in the recursion. Parts come in postorder (children first), the root is last.
+struct Part {
+  int parent = -1;
+  std::vector<int> children;
+  std::vector<int> elements;  ///< of terminal parts only
+  bool is_subdomain = false;  ///< upper levels; inside a leaf sub-domain the recursion goes on without
+  int level = 0;              ///< depth in the recursion
+  bool is_terminal() const { return children.empty(); }
+};
+
+struct Dissection {
+  std::vector<Part> parts;
+  std::string method;
+};
+
+Dissection dissect(const Adjacency& adjacency, const TreeOptions& options);
+
+}  // namespace bough::tree
