@@ -1,0 +1,68 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bough/laws/law.hpp"
+#include "bough/laws/law_error.hpp"
+
+namespace bough::laws {
+
+// All factories throw LawError where a number is not finite or a precondition fails. u is the unit of the law.
+
+/// f = c.
+Law make_constant(double c);
+
+/// v0 before t0, v1 after t1, straight between:  f = v0 + (v1 - v0) s,  s = (t - t0) / (t1 - t0).  t0 < t1 [s].
+/// The rate jumps at t0 and t1.
+Law make_ramp(double t0, double t1, double v0, double v1);
+
+/// v0 before t0, v1 after t1, between them a quintic with no jump up to the second derivative:
+///   f = v0 + (v1 - v0) (10 s^3 - 15 s^4 + 6 s^5),  s = (t - t0) / (t1 - t0).  t0 < t1 [s].
+Law make_smooth_ramp(double t0, double t1, double v0, double v1);
+
+/// v0 before t0, v1 after t1, between them a cycloid with no jump up to the second derivative:
+///   f = v0 + (v1 - v0) (s - sin(2 pi s) / (2 pi)),  s = (t - t0) / (t1 - t0).  t0 < t1 [s].
+/// Its rate is one full wave of 1 - cos: as an angle, a turn that starts and ends at rest.
+Law make_cycloidal(double t0, double t1, double v0, double v1);
+
+/// f = offset + amplitude sin(omega t + phase).  omega [rad/s], phase [rad].
+Law make_harmonic(double amplitude, double omega, double phase = 0.0, double offset = 0.0);
+
+enum class Interpolation {
+  linear,  ///< straight lines: the rate jumps at the knots
+  cubic    ///< cubic spline with not-a-knot ends: reproduces cubics, no jump inside; 3 knots a parabola, 2 a line
+};
+
+/// Through the points (times[i], values[i]), held constant outside. times [s]: at least one, strictly increasing.
+Law make_table(const std::vector<double>& times, const std::vector<double>& values, Interpolation interpolation);
+
+struct Segment {
+  double start = 0.0;  ///< [s]
+  Law law;             ///< in the absolute time t, not in the time since start
+};
+
+/// The law of the last segment whose start is not after t; before the first start, the law of the first segment.
+/// starts strictly increasing, at least one. Every start but the first counts as a breakpoint.
+Law make_piecewise(const std::vector<Segment>& segments);
+
+/// f = sum of terms; none: zero.
+Law make_sum(const std::vector<Law>& terms);
+
+/// f = a b.
+Law make_product(const Law& a, const Law& b);
+
+/// f = factor * law.
+Law make_scaled(double factor, const Law& law);
+
+/// The law given by a formula in t [s], with exact derivatives.
+///   numbers 2  0.5  1e-3;  t  pi  e;  + - * / ^ and parentheses (^ binds to the right and before a sign: -2^2 = -4);
+///   sin cos tan asin acos atan sinh cosh tanh exp log (natural) sqrt abs sign step pow(x, y), min and max of two or
+///   more.  step(x) = 0 for x < 0, else 1.  At most 64 levels of nesting.
+/// Throws LawError with the position; a misspelt name comes with the nearest known one.
+/// breakpoints(): the places where an abs, min, max, sign or step changes branch, isolated by interval arithmetic.
+/// Two changes closer than 1e-14 of the window may be missed, and so may some where an argument stays within round-off
+/// of zero over a stretch. Poles are no breakpoints: they are not finite and reported as such.
+Law make_expression(const std::string& text);
+
+}  // namespace bough::laws

@@ -1,0 +1,190 @@
+// Sums, multiples, products and pieces of other laws.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bough/laws/make_law.hpp"
+#include "harmonic.hpp"
+#include "node.hpp"
+#include "polynomial_pieces.hpp"
+#include "quadrature.hpp"
+
+namespace bough::laws {
+
+namespace {
+
+struct Term {
+  double factor;
+  Law law;
+};
+
+/// f = sum_i factor_i law_i, added in the order given.
+class LinearCombination final : public Node {
+ public:
+  explicit LinearCombination(std::vector<Term> terms) : terms_(std::move(terms)) {}
+
+  LawValue at(double t, Side side) const override {
+    LawValue sum;
+    for (const Term& term : terms_) {
+      const LawValue x = term.law.at(t, side);
+      sum.value += term.factor * x.value;
+      sum.rate += term.factor * x.rate;
+      sum.acceleration += term.factor * x.acceleration;
+    }
+    return sum;
+  }
+  void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const override {
+    for (const Term& term : terms_) laws::append_breaks(term.law, t_begin, t_end, max_order, breaks);
+  }
+  Law integral(double t0) const override {
+    std::vector<Term> terms;
+    for (const Term& term : terms_) terms.push_back({term.factor, term.law.integral(t0)});
+    return Law{std::make_shared<LinearCombination>(std::move(terms))};
+  }
+
+ private:
+  std::vector<Term> terms_;
+};
+
+/// f = a b,  f' = a' b + a b',  f'' = a'' b + 2 a' b' + a b''.
+class Product final : public Node {
+ public:
+  Product(Law a, Law b) : a_(std::move(a)), b_(std::move(b)) {}
+
+  LawValue at(double t, Side side) const override {
+    const LawValue a = a_.at(t, side);
+    const LawValue b = b_.at(t, side);
+    return {a.value * b.value, a.rate * b.value + a.value * b.rate,
+            a.acceleration * b.value + 2.0 * (a.rate * b.rate) + a.value * b.acceleration};
+  }
+  void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const override {
+    laws::append_breaks(a_, t_begin, t_end, max_order, breaks);
+    laws::append_breaks(b_, t_begin, t_end, max_order, breaks);
+  }
+  Law integral(double t0) const override {
+    return make_quadrature_integral(Law{std::make_shared<Product>(a_, b_)}, t0);
+  }
+
+ private:
+  Law a_;
+  Law b_;
+};
+
+/// The law of the last segment that has begun. order: lowest derivative that may jump at a start.
+class Piecewise final : public Node {
+ public:
+  Piecewise(std::vector<Segment> segments, int order) : segments_(std::move(segments)), order_(order) {}
+
+  LawValue at(double t, Side side) const override { return segments_[segment_of(t, side)].law.at(t, side); }
+
+  void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const override {
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
+      const double start = segments_[i].start;
+      if (i > 0 && order_ <= max_order && start >= t_begin && start <= t_end) breaks.push_back(start);
+      const double from = i == 0 ? t_begin : std::max(t_begin, start);
+      const double to = i + 1 == segments_.size() ? t_end : std::min(t_end, segments_[i + 1].start);
+      if (from <= to) laws::append_breaks(segments_[i].law, from, to, max_order, breaks);
+    }
+  }
+
+  /// From the segment that holds t0 outwards, each taking over the value of its neighbour at the start between them.
+  Law integral(double t0) const override {
+    std::vector<Segment> result = segments_;
+    const std::size_t home = segment_of(t0, Side::right);
+    result[home].law = segments_[home].law.integral(t0);
+    for (std::size_t i = home + 1; i < result.size(); ++i) {
+      const double t = result[i].start;
+      const double value = result[i - 1].law.at(t, Side::left).value;
+      result[i].law = make_sum({segments_[i].law.integral(t), make_constant_unchecked(value)});
+    }
+    for (std::size_t i = home; i-- > 0;) {
+      const double t = result[i + 1].start;
+      const double value = result[i + 1].law.at(t, Side::right).value;
+      result[i].law = make_sum({segments_[i].law.integral(t), make_constant_unchecked(value)});
+    }
+    return Law{std::make_shared<Piecewise>(std::move(result), order_ + 1)};
+  }
+
+ private:
+  /// A value met on the way may be infinite (a pole); it is reported when the law is asked, not here.
+  static Law make_constant_unchecked(double value) {
+    return Law{std::make_shared<PolynomialPieces>(std::vector<PolynomialPieces::Knot>{},
+                                                  std::vector<PolynomialPieces::Piece>{{0.0, 1.0, {value}}})};
+  }
+
+  std::size_t segment_of(double t, Side side) const {
+    const auto has_begun = [t, side](const Segment& segment) {
+      return side == Side::right ? segment.start <= t : segment.start < t;
+    };
+    const auto next = std::partition_point(segments_.begin() + 1, segments_.end(), has_begun);
+    return static_cast<std::size_t>(next - segments_.begin()) - 1;
+  }
+
+  std::vector<Segment> segments_;
+  int order_;
+};
+
+}  // namespace
+
+Law make_sum(const std::vector<Law>& terms) {
+  std::vector<Term> kept;
+  double level = 0.0;  // all constant terms together, so that a sum of constants is one
+  for (const Law& law : terms) {
+    if (law.is_constant()) {
+      level += law.at(0.0).value;
+    } else {
+      kept.push_back({1.0, law});
+    }
+  }
+  const Law constant{std::make_shared<PolynomialPieces>(std::vector<PolynomialPieces::Knot>{},
+                                                        std::vector<PolynomialPieces::Piece>{{0.0, 1.0, {level}}})};
+  if (kept.empty()) return constant;
+  if (level != 0.0) kept.push_back({1.0, constant});
+  if (kept.size() == 1) return kept.front().law;
+  return Law{std::make_shared<LinearCombination>(std::move(kept))};
+}
+
+Law make_scaled(double factor, const Law& law) {
+  require_finite(factor, "the factor of a law");
+  if (factor == 0.0) return Law{};
+  if (law.is_constant()) return make_constant(factor * law.at(0.0).value);
+  return Law{std::make_shared<LinearCombination>(std::vector<Term>{{factor, law}})};
+}
+
+Law make_product(const Law& a, const Law& b) {
+  if (a.is_constant()) return make_scaled(a.at(0.0).value, b);
+  if (b.is_constant()) return make_scaled(b.at(0.0).value, a);
+  return Law{std::make_shared<Product>(a, b)};
+}
+
+Law make_piecewise(const std::vector<Segment>& segments) {
+  if (segments.empty()) throw LawError({}, 0, "a piecewise law needs at least one segment");
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    require_finite(segments[i].start, "the start of a segment");
+    if (i > 0 && !(segments[i - 1].start < segments[i].start)) {
+      throw LawError({}, 0, "the starts of segments must increase: segment " + std::to_string(i) + " does not");
+    }
+  }
+  if (segments.size() == 1) return segments.front().law;
+  return Law{std::make_shared<Piecewise>(segments, 0)};
+}
+
+Law make_cycloidal(double t0, double t1, double v0, double v1) {
+  const Law ramp = make_ramp(t0, t1, v0, v1);  // checks the data
+  if (v0 == v1) return ramp;
+  const double two_pi = 2.0 * std::numbers::pi;
+  const Law wave = make_wave({-(v1 - v0) / two_pi, two_pi / (t1 - t0), 0.0, 0.0, t0});
+  const Law line{std::make_shared<PolynomialPieces>(
+      std::vector<PolynomialPieces::Knot>{},
+      std::vector<PolynomialPieces::Piece>{{t0, t1 - t0, {v0, v1 - v0}}})};
+  std::vector<Segment> segments{{t0 - 1.0, make_constant(v0)}, {t0, make_sum({line, wave})}, {t1, make_constant(v1)}};
+  return Law{std::make_shared<Piecewise>(std::move(segments), 3)};
+}
+
+}  // namespace bough::laws

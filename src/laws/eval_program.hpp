@@ -1,0 +1,27 @@
+#pragma once
+
+#include "bough/laws/law.hpp"
+#include "jet.hpp"
+#include "program.hpp"
+
+namespace bough::laws {
+
+/// Times nearer to zero than this [s] are zero for the changes of branch: products of smaller ones lose their sign.
+inline constexpr double tiny_time = 1e-300;
+
+/// The last time before t: the next double below, tiny_time below around zero.
+double previous_time(double t);
+
+/// Value and derivatives of a formula at t, at a change of branch from the given side. Pure: no allocation, no failure.
+Jet<double> eval_program(const Program& program, double t, Side side);
+
+/// Argument that decides the branch of the switch at instruction `index`: zero where the branch changes.
+Jet<double> eval_switch_argument(const Program& program, std::size_t index, double t);
+
+/// Ranges of that argument and of its derivatives for all t of the interval.
+Jet<Interval> eval_switch_range(const Program& program, std::size_t index, const Interval& t);
+
+/// Branch of the switch at instruction `index`, seen from one side of t: sign of the argument there, -1, 0 or 1.
+int eval_branch(const Program& program, std::size_t index, double t, Side side);
+
+}  // namespace bough::laws

@@ -1,0 +1,167 @@
+// The law of a formula: derivatives by Taylor arithmetic, changes of branch by interval arithmetic.
+
+#include <algorithm>
+#include <cfenv>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "bough/laws/make_law.hpp"
+#include "eval_program.hpp"
+#include "node.hpp"
+#include "polynomial_pieces.hpp"
+#include "program.hpp"
+#include "quadrature.hpp"
+
+namespace bough::laws {
+
+namespace {
+
+int sign_of(double x) { return x > 0.0 ? 1 : (x < 0.0 ? -1 : 0); }
+
+/// Masks floating-point traps while it lives: ranges may well be infinite.
+class TrapsMasked {
+ public:
+  TrapsMasked() { std::feholdexcept(&environment_); }
+  TrapsMasked(const TrapsMasked&) = delete;
+  TrapsMasked& operator=(const TrapsMasked&) = delete;
+  ~TrapsMasked() { std::fesetenv(&environment_); }
+
+ private:
+  std::fenv_t environment_{};
+};
+
+/// Finds the times at which one switch of a formula changes branch: the roots of its argument g.
+///   0 not in g([a, b])                     no root: drop
+///   0 not in g'([a, b])                    g monotone, at most one root: bisect g
+///   0 not in g''([a, b])                   one extremum: bisect g' for it, then g on both sides
+///   else                                   halve [a, b]
+class SwitchFinder {
+ public:
+  SwitchFinder(const Program& program, std::size_t index, std::vector<double>& found)
+      : program_(program), index_(index), found_(found) {}
+
+  void search(double t_begin, double t_end) {
+    std::vector<Interval> boxes{{t_begin, t_end}};
+    const double least = 1e-14 * (t_end - t_begin);
+    for (int work = 0; !boxes.empty(); ++work) {
+      const Interval box = boxes.back();
+      boxes.pop_back();
+      const double middle = 0.5 * (box.lo + box.hi);
+      const bool is_smallest = !(box.hi - box.lo > least) || !(middle > box.lo && middle < box.hi);
+      if (visit(box) || is_smallest || work >= max_work) continue;
+      boxes.push_back({middle, box.hi});
+      boxes.push_back({box.lo, middle});
+    }
+  }
+
+ private:
+  static constexpr int max_work = 1 << 18;  // boxes; far above what 10^4 roots need
+
+  double argument(double t) const { return eval_switch_argument(program_, index_, t).value; }
+  double argument_rate(double t) const { return eval_switch_argument(program_, index_, t).rate; }
+
+  /// True where the box is settled. One that is not has been looked at for a change of sign between its ends already.
+  bool visit(const Interval& box) {
+    const Jet<Interval> g = eval_switch_range(program_, index_, box);
+    if (!g.value.holds_zero()) return true;
+    if (g.value.lo >= 0.0 || g.value.hi <= 0.0) {  // touches zero at most; a crossing can only sit at an end
+      offer(box.lo);
+      offer(box.hi);
+      return true;
+    }
+    if (!g.rate.holds_zero()) {
+      cross(box.lo, box.hi);
+      return true;
+    }
+    if (!g.acceleration.holds_zero()) {
+      const double extremum = first_change([this](double t) { return argument_rate(t); }, box.lo, box.hi);
+      cross(box.lo, extremum);
+      cross(extremum, box.hi);
+      return true;
+    }
+    cross(box.lo, box.hi);
+    return false;
+  }
+
+  /// First double after a (found by bisection) at which the sign differs from that at a; b where it does not change.
+  template <class F>
+  static double first_change(const F& f, double a, double b) {
+    const int sign_a = sign_of(f(a));
+    if (sign_of(f(b)) == sign_a) return b;
+    for (;;) {
+      const double middle = 0.5 * a + 0.5 * b;
+      if (!(middle > a && middle < b) || b - a < tiny_time) return b;
+      (sign_of(f(middle)) == sign_a ? a : b) = middle;
+    }
+  }
+
+  void cross(double a, double b) {
+    const int sign_a = sign_of(argument(a));
+    if (sign_a == 0) offer(a);
+    if (sign_a != sign_of(argument(b))) {
+      offer(sign_a == 0 ? b : first_change([this](double t) { return argument(t); }, a, b));
+    }
+  }
+
+  /// Keeps t where the two sides really take different branches, as the evaluation sees them.
+  void offer(double t) {
+    if (std::abs(t) < tiny_time) t = 0.0;
+    if (eval_branch(program_, index_, t, Side::left) != eval_branch(program_, index_, t, Side::right)) {
+      found_.push_back(t);
+    }
+  }
+
+  const Program& program_;
+  std::size_t index_;
+  std::vector<double>& found_;
+};
+
+class Expression final : public Node {
+ public:
+  explicit Expression(Program program) : program_(std::make_shared<const Program>(std::move(program))) {}
+  explicit Expression(std::shared_ptr<const Program> program) : program_(std::move(program)) {}
+
+  LawValue at(double t, Side side) const override {
+    const Jet<double> f = eval_program(*program_, t, side);
+    return {f.value, f.rate, f.acceleration};
+  }
+
+  void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const override {
+    if (!program_->has_switch || !(t_begin <= t_end)) return;
+    const TrapsMasked traps_masked;
+    std::vector<double> found;
+    // From the time before, so that a root exactly at t_begin is seen as a change of sign.
+    const double from = previous_time(t_begin);
+    for (std::size_t i = 0; i < program_->code.size(); ++i) {
+      const Op op = program_->code[i].op;
+      if (is_switch(op) && switch_order(op) <= max_order) SwitchFinder(*program_, i, found).search(from, t_end);
+    }
+    for (double t : found) {
+      if (t >= t_begin && t <= t_end) breaks.push_back(t);
+    }
+  }
+
+  Law integral(double t0) const override {
+    return make_quadrature_integral(Law{std::make_shared<Expression>(program_)}, t0);
+  }
+
+ private:
+  std::shared_ptr<const Program> program_;
+};
+
+}  // namespace
+
+Law make_expression(const std::string& text) {
+  Program program = parse_formula(text);
+  if (program.code.size() == 1 && program.code[0].op == Op::number) {
+    return Law{std::make_shared<PolynomialPieces>(
+        std::vector<PolynomialPieces::Knot>{},
+        std::vector<PolynomialPieces::Piece>{{0.0, 1.0, {program.code[0].number}}})};
+  }
+  return Law{std::make_shared<Expression>(std::move(program))};
+}
+
+}  // namespace bough::laws

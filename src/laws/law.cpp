@@ -1,0 +1,51 @@
+#include "bough/laws/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bough/laws/law_error.hpp"
+#include "node.hpp"
+
+namespace bough::laws {
+
+LawValue Law::at(double t, Side side) const { return node_ ? node_->at(t, side) : LawValue{}; }
+
+std::vector<double> Law::breakpoints(double t_begin, double t_end) const {
+  return sorted_breaks(*this, t_begin, t_end, 2);
+}
+
+Law Law::integral(double t0) const { return node_ ? node_->integral(t0) : Law{}; }
+
+bool Law::is_constant() const { return !node_ || node_->is_constant(); }
+
+std::optional<std::string> non_finite(const LawValue& law_value) {
+  std::string names;
+  const auto check = [&names](double x, const char* name) {
+    if (std::isfinite(x)) return;
+    if (!names.empty()) names += ", ";
+    names += std::string(name) + " is " + (std::isnan(x) ? "not a number" : "infinite");
+  };
+  check(law_value.value, "value");
+  check(law_value.rate, "rate");
+  check(law_value.acceleration, "acceleration");
+  if (names.empty()) return std::nullopt;
+  return names;
+}
+
+void require_finite(double x, const char* what) {
+  if (!std::isfinite(x)) throw LawError({}, 0, std::string(what) + " must be a finite number");
+}
+
+void append_breaks(const Law& law, double t_begin, double t_end, int max_order, std::vector<double>& breaks) {
+  if (law.node() != nullptr && max_order >= 0) law.node()->append_breaks(t_begin, t_end, max_order, breaks);
+}
+
+std::vector<double> sorted_breaks(const Law& law, double t_begin, double t_end, int max_order) {
+  std::vector<double> breaks;
+  append_breaks(law, t_begin, t_end, max_order, breaks);
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  return breaks;
+}
+
+}  // namespace bough::laws

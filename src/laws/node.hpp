@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "bough/laws/law.hpp"
+
+namespace bough::laws {
+
+/// One kind of law: the implementation behind Law. Immutable; all members may run on several threads at once.
+class Node {
+ public:
+  Node() = default;
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+  virtual ~Node() = default;
+
+  virtual LawValue at(double t, Side side) const = 0;
+
+  /// Appends the times in [t_begin, t_end] at which a derivative of order <= max_order may jump (order 0: the value),
+  /// in any order, possibly twice. 2 serves Law::breakpoints, any_order the quadrature.
+  virtual void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const = 0;
+
+  virtual Law integral(double t0) const = 0;
+  virtual bool is_constant() const { return false; }
+};
+
+inline constexpr int any_order = 1 << 20;
+
+/// Throws LawError(what) where x is not finite.
+void require_finite(double x, const char* what);
+
+/// Breaks of a law, sorted and unique.
+std::vector<double> sorted_breaks(const Law& law, double t_begin, double t_end, int max_order);
+
+/// Node::append_breaks of the node behind a law.
+void append_breaks(const Law& law, double t_begin, double t_end, int max_order, std::vector<double>& breaks);
+
+}  // namespace bough::laws

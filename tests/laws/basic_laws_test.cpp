@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "bough/laws/make_law.hpp"
+#include "check_law.hpp"
+
+namespace bough::laws {
+namespace {
+
+using Times = std::vector<double>;
+constexpr double pi = std::numbers::pi;
+
+TEST(BasicLaws, default_law_is_zero_and_constant) {
+  const Law law;
+  EXPECT_TRUE(law.is_constant());
+  expect_equal(law.at(3.0), {0.0, 0.0, 0.0}, 0.0);
+  expect_equal(law.integral(1.0).at(3.0), {0.0, 0.0, 0.0}, 0.0);
+  EXPECT_TRUE(law.breakpoints(-1.0, 1.0).empty());
+}
+
+TEST(BasicLaws, constant_has_no_rate) {
+  const Law law = make_constant(2.5);
+  EXPECT_TRUE(law.is_constant());
+  expect_equal(law.at(-7.0), {2.5, 0.0, 0.0}, 0.0);
+}
+
+TEST(BasicLaws, ramp_takes_one_sided_rates_at_its_corners) {
+  const Law law = make_ramp(1.0, 3.0, 5.0, 9.0);
+  EXPECT_FALSE(law.is_constant());
+  expect_equal(law.at(2.0), {7.0, 2.0, 0.0}, 0.0);
+  expect_equal(law.at(1.0, Side::left), {5.0, 0.0, 0.0}, 0.0);
+  expect_equal(law.at(1.0, Side::right), {5.0, 2.0, 0.0}, 0.0);
+  expect_equal(law.at(3.0, Side::left), {9.0, 2.0, 0.0}, 0.0);
+  expect_equal(law.at(3.0), {9.0, 0.0, 0.0}, 0.0);
+}
+
+TEST(BasicLaws, ramp_breaks_at_its_corners_including_the_ends_of_the_window) {
+  const Law law = make_ramp(1.0, 3.0, 5.0, 9.0);
+  EXPECT_EQ(law.breakpoints(0.0, 4.0), (Times{1.0, 3.0}));
+  EXPECT_EQ(law.breakpoints(1.0, 3.0), (Times{1.0, 3.0}));
+  EXPECT_EQ(law.breakpoints(1.5, 2.9), Times{});
+}
+
+TEST(BasicLaws, ramp_between_equal_values_is_constant) {
+  EXPECT_TRUE(make_ramp(0.0, 1.0, 4.0, 4.0).is_constant());
+  EXPECT_TRUE(make_smooth_ramp(0.0, 1.0, 4.0, 4.0).is_constant());
+  EXPECT_TRUE(make_cycloidal(0.0, 1.0, 4.0, 4.0).is_constant());
+}
+
+class SmoothRise : public ::testing::TestWithParam<Law (*)(double, double, double, double)> {};
+
+TEST_P(SmoothRise, has_no_jump_up_to_the_second_derivative) {
+  // A rise of 4 within 2 s far from t = 0. Round-off: 4 * 60 / 2^2 units of the second derivative, a few eps of it.
+  const Law law = GetParam()(1000.0, 1002.0, -1.0, 3.0);
+  for (double t : {1000.0, 1002.0}) expect_equal(law.at(t, Side::left), law.at(t, Side::right), 1e-13);
+  EXPECT_TRUE(law.breakpoints(0.0, 2000.0).empty());
+}
+
+TEST_P(SmoothRise, is_monotone_point_symmetric_and_held_outside) {
+  const Law law = GetParam()(2.0, 4.0, -1.0, 3.0);
+  EXPECT_EQ(law.at(1.9).value, -1.0);
+  EXPECT_EQ(law.at(4.1).value, 3.0);
+  EXPECT_NEAR(law.at(3.0).value, 1.0, 1e-15);
+  for (double d = 0.05; d < 1.0; d += 0.1) {
+    EXPECT_GT(law.at(3.0 + d).rate, 0.0);
+    EXPECT_NEAR(law.at(3.0 + d).value - 1.0, 1.0 - law.at(3.0 - d).value, 1e-14);
+    expect_derivatives_match(law, 3.0 + 0.9 * d, 1e-3, 20.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllProfiles, SmoothRise, ::testing::Values(&make_smooth_ramp, &make_cycloidal));
+
+TEST(BasicLaws, cycloidal_rate_is_a_full_wave) {
+  const Law law = make_cycloidal(1.0, 3.0, 0.0, 10.0);
+  for (double t = 1.1; t < 3.0; t += 0.2) {
+    EXPECT_NEAR(law.at(t).rate, 5.0 * (1.0 - std::cos(pi * (t - 1.0))), 1e-14 * 10.0);
+  }
+}
+
+TEST(BasicLaws, harmonic_obeys_its_differential_equation) {
+  const double omega = 3.0;
+  const Law law = make_harmonic(2.0, omega, 0.4, 7.0);
+  for (double t = -2.0; t < 2.0; t += 0.3) {
+    const LawValue x = law.at(t);
+    EXPECT_NEAR(x.acceleration, -omega * omega * (x.value - 7.0), 1e-13);
+    expect_derivatives_match(law, t, 1e-3, 60.0);
+  }
+  EXPECT_DOUBLE_EQ(law.at(0.0).value, 7.0 + 2.0 * std::sin(0.4));
+  EXPECT_TRUE(law.breakpoints(0.0, 100.0).empty());
+  EXPECT_TRUE(make_harmonic(2.0, 0.0, 0.4).is_constant());
+}
+
+TEST(BasicLaws, linear_table_is_exact_on_lines_and_its_rate_jumps_at_knots) {
+  const Law line = make_table({0.0, 0.5, 2.0}, {1.0, 2.0, 5.0}, Interpolation::linear);
+  for (double t : {0.1, 0.5, 1.3, 1.9}) expect_equal(line.at(t), {1.0 + 2.0 * t, 2.0, 0.0}, 1e-14);
+  const Law tent = make_table({0.0, 1.0, 2.0}, {0.0, 3.0, 0.0}, Interpolation::linear);
+  EXPECT_EQ(tent.breakpoints(-5.0, 5.0), (Times{0.0, 1.0, 2.0}));
+  EXPECT_EQ(tent.at(1.0, Side::left).rate, 3.0);
+  EXPECT_EQ(tent.at(1.0, Side::right).rate, -3.0);
+  expect_equal(tent.at(-1.0), {0.0, 0.0, 0.0}, 0.0);
+}
+
+TEST(BasicLaws, cubic_table_reproduces_polynomials_up_to_its_degree) {
+  const auto cubic = [](double t) -> LawValue {
+    return {1.0 - 2.0 * t + 0.5 * t * t + t * t * t, -2.0 + t + 3.0 * t * t, 1.0 + 6.0 * t};
+  };
+  for (std::size_t n : {4U, 5U, 9U}) {
+    Times times;
+    Times values;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = static_cast<double>(i) / static_cast<double>(n - 1);
+      times.push_back(-1.0 + 3.0 * x * (0.6 + 0.4 * x));  // uneven knots from -1 to 2
+      values.push_back(cubic(times.back()).value);
+    }
+    const Law law = make_table(times, values, Interpolation::cubic);
+    // Second derivatives are second differences: a few eps of the values over the smallest step squared.
+    for (double t = -0.95; t < 2.0; t += 0.1) expect_equal(law.at(t), cubic(t), 2e-12);
+    EXPECT_EQ(law.breakpoints(-9.0, 9.0), (Times{times.front(), times.back()}));
+  }
+  const Law parabola = make_table({0.0, 1.0, 3.0}, {0.0, 1.0, 9.0}, Interpolation::cubic);
+  expect_equal(parabola.at(2.0), {4.0, 4.0, 2.0}, 1e-14);
+  const Law line = make_table({0.0, 4.0}, {1.0, 3.0}, Interpolation::cubic);
+  expect_equal(line.at(1.0), {1.5, 0.5, 0.0}, 1e-15);
+}
+
+TEST(BasicLaws, cubic_table_is_twice_continuous_inside_and_converges_with_fourth_order) {
+  const auto error = [](int n) {
+    Times times;
+    Times values;
+    for (int i = 0; i <= n; ++i) {
+      times.push_back(3.0 * i / n);
+      values.push_back(std::sin(times.back()));
+    }
+    const Law law = make_table(times, values, Interpolation::cubic);
+    for (std::size_t i = 1; i + 1 < times.size(); ++i) {
+      EXPECT_EQ(law.at(times[i]).value, values[i]);
+      expect_equal(law.at(times[i], Side::left), law.at(times[i], Side::right), 1e-12);
+    }
+    double worst = 0.0;
+    for (double t = 0.0; t < 3.0; t += 0.01) worst = std::max(worst, std::abs(law.at(t).value - std::sin(t)));
+    return worst;
+  };
+  const double order = std::log2(error(20) / error(40));
+  EXPECT_GT(order, 3.7);
+  EXPECT_LT(order, 4.8);  // the ends, where not-a-knot is worst, may still gain more than the inside
+}
+
+TEST(BasicLaws, one_point_table_is_constant) {
+  const Law law = make_table({1.0}, {4.0}, Interpolation::cubic);
+  EXPECT_TRUE(law.is_constant());
+  EXPECT_EQ(law.at(0.0).value, 4.0);
+}
+
+TEST(BasicLaws, bad_data_is_refused) {
+  EXPECT_THROW(make_ramp(1.0, 1.0, 0.0, 1.0), LawError);
+  EXPECT_THROW(make_smooth_ramp(2.0, 1.0, 0.0, 1.0), LawError);
+  EXPECT_THROW(make_cycloidal(2.0, 1.0, 0.0, 1.0), LawError);
+  EXPECT_THROW(make_table({}, {}, Interpolation::linear), LawError);
+  EXPECT_THROW(make_table({0.0, 1.0}, {1.0}, Interpolation::linear), LawError);
+  EXPECT_THROW(make_table({0.0, 0.0}, {1.0, 2.0}, Interpolation::cubic), LawError);
+  EXPECT_THROW(make_constant(HUGE_VAL), LawError);
+  EXPECT_THROW(make_harmonic(1.0, HUGE_VAL), LawError);
+  EXPECT_THROW(make_piecewise({}), LawError);
+  EXPECT_THROW(make_piecewise({{1.0, Law{}}, {1.0, Law{}}}), LawError);
+}
+
+}  // namespace
+}  // namespace bough::laws
