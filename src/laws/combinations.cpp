@@ -181,8 +181,7 @@ Law make_cycloidal(double t0, double t1, double v0, double v1) {
   const double two_pi = 2.0 * std::numbers::pi;
   const Law wave = make_wave({-(v1 - v0) / two_pi, two_pi / (t1 - t0), 0.0, 0.0, t0});
   const Law line{std::make_shared<PolynomialPieces>(
-      std::vector<PolynomialPieces::Knot>{},
-      std::vector<PolynomialPieces::Piece>{{t0, t1 - t0, {v0, v1 - v0}}})};
+      std::vector<PolynomialPieces::Knot>{}, std::vector<PolynomialPieces::Piece>{{t0, t1 - t0, {v0, v1 - v0}}})};
   std::vector<Segment> segments{{t0 - 1.0, make_constant(v0)}, {t0, make_sum({line, wave})}, {t1, make_constant(v1)}};
   return Law{std::make_shared<Piecewise>(std::move(segments), 3)};
 }

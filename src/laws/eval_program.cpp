@@ -13,13 +13,13 @@ namespace {
 
 int sign_of(double x) { return x > 0.0 ? 1 : (x < 0.0 ? -1 : 0); }
 
-/// Sign of a quantity just after (direction 1) or just before (-1) the time of its jet: the first term that is not zero.
+/// Sign of a quantity just after (direction 1) or just before (-1) the time of its jet: the first term that is not
+/// zero.
 int sign_beside(const Jet<double>& x, int direction) {
   if (x.value != 0.0) return sign_of(x.value);
   if (x.rate != 0.0) return direction * sign_of(x.rate);
   return sign_of(x.acceleration);
 }
-
 
 /// Sign of the switch argument as seen from one side. before: the argument at the last time before t, used for the
 /// left. A root between two doubles thus has different signs on the two sides of the upper one.
@@ -281,8 +281,7 @@ int eval_branch(const Program& program, std::size_t index, double t, Side side) 
   Stack<double> stack;
   Stack<double> before;
   const Jet<double> t_before = time_jet(previous_time(t));
-  const std::size_t height =
-      run(program, instruction.first, index, time_jet(t), stack, &t_before, &before);
+  const std::size_t height = run(program, instruction.first, index, time_jet(t), stack, &t_before, &before);
   const Jet<double> argument_before = switch_argument(instruction.op, before, height);
   return branch_of(switch_argument(instruction.op, stack, height), &argument_before);
 }

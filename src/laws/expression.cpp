@@ -157,9 +157,9 @@ class Expression final : public Node {
 Law make_expression(const std::string& text) {
   Program program = parse_formula(text);
   if (program.code.size() == 1 && program.code[0].op == Op::number) {
-    return Law{std::make_shared<PolynomialPieces>(
-        std::vector<PolynomialPieces::Knot>{},
-        std::vector<PolynomialPieces::Piece>{{0.0, 1.0, {program.code[0].number}}})};
+    return Law{
+        std::make_shared<PolynomialPieces>(std::vector<PolynomialPieces::Knot>{},
+                                           std::vector<PolynomialPieces::Piece>{{0.0, 1.0, {program.code[0].number}}})};
   }
   return Law{std::make_shared<Expression>(std::move(program))};
 }

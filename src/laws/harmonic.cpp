@@ -47,7 +47,8 @@ class HarmonicIntegral final : public Node {
   }
   void append_breaks(double, double, int, std::vector<double>&) const override {}
 
-  /// F = -(amplitude / omega) cos(theta) + (amplitude / omega) cos(theta(t0)) + offset (t - t0), integrated term by term.
+  /// F = -(amplitude / omega) cos(theta) + (amplitude / omega) cos(theta(t0)) + offset (t - t0), integrated term by
+  /// term.
   Law integral(double t1) const override {
     if (std::abs(wave_.omega) < slow_omega) {
       return make_quadrature_integral(Law{std::make_shared<HarmonicIntegral>(wave_, t0_)}, t1);
@@ -56,8 +57,7 @@ class HarmonicIntegral final : public Node {
     const double level = a * std::cos(wave_.omega * (t0_ - wave_.start) + wave_.phase);
     const Law wave = make_wave({a, wave_.omega, wave_.phase - 0.5 * std::numbers::pi, level, wave_.start});
     const Law drift{std::make_shared<PolynomialPieces>(
-        std::vector<PolynomialPieces::Knot>{},
-        std::vector<PolynomialPieces::Piece>{{t0_, 1.0, {0.0, wave_.offset}}})};
+        std::vector<PolynomialPieces::Knot>{}, std::vector<PolynomialPieces::Piece>{{t0_, 1.0, {0.0, wave_.offset}}})};
     return make_sum({wave.integral(t1), drift.integral(t1)});
   }
 

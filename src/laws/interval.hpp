@@ -2,8 +2,9 @@
 
 namespace bough::laws {
 
-/// All numbers from lo to hi. Results of operations hold the true range, widened by a few units in the last place; an end
-/// that is exactly 0 stays 0. Outside the domain of a function (log of 0, division by an interval around 0): everything.
+/// All numbers from lo to hi. Results of operations hold the true range, widened by a few units in the last place;
+/// an end that is exactly 0 stays 0. Outside the domain of a function (log of 0, division by an interval around 0):
+/// everything.
 struct Interval {
   double lo = 0.0;
   double hi = 0.0;

@@ -68,8 +68,9 @@ std::vector<double> eval_spline_moments(const std::vector<double>& h, const std:
 void check_table(const std::vector<double>& times, const std::vector<double>& values) {
   if (times.empty()) throw LawError({}, 0, "a table needs at least one point");
   if (times.size() != values.size()) {
-    throw LawError({}, 0, "a table needs as many values as times: " + std::to_string(times.size()) + " times, " +
-                              std::to_string(values.size()) + " values");
+    throw LawError({}, 0,
+                   "a table needs as many values as times: " + std::to_string(times.size()) + " times, " +
+                       std::to_string(values.size()) + " values");
   }
   for (double x : times) require_finite(x, "the time of a table");
   for (double x : values) require_finite(x, "the value of a table");
@@ -97,9 +98,9 @@ Law make_smooth_ramp(double t0, double t1, double v0, double v1) {
   check_ramp(t0, t1, v0, v1);
   if (v0 == v1) return make_constant(v0);
   const double dv = v1 - v0;
-  return make_pieces({{t0, 3}, {t1, 3}}, {{t0, 1.0, {v0}},
-                                          {t0, t1 - t0, {v0, 0.0, 0.0, 10.0 * dv, -15.0 * dv, 6.0 * dv}},
-                                          {t1, 1.0, {v1}}});
+  return make_pieces(
+      {{t0, 3}, {t1, 3}},
+      {{t0, 1.0, {v0}}, {t0, t1 - t0, {v0, 0.0, 0.0, 10.0 * dv, -15.0 * dv, 6.0 * dv}}, {t1, 1.0, {v1}}});
 }
 
 Law make_table(const std::vector<double>& times, const std::vector<double>& values, Interpolation interpolation) {

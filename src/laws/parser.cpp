@@ -28,12 +28,24 @@ struct FunctionName {
   Op op;
 };
 
-constexpr std::array<FunctionName, 18> functions{{{"sin", Op::sin},   {"cos", Op::cos},   {"tan", Op::tan},
-                                                  {"asin", Op::asin}, {"acos", Op::acos}, {"atan", Op::atan},
-                                                  {"sinh", Op::sinh}, {"cosh", Op::cosh}, {"tanh", Op::tanh},
-                                                  {"exp", Op::exp},   {"log", Op::log},   {"sqrt", Op::sqrt},
-                                                  {"abs", Op::abs},   {"sign", Op::sign}, {"step", Op::step},
-                                                  {"min", Op::min},   {"max", Op::max},   {"pow", Op::pow_general}}};
+constexpr std::array<FunctionName, 18> functions{{{"sin", Op::sin},
+                                                  {"cos", Op::cos},
+                                                  {"tan", Op::tan},
+                                                  {"asin", Op::asin},
+                                                  {"acos", Op::acos},
+                                                  {"atan", Op::atan},
+                                                  {"sinh", Op::sinh},
+                                                  {"cosh", Op::cosh},
+                                                  {"tanh", Op::tanh},
+                                                  {"exp", Op::exp},
+                                                  {"log", Op::log},
+                                                  {"sqrt", Op::sqrt},
+                                                  {"abs", Op::abs},
+                                                  {"sign", Op::sign},
+                                                  {"step", Op::step},
+                                                  {"min", Op::min},
+                                                  {"max", Op::max},
+                                                  {"pow", Op::pow_general}}};
 constexpr std::array<std::string_view, 3> symbols{"t", "pi", "e"};
 
 /// Least number of letters inserted, removed or replaced that turns a into b (Levenshtein).

@@ -7,9 +7,32 @@
 namespace bough::laws {
 
 enum class Op : std::uint8_t {
-  number, time, negate, add, subtract, multiply, divide, pow_number, pow_general,
-  sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, sqrt,
-  abs, sign, step, min, max  // these change branch where their argument (min, max: the difference) changes sign
+  number,
+  time,
+  negate,
+  add,
+  subtract,
+  multiply,
+  divide,
+  pow_number,
+  pow_general,
+  sin,
+  cos,
+  tan,
+  asin,
+  acos,
+  atan,
+  sinh,
+  cosh,
+  tanh,
+  exp,
+  log,
+  sqrt,
+  abs,
+  sign,
+  step,
+  min,
+  max  // these change branch where their argument (min, max: the difference) changes sign
 };
 
 /// Lowest derivative that jumps where the operation changes branch.
@@ -21,7 +44,7 @@ constexpr bool has_two_arguments(Op op) {
 
 struct Instruction {
   Op op = Op::number;
-  double number = 0.0;   ///< the number; the exponent of pow_number
+  double number = 0.0;      ///< the number; the exponent of pow_number
   std::uint32_t first = 0;  ///< of a switch: where the instructions of its arguments begin
 };
 

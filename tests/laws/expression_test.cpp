@@ -155,15 +155,17 @@ TEST(Expression, all_breaks_of_a_square_wave_are_found_and_its_sides_differ) {
 
 TEST(Expression, breaks_agree_with_a_fine_scan) {
   // Independent of the interval arithmetic: changes of the rate's branch between 2e5 samples.
-  for (const char* text : {"abs(sin(3*t) - 0.2*t)", "abs(cos(t^2) + exp(-t) - 0.3)", "abs(t^3 - 2*t + 0.5)",
-                           "abs(tanh(t) - log(t + 4)/2)", "abs(sqrt(t + 4) - 2*atan(t)^2)",
-                           "abs(cosh(t/2) - 1.5 - sinh(t)/9)", "abs(asin(t/4) + acos(t/4)*cos(5*t))",
-                           "abs(2^t - (t + 4)^1.5/5)"}) {
+  for (const char* text :
+       {"abs(sin(3*t) - 0.2*t)", "abs(cos(t^2) + exp(-t) - 0.3)", "abs(t^3 - 2*t + 0.5)", "abs(tanh(t) - log(t + 4)/2)",
+        "abs(sqrt(t + 4) - 2*atan(t)^2)", "abs(cosh(t/2) - 1.5 - sinh(t)/9)", "abs(asin(t/4) + acos(t/4)*cos(5*t))",
+        "abs(2^t - (t + 4)^1.5/5)"}) {
     const Law law = make_expression(text);
     const Times breaks = law.breakpoints(-3.0, 3.0);
     std::size_t found = 0;
     const std::size_t n = 200000;
-    const auto time = [n](std::size_t i) { return -3.0 + 6.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(n); };
+    const auto time = [n](std::size_t i) {
+      return -3.0 + 6.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    };
     double slope = law.at(time(0)).rate;
     for (std::size_t i = 1; i < n; ++i) {
       const double next = law.at(time(i)).rate;

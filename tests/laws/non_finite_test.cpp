@@ -9,9 +9,7 @@
 namespace bough::laws {
 namespace {
 
-TEST(NonFinite, finite_values_are_not_reported) {
-  EXPECT_FALSE(non_finite({1.0, -2.0, 1e308}).has_value());
-}
+TEST(NonFinite, finite_values_are_not_reported) { EXPECT_FALSE(non_finite({1.0, -2.0, 1e308}).has_value()); }
 
 TEST(NonFinite, report_names_each_member_and_its_kind) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
