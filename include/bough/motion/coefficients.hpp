@@ -14,11 +14,18 @@ namespace bough::motion {
 namespace detail {
 
 /// Polynomial sum_k table[k] x^k, Horner.
-template <class S, std::size_t N>
-S horner(const std::array<long double, N>& table, const S& x) {
-  S r(static_cast<Literal<S>>(table[N - 1]));
-  for (std::size_t k = N - 1; k-- > 0;) r = r * x + static_cast<Literal<S>>(table[k]);
+template <class S, class L, std::size_t N>
+S horner(const std::array<L, N>& table, const S& x) {
+  S r(table[N - 1]);
+  for (std::size_t k = N - 1; k-- > 0;) r = r * x + table[k];
   return r;
+}
+/// A table in the precision of a scalar's literals, rounded when the program is compiled.
+template <class L, std::size_t N>
+constexpr std::array<L, N> rounded(const std::array<long double, N>& table) {
+  std::array<L, N> t{};
+  for (std::size_t k = 0; k < N; ++k) t[k] = static_cast<L>(table[k]);
+  return t;
 }
 
 /// (-1)^k / (2k + n)! for k = 0 .. 13: at x = 16 the first term left out is below 3e-19 of the sum.
@@ -32,16 +39,19 @@ constexpr std::array<long double, 14> stumpff_table(int n) {
   }
   return t;
 }
-inline constexpr std::array<long double, 14> stumpff_6 = stumpff_table(6);
-inline constexpr std::array<long double, 14> stumpff_7 = stumpff_table(7);
+template <class L>
+inline constexpr std::array<L, 14> stumpff_6 = rounded<L>(stumpff_table(6));
+template <class L>
+inline constexpr std::array<L, 14> stumpff_7 = rounded<L>(stumpff_table(7));
 
 /// 2 sum_{m >= 3} (2 pi m)^-(2n+2): k without its first two poles, a series that converges up to phi = 6 pi.
-inline constexpr std::array<long double, 15> inverse_rest = {
-    0.0200075935568722261809087L,   2.54381206886256215795349e-5L,  5.58456839049441513112409e-8L,
+template <class L>
+inline constexpr std::array<L, 15> inverse_rest = rounded<L>(std::array<long double, 15>{
+    0.0200075935568722261809087L, 2.54381206886256215795349e-5L, 5.58456839049441513112409e-8L,
     1.40882415747610468617681e-10L, 3.75671620021579781148421e-13L, 1.02801253753604610784426e-15L,
     2.85002212921379123826149e-18L, 7.95557541071984498358231e-21L, 2.22893266455370115667057e-23L,
     6.25747115080577223920474e-26L, 1.75867304929096798907852e-28L, 4.94584695005793873891076e-31L,
-    1.39138267890808799277361e-33L, 3.91504425254531424268482e-36L, 1.10172689146714187787501e-38L};
+    1.39138267890808799277361e-33L, 3.91504425254531424268482e-36L, 1.10172689146714187787501e-38L});
 
 /// Below this x = phi^2 (phi = 4) the polynomials hold, beyond it the closed forms: there 1/x^3 damps the rounding of
 /// sin and cos to one ulp of the highest coefficient, so one switch serves all coefficients and their derivatives.
@@ -61,8 +71,8 @@ lanes::Vec<S, 8> eval_stumpff(const S& x) {
       [&] {
         const S near = select(small, x, S(0.0));
         lanes::Vec<S, 8> c;
-        c[7] = detail::horner(detail::stumpff_7, near);
-        c[6] = detail::horner(detail::stumpff_6, near);
+        c[7] = detail::horner(detail::stumpff_7<L>, near);
+        c[6] = detail::horner(detail::stumpff_6<L>, near);
         c[5] = one / 120 - near * c[7];
         c[4] = one / 24 - near * c[6];
         c[3] = third / 2 - near * c[5];
@@ -134,10 +144,10 @@ InverseCoefficients<S> eval_inverse_coefficients(const S& x) {
         const S near = select(small, x, S(0.0));
         const S p = S(1.0) / (pole1 - near), q = S(1.0) / (pole2 - near), pp = p * p, qq = q * q;
         S f(0.0), df(0.0), hf(0.0);  // rest, its first derivative, half its second
-        for (std::size_t n = detail::inverse_rest.size(); n-- > 0;) {
+        for (std::size_t n = detail::inverse_rest<L>.size(); n-- > 0;) {
           hf = hf * near + df;
           df = df * near + f;
-          f = f * near + static_cast<L>(detail::inverse_rest[n]);
+          f = f * near + detail::inverse_rest<L>[n];
         }
         return lanes::Vec<S, 3>{{f + L(2) * (p + q), df + L(2) * (pp + qq), L(2) * hf + L(4) * (p * pp + q * qq)}};
       },

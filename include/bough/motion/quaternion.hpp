@@ -67,29 +67,29 @@ Quaternion<S> exp_quaternion(const Vec3<S>& psi) {
   const lanes::Vec<S, 8> c = eval_stumpff(S(L(0.25) * dot(psi, psi)));
   return {c[0], L(0.5) * c[1] * psi};
 }
-/// Rotation vector of q with w >= 0, |psi| <= pi [rad]: psi = 2 v atan(t)/(t w), t = |v|/w. The norm of q drops out.
-/// Near t = 0 a series in t^2, elsewhere atan2(|v|, w), which is as accurate at phi = pi as at 1.
+namespace detail {
+/// (-1)^k / (2k + 1): atan(t)/t as a polynomial in t^2, for t <= tan(pi/8); the first term left out is below 1e-20.
+constexpr std::array<long double, 24> arctangent_table() {
+  std::array<long double, 24> t{};
+  for (int k = 0; k < 24; ++k)
+    t[static_cast<std::size_t>(k)] = (k % 2 ? -1.0L : 1.0L) / static_cast<long double>(2 * k + 1);
+  return t;
+}
+template <class L>
+inline constexpr std::array<L, 24> arctangent = rounded<L>(arctangent_table());
+}  // namespace detail
+
+/// Rotation vector of q with w >= 0, |psi| <= pi [rad]. The norm m of q drops out. The angle is halved twice,
+///   tan(phi/4) = |v|/(m + w),  tan(phi/8) = tan(phi/4)/(1 + sqrt(1 + tan(phi/4)^2)),
+/// so that psi = 8 v atan(t)/(t (m + w)(1 + sqrt(...))), t = tan(phi/8), is one formula in v.v, analytic from 0 to pi.
 template <class S>
 Vec3<S> log_quaternion(const Quaternion<S>& q) {
   using L = Literal<S>;
-  const S vv = dot(q.v, q.v), ww = q.w * q.w;
-  const auto small = less(vv, S(L(0.04) * ww));  // 14 terms: the first left out is 0.04^14 / 29
-  const S factor = choose(
-      small,
-      [&] {
-        const S w = select(small, q.w, S(1.0)), t2 = select(small, vv, S(0.0)) / (w * w);
-        S f(L(-1) / L(27));
-        for (int k = 12; k >= 0; --k) f = f * t2 + (k % 2 ? L(-1) : L(1)) / static_cast<L>(2 * k + 1);
-        return S(L(2) * f / w);
-      },
-      [&] {
-        using lanes::atan2;
-        using std::atan2;
-        using std::sqrt;
-        const S s = sqrt(select(small, S(1.0), vv));
-        return S(L(2) * atan2(s, q.w) / s);
-      });
-  return factor * q.v;
+  using std::sqrt;
+  const S vv = dot(q.v, q.v), sum = sqrt(q.w * q.w + vv) + q.w;
+  const S quarter = vv / (sum * sum), fold = L(1) + sqrt(L(1) + quarter);
+  const S series = detail::horner(detail::arctangent<L>, S(quarter / (fold * fold)));
+  return (L(8) * series / (sum * fold)) * q.v;
 }
 
 }  // namespace bough::motion
