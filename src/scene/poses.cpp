@@ -1,18 +1,31 @@
 #include "bough/scene/poses.hpp"
 
-#include <algorithm>
+#include <charconv>
+#include <cmath>
 
 namespace bough::scene {
+namespace {
+
+double norm(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
+
+template <class List>
+void add_all(std::unordered_map<std::string, Thing>& things, const List& list, ThingKind kind) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (!list[i].name.empty()) things.try_emplace(list[i].name, Thing{kind, i});
+}
+
+}  // namespace
 
 Frame resolve(const Scene& scene, const Placement& placement) {
   Frame pose = placement.pose;
   std::string parent = placement.frame;
-  for (std::size_t depth = 0; !parent.empty() && depth <= scene.frames.size(); ++depth) {
-    const auto frame =
-        std::find_if(scene.frames.begin(), scene.frames.end(), [&](const FrameDef& f) { return f.name == parent; });
-    if (frame == scene.frames.end()) break;
-    pose = motion::compose(frame->placement.pose, pose);
-    parent = frame->placement.frame;
+  for (std::size_t depth = 0; !parent.empty() && parent != "ground" && depth <= scene.frames.size(); ++depth) {
+    const FrameDef* found = nullptr;
+    for (const FrameDef& f : scene.frames)
+      if (found == nullptr && f.name == parent) found = &f;
+    if (found == nullptr) break;
+    pose = motion::compose(found->placement.pose, pose);
+    parent = found->placement.frame;
   }
   return pose;
 }
@@ -23,9 +36,123 @@ std::optional<Frame> initial_pose(const Scene& scene, const std::string& name) {
     if (n.name == name) return resolve(scene, n.placement);
   for (const Body& b : scene.bodies)
     if (b.name == name) return resolve(scene, b.placement);
-  for (const FrameDef& f : scene.frames)
-    if (f.name == name) return resolve(scene, {Frame::identity(), name});
-  return std::nullopt;
+  return Poses(scene).of(std::string_view(name));
+}
+
+Vec3 default_axis_2(const Vec3& axis_1) {
+  const Vec3 side = cross(Vec3::unit(2), axis_1);
+  return dot(side, side) < 1e-12 * dot(axis_1, axis_1) ? Vec3::unit(1) : side;
+}
+
+std::optional<Mat3> axes_from(int k, const Vec3& main, const Vec3& next) {
+  const double length = norm(main);
+  if (!(length > 0.0)) return std::nullopt;
+  const Vec3 a = (1.0 / length) * main;
+  const Vec3 side = next - dot(a, next) * a;
+  if (!(norm(side) > 1e-9 * norm(next))) return std::nullopt;
+  const Vec3 b = (1.0 / norm(side)) * side;
+  const Vec3 axes[3] = {a, b, cross(a, b)};
+  Mat3 R;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) R(i, (k - 1 + j) % 3) = axes[j][i];
+  return R;
+}
+
+Poses::Poses(const Scene& scene) : scene_(scene) {
+  add_all(things_, scene.frames, ThingKind::frame);
+  add_all(things_, scene.nodes, ThingKind::node);
+  add_all(things_, scene.bodies, ThingKind::body);
+  add_all(things_, scene.beams, ThingKind::beam);
+  add_all(things_, scene.joints, ThingKind::joint);
+  add_all(things_, scene.springs, ThingKind::other);
+  add_all(things_, scene.bushings, ThingKind::other);
+  add_all(things_, scene.point_loads, ThingKind::other);
+  add_all(things_, scene.line_loads, ThingKind::other);
+  add_all(things_, scene.motions, ThingKind::other);
+}
+
+std::optional<Thing> Poses::find(std::string_view name) const {
+  const auto it = things_.find(std::string(name));
+  if (it == things_.end()) return std::nullopt;
+  return it->second;
+}
+
+std::optional<Frame> Poses::chain(const Placement& placement) const {
+  Frame pose = placement.pose;
+  const std::string* parent = &placement.frame;
+  for (std::size_t depth = 0; depth <= scene_.frames.size(); ++depth) {
+    if (parent->empty() || *parent == "ground") return pose;
+    const auto thing = find(*parent);
+    if (!thing || thing->kind != ThingKind::frame) return std::nullopt;
+    const Placement& next = scene_.frames[thing->index].placement;
+    pose = motion::compose(next.pose, pose);
+    parent = &next.frame;
+  }
+  return std::nullopt;  // a frame stands in itself
+}
+
+std::optional<Frame> Poses::of(const Placement& placement) const { return chain(placement); }
+
+std::optional<Frame> Poses::of(const Attachment& attachment) const {
+  const auto parent = of(std::string_view(attachment.to));
+  if (!parent) return std::nullopt;
+  return motion::compose(*parent, attachment.offset);
+}
+
+std::optional<Frame> Poses::of(std::string_view name) const {
+  if (name.empty() || name == "ground") return Frame::identity();
+  if (const auto thing = find(name)) {
+    switch (thing->kind) {
+      case ThingKind::frame: return chain(scene_.frames[thing->index].placement);
+      case ThingKind::node: return chain(scene_.nodes[thing->index].placement);
+      case ThingKind::body: return chain(scene_.bodies[thing->index].placement);
+      default: return std::nullopt;
+    }
+  }
+  const std::size_t dot_at = name.rfind('.');
+  if (dot_at == std::string_view::npos) return std::nullopt;
+  const auto thing = find(name.substr(0, dot_at));
+  if (!thing || thing->kind != ThingKind::beam) return std::nullopt;
+  const Beam& beam = scene_.beams[thing->index];
+  const std::string_view digits = name.substr(dot_at + 1);
+  int k = -1;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), k);
+  const long last = static_cast<long>(beam.elements) * beam.order;
+  if (error != std::errc() || end != digits.data() + digits.size() || k < 0 || k > last) return std::nullopt;
+  return of_section(beam, static_cast<double>(k) / static_cast<double>(last));
+}
+
+double Poses::length_of(const Beam& beam) const {
+  if (beam.curve == BeamCurve::curvature) return beam.length;
+  const auto start = of(std::string_view(beam.start)), end = of(std::string_view(beam.end));
+  if (!start || !end) return 0.0;
+  return norm(motion::transform(*end, beam.end_offset.value_or(Vec3::zero())) -
+              motion::transform(*start, beam.start_offset.value_or(Vec3::zero())));
+}
+
+std::optional<Frame> Poses::of_section(const Beam& beam, double fraction) const {
+  if (beam.start.find('.') != std::string::npos || beam.end.find('.') != std::string::npos) return std::nullopt;  // no beam ends at an inner node
+  const auto start = of(std::string_view(beam.start));
+  const auto frame = chain(Placement{Frame::identity(), beam.frame});
+  if (!start || !frame) return std::nullopt;
+  const Vec3 origin = motion::transform(*start, beam.start_offset.value_or(Vec3::zero()));
+  const bool is_straight = beam.curve == BeamCurve::straight;
+  Vec3 span = frame->R * beam.tangent;
+  if (is_straight) {
+    const auto end = of(std::string_view(beam.end));
+    if (!end) return std::nullopt;
+    span = motion::transform(*end, beam.end_offset.value_or(Vec3::zero())) - origin;
+  }
+  const Vec3 side = norm(beam.axis_2) > 0.0 ? frame->R * beam.axis_2 : default_axis_2(span);
+  const auto axes = axes_from(1, span, side);
+  if (!axes) return std::nullopt;
+  if (is_straight) {
+    const Mat3 turn = motion::exp_so3(Vec3{{fraction * beam.twist, 0.0, 0.0}});
+    return Frame{*axes * turn, origin + fraction * span};
+  }
+  const double s = fraction * beam.length;
+  const Vec3 k = beam.curvature;
+  return motion::compose(Frame{*axes, origin}, motion::exp_se3(Vec6{{s, 0.0, 0.0, s * k[0], s * k[1], s * k[2]}}));
 }
 
 }  // namespace bough::scene

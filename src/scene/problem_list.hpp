@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdio>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "bough/scene/components.hpp"
+#include "bough/scene/poses.hpp"
+#include "bough/scene/problems.hpp"
+
+namespace bough::scene {
+
+/// What the checks share.
+struct ProblemList {
+  ProblemList(const Scene& scene_in, std::span<const std::string> defective_in);
+
+  const Scene& scene;
+  Poses poses;
+  std::unordered_set<std::string> defective;
+  std::vector<SceneProblem> problems;
+  std::vector<std::string> sections, sensors, joints, beams, places, frames;  ///< names that references are compared with
+  double size = 1.0;          ///< of the model: diagonal of the box around all nodes and bodies [m]; 1 where that is 0
+  bool is_dynamic = false;
+  double last_time = 1.0;     ///< end time [s], or load factor 1
+
+  void add(const char* section, std::size_t index, std::string key, std::string value, std::string rule, std::string hint = {});
+  void warn(const char* section, std::size_t index, std::string key, std::string value, std::string rule, std::string hint = {});
+  bool is_defective(const std::string& name) const;
+
+  /// A reference to a place: node, body, inner node; ground where allowed. True where the place can be used.
+  bool check_place(const char* section, std::size_t index, const std::string& key, const std::string& name, bool ground_allowed);
+  /// A reference into a list of names. True where it is there.
+  bool check_reference(const char* section, std::size_t index, const std::string& key, const std::string& name,
+                       const std::vector<std::string>& known, const char* what);
+  /// A law that is finite over the analysis; with derivatives where it prescribes a motion.
+  void check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law, bool with_derivatives);
+
+  std::optional<Thing> body_of(const std::string& place) const;  ///< the body of that name, if it is one
+};
+
+std::string text_of(double x);
+double norm_of(const Vec3& a);
+bool is_zero(const Vec3& a);
+bool is_zero(const Mat6& a);
+
+enum class Definite { positive, semi };
+/// Empty, or what is wrong with a matrix that has to be symmetric and positive (semi-) definite.
+std::string definite_fault(const Mat6& a, Definite wanted);
+
+void check_names(ProblemList& list);
+void check_sections(ProblemList& list);
+void check_bodies(ProblemList& list);
+void check_beams(ProblemList& list);
+void check_joints(ProblemList& list);
+void check_couplings(ProblemList& list);
+void check_loads(ProblemList& list);
+void check_motions(ProblemList& list);
+void check_sensors(ProblemList& list);
+void check_analysis(ProblemList& list);
+void check_holding(ProblemList& list);
+
+}  // namespace bough::scene

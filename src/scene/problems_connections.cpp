@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bough/motion/se3.hpp"
+#include "problem_list.hpp"
+
+namespace bough::scene {
+namespace {
+
+constexpr double gap_tolerance = 1e-6;    // of the size of the model: positions typed with 7 digits close
+constexpr double angle_tolerance = 1e-6;  // [rad]
+
+std::string in_metres(double x) { return text_of(x) + " m"; }
+std::string in_radians(double x) { return text_of(x) + " rad"; }
+
+double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm_of(cross(a, b)), dot(a, b)); }
+
+/// What keeps the two joint frames from being joined at the start. H: pose of the second's in the first's.
+std::string closure_fault(JointKind kind, const Frame& H, double size) {
+  const double off_axis = std::hypot(H.x[0], H.x[1]), along = std::abs(H.x[2]), all = norm_of(H.x);
+  const double tilt = angle_between(column(H.R, 2), Vec3::unit(2));
+  const double turn = norm_of(motion::log_so3(H.R));
+  const double gap = kind == JointKind::cylindrical || kind == JointKind::prismatic ? off_axis
+                     : kind == JointKind::planar                                    ? along
+                     : kind == JointKind::screw                                     ? off_axis
+                                                                                    : all;
+  if (gap > gap_tolerance * size) return "the joint frames of first and second are " + in_metres(gap) + " apart at the start";
+  double angle = 0.0;
+  if (kind == JointKind::fixed || kind == JointKind::prismatic) angle = turn;
+  if (kind == JointKind::revolute || kind == JointKind::cylindrical || kind == JointKind::planar || kind == JointKind::screw) angle = tilt;
+  if (kind == JointKind::universal) angle = std::abs(std::asin(std::clamp(H.R(0, 1), -1.0, 1.0)));
+  if (angle <= angle_tolerance) return "";
+  return (kind == JointKind::universal ? "the two axes are off a right angle by " : "the joint frames of first and second are turned by ") +
+         in_radians(angle) + " against each other at the start";
+}
+
+void check_coordinate(ProblemList& list, std::size_t i, const std::string& key, const std::string& coordinate) {
+  const Joint& j = list.scene.joints[i];
+  const auto& known = coordinates_of(j.kind);
+  if (std::find(known.begin(), known.end(), coordinate) != known.end()) return;
+  if (known.empty())
+    list.add("joints", i, key, coordinate, "a " + to_string(j.kind) + " joint has no coordinate to act on");
+  else if (coordinate.empty())
+    list.add("joints", i, key, "", "say which coordinate: \"" + known[0] + "\" or \"" + known.back() + "\"");
+  else
+    list.add("joints", i, key, coordinate, "a " + to_string(j.kind) + " joint has the coordinate \"" + known[0] + "\" only");
+}
+
+void check_drives(ProblemList& list, std::size_t i, const Frame* H) {
+  const Joint& j = list.scene.joints[i];
+  std::set<std::string> driven;
+  for (std::size_t k = 0; k < j.drives.size(); ++k) {
+    const JointDrive& drive = j.drives[k];
+    const std::string key = "drives/" + std::to_string(k);
+    check_coordinate(list, i, key + "/coordinate", drive.coordinate);
+    list.check_law("joints", i, key + "/law", drive.law, true);
+    if (!driven.insert(drive.coordinate).second)
+      list.add("joints", i, key, drive.coordinate, "this coordinate is driven twice");
+    else if (j.kind == JointKind::screw && driven.size() > 1)
+      list.add("joints", i, key, drive.coordinate, "the angle and the displacement of a screw depend on each other: drive one");
+    if (H == nullptr || drive.is_rate || !list.is_dynamic) continue;
+    const double now = drive.coordinate == "angle" ? std::atan2(H->R(1, 0), H->R(0, 0)) : H->x[2];
+    const double jump = drive.law.at(0.0).value - now;
+    const double off = drive.coordinate == "angle" ? std::abs(std::remainder(jump, 2.0 * 3.14159265358979323846)) : std::abs(jump) / list.size;
+    if (off > gap_tolerance)
+      list.warn("joints", i, key + "/law", text_of(drive.law.at(0.0).value),
+                "the law jumps at the start: the joint stands at " + text_of(now), "let it start there");
+  }
+  for (std::size_t k = 0; k < j.forces.size(); ++k) {
+    const std::string key = "forces/" + std::to_string(k);
+    check_coordinate(list, i, key + "/coordinate", j.forces[k].coordinate);
+    list.check_law("joints", i, key + "/effort", j.forces[k].effort, false);
+  }
+}
+
+/// Both sides are places and not the same one.
+template <class Pair>
+bool check_pair(ProblemList& list, const char* section, std::size_t i, const Pair& p) {
+  bool sound = list.check_place(section, i, "first", p.first.to, true);
+  sound = list.check_place(section, i, "second", p.second.to, true) && sound;
+  const auto plain = [](const std::string& name) { return name == "ground" ? std::string() : name; };
+  if (!sound || plain(p.first.to) != plain(p.second.to)) return sound;
+  list.add(section, i, "second", p.second.to.empty() ? "ground" : p.second.to, "first and second are the same thing");
+  return false;
+}
+
+}  // namespace
+
+void check_joints(ProblemList& list) {
+  for (std::size_t i = 0; i < list.scene.joints.size(); ++i) {
+    const Joint& j = list.scene.joints[i];
+    const bool is_screw = j.kind == JointKind::screw;
+    if (is_screw && j.pitch == 0.0) list.add("joints", i, "pitch", "", "a screw needs a pitch other than 0");
+    if (!is_screw && j.pitch != 0.0) list.add("joints", i, "pitch", text_of(j.pitch), "only a screw has a pitch");
+    std::optional<Frame> H;
+    if (check_pair(list, "joints", i, j)) {
+      const auto a = list.poses.of(j.first), b = list.poses.of(j.second);
+      if (a && b) H = motion::relative(*a, *b);
+    }
+    if (H)
+      if (const std::string fault = closure_fault(j.kind, *H, list.size); !fault.empty()) {
+        list.add("joints", i, "", "", fault, "give one position (and axis) instead, or move one of the two");
+        H.reset();
+      }
+    check_drives(list, i, H ? &*H : nullptr);
+  }
+}
+
+void check_couplings(ProblemList& list) {
+  for (std::size_t i = 0; i < list.scene.springs.size(); ++i) {
+    const Spring& s = list.scene.springs[i];
+    if (check_pair(list, "springs", i, s)) {
+      const auto a = list.poses.of(s.first), b = list.poses.of(s.second);
+      if (a && b && norm_of(b->x - a->x) <= 1e-12 * list.size)
+        list.add("springs", i, "second", "", "the two ends coincide at the start: the spring has no direction", "use a bushing");
+    }
+    if (s.stiffness == 0.0 && s.damping == 0.0) list.warn("springs", i, "", "", "without stiffness and damping it does nothing");
+  }
+  for (std::size_t i = 0; i < list.scene.bushings.size(); ++i) {
+    const Bushing& b = list.scene.bushings[i];
+    check_pair(list, "bushings", i, b);
+    if (const std::string fault = definite_fault(b.stiffness, Definite::semi); !fault.empty())
+      list.add("bushings", i, "stiffness", "", "the stiffness " + fault);
+    if (const std::string fault = definite_fault(b.damping, Definite::semi); !fault.empty())
+      list.add("bushings", i, "damping", "", "the damping " + fault);
+    if (is_zero(b.stiffness) && is_zero(b.damping)) list.warn("bushings", i, "", "", "without stiffness and damping it does nothing");
+  }
+}
+
+void check_loads(ProblemList& list) {
+  const Scene& s = list.scene;
+  for (std::size_t i = 0; i < s.point_loads.size(); ++i) {
+    const PointLoad& l = s.point_loads[i];
+    list.check_place("point_loads", i, "at", l.at.to, false);
+    list.check_law("point_loads", i, "law", l.law, false);
+    if (is_zero(l.force) && is_zero(l.moment)) list.warn("point_loads", i, "", "", "the load has neither force nor moment");
+    const auto body = list.body_of(l.at.to);
+    if (body && s.bodies[body->index].is_point_mass && !is_zero(l.moment))
+      list.add("point_loads", i, "moment", "", "a point mass takes no moment");
+  }
+  for (std::size_t i = 0; i < s.line_loads.size(); ++i) {
+    const LineLoad& l = s.line_loads[i];
+    list.check_reference("line_loads", i, "beam", l.beam, list.beams, "beam");
+    list.check_law("line_loads", i, "law", l.law, false);
+    if (is_zero(l.force) && is_zero(l.moment)) list.warn("line_loads", i, "", "", "the load has neither force nor moment");
+  }
+  list.check_law("gravity", 0, "law", s.gravity_law, false);
+}
+
+namespace {
+
+void check_motion(ProblemList& list, std::size_t i, std::set<std::string>& taken) {
+  const PrescribedMotion& m = list.scene.motions[i];
+  list.check_place("motions", i, "at", m.at.to, false);
+  const auto take = [&](const char* key) {
+    if (!taken.insert(m.at.to + "/" + key).second)
+      list.add("motions", i, key, m.at.to, "this motion is prescribed twice for the same thing");
+  };
+  const auto jump = [&](const std::string& key, const laws::Law& law) {
+    if (!m.is_rate && list.is_dynamic && std::abs(law.at(0.0).value) > gap_tolerance * list.size)
+      list.warn("motions", i, key, text_of(law.at(0.0).value), "the law jumps at the start: motions count from the initial pose", "let it start at 0");
+  };
+  const char* const names[3] = {"x", "y", "z"};
+  bool any = false;
+  for (int k = 0; k < 3; ++k)
+    if (m.displacement[k]) {
+      any = true;
+      take(names[k]);
+      list.check_law("motions", i, names[k], *m.displacement[k], true);
+      jump(names[k], *m.displacement[k]);
+    }
+  if (m.rotation_axis || m.hold_rotation) {
+    any = true;
+    take("rotation");
+  }
+  if (m.rotation_axis) {
+    if (is_zero(*m.rotation_axis)) list.add("motions", i, "rotation/axis", "0, 0, 0", "an axis has a length other than 0");
+    list.check_law("motions", i, "rotation/angle", m.angle, true);
+    jump("rotation/angle", m.angle);
+  }
+  if (!any) list.add("motions", i, "", "", "prescribes nothing", "give x, y, z or rotation");
+}
+
+}  // namespace
+
+void check_motions(ProblemList& list) {
+  const Scene& s = list.scene;
+  std::set<std::string> taken, started;
+  for (std::size_t i = 0; i < s.motions.size(); ++i) check_motion(list, i, taken);
+  for (std::size_t i = 0; i < s.initial_velocities.size(); ++i) {
+    const InitialVelocity& v = s.initial_velocities[i];
+    const auto thing = list.poses.find(v.of);
+    if (!thing || thing->kind != ThingKind::beam) list.check_place("initial_velocities", i, "of", v.of, false);
+    if (!started.insert(v.of).second) list.add("initial_velocities", i, "of", v.of, "this thing has an initial velocity already");
+    if (!list.is_dynamic) list.warn("initial_velocities", i, "", "", "the analysis is static: an initial velocity does nothing");
+    if (thing && thing->kind == ThingKind::body && s.bodies[thing->index].is_point_mass && !is_zero(v.angular_velocity))
+      list.warn("initial_velocities", i, "angular_velocity", "", "a point mass does not turn");
+  }
+}
+
+}  // namespace bough::scene

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "bough/scene/nearest_name.hpp"
+#include "problem_list.hpp"
+
+namespace bough::scene {
+namespace {
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string r;
+  for (const std::string& w : words) r += (r.empty() ? "" : ", ") + w;
+  return r;
+}
+
+void check_sensor(ProblemList& list, std::size_t i) {
+  const Sensor& s = list.scene.sensors[i];
+  switch (s.kind) {
+    case SensorKind::position:
+    case SensorKind::rotation:
+    case SensorKind::quaternion:
+    case SensorKind::velocity:
+    case SensorKind::acceleration:
+      if (s.beam.empty()) {
+        list.check_place("sensors", i, "at", s.at.to, true);
+        return;
+      }
+      break;
+    case SensorKind::section_force:
+    case SensorKind::section_strain: break;
+    case SensorKind::joint_reaction: list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint"); return;
+    case SensorKind::joint_angle:
+    case SensorKind::joint_displacement:
+    case SensorKind::joint_rate: {
+      if (!list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint")) return;
+      const auto thing = list.poses.find(s.joint);
+      const JointKind kind = list.scene.joints[thing->index].kind;
+      const auto& known = coordinates_of(kind);
+      const std::string wanted = s.kind == SensorKind::joint_displacement ? "displacement" : "angle";
+      const bool fits = s.kind == SensorKind::joint_rate ? !known.empty() : std::find(known.begin(), known.end(), wanted) != known.end();
+      if (!fits)
+        list.add("sensors", i, "joint", s.joint,
+                 "a " + to_string(kind) + " joint has no " + (s.kind == SensorKind::joint_rate ? "coordinate whose rate could be taken" : wanted));
+      return;
+    }
+    default: return;
+  }
+  list.check_reference("sensors", i, "beam", s.beam, list.beams, "beam");
+  if (!(s.station >= 0.0 && s.station <= 1.0))
+    list.add("sensors", i, "station", text_of(s.station), "a station is a fraction of the beam's length, 0 to 1");
+}
+
+void check_expected(ProblemList& list, std::size_t i) {
+  const Expected& e = list.scene.expected[i];
+  if (e.time && *e.time > list.last_time * (1.0 + 1e-12))
+    list.add("expected", i, "time", text_of(*e.time), "the analysis ends at " + text_of(list.last_time));
+  const std::size_t dot_at = e.quantity.find('.');
+  const std::string name = e.quantity.substr(0, dot_at);
+  if (!list.check_reference("expected", i, "quantity", name, list.sensors, "sensor")) return;
+  for (const Sensor& s : list.scene.sensors) {
+    if (s.name != name) continue;
+    const auto& known = components_of(s.kind);
+    if (dot_at == std::string::npos) {
+      if (!known.empty())
+        list.add("expected", i, "quantity", e.quantity, "this sensor has the components " + list_of(known), "write \"" + name + "." + known[0] + "\"");
+      return;
+    }
+    const std::string component = e.quantity.substr(dot_at + 1);
+    if (std::find(known.begin(), known.end(), component) != known.end()) return;
+    const std::string near = nearest_name(component, known);
+    list.add("expected", i, "quantity", e.quantity,
+             known.empty() ? "this sensor is one number without components" : "this sensor has the components " + list_of(known),
+             known.empty() ? "write \"" + name + "\"" : near.empty() ? "" : "did you mean \"" + name + "." + near + "\"?");
+    return;
+  }
+}
+
+/// Sets of things that are joined, by union and find over the places; the last one is the ground.
+class Groups {
+ public:
+  explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Number of a place: nodes, then bodies, then beams, then the ground.
+std::size_t place_number(const ProblemList& list, const std::string& name) {
+  const Scene& s = list.scene;
+  const std::size_t ground = s.nodes.size() + s.bodies.size() + s.beams.size();
+  auto thing = list.poses.find(name);
+  if (!thing && name.rfind('.') != std::string::npos) thing = list.poses.find(name.substr(0, name.rfind('.')));
+  if (!thing) return ground;
+  switch (thing->kind) {
+    case ThingKind::node: return thing->index;
+    case ThingKind::body: return s.nodes.size() + thing->index;
+    case ThingKind::beam: return s.nodes.size() + s.bodies.size() + thing->index;
+    default: return ground;
+  }
+}
+
+}  // namespace
+
+void check_sensors(ProblemList& list) {
+  for (std::size_t i = 0; i < list.scene.sensors.size(); ++i) check_sensor(list, i);
+  for (std::size_t i = 0; i < list.scene.expected.size(); ++i) check_expected(list, i);
+}
+
+void check_analysis(ProblemList& list) {
+  const Scene& s = list.scene;
+  const Analysis& a = s.analysis;
+  if (s.nodes.empty() && s.bodies.empty() && list.defective.empty())
+    list.add("scene", 0, "", "", "nothing here can move", "add nodes and beams, or bodies");
+  if (!list.is_dynamic) return;
+  if (!(a.end_time > 0.0)) list.add("analysis", 0, "end_time", text_of(a.end_time), "has to be above 0");
+  if (!(a.step_size > 0.0)) list.add("analysis", 0, "step_size", text_of(a.step_size), "has to be above 0");
+  if (a.step_size > a.end_time) list.add("analysis", 0, "step_size", text_of(a.step_size), "the step is longer than the whole analysis");
+  if (a.step_size > 0.0 && a.end_time / a.step_size > 1e8)
+    list.warn("analysis", 0, "step_size", text_of(a.step_size), "this makes " + text_of(a.end_time / a.step_size) + " steps");
+  if (a.spectral_radius == 1.0 && (!s.joints.empty() || !s.motions.empty()))
+    list.add("analysis", 0, "spectral_radius", "1", "with joints or prescribed motions the spectral radius has to be below 1",
+             "the constraint forces would oscillate undamped; 0.9 is nearly free of damping");
+  const bool has_mass = std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.mass > 0.0 || !(b.inertia(0, 0) == 0.0); }) ||
+                        std::any_of(s.beams.begin(), s.beams.end(), [&](const Beam& b) {
+                          return std::any_of(s.sections.begin(), s.sections.end(), [&](const Section& c) { return c.name == b.section && !is_zero(c.mass); });
+                        });
+  if (!has_mass && list.defective.empty() && !(s.nodes.empty() && s.bodies.empty()))
+    list.add("analysis", 0, "kind", "dynamic", "nothing in the scene has mass", "give the material a density, the section a mass or the bodies a mass");
+}
+
+void check_holding(ProblemList& list) {
+  const Scene& s = list.scene;
+  const std::size_t ground = s.nodes.size() + s.bodies.size() + s.beams.size();
+  Groups groups(ground + 1);
+  std::vector<char> used(ground + 1, 0);
+  const auto join = [&](const std::string& a, const std::string& b, bool holds) {
+    const std::size_t i = place_number(list, a), j = place_number(list, b);
+    groups.join(i, j);
+    if (holds) used[i] = used[j] = 1;
+  };
+  for (const Beam& b : s.beams) {
+    join(b.name, b.start, true);
+    join(b.name, b.end, true);
+  }
+  for (const Joint& j : s.joints) join(j.first.to, j.second.to, true);
+  for (const Spring& p : s.springs) join(p.first.to, p.second.to, false);
+  for (const Bushing& b : s.bushings) join(b.first.to, b.second.to, true);
+  for (const PrescribedMotion& m : s.motions) join(m.at.to, "ground", true);
+  for (std::size_t i = 0; i < s.nodes.size(); ++i)
+    if (used[i] == 0)
+      list.add("nodes", i, "name", s.nodes[i].name, "no beam, joint, bushing or prescribed motion takes this node, so nothing holds it and it has no mass",
+               "remove it, or use a fixed frame where only a place is meant");
+  if (list.is_dynamic) return;
+  std::vector<char> told(ground + 1, 0);
+  for (std::size_t i = 0; i < s.nodes.size() + s.bodies.size(); ++i) {
+    const std::size_t g = groups.find(i);
+    if (g == groups.find(ground) || told[g] != 0) continue;
+    told[g] = 1;
+    const bool is_node = i < s.nodes.size();
+    const std::size_t k = is_node ? i : i - s.nodes.size();
+    list.warn(is_node ? "nodes" : "bodies", k, "name", is_node ? s.nodes[k].name : s.bodies[k].name,
+              "nothing joins this and what hangs on it to the ground, and the analysis is static");
+  }
+}
+
+}  // namespace bough::scene
