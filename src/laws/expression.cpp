@@ -46,25 +46,34 @@ class SwitchFinder {
   void search(double t_begin, double t_end) {
     std::vector<Interval> boxes{{t_begin, t_end}};
     const double least = 1e-14 * (t_end - t_begin);
+    std::vector<Interval> unsettled;
     for (int work = 0; !boxes.empty(); ++work) {
       const Interval box = boxes.back();
       boxes.pop_back();
+      if (settle(box)) continue;
       const double middle = 0.5 * (box.lo + box.hi);
       const bool is_smallest = !(box.hi - box.lo > least) || !(middle > box.lo && middle < box.hi);
-      if (visit(box) || is_smallest || work >= max_work) continue;
-      boxes.push_back({middle, box.hi});
-      boxes.push_back({box.lo, middle});
+      if (is_smallest || work >= max_work || unsettled.size() > max_unsettled) {
+        unsettled.push_back(box);
+      } else {
+        boxes.push_back({middle, box.hi});
+        boxes.push_back({box.lo, middle});
+      }
     }
+    // A few: roots of higher order, and jumps of g. Many: g is round-off around zero, and so are its changes of sign.
+    if (unsettled.size() > max_unsettled) return;
+    for (const Interval& box : unsettled) cross(box.lo, box.hi);
   }
 
  private:
-  static constexpr int max_work = 1 << 18;  // boxes; far above what 10^4 roots need
+  static constexpr int max_work = 1 << 20;  // boxes; a root needs a handful
+  static constexpr std::size_t max_unsettled = 1000;
 
   double argument(double t) const { return eval_switch_argument(program_, index_, t).value; }
   double argument_rate(double t) const { return eval_switch_argument(program_, index_, t).rate; }
 
-  /// True where the box is settled. One that is not has been looked at for a change of sign between its ends already.
-  bool visit(const Interval& box) {
+  /// True where all roots in the box are found.
+  bool settle(const Interval& box) {
     const Jet<Interval> g = eval_switch_range(program_, index_, box);
     if (!g.value.holds_zero()) return true;
     if (g.value.lo >= 0.0 || g.value.hi <= 0.0) {  // touches zero at most; a crossing can only sit at an end
@@ -82,7 +91,6 @@ class SwitchFinder {
       cross(extremum, box.hi);
       return true;
     }
-    cross(box.lo, box.hi);
     return false;
   }
 

@@ -143,6 +143,11 @@ TEST(Expression, switch_that_only_touches_zero_is_no_break) {
   EXPECT_TRUE(make_expression("abs(1 + sin(t))").breakpoints(0.0, 4.0).empty());
 }
 
+TEST(Expression, switch_at_round_off_over_a_stretch_is_no_break) {
+  EXPECT_TRUE(make_expression("abs(sin(t) + 1 - 1 - sin(t))").breakpoints(0.0, 10.0).empty());
+  EXPECT_EQ(make_expression("abs(t*t*t)").breakpoints(-1.0, 2.0).size(), 1U);  // root of third order
+}
+
 TEST(Expression, all_breaks_of_a_square_wave_are_found_and_its_sides_differ) {
   const Law law = make_expression("sign(sin(50*t))");
   const Times breaks = law.breakpoints(0.01, 20.0);
