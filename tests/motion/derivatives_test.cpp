@@ -107,7 +107,8 @@ TEST(Derivatives, in_time_of_log_exp_are_those_of_the_path) {
       EXPECT_NEAR(back[i].c[0], d[i], 16 * test::epsilon) << "phi = " << phi;
       EXPECT_NEAR(back[i].c[1], v[i], 64 * test::epsilon) << "phi = " << phi;
       // Each order passes through all lower ones: some tens of roundings.
-      for (int k = 2; k <= 4; ++k) EXPECT_NEAR(back[i].c[k], 0.0, 128 * test::epsilon) << "phi = " << phi << ", order " << k;
+      for (int k = 2; k <= 4; ++k)
+        EXPECT_NEAR(back[i].c[k], 0.0, 128 * test::epsilon) << "phi = " << phi << ", order " << k;
     }
   }
 }
