@@ -1,0 +1,50 @@
+#pragma once
+/// A file that appears under its name only when it is whole and on disk.
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace bough::io {
+
+/// Writes to `<name>.partial` beside the final name; `commit` makes it durable and renames it. A former file of the final name stays
+/// untouched until then. Without `commit` the destructor removes the partial file; after a crash the next writer takes it over.
+/// Every failure (no space, no permission, a second writer) is a std::runtime_error that names the file and the system's reason.
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::filesystem::path final_path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Appends to a buffer that is handed to the system when it is large.
+  void write(std::string_view bytes);
+
+  /// Hands the buffer to the system. On failure the file is cut back to the end of the last flush that went through and the buffer is
+  /// dropped, so that what is in the file is always a sequence of whole flushes.
+  void flush();
+
+  /// Flush, fsync of the file, rename, fsync of the directory. On failure the final name keeps its former content.
+  void commit();
+
+  /// False after `commit`, and where a failed write could not be undone.
+  [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+  [[nodiscard]] std::size_t buffered() const { return buffer_.size(); }
+  [[nodiscard]] std::size_t bytes_flushed() const { return flushed_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return final_path_; }
+
+ private:
+  [[noreturn]] void fail(int error) const;
+
+  std::filesystem::path final_path_, partial_path_;
+  std::string buffer_;
+  std::size_t flushed_ = 0;
+  int descriptor_ = -1;
+};
+
+/// Writes a whole text in one go through an `AtomicFile`.
+void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// Makes the entries of a directory (a rename, a removal) durable; file systems that cannot do so are let pass.
+void sync_directory(const std::filesystem::path& directory);
+
+}  // namespace bough::io

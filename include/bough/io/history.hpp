@@ -1,0 +1,44 @@
+#pragma once
+/// `history.csv`: header `time,step_size,iterations,<column>...`, the initial state, then rows as they are recorded.
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bough/io/atomic_file.hpp"
+#include "bough/results/records.hpp"
+
+namespace bough::io {
+
+/// Writes rows as they come. The rows that were handed to the system can be kept after a failure: a failed write loses the rows since the
+/// last flush (at most half a second or 64 KiB) and nothing else.
+class HistoryWriter {
+ public:
+  HistoryWriter(const std::filesystem::path& path, const results::HistoryHeader& header);
+  void row(const results::HistoryRow& row);
+  void commit() { file_.commit(); }
+  [[nodiscard]] bool can_commit() const { return file_.is_open(); }
+  [[nodiscard]] long rows() const { return rows_; }
+
+ private:
+  AtomicFile file_;
+  std::size_t num_columns_;
+  std::string line_;
+  std::chrono::steady_clock::time_point flushed_at_;
+  long rows_ = 0;
+};
+
+struct History {
+  results::HistoryHeader header;
+  std::vector<results::HistoryRow> rows;
+};
+
+/// Reads a history back, bit for bit. Throws std::runtime_error naming file, line and what is wrong.
+History read_history(const std::filesystem::path& path);
+
+/// One field of a CSV line, quoted where it must be.
+std::string csv_field(std::string_view text);
+/// The fields of one CSV line. False where a quote is not closed.
+[[nodiscard]] bool split_csv_line(std::string_view line, std::vector<std::string>& fields);
+
+}  // namespace bough::io

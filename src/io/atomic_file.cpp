@@ -1,0 +1,117 @@
+#include "bough/io/atomic_file.hpp"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <stdexcept>
+#include <sys/file.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace bough::io {
+namespace {
+
+constexpr std::size_t flush_at = std::size_t{1} << 16;
+
+std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
+
+/// Writes all bytes; returns 0 or the error.
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    if (written == 0) return EIO;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+int sync_descriptor(int descriptor) {
+  while (::fsync(descriptor) != 0) {
+    if (errno == EINTR) continue;
+    return errno == EINVAL || errno == ENOTSUP ? 0 : errno;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void sync_directory(const std::filesystem::path& directory) {
+  const std::filesystem::path& name = directory.empty() ? std::filesystem::path(".") : directory;
+  const int descriptor = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int error = descriptor < 0 ? errno : sync_descriptor(descriptor);
+  if (descriptor >= 0) ::close(descriptor);
+  if (error != 0) throw std::runtime_error("cannot make " + name.string() + " durable: " + reason(error));
+}
+
+AtomicFile::AtomicFile(std::filesystem::path final_path) : final_path_(std::move(final_path)), partial_path_(final_path_) {
+  partial_path_ += ".partial";
+  // Not truncated before it is locked: another run may be writing it.
+  const int descriptor = ::open(partial_path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (descriptor < 0) fail(errno);
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(descriptor);
+    throw std::runtime_error("cannot write " + final_path_.string() + ": another run is writing it");
+  }
+  if (::ftruncate(descriptor, 0) != 0) {
+    const int error = errno;
+    ::close(descriptor);
+    fail(error);
+  }
+  descriptor_ = descriptor;
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ < 0) return;
+  ::unlink(partial_path_.c_str());
+  ::close(descriptor_);
+}
+
+void AtomicFile::fail(int error) const {
+  throw std::runtime_error("cannot write " + final_path_.string() + ": " + reason(error));
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  buffer_ += bytes;
+  if (buffer_.size() >= flush_at) flush();
+}
+
+void AtomicFile::flush() {
+  if (descriptor_ < 0) throw std::logic_error("AtomicFile: written after commit");
+  if (buffer_.empty()) return;
+  const int error = write_all(descriptor_, buffer_);
+  const std::size_t size = buffer_.size();
+  buffer_.clear();
+  if (error == 0) {
+    flushed_ += size;
+    return;
+  }
+  const bool cut = ::ftruncate(descriptor_, static_cast<off_t>(flushed_)) == 0 &&
+                   ::lseek(descriptor_, static_cast<off_t>(flushed_), SEEK_SET) >= 0;
+  if (!cut) {  // what is in the file is not known to be whole: give it up
+    ::unlink(partial_path_.c_str());
+    ::close(descriptor_);
+    descriptor_ = -1;
+  }
+  fail(error);
+}
+
+void AtomicFile::commit() {
+  flush();
+  if (const int error = sync_descriptor(descriptor_); error != 0) fail(error);
+  if (::rename(partial_path_.c_str(), final_path_.c_str()) != 0) fail(errno);
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  if (::close(descriptor) != 0 && errno != EINTR) fail(errno);
+  sync_directory(final_path_.parent_path());
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace bough::io

@@ -1,0 +1,134 @@
+#include "bough/io/history.hpp"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "bough/io/number_text.hpp"
+
+namespace bough::io {
+namespace {
+
+const char* const fixed_columns[] = {"time", "step_size", "iterations"};
+constexpr std::chrono::milliseconds flush_interval{500};
+
+[[noreturn]] void fail_at(const std::filesystem::path& path, std::size_t line, const std::string& what) {
+  throw std::runtime_error(path.string() + ":" + std::to_string(line) + ": " + what);
+}
+
+results::HistoryHeader read_header(const std::filesystem::path& path, std::string_view line) {
+  std::vector<std::string> fields;
+  bool good = split_csv_line(line, fields) && fields.size() >= 3;
+  for (std::size_t k = 0; good && k < 3; ++k) good = fields[k] == fixed_columns[k];
+  if (!good) fail_at(path, 1, "not a history: the header must begin with time,step_size,iterations");
+  return {{fields.begin() + 3, fields.end()}};
+}
+
+results::HistoryRow read_row(const std::filesystem::path& path, std::size_t number, std::string_view line, std::size_t num_columns) {
+  results::HistoryRow row;
+  row.values.reserve(num_columns);
+  std::size_t field = 0;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    double value = 0.0;
+    if (!read_number(line.substr(0, comma), value)) {
+      fail_at(path, number, "field " + std::to_string(field + 1) + " is not a number: '" + std::string(line.substr(0, comma)) + "'");
+    }
+    if (field == 0) row.time = value;
+    if (field == 1) row.step_size = value;
+    if (field == 2) {
+      if (!(value >= 0.0 && value < 2e9)) fail_at(path, number, "iterations must be a count");
+      row.iterations = static_cast<int>(value);
+    }
+    if (field > 2) row.values.push_back(value);
+    ++field;
+    if (comma == std::string_view::npos) break;
+    line.remove_prefix(comma + 1);
+  }
+  if (field != num_columns + 3) {
+    fail_at(path, number, std::to_string(field) + " fields where the header has " + std::to_string(num_columns + 3));
+  }
+  return row;
+}
+
+}  // namespace
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c == '\n' || c == '\r' ? ' ' : c;  // one record, one line
+  }
+  return quoted + '"';
+}
+
+bool split_csv_line(std::string_view line, std::vector<std::string>& fields) {
+  fields.assign(1, "");
+  bool quoted = false;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const char c = line[k];
+    if (quoted && c == '"' && k + 1 < line.size() && line[k + 1] == '"') {
+      fields.back() += '"';
+      ++k;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  return !quoted;
+}
+
+HistoryWriter::HistoryWriter(const std::filesystem::path& path, const results::HistoryHeader& header)
+    : file_(path), num_columns_(header.columns.size()), flushed_at_(std::chrono::steady_clock::now()) {
+  line_ = "time,step_size,iterations";
+  for (const std::string& column : header.columns) line_ += ',' + csv_field(column);
+  line_ += '\n';
+  file_.write(line_);
+  file_.flush();
+}
+
+void HistoryWriter::row(const results::HistoryRow& row) {
+  if (row.values.size() != num_columns_) throw std::logic_error("HistoryWriter: a row must have one value per column");
+  line_.clear();
+  append_number(line_, row.time);
+  line_ += ',';
+  append_number(line_, row.step_size);
+  line_ += ',';
+  append_number(line_, static_cast<long long>(row.iterations));
+  for (const double value : row.values) {
+    line_ += ',';
+    append_number(line_, value);
+  }
+  line_ += '\n';
+  file_.write(line_);
+  ++rows_;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - flushed_at_ < flush_interval) return;
+  file_.flush();
+  flushed_at_ = now;
+}
+
+History read_history(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  History history;
+  std::string line;
+  std::size_t number = 0;
+  while (std::getline(file, line)) {
+    ++number;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (number == 1) {
+      history.header = read_header(path, line);
+    } else {
+      history.rows.push_back(read_row(path, number, line, history.header.columns.size()));
+    }
+  }
+  if (file.bad()) throw std::runtime_error("cannot read " + path.string());
+  if (number == 0) fail_at(path, 1, "empty file");
+  return history;
+}
+
+}  // namespace bough::io

@@ -1,0 +1,201 @@
+#include "bough/io/summary.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "bough/io/columns.hpp"
+#include "bough/io/json_text.hpp"
+#include "bough/io/json_value.hpp"
+#include "bough/io/number_text.hpp"
+
+namespace bough::io {
+namespace {
+
+long long wide(long count) { return static_cast<long long>(count); }
+
+void write_steps(JsonText& json, const results::Summary& summary) {
+  json.key("steps");
+  json.begin_object();
+  json.member("accepted", wide(summary.steps.accepted));
+  json.member("rejected", wide(summary.steps.rejected));
+  json.member("newton_iterations", wide(summary.steps.newton_iterations));
+  json.member("factorizations", wide(summary.steps.factorizations));
+  json.end_object();
+  json.key("time_s");
+  json.begin_object();
+  json.member("total", summary.times.total);
+  json.member("assemble", summary.times.assemble);
+  json.member("factor", summary.times.factor);
+  json.member("solve", summary.times.solve);
+  json.member("update", summary.times.update);
+  json.member("output", summary.times.output);
+  json.end_object();
+  json.member("memory_peak_bytes", static_cast<long long>(summary.memory_peak_bytes));
+}
+
+void write_checks(JsonText& json, const results::Checks& checks) {
+  json.key("checks");
+  json.begin_object();
+  json.member("energy_balance", checks.energy_balance);
+  json.member("numerical_dissipation", checks.numerical_dissipation);
+  json.member("energy_scale", checks.energy_scale);
+  json.member("momentum_balance", checks.momentum_balance);
+  json.member("constraint_violation_position", checks.constraint_violation_position);
+  json.member("constraint_violation_velocity", checks.constraint_violation_velocity);
+  json.member("linear_backward_error_max", checks.linear_backward_error_max);
+  json.member("round_off_floor_reached", checks.round_off_floor_reached);
+  json.end_object();
+}
+
+/// Final values: {sensor: number} or {sensor: {component: number}}.
+void write_sensors(JsonText& json, const results::Summary& summary) {
+  const std::vector<std::string>& columns = summary.header.columns;
+  json.key("sensors");
+  json.begin_object();
+  std::vector<std::string> done;
+  for (std::size_t c = 0; c < columns.size() && c < summary.final_values.size(); ++c) {
+    const ColumnName name = split_column(columns[c]);
+    if (name.component.empty()) {
+      json.member(name.sensor, summary.final_values[c]);
+      continue;
+    }
+    if (std::find(done.begin(), done.end(), name.sensor) != done.end()) continue;
+    done.push_back(name.sensor);
+    json.key(name.sensor);
+    json.begin_object();
+    for (std::size_t k = c; k < columns.size() && k < summary.final_values.size(); ++k) {
+      const ColumnName other = split_column(columns[k]);
+      if (other.sensor == name.sensor && !other.component.empty()) json.member(other.component, summary.final_values[k]);
+    }
+    json.end_object();
+  }
+  json.end_object();
+}
+
+void write_expected(JsonText& json, const std::vector<results::ExpectedResult>& expected) {
+  json.key("expected");
+  json.begin_object();
+  std::vector<std::string> names;
+  for (const results::ExpectedResult& figure : expected) {
+    const auto count = std::count(names.begin(), names.end(), figure.name);
+    names.push_back(figure.name);
+    json.key(count == 0 ? figure.name : figure.name + " #" + std::to_string(count + 1));
+    json.begin_object();
+    json.member("value", figure.value);
+    json.member("reference", figure.reference);
+    json.member("tolerance", figure.tolerance);
+    json.member("holds", figure.holds);
+    if (!figure.source.empty()) json.member("source", figure.source);
+    json.end_object();
+  }
+  json.end_object();
+}
+
+std::string text_of(const JsonValue& object, std::string_view key) {
+  const JsonValue* value = object.find(key);
+  return value != nullptr && value->is(JsonKind::string) ? value->text : std::string();
+}
+
+/// A number, also where it is written as "nan", "inf" or "-inf"; false where it is neither.
+bool number_of(const JsonValue& value, double& number) {
+  if (value.is(JsonKind::string)) return read_number(value.text, number);
+  number = value.number;
+  return value.is(JsonKind::number);
+}
+
+long count_of(const JsonValue& object, std::string_view key) {
+  const JsonValue* value = object.find(key);
+  return value != nullptr && value->is(JsonKind::number) ? static_cast<long>(value->number) : 0;
+}
+
+void read_expected(const JsonValue& list, SummaryFile& summary) {
+  for (std::size_t k = 0; k < list.items.size() && k < list.keys.size(); ++k) {
+    const JsonValue& item = list.items[k];
+    results::ExpectedResult figure;
+    figure.name = list.keys[k];
+    if (const JsonValue* v = item.find("value"); v != nullptr) (void)number_of(*v, figure.value);
+    if (const JsonValue* v = item.find("reference"); v != nullptr) (void)number_of(*v, figure.reference);
+    if (const JsonValue* v = item.find("tolerance"); v != nullptr) (void)number_of(*v, figure.tolerance);
+    if (const JsonValue* v = item.find("holds"); v != nullptr) figure.holds = v->truth;
+    figure.source = text_of(item, "source");
+    summary.expected.push_back(std::move(figure));
+  }
+}
+
+}  // namespace
+
+std::string_view status_text(results::RunStatus status) {
+  switch (status) {
+    case results::RunStatus::ok: return "ok";
+    case results::RunStatus::failed: return "failed";
+    case results::RunStatus::interrupted: return "interrupted";
+  }
+  return "failed";
+}
+
+std::string summary_text(const results::Summary& summary, std::string_view version) {
+  JsonText json;
+  json.begin_object();
+  json.member("status", status_text(summary.status));
+  json.member("cause", std::string_view(summary.cause));
+  json.member("scene", std::string_view(summary.scene));
+  json.member("title", std::string_view(summary.title));
+  json.member("version", version);
+  json.member("threads", static_cast<long long>(summary.threads));
+  json.key("options");
+  json.begin_object();
+  for (const auto& [pointer, value] : summary.options) {
+    json.key("/" + pointer);
+    json.raw(value);
+  }
+  json.end_object();
+  write_steps(json, summary);
+  write_checks(json, summary.checks);
+  json.key("notes");
+  json.begin_array();
+  for (const std::string& note : summary.notes) json.value(std::string_view(note));
+  json.end_array();
+  json.key("solver");
+  json.begin_object();
+  for (const auto& [name, value] : summary.solver) json.member(name, value);
+  json.end_object();
+  write_sensors(json, summary);
+  write_expected(json, summary.expected);
+  json.end_object();
+  return json.text();
+}
+
+SummaryFile read_summary(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::vector<JsonFault> faults;
+  const std::optional<JsonValue> json = parse_json(text, source_file, faults);
+  if (!json || !faults.empty() || !json->is(JsonKind::object)) throw std::runtime_error(path.string() + ": not a JSON object");
+  SummaryFile summary;
+  summary.status = text_of(*json, "status");
+  if (summary.status.empty()) throw std::runtime_error(path.string() + ": not the summary of a run: it has no status");
+  summary.cause = text_of(*json, "cause");
+  summary.scene = text_of(*json, "scene");
+  summary.title = text_of(*json, "title");
+  summary.version = text_of(*json, "version");
+  if (const JsonValue* steps = json->find("steps"); steps != nullptr) {
+    summary.accepted = count_of(*steps, "accepted");
+    summary.rejected = count_of(*steps, "rejected");
+    summary.newton_iterations = count_of(*steps, "newton_iterations");
+  }
+  if (const JsonValue* checks = json->find("checks"); checks != nullptr) {
+    for (std::size_t k = 0; k < checks->items.size() && k < checks->keys.size(); ++k) {
+      double value = 0.0;
+      if (number_of(checks->items[k], value)) summary.checks.emplace_back(checks->keys[k], value);
+    }
+  }
+  if (const JsonValue* notes = json->find("notes"); notes != nullptr)
+    for (const JsonValue& note : notes->items) summary.notes.push_back(note.text);
+  if (const JsonValue* expected = json->find("expected"); expected != nullptr) read_expected(*expected, summary);
+  return summary;
+}
+
+}  // namespace bough::io

@@ -1,0 +1,343 @@
+#include "bough/results/observe.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bough::results {
+
+using elements::Field;
+using elements::Measures;
+using elements::Port;
+using elements::PortMotion;
+using motion::Frame;
+using motion::Mat3;
+using motion::Vec3;
+using motion::Vec6;
+
+namespace {
+
+void add(Measures& sum, const Measures& m) {
+  sum.kinetic += m.kinetic;
+  sum.strain += m.strain;
+  sum.potential += m.potential;
+  sum.work_rate += m.work_rate;
+  sum.dissipation_rate += m.dissipation_rate;
+  sum.momentum += m.momentum;
+  sum.load += m.load;
+}
+
+Vec3<double> position_of(const step::State& state, const Port& port) {
+  if (port.node == elements::ground) return port.offset.x;
+  const elements::NodeMotion& n = state.nodes[static_cast<std::size_t>(port.node)];
+  return n.x.hi + n.x.lo + (port.has_offset ? n.R * port.offset.x : Vec3<double>::zero());
+}
+
+/// A material point of a beam: section pose, twist, acceleration, strain.
+struct BeamPoint {
+  Frame<double> pose;  ///< position in the inertial frame
+  Vec6<double> v, a, strain;
+};
+
+/// Wrenches of a beam element and its line loads on its first and last node, in section axes; out-of-element ends see (-first, last) as the
+/// section resultants: nodal equilibrium, one order more accurate than the strains.
+template <class E>
+void eval_end_wrenches(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f, Vec6<double>& first,
+                       Vec6<double>& last) {
+  constexpr int N = E::num_ports;
+  const motion::Vec3Pair anchor = elements::anchor_of(e, f.nodes);
+  PortMotion<double> p[N];
+  for (int i = 0; i < N; ++i) p[i] = elements::eval_port(e.ports[i], f.nodes, anchor);
+  double out[6 * N];
+  elements::eval_residual(e, p, static_cast<const double*>(nullptr), f.around, out);
+  for (int k = 0; k < 6; ++k) {
+    first[k] = -out[k];
+    last[k] = out[6 * (N - 1) + k];
+  }
+  for (int id : loads)
+    plan::with_element(system.plan().elements, system.plan().directory[static_cast<std::size_t>(id)], [&](const auto& load) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(load)>, elements::LineLoad<N>>) {
+        elements::eval_residual(load, p, static_cast<const double*>(nullptr), f.around, out);
+        for (int k = 0; k < 6; ++k) {
+          first[k] -= out[k];
+          last[k] += out[6 * (N - 1) + k];
+        }
+      }
+    });
+}
+
+template <class E>
+BeamPoint eval_point(const E& e, const Field& f, double s) {
+  constexpr int N = E::num_ports;
+  const motion::Vec3Pair anchor = elements::anchor_of(e, f.nodes);
+  PortMotion<double> p[N];
+  for (int i = 0; i < N; ++i) p[i] = elements::eval_port(e.ports[i], f.nodes, anchor);
+  const auto b = elements::eval_shape<double, N>(p);
+  double shape[N], slope[N];
+  elements::eval_interpolation<N>(s, shape, slope);
+  Vec6<double> rate[N], rate2[N];
+  const PortMotion<double>& r = p[elements::Beam<N>::reference];
+  elements::eval_shape_rates<double, N>(b, p, rate);
+  elements::eval_shape_accelerations<double, N>(b, p, rate, rate2);
+  const auto m = elements::eval_section<double, N>(shape, b, rate, rate2, r);
+  BeamPoint point;
+  point.pose = motion::compose(r.H, m.relative);
+  point.pose.x = point.pose.x + anchor.hi + anchor.lo;
+  point.v = m.v;
+  point.a = m.a;
+  const Vec6<double> d1 = elements::blend<double, N>(slope, b.d);
+  point.strain = (1.0 / e.length) * motion::Se3::tangent_times(m.d, d1);
+  // Stress-free strain: constant over an element made of one helicoid.
+  point.strain -= e.reference_strain[0];
+  return point;
+}
+
+/// Element of a beam and local parameter at a station (fraction of the beam).
+std::pair<int, double> locate(const plan::BeamPlan& beam, double station) {
+  const double at = station * static_cast<double>(beam.elements.size());
+  const int k = std::clamp(static_cast<int>(at), 0, static_cast<int>(beam.elements.size()) - 1);
+  return {k, at - k};
+}
+
+template <class F>
+void with_beam_element(const plan::Plan& plan, int id, F&& f) {
+  plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
+    if constexpr (requires { e.reference_strain; }) f(e);
+  });
+}
+
+void append(std::vector<double>& to, const Vec3<double>& v) { to.insert(to.end(), v.v, v.v + 3); }
+void append(std::vector<double>& to, const Vec6<double>& v) { to.insert(to.end(), v.v, v.v + 6); }
+
+/// Twist (own axes) as velocity of the origin and angular velocity in inertial or own axes.
+Vec6<double> resolve(const Mat3<double>& R, const Vec6<double>& v, scene::LoadAxes axes) {
+  if (axes == scene::LoadAxes::body) return v;
+  return lanes::join(R * lanes::linear_part(v), R * lanes::angular_part(v));
+}
+
+void eval_point_sensor(const step::System& system, const step::State& state, const plan::SensorPlan& s, std::vector<double>& values) {
+  const Field f = system.field(state);
+  Frame<double> pose;
+  Vec6<double> v, a;
+  if (s.beam >= 0) {
+    const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
+    const auto [k, local] = locate(beam, s.sensor.station);
+    with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)], [&](const auto& e) {
+      const BeamPoint p = eval_point(e, f, local);
+      pose = p.pose;
+      v = p.v;
+      a = p.a;
+    });
+  } else {
+    const PortMotion<double> p = elements::eval_port(s.port, f.nodes, motion::Vec3Pair::from(Vec3<double>::zero()));
+    pose = p.H;
+    v = p.v;
+    a = p.a;
+  }
+  switch (s.sensor.kind) {
+    case scene::SensorKind::position:
+      append(values, pose.x);
+      break;
+    case scene::SensorKind::rotation:
+      append(values, motion::log_so3(pose.R));
+      break;
+    case scene::SensorKind::quaternion: {
+      const auto q = motion::quaternion_of(pose.R);
+      values.push_back(q.w);
+      append(values, q.v);
+      break;
+    }
+    case scene::SensorKind::velocity:
+      append(values, resolve(pose.R, v, s.sensor.axes));
+      break;
+    default: {  // acceleration of the origin: R (a + w x v)
+      const Vec3<double> w = lanes::angular_part(v);
+      const Vec6<double> full = lanes::join(lanes::linear_part(a) + lanes::cross(w, lanes::linear_part(v)), lanes::angular_part(a));
+      append(values, resolve(pose.R, full, s.sensor.axes));
+    }
+  }
+}
+
+Vec6<double> eval_section_force(const step::System& system, const Field& f, const plan::BeamPlan& beam, int k, double local) {
+  Vec6<double> first, last;
+  with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)], [&](const auto& e) {
+    eval_end_wrenches(system, e, beam.loads[static_cast<std::size_t>(k)], f, first, last);
+  });
+  return (1.0 - local) * first + local * last;
+}
+
+void eval_joint_sensor(const step::System& system, const step::State& state, const plan::SensorPlan& s, std::vector<double>& values) {
+  const plan::JointPlan& joint = system.plan().joints[static_cast<std::size_t>(s.joint)];
+  const Field f = system.field(state);
+  plan::with_element(system.plan().elements, system.plan().directory[static_cast<std::size_t>(joint.element)], [&](const auto& e) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>) {
+      const double turns = state.turns[static_cast<std::size_t>(s.joint)];
+      const elements::JointMotion m = elements::eval_joint_motion(e, f, turns);
+      if (s.sensor.kind == scene::SensorKind::joint_angle) {
+        values.push_back(m.angle);
+      } else if (s.sensor.kind == scene::SensorKind::joint_displacement) {
+        values.push_back(m.relative.x[2]);
+      } else if (s.sensor.kind == scene::SensorKind::joint_rate) {
+        const bool turning = joint.counts_turns;
+        values.push_back(turning ? m.angle_rate : (m.relative.R * lanes::linear_part(m.twist))[2]);
+      } else {
+        const Vec6<double> wrench = elements::eval_reaction(e, f, state.multipliers.data() + joint.multiplier_begin, turns);
+        const PortMotion<double> p = elements::eval_port(e.ports[1], f.nodes, elements::anchor_of(e, f.nodes));
+        append(values, resolve(p.H.R, wrench, s.sensor.axes));
+      }
+    }
+  });
+}
+
+}  // namespace
+
+HistoryHeader make_header(const plan::Plan& plan) {
+  HistoryHeader header;
+  for (const plan::SensorPlan& s : plan.sensors)
+    for (const std::string& c : s.components) header.columns.push_back(c.empty() ? s.sensor.name : s.sensor.name + "." + c);
+  return header;
+}
+
+void eval_sensors(const step::System& system, const step::State& state, std::vector<double>& values) {
+  values.clear();
+  for (const plan::SensorPlan& s : system.plan().sensors) {
+    switch (s.sensor.kind) {
+      case scene::SensorKind::section_force:
+      case scene::SensorKind::section_strain: {
+        const Field f = system.field(state);
+        const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
+        const auto [k, local] = locate(beam, s.sensor.station);
+        if (s.sensor.kind == scene::SensorKind::section_force)
+          append(values, eval_section_force(system, f, beam, k, local));
+        else
+          with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)],
+                            [&, at = local](const auto& e) { append(values, eval_point(e, f, at).strain); });
+        break;
+      }
+      case scene::SensorKind::joint_reaction:
+      case scene::SensorKind::joint_angle:
+      case scene::SensorKind::joint_displacement:
+      case scene::SensorKind::joint_rate:
+        eval_joint_sensor(system, state, s, values);
+        break;
+      case scene::SensorKind::kinetic_energy:
+        values.push_back(eval_measures(system, state).kinetic);
+        break;
+      case scene::SensorKind::strain_energy:
+        values.push_back(eval_measures(system, state).strain);
+        break;
+      case scene::SensorKind::potential_energy:
+        values.push_back(eval_measures(system, state).potential);
+        break;
+      case scene::SensorKind::total_energy: {
+        const Measures m = eval_measures(system, state);
+        values.push_back(m.kinetic + m.strain + m.potential);
+        break;
+      }
+      default:
+        eval_point_sensor(system, state, s, values);
+    }
+  }
+}
+
+Measures eval_measures(const step::System& system, const step::State& state) {
+  Measures sum;
+  const plan::Plan& plan = system.plan();
+  const Field f = system.field(state);
+  std::size_t joint = 0;
+  plan::for_each_array(plan.elements, [&](const auto& array) {
+    using E = typename std::decay_t<decltype(array)>::value_type;
+    for (const E& e : array) {
+      if constexpr (std::is_same_v<E, elements::Joint>) {
+        add(sum, elements::measure(e, f, state.multipliers.data() + plan.joints[joint].multiplier_begin, state.turns[joint]));
+        ++joint;
+      } else {
+        add(sum, elements::measure(e, f, nullptr, 0.0));
+      }
+    }
+  });
+  return sum;
+}
+
+MotionFrame eval_motion(const step::System& system, const step::State& state) {
+  const plan::Plan& plan = system.plan();
+  const Field f = system.field(state);
+  MotionFrame frame;
+  frame.time = state.time;
+  for (const plan::BeamPlan& beam : plan.beams) {
+    Curve curve;
+    curve.name = beam.name;
+    constexpr int parts = 4;  // points per element: the axis is curved within it
+    for (std::size_t k = 0; k < beam.elements.size(); ++k)
+      with_beam_element(plan, beam.elements[k], [&](const auto& e) {
+        Vec6<double> first, last;
+        eval_end_wrenches(system, e, beam.loads[k], f, first, last);
+        for (int i = k == 0 ? 0 : 1; i <= parts; ++i) {
+          const double s = static_cast<double>(i) / parts;
+          const BeamPoint p = eval_point(e, f, s);
+          CurvePoint point;
+          for (int c = 0; c < 3; ++c) point.position[c] = p.pose.x[c];
+          for (int c = 0; c < 9; ++c) point.axes[c] = p.pose.R.m[c];
+          for (int c = 0; c < 6; ++c) point.force[c] = (1.0 - s) * first[c] + s * last[c];
+          curve.points.push_back(point);
+        }
+      });
+    frame.curves.push_back(std::move(curve));
+  }
+  for (std::size_t b = 0; b < plan.body_nodes.size(); ++b) {
+    const auto node = static_cast<std::size_t>(plan.body_nodes[b]);
+    BodyPose pose;
+    pose.name = plan.nodes[node].name;
+    const Vec3<double> x = state.nodes[node].x.hi;
+    const Vec3<double> c = x + state.nodes[node].R * plan.body_centers[b];
+    for (int i = 0; i < 3; ++i) {
+      pose.position[i] = x[i];
+      pose.center[i] = c[i];
+    }
+    for (int i = 0; i < 9; ++i) pose.axes[i] = state.nodes[node].R.m[i];
+    frame.bodies.push_back(pose);
+  }
+  const auto add_link = [&](const std::string& name, const Port& first, const Port& second) {
+    Link link;
+    link.name = name;
+    const Vec3<double> a = position_of(state, first), b = position_of(state, second);
+    for (int i = 0; i < 3; ++i) {
+      link.first[i] = a[i];
+      link.second[i] = b[i];
+    }
+    frame.links.push_back(link);
+  };
+  for (std::size_t id = 0; id < plan.directory.size(); ++id)
+    plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      using E = std::decay_t<decltype(e)>;
+      if constexpr (std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> || std::is_same_v<E, elements::Bushing>)
+        add_link(plan.element_owner[id], e.ports[0], e.ports[1]);
+    });
+  return frame;
+}
+
+void Balance::begin(const Measures& start) {
+  last_ = start;
+  start_energy_ = start.kinetic + start.strain + start.potential;
+  expected_ = start.momentum;
+}
+
+void Balance::jump(const Measures& after) {
+  work_ += (after.kinetic + after.strain + after.potential) - (last_.kinetic + last_.strain + last_.potential);
+  expected_ += after.momentum - last_.momentum;
+  last_ = after;
+}
+
+void Balance::add(const Measures& now, double h) {
+  work_ += 0.5 * h * (last_.work_rate + now.work_rate - last_.dissipation_rate - now.dissipation_rate);
+  expected_ += (0.5 * h) * (last_.load + now.load);
+  last_error_ = now.kinetic + now.strain + now.potential - start_energy_ - work_;
+  energy_error_ = std::max(energy_error_, std::abs(last_error_));
+  energy_scale_ = std::max(energy_scale_, now.kinetic + now.strain + std::abs(now.potential - start_energy_) + std::abs(work_));
+  for (int i = 0; i < 3; ++i) {
+    momentum_error_ = std::max(momentum_error_, std::abs(now.momentum[i] - expected_[i]));
+    momentum_scale_ = std::max(momentum_scale_, std::abs(now.momentum[i]));
+  }
+  last_ = now;
+}
+
+}  // namespace bough::results

@@ -1,0 +1,70 @@
+#pragma once
+/// Hand-made records and a directory of one's own for tests of what a run writes.
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include "bough/results/records.hpp"
+
+namespace bough::io {
+
+/// Removed with its contents at the end.
+class ScratchDirectory {
+ public:
+  ScratchDirectory() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "bough-test-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch directory");
+    path_ = pattern;
+  }
+  ~ScratchDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// A bent beam of `num_points`, one body and one link, at time t.
+inline results::MotionFrame sample_frame(double t, std::size_t num_points = 5) {
+  results::MotionFrame frame;
+  frame.time = t;
+  results::Curve& curve = frame.curves.emplace_back();
+  curve.name = "beam";
+  for (std::size_t k = 0; k < num_points; ++k) {
+    const double s = static_cast<double>(k) / static_cast<double>(num_points - 1), angle = 0.3 * s * std::sin(t);
+    results::CurvePoint point{{s, 0.1 * s * s * std::sin(t), 0.0},
+                              {std::cos(angle), -std::sin(angle), 0.0, std::sin(angle), std::cos(angle), 0.0, 0.0, 0.0, 1.0},
+                              {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}};
+    curve.points.push_back(point);
+  }
+  frame.bodies.push_back({"crank", {0.0, 0.0, 0.0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.1, 0.0, 0.0}});
+  frame.links.push_back({"hinge", {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}});
+  return frame;
+}
+
+inline results::Summary sample_summary() {
+  results::Summary summary;
+  summary.status = results::RunStatus::ok;
+  summary.scene = "sample";
+  summary.header.columns = {"tip.x", "tip.y", "energy"};
+  summary.final_values = {1.0, -0.1, 3.5};
+  summary.options = {{"analysis/step_size", "0.001"}, {"analysis/newton", "\"full\""}};
+  summary.expected = {{"tip.x", 1.0, 1.0, 1e-9, true, "by hand"}, {"tip.y", -0.1, -0.2, 1e-9, false, ""}};
+  summary.steps = {10, 1, 33, 30};
+  return summary;
+}
+
+}  // namespace bough::io

@@ -1,0 +1,113 @@
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/json_text.hpp"
+#include "bough/io/json_value.hpp"
+#include "bough/io/summary.hpp"
+#include "write_samples.hpp"
+
+namespace bough::io {
+namespace {
+
+JsonValue parsed(const std::string& text) {
+  std::vector<JsonFault> faults;
+  auto value = parse_json(text, source_file, faults);
+  if (!value || !faults.empty()) throw std::runtime_error("not JSON: " + text);
+  return *value;
+}
+
+TEST(JsonText, any_bytes_become_a_valid_string) {
+  for (int first = 0; first < 256; ++first) {
+    for (int second = 0; second < 256; ++second) {
+      const std::string bytes{static_cast<char>(first), static_cast<char>(second)};
+      ASSERT_NO_THROW((void)parsed(json_string(bytes))) << first << ' ' << second;
+    }
+  }
+  const std::string good = "tab\t quote\" back\\ \xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\xB3 line\n";
+  EXPECT_EQ(parsed(json_string(good)).text, good);
+}
+
+TEST(JsonText, non_finite_numbers_are_strings_and_never_null) {
+  JsonText json;
+  json.begin_array();
+  json.value(std::numeric_limits<double>::quiet_NaN());
+  json.value(-std::numeric_limits<double>::infinity());
+  json.value(0.1);
+  json.end_array();
+  const JsonValue list = parsed(json.text());
+  EXPECT_EQ(list.items[0].text, "nan");
+  EXPECT_EQ(list.items[1].text, "-inf");
+  EXPECT_EQ(list.items[2].number, 0.1);
+}
+
+TEST(JsonText, raw_text_that_is_not_json_becomes_a_string) {
+  JsonText json;
+  json.begin_array();
+  json.raw("[1, 2]");
+  json.raw("nan");
+  json.raw("1}");
+  json.end_array();
+  const JsonValue list = parsed(json.text());
+  EXPECT_EQ(list.items[0].items.size(), 2u);
+  EXPECT_EQ(list.items[1].text, "nan");
+  EXPECT_EQ(list.items[2].text, "1}");
+}
+
+TEST(Summary, holds_every_promised_field) {
+  const JsonValue json = parsed(summary_text(sample_summary(), "9.9"));
+  for (const char* key : {"status", "cause", "scene", "title", "version", "threads", "options", "steps", "time_s", "memory_peak_bytes",
+                          "checks", "notes", "solver", "sensors", "expected"})
+    EXPECT_NE(json.find(key), nullptr) << key;
+  for (const char* key : {"accepted", "rejected", "newton_iterations", "factorizations"}) EXPECT_NE(json.find("steps")->find(key), nullptr) << key;
+  for (const char* key : {"total", "assemble", "factor", "solve", "update", "output"}) EXPECT_NE(json.find("time_s")->find(key), nullptr) << key;
+  for (const char* key : {"energy_balance", "numerical_dissipation", "energy_scale", "momentum_balance", "constraint_violation_position",
+                          "constraint_violation_velocity", "linear_backward_error_max", "round_off_floor_reached"})
+    EXPECT_NE(json.find("checks")->find(key), nullptr) << key;
+  EXPECT_EQ(json.find("status")->text, "ok");
+  EXPECT_EQ(json.find("version")->text, "9.9");
+  EXPECT_EQ(json.find("options")->find("/analysis/step_size")->number, 0.001);
+  EXPECT_EQ(json.find("sensors")->find("tip")->find("y")->number, -0.1);
+  EXPECT_EQ(json.find("sensors")->find("energy")->number, 3.5);
+  EXPECT_TRUE(json.find("expected")->find("tip.x")->find("holds")->truth);
+  EXPECT_FALSE(json.find("expected")->find("tip.y")->find("holds")->truth);
+}
+
+TEST(Summary, components_apart_are_one_sensor_and_equal_names_stay_distinct) {
+  results::Summary summary = sample_summary();
+  summary.header.columns = {"a.x", "b.x", "a.y"};
+  summary.final_values = {1.0, 2.0, 3.0};
+  summary.expected = {{"a.x", 1.0, 1.0, 1.0, true, ""}, {"a.x", 2.0, 2.0, 1.0, true, ""}};
+  const JsonValue json = parsed(summary_text(summary, "1"));  // duplicate keys would be a fault
+  EXPECT_EQ(json.find("sensors")->find("a")->find("y")->number, 3.0);
+  EXPECT_EQ(json.find("expected")->items.size(), 2u);
+}
+
+TEST(Summary, comes_back_with_what_reports_need) {
+  const ScratchDirectory scratch;
+  results::Summary summary = sample_summary();
+  summary.status = results::RunStatus::failed;
+  summary.cause = "the residual of \"crank\" grew\nat t = 1";
+  summary.checks.energy_balance = std::numeric_limits<double>::infinity();
+  summary.notes = {"two constraints say the same"};
+  write_file(scratch / "summary.json", summary_text(summary, "1.0"));
+  const SummaryFile back = read_summary(scratch / "summary.json");
+  EXPECT_EQ(back.status, "failed");
+  EXPECT_EQ(back.cause, summary.cause);
+  EXPECT_EQ(back.accepted, 10);
+  EXPECT_EQ(back.newton_iterations, 33);
+  EXPECT_EQ(back.notes, summary.notes);
+  ASSERT_FALSE(back.checks.empty());
+  EXPECT_TRUE(std::isinf(back.checks[0].second));
+  ASSERT_EQ(back.expected.size(), 2u);
+  EXPECT_EQ(back.expected[1].reference, -0.2);
+}
+
+TEST(Summary, a_file_that_is_no_summary_is_refused) {
+  const ScratchDirectory scratch;
+  for (const char* text : {"", "{", "[]", "{}", "{\"status\": 3}"}) {
+    write_file(scratch / "s.json", text);
+    EXPECT_THROW((void)read_summary(scratch / "s.json"), std::runtime_error) << text;
+  }
+  EXPECT_THROW((void)read_summary(scratch / "none.json"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace bough::io
