@@ -56,6 +56,7 @@ Measures measure_load(const E& e, const Field& field) {
     if (field.around.has_inertia) m.work_rate += power(f, p[k].v);
     m.load += to_inertial(p[k], anchor, f);
   }
+  add_ground_reaction(e, p, anchor, out, m);
   return m;
 }
 
@@ -78,6 +79,18 @@ Measures measure_coupling(const E& e, const Field& field) {
   return m;
 }
 
+/// The ground's part in an element whose residual is not at hand otherwise.
+template <class E>
+void add_ground_reaction_if_any(const E& e, const PortMotion<double>* p, const Vec3<double>& anchor, const Field& field,
+                                Measures& m) {
+  bool grounded = false;
+  for (const Port& port : e.ports) grounded = grounded || port.node == ground;
+  if (!grounded) return;
+  double out[6 * E::num_ports];
+  eval_residual(e, p, static_cast<const double*>(nullptr), field.around, out);
+  add_ground_reaction(e, p, anchor, out, m);
+}
+
 template <int N>
 Measures measure_beam(const Beam<N>& beam, const Field& field) {
   PortMotion<double> p[N];
@@ -98,6 +111,7 @@ Measures measure_beam(const Beam<N>& beam, const Field& field) {
     for (int i = 0; i < N; ++i)
       if (i != Beam<N>::reference) m.dissipation_rate += lanes::dot(viscous[i] - elastic[i], rate[i]);
   }
+  add_ground_reaction_if_any(beam, p, anchor, field, m);
   if (!beam.has_mass) return m;
   const auto& rule = mass_rule<N>();
   for (int g = 0; g < N; ++g) {
@@ -165,6 +179,7 @@ Measures measure(const RigidBody& e, const Field& field, const double*, double) 
     m.momentum = to_inertial(p[0], anchor, e.mass * p[0].v);
   }
   add_gravity(e.mass, 1.0, p[0], anchor, field.around.gravity, m);
+  add_ground_reaction_if_any(e, p, anchor, field, m);
   return m;
 }
 

@@ -11,7 +11,7 @@ enum class RowKind : std::uint8_t {
   along,   ///< u_i - law = 0: displacement along axis i of the first frame
   across,  ///< e_i . R e_j = 0: axis i of the first frame normal to axis j of the second
   angle,   ///< theta - law = 0: rotation about axis 3, turns counted
-  screw,   ///< u_3 - pitch theta / (2 pi) = 0
+  screw,   ///< u_3 - pitch theta - law = 0
 };
 
 struct ConstraintRow {
@@ -47,6 +47,7 @@ struct Joint {
 /// theta = turns + atan2(s', c'), (c', s') the rotation about axis 3 seen from the last accepted angle: smooth over any number of turns.
 template <class S>
 S eval_angle(const Mat3<S>& R, double turns) {
+  using lanes::atan2;  // of complex numbers, which lie in std
   using std::atan2;
   const double c0 = std::cos(turns), s0 = std::sin(turns);
   const S s = R(1, 0) - R(0, 1), c = R(0, 0) + R(1, 1);

@@ -1,0 +1,171 @@
+#pragma once
+/// The shared checker of elements: a second driver, in any scalar, from node motions to node residuals. It shares the
+/// kernels with the library but none of the drivers' code: ports, offsets, seeds of derivatives and gathering.
+#include <complex>
+#include <vector>
+
+#include "elements/samples.hpp"
+
+namespace bough::elements::check {
+
+using Complex = std::complex<double>;
+constexpr double complex_step = 1e-40;  ///< its square is below round-off of anything
+
+template <class S>
+struct NodeState {
+  Frame<S> H;  ///< position relative to the anchor
+  Vec6<S> v, a;
+};
+
+template <class S>
+std::vector<NodeState<S>> states_of(const std::vector<NodeMotion>& nodes, const motion::Vec3Pair& anchor) {
+  std::vector<NodeState<S>> r;
+  for (const NodeMotion& n : nodes)
+    r.push_back({motion::cast<S>(Frame<double>{n.R, motion::difference(n.x, anchor)}), lanes::cast<S>(n.v),
+                 lanes::cast<S>(n.a)});
+  return r;
+}
+
+template <class S, class E>
+std::vector<PortMotion<S>> ports_of(const E& e, const std::vector<NodeState<S>>& nodes, const Vec3<double>& anchor) {
+  std::vector<PortMotion<S>> r;
+  for (const Port& port : e.ports) {
+    const Frame<S> offset = motion::cast<S>(port.offset);
+    if (port.node == ground) {
+      r.push_back({{offset.R, offset.x - lanes::cast<S>(anchor)}, Vec6<S>::zero(), Vec6<S>::zero()});
+      continue;
+    }
+    const NodeState<S>& n = nodes[static_cast<std::size_t>(port.node)];
+    const Mat6<S> inverse = motion::inverse_adjoint(offset);
+    r.push_back({motion::compose(n.H, offset), inverse * n.v, inverse * n.a});
+  }
+  return r;
+}
+
+template <class S, class E>
+void eval_kernel_of(const E& e, const PortMotion<S>* p, const S* multipliers, const Surroundings<S>& around, S* out,
+                    double turns) {
+  if constexpr (E::num_multipliers > 0)
+    eval_residual(e, p, multipliers, around, out, turns);
+  else
+    eval_residual(e, p, multipliers, around, out);
+}
+
+template <class S, class E>
+S energy_of(const E& e, const PortMotion<S>* p, double turns) {
+  if constexpr (E::num_multipliers > 0)
+    return eval_strain_energy(e, p, turns);
+  else
+    return eval_strain_energy(e, p);
+}
+
+/// Residual in the unknowns of the nodes, then the constraint rows.
+template <class S, class E>
+std::vector<S> node_residual(const E& e, const std::vector<NodeState<S>>& nodes, const Vec3<double>& anchor,
+                             const std::vector<S>& multipliers, const Surroundings<S>& around, double turns) {
+  constexpr int P = E::num_ports;
+  const std::vector<PortMotion<S>> p = ports_of(e, nodes, anchor);
+  S out[6 * P + E::num_multipliers];
+  eval_kernel_of(e, p.data(), multipliers.data(), around, out, turns);
+  std::vector<S> r;
+  for (int k = 0; k < P; ++k) {
+    if (e.ports[k].node == ground) continue;
+    Vec6<S> f;
+    for (int i = 0; i < 6; ++i) f[i] = out[6 * k + i];
+    f = lanes::transpose_times(motion::inverse_adjoint(motion::cast<S>(e.ports[k].offset)), f);
+    for (int i = 0; i < 6; ++i) r.push_back(f[i]);
+  }
+  for (int k = 0; k < num_multipliers(e); ++k) r.push_back(out[6 * P + k]);
+  return r;
+}
+
+/// Node moved by the iteration's increment eta, velocity and acceleration following as Slopes says.
+template <class S>
+NodeState<S> stepped(const NodeState<S>& n, const Vec6<double>& dq, const Slopes& slopes, bool moves,
+                     const Vec6<S>& eta) {
+  NodeState<S> r = n;
+  if (moves) r.H = motion::compose(n.H, motion::exp_se3(eta));
+  const Vec6<S> of_coordinates = motion::Se3::inverse_tangent(lanes::cast<S>(dq)) * eta;
+  r.v += slopes.velocity * of_coordinates;
+  r.a += slopes.mass_only ? eta : slopes.acceleration * of_coordinates;
+  return r;
+}
+
+inline std::vector<Complex> complex_of(const std::vector<double>& a) { return {a.begin(), a.end()}; }
+
+/// Derivatives of the residual (rows) along all unknowns (columns) by the complex step, row-major.
+template <class E>
+std::vector<double> complex_tangent(const Sample<E>& s, const Field& field) {
+  const E& e = s.element;
+  const int n = num_unknowns(e), m = num_multipliers(e);
+  const motion::Vec3Pair anchor = anchor_of(e, s.nodes.data());
+  const std::vector<Complex> laws = complex_of(s.laws);
+  const Surroundings<Complex> around{lanes::cast<Complex>(field.around.gravity), laws.data(), field.around.has_inertia};
+  std::vector<double> tangent(static_cast<std::size_t>(n * n));
+  int column = 0;
+  const auto fill = [&](const std::vector<Complex>& r) {
+    for (int i = 0; i < n; ++i)
+      tangent[static_cast<std::size_t>(i * n + column)] = r[static_cast<std::size_t>(i)].imag() / complex_step;
+    ++column;
+  };
+  Slopes slopes = field.slopes;
+  if (!field.around.has_inertia) slopes.velocity = slopes.acceleration = 0.0;
+  if (slopes.mass_only) slopes.velocity = slopes.acceleration = 0.0;
+  for (const Port& port : e.ports) {
+    if (port.node == ground) continue;
+    for (int k = 0; k < 6; ++k) {
+      std::vector<NodeState<Complex>> states = states_of<Complex>(s.nodes, anchor);
+      NodeState<Complex>& node = states[static_cast<std::size_t>(port.node)];
+      const Vec6<Complex> eta = Complex(0.0, complex_step) * Vec6<Complex>::unit(k);
+      node = stepped(node, s.nodes[static_cast<std::size_t>(port.node)].dq, slopes, !slopes.mass_only, eta);
+      std::vector<Complex> r = node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns);
+      if (slopes.mass_only && m > 0) {  // rows keep the gradient of positions: G a, as in the constraint's second rate
+        states = states_of<Complex>(s.nodes, anchor);
+        NodeState<Complex>& moved = states[static_cast<std::size_t>(port.node)];
+        moved = stepped(moved, Vec6<double>::zero(), Slopes{}, true, eta);
+        const auto rows = node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns);
+        for (int i = n - m; i < n; ++i) r[static_cast<std::size_t>(i)] = rows[static_cast<std::size_t>(i)];
+      }
+      fill(r);
+    }
+  }
+  for (int k = 0; k < m; ++k) {
+    std::vector<Complex> multipliers = complex_of(s.multipliers);
+    multipliers[static_cast<std::size_t>(k)] += Complex(0.0, complex_step);
+    fill(node_residual(e, states_of<Complex>(s.nodes, anchor), anchor.hi, multipliers, around, s.turns));
+  }
+  return tangent;
+}
+
+/// What the library gives.
+struct Evaluation {
+  std::vector<double> residual, tangent;
+};
+template <class E>
+Evaluation evaluation_of(const Sample<E>& s, const Field& field) {
+  const auto n = static_cast<std::size_t>(num_unknowns(s.element));
+  Evaluation r{std::vector<double>(n), std::vector<double>(n * n)};
+  evaluate(s.element, field, s.multipliers.data(), s.turns, r.residual.data(), r.tangent.data());
+  return r;
+}
+template <class E>
+std::vector<double> residual_of(const Sample<E>& s, const Field& field) {
+  std::vector<double> r(static_cast<std::size_t>(num_unknowns(s.element)));
+  evaluate(s.element, field, s.multipliers.data(), s.turns, r.data(), nullptr);
+  return r;
+}
+
+inline double largest(const std::vector<double>& a) {
+  double m = 0.0;
+  for (const double x : a) m = std::max(m, std::abs(x));
+  return m;
+}
+/// Largest difference over the largest entry of both (or `floor`, if that is more).
+inline double relative_error(const std::vector<double>& a, const std::vector<double>& b, double floor = 1e-30) {
+  if (a.size() != b.size()) return 1e300;
+  double m = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) m = std::max(m, std::abs(a[i] - b[i]));
+  return m / std::max({largest(a), largest(b), floor});
+}
+
+}  // namespace bough::elements::check
