@@ -16,103 +16,105 @@
 
 #if defined(__GNUC__) && defined(__AVX512F__)
 #define BOUGH_REGISTER_DOUBLES 8
+#define BOUGH_REGISTER_NAMESPACE registers_of_8
 #elif defined(__GNUC__) && defined(__AVX__)
 #define BOUGH_REGISTER_DOUBLES 4
+#define BOUGH_REGISTER_NAMESPACE registers_of_4
 #elif defined(__GNUC__) && defined(__SSE2__)
 #define BOUGH_REGISTER_DOUBLES 2
+#define BOUGH_REGISTER_NAMESPACE registers_of_2
 #else
 #define BOUGH_REGISTER_DOUBLES 1
+#define BOUGH_REGISTER_NAMESPACE registers_of_1
 #endif
-#define BOUGH_REGISTER_NAMESPACE_2(n) registers_of_##n
-#define BOUGH_REGISTER_NAMESPACE(n) BOUGH_REGISTER_NAMESPACE_2(n)
 
 namespace bough::lanes {
-inline namespace BOUGH_REGISTER_NAMESPACE(BOUGH_REGISTER_DOUBLES) {
+inline namespace BOUGH_REGISTER_NAMESPACE {
 
-  /// Doubles in one register of this build.
-  inline constexpr int register_doubles = BOUGH_REGISTER_DOUBLES;
+/// Doubles in one register of this build.
+inline constexpr int register_doubles = BOUGH_REGISTER_DOUBLES;
 
-  namespace detail {
-  template <int C>
-  struct Register;
-  template <>
-  struct Register<1> {
-    using Real = double;
-    using Flag = long long;
-  };
+namespace detail {
+template <int C>
+struct Register;
+template <>
+struct Register<1> {
+  using Real = double;
+  using Flag = long long;
+};
 #if BOUGH_REGISTER_DOUBLES >= 2
-  template <>
-  struct Register<2> {
-    typedef double Real __attribute__((vector_size(16)));
-    typedef long long Flag __attribute__((vector_size(16)));
-  };
-  inline Register<2>::Real root(const Register<2>::Real& x) { return Register<2>::Real(_mm_sqrt_pd(x)); }
+template <>
+struct Register<2> {
+  typedef double Real __attribute__((vector_size(16)));
+  typedef long long Flag __attribute__((vector_size(16)));
+};
+inline Register<2>::Real root(const Register<2>::Real& x) { return Register<2>::Real(_mm_sqrt_pd(x)); }
 #endif
 #if BOUGH_REGISTER_DOUBLES >= 4
-  template <>
-  struct Register<4> {
-    typedef double Real __attribute__((vector_size(32)));
-    typedef long long Flag __attribute__((vector_size(32)));
-  };
-  inline Register<4>::Real root(const Register<4>::Real& x) { return Register<4>::Real(_mm256_sqrt_pd(x)); }
+template <>
+struct Register<4> {
+  typedef double Real __attribute__((vector_size(32)));
+  typedef long long Flag __attribute__((vector_size(32)));
+};
+inline Register<4>::Real root(const Register<4>::Real& x) { return Register<4>::Real(_mm256_sqrt_pd(x)); }
 #endif
 #if BOUGH_REGISTER_DOUBLES >= 8
-  template <>
-  struct Register<8> {
-    typedef double Real __attribute__((vector_size(64)));
-    typedef long long Flag __attribute__((vector_size(64)));
-  };
-  inline Register<8>::Real root(const Register<8>::Real& x) { return Register<8>::Real(_mm512_maskz_sqrt_pd(0xff, x)); }
+template <>
+struct Register<8> {
+  typedef double Real __attribute__((vector_size(64)));
+  typedef long long Flag __attribute__((vector_size(64)));
+};
+inline Register<8>::Real root(const Register<8>::Real& x) { return Register<8>::Real(_mm512_maskz_sqrt_pd(0xff, x)); }
 #endif
-  inline double root(double x) { return std::sqrt(x); }
-  }  // namespace detail
+inline double root(double x) { return std::sqrt(x); }
+}  // namespace detail
 
-  /// One flag per lane.
-  template <int W>
-  struct alignas(8 * W) Mask {
-    static constexpr int chunk = W < register_doubles ? W : register_doubles, chunks = W / chunk;
-    using Flag = typename detail::Register<chunk>::Flag;
-    Flag f[chunks];  ///< every lane 0 or -1
-    bool operator[](int lane) const {
-      if constexpr (chunk == 1)
-        return f[lane] != 0;
-      else
-        return f[lane / chunk][lane % chunk] != 0;
-    }
-  };
+/// One flag per lane.
+template <int W>
+struct alignas(8 * W) Mask {
+  static constexpr int chunk = W < register_doubles ? W : register_doubles, chunks = W / chunk;
+  using Flag = typename detail::Register<chunk>::Flag;
+  Flag f[chunks];  ///< every lane 0 or -1
+  bool operator[](int lane) const {
+    if constexpr (chunk == 1)
+      return f[lane] != 0;
+    else
+      return f[lane / chunk][lane % chunk] != 0;
+  }
+};
 
-  template <int W>
-  struct alignas(8 * W) Pack {
-    static_assert(W >= 1 && (W & (W - 1)) == 0, "the number of lanes is a power of two");
-    static constexpr int width = W;
-    static constexpr int chunk = W < register_doubles ? W : register_doubles, chunks = W / chunk;
-    using Real = typename detail::Register<chunk>::Real;
-    Real r[chunks];
+template <int W>
+struct alignas(8 * W) Pack {
+  static_assert(W >= 1 && (W & (W - 1)) == 0, "the number of lanes is a power of two");
+  static constexpr int width = W;
+  static constexpr int chunk = W < register_doubles ? W : register_doubles, chunks = W / chunk;
+  using Real = typename detail::Register<chunk>::Real;
+  Real r[chunks];
 
-    Pack() = default;
-    Pack(double x) {  // NOLINT(google-explicit-constructor): numbers must mix with packs in kernels
-      for (int i = 0; i < chunks; ++i) r[i] = Real{} + x;
-    }
-    double operator[](int lane) const {
-      if constexpr (chunk == 1)
-        return r[lane];
-      else
-        return r[lane / chunk][lane % chunk];
-    }
-    void set(int lane, double x) {
-      if constexpr (chunk == 1)
-        r[lane] = x;
-      else
-        r[lane / chunk][lane % chunk] = x;
-    }
-    /// W consecutive doubles, any alignment.
-    static Pack load(const double* from) {
-      Pack p;
-      __builtin_memcpy(&p.r, from, sizeof(double) * W);
-      return p;
-    }
-    void store(double* to) const { __builtin_memcpy(to, &r, sizeof(double) * W); }
-  };
+  Pack() = default;
+  Pack(double x) {  // NOLINT(google-explicit-constructor): numbers must mix with packs in kernels
+    for (int i = 0; i < chunks; ++i) r[i] = Real{} + x;
+  }
+  double operator[](int lane) const {
+    if constexpr (chunk == 1)
+      return r[lane];
+    else
+      return r[lane / chunk][lane % chunk];
+  }
+  void set(int lane, double x) {
+    if constexpr (chunk == 1)
+      r[lane] = x;
+    else
+      r[lane / chunk][lane % chunk] = x;
+  }
+  /// W consecutive doubles, any alignment.
+  static Pack load(const double* from) {
+    Pack p;
+    __builtin_memcpy(&p.r, from, sizeof(double) * W);
+    return p;
+  }
+  void store(double* to) const { __builtin_memcpy(to, &r, sizeof(double) * W); }
+};
 
 // Arithmetic, chunk by chunk; a double stands for the same number in every lane.
 #define BOUGH_PACK_OPERATOR(op)                                          \
@@ -134,158 +136,157 @@ inline namespace BOUGH_REGISTER_NAMESPACE(BOUGH_REGISTER_DOUBLES) {
   inline Pack<W>& operator op##=(Pack<W>& a, const Pack<W>& b) {         \
     return a = a op b;                                                   \
   }
-  BOUGH_PACK_OPERATOR(+)
-  BOUGH_PACK_OPERATOR(-)
-  BOUGH_PACK_OPERATOR(*)
-  BOUGH_PACK_OPERATOR(/)
+BOUGH_PACK_OPERATOR(+)
+BOUGH_PACK_OPERATOR(-)
+BOUGH_PACK_OPERATOR(*)
+BOUGH_PACK_OPERATOR(/)
 #undef BOUGH_PACK_OPERATOR
 
-  template <int W>
-  Pack<W> operator-(const Pack<W>& a) {
-    Pack<W> c;
-    for (int i = 0; i < Pack<W>::chunks; ++i) c.r[i] = -a.r[i];
-    return c;
-  }
+template <int W>
+Pack<W> operator-(const Pack<W>& a) {
+  Pack<W> c;
+  for (int i = 0; i < Pack<W>::chunks; ++i) c.r[i] = -a.r[i];
+  return c;
+}
 
-  /// f applied to each lane: functions of the standard library, the same bits as for a double.
-  template <int W, class F>
-  Pack<W> lane_by_lane(const F& f, const Pack<W>& a) {
-    Pack<W> c;
-    for (int i = 0; i < W; ++i) c.set(i, f(a[i]));
-    return c;
-  }
-  template <int W>
-  Pack<W> sqrt(const Pack<W>& a) {
-    Pack<W> c;
-    for (int i = 0; i < Pack<W>::chunks; ++i) c.r[i] = detail::root(a.r[i]);
-    return c;
-  }
-  template <int W>
-  Pack<W> abs(const Pack<W>& a) {
-    return lane_by_lane([](double x) { return std::abs(x); }, a);
-  }
-  template <int W>
-  Pack<W> sin(const Pack<W>& a) {
-    return lane_by_lane([](double x) { return std::sin(x); }, a);
-  }
-  template <int W>
-  Pack<W> cos(const Pack<W>& a) {
-    return lane_by_lane([](double x) { return std::cos(x); }, a);
-  }
-  template <int W>
-  Pack<W> atan2(const Pack<W>& y, const Pack<W>& x) {
-    Pack<W> c;
-    for (int i = 0; i < W; ++i) c.set(i, std::atan2(y[i], x[i]));
-    return c;
-  }
+/// f applied to each lane: functions of the standard library, the same bits as for a double.
+template <int W, class F>
+Pack<W> lane_by_lane(const F& f, const Pack<W>& a) {
+  Pack<W> c;
+  for (int i = 0; i < W; ++i) c.set(i, f(a[i]));
+  return c;
+}
+template <int W>
+Pack<W> sqrt(const Pack<W>& a) {
+  Pack<W> c;
+  for (int i = 0; i < Pack<W>::chunks; ++i) c.r[i] = detail::root(a.r[i]);
+  return c;
+}
+template <int W>
+Pack<W> abs(const Pack<W>& a) {
+  return lane_by_lane([](double x) { return std::abs(x); }, a);
+}
+template <int W>
+Pack<W> sin(const Pack<W>& a) {
+  return lane_by_lane([](double x) { return std::sin(x); }, a);
+}
+template <int W>
+Pack<W> cos(const Pack<W>& a) {
+  return lane_by_lane([](double x) { return std::cos(x); }, a);
+}
+template <int W>
+Pack<W> atan2(const Pack<W>& y, const Pack<W>& x) {
+  Pack<W> c;
+  for (int i = 0; i < W; ++i) c.set(i, std::atan2(y[i], x[i]));
+  return c;
+}
 
-  /// a < b lane by lane; false where one is not a number.
-  template <int W>
-  Mask<W> less(const Pack<W>& a, const Pack<W>& b) {
-    Mask<W> m;
-    for (int i = 0; i < Mask<W>::chunks; ++i) {
-      if constexpr (Mask<W>::chunk == 1)
-        m.f[i] = a.r[i] < b.r[i] ? -1 : 0;
-      else
-        m.f[i] = a.r[i] < b.r[i];
-    }
-    return m;
+/// a < b lane by lane; false where one is not a number.
+template <int W>
+Mask<W> less(const Pack<W>& a, const Pack<W>& b) {
+  Mask<W> m;
+  for (int i = 0; i < Mask<W>::chunks; ++i) {
+    if constexpr (Mask<W>::chunk == 1)
+      m.f[i] = a.r[i] < b.r[i] ? -1 : 0;
+    else
+      m.f[i] = a.r[i] < b.r[i];
   }
-  template <int W>
-  Mask<W> operator&(const Mask<W>& a, const Mask<W>& b) {
-    Mask<W> m;
-    for (int i = 0; i < Mask<W>::chunks; ++i) m.f[i] = a.f[i] & b.f[i];
-    return m;
+  return m;
+}
+template <int W>
+Mask<W> operator&(const Mask<W>& a, const Mask<W>& b) {
+  Mask<W> m;
+  for (int i = 0; i < Mask<W>::chunks; ++i) m.f[i] = a.f[i] & b.f[i];
+  return m;
+}
+template <int W>
+Mask<W> operator|(const Mask<W>& a, const Mask<W>& b) {
+  Mask<W> m;
+  for (int i = 0; i < Mask<W>::chunks; ++i) m.f[i] = a.f[i] | b.f[i];
+  return m;
+}
+template <int W>
+Mask<W> operator!(const Mask<W>& a) {
+  Mask<W> m;
+  for (int i = 0; i < Mask<W>::chunks; ++i) m.f[i] = ~a.f[i];
+  return m;
+}
+template <int W>
+bool any(const Mask<W>& m) {
+  typename Mask<W>::Flag f = m.f[0];
+  for (int i = 1; i < Mask<W>::chunks; ++i) f |= m.f[i];
+  if constexpr (Mask<W>::chunk == 1) {
+    return f != 0;
+  } else {
+    long long r = f[0];
+    for (int i = 1; i < Mask<W>::chunk; ++i) r |= f[i];
+    return r != 0;
   }
-  template <int W>
-  Mask<W> operator|(const Mask<W>& a, const Mask<W>& b) {
-    Mask<W> m;
-    for (int i = 0; i < Mask<W>::chunks; ++i) m.f[i] = a.f[i] | b.f[i];
-    return m;
-  }
-  template <int W>
-  Mask<W> operator!(const Mask<W>& a) {
-    Mask<W> m;
-    for (int i = 0; i < Mask<W>::chunks; ++i) m.f[i] = ~a.f[i];
-    return m;
-  }
-  template <int W>
-  bool any(const Mask<W>& m) {
-    typename Mask<W>::Flag f = m.f[0];
-    for (int i = 1; i < Mask<W>::chunks; ++i) f |= m.f[i];
-    if constexpr (Mask<W>::chunk == 1) {
-      return f != 0;
-    } else {
-      long long r = f[0];
-      for (int i = 1; i < Mask<W>::chunk; ++i) r |= f[i];
-      return r != 0;
-    }
-  }
-  template <int W>
-  bool all(const Mask<W>& m) {
-    return !any(!m);
-  }
+}
+template <int W>
+bool all(const Mask<W>& m) {
+  return !any(!m);
+}
 
-  /// Choice lane by lane, of packs and of everything made of packs.
-  template <int W>
-  Pack<W> select(const Mask<W>& take_first, const Pack<W>& a, const Pack<W>& b) {
-    Pack<W> c;
-    for (int i = 0; i < Pack<W>::chunks; ++i) c.r[i] = take_first.f[i] ? a.r[i] : b.r[i];
-    return c;
-  }
-  template <int W, class S, int N>
-  Jet<S, N> select(const Mask<W>& take_first, const Jet<S, N>& a, const Jet<S, N>& b) {
-    Jet<S, N> c;
-    c.a = select(take_first, a.a, b.a);
-    for (int i = 0; i < N; ++i) c.d[i] = select(take_first, a.d[i], b.d[i]);
-    return c;
-  }
-  template <int W, class S, int K>
-  Taylor<S, K> select(const Mask<W>& take_first, const Taylor<S, K>& a, const Taylor<S, K>& b) {
-    Taylor<S, K> c;
-    for (int k = 0; k <= K; ++k) c.c[k] = select(take_first, a.c[k], b.c[k]);
-    return c;
-  }
-  template <int W, class S, int N>
-  Vec<S, N> select(const Mask<W>& take_first, const Vec<S, N>& a, const Vec<S, N>& b) {
-    Vec<S, N> c;
-    for (int i = 0; i < N; ++i) c[i] = select(take_first, a[i], b[i]);
-    return c;
-  }
+/// Choice lane by lane, of packs and of everything made of packs.
+template <int W>
+Pack<W> select(const Mask<W>& take_first, const Pack<W>& a, const Pack<W>& b) {
+  Pack<W> c;
+  for (int i = 0; i < Pack<W>::chunks; ++i) c.r[i] = take_first.f[i] ? a.r[i] : b.r[i];
+  return c;
+}
+template <int W, class S, int N>
+Jet<S, N> select(const Mask<W>& take_first, const Jet<S, N>& a, const Jet<S, N>& b) {
+  Jet<S, N> c;
+  c.a = select(take_first, a.a, b.a);
+  for (int i = 0; i < N; ++i) c.d[i] = select(take_first, a.d[i], b.d[i]);
+  return c;
+}
+template <int W, class S, int K>
+Taylor<S, K> select(const Mask<W>& take_first, const Taylor<S, K>& a, const Taylor<S, K>& b) {
+  Taylor<S, K> c;
+  for (int k = 0; k <= K; ++k) c.c[k] = select(take_first, a.c[k], b.c[k]);
+  return c;
+}
+template <int W, class S, int N>
+Vec<S, N> select(const Mask<W>& take_first, const Vec<S, N>& a, const Vec<S, N>& b) {
+  Vec<S, N> c;
+  for (int i = 0; i < N; ++i) c[i] = select(take_first, a[i], b[i]);
+  return c;
+}
 
-  /// Both sides where the lanes disagree, one where they agree: saves time, changes no lane's value.
-  template <int W, class First, class Second>
-  auto choose(const Mask<W>& take_first, const First& first, const Second& second)->decltype(first()) {
-    if (all(take_first)) return first();
-    if (!any(take_first)) return second();
-    return select(take_first, first(), second());
-  }
+/// Both sides where the lanes disagree, one where they agree: saves time, changes no lane's value.
+template <int W, class First, class Second>
+auto choose(const Mask<W>& take_first, const First& first, const Second& second) -> decltype(first()) {
+  if (all(take_first)) return first();
+  if (!any(take_first)) return second();
+  return select(take_first, first(), second());
+}
 
-  /// One lane of a vector or matrix of packs, read and written.
-  template <int W, int N>
-  Vec<double, N> get_lane(const Vec<Pack<W>, N>& a, int lane) {
-    Vec<double, N> r;
-    for (int i = 0; i < N; ++i) r[i] = a[i][lane];
-    return r;
-  }
-  template <int W, int N>
-  void set_lane(Vec<Pack<W>, N> & a, int lane, const Vec<double, N>& value) {
-    for (int i = 0; i < N; ++i) a[i].set(lane, value[i]);
-  }
-  template <int W, int R, int C>
-  Mat<double, R, C> get_lane(const Mat<Pack<W>, R, C>& a, int lane) {
-    Mat<double, R, C> r;
-    for (int i = 0; i < R * C; ++i) r.m[i] = a.m[i][lane];
-    return r;
-  }
-  template <int W, int R, int C>
-  void set_lane(Mat<Pack<W>, R, C> & a, int lane, const Mat<double, R, C>& value) {
-    for (int i = 0; i < R * C; ++i) a.m[i].set(lane, value.m[i]);
-  }
+/// One lane of a vector or matrix of packs, read and written.
+template <int W, int N>
+Vec<double, N> get_lane(const Vec<Pack<W>, N>& a, int lane) {
+  Vec<double, N> r;
+  for (int i = 0; i < N; ++i) r[i] = a[i][lane];
+  return r;
+}
+template <int W, int N>
+void set_lane(Vec<Pack<W>, N>& a, int lane, const Vec<double, N>& value) {
+  for (int i = 0; i < N; ++i) a[i].set(lane, value[i]);
+}
+template <int W, int R, int C>
+Mat<double, R, C> get_lane(const Mat<Pack<W>, R, C>& a, int lane) {
+  Mat<double, R, C> r;
+  for (int i = 0; i < R * C; ++i) r.m[i] = a.m[i][lane];
+  return r;
+}
+template <int W, int R, int C>
+void set_lane(Mat<Pack<W>, R, C>& a, int lane, const Mat<double, R, C>& value) {
+  for (int i = 0; i < R * C; ++i) a.m[i].set(lane, value.m[i]);
+}
 
-}  // namespace )
+}  // namespace BOUGH_REGISTER_NAMESPACE
 }  // namespace bough::lanes
 
 #undef BOUGH_REGISTER_NAMESPACE
-#undef BOUGH_REGISTER_NAMESPACE_2
 #undef BOUGH_REGISTER_DOUBLES
