@@ -1,0 +1,47 @@
+#pragma once
+/// All elements of a model: one contiguous array per type, and the one place where code goes over the types.
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bough/elements/evaluate.hpp"
+
+namespace bough::plan {
+
+using ElementArrays =
+    std::tuple<std::vector<elements::Beam<2>>, std::vector<elements::Beam<3>>, std::vector<elements::Beam<4>>,
+               std::vector<elements::RigidBody>, std::vector<elements::Joint>, std::vector<elements::Spring>,
+               std::vector<elements::Bushing>, std::vector<elements::PointLoad>, std::vector<elements::LineLoad<2>>,
+               std::vector<elements::LineLoad<3>>, std::vector<elements::LineLoad<4>>>;
+
+template <class E>
+std::vector<E>& array_of(ElementArrays& all) {
+  return std::get<std::vector<E>>(all);
+}
+template <class E>
+const std::vector<E>& array_of(const ElementArrays& all) {
+  return std::get<std::vector<E>>(all);
+}
+
+/// Elements in one global order: array after array. `directory[id]` tells array and index.
+struct ElementPlace {
+  std::uint8_t array = 0;
+  std::int32_t index = 0;
+};
+
+/// Calls f(element) on the element at a place.
+template <class F>
+void with_element(const ElementArrays& all, ElementPlace place, F&& f) {
+  const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    ((place.array == I ? (f(std::get<I>(all)[static_cast<std::size_t>(place.index)]), true) : false) || ...);
+  };
+  pick(std::make_index_sequence<std::tuple_size_v<ElementArrays>>{});
+}
+
+/// Calls f(array) for every array, in order.
+template <class F>
+void for_each_array(const ElementArrays& all, F&& f) {
+  std::apply([&](const auto&... arrays) { (f(arrays), ...); }, all);
+}
+
+}  // namespace bough::plan

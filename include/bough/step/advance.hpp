@@ -1,0 +1,60 @@
+#pragma once
+/// Verbs that take a state to the next: consistent start, one step in time, one step of load.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bough/step/options.hpp"
+#include "bough/step/system.hpp"
+
+namespace bough::step {
+
+/// Outcome of one attempt.
+struct StepReport {
+  bool converged = false;
+  bool at_floor = false;      ///< accepted at the round-off floor of the residual, above the tolerance
+  int iterations = 0;         ///< linear solutions
+  double change = 0.0;        ///< last change of relative motions
+  ResidualSize residual;      ///< at the end
+  std::string cause;          ///< why not, when not converged
+  std::vector<double> changes;  ///< of every iteration (statics: shows the quadratic convergence)
+};
+
+/// Outcome of a consistent start.
+struct StartReport {
+  bool ok = false;
+  std::string cause;
+  double position_correction = 0.0;  ///< largest change of relative motions that closed the constraints
+  double velocity_impulse = 0.0;     ///< largest multiplier of the velocity projection: an impulse where a driven rate meets rest [N s, N m s]
+  std::vector<std::string> notes;
+};
+
+/// Makes a state consistent at its time (a start, or the far side of a jump in a load or motion):
+///   positions   [M G^T; G 0] (eta, mu) = (0, -Phi)      repeated
+///   velocities  [M G^T; G 0] (dv, mu)  = (0, -Phi')
+///   accelerations and multipliers  [M G^T; G 0] (a, lambda) = (-(forces), -Phi''|_{a = 0})
+/// M may be singular where constraints hold. `impulsive_note`: report the impulse of a velocity jump.
+StartReport make_consistent(System& system, State& state, bool fix_positions);
+
+/// Prepares generalized-alpha for step size h from a consistent state: a_n = dv/dt + shift h (d2v/dt2), and velocities moved along the
+/// constraints' normals by the steady error of the index-3 scheme, so that positions, velocities and multipliers are of second
+/// order from the first step on (Arnold, Bruls, Cardona 2015, sect. 5).
+StartReport start_alpha(System& system, State& state, const StepOptions& options, double step_size);
+
+/// The same when only the step size changes: d2v/dt2 is taken from a_n - dv/dt, no new accelerations are solved for.
+StartReport change_step_size(System& system, State& state, const StepOptions& options, double step_size);
+
+/// One step of Lie-group generalized-alpha, index 3 (Bruls, Cardona, Arnold 2012), from `state` over h to `state`.
+/// Not converged: `state` is left as it was tried; the caller restores its copy.
+StepReport advance(System& system, State& state, const StepOptions& options, double end_time);
+
+/// Equilibrium at a load factor, by Newton from the present shape.
+StepReport equilibrate(System& system, State& state, const StepOptions& options, double load_factor);
+
+/// Whether joints stayed on their branch (no flipped poses) and relative rotations below pi; else says what happened.
+std::optional<Trouble> check_shape(const System& system, const State& state);
+
+/// New counts of turns after an accepted step.
+void accept_turns(const System& system, State& state);
+
+}  // namespace bough::step

@@ -1,0 +1,29 @@
+#pragma once
+/// Options of a run in time or load.
+#include <string>
+#include <vector>
+
+#include "bough/scene/scene.hpp"
+
+namespace bough::step {
+
+struct StepOptions {
+  double spectral_radius = 0.8;  ///< rho_inf [-] at infinite frequency, 0 (most damping) to 1 (none)
+  double tolerance = 1e-8;       ///< [-] of changes of relative motions, and of residuals relative to what makes them
+  int max_iterations = 20;       ///< Newton limit, >= 1
+  int max_cuts = 10;             ///< halvings of a step before the run fails
+  bool single_solution = false;  ///< one linear solution per step, no convergence asked for (linearly implicit)
+};
+
+StepOptions make_step_options(const scene::Analysis& analysis);
+std::vector<std::string> problems_in(const StepOptions& options);
+
+/// Coefficients of generalized-alpha (Chung, Hulbert 1993), functions of the spectral radius alone.
+///   alpha_m = (2 rho - 1)/(rho + 1), alpha_f = rho/(rho + 1), gamma = 1/2 + alpha_f - alpha_m, beta = (gamma + 1/2)^2 / 4
+struct AlphaCoefficients {
+  double alpha_m, alpha_f, beta, gamma;
+  double shift() const { return alpha_m - alpha_f; }  ///< a_n stands for dv/dt at t_n + shift h (Arnold, Bruls, Cardona 2015)
+};
+AlphaCoefficients make_alpha_coefficients(double spectral_radius);
+
+}  // namespace bough::step

@@ -1,0 +1,27 @@
+#pragma once
+/// Everything that changes during a run, as plain data: two equal states continue equally.
+#include <vector>
+
+#include "bough/elements/evaluate.hpp"
+#include "bough/motion/quaternion.hpp"
+#include "bough/plan/plan.hpp"
+
+namespace bough::step {
+
+struct State {
+  double time = 0.0;                                   ///< [s], or the load factor in statics
+  double step_size = 0.0;                              ///< h that `algorithmic` belongs to [s]; 0 before the start
+  std::vector<elements::NodeMotion> nodes;             ///< R, x, v, dv/dt, and dq since the last accepted step
+  std::vector<motion::Quaternion<double>> rotation;    ///< of nodes; R is made from it
+  std::vector<motion::Vec6<double>> algorithmic;       ///< a_n, the acceleration-like variable of generalized-alpha
+  std::vector<double> multipliers;
+  std::vector<double> turns;                           ///< angle of each joint at the last accepted step [rad]
+};
+
+/// The scene's own poses and twists, not yet consistent.
+State make_initial_state(const plan::Plan& plan);
+
+/// H <- H exp(eta) of one node, and dq <- log(exp(dq) exp(eta)).
+void move_node(State& state, std::size_t node, const motion::Vec6<double>& eta);
+
+}  // namespace bough::step

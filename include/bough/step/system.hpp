@@ -1,0 +1,105 @@
+#pragma once
+/// A plan with its tree, its linear solver and the buffers to evaluate it: residuals, tangents, linear solutions. Allocates when made,
+/// not afterwards.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bough/solve/any_solver.hpp"
+#include "bough/step/state.hpp"
+#include "bough/tree/tree.hpp"
+#include "bough/tree/walker.hpp"
+
+namespace bough::step {
+
+/// CPU seconds of the process by phase, and counts of work.
+struct WorkCounts {
+  double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0;
+  long factorizations = 0, solutions = 0, evaluations = 0;
+  double backward_error_max = 0.0;
+  int deficiency = 0;  ///< largest number of dependent constraint rows seen
+};
+
+/// Largest entries of a residual or constraint violation, forces and moments, lengths and angles apart.
+struct ResidualSize {
+  double force = 0.0, moment = 0.0;              ///< |sum of contributions|
+  double force_scale = 0.0, moment_scale = 0.0;  ///< largest sum of |contributions| at a node
+  double length = 0.0, angle = 0.0;              ///< constraint violations
+  int worst_force_node = -1, worst_moment_node = -1, worst_joint = -1;
+};
+
+/// Why a step or a run cannot go on, in words for the user.
+struct Trouble {
+  std::string text;
+};
+
+class System {
+ public:
+  System(const plan::Plan& plan, const scene::Solver& solver, const tree::Walker& walker);
+
+  const plan::Plan& plan() const { return plan_; }
+  const tree::Tree& tree() const { return *tree_; }
+  solve::AnySolver& solver() { return *solver_; }
+  const tree::Walker& walker() const { return walker_; }
+  WorkCounts& counts() { return counts_; }
+
+  /// Values of all time functions at t (right or left limit). A value that is not finite is told with its owner and the time.
+  [[nodiscard]] std::optional<Trouble> set_time(double time, laws::Side side = laws::Side::left);
+  elements::Field field(const State& state, const elements::Slopes& slopes = {}, bool with_inertia = true) const;
+
+  /// Residual of all elements (and element matrices when `tangent`), then summed over nodes into residual().
+  [[nodiscard]] std::optional<Trouble> evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
+  /// By block, unknowns in the order of the solver.
+  const std::vector<double>& residual() const { return residual_; }
+  ResidualSize residual_size() const;
+  /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment.
+  ResidualSize round_off_floor(const State& state) const;
+
+  /// Factors the element matrices now present.
+  [[nodiscard]] std::optional<Trouble> factor(bool rescale);
+  /// x <- A^-1 rhs.
+  [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x);
+  const solve::SolveReport& last_solution() const { return last_solution_; }
+
+  /// Applies a solution: nodes move by their increments, multipliers grow by theirs. Returns the largest change of relative motions:
+  /// of elements' nodes with respect to each other, lengths relative to the element [-] and angles [rad].
+  double apply(State& state, const double* x);
+
+  /// d(residual)/dt with accelerations and multipliers held.
+  void evaluate_rate(const State& state, std::vector<double>& rate);
+  /// Constraint rows and their first three time derivatives (jerk may be null: then 0), by multiplier.
+  void constraint_series(const State& state, const motion::Vec6<double>* jerk, double step_size,
+                         std::vector<lanes::Taylor<double, 3>>& out);
+  /// Largest |Phi| (order 0) or |Phi'| (order 1) over all rows and the joint it belongs to.
+  double constraint_violation(const State& state, int order, int* joint = nullptr);
+
+  int joint_of_block(int block) const;
+  /// "node 'a'" or "joint 'b'": the owner of a block, for messages.
+  std::string block_name(int block) const;
+  std::int64_t block_begin(int block) const { return tree_->unknown_begin[static_cast<std::size_t>(block)]; }
+  std::size_t num_unknowns() const { return static_cast<std::size_t>(tree_->num_unknowns()); }
+  const std::vector<double>& law_values() const { return law_values_; }
+
+ private:
+  const plan::Plan& plan_;
+  std::unique_ptr<tree::Tree> tree_;
+  std::unique_ptr<solve::AnySolver> solver_;
+  tree::Walker walker_;
+  WorkCounts counts_;
+  solve::SolveReport last_solution_;
+  std::vector<double> law_values_, law_rates_, law_accelerations_;
+  std::vector<std::int64_t> element_begin_;       ///< place of an element's residual
+  std::vector<double> element_residual_;
+  std::vector<int> joint_of_element_;             ///< index in plan.joints or -1
+  std::vector<int> joint_of_block_;
+  std::vector<std::int64_t> use_begin_;           ///< by block: range in uses_
+  std::vector<std::int64_t> uses_;                ///< places in element_residual_ that add up to the block, fixed order
+  std::vector<double> residual_, magnitude_;
+  std::vector<double> chunk_max_;
+  std::vector<double> element_length_;            ///< size of each element, for relative changes [m]
+  double time_ = 0.0;
+  bool scaled_ = false;
+};
+
+}  // namespace bough::step

@@ -1,0 +1,23 @@
+#pragma once
+/// One simulation from a scene to results.
+#include <functional>
+
+#include "bough/results/records.hpp"
+#include "bough/scene/scene.hpp"
+
+namespace bough::study {
+
+struct SimulateOptions {
+  int threads = 1;           ///< of the tree's tasks, >= 1; results do not depend on it
+  bool want_motion = false;  ///< hand out the moving structure even if the scene does not ask for it
+};
+
+/// Asked after every accepted step; false: stop here (interrupted).
+using ProgressCallback = std::function<bool(const results::Progress&)>;
+
+/// Runs a scene. Precondition: problems_in(scene) is empty. Failures of the run are told in the summary, never thrown; what a recorder throws
+/// (std::runtime_error) ends the run as failed, too. The recorder's `end` is called in every case but that one.
+results::Summary simulate(const scene::Scene& scene, const SimulateOptions& options, results::Recorder& recorder,
+                          const ProgressCallback& progress = {});
+
+}  // namespace bough::study

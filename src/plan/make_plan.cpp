@@ -1,0 +1,387 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "bough/laws/make_law.hpp"
+#include "bough/plan/plan.hpp"
+#include "bough/scene/components.hpp"
+#include "bough/scene/poses.hpp"
+#include "plan_builder.hpp"
+
+namespace bough::plan {
+
+using elements::Port;
+using motion::Frame;
+using motion::Mat3;
+using motion::Mat6;
+using motion::Vec3;
+using motion::Vec6;
+
+namespace {
+
+bool is_identity(const Frame<double>& H) {
+  const Frame<double> one = Frame<double>::identity();
+  for (int i = 0; i < 9; ++i)
+    if (H.R.m[i] != one.R.m[i]) return false;
+  return H.x[0] == 0.0 && H.x[1] == 0.0 && H.x[2] == 0.0;
+}
+
+}  // namespace
+
+Builder::Builder(const scene::Scene& s) : scene(s) {
+  plan.scene_name = s.name;
+  plan.is_dynamic = s.analysis.kind == scene::AnalysisKind::dynamics;
+}
+
+int Builder::add_law(const laws::Law& law, const std::string& user) {
+  plan.laws.push_back({law, user});
+  return static_cast<int>(plan.laws.size()) - 1;
+}
+
+/// A factor left out: full from the start in dynamics, growing with the load factor in statics.
+int Builder::add_factor(const laws::Law& law, const std::string& user) {
+  if (law.node() != nullptr) return add_law(law, user);
+  return add_law(plan.is_dynamic ? laws::make_constant(1.0) : laws::make_ramp(0.0, 1.0, 0.0, 1.0), user);
+}
+
+int Builder::add_node(const std::string& name, const Frame<double>& pose) {
+  plan.nodes.push_back({name, pose, Vec6<double>::zero()});
+  const int id = static_cast<int>(plan.nodes.size()) - 1;
+  node_of[name] = id;
+  return id;
+}
+
+Port Builder::port_at(const std::string& to, const Frame<double>& offset) const {
+  Port port;
+  if (to.empty() || to == "ground") {
+    port.offset = offset;
+    port.has_offset = true;
+    return port;
+  }
+  port.node = node_of.at(to);
+  port.offset = offset;
+  port.has_offset = !is_identity(offset);
+  return port;
+}
+Port Builder::port_at(const scene::Attachment& a) const { return port_at(a.to, a.offset); }
+
+Frame<double> Builder::initial_pose(const Port& port) const {
+  if (port.node == elements::ground) return port.offset;
+  const Frame<double>& node = plan.nodes[static_cast<std::size_t>(port.node)].pose;
+  return port.has_offset ? motion::compose(node, port.offset) : node;
+}
+
+/// Elements are numbered array after array once all are known; until then an owner travels with each.
+template <class E>
+int Builder::add(const E& e, const std::string& owner) {
+  array_of<E>(plan.elements).push_back(e);
+  owners<E>().push_back(owner);
+  return static_cast<int>(array_of<E>(plan.elements).size()) - 1;
+}
+
+void Builder::add_bodies() {
+  for (const scene::Node& n : scene.nodes) add_node(n.name, scene::resolve(scene, n.placement));
+  for (const scene::Body& b : scene.bodies) {
+    const int id = add_node(b.name, scene::resolve(scene, b.placement));
+    elements::RigidBody body;
+    body.ports[0].node = id;
+    body.mass = elements::make_mass_matrix(b.mass, b.center_of_mass, b.inertia);
+    add(body, b.name);
+    plan.body_nodes.push_back(id);
+    plan.body_centers.push_back(b.center_of_mass);
+  }
+}
+
+namespace {
+
+void add_row(elements::Joint& j, elements::RowKind kind, int i, int k = 0, int law = -1) {
+  elements::ConstraintRow& row = j.rows[j.num_rows++];
+  row.kind = kind;
+  row.i = i;
+  row.j = k;
+  row.law = law;
+}
+
+/// Rows of each kind. Axis numbers from 0; axis 2 (the third) is the joint's own.
+void add_kind_rows(elements::Joint& j, const scene::Joint& given) {
+  using elements::RowKind;
+  using scene::JointKind;
+  const JointKind kind = given.kind;
+  const bool all_displacements = kind == JointKind::fixed || kind == JointKind::revolute || kind == JointKind::spherical ||
+                                 kind == JointKind::universal;
+  if (all_displacements)
+    for (int i = 0; i < 3; ++i) add_row(j, RowKind::along, i);
+  else if (kind == JointKind::planar)
+    add_row(j, RowKind::along, 2);
+  else
+    for (int i = 0; i < 2; ++i) add_row(j, RowKind::along, i);
+  if (kind == JointKind::fixed || kind == JointKind::prismatic)
+    for (int i = 0; i < 3; ++i) add_row(j, RowKind::across, i, (i + 1) % 3);
+  else if (kind == JointKind::universal)
+    add_row(j, RowKind::across, 0, 1);
+  else if (kind != JointKind::spherical)
+    for (int i = 0; i < 2; ++i) add_row(j, RowKind::across, i, 2);
+  if (kind == JointKind::screw) {
+    add_row(j, RowKind::screw, 2);
+    j.rows[j.num_rows - 1].pitch = given.pitch / (2.0 * 3.14159265358979323846);
+  }
+}
+
+}  // namespace
+
+int Builder::add_joint(elements::Joint& j, const std::string& name, const std::string& what) {
+  JointPlan p;
+  p.name = name;
+  p.what = what;
+  p.element = add(j, name);
+  for (int k = 0; k < j.num_rows; ++k)
+    p.counts_turns |= j.rows[k].kind == elements::RowKind::angle || j.rows[k].kind == elements::RowKind::screw;
+  for (int k = 0; k < j.num_efforts; ++k) p.counts_turns |= j.efforts[k].coordinate == elements::Coordinate::angle;
+  p.multiplier_begin = plan.num_multipliers;
+  plan.num_multipliers += j.num_rows;
+  plan.joints.push_back(p);
+  return static_cast<int>(plan.joints.size()) - 1;
+}
+
+/// A driven rate becomes its integral from the coordinate's initial value.
+int Builder::add_drive(const laws::Law& law, bool is_rate, double initial, const std::string& user) {
+  if (!is_rate) return add_law(law, user);
+  return add_law(laws::make_sum({law.integral(0.0), laws::make_constant(initial)}), user);
+}
+
+void Builder::add_joints() {
+  for (const scene::Joint& given : scene.joints) {
+    elements::Joint j;
+    j.ports[0] = port_at(given.first);
+    j.ports[1] = port_at(given.second);
+    add_kind_rows(j, given);
+    const Frame<double> H = motion::relative(initial_pose(j.ports[0]), initial_pose(j.ports[1]));
+    const double angle = elements::eval_angle(H.R, 0.0);
+    for (const scene::JointDrive& d : given.drives) {
+      const bool turns = d.coordinate == "angle";
+      const int law = add_drive(d.law, d.is_rate, turns ? angle : H.x[2], given.name);
+      add_row(j, turns ? elements::RowKind::angle : elements::RowKind::along, 2, 0, law);
+    }
+    for (const scene::JointForce& f : given.forces) {
+      elements::Effort& e = j.efforts[j.num_efforts++];
+      e.coordinate = f.coordinate == "angle" ? elements::Coordinate::angle : elements::Coordinate::displacement;
+      e.stiffness = f.stiffness;
+      e.rest = f.rest;
+      e.damping = f.damping;
+      if (f.effort.node() != nullptr) e.law = add_law(f.effort, given.name);
+    }
+    const int id = add_joint(j, given.name, "joint");
+    JointPlan& p = plan.joints[static_cast<std::size_t>(id)];
+    const std::vector<std::string>& free = scene::coordinates_of(given.kind);
+    p.counts_turns |= std::find(free.begin(), free.end(), "angle") != free.end();
+  }
+}
+
+void Builder::add_motions() {
+  for (const scene::PrescribedMotion& m : scene.motions) {
+    const Port moving = port_at(m.at);
+    const Frame<double> start = initial_pose(moving);
+    elements::Joint shift;  // the ground's axes at the initial place
+    shift.ports[0] = port_at("ground", {Mat3<double>::identity(), start.x});
+    shift.ports[1] = moving;
+    for (int i = 0; i < 3; ++i)
+      if (m.displacement[i]) add_row(shift, elements::RowKind::along, i, 0, add_drive(*m.displacement[i], m.is_rate, 0.0, m.name));
+    if (shift.num_rows > 0) add_joint(shift, m.name, "prescribed motion");
+    if (!m.rotation_axis && !m.hold_rotation) continue;
+    elements::Joint turn;  // both frames along the axis of rotation, equal at the start
+    const Mat3<double> axes = m.rotation_axis ? axes_with_third(*m.rotation_axis) : Mat3<double>::identity();
+    turn.ports[0] = port_at("ground", {axes, start.x});
+    turn.ports[1] = moving;
+    turn.ports[1].offset = motion::compose(turn.ports[1].has_offset ? moving.offset : Frame<double>::identity(),
+                                           {lanes::transpose(start.R) * axes, Vec3<double>::zero()});
+    turn.ports[1].has_offset = true;
+    if (m.rotation_axis) {
+      for (int i = 0; i < 2; ++i) add_row(turn, elements::RowKind::across, i, 2);
+      add_row(turn, elements::RowKind::angle, 2, 0, add_drive(m.angle, m.is_rate, 0.0, m.name));
+    } else {
+      for (int i = 0; i < 3; ++i) add_row(turn, elements::RowKind::across, i, (i + 1) % 3);
+    }
+    add_joint(turn, m.name, "prescribed motion");
+  }
+}
+
+void Builder::add_couplings() {
+  for (const scene::Spring& s : scene.springs) {
+    elements::Spring e;
+    e.ports[0] = port_at(s.first);
+    e.ports[1] = port_at(s.second);
+    e.stiffness = s.stiffness;
+    e.rest_length = s.rest_length;
+    e.damping = s.damping;
+    add(e, s.name);
+  }
+  for (const scene::Bushing& b : scene.bushings) {
+    elements::Bushing e;
+    e.ports[0] = port_at(b.first);
+    e.ports[1] = port_at(b.second);
+    e.stiffness = b.stiffness;
+    e.damping = b.damping;
+    for (int i = 0; i < 36; ++i) e.has_damping |= b.damping.m[i] != 0.0;
+    e.rest = motion::Se3::log(motion::relative(initial_pose(e.ports[0]), initial_pose(e.ports[1])));
+    add(e, b.name);
+  }
+  for (const scene::PointLoad& l : scene.point_loads) {
+    elements::PointLoad e;
+    e.ports[0] = port_at(l.at);
+    e.wrench = lanes::join(l.force, l.moment);
+    e.follows = l.axes == scene::LoadAxes::body;
+    e.law = add_factor(l.law, l.name);
+    add(e, l.name);
+  }
+}
+
+/// A point mass has no rotational inertia: its rotation is held where nothing that meets it feels it.
+void Builder::hold_point_masses() {
+  std::vector<bool> feels(plan.nodes.size(), false);
+  const auto mark = [&feels](const auto& e, bool turns) {
+    for (const Port& p : e.ports) {
+      if (p.node == elements::ground) continue;
+      const bool apart = p.has_offset && (p.offset.x[0] != 0.0 || p.offset.x[1] != 0.0 || p.offset.x[2] != 0.0);
+      if (turns || apart) feels[static_cast<std::size_t>(p.node)] = true;
+    }
+  };
+  for_each_array(plan.elements, [&](const auto& array) {
+    using E = typename std::decay_t<decltype(array)>::value_type;
+    for (const E& e : array) {
+      if constexpr (std::is_same_v<E, elements::RigidBody>)
+        continue;
+      else if constexpr (std::is_same_v<E, elements::Spring>)
+        mark(e, false);
+      else if constexpr (std::is_same_v<E, elements::PointLoad>)
+        mark(e, e.follows || lanes::dot(e.wrench, e.wrench) != lanes::dot(lanes::linear_part(e.wrench), lanes::linear_part(e.wrench)));
+      else if constexpr (std::is_same_v<E, elements::Joint>) {
+        // A row along an axis of the first frame turns with the first body; three of them meet in a point and do not.
+        bool turns = e.num_efforts > 0;
+        int along = 0;
+        for (int k = 0; k < e.num_rows; ++k) {
+          turns |= e.rows[k].kind != elements::RowKind::along;
+          ++along;
+        }
+        mark(e, turns || along != 3);
+      } else
+        mark(e, true);
+    }
+  });
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const int node = plan.body_nodes[b];
+    if (!scene.bodies[b].is_point_mass || feels[static_cast<std::size_t>(node)]) continue;
+    elements::Joint hold;
+    const Frame<double> pose = plan.nodes[static_cast<std::size_t>(node)].pose;
+    hold.ports[0] = port_at("ground", pose);
+    hold.ports[1].node = node;
+    for (int i = 0; i < 3; ++i) add_row(hold, elements::RowKind::across, i, (i + 1) % 3);
+    add_joint(hold, scene.bodies[b].name, "held rotation");
+  }
+}
+
+void Builder::add_initial_velocities() {
+  for (const scene::InitialVelocity& v : scene.initial_velocities) {
+    std::vector<int> targets;
+    const auto beam = std::find_if(plan.beams.begin(), plan.beams.end(), [&](const BeamPlan& b) { return b.name == v.of; });
+    if (beam != plan.beams.end())
+      targets = beam->nodes;
+    else
+      targets = {node_of.at(v.of)};
+    const Frame<double> origin = plan.nodes[static_cast<std::size_t>(targets.front())].pose;
+    Vec3<double> linear = v.velocity, angular = v.angular_velocity;
+    if (v.axes == scene::LoadAxes::body) {
+      linear = origin.R * linear;
+      angular = origin.R * angular;
+    }
+    for (int id : targets) {
+      NodePlan& n = plan.nodes[static_cast<std::size_t>(id)];
+      const Vec3<double> at = linear + lanes::cross(angular, Vec3<double>(n.pose.x - origin.x));
+      n.twist = lanes::join(lanes::transpose_times(n.pose.R, at), lanes::transpose_times(n.pose.R, angular));
+    }
+  }
+}
+
+void Builder::number_elements() {
+  int first = 0;
+  std::uint8_t array_id = 0;
+  std::vector<int> first_of_array;
+  for_each_array(plan.elements, [&](const auto& array) {
+    using E = typename std::decay_t<decltype(array)>::value_type;
+    first_of_array.push_back(first);
+    for (std::size_t i = 0; i < array.size(); ++i) {
+      plan.directory.push_back({array_id, static_cast<std::int32_t>(i)});
+      plan.element_owner.push_back(owners<E>()[i]);
+    }
+    first += static_cast<int>(array.size());
+    ++array_id;
+  });
+  constexpr std::size_t joint_array = 4;
+  static_assert(std::is_same_v<std::tuple_element_t<joint_array, ElementArrays>, std::vector<elements::Joint>>);
+  for (JointPlan& j : plan.joints) j.element += first_of_array[joint_array];
+  for (BeamPlan& b : plan.beams) {
+    const int array = b.order - 1;
+    for (int& e : b.elements) e += first_of_array[static_cast<std::size_t>(array)];
+    for (auto& list : b.loads)
+      for (int& e : list) e += first_of_array[static_cast<std::size_t>(8 + array)];
+  }
+}
+
+void Builder::make_graph() {
+  blocks::BlockGraph& g = plan.graph;
+  const int num_nodes = static_cast<int>(plan.nodes.size());
+  g.block_size.assign(static_cast<std::size_t>(num_nodes), 6);
+  g.block_kind.assign(static_cast<std::size_t>(num_nodes), blocks::BlockKind::motion);
+  std::map<int, JointPlan*> joint_of_element;
+  for (JointPlan& j : plan.joints) joint_of_element[j.element] = &j;
+  for (std::size_t id = 0; id < plan.directory.size(); ++id) {
+    with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      for (const Port& p : e.ports)
+        if (p.node != elements::ground) g.element_blocks.push_back(p.node);
+      const int m = elements::num_multipliers(e);
+      const auto joint = joint_of_element.find(static_cast<int>(id));
+      if (m > 0) {
+        joint->second->block = g.num_blocks();
+        g.element_blocks.push_back(g.num_blocks());
+        g.block_size.push_back(m);
+        g.block_kind.push_back(blocks::BlockKind::multiplier);
+      }
+    });
+    g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
+  }
+  Vec3<double> low = Vec3<double>::zero(), high = low;
+  for (std::size_t i = 0; i < plan.nodes.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double x = plan.nodes[i].pose.x[k];
+      low[k] = i == 0 ? x : std::min(low[k], x);
+      high[k] = i == 0 ? x : std::max(high[k], x);
+    }
+  const Vec3<double> size = high - low;
+  const double diagonal = std::sqrt(lanes::dot(size, size));
+  plan.length_scale = diagonal > 0.0 ? diagonal : 1.0;
+}
+
+Plan make_plan(const scene::Scene& scene) {
+  Builder b(scene);
+  b.plan.gravity = scene.gravity;
+  b.plan.gravity_law = b.add_factor(scene.gravity_law, "gravity");
+  b.add_bodies();
+  b.add_beams();
+  b.add_joints();
+  b.add_motions();
+  b.add_couplings();
+  b.hold_point_masses();
+  b.add_initial_velocities();
+  b.number_elements();
+  b.make_graph();
+  b.add_sensors();
+  return std::move(b.plan);
+}
+
+template int Builder::add(const elements::Beam<2>&, const std::string&);
+template int Builder::add(const elements::Beam<3>&, const std::string&);
+template int Builder::add(const elements::Beam<4>&, const std::string&);
+template int Builder::add(const elements::LineLoad<2>&, const std::string&);
+template int Builder::add(const elements::LineLoad<3>&, const std::string&);
+template int Builder::add(const elements::LineLoad<4>&, const std::string&);
+
+}  // namespace bough::plan

@@ -1,0 +1,64 @@
+#pragma once
+/// Working state of make_plan: one method per kind of thing in a scene.
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "bough/plan/plan.hpp"
+
+namespace bough::plan {
+
+template <class Arrays>
+struct OwnersOf;
+template <class... E>
+struct OwnersOf<std::tuple<std::vector<E>...>> {
+  template <class T>
+  struct Tagged : std::vector<std::string> {};
+  using type = std::tuple<Tagged<E>...>;
+  template <class T>
+  using tag = Tagged<T>;
+};
+
+/// Rotation matrix whose third column is the given direction (any length > 0), the others chosen.
+motion::Mat3<double> axes_with_third(const motion::Vec3<double>& direction);
+
+struct Builder {
+  explicit Builder(const scene::Scene& scene);
+
+  const scene::Scene& scene;
+  Plan plan;
+  std::map<std::string, int> node_of;
+  OwnersOf<ElementArrays>::type owner_lists;
+  std::map<std::string, int> line_laws;  ///< one law for all elements under a line load
+
+  template <class E>
+  std::vector<std::string>& owners() {
+    return std::get<OwnersOf<ElementArrays>::tag<E>>(owner_lists);
+  }
+  template <class E>
+  int add(const E& e, const std::string& owner);  ///< index within its array
+
+  int add_law(const laws::Law& law, const std::string& user);
+  int add_factor(const laws::Law& law, const std::string& user);
+  int line_load_law(const scene::LineLoad& load);
+  int add_drive(const laws::Law& law, bool is_rate, double initial, const std::string& user);
+  int add_node(const std::string& name, const motion::Frame<double>& pose);
+  int add_joint(elements::Joint& joint, const std::string& name, const std::string& what);
+  elements::Port port_at(const std::string& to, const motion::Frame<double>& offset) const;
+  elements::Port port_at(const scene::Attachment& a) const;
+  motion::Frame<double> initial_pose(const elements::Port& port) const;
+
+  void add_bodies();
+  void add_beams();
+  void add_joints();
+  void add_motions();
+  void add_couplings();
+  void hold_point_masses();
+  void add_initial_velocities();
+  void number_elements();
+  void make_graph();
+  void add_sensors();
+};
+
+}  // namespace bough::plan

@@ -1,0 +1,33 @@
+#include "bough/step/options.hpp"
+
+namespace bough::step {
+
+StepOptions make_step_options(const scene::Analysis& a) {
+  StepOptions o;
+  o.spectral_radius = a.spectral_radius;
+  o.tolerance = a.tolerance;
+  o.max_iterations = a.max_iterations;
+  o.max_cuts = a.max_cuts;
+  o.single_solution = a.newton == scene::Newton::single;
+  return o;
+}
+
+std::vector<std::string> problems_in(const StepOptions& o) {
+  std::vector<std::string> problems;
+  if (!(o.spectral_radius >= 0.0 && o.spectral_radius <= 1.0)) problems.push_back("spectral_radius must be between 0 and 1");
+  if (!(o.tolerance > 0.0 && o.tolerance < 1.0)) problems.push_back("tolerance must be between 0 and 1");
+  if (o.max_iterations < 1) problems.push_back("max_iterations must be at least 1");
+  if (o.max_cuts < 0) problems.push_back("max_cuts must not be negative");
+  return problems;
+}
+
+AlphaCoefficients make_alpha_coefficients(double rho) {
+  AlphaCoefficients c;
+  c.alpha_m = (2.0 * rho - 1.0) / (rho + 1.0);
+  c.alpha_f = rho / (rho + 1.0);
+  c.gamma = 0.5 + c.alpha_f - c.alpha_m;
+  c.beta = 0.25 * (c.gamma + 0.5) * (c.gamma + 0.5);
+  return c;
+}
+
+}  // namespace bough::step

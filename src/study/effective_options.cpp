@@ -1,0 +1,48 @@
+#include "effective_options.hpp"
+
+#include <charconv>
+
+namespace bough::study {
+
+namespace {
+
+std::string number(double x) {
+  char text[40];
+  const auto end = std::to_chars(text, text + sizeof text, x).ptr;
+  return {text, end};
+}
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
+}  // namespace
+
+results::EffectiveOptions effective_options(const scene::Scene& scene, const step::StepOptions& o) {
+  results::EffectiveOptions list;
+  const bool dynamic = scene.analysis.kind == scene::AnalysisKind::dynamics;
+  list.emplace_back("analysis/kind", quoted(dynamic ? "dynamic" : "static"));
+  if (dynamic) {
+    const step::AlphaCoefficients c = step::make_alpha_coefficients(o.spectral_radius);
+    list.emplace_back("analysis/end_time", number(scene.analysis.end_time));
+    list.emplace_back("analysis/step_size", number(scene.analysis.step_size));
+    list.emplace_back("analysis/spectral_radius", number(o.spectral_radius));
+    list.emplace_back("analysis/alpha_m", number(c.alpha_m));
+    list.emplace_back("analysis/alpha_f", number(c.alpha_f));
+    list.emplace_back("analysis/beta", number(c.beta));
+    list.emplace_back("analysis/gamma", number(c.gamma));
+  } else {
+    list.emplace_back("analysis/load_steps", std::to_string(scene.analysis.load_steps));
+  }
+  list.emplace_back("analysis/newton", quoted(o.single_solution ? "single" : "full"));
+  list.emplace_back("analysis/tolerance", number(o.tolerance));
+  list.emplace_back("analysis/max_iterations", std::to_string(o.max_iterations));
+  list.emplace_back("analysis/max_cuts", std::to_string(o.max_cuts));
+  list.emplace_back("solver/kind", quoted(scene.solver.kind == scene::SolverKind::monolithic ? "monolithic" : "hierarchical"));
+  list.emplace_back("solver/leaf_size", std::to_string(scene.solver.leaf_size));
+  list.emplace_back("solver/depth", std::to_string(scene.solver.depth));
+  list.emplace_back("solver/penalty_factor", number(scene.solver.penalty_factor));
+  list.emplace_back("solver/tasks", scene.solver.tasks ? "true" : "false");
+  list.emplace_back("output/stride", std::to_string(scene.output.stride));
+  return list;
+}
+
+}  // namespace bough::study
