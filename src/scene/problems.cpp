@@ -76,6 +76,10 @@ ProblemList::ProblemList(const Scene& scene_in, std::span<const std::string> def
   size = model_size(scene, poses);
   is_dynamic = scene.analysis.kind == AnalysisKind::dynamics;
   last_time = is_dynamic ? scene.analysis.end_time : 1.0;
+  if (defective.count("/analysis") > 0) {
+    is_dynamic = false;
+    last_time = std::numeric_limits<double>::infinity();
+  }
 }
 
 void ProblemList::add(const char* section, std::size_t index, std::string key, std::string value, std::string rule, std::string hint) {
@@ -145,7 +149,7 @@ bool ProblemList::check_place(const char* section, std::size_t index, const std:
 void ProblemList::check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law, bool with_derivatives) {
   constexpr int samples = 16;
   for (int i = 0; i <= samples; ++i) {
-    const double t = last_time * i / samples;
+    const double t = std::isfinite(last_time) ? last_time * i / samples : 0.0;
     const laws::LawValue v = law.at(t);
     if (std::isfinite(v.value) && (!with_derivatives || (std::isfinite(v.rate) && std::isfinite(v.acceleration)))) continue;
     add(section, index, key, "",

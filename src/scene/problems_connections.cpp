@@ -193,7 +193,7 @@ void check_motions(ProblemList& list) {
     const auto thing = list.poses.find(v.of);
     if (!thing || thing->kind != ThingKind::beam) list.check_place("initial_velocities", i, "of", v.of, false);
     if (!started.insert(v.of).second) list.add("initial_velocities", i, "of", v.of, "this thing has an initial velocity already");
-    if (!list.is_dynamic) list.warn("initial_velocities", i, "", "", "the analysis is static: an initial velocity does nothing");
+    if (s.analysis.kind == AnalysisKind::statics) list.warn("initial_velocities", i, "", "", "the analysis is static: an initial velocity does nothing");
     if (thing && thing->kind == ThingKind::body && s.bodies[thing->index].is_point_mass && !is_zero(v.angular_velocity))
       list.warn("initial_velocities", i, "angular_velocity", "", "a point mass does not turn");
   }

@@ -117,7 +117,7 @@ void check_analysis(ProblemList& list) {
   const Analysis& a = s.analysis;
   if (s.nodes.empty() && s.bodies.empty() && list.defective.empty())
     list.add("scene", 0, "", "", "nothing here can move", "add nodes and beams, or bodies");
-  if (!list.is_dynamic) return;
+  if (!list.is_dynamic) return;  // or the analysis itself is at fault
   if (!(a.end_time > 0.0)) list.add("analysis", 0, "end_time", text_of(a.end_time), "has to be above 0");
   if (!(a.step_size > 0.0)) list.add("analysis", 0, "step_size", text_of(a.step_size), "has to be above 0");
   if (a.step_size > a.end_time) list.add("analysis", 0, "step_size", text_of(a.step_size), "the step is longer than the whole analysis");

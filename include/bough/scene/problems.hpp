@@ -19,7 +19,7 @@ struct SceneProblem {
 };
 
 /// All of them. defective: names of things that were left out of the scene because they are wrong already; references to
-/// them are not reported, nor what can not be judged without them.
+/// them are not reported, nor what can not be judged without them. "/analysis" stands for the analysis.
 std::vector<SceneProblem> problems_in(const Scene& scene, std::span<const std::string> defective = {});
 
 }  // namespace bough::scene

@@ -1,0 +1,50 @@
+#pragma once
+/// Scenes from JSON files, with everything that is wrong with them, each thing at its place.
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bough/scene/scene.hpp"
+
+namespace bough::io {
+
+/// One thing wrong with a file.
+struct Problem {
+  std::string pointer;  ///< JSON pointer (RFC 6901) of the value or key at fault
+  int line = 0;         ///< from 1; 0: not in the file (given by an override, or the file itself)
+  int column = 0;       ///< from 1, counted in characters
+  std::string value;    ///< the text at fault as written, shortened
+  std::string rule;     ///< what is asked of it
+  std::string hint;     ///< what to do, or the nearest known name; may be empty
+
+  /// "line 12, column 7, /beams/0/section: "stel": no section has this name; did you mean "steel"?"
+  std::string text() const;
+};
+
+/// A scene as far as it could be read. It is usable only when `problems` is empty.
+struct SceneFile {
+  scene::Scene scene;
+  std::vector<Problem> problems;  ///< in the order of the file; at most max_problems
+  std::vector<Problem> warnings;  ///< legal, but probably not meant
+  bool ok() const { return problems.empty(); }
+};
+
+inline constexpr std::size_t max_problems = 200;              ///< those after are counted in the last one
+inline constexpr std::size_t max_file_bytes = 256u << 20u;    ///< larger files are refused unread
+inline constexpr std::size_t max_json_depth = 64;             ///< of arrays and objects in each other
+inline constexpr std::size_t max_json_values = 10'000'000;    ///< numbers, strings, arrays and objects together
+
+/// Reads and checks a scene. Never throws on bad input (only std::bad_alloc may pass), never returns a half-checked scene as good.
+/// set_overrides: "/pointer=value", applied before the check; the value is JSON, or a bare word taken as a string; an array item may
+/// be given by its number or by its "name". Scene::name is the file's name without its ending.
+SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides = {});
+
+/// The same from a text in memory. name: becomes Scene::name.
+SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides = {});
+
+/// The JSON Schema (draft-07) of scene files, made from the table that checks them.
+std::string schema_text();
+
+}  // namespace bough::io

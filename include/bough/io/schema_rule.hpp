@@ -1,0 +1,96 @@
+#pragma once
+/// Rules for JSON values: one table of them checks scenes and is published as their JSON Schema.
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bough/io/json_value.hpp"
+
+namespace bough::io {
+
+enum class Form {
+  number,   ///< a finite number between low and high
+  integer,  ///< the same, whole (20.0 and 2e1 are whole)
+  boolean,
+  text,    ///< any string
+  name,    ///< a string that names a thing: see name_rule
+  word,    ///< one of `words`
+  array,   ///< min_items to max_items of `item`
+  object,  ///< `fields` and nothing else
+  choice,  ///< one of `options`, told apart by JSON type, "kind" or a key that only one has
+  named    ///< the rule of that name in the table
+};
+
+struct Rule;
+using RuleRef = std::shared_ptr<const Rule>;
+
+enum class Presence { optional, required };
+
+struct Field {
+  std::string key;
+  RuleRef rule;
+  std::string about;  ///< one sentence with the unit
+  Presence presence = Presence::optional;
+  std::string default_json = {};  ///< filled in where the key is missing; empty: nothing is
+};
+
+struct Rule {
+  Form form = Form::text;
+  std::string about = {};
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  bool low_open = false;             ///< low itself is not allowed
+  std::vector<std::string> words = {};
+  std::size_t min_items = 0, max_items = std::numeric_limits<std::size_t>::max();
+  RuleRef item = nullptr;
+  std::vector<Field> fields = {};
+  std::vector<std::string> kinds = {};  ///< of an object told by "kind": the values that mean this one (they become the key's enum)
+  std::string marker = {};              ///< of an object in a choice: the key whose presence tells it
+  std::vector<std::vector<std::string>> exactly_one = {};  ///< sets of keys of which exactly one is given
+  std::vector<std::vector<std::string>> at_most_one = {};
+  std::vector<RuleRef> options = {};
+  std::string target = {};  ///< of a named rule
+};
+
+struct RuleTable {
+  std::map<std::string, RuleRef> named;
+  RuleRef root;
+  const Rule& resolve(const Rule& rule) const;
+};
+
+/// The table of scene files.
+const RuleTable& scene_rules();
+
+/// What is asked of a name: 1 to 100 characters, no control characters, no '.' or '/', no space at an end, not "ground".
+/// Empty where the name is good, else the rule it breaks.
+std::string name_fault(const std::string& name);
+
+struct CheckFault {
+  int source = source_file;
+  std::uint32_t offset = 0, length = 0;  ///< of the value at fault; an unknown key, or the object that misses one
+  std::string pointer, rule, hint;
+};
+
+/// Checks a document, fills in defaults (source_default), clears `sound` of values at fault and of all that hold them.
+void check_rules(const RuleTable& table, JsonValue& root, std::vector<CheckFault>& faults);
+
+// Makers of rules, for the table.
+RuleRef number_rule(std::string about, double low = -std::numeric_limits<double>::infinity(), bool low_open = false,
+                    double high = std::numeric_limits<double>::infinity());
+RuleRef positive(std::string about);
+RuleRef not_negative(std::string about);
+RuleRef integer_rule(std::string about, double low, double high);
+RuleRef boolean_rule(std::string about);
+RuleRef text_rule(std::string about);
+RuleRef name_rule(std::string about);
+RuleRef word_rule(std::string about, std::vector<std::string> words);
+RuleRef array_rule(std::string about, RuleRef item, std::size_t min_items = 0,
+                   std::size_t max_items = std::numeric_limits<std::size_t>::max());
+RuleRef choice_rule(std::string about, std::vector<RuleRef> options);
+RuleRef named_rule(std::string target);
+Field need(std::string key, RuleRef rule, std::string about);
+Field may(std::string key, RuleRef rule, std::string about, std::string default_json = {});
+
+}  // namespace bough::io

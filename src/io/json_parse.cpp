@@ -1,0 +1,248 @@
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <unordered_set>
+
+#include "bough/io/json_value.hpp"
+#include "bough/io/read_scene.hpp"
+
+namespace bough::io {
+namespace {
+
+using Base = nlohmann::json;
+
+/// Builds the tree from the reader's events. The reader tells no positions, but its events come in the order of the text and each
+/// stands for one token, so a cursor that steps over the same tokens knows where every one of them lies.
+class Builder : public nlohmann::json_sax<Base> {
+ public:
+  Builder(std::string_view text, int source, std::vector<JsonFault>& faults) : text_(text), source_(source), faults_(faults) {
+    if (text_.substr(0, 3) == "\xEF\xBB\xBF") cursor_ = 3;
+  }
+
+  JsonValue root;
+
+  bool null() override { return scalar(JsonKind::null); }
+  bool boolean(bool val) override {
+    if (!scalar(JsonKind::boolean)) return false;
+    last_->truth = val;
+    return true;
+  }
+  bool number_integer(number_integer_t) override { return number(); }
+  bool number_unsigned(number_unsigned_t) override { return number(); }
+  bool number_float(number_float_t, const string_t&) override { return number(); }
+  bool string(string_t& val) override {
+    if (!scalar(JsonKind::string)) return false;
+    last_->text = std::move(val);
+    return true;
+  }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(JsonKind::object); }
+  bool start_array(std::size_t) override { return open(JsonKind::array); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& val) override {
+    take_token();
+    Level& level = levels_.back();
+    level.key_offset = token_offset_;
+    level.is_duplicate = !level.seen.insert(val).second;
+    level.key = std::move(val);
+    if (level.is_duplicate)
+      fault(token_offset_, path(), std::string(text_.substr(token_offset_, token_length_)), "this key was given before",
+            "keep one of the two");
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string& last_token, const nlohmann::detail::exception& e) override;
+
+ private:
+  struct Level {
+    JsonValue* value;
+    std::string key;
+    std::uint32_t key_offset = 0;
+    bool is_duplicate = false;
+    std::unordered_set<std::string> seen{};
+  };
+
+  std::string path() const {
+    std::string p;
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+      const Level& level = levels_[i];
+      if (level.value->is(JsonKind::object))
+        p = pointer_to(p, level.key);
+      else
+        p += "/" + std::to_string(level.value->items.size() - (i + 1 < levels_.size() ? 1 : 0));
+    }
+    return p;
+  }
+
+  void fault(std::size_t offset, std::string pointer, std::string value, std::string rule, std::string hint) {
+    if (faults_.size() <= max_problems)
+      faults_.push_back({offset, std::move(pointer), shown(value), std::move(rule), std::move(hint)});
+  }
+
+  void skip_gap() {
+    while (cursor_ < text_.size() && std::string_view(" \t\r\n,:").find(text_[cursor_]) != std::string_view::npos) ++cursor_;
+  }
+
+  void take_token() {
+    skip_gap();
+    std::size_t end = cursor_;
+    if (end < text_.size() && text_[end] == '"') {
+      for (++end; end < text_.size() && text_[end] != '"'; ++end)
+        if (text_[end] == '\\') ++end;
+      ++end;
+    } else if (end < text_.size() && std::string_view("{}[]").find(text_[end]) != std::string_view::npos) {
+      ++end;
+    } else {
+      while (end < text_.size() && std::string_view(" \t\r\n,:{}[]\"").find(text_[end]) == std::string_view::npos) ++end;
+      const std::size_t zero = cursor_ + (text_.substr(cursor_, 1) == "-" ? 1 : 0);
+      if (zero + 1 < end && text_[zero] == '0' && text_[zero + 1] >= '0' && text_[zero + 1] <= '9') end = zero + 1;  // 01: two tokens
+    }
+    token_offset_ = static_cast<std::uint32_t>(cursor_);
+    token_length_ = static_cast<std::uint32_t>(std::min(end, text_.size()) - cursor_);
+    cursor_ = std::min(end, text_.size());
+  }
+
+  /// A new value at the place the open object or array expects it.
+  bool scalar(JsonKind kind) {
+    take_token();
+    if (++count_ > max_json_values) {
+      fault(token_offset_, path(), "", "the file holds more than " + std::to_string(max_json_values) + " values", "");
+      return false;
+    }
+    JsonValue* v = &root;
+    if (!levels_.empty()) {
+      Level& level = levels_.back();
+      if (level.is_duplicate) {
+        spare_.push_back(std::make_unique<JsonValue>());
+        v = spare_.back().get();
+      } else {
+        if (level.value->is(JsonKind::object)) level.value->keys.push_back(level.key);
+        v = &level.value->items.emplace_back();
+      }
+      v->key_offset = level.key_offset;
+    }
+    v->kind = kind;
+    v->source = source_;
+    v->offset = token_offset_;
+    v->length = token_length_;
+    last_ = v;
+    return true;
+  }
+
+  bool number() {
+    if (!scalar(JsonKind::number)) return false;
+    const std::string_view word = text_.substr(token_offset_, token_length_);
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), last_->number);
+    if (error == std::errc() && end == word.data() + word.size()) return true;
+    last_->sound = false;
+    last_->number = 0.0;
+    const bool vanishes = word.find_first_of("eE") != std::string_view::npos && word.find('-', 1) != std::string_view::npos;
+    fault(token_offset_, value_path(), std::string(word),
+          vanishes ? "is too small for a double (it would silently become 0)" : "is too large for a double",
+          vanishes ? "write 0 if that is meant" : "");
+    return true;
+  }
+
+  /// Path of the value just made (the array has grown by it).
+  std::string value_path() const {
+    std::string p = path();
+    if (!levels_.empty() && levels_.back().value->is(JsonKind::array)) {
+      p.erase(p.rfind('/'));
+      p += "/" + std::to_string(levels_.back().value->items.size() - 1);
+    }
+    return p;
+  }
+
+  bool open(JsonKind kind) {
+    if (!scalar(kind)) return false;
+    if (levels_.size() == max_json_depth) {
+      fault(token_offset_, value_path(), "", "arrays and objects are nested deeper than " + std::to_string(max_json_depth), "");
+      return false;
+    }
+    levels_.push_back({last_, {}, 0, false, {}});
+    return true;
+  }
+
+  bool close() {
+    take_token();
+    JsonValue* v = levels_.back().value;
+    v->length = static_cast<std::uint32_t>(cursor_) - v->offset;
+    levels_.pop_back();
+    return true;
+  }
+
+  std::string_view text_;
+  int source_;
+  std::vector<JsonFault>& faults_;
+  std::size_t cursor_ = 0;
+  std::size_t count_ = 0;
+  std::uint32_t token_offset_ = 0, token_length_ = 0;
+  JsonValue* last_ = nullptr;
+  std::vector<Level> levels_;
+  std::vector<std::unique_ptr<JsonValue>> spare_;  ///< values of duplicate keys: read, then dropped
+};
+
+/// What people write where JSON does not allow it.
+std::string syntax_hint(std::string_view rest, char before, bool after_zero) {
+  const auto starts = [&](std::string_view s) { return rest.substr(0, s.size()) == s; };
+  if (rest.empty()) return "the file ends too early: a closing bracket, brace or quote is missing";
+  if (starts("//") || starts("/*") || starts("#")) return "JSON has no comments; use a \"comment\" key";
+  if (starts("'")) return "strings and keys take double quotes";
+  if (before == ',' && (starts("]") || starts("}"))) return "remove the comma before it";
+  if (starts("NaN") || starts("nan") || starts("Inf") || starts("inf") || starts("-I") || starts("-i") || starts("-N") || starts("-n"))
+    return "numbers are finite";
+  if (starts("+") || starts(".") || starts("-.")) return "write numbers as 0.5, 1e-3 or -2";
+  if (after_zero && rest.front() >= '0' && rest.front() <= '9') return "numbers have no leading zeros";
+  if (starts("True") || starts("False")) return "write true or false";
+  if (starts("None") || starts("undefined")) return "leave the key out";
+  if (starts("\"") && before != ',') return "a comma may be missing before it";
+  return "";
+}
+
+bool Builder::parse_error(std::size_t position, const std::string& last_token, const nlohmann::detail::exception& e) {
+  std::size_t end_of_last = cursor_;
+  skip_gap();
+  const std::string what = e.what();
+  std::string rule = "is not JSON";
+  std::size_t offset = cursor_;
+  if (e.id == 406) {  // the reader stops at numbers out of range: the only fault of a number that ends the reading
+    rule = "is too large for a double";
+  } else if (const std::size_t at = what.find("syntax error"); at != std::string::npos) {
+    rule += ": " + what.substr(at);
+    if (const std::size_t last = rule.find("; last read"); last != std::string::npos) {
+      const std::size_t next = rule.find("'; expected");
+      rule = rule.substr(0, last) + (next == std::string::npos ? "" : rule.substr(next + 1));
+    }
+    if (what.find("invalid string") != std::string::npos && position > 0) offset = position - 1;
+  }
+  char before = end_of_last < cursor_ ? '\0' : ' ';
+  for (std::size_t i = end_of_last; i < cursor_; ++i)
+    if (text_[i] == ',' || text_[i] == ':') before = text_[i];
+  const std::string_view rest = text_.substr(std::min(offset, text_.size()));
+  const bool after_zero = end_of_last == cursor_ && cursor_ > 0 && text_[cursor_ - 1] == '0';
+  std::string token(rest.substr(0, std::min(rest.find_first_of(" \t\r\n,:{}[]", 1), std::size_t{40})));
+  if (token.empty()) token = shown(last_token);
+  fault(offset, levels_.empty() ? "" : path(), token, shown(rule, 300), e.id == 406 ? "" : syntax_hint(rest, before, after_zero));
+  return false;
+}
+
+}  // namespace
+
+std::optional<JsonValue> parse_json(std::string_view text, int source, std::vector<JsonFault>& faults) {
+  if (text.size() > max_file_bytes) {
+    faults.push_back({0, "", "", "is larger than " + std::to_string(max_file_bytes >> 20u) + " MB", ""});
+    return std::nullopt;
+  }
+  if (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF") {
+    faults.push_back({0, "", "", "is UTF-16", "save the file as UTF-8"});
+    return std::nullopt;
+  }
+  Builder builder(text, source, faults);
+  if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder)) return std::nullopt;
+  return std::move(builder.root);
+}
+
+}  // namespace bough::io

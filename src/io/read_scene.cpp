@@ -1,0 +1,229 @@
+#include "bough/io/read_scene.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <system_error>
+
+#include "bough/io/schema_rule.hpp"
+#include "bough/scene/problems.hpp"
+#include "read_scene_impl.hpp"
+
+namespace bough::io {
+namespace {
+
+/// Collects what is wrong and knows where in the texts it stands.
+class Report {
+ public:
+  Report(std::string_view text, const JsonValue* root, const std::vector<std::string>& overrides)
+      : text_(text), lines_(text), root_(root), overrides_(overrides) {}
+
+  void add(const JsonFault& f) { put(problems_, {f.pointer, 0, 0, f.value, f.rule, f.hint}, source_file, f.offset); }
+
+  void add(const CheckFault& f) {
+    std::string value = f.length == 0 ? token(f.source, f.offset) : excerpt(f.source, f.offset, f.length);
+    if (const JsonValue* at = locate(f.pointer, nullptr); f.length != 0 && at != nullptr) value = summary(*at);
+    put(problems_, {f.pointer, 0, 0, std::move(value), f.rule, f.hint}, f.source, f.offset);
+  }
+
+  void add(const PlacedFault& f, bool is_warning) {
+    std::string reached;
+    const JsonValue* at = locate(f.pointer, &reached);
+    // The value at fault may be inside what the pointer names; a longer pointer than the document has is cut to what is there.
+    Problem p{reached, 0, 0, f.value, f.rule, f.hint};
+    if (p.value.empty() && at != nullptr) p.value = summary(*at);
+    put(is_warning ? warnings_ : problems_, std::move(p), at == nullptr ? source_default : at->source, at == nullptr ? 0 : at->offset);
+  }
+
+  bool empty() const { return problems_.empty(); }
+
+  void write(SceneFile& file) {
+    finish(problems_, file.problems);
+    finish(warnings_, file.warnings);
+  }
+
+ private:
+  struct Placed {
+    Problem problem;
+    bool in_file;
+    std::size_t offset;
+  };
+
+  void put(std::vector<Placed>& list, Problem p, int source, std::size_t offset) {
+    if (source == source_file) {
+      const LineColumn at = lines_.at(offset);
+      p.line = at.line;
+      p.column = at.column;
+    } else if (source > 0) {
+      p.hint += std::string(p.hint.empty() ? "" : "; ") + "given by an override";
+    }
+    list.push_back({std::move(p), source == source_file, offset});
+  }
+
+  static void finish(std::vector<Placed>& list, std::vector<Problem>& out) {
+    std::stable_sort(list.begin(), list.end(), [](const Placed& a, const Placed& b) {
+      return a.in_file != b.in_file ? a.in_file : a.in_file && a.offset < b.offset;
+    });
+    for (std::size_t i = 0; i < list.size() && i < max_problems; ++i) out.push_back(std::move(list[i].problem));
+    if (list.size() > max_problems) {
+      Problem& last = out.back();
+      last.hint += (last.hint.empty() ? "" : "; ") + std::to_string(list.size() - max_problems) + " more problems are not shown";
+    }
+  }
+
+  std::string_view source_text(int source) const {
+    if (source == source_file) return text_;
+    if (source > 0) return overrides_[static_cast<std::size_t>(source) - 1];
+    return {};
+  }
+
+  std::string excerpt(int source, std::size_t offset, std::size_t length) const {
+    const std::string_view text = source_text(source);
+    return offset < text.size() ? shown(text.substr(offset, std::min<std::size_t>(length, 400))) : std::string();
+  }
+
+  /// The string that starts at an offset.
+  std::string token(int source, std::size_t offset) const {
+    const std::string_view text = source_text(source);
+    std::size_t end = offset + 1;
+    while (end < text.size() && end < offset + 400 && text[end] != '"') end += text[end] == '\\' ? 2 : 1;
+    return excerpt(source, offset, end + 1 - offset);
+  }
+
+  /// Text of a value; of an object with a name, the name.
+  std::string summary(const JsonValue& v) const {
+    const JsonValue* name = v.is(JsonKind::object) ? v.find("name") : nullptr;
+    const JsonValue& told = name != nullptr && name->is(JsonKind::string) ? *name : v;
+    return excerpt(told.source, told.offset, told.length);
+  }
+
+  /// The value at a pointer, or the innermost one on the way to it.
+  const JsonValue* locate(const std::string& pointer, std::string* reached) const {
+    const JsonValue* at = root_;
+    const auto tokens = split_pointer(pointer);
+    if (at == nullptr || !tokens) return at;
+    std::string path;
+    for (const std::string& t : *tokens) {
+      const JsonValue* next = nullptr;
+      if (at->is(JsonKind::object)) {
+        next = at->find(t);
+      } else if (at->is(JsonKind::array)) {
+        const bool is_number = !t.empty() && t.size() < 10 && t.find_first_not_of("0123456789") == std::string::npos;
+        if (is_number && std::stoul(t) < at->items.size()) next = &at->items[std::stoul(t)];
+      }
+      if (next == nullptr || next->source == source_default) break;  // a default stands nowhere: its owner is named
+      at = next;
+      path = pointer_to(path, t);
+    }
+    if (reached != nullptr) *reached = path;
+    return at;
+  }
+
+  std::string_view text_;
+  LineIndex lines_;
+  const JsonValue* root_;
+  const std::vector<std::string>& overrides_;
+  std::vector<Placed> problems_, warnings_;
+};
+
+/// True where a fault concerns the outline of the file, so that missing things would be reported all over.
+bool breaks_outline(const std::vector<CheckFault>& faults) {
+  return std::any_of(faults.begin(), faults.end(), [](const CheckFault& f) {
+    const bool is_top = std::count(f.pointer.begin(), f.pointer.end(), '/') <= 1;
+    return is_top && f.rule.find("needs the key") == std::string::npos && f.pointer != "/schema_version" && f.pointer != "/gravity" && f.pointer != "/title";
+  });
+}
+
+void add_scene_problems(const Converter& converter, Report& report) {
+  for (const scene::SceneProblem& p : scene::problems_in(converter.scene, converter.defective)) {
+    std::string pointer = "/" + p.section;
+    if (const auto it = converter.pointers.find(p.section); it != converter.pointers.end() && p.index >= 0 &&
+                                                            static_cast<std::size_t>(p.index) < it->second.size())
+      pointer = it->second[static_cast<std::size_t>(p.index)];
+    else if (p.section == "scene")
+      pointer = "";
+    if (!p.key.empty()) pointer += "/" + p.key;
+    PlacedFault f{pointer, p.value, p.rule, p.hint};
+    const bool is_name = !f.value.empty() && f.value.find_first_not_of("-+.0123456789eE, ") != std::string::npos;
+    if (is_name) f.value = "\"" + shown(f.value) + "\"";
+    report.add(f, p.is_warning);
+  }
+}
+
+std::string read_all(const std::filesystem::path& file, Problem& problem) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) {
+    problem.rule = "there is no such file";
+    return {};
+  }
+  if (std::filesystem::is_directory(status)) {
+    problem.rule = "this is a directory, not a file";
+    return {};
+  }
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    problem.rule = "the file can not be opened";
+    return {};
+  }
+  std::string text;
+  char buffer[1u << 16u];
+  while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
+    text.append(buffer, static_cast<std::size_t>(in.gcount()));
+    if (text.size() > max_file_bytes) {
+      problem.rule = "the file is larger than " + std::to_string(max_file_bytes >> 20u) + " MB";
+      return {};
+    }
+  }
+  if (in.bad()) problem.rule = "the file can not be read to its end";
+  return text;
+}
+
+}  // namespace
+
+std::string Problem::text() const {
+  std::string r;
+  if (line > 0) r += "line " + std::to_string(line) + ", column " + std::to_string(column) + ", ";
+  r += (pointer.empty() ? "the file" : pointer) + (value.empty() ? "" : " (" + value + ")") + ": " + rule;
+  if (!hint.empty()) r += "; " + hint;
+  return r;
+}
+
+SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides) {
+  SceneFile file;
+  std::vector<JsonFault> text_faults;
+  std::optional<JsonValue> root = parse_json(text, source_file, text_faults);
+  std::vector<std::string> override_texts;
+  std::vector<PlacedFault> override_faults;
+  std::vector<CheckFault> check_faults;
+  if (root) {
+    apply_overrides(*root, set_overrides, override_texts, override_faults);
+    check_rules(scene_rules(), *root, check_faults);
+  }
+  Report report(text, root ? &*root : nullptr, override_texts);
+  for (const JsonFault& f : text_faults) report.add(f);
+  for (const PlacedFault& f : override_faults) report.add(f, false);
+  for (const CheckFault& f : check_faults) report.add(f);
+  if (root && root->is(JsonKind::object) && !breaks_outline(check_faults)) {
+    Converter converter(*root);
+    converter.convert();
+    for (const PlacedFault& f : converter.faults) report.add(f, false);
+    for (const PlacedFault& f : converter.warnings) report.add(f, true);
+    add_scene_problems(converter, report);
+    file.scene = std::move(converter.scene);
+  }
+  file.scene.name = std::move(name);
+  report.write(file);
+  return file;
+}
+
+SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides) {
+  Problem problem;
+  const std::string text = read_all(file, problem);
+  if (problem.rule.empty()) return read_scene_text(text, file.stem().string(), set_overrides);
+  SceneFile r;
+  problem.value = shown(file.string(), 200);
+  r.problems.push_back(std::move(problem));
+  return r;
+}
+
+}  // namespace bough::io

@@ -1,0 +1,113 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "bough/io/json_value.hpp"
+#include "bough/io/read_scene.hpp"
+#include "bough/scene/poses.hpp"
+#include "bough/scene/scene.hpp"
+
+namespace bough::io {
+
+/// Something wrong or doubtful at a place of the document.
+struct PlacedFault {
+  std::string pointer, value, rule, hint;  ///< value: empty = the text at the pointer
+};
+
+/// Applies "/pointer=value" to a document. texts: keeps the value texts, number i + 1 of which is the source of the new values.
+void apply_overrides(JsonValue& root, std::span<const std::string> overrides, std::vector<std::string>& texts,
+                     std::vector<PlacedFault>& faults);
+
+/// Turns a checked document into a scene. Items that are not sound, or turn out wrong here, are left out and named in `defective`.
+class Converter {
+ public:
+  explicit Converter(const JsonValue& root) : root_(root) {}
+  void convert();
+
+  scene::Scene scene;
+  std::vector<std::string> defective;
+  std::vector<PlacedFault> faults, warnings;
+  std::map<std::string, std::vector<std::string>> pointers;  ///< of the items of each list of the scene
+
+ private:
+  using Value = JsonValue;
+
+  // Values (read_scene_values.cpp). All take sound values of the schema's form.
+  scene::Vec3 vector(const Value& v) const;
+  scene::Vec3 vector_or(const Value& object, const char* key, const scene::Vec3& otherwise = scene::Vec3::zero()) const;
+  double number_or(const Value& object, const char* key, double otherwise) const;
+  std::string text_or(const Value& object, const char* key) const;
+  scene::Mat3 matrix3(const Value& v) const;
+  scene::Mat6 matrix6(const Value& v) const;
+  scene::Mat3 rotation(const Value& v, const std::string& at);
+  scene::Mat3 rotation_from_axes(const Value& axes, const std::string& at);
+  scene::Placement placement(const Value& v, const std::string& at);
+  scene::LoadAxes axes(const Value& v) const;
+  laws::Law law(const Value& v, const std::string& at);
+  laws::Law law_of_kind(const Value& v, const std::string& at);
+  laws::Law law_table(const Value& v) const;
+  std::vector<laws::Law> law_list(const Value& v, const std::string& at);
+  laws::Law load_law(const Value& object, const std::string& at);
+  void warn_of_degrees(const Value& angle, const std::string& at);
+
+  // Parts (read_scene_parts.cpp).
+  void frame(const Value& v, const std::string& at);
+  void material(const Value& v, const std::string& at);
+  void section(const Value& v, const std::string& at);
+  void node(const Value& v, const std::string& at);
+  void body(const Value& v, const std::string& at);
+  void beam(const Value& v, const std::string& at);
+  scene::Section shaped_section(const Value& v, const std::string& at);
+  scene::Mat6 section_mass(const Value& v) const;
+  const scene::Material* material_named(const std::string& name, const std::string& at);
+  void body_inertia(const Value& v, const std::string& at, scene::Body& body);
+
+  // Connections (read_scene_joints.cpp).
+  struct Side {
+    scene::Attachment to;
+    bool has_position = false, has_rotation = false;
+  };
+  Side side(const Value& v, const std::string& at);
+  scene::Attachment attachment(const Value& v, const std::string& at) { return side(v, at).to; }
+  std::optional<scene::Frame> common_frame(const Value& v, const std::string& at, scene::JointKind kind, const Side& a, const Side& b);
+  void place_sides(const Value& v, const std::string& at, scene::JointKind kind, Side& a, Side& b);
+  void joint(const Value& v, const std::string& at);
+  void spring(const Value& v, const std::string& at);
+  void bushing(const Value& v, const std::string& at);
+
+  // The rest (read_scene_rest.cpp).
+  void load(const Value& v, const std::string& at);
+  void motion(const Value& v, const std::string& at);
+  void initial_velocity(const Value& v, const std::string& at);
+  void sensor(const Value& v, const std::string& at);
+  void expected(const Value& v, const std::string& at);
+  void settings();
+
+  void fault(const std::string& at, std::string rule, std::string hint = {}, std::string value = {}) {
+    faults.push_back({at, std::move(value), std::move(rule), std::move(hint)});
+  }
+  std::string own_name(const Value& v, const char* stem);
+  /// Converts all items of a list; those that are wrong become defective.
+  void each(const char* list, void (Converter::*read)(const Value&, const std::string&));
+  template <class T>
+  void add(std::vector<T>& list, const char* name, T item, const std::string& at) {
+    if (faults.size() != faults_before_ || left_out_) return;
+    list.push_back(std::move(item));
+    pointers[name].push_back(at);
+  }
+
+  const JsonValue& root_;
+  std::size_t faults_before_ = 0;  ///< those of items before this one
+  bool left_out_ = false;          ///< this item needs another that was left out
+  bool is_static_ = false;
+  std::vector<scene::Material> materials_;
+  std::unordered_set<std::string> names_;  ///< all names given in the file
+  int unnamed_ = 0;
+  std::optional<scene::Poses> poses_;
+};
+
+}  // namespace bough::io

@@ -1,0 +1,178 @@
+#include <cmath>
+
+#include "bough/motion/se3.hpp"
+#include "bough/scene/components.hpp"
+#include "read_scene_impl.hpp"
+
+namespace bough::io {
+
+using scene::Frame;
+using scene::JointKind;
+using scene::Vec3;
+
+namespace {
+
+JointKind joint_kind(const std::string& name) {
+  for (int k = 0; k < 8; ++k)
+    if (scene::to_string(static_cast<JointKind>(k)) == name) return static_cast<JointKind>(k);
+  return JointKind::fixed;
+}
+
+bool needs_axis(JointKind kind) { return kind != JointKind::fixed && kind != JointKind::spherical; }
+
+double norm(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
+
+/// The inertial axis farthest from `a`; of equals the first.
+Vec3 far_axis(const Vec3& a) {
+  int best = 0;
+  for (int k = 1; k < 3; ++k)
+    if (std::abs(a[k]) < std::abs(a[best]) - 1e-6 * norm(a)) best = k;
+  return Vec3::unit(best);
+}
+
+}  // namespace
+
+Converter::Side Converter::side(const Value& v, const std::string& at) {
+  Side s;
+  if (v.is(JsonKind::string)) {
+    s.to.to = v.text;
+  } else {
+    s.to.to = v.find("to")->text;
+    if (const Value* p = v.find("position")) {
+      s.has_position = true;
+      s.to.offset.x = vector(*p);
+    }
+    if (const Value* r = v.find("rotation")) {
+      s.has_rotation = true;
+      s.to.offset.R = rotation(*r, at + "/rotation");
+    }
+  }
+  if (s.to.to.empty()) fault(v.is(JsonKind::string) ? at : at + "/to", "has to name a node, a body or \"ground\"");
+  if (s.to.to == "ground") s.to.to.clear();
+  return s;
+}
+
+/// The joint's frame at the start, from position and axes or from what the two sides say. Nothing where it can not be said; then a fault
+/// was reported, or one of the sides is not there (reported by the check of references).
+std::optional<Frame> Converter::common_frame(const Value& v, const std::string& at, JointKind kind, const Side& a, const Side& b) {
+  const auto H_a = poses_->of(std::string_view(a.to.to)), H_b = poses_->of(std::string_view(b.to.to));
+  const auto frame = poses_->of(scene::Placement{Frame::identity(), text_or(v, "frame")});
+  if (!frame) {
+    fault(at + "/frame", "no frame has this name");
+    return std::nullopt;
+  }
+  if (!H_a || !H_b) return std::nullopt;
+  const Frame at_a = motion::compose(*H_a, a.to.offset), at_b = motion::compose(*H_b, b.to.offset);
+  const bool b_leads = b.to.to.empty() ? false : true;  // with bare names the joint sits at the second, unless that is the ground
+  Frame joint;
+  if (const Value* position = v.find("position")) {
+    joint.x = motion::transform(*frame, vector(*position));
+    if (a.has_position || b.has_position) fault(at + "/position", "the place is given here and in first or second: give one of the two");
+  } else if (a.has_position || b.has_position) {
+    joint.x = b.has_position ? at_b.x : at_a.x;
+  } else {
+    joint.x = b_leads ? at_b.x : at_a.x;
+    const double gap = norm(at_a.x - at_b.x);
+    if (kind != JointKind::fixed && !a.to.to.empty() && b_leads && gap > 1e-9 * (1.0 + norm(at_a.x)))
+      fault(at, "needs a position: the origins of first and second are " + std::to_string(gap) + " m apart");
+  }
+  const Value *axis = v.find("axis"), *second_axis = v.find("second_axis");
+  if (axis != nullptr) {
+    if (a.has_rotation || b.has_rotation) fault(at + "/axis", "the axes are given here and in first or second: give one of the two");
+    const Vec3 main = frame->R * vector(*axis);
+    if (norm(main) == 0.0) {
+      fault(at + "/axis", "an axis has a length other than 0");
+      return std::nullopt;
+    }
+    const Vec3 side = second_axis != nullptr ? Vec3(frame->R * vector(*second_axis)) : far_axis(main);
+    if (kind == JointKind::universal && second_axis == nullptr) {
+      fault(at, "a universal joint needs the key \"second_axis\": the axis fixed in the second");
+      return std::nullopt;
+    }
+    if (kind == JointKind::universal && std::abs(dot(main, side)) > 1e-9 * norm(main) * norm(side)) {
+      fault(at + "/second_axis", "the axes of a universal joint are perpendicular");
+      return std::nullopt;
+    }
+    const auto R = scene::axes_from(kind == JointKind::universal ? 1 : 3, main, side);
+    if (!R) {
+      fault(at + "/second_axis", "runs along the axis, or is 0");
+      return std::nullopt;
+    }
+    joint.R = *R;
+  } else if (a.has_rotation || b.has_rotation) {
+    joint.R = b.has_rotation ? at_b.R : at_a.R;
+  } else {
+    if (needs_axis(kind)) {
+      fault(at, "a " + scene::to_string(kind) + " joint needs the key \"axis\"", "or a rotation in first or second, whose axis 3 it then is");
+      return std::nullopt;
+    }
+    joint.R = b_leads ? H_b->R : H_a->R;
+  }
+  return joint;
+}
+
+void Converter::place_sides(const Value& v, const std::string& at, JointKind kind, Side& a, Side& b) {
+  const auto joint = common_frame(v, at, kind, a, b);
+  if (!joint) return;
+  for (Side* s : {&a, &b}) {
+    const Frame offset = motion::relative(*poses_->of(std::string_view(s->to.to)), *joint);
+    if (!s->has_position) s->to.offset.x = offset.x;
+    if (!s->has_rotation) s->to.offset.R = offset.R;
+  }
+}
+
+void Converter::joint(const Value& v, const std::string& at) {
+  scene::Joint j;
+  j.name = v.find("name")->text;
+  j.kind = joint_kind(v.find("kind")->text);
+  Side a = side(*v.find("first"), at + "/first"), b = side(*v.find("second"), at + "/second");
+  place_sides(v, at, j.kind, a, b);
+  j.first = a.to;
+  j.second = b.to;
+  j.pitch = number_or(v, "pitch", 0.0);
+  const auto& known = scene::coordinates_of(j.kind);
+  const auto coordinate = [&](const Value& item) {
+    const std::string given = text_or(item, "coordinate");
+    return given.empty() && known.size() == 1 ? known[0] : given;
+  };
+  const Value& forces = *v.find("forces");
+  for (std::size_t i = 0; i < forces.items.size(); ++i) {
+    const Value& f = forces.items[i];
+    j.forces.push_back({coordinate(f), f.find("stiffness")->number, f.find("rest")->number, f.find("damping")->number,
+                        law(*f.find("effort"), at + "/forces/" + std::to_string(i) + "/effort")});
+  }
+  const Value& drives = *v.find("drives");
+  for (std::size_t i = 0; i < drives.items.size(); ++i) {
+    const Value& d = drives.items[i];
+    j.drives.push_back({coordinate(d), d.find("rate")->truth, law(*d.find("law"), at + "/drives/" + std::to_string(i) + "/law")});
+  }
+  add(scene.joints, "joints", std::move(j), at);
+}
+
+void Converter::spring(const Value& v, const std::string& at) {
+  scene::Spring s;
+  s.name = v.find("name")->text;
+  s.first = attachment(*v.find("first"), at + "/first");
+  s.second = attachment(*v.find("second"), at + "/second");
+  s.stiffness = v.find("stiffness")->number;
+  s.damping = v.find("damping")->number;
+  const auto a = poses_->of(s.first), b = poses_->of(s.second);
+  s.rest_length = number_or(v, "rest_length", a && b ? norm(b->x - a->x) : 0.0);
+  add(scene.springs, "springs", std::move(s), at);
+}
+
+void Converter::bushing(const Value& v, const std::string& at) {
+  scene::Bushing b;
+  b.name = v.find("name")->text;
+  Side first = side(*v.find("first"), at + "/first"), second = side(*v.find("second"), at + "/second");
+  const auto H = poses_->of(std::string_view(first.to.to));
+  place_sides(v, at, JointKind::fixed, first, second);
+  if (!first.has_rotation && H) first.to.offset.R = scene::Mat3::identity();  // stiffness in the axes of the first
+  b.first = first.to;
+  b.second = second.to;
+  if (const Value* k = v.find("stiffness")) b.stiffness = matrix6(*k);
+  if (const Value* d = v.find("damping")) b.damping = matrix6(*d);
+  add(scene.bushings, "bushings", std::move(b), at);
+}
+
+}  // namespace bough::io

@@ -1,0 +1,175 @@
+#include <algorithm>
+
+#include "bough/laws/make_law.hpp"
+#include "bough/scene/components.hpp"
+#include "read_scene_impl.hpp"
+
+namespace bough::io {
+
+std::string Converter::own_name(const Value& v, const char* stem) {
+  if (const Value* name = v.find("name")) return name->text;
+  std::string name;
+  do {
+    name = std::string(stem) + "_" + std::to_string(++unnamed_);
+  } while (!names_.insert(name).second);
+  return name;
+}
+
+void Converter::load(const Value& v, const std::string& at) {
+  const laws::Law factor = load_law(v, at);
+  if (const Value* where = v.find("at")) {
+    scene::PointLoad l;
+    l.name = own_name(v, "load");
+    l.at = attachment(*where, at + "/at");
+    l.axes = axes(v);
+    l.force = vector(*v.find("force"));
+    l.moment = vector(*v.find("moment"));
+    l.law = factor;
+    add(scene.point_loads, "point_loads", std::move(l), at);
+  } else {
+    scene::LineLoad l;
+    l.name = own_name(v, "load");
+    l.beam = v.find("beam")->text;
+    l.axes = axes(v);
+    l.force = vector(*v.find("force"));
+    l.moment = vector(*v.find("moment"));
+    l.law = factor;
+    add(scene.line_loads, "line_loads", std::move(l), at);
+  }
+}
+
+void Converter::motion(const Value& v, const std::string& at) {
+  scene::PrescribedMotion m;
+  m.name = own_name(v, "motion");
+  m.at = attachment(*v.find("at"), at + "/at");
+  const char* const names[3] = {"x", "y", "z"};
+  for (int k = 0; k < 3; ++k)
+    if (const Value* d = v.find(names[k])) m.displacement[k] = law(*d, at + "/" + names[k]);
+  if (const Value* r = v.find("rotation")) {
+    m.hold_rotation = r->is(JsonKind::string);
+    if (r->is(JsonKind::object)) {
+      m.rotation_axis = vector(*r->find("axis"));
+      m.angle = law(*r->find("angle"), at + "/rotation/angle");
+    }
+  }
+  m.is_rate = v.find("rate")->truth;
+  add(scene.motions, "motions", std::move(m), at);
+}
+
+void Converter::initial_velocity(const Value& v, const std::string& at) {
+  scene::InitialVelocity i;
+  i.of = v.find("of")->text;
+  i.axes = axes(v);
+  i.velocity = vector(*v.find("velocity"));
+  i.angular_velocity = vector(*v.find("angular_velocity"));
+  add(scene.initial_velocities, "initial_velocities", std::move(i), at);
+}
+
+void Converter::sensor(const Value& v, const std::string& at) {
+  scene::Sensor s;
+  s.name = v.find("name")->text;
+  const std::string& kind = v.find("kind")->text;
+  for (int k = 0; k <= static_cast<int>(scene::SensorKind::total_energy); ++k)
+    if (scene::to_string(static_cast<scene::SensorKind>(k)) == kind) s.kind = static_cast<scene::SensorKind>(k);
+  if (const Value* where = v.find("at")) s.at = attachment(*where, at + "/at");
+  s.beam = text_or(v, "beam");
+  s.joint = text_or(v, "joint");
+  s.axes = axes(v);
+  s.station = number_or(v, "station", 0.0);
+  if (v.find("beam") != nullptr && v.find("station") == nullptr) fault(at, "needs the key \"station\"", "0 is the start of the beam, 1 its end");
+  if (v.find("at") != nullptr && v.find("station") != nullptr) fault(at + "/station", "a station goes with a beam");
+  add(scene.sensors, "sensors", std::move(s), at);
+}
+
+void Converter::expected(const Value& v, const std::string& at) {
+  scene::Expected e;
+  e.quantity = v.find("quantity")->text;
+  if (const Value* time = v.find("time")) e.time = time->number;
+  e.value = v.find("value")->number;
+  e.tolerance = v.find("tolerance")->number;
+  e.source = v.find("source")->text;
+  add(scene.expected, "expected", std::move(e), at);
+}
+
+void Converter::settings() {
+  const auto sound = [&](const char* key) {
+    const Value* v = root_.find(key);
+    return v != nullptr && v->sound ? v : nullptr;
+  };
+  if (const Value* title = sound("title")) scene.title = title->text;
+  if (const Value* g = sound("gravity")) {
+    scene.gravity = vector(g->is(JsonKind::array) ? *g : *g->find("vector"));
+    scene.gravity_law = g->is(JsonKind::array) ? load_law(Value{}, "/gravity") : load_law(*g, "/gravity");
+  }
+  if (const Value* a = sound("analysis")) {
+    scene::Analysis& r = scene.analysis;
+    r.kind = is_static_ ? scene::AnalysisKind::statics : scene::AnalysisKind::dynamics;
+    r.load_steps = static_cast<int>(number_or(*a, "load_steps", 1.0));
+    r.end_time = number_or(*a, "end_time", 0.0);
+    r.step_size = number_or(*a, "step_size", 1e-3);
+    r.spectral_radius = number_or(*a, "spectral_radius", 0.8);
+    r.newton = a->find("newton")->text == "single" ? scene::Newton::single : scene::Newton::full;
+    r.tolerance = a->find("tolerance")->number;
+    r.max_iterations = static_cast<int>(a->find("max_iterations")->number);
+    r.max_cuts = static_cast<int>(a->find("max_cuts")->number);
+  } else {
+    defective.push_back("/analysis");
+  }
+  if (const Value* s = sound("solver")) {
+    const std::string& kind = s->find("kind")->text;
+    scene.solver.kind = kind == "automatic"      ? scene::SolverKind::automatic
+                        : kind == "hierarchical" ? scene::SolverKind::hierarchical
+                                                 : scene::SolverKind::monolithic;
+    scene.solver.leaf_size = static_cast<int>(number_or(*s, "leaf_size", 0.0));
+    scene.solver.depth = static_cast<int>(number_or(*s, "depth", -1.0));
+    scene.solver.penalty_factor = s->find("penalty_factor")->number;
+    scene.solver.tasks = s->find("tasks")->truth;
+  }
+  if (const Value* o = sound("output")) {
+    scene.output.stride = static_cast<int>(o->find("stride")->number);
+    scene.output.motion = o->find("motion")->truth;
+    scene.output.motion_stride = static_cast<int>(o->find("motion_stride")->number);
+  }
+}
+
+void Converter::each(const char* list, void (Converter::*read)(const Value&, const std::string&)) {
+  const Value* items = root_.find(list);
+  if (items == nullptr || !items->is(JsonKind::array)) return;
+  for (std::size_t i = 0; i < items->items.size(); ++i) {
+    const Value& v = items->items[i];
+    faults_before_ = faults.size();
+    left_out_ = !v.sound;
+    if (v.sound) (this->*read)(v, pointer_to(pointer_to("", list), std::to_string(i)));
+    if (faults.size() == faults_before_ && !left_out_) continue;
+    const Value* name = v.is(JsonKind::object) ? v.find("name") : nullptr;
+    const bool is_material = std::string_view(list) == "materials";
+    if (name != nullptr && name->is(JsonKind::string)) defective.push_back((is_material ? "material " : "") + name->text);
+  }
+}
+
+void Converter::convert() {
+  for (const Value& list : root_.items)
+    for (const Value& item : list.is(JsonKind::array) ? list.items : std::vector<Value>{})
+      if (const Value* name = item.is(JsonKind::object) ? item.find("name") : nullptr; name != nullptr) names_.insert(name->text);
+  const Value* analysis = root_.find("analysis");
+  const Value* kind = analysis != nullptr && analysis->is(JsonKind::object) ? analysis->find("kind") : nullptr;
+  is_static_ = kind != nullptr && kind->text == "static";
+  settings();
+  each("frames", &Converter::frame);
+  each("materials", &Converter::material);
+  each("sections", &Converter::section);
+  each("nodes", &Converter::node);
+  each("bodies", &Converter::body);
+  each("beams", &Converter::beam);
+  poses_.emplace(scene);  // what follows adds no places
+  each("joints", &Converter::joint);
+  each("springs", &Converter::spring);
+  each("bushings", &Converter::bushing);
+  each("loads", &Converter::load);
+  each("motions", &Converter::motion);
+  each("initial_velocities", &Converter::initial_velocity);
+  each("sensors", &Converter::sensor);
+  each("expected", &Converter::expected);
+}
+
+}  // namespace bough::io

@@ -1,0 +1,161 @@
+#include <cmath>
+
+#include "bough/laws/make_law.hpp"
+#include "bough/motion/se3.hpp"
+#include "read_scene_impl.hpp"
+
+namespace bough::io {
+
+using scene::Mat3;
+using scene::Mat6;
+using scene::Vec3;
+
+Vec3 Converter::vector(const Value& v) const { return {{v.items[0].number, v.items[1].number, v.items[2].number}}; }
+
+Vec3 Converter::vector_or(const Value& object, const char* key, const Vec3& otherwise) const {
+  const Value* v = object.find(key);
+  return v == nullptr ? otherwise : vector(*v);
+}
+
+double Converter::number_or(const Value& object, const char* key, double otherwise) const {
+  const Value* v = object.find(key);
+  return v == nullptr ? otherwise : v->number;
+}
+
+std::string Converter::text_or(const Value& object, const char* key) const {
+  const Value* v = object.find(key);
+  return v == nullptr ? std::string() : v->text;
+}
+
+Mat3 Converter::matrix3(const Value& v) const {
+  Mat3 r = Mat3::zero();
+  for (int i = 0; i < 3; ++i) {
+    const Value& row = v.items[static_cast<std::size_t>(i)];
+    if (row.is(JsonKind::number)) r(i, i) = row.number;
+    for (int j = 0; row.is(JsonKind::array) && j < 3; ++j) r(i, j) = row.items[static_cast<std::size_t>(j)].number;
+  }
+  return r;
+}
+
+Mat6 Converter::matrix6(const Value& v) const {
+  Mat6 r = Mat6::zero();
+  for (int i = 0; i < 6; ++i) {
+    const Value& row = v.items[static_cast<std::size_t>(i)];
+    if (row.is(JsonKind::number)) r(i, i) = row.number;
+    for (int j = 0; row.is(JsonKind::array) && j < 6; ++j) r(i, j) = row.items[static_cast<std::size_t>(j)].number;
+  }
+  return r;
+}
+
+void Converter::warn_of_degrees(const Value& angle, const std::string& at) {
+  const double x = std::abs(angle.number);
+  if (x >= 15.0 && std::fmod(x, 5.0) == 0.0)
+    warnings.push_back({at, "", "this angle is in radians: it is more than two turns", "for degrees multiply by pi/180 = 0.017453292519943295"});
+}
+
+Mat3 Converter::rotation_from_axes(const Value& axes, const std::string& at) {
+  std::vector<std::pair<int, Vec3>> given;
+  for (std::size_t i = 0; i < axes.keys.size(); ++i)
+    if (axes.keys[i] != "comment") given.emplace_back(axes.keys[i][0] - '0', vector(axes.items[i]));
+  if (given.size() != 2) {
+    fault(at, "has to give exactly two of the axes \"1\", \"2\", \"3\"");
+    return Mat3::identity();
+  }
+  const auto [k, main] = given[0];
+  const auto [other, side] = given[1];
+  // axes_from takes the axis after k; the one before it is minus the one after, turned by the cross product
+  const bool is_next = other == k % 3 + 1;
+  const auto R = scene::axes_from(k, main, is_next ? side : Vec3(cross(side, main)));
+  if (R) return *R;
+  fault(at, "the two axes are parallel, or one of them is 0");
+  return Mat3::identity();
+}
+
+Mat3 Converter::rotation(const Value& v, const std::string& at) {
+  if (const Value* axis = v.find("axis")) {
+    const Vec3 a = vector(*axis);
+    const double length = std::hypot(a[0], a[1], a[2]);
+    warn_of_degrees(*v.find("angle"), at + "/angle");
+    if (length > 0.0) return motion::exp_so3(Vec3((v.find("angle")->number / length) * a));
+    fault(at + "/axis", "an axis has a length other than 0");
+  } else if (const Value* q = v.find("quaternion")) {
+    const motion::Quaternion<double> raw = {q->items[0].number, {{q->items[1].number, q->items[2].number, q->items[3].number}}};
+    const double length = std::hypot(raw.w, std::hypot(raw.v[0], raw.v[1], raw.v[2]));
+    if (std::abs(length - 1.0) <= 1e-3) return motion::rotation_of(motion::normalise(raw));
+    fault(at + "/quaternion", "a rotation is a quaternion of length 1, scalar first");
+  } else if (const Value* psi = v.find("rotation_vector")) {
+    return motion::exp_so3(vector(*psi));
+  } else if (const Value* axes_given = v.find("axes")) {
+    return rotation_from_axes(*axes_given, at + "/axes");
+  }
+  return Mat3::identity();
+}
+
+scene::Placement Converter::placement(const Value& v, const std::string& at) {
+  scene::Placement p;
+  p.pose.x = vector_or(v, "position");
+  if (const Value* r = v.find("rotation")) p.pose.R = rotation(*r, at + "/rotation");
+  p.frame = text_or(v, "frame");
+  if (p.frame == "ground") p.frame.clear();
+  return p;
+}
+
+scene::LoadAxes Converter::axes(const Value& v) const { return text_or(v, "axes") == "body" ? scene::LoadAxes::body : scene::LoadAxes::space; }
+
+laws::Law Converter::load_law(const Value& object, const std::string& at) {
+  if (const Value* v = object.find("law")) return law(*v, at + "/law");
+  return is_static_ ? laws::make_ramp(0.0, 1.0, 0.0, 1.0) : laws::make_constant(1.0);
+}
+
+laws::Law Converter::law(const Value& v, const std::string& at) {
+  if (v.is(JsonKind::number)) return laws::make_constant(v.number);
+  try {
+    if (const Value* formula = v.find("expression")) return laws::make_expression(formula->text);
+    return law_of_kind(v, at);
+  } catch (const laws::LawError& e) {
+    if (const Value* formula = v.find("expression"))
+      fault(at + "/expression", e.what(), "at character " + std::to_string(e.position + 1) + ": \"" + shown(formula->text.substr(std::min(e.position, formula->text.size())), 20) + "\"");
+    else
+      fault(at, e.what());
+    return {};
+  }
+}
+
+std::vector<laws::Law> Converter::law_list(const Value& v, const std::string& at) {
+  std::vector<laws::Law> r;
+  for (std::size_t i = 0; i < v.items.size(); ++i) r.push_back(law(v.items[i], at + "/" + std::to_string(i)));
+  return r;
+}
+
+laws::Law Converter::law_table(const Value& v) const {
+  std::vector<double> times, values;
+  for (const Value& t : v.find("times")->items) times.push_back(t.number);
+  for (const Value& x : v.find("values")->items) values.push_back(x.number);
+  return laws::make_table(times, values, v.find("interpolation")->text == "cubic" ? laws::Interpolation::cubic : laws::Interpolation::linear);
+}
+
+laws::Law Converter::law_of_kind(const Value& v, const std::string& at) {
+  const std::string& kind = v.find("kind")->text;
+  const auto get = [&](const char* key) { return v.find(key)->number; };
+  if (kind == "constant") return laws::make_constant(get("value"));
+  if (kind == "ramp") return laws::make_ramp(get("start_time"), get("end_time"), get("from"), get("to"));
+  if (kind == "smooth_ramp") return laws::make_smooth_ramp(get("start_time"), get("end_time"), get("from"), get("to"));
+  if (kind == "cycloidal") return laws::make_cycloidal(get("start_time"), get("end_time"), get("from"), get("to"));
+  if (kind == "harmonic") return laws::make_harmonic(get("amplitude"), get("omega"), get("phase"), get("offset"));
+  if (kind == "table") return law_table(v);
+  if (kind == "sum") return laws::make_sum(law_list(*v.find("terms"), at + "/terms"));
+  if (kind == "scaled") return laws::make_scaled(get("factor"), law(*v.find("law"), at + "/law"));
+  if (kind == "product") {
+    const std::vector<laws::Law> factors = law_list(*v.find("factors"), at + "/factors");
+    laws::Law r = factors.front();
+    for (std::size_t i = 1; i < factors.size(); ++i) r = laws::make_product(r, factors[i]);
+    return r;
+  }
+  std::vector<laws::Segment> pieces;
+  const Value& list = *v.find("pieces");
+  for (std::size_t i = 0; i < list.items.size(); ++i)
+    pieces.push_back({list.items[i].find("start")->number, law(*list.items[i].find("law"), at + "/pieces/" + std::to_string(i) + "/law")});
+  return laws::make_piecewise(pieces);
+}
+
+}  // namespace bough::io

@@ -1,0 +1,292 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "bough/io/schema_rule.hpp"
+#include "bough/scene/nearest_name.hpp"
+
+namespace bough::io {
+namespace {
+
+std::string shown_number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string quoted_list(const std::vector<std::string>& words) {
+  std::string r;
+  for (std::size_t i = 0; i < words.size(); ++i) r += (i == 0 ? "\"" : i + 1 == words.size() ? " or \"" : ", \"") + words[i] + "\"";
+  return r;
+}
+
+std::string with_article(JsonKind kind) {
+  switch (kind) {
+    case JsonKind::null: return "null";
+    case JsonKind::boolean: return "a truth value";
+    case JsonKind::number: return "a number";
+    case JsonKind::string: return "a string";
+    case JsonKind::array: return "an array";
+    case JsonKind::object: return "an object";
+  }
+  return "";
+}
+
+JsonKind json_kind(Form form) {
+  switch (form) {
+    case Form::number:
+    case Form::integer: return JsonKind::number;
+    case Form::boolean: return JsonKind::boolean;
+    case Form::array: return JsonKind::array;
+    case Form::object: return JsonKind::object;
+    default: return JsonKind::string;
+  }
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = scene::nearest_name(word, known);
+  return near.empty() ? "" : "did you mean \"" + near + "\"?";
+}
+
+class Checker {
+ public:
+  Checker(const RuleTable& table, std::vector<CheckFault>& faults) : table_(table), faults_(faults) {}
+
+  /// True where the value and all it holds keep their rules.
+  bool check(const Rule& rule_in, JsonValue& value, const std::string& pointer) {
+    const Rule& rule = table_.resolve(rule_in);
+    if (!value.sound) return false;  // said by the reader of the text
+    value.sound = check_form(rule, value, pointer);
+    return value.sound;
+  }
+
+ private:
+  bool fail(const JsonValue& value, const std::string& pointer, std::string rule, std::string hint = {}, bool at_key = false) {
+    const std::uint32_t offset = at_key ? value.key_offset : value.offset;
+    const std::uint32_t length = at_key ? 0 : value.length;  // 0: one token
+    faults_.push_back({value.source, offset, length, pointer, std::move(rule), std::move(hint)});
+    return false;
+  }
+
+  bool check_form(const Rule& rule, JsonValue& value, const std::string& pointer) {
+    if (value.is(JsonKind::null)) return fail(value, pointer, "null is not a value here", "leave the key out where nothing is meant");
+    if (rule.form == Form::choice) return check_choice(rule, value, pointer);
+    if (!value.is(json_kind(rule.form)))
+      return fail(value, pointer, "has to be " + wanted(rule) + ", not " + with_article(value.kind), type_hint(rule, value));
+    switch (rule.form) {
+      case Form::number:
+      case Form::integer: return check_number(rule, value, pointer);
+      case Form::name: {
+        const std::string fault = name_fault(value.text);
+        return fault.empty() || fail(value, pointer, fault);
+      }
+      case Form::word:
+        if (std::find(rule.words.begin(), rule.words.end(), value.text) != rule.words.end()) return true;
+        return fail(value, pointer, "has to be " + quoted_list(rule.words), suggestion(value.text, rule.words));
+      case Form::array: return check_array(rule, value, pointer);
+      case Form::object: return check_object(rule, value, pointer);
+      default: return true;
+    }
+  }
+
+  static std::string type_hint(const Rule& rule, const JsonValue& value) {
+    if (json_kind(rule.form) == JsonKind::number && value.is(JsonKind::string)) return "write numbers without quotes, in SI units";
+    if (rule.form == Form::array && value.is(JsonKind::object)) return "put it in brackets: [ ... ]";
+    return "";
+  }
+
+  /// What a rule asks for, in words.
+  std::string wanted(const Rule& rule_in) const {
+    const Rule& rule = table_.resolve(rule_in);
+    switch (rule.form) {
+      case Form::number: return "a number" + range(rule);
+      case Form::integer: return "a whole number" + range(rule);
+      case Form::boolean: return "true or false";
+      case Form::text: return "a string";
+      case Form::name: return "a name";
+      case Form::word: return quoted_list(rule.words);
+      case Form::array: {
+        const Rule& item = table_.resolve(*rule.item);
+        const std::string what = item.form == Form::number ? "numbers" : item.form == Form::array ? "arrays" : "items";
+        return "an array of " + (rule.min_items == rule.max_items ? std::to_string(rule.min_items) + " " : "") + what;
+      }
+      case Form::object:
+        return !rule.kinds.empty() ? "an object of kind " + quoted_list(rule.kinds)
+               : rule.marker.empty() ? "an object"
+                                     : "an object with \"" + rule.marker + "\"";
+      case Form::choice: {
+        std::string r;
+        for (std::size_t i = 0; i < rule.options.size(); ++i)
+          r += (i == 0 ? "" : i + 1 == rule.options.size() ? " or " : ", ") + wanted(*rule.options[i]);
+        return r;
+      }
+      case Form::named: break;
+    }
+    return "";
+  }
+
+  static std::string range(const Rule& rule) {
+    std::string r;
+    if (std::isfinite(rule.low)) r += (rule.low_open ? " above " : " of at least ") + shown_number(rule.low);
+    if (std::isfinite(rule.high)) r += std::string(r.empty() ? "" : " and") + " of at most " + shown_number(rule.high);
+    return r;
+  }
+
+  bool check_number(const Rule& rule, const JsonValue& value, const std::string& pointer) {
+    const double x = value.number;
+    const bool is_whole = rule.form == Form::number || x == std::floor(x);
+    if (is_whole && (rule.low_open ? x > rule.low : x >= rule.low) && x <= rule.high) return true;
+    return fail(value, pointer, "has to be " + wanted(rule));
+  }
+
+  bool check_array(const Rule& rule, JsonValue& value, const std::string& pointer) {
+    bool sound = true;
+    const std::size_t n = value.items.size();
+    if (n < rule.min_items || n > rule.max_items) {
+      const std::string count = rule.min_items == rule.max_items ? std::to_string(rule.min_items)
+                                : n < rule.min_items             ? "at least " + std::to_string(rule.min_items)
+                                                                 : "at most " + std::to_string(rule.max_items);
+      sound = fail(value, pointer, "has " + std::to_string(n) + " items and needs " + count);
+    }
+    for (std::size_t i = 0; i < n; ++i) sound = check(*rule.item, value.items[i], pointer + "/" + std::to_string(i)) && sound;
+    return sound;
+  }
+
+  bool check_object(const Rule& rule, JsonValue& value, const std::string& pointer) {
+    bool sound = true;
+    std::vector<std::string> known, missing, meant;
+    for (const Field& field : rule.fields) {
+      known.push_back(field.key);
+      if (value.find(field.key) == nullptr && field.presence == Presence::required) missing.push_back(field.key);
+    }
+    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+      const std::string& key = value.keys[i];
+      const auto field = std::find_if(rule.fields.begin(), rule.fields.end(), [&](const Field& f) { return f.key == key; });
+      const std::string at = pointer_to(pointer, key);
+      if (key == "comment" && field == rule.fields.end()) {
+        if (!value.items[i].is(JsonKind::string)) sound = fail(value.items[i], at, "a comment has to be a string");
+      } else if (field != rule.fields.end()) {
+        sound = check(*field->rule, value.items[i], at) && sound;
+      } else {
+        sound = false;
+        value.items[i].sound = false;
+        meant.push_back(unknown_key(value, i, at, known));
+        std::erase(missing, meant.back());
+      }
+    }
+    for (const std::string& key : missing) sound = fail(value, pointer, "needs the key \"" + key + "\"", about(rule, key));
+    sound = check_sets(rule, value, pointer, meant) && sound;
+    for (const Field& field : rule.fields)
+      if (!field.default_json.empty() && value.find(field.key) == nullptr) {
+        add_default(field, value);
+        check(*field.rule, value.items.back(), pointer_to(pointer, field.key));  // fills the defaults inside the default
+      }
+    return sound;
+  }
+
+  /// Reports a key that is not known; returns the one that was probably meant, which is then not reported as missing.
+  std::string unknown_key(const JsonValue& value, std::size_t i, const std::string& at, const std::vector<std::string>& known) {
+    std::vector<std::string> free_keys;
+    for (const std::string& k : known)
+      if (value.find(k) == nullptr) free_keys.push_back(k);
+    std::string near = scene::nearest_name(value.keys[i], free_keys);
+    if (near.empty()) near = scene::nearest_name(value.keys[i], known);
+    std::string hint = near.empty() ? "known keys: " + quoted_list(known) : "did you mean \"" + near + "\"?";
+    fail(value.items[i], at, "this key is not known here", std::move(hint), true);
+    return near;
+  }
+
+  static std::string about(const Rule& rule, const std::string& key) {
+    for (const Field& f : rule.fields)
+      if (f.key == key) return f.about;
+    return "";
+  }
+
+  bool check_sets(const Rule& rule, const JsonValue& value, const std::string& pointer, const std::vector<std::string>& meant) {
+    bool sound = true;
+    const auto count = [&](const std::vector<std::string>& set) {
+      return std::count_if(set.begin(), set.end(), [&](const std::string& k) {
+        return value.find(k) != nullptr || std::find(meant.begin(), meant.end(), k) != meant.end();
+      });
+    };
+    for (const auto& set : rule.exactly_one)
+      if (count(set) != 1) sound = fail(value, pointer, "needs exactly one of the keys " + quoted_list(set));
+    for (const auto& set : rule.at_most_one)
+      if (count(set) > 1) sound = fail(value, pointer, "takes only one of the keys " + quoted_list(set));
+    return sound;
+  }
+
+  static void add_default(const Field& field, JsonValue& value) {
+    std::vector<JsonFault> none;
+    std::optional<JsonValue> d = parse_json(field.default_json, source_default, none);
+    value.keys.push_back(field.key);
+    value.items.push_back(std::move(*d));
+  }
+
+  /// Narrows a choice by the JSON type, then objects by "kind" or marker key, then arrays by what they hold.
+  bool check_choice(const Rule& rule, JsonValue& value, const std::string& pointer) {
+    std::vector<const Rule*> fitting;
+    flatten(rule, value.kind, fitting);
+    if (fitting.empty()) return fail(value, pointer, "has to be " + wanted(rule) + ", not " + with_article(value.kind));
+    if (fitting.size() == 1) return check(*fitting.front(), value, pointer);
+    if (value.is(JsonKind::object)) return check_object_choice(fitting, value, pointer);
+    if (value.is(JsonKind::array)) {
+      const bool holds_arrays = !value.items.empty() && value.items.front().is(JsonKind::array);
+      for (const Rule* option : fitting)
+        if ((table_.resolve(*option->item).form == Form::array) == holds_arrays) return check(*option, value, pointer);
+    }
+    return check(*fitting.front(), value, pointer);
+  }
+
+  void flatten(const Rule& rule, JsonKind kind, std::vector<const Rule*>& out) const {
+    for (const RuleRef& option : rule.options) {
+      const Rule& r = table_.resolve(*option);
+      if (r.form == Form::choice)
+        flatten(r, kind, out);
+      else if (json_kind(r.form) == kind)
+        out.push_back(&r);
+    }
+  }
+
+  bool check_object_choice(const std::vector<const Rule*>& options, JsonValue& value, const std::string& pointer) {
+    std::vector<std::string> kinds, markers, keys;
+    for (const Rule* option : options) {
+      kinds.insert(kinds.end(), option->kinds.begin(), option->kinds.end());
+      if (!option->marker.empty()) markers.push_back(option->marker);
+      for (const Field& f : option->fields) keys.push_back(f.key);
+      if (!option->marker.empty() && value.find(option->marker) != nullptr) return check(*option, value, pointer);
+    }
+    JsonValue* kind = value.find("kind");
+    if (kind != nullptr && !kinds.empty()) {
+      if (!kind->is(JsonKind::string)) return fail(*kind, pointer_to(pointer, "kind"), "has to be " + quoted_list(kinds));
+      for (const Rule* option : options)
+        if (std::find(option->kinds.begin(), option->kinds.end(), kind->text) != option->kinds.end())
+          return check(*option, value, pointer);
+      return fail(*kind, pointer_to(pointer, "kind"), "has to be " + quoted_list(kinds), suggestion(kind->text, kinds));
+    }
+    std::string needed = kinds.empty() ? "" : "the key \"kind\" (" + quoted_list(kinds) + ")";
+    if (!markers.empty()) needed += (needed.empty() ? "" : ", or ") + std::string("one of the keys ") + quoted_list(markers);
+    if (!kinds.empty()) keys.push_back("kind");
+    std::vector<std::string> telling = markers;
+    if (!kinds.empty()) telling.push_back("kind");
+    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+      if (value.keys[i] == "comment" || std::find(keys.begin(), keys.end(), value.keys[i]) != keys.end()) continue;
+      std::string hint = suggestion(value.keys[i], telling);
+      if (hint.empty()) hint = suggestion(value.keys[i], keys);
+      return fail(value.items[i], pointer_to(pointer, value.keys[i]), "this key is not known here; the object needs " + needed,
+                  std::move(hint), true);
+    }
+    return fail(value, pointer, "needs " + needed);
+  }
+
+  const RuleTable& table_;
+  std::vector<CheckFault>& faults_;
+};
+
+}  // namespace
+
+void check_rules(const RuleTable& table, JsonValue& root, std::vector<CheckFault>& faults) {
+  Checker(table, faults).check(*table.root, root, "");
+}
+
+}  // namespace bough::io

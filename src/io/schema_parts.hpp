@@ -1,0 +1,16 @@
+#pragma once
+#include "bough/io/schema_rule.hpp"
+
+namespace bough::io {
+
+/// The rules that several things use: vectors, rotations, laws, attachments, matrices, shapes.
+void add_part_rules(RuleTable& table);
+void add_law_rules(RuleTable& table);
+
+/// An object rule: all its fields, told by a marker key where the choice around it needs one.
+Rule object_of(std::string about, std::vector<Field> fields, std::string marker = {});
+/// An object rule told by "kind".
+Rule object_of_kind(std::vector<std::string> kinds, std::string about, std::vector<Field> fields);
+RuleRef made(Rule rule);
+
+}  // namespace bough::io

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bough/io/read_scene.hpp"
+#include "bough/io/schema_rule.hpp"
+
+namespace bough::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_schema(const Rule& rule);
+
+Json number_of(double x) { return x == std::floor(x) && std::abs(x) < 1e15 ? Json(static_cast<long long>(x)) : Json(x); }
+
+void add_range(const Rule& rule, Json& out) {
+  if (std::isfinite(rule.low)) out[rule.low_open ? "exclusiveMinimum" : "minimum"] = number_of(rule.low);
+  if (std::isfinite(rule.high)) out["maximum"] = number_of(rule.high);
+}
+
+Json one_required(const std::vector<std::string>& keys) {
+  Json list = Json::array();
+  for (const std::string& k : keys) list.push_back(Json{{"required", Json::array({k})}});
+  return list;
+}
+
+void add_object(const Rule& rule, Json& out) {
+  out["type"] = "object";
+  Json properties = Json::object(), required = Json::array();
+  for (const Field& f : rule.fields) {
+    Json p = to_schema(*f.rule);
+    if (f.key == "kind" && !rule.kinds.empty()) p = Json{{"enum", rule.kinds}};
+    // draft-07 ignores what stands beside a $ref, so a described reference is wrapped
+    if (p.contains("$ref")) p = Json{{"allOf", Json::array({p})}};
+    const std::string own = p.value("description", "");
+    p["description"] = own.empty() || own == f.about ? f.about : f.about + " " + own;
+    if (!f.default_json.empty()) p["default"] = Json::parse(f.default_json);
+    properties[f.key] = std::move(p);
+    if (f.presence == Presence::required) required.push_back(f.key);
+  }
+  if (!properties.contains("comment")) properties["comment"] = Json{{"type", "string"}, {"description", "Free text."}};
+  out["properties"] = std::move(properties);
+  if (!rule.marker.empty() && std::find(required.begin(), required.end(), rule.marker) == required.end()) required.push_back(rule.marker);
+  if (!required.empty()) out["required"] = std::move(required);
+  out["additionalProperties"] = false;
+  Json all = Json::array();
+  for (const auto& set : rule.exactly_one) all.push_back(Json{{"oneOf", one_required(set)}});
+  for (const auto& set : rule.at_most_one) {
+    Json pairs = Json::array();
+    for (std::size_t i = 0; i < set.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) pairs.push_back(Json{{"required", Json::array({set[j], set[i]})}});
+    all.push_back(Json{{"not", Json{{"anyOf", std::move(pairs)}}}});
+  }
+  if (!all.empty()) out["allOf"] = std::move(all);
+}
+
+Json to_schema(const Rule& rule) {
+  if (rule.form == Form::named) return Json{{"$ref", "#/definitions/" + rule.target}};
+  Json out = Json::object();
+  if (!rule.about.empty()) out["description"] = rule.about;
+  switch (rule.form) {
+    case Form::number:
+      out["type"] = "number";
+      add_range(rule, out);
+      break;
+    case Form::integer:
+      out["type"] = "integer";
+      add_range(rule, out);
+      break;
+    case Form::boolean: out["type"] = "boolean"; break;
+    case Form::text: out["type"] = "string"; break;
+    case Form::name:
+      out["type"] = "string";
+      out["minLength"] = 1;
+      out["maxLength"] = 100;
+      out["pattern"] = "^[^./\\u0000-\\u001f\\u007f ]([^./\\u0000-\\u001f\\u007f]*[^./\\u0000-\\u001f\\u007f ])?$";
+      out["not"] = Json{{"const", "ground"}};
+      break;
+    case Form::word: out["enum"] = rule.words; break;
+    case Form::array:
+      out["type"] = "array";
+      out["items"] = to_schema(*rule.item);
+      if (rule.min_items > 0) out["minItems"] = rule.min_items;
+      if (rule.max_items != std::numeric_limits<std::size_t>::max()) out["maxItems"] = rule.max_items;
+      break;
+    case Form::object: add_object(rule, out); break;
+    case Form::choice: {
+      Json options = Json::array();
+      for (const RuleRef& option : rule.options) options.push_back(to_schema(*option));
+      out["oneOf"] = std::move(options);
+      break;
+    }
+    case Form::named: break;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string schema_text() {
+  const RuleTable& table = scene_rules();
+  Json out = Json::object();
+  out["$schema"] = "http://json-schema.org/draft-07/schema#";
+  out["title"] = "bough scene";
+  const Json root = to_schema(*table.root);
+  for (const auto& [key, value] : root.items()) out[key] = value;
+  Json definitions = Json::object();
+  for (const auto& [name, rule] : table.named) definitions[name] = to_schema(*rule);
+  out["definitions"] = std::move(definitions);
+  return out.dump(2) + "\n";
+}
+
+}  // namespace bough::io
