@@ -36,6 +36,7 @@ struct SolveReport {
   int deficiency = 0;            ///< as in FactorStatus.
   double inconsistency = 0.0;    ///< |Y^T b| / |b|, Y the left null vectors: 0 when dependent constraints agree with each other.
   int inconsistent_block = -1;   ///< block with the largest part of Y Y^T b.
+  double inconsistent_amount = 0.0;  ///< that part, in the units of the block's right-hand side.
   bool finite = true;            ///< false: the solution holds NaN or infinity.
 };
 

@@ -1,0 +1,135 @@
+#include "bough/schedule/threads.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+
+#include "bough/schedule/serial.hpp"
+#ifdef BOUGH_HAS_TBB
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+#endif
+
+namespace bough::schedule {
+
+struct Threads::State {
+  State(int n, double grain) : count(n), grain_flops(grain) {}
+
+  int count;
+  double grain_flops;
+  std::atomic<unsigned> delay_microseconds{0};
+  std::atomic<unsigned> delay_state{1};
+
+#ifdef BOUGH_HAS_TBB
+  tbb::task_arena arena;
+
+  void delay() {
+    const unsigned limit = delay_microseconds.load(std::memory_order_relaxed);
+    if (limit == 0) return;
+    unsigned r = delay_state.fetch_add(0x9e3779b9u, std::memory_order_relaxed);
+    r ^= r >> 16;
+    r *= 0x7feb352du;
+    r ^= r >> 15;
+    const auto until = std::chrono::steady_clock::now() + std::chrono::microseconds(r % limit);
+    while (std::chrono::steady_clock::now() < until) {
+    }
+  }
+
+  void visit_up(const tree::Tree& tree, tree::SubdomainId top, tree::Visit visit) {
+    const tree::Subdomain& s = tree.subdomains[static_cast<std::size_t>(top)];
+    if (s.is_leaf() || s.subtree_flops < grain_flops) {
+      delay();
+      for (tree::SubdomainId i = s.subtree_begin; i <= top; ++i) visit.run(visit.context, i);
+      return;
+    }
+    tbb::task_group children;
+    const auto list = tree.children(s);
+    for (std::size_t c = 0; c + 1 < list.size(); ++c) children.run([this, &tree, id = list[c], visit] { visit_up(tree, id, visit); });
+    visit_up(tree, list.back(), visit);
+    children.wait();
+    delay();
+    visit.run(visit.context, top);
+  }
+
+  void visit_down(const tree::Tree& tree, tree::SubdomainId top, tree::Visit visit) {
+    const tree::Subdomain& s = tree.subdomains[static_cast<std::size_t>(top)];
+    delay();
+    if (s.is_leaf() || s.subtree_flops < grain_flops) {
+      for (tree::SubdomainId i = top; i >= s.subtree_begin; --i) visit.run(visit.context, i);
+      return;
+    }
+    visit.run(visit.context, top);
+    tbb::task_group children;
+    const auto list = tree.children(s);
+    for (std::size_t c = 0; c + 1 < list.size(); ++c) children.run([this, &tree, id = list[c], visit] { visit_down(tree, id, visit); });
+    visit_down(tree, list.back(), visit);
+    children.wait();
+  }
+
+  void run_chunks(std::int64_t count_items, std::int64_t grain, tree::Chunk chunk) {
+    const std::int64_t chunks = (count_items + grain - 1) / grain;
+    tbb::parallel_for(std::int64_t{0}, chunks, [&](std::int64_t c) {
+      delay();
+      chunk.run(chunk.context, c * grain, std::min((c + 1) * grain, count_items));
+    });
+  }
+#endif
+};
+
+#ifdef BOUGH_HAS_TBB
+namespace {
+
+template <class State>
+tree::Walker make_walker(State* state) {
+  return {[](void* context, const tree::Tree& tree, tree::Visit visit) {
+            auto* s = static_cast<State*>(context);
+            s->arena.execute([&] { s->visit_up(tree, tree.root(), visit); });
+          },
+          [](void* context, const tree::Tree& tree, tree::Visit visit) {
+            auto* s = static_cast<State*>(context);
+            s->arena.execute([&] { s->visit_down(tree, tree.root(), visit); });
+          },
+          [](void* context, std::int64_t count, std::int64_t grain, tree::Chunk chunk) {
+            auto* s = static_cast<State*>(context);
+            if (count <= grain) {
+              if (count > 0) chunk.run(chunk.context, 0, count);
+              return;
+            }
+            s->arena.execute([&] { s->run_chunks(count, grain, chunk); });
+          },
+          state};
+}
+
+}  // namespace
+#endif
+
+Threads::Threads(int count, double grain_flops) {
+  if (count < 1) throw std::invalid_argument("Threads: count must be >= 1");
+  if (!(grain_flops >= 0.0)) throw std::invalid_argument("Threads: grain_flops must be >= 0");
+  state_ = std::make_unique<State>(count, grain_flops);
+#ifdef BOUGH_HAS_TBB
+  if (count > 1) state_->arena.initialize(count);
+#endif
+}
+
+Threads::~Threads() = default;
+Threads::Threads(Threads&&) noexcept = default;
+Threads& Threads::operator=(Threads&&) noexcept = default;
+
+int Threads::count() const { return state_->count; }
+
+tree::Walker Threads::walker() const {
+#ifdef BOUGH_HAS_TBB
+  if (state_->count > 1) return make_walker(state_.get());
+#endif
+  return make_serial_walker();
+}
+
+void Threads::set_random_delay(unsigned microseconds, unsigned seed) {
+  state_->delay_microseconds = microseconds;
+  state_->delay_state = seed;
+}
+
+}  // namespace bough::schedule

@@ -1,0 +1,199 @@
+#include "element_store.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bough::solve {
+
+namespace {
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr std::int64_t chunk_blocks = 128;
+}  // namespace
+
+ElementStore::ElementStore(const blocks::BlockGraph& graph, const tree::Tree& tree)
+    : graph_(graph), tree_(tree), begin_(at(graph.num_elements()), 0), size_(at(graph.num_elements()), 0) {
+  for (int e = 0; e < graph.num_elements(); ++e)
+    for (int k = 0; k < num_blocks_of(e); ++k) size_[at(e)] += graph.block_size[at(blocks_of(e)[k])];
+  std::int64_t total = 0;
+  for (int e : tree.element_order) {
+    begin_[at(e)] = total;
+    total += static_cast<std::int64_t>(size_of(e)) * size_of(e);
+  }
+  values_.assign(at(total), 0.0);
+  touch_begin_.assign(at(graph.num_blocks()) + 1, 0);
+  for (int b : graph.element_blocks) ++touch_begin_[at(b) + 1];
+  for (std::size_t b = 1; b < touch_begin_.size(); ++b) touch_begin_[b] += touch_begin_[b - 1];
+  touches_.resize(graph.element_blocks.size());
+  std::vector<std::int64_t> next(touch_begin_.begin(), touch_begin_.end() - 1);
+  for (int e = 0; e < graph.num_elements(); ++e) {
+    int offset = 0;
+    for (int k = 0; k < num_blocks_of(e); ++k) {
+      const int b = blocks_of(e)[k];
+      touches_[at(next[at(b)]++)] = {e, offset};
+      offset += graph.block_size[at(b)];
+    }
+  }
+  chunk_.assign(at(4 * (graph.num_blocks() / chunk_blocks + 1)), 0.0);
+}
+
+/// Calls row(global row, element, row of the element matrix) for all rows of blocks [begin, end), elements ascending.
+template <class Row>
+void ElementStore::for_rows(std::int64_t begin, std::int64_t end, Row&& row) const {
+  for (std::int64_t b = begin; b < end; ++b)
+    for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
+      const Touch touch = touches_[at(t)];
+      const double* a = matrix(touch.element) + static_cast<std::int64_t>(touch.offset) * size_of(touch.element);
+      for (int i = 0; i < graph_.block_size[at(b)]; ++i, a += size_of(touch.element)) row(tree_.unknown_begin[at(b)] + i, touch.element, a);
+    }
+}
+
+void ElementStore::multiply(const tree::Walker& walker, const double* x, double* y) const {
+  auto body = [&](std::int64_t begin, std::int64_t end) {
+    std::fill(y + tree_.unknown_begin[at(begin)], y + tree_.unknown_begin[at(end)], 0.0);
+    for_rows(begin, end, [&](std::int64_t i, int e, const double* a) {
+      double sum = 0.0;
+      for (int k = 0; k < num_blocks_of(e); ++k) {
+        const int b = blocks_of(e)[k];
+        const double* xb = x + tree_.unknown_begin[at(b)];
+        for (int j = 0; j < graph_.block_size[at(b)]; ++j) sum += *a++ * xb[j];
+      }
+      y[i] += sum;
+    });
+  };
+  walker.for_each_chunk(graph_.num_blocks(), chunk_blocks, tree::make_chunk(body));
+}
+
+ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, const Scales& scales, const double* x, const double* b,
+                                                 double* r) {
+  std::fill(chunk_.begin(), chunk_.end(), 0.0);
+  auto body = [&](std::int64_t begin, std::int64_t end) {
+    double* most = chunk_.data() + 4 * (begin / chunk_blocks);  // |r|, |A| |x| per row norm, |x| and |b|, componentwise
+    double* worst = most + 3;
+    for (std::int64_t blk = begin; blk < end; ++blk) {
+      for (int i = 0; i < graph_.block_size[at(blk)]; ++i) {
+        const std::int64_t row = tree_.unknown_begin[at(blk)] + i;
+        double sum = b[row], magnitude = std::abs(b[row]), norm = 0.0;
+        for (std::int64_t t = touch_begin_[at(blk)]; t < touch_begin_[at(blk) + 1]; ++t) {
+          const int e = touches_[at(t)].element;
+          const double* a = matrix(e) + static_cast<std::int64_t>(touches_[at(t)].offset + i) * size_of(e);
+          for (int k = 0; k < num_blocks_of(e); ++k) {
+            const int other = blocks_of(e)[k];
+            const std::int64_t first = tree_.unknown_begin[at(other)];
+            for (int j = 0; j < graph_.block_size[at(other)]; ++j) {
+              const double entry = *a++;
+              const double product = entry * x[first + j];
+              sum -= product;
+              magnitude += std::abs(product);
+              norm += std::abs(entry) * scales.column[at(first + j)];
+            }
+          }
+        }
+        r[row] = sum;
+        const double scale = scales.row[at(row)];
+        const double residual = std::abs(sum);
+        most[0] = residual * scale <= most[0] ? most[0] : residual * scale;  // NaN goes through
+        most[1] = std::max(most[1], norm * scale);
+        most[2] = std::max(most[2], std::abs(b[row]) * scale);
+        if (magnitude > 0.0) *worst = std::max(*worst, residual / magnitude);
+      }
+    }
+  };
+  walker.for_each_chunk(graph_.num_blocks(), chunk_blocks, tree::make_chunk(body));
+  double residual = 0.0, norm = 0.0, rhs = 0.0, size = 0.0;
+  Errors errors;
+  for (std::size_t c = 0; c + 3 < chunk_.size(); c += 4) {
+    residual = chunk_[c] <= residual ? residual : chunk_[c];
+    norm = std::max(norm, chunk_[c + 1]);
+    rhs = std::max(rhs, chunk_[c + 2]);
+    errors.componentwise = std::max(errors.componentwise, chunk_[c + 3]);
+  }
+  for (std::size_t i = 0; i < scales.column.size(); ++i) size = std::max(size, std::abs(x[i]) / scales.column[i]);
+  errors.finite = std::isfinite(residual) && std::isfinite(size);
+  const double whole = norm * size + rhs;
+  errors.normwise = whole > 0.0 ? residual / whole : residual;
+  return errors;
+}
+
+void ElementStore::eval_scales(Scales& s) const {
+  const std::size_t n = at(tree_.num_unknowns());
+  std::vector<double>& exact_row = s.row;
+  std::vector<double>& exact_column = s.column;
+  std::fill(exact_row.begin(), exact_row.end(), 0.0);
+  std::fill(exact_column.begin(), exact_column.end(), 0.0);
+  std::fill(s.weight.begin(), s.weight.end(), 0.0);
+  const auto is_motion = [&](std::int64_t b) { return graph_.block_kind[at(b)] == blocks::BlockKind::motion; };
+  // Motion: row gathers |diagonal|, column the largest entry of the row, weight that of the column.
+  double probe = 0.0;  // NaN as soon as something is not finite
+  for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
+    if (!is_motion(b)) continue;
+    for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
+      const Touch touch = touches_[at(t)];
+      const std::int64_t ne = size_of(touch.element);
+      const double* a = matrix(touch.element);
+      for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
+        const std::size_t row = at(tree_.unknown_begin[at(b)] + i);
+        const std::int64_t k = touch.offset + i;
+        exact_row[row] += std::abs(a[k * ne + k]);
+        for (std::int64_t j = 0; j < ne; ++j) {
+          exact_column[row] = std::max(exact_column[row], std::abs(a[k * ne + j]));
+          s.weight[row] = std::max(s.weight[row], std::abs(a[j * ne + k]));
+        }
+      }
+    }
+  }
+  s.empty_unknown = -1;
+  const auto empty = [&](std::size_t i) {
+    if (s.empty_unknown < 0 || static_cast<std::int64_t>(i) < s.empty_unknown) s.empty_unknown = static_cast<std::int64_t>(i);
+  };
+  for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
+    if (!is_motion(b)) continue;
+    for (std::size_t i = at(tree_.unknown_begin[at(b)]); i < at(tree_.unknown_begin[at(b) + 1]); ++i) {
+      if (exact_column[i] == 0.0 || s.weight[i] == 0.0) empty(i);
+      const double value = exact_row[i] > 0.0 ? exact_row[i] : std::max(exact_column[i], s.weight[i]);
+      probe += value * 0.0;
+      exact_row[i] = exact_column[i] = value > 0.0 ? 1.0 / std::sqrt(value) : 1.0;
+      s.weight[i] = 1.0;
+    }
+  }
+  for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
+    if (is_motion(b)) continue;
+    for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
+      double row = 0.0, column = 0.0, diagonal = 0.0;
+      for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
+        const Touch touch = touches_[at(t)];
+        const std::int64_t ne = size_of(touch.element), k = touch.offset + i;
+        const double* a = matrix(touch.element);
+        diagonal += std::abs(a[k * ne + k]);
+        std::int64_t j = 0;
+        for (int p = 0; p < num_blocks_of(touch.element); ++p) {
+          const int other = blocks_of(touch.element)[p];
+          for (std::int64_t u = tree_.unknown_begin[at(other)]; u < tree_.unknown_begin[at(other) + 1]; ++u, ++j) {
+            if (!is_motion(other)) continue;
+            row += std::pow(a[k * ne + j] * exact_column[at(u)], 2);
+            column += std::pow(a[j * ne + k] * exact_row[at(u)], 2);
+          }
+        }
+      }
+      const std::size_t u = at(tree_.unknown_begin[at(b)] + i);
+      probe += (row + column) * 0.0;
+      if (row == 0.0) row = column > 0.0 ? column : diagonal;  // a row switched off by a diagonal, or an empty one
+      if (column == 0.0) column = row;
+      exact_row[u] = row > 0.0 ? 1.0 / std::sqrt(row) : 1.0;
+      exact_column[u] = column > 0.0 ? 1.0 / std::sqrt(column) : 1.0;
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto rounded = [](double x) { return std::exp2(std::round(std::log2(x))); };
+    const double column = rounded(exact_column[i]);
+    s.weight[i] = column / exact_column[i];
+    s.row[i] = rounded(exact_row[i]);
+    s.column[i] = column;
+  }
+  s.finite = probe == 0.0;
+}
+
+std::int64_t ElementStore::memory_bytes() const {
+  return static_cast<std::int64_t>(values_.size() * sizeof(double) + touches_.size() * sizeof(Touch));
+}
+
+}  // namespace bough::solve

@@ -1,0 +1,70 @@
+#pragma once
+/// Element matrices, products with them, and the scales taken from them. Internal to solve; shared by both solvers.
+#include <cstdint>
+#include <vector>
+
+#include "bough/blocks/block_graph.hpp"
+#include "bough/tree/tree.hpp"
+#include "bough/tree/walker.hpp"
+
+namespace bough::solve {
+
+/// Scales D_r, D_c: powers of two. Motion unknowns: both 2^round(-log2(a)/2), a = sum over the elements of |diagonal| (row norm where that
+/// is 0). Multipliers: column and row by the inverse 2-norm of the constraint's column and row in scaled motion unknowns.
+/// A tangent K + C/h + M/h^2 then has diagonal near 1 and constraint rows of norm near 1 for every h.
+struct Scales {
+  std::vector<double> row, column;
+  std::vector<double> weight;       ///< column / exact column scale, in [2^-1/2, 2^1/2]: measures multipliers free of the rounding
+  std::int64_t empty_unknown = -1;  ///< first unknown whose row or column is zero, or -1
+  bool finite = true;
+};
+
+class ElementStore {
+ public:
+  ElementStore(const blocks::BlockGraph& graph, const tree::Tree& tree);
+
+  double* matrix(int element) { return values_.data() + begin_[static_cast<std::size_t>(element)]; }
+  const double* matrix(int element) const { return values_.data() + begin_[static_cast<std::size_t>(element)]; }
+  int size_of(int element) const { return size_[static_cast<std::size_t>(element)]; }
+  const int* blocks_of(int element) const { return graph_.element_blocks.data() + graph_.element_begin[static_cast<std::size_t>(element)]; }
+  int num_blocks_of(int element) const {
+    const auto e = static_cast<std::size_t>(element);
+    return static_cast<int>(graph_.element_begin[e + 1] - graph_.element_begin[e]);
+  }
+
+  /// y = A x. Rows are independent: every row adds its elements in ascending order.
+  void multiply(const tree::Walker& walker, const double* x, double* y) const;
+
+  struct Errors {
+    double normwise = 0.0, componentwise = 0.0;
+    bool finite = true;
+  };
+  /// r = b - A x and the backward errors of x in scaled variables.
+  Errors eval_residual(const tree::Walker& walker, const Scales& scales, const double* x, const double* b, double* r);
+
+  /// Serial, one pass over the element matrices. No allocation.
+  void eval_scales(Scales& scales) const;
+
+  std::int64_t memory_bytes() const;
+  const blocks::BlockGraph& graph() const { return graph_; }
+  const tree::Tree& tree() const { return tree_; }
+
+ private:
+  struct Touch {
+    int element;
+    int offset;  ///< first row of the block in the element
+  };
+  template <class Row>
+  void for_rows(std::int64_t begin, std::int64_t end, Row&& row) const;
+
+  const blocks::BlockGraph& graph_;
+  const tree::Tree& tree_;
+  std::vector<std::int64_t> begin_;
+  std::vector<int> size_;
+  std::vector<double> values_;
+  std::vector<std::int64_t> touch_begin_;  ///< by block
+  std::vector<Touch> touches_;
+  std::vector<double> chunk_;              ///< partial maxima, four per chunk
+};
+
+}  // namespace bough::solve

@@ -1,0 +1,186 @@
+#include "bough/solve/hierarchical.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "hierarchical_state.hpp"
+
+namespace bough::solve {
+
+namespace {
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+std::vector<std::string> problems_in(const SolveOptions& o) {
+  std::vector<std::string> problems;
+  const auto need = [&](bool condition, const char* text) {
+    if (!condition) problems.emplace_back(text);
+  };
+  need(o.penalty_factor > 0.0 && std::isfinite(o.penalty_factor), "penalty_factor: must be > 0");
+  need(o.multiplier_scale > 0.0 && std::isfinite(o.multiplier_scale), "multiplier_scale: must be > 0");
+  need(o.pivot_threshold > 0.0 && o.pivot_threshold <= 1.0, "pivot_threshold: must be in (0, 1]");
+  need(o.tiny_pivot > 0.0 && o.tiny_pivot < 1.0, "tiny_pivot: must be in (0, 1)");
+  need(o.rank_tolerance > 0.0 && o.rank_tolerance < 1.0, "rank_tolerance: must be in (0, 1)");
+  need(o.singular_tolerance > 0.0 && o.singular_tolerance < 1.0, "singular_tolerance: must be in (0, 1)");
+  need(o.null_motion_tolerance > 0.0 && o.null_motion_tolerance < 1.0, "null_motion_tolerance: must be in (0, 1)");
+  need(o.refinement_steps >= 0, "refinement_steps: must be >= 0");
+  need(o.refinement_above >= 0.0, "refinement_above: must be >= 0");
+  return problems;
+}
+
+Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
+    : tree(t), options(o), elements(graph, t) {
+  const std::size_t n = at(tree.num_unknowns()), num_fronts = at(tree.num_fronts());
+  scales.row.assign(n, 1.0);
+  scales.column.assign(n, 1.0);
+  scales.weight.assign(n, 1.0);
+  is_constraint = std::make_unique<bool[]>(n);
+  for (int b = 0; b < graph.num_blocks(); ++b)
+    for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u)
+      is_constraint[at(u)] = graph.block_kind[at(b)] == blocks::BlockKind::multiplier;
+  fronts.resize(num_fronts);
+  enlarged.resize(num_fronts);
+  matrix_begin.assign(1, 0);
+  vector_begin.assign(1, 0);
+  index_begin.assign(1, 0);
+  run_begin.assign(1, 0);
+  for (const tree::Front& f : tree.fronts) {
+    const std::int64_t size = f.size();
+    matrix_begin.push_back(matrix_begin.back() + size * size);
+    vector_begin.push_back(vector_begin.back() + size);
+    index_begin.push_back(index_begin.back() + 3 * f.num_eliminated);
+    int from = 0;
+    for (std::int64_t k = f.block_begin; k < f.block_end; ++k) {
+      const int b = tree.front_blocks[at(k)], length = graph.block_size[at(b)];
+      if (k < f.block_begin + f.num_eliminated_blocks) {
+        for (int i = 0; i < length; ++i) own_unknowns.push_back(static_cast<int>(tree.unknown_begin[at(b)]) + i);
+        continue;
+      }
+      const int to = tree.parent_row[at(k)];
+      if (from > 0 && runs.back().to + runs.back().length == to) {
+        runs.back().length += length;
+      } else {
+        runs.push_back({from, to, length});
+      }
+      from += length;
+    }
+    run_begin.push_back(static_cast<std::int64_t>(runs.size()));
+    counters.factor_flops += f.flops;
+  }
+  matrix_pool.resize(at(matrix_begin.back()));
+  vector_pool.resize(at(vector_begin.back()));
+  scratch_pool.resize(at(vector_begin.back()));
+  index_pool.resize(at(index_begin.back()));
+  if (options.elimination == Elimination::plain) plain.resize(at(tree.num_subdomains()));
+  x_scaled.assign(n, 0.0);
+  rhs.assign(n, 0.0);
+  residual.assign(n, 0.0);
+  correction.assign(n, 0.0);
+}
+
+Hierarchical::Hierarchical(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options) {
+  if (!problems_in(options).empty()) throw std::invalid_argument("Hierarchical: " + problems_in(options).front());
+  if (tree.unknown_begin.size() != graph.block_size.size() + 1 || static_cast<int>(tree.element_order.size()) != graph.num_elements())
+    throw std::invalid_argument("Hierarchical: the tree was made from another graph");
+  state_ = std::make_unique<State>(graph, tree, options);
+}
+
+Hierarchical::~Hierarchical() = default;
+Hierarchical::Hierarchical(Hierarchical&&) noexcept = default;
+Hierarchical& Hierarchical::operator=(Hierarchical&&) noexcept = default;
+
+double* Hierarchical::element_matrix(int element) { return state_->elements.matrix(element); }
+const double* Hierarchical::element_matrix(int element) const { return std::as_const(state_->elements).matrix(element); }
+void Hierarchical::rescale() { state_->scales_wanted = true; }
+const FactorStatus& Hierarchical::last_status() const { return state_->status; }
+std::span<const double> Hierarchical::column_scale() const { return state_->scales.column; }
+std::span<const double> Hierarchical::row_scale() const { return state_->scales.row; }
+const tree::Tree& Hierarchical::tree() const { return state_->tree; }
+void Hierarchical::multiply(const tree::Walker& walker, const double* x, double* y) const { state_->elements.multiply(walker, x, y); }
+
+FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare) {
+  State& s = *state_;
+  s.status = {};
+  if (s.scales_wanted) s.elements.eval_scales(s.scales);
+  s.scales_wanted = false;
+  auto visit = [&s, &prepare](tree::SubdomainId id) { s.factor_subdomain(id, prepare); };
+  walker.walk_up(s.tree, tree::make_visit(visit));
+  ++s.counters.factorizations;
+  for (tree::FrontId f = 0; f < s.tree.num_fronts(); ++f) {
+    const FrontData& d = s.data(f);
+    if (d.failed && s.status.outcome != FactorOutcome::not_finite) {
+      const auto blocks = s.tree.blocks(s.front(f));
+      s.status.outcome = FactorOutcome::not_finite;
+      s.status.front = f;
+      s.status.block = blocks.empty() ? -1 : blocks.front();
+    }
+    if (d.delayed_in > 0) ++s.counters.enlarged_fronts;
+    if (d.allocated) ++s.counters.enlarging_allocations;
+    if (f + 1 < s.tree.num_fronts()) s.status.delayed_pivots += d.num_delayed();
+  }
+  s.counters.delayed_pivots += s.status.delayed_pivots;
+  s.null_space.dimension = 0;
+  if (s.status.ok()) s.find_null_space();
+  return s.status;
+}
+
+SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, double* x) {
+  State& s = *state_;
+  const std::size_t n = s.x_scaled.size();
+  SolveReport report;
+  report.deficiency = s.null_space.dimension;
+  ++s.counters.solutions;
+  std::copy(rhs, rhs + n, s.rhs.begin());
+  s.solve_scaled(walker, s.rhs.data());
+  for (std::size_t i = 0; i < n; ++i) x[i] = s.scales.column[i] * s.x_scaled[i];
+  s.eval_inconsistency(s.rhs.data(), report);
+  if (s.options.check == SolveCheck::none) return report;
+  ElementStore::Errors errors = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
+  while (errors.finite && errors.normwise > s.options.refinement_above && report.refinement_steps < s.options.refinement_steps) {
+    std::copy(s.x_scaled.begin(), s.x_scaled.end(), s.correction.begin());
+    s.solve_scaled(walker, s.residual.data());
+    for (std::size_t i = 0; i < n; ++i) s.x_scaled[i] += s.correction[i];
+    for (std::size_t i = 0; i < n; ++i) s.correction[i] = x[i];
+    for (std::size_t i = 0; i < n; ++i) x[i] = s.scales.column[i] * s.x_scaled[i];
+    const ElementStore::Errors refined = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
+    if (!(refined.normwise < errors.normwise)) {  // as good as it gets: keep the better one
+      std::copy(s.correction.begin(), s.correction.end(), x);
+      for (std::size_t i = 0; i < n; ++i) s.x_scaled[i] = x[i] / s.scales.column[i];
+      break;
+    }
+    errors = refined;
+    ++report.refinement_steps;
+  }
+  report.backward_error = errors.normwise;
+  report.componentwise_backward_error = errors.componentwise;
+  report.finite = errors.finite;
+  return report;
+}
+
+SolverCounters Hierarchical::counters() const {
+  const State& s = *state_;
+  SolverCounters c = s.counters;
+  std::size_t doubles = s.matrix_pool.size() + 2 * s.vector_pool.size() + 7 * s.x_scaled.size() + s.null_space.left.capacity() +
+                        s.null_space.right.capacity();
+  for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
+  c.memory_bytes = static_cast<std::int64_t>(doubles * sizeof(double) + s.index_pool.size() * sizeof(int)) + s.elements.memory_bytes();
+  return c;
+}
+
+std::vector<int> Hierarchical::blocks_not_unique() const {
+  const State& s = *state_;
+  const std::size_t n = s.x_scaled.size();
+  std::vector<int> blocks;
+  for (int b = 0; b < s.elements.graph().num_blocks(); ++b) {
+    double largest = 0.0;
+    for (int v = 0; v < s.null_space.dimension; ++v)
+      for (std::int64_t u = s.tree.unknown_begin[at(b)]; u < s.tree.unknown_begin[at(b) + 1]; ++u)
+        largest = std::max(largest, std::abs(s.null_space.right[at(v) * n + at(u)]));
+    if (largest > 1e-8) blocks.push_back(b);
+  }
+  return blocks;
+}
+
+}  // namespace bough::solve

@@ -1,0 +1,141 @@
+/// The method's own quantities: interface flexibility, its conditioning, local multipliers, and the textbook condensation through it.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "hierarchical_state.hpp"
+
+namespace bough::solve {
+
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+using Matrix = Eigen::MatrixXd;
+using ConstMap = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
+using Map = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
+
+}  // namespace
+
+/// |diagonal| that the sub-domain's own elements have at its interface, scaled; 0 for multipliers.
+std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s) const {
+  const tree::Subdomain& sub = tree.subdomains[at(s)];
+  const tree::Front& top = front(sub.top());
+  const auto boundary = tree.boundary_blocks(top);
+  std::vector<std::pair<int, int>> row_of;  // (block, first row)
+  int rows = 0;
+  for (int b : boundary) {
+    row_of.push_back({b, rows});
+    rows += elements.graph().block_size[at(b)];
+  }
+  std::sort(row_of.begin(), row_of.end());
+  std::vector<double> stiffness(at(rows), 0.0);
+  for (int e : tree.elements(sub)) {
+    const double* a = elements.matrix(e);
+    const std::int64_t n = elements.size_of(e);
+    std::int64_t k = 0;
+    for (int p = 0; p < elements.num_blocks_of(e); ++p) {
+      const int b = elements.blocks_of(e)[p], size = elements.graph().block_size[at(b)];
+      const auto it = std::lower_bound(row_of.begin(), row_of.end(), std::pair<int, int>{b, 0});
+      if (it != row_of.end() && it->first == b)
+        for (int i = 0; i < size; ++i) {
+          const std::size_t u = at(tree.unknown_begin[at(b)] + i);
+          if (!is_constraint[u]) stiffness[at(it->second + i)] += std::abs(a[(k + i) * n + k + i]) * scales.row[u] * scales.column[u];
+        }
+      k += size;
+    }
+  }
+  return stiffness;
+}
+
+/// S <- s^2 F^-1 - P with F = s^2 (S + P)^-1: exact on paper; in floating point P drowns S. For comparison only.
+void Hierarchical::State::condense_through_flexibility(tree::SubdomainId s) {
+  FrontData& d = data(tree.subdomains[at(s)].top());
+  PlainInterface& interface = plain[at(s)];
+  const int n = d.size - d.full;
+  interface.used = false;
+  if (d.failed || n == 0 || d.num_delayed() > 0) return;
+  interface.penalty = interface_stiffness(s);
+  const Eigen::Map<Eigen::VectorXd> penalty(interface.penalty.data(), n);
+  Eigen::Map<Eigen::VectorXd>(interface.penalty.data(), n) *= options.penalty_factor;
+  Map S(d.a + d.full + static_cast<std::ptrdiff_t>(d.full) * d.size, n, n, Eigen::OuterStride<>(d.size));
+  const double s2 = options.multiplier_scale * options.multiplier_scale;
+  Matrix stiffened = S;
+  stiffened.diagonal() += penalty;
+  const Eigen::PartialPivLU<Matrix> lu(stiffened);
+  const Matrix F = s2 * lu.inverse();
+  const Matrix inverse = Eigen::PartialPivLU<Matrix>(F).inverse();
+  if (!F.allFinite() || !inverse.allFinite()) return;
+  S = s2 * inverse;
+  S.diagonal() -= penalty;
+  interface.flexibility.assign(F.data(), F.data() + F.size());
+  interface.inverse.assign(inverse.data(), inverse.data() + inverse.size());
+  interface.work.resize(at(n));
+  interface.used = true;
+}
+
+/// g <- s^2 F^-1 (F g / s^2): the load that the textbook form condenses.
+void Hierarchical::State::correct_forward(tree::SubdomainId s) {
+  PlainInterface& interface = plain[at(s)];
+  if (!interface.used) return;
+  FrontData& d = data(tree.subdomains[at(s)].top());
+  const int n = d.size - d.full;
+  Eigen::Map<Eigen::VectorXd> g(d.vector + d.full, n), moved(interface.work.data(), n);
+  moved.noalias() = Eigen::Map<const Matrix>(interface.flexibility.data(), n, n) * g;
+  g.noalias() = Eigen::Map<const Matrix>(interface.inverse.data(), n, n) * moved;
+}
+
+std::vector<InterfaceReport> Hierarchical::interfaces() const {
+  const State& state = *state_;
+  std::vector<InterfaceReport> reports;
+  for (tree::SubdomainId s = 0; s < state.tree.root(); ++s) {
+    const tree::Subdomain& sub = state.tree.subdomains[at(s)];
+    const FrontData& d = state.data(sub.top());
+    const int n = d.size - d.full;
+    InterfaceReport report{.subdomain = s, .level = sub.level, .num_unknowns = n, .num_delayed = d.num_delayed()};
+    if (n > 0 && !d.failed && state.counters.factorizations > 0) {
+      std::vector<double> stiffness = state.interface_stiffness(s);
+      Matrix stiffened = ConstMap(d.a + d.full + static_cast<std::ptrdiff_t>(d.full) * d.size, n, n, Eigen::OuterStride<>(d.size));
+      std::vector<int> motion;
+      for (int i = 0; i < n; ++i) {
+        const double penalty = state.options.penalty_factor * stiffness[at(i)];
+        stiffened(i, i) += penalty;
+        if (penalty <= 0.0) continue;
+        report.penalty_least = motion.empty() ? penalty : std::min(report.penalty_least, penalty);
+        report.penalty_most = std::max(report.penalty_most, penalty);
+        motion.push_back(i);
+      }
+      const Matrix F = Eigen::FullPivLU<Matrix>(stiffened).inverse();
+      Matrix scaled(motion.size(), motion.size());
+      for (std::size_t i = 0; i < motion.size(); ++i)
+        for (std::size_t j = 0; j < motion.size(); ++j)
+          scaled(static_cast<int>(i), static_cast<int>(j)) =
+              F(motion[i], motion[j]) * state.options.penalty_factor * std::sqrt(stiffness[at(motion[i])] * stiffness[at(motion[j])]);
+      if (!motion.empty() && scaled.allFinite()) {
+        const Eigen::VectorXd values = Eigen::JacobiSVD<Matrix>(scaled).singularValues();
+        report.condition = values(values.size() - 1) > 0.0 ? values(0) / values(values.size() - 1) : std::numeric_limits<double>::infinity();
+      }
+    }
+    reports.push_back(report);
+  }
+  return reports;
+}
+
+std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s) const {
+  const State& state = *state_;
+  const FrontData& d = state.data(state.tree.subdomains[at(s)].top());
+  const tree::Front& top = state.front(state.tree.subdomains[at(s)].top());
+  const int n = d.size - d.full;
+  Eigen::VectorXd x(d.size - d.pivots);  // unknowns that wait, then the boundary
+  for (int i = d.pivots; i < d.full; ++i) x(i - d.pivots) = state.x_scaled[at(d.columns[i])];
+  std::vector<std::size_t> unknowns;
+  for (int b : state.tree.boundary_blocks(top))
+    for (std::int64_t u = state.tree.unknown_begin[at(b)]; u < state.tree.unknown_begin[at(b) + 1]; ++u) unknowns.push_back(at(u));
+  for (int i = 0; i < n; ++i) x(d.full - d.pivots + i) = state.x_scaled[unknowns[at(i)]];
+  const ConstMap S(d.a + d.full + static_cast<std::ptrdiff_t>(d.pivots) * d.size, n, d.size - d.pivots, Eigen::OuterStride<>(d.size));
+  const Eigen::VectorXd l = (Eigen::Map<const Eigen::VectorXd>(d.vector + d.full, n) - S * x) / state.options.multiplier_scale;
+  std::vector<double> multipliers(at(n));
+  for (int i = 0; i < n; ++i) multipliers[at(i)] = l(i) / state.scales.row[unknowns[at(i)]];
+  return multipliers;
+}
+
+}  // namespace bough::solve

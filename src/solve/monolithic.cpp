@@ -1,0 +1,292 @@
+#include "bough/solve/monolithic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "element_store.hpp"
+#ifdef BOUGH_HAS_KLU
+#include <klu.h>
+#endif
+
+namespace bough::solve {
+
+namespace {
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+struct Monolithic::State {
+  State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o);
+  ~State();
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  void assemble(double regularisation);
+  void solve_scaled(double* b);  ///< in place
+  bool factor_values(bool fresh);
+
+  const tree::Tree& tree;
+  SolveOptions options;
+  ElementStore elements;
+  Scales scales;
+  bool scales_wanted = true;
+  std::vector<int> column_begin, row_index;
+  std::vector<double> values;
+  std::vector<int> offset;              ///< for every pair (p, q) of every element: rows before block p in the columns of block q
+  std::vector<std::int64_t> pair_begin; ///< by element
+  std::vector<double> rhs, residual, work, x_scaled;
+  bool regularised = false;
+  FactorStatus status;
+  SolverCounters counters;
+#ifdef BOUGH_HAS_KLU
+  klu_common common{};
+  klu_symbolic* symbolic = nullptr;
+  klu_numeric* numeric = nullptr;
+#endif
+};
+
+Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
+    : tree(t), options(o), elements(graph, t) {
+  const std::size_t n = at(tree.num_unknowns());
+  for (auto* v : {&scales.row, &scales.column, &scales.weight}) v->assign(n, 1.0);
+  for (auto* v : {&rhs, &residual, &work, &x_scaled}) v->assign(n, 0.0);
+  const auto is_motion = [&](int b) { return graph.block_kind[at(b)] == blocks::BlockKind::motion; };
+  std::vector<std::vector<int>> neighbours(at(graph.num_blocks()));
+  for (int b = 0; b < graph.num_blocks(); ++b) neighbours[at(b)].push_back(b);
+  for (int e = 0; e < graph.num_elements(); ++e)
+    for (int p = 0; p < elements.num_blocks_of(e); ++p)
+      for (int q = 0; q < elements.num_blocks_of(e); ++q) neighbours[at(elements.blocks_of(e)[q])].push_back(elements.blocks_of(e)[p]);
+  std::vector<std::vector<int>> before(at(graph.num_blocks()));
+  column_begin.assign(1, 0);
+  for (int b = 0; b < graph.num_blocks(); ++b) {
+    auto& list = neighbours[at(b)];
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    int rows = 0;
+    for (int other : list) {
+      before[at(b)].push_back(rows);
+      rows += other == b && !is_motion(b) ? 1 : graph.block_size[at(other)];  // a multiplier keeps its diagonal entry only
+    }
+    for (int j = 0; j < graph.block_size[at(b)]; ++j) {
+      for (int other : list) {
+        const int first = static_cast<int>(tree.unknown_begin[at(other)]);
+        if (other == b && !is_motion(b)) {
+          row_index.push_back(first + j);
+        } else {
+          for (int i = 0; i < graph.block_size[at(other)]; ++i) row_index.push_back(first + i);
+        }
+      }
+      column_begin.push_back(static_cast<int>(row_index.size()));
+    }
+  }
+  pair_begin.assign(1, 0);
+  for (int e = 0; e < graph.num_elements(); ++e) {
+    for (int p = 0; p < elements.num_blocks_of(e); ++p)
+      for (int q = 0; q < elements.num_blocks_of(e); ++q) {
+        const int bq = elements.blocks_of(e)[q];
+        const auto& list = neighbours[at(bq)];
+        const auto it = std::lower_bound(list.begin(), list.end(), elements.blocks_of(e)[p]);
+        offset.push_back(before[at(bq)][at(it - list.begin())]);
+      }
+    pair_begin.push_back(static_cast<std::int64_t>(offset.size()));
+  }
+  values.assign(row_index.size(), 0.0);
+#ifdef BOUGH_HAS_KLU
+  klu_defaults(&common);
+  common.scale = 0;            // scaled here
+  common.halt_if_singular = 1;
+#endif
+}
+
+Monolithic::State::~State() {
+#ifdef BOUGH_HAS_KLU
+  klu_free_numeric(&numeric, &common);
+  klu_free_symbolic(&symbolic, &common);
+#endif
+}
+
+/// values = D_r A D_c, multipliers' diagonal lowered by regularisation (in the exact scaling of the multipliers).
+void Monolithic::State::assemble(double regularisation) {
+  const auto& graph = elements.graph();
+  std::fill(values.begin(), values.end(), 0.0);
+  for (int e = 0; e < graph.num_elements(); ++e) {
+    const int count = elements.num_blocks_of(e), n = elements.size_of(e);
+    const double* a = elements.matrix(e);
+    for (int p = 0, i0 = 0; p < count; ++p) {
+      const int bp = elements.blocks_of(e)[p], np = graph.block_size[at(bp)];
+      for (int q = 0, j0 = 0; q < count; ++q) {
+        const int bq = elements.blocks_of(e)[q], nq = graph.block_size[at(bq)];
+        const int rows_before = offset[at(pair_begin[at(e)] + p * count + q)];
+        const bool diagonal_only = p == q && graph.block_kind[at(bp)] == blocks::BlockKind::multiplier;
+        for (int j = 0; j < nq; ++j) {
+          const std::int64_t column = tree.unknown_begin[at(bq)] + j;
+          double* target = values.data() + column_begin[at(column)] + rows_before;
+          for (int i = 0; i < np; ++i) {
+            const double value = scales.row[at(tree.unknown_begin[at(bp)] + i)] * a[(i0 + i) * n + j0 + j] * scales.column[at(column)];
+            if (!diagonal_only) {
+              target[i] += value;
+            } else if (i == j) {
+              target[0] += value;
+            }
+          }
+        }
+        j0 += nq;
+      }
+      i0 += np;
+    }
+  }
+  if (regularisation == 0.0) return;
+  for (int b = 0; b < graph.num_blocks(); ++b) {
+    if (graph.block_kind[at(b)] == blocks::BlockKind::motion) continue;
+    for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u)
+      for (int k = column_begin[at(u)]; k < column_begin[at(u) + 1]; ++k)
+        if (row_index[at(k)] == u) values[at(k)] -= regularisation * scales.weight[at(u)] * scales.weight[at(u)];
+  }
+}
+
+#ifdef BOUGH_HAS_KLU
+/// Factors the values; a fresh pivot order unless the old one serves. False when singular or nearly so.
+bool Monolithic::State::factor_values(bool fresh) {
+  const int n = static_cast<int>(rhs.size());
+  if (n == 0) return true;
+  if (symbolic == nullptr) symbolic = klu_analyze(n, column_begin.data(), row_index.data(), &common);
+  if (symbolic == nullptr) return false;
+  bool done = false;
+  if (!fresh && numeric != nullptr) {
+    done = klu_refactor(column_begin.data(), row_index.data(), values.data(), symbolic, numeric, &common) != 0 && common.status == KLU_OK &&
+           klu_rcond(symbolic, numeric, &common) != 0 && common.rcond > 1e-13;
+  }
+  if (!done) {
+    klu_free_numeric(&numeric, &common);
+    numeric = klu_factor(column_begin.data(), row_index.data(), values.data(), symbolic, &common);
+    done = numeric != nullptr && common.status == KLU_OK && klu_rcond(symbolic, numeric, &common) != 0 && common.rcond > 1e-13;
+  }
+  return done;
+}
+
+void Monolithic::State::solve_scaled(double* b) {
+  const int n = static_cast<int>(rhs.size());
+  if (n > 0) klu_solve(symbolic, numeric, n, 1, b, &common);
+}
+#else
+bool Monolithic::State::factor_values(bool) { return false; }
+void Monolithic::State::solve_scaled(double*) {}
+#endif
+
+bool Monolithic::available() {
+#ifdef BOUGH_HAS_KLU
+  return true;
+#else
+  return false;
+#endif
+}
+
+Monolithic::Monolithic(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options) {
+  if (!problems_in(options).empty()) throw std::invalid_argument("Monolithic: " + problems_in(options).front());
+  state_ = std::make_unique<State>(graph, tree, options);
+}
+Monolithic::~Monolithic() = default;
+Monolithic::Monolithic(Monolithic&&) noexcept = default;
+Monolithic& Monolithic::operator=(Monolithic&&) noexcept = default;
+
+double* Monolithic::element_matrix(int element) { return state_->elements.matrix(element); }
+const double* Monolithic::element_matrix(int element) const { return std::as_const(state_->elements).matrix(element); }
+void Monolithic::rescale() { state_->scales_wanted = true; }
+const FactorStatus& Monolithic::last_status() const { return state_->status; }
+void Monolithic::multiply(const tree::Walker& walker, const double* x, double* y) const { state_->elements.multiply(walker, x, y); }
+std::vector<int> Monolithic::blocks_not_unique() const { return {}; }
+
+FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
+  State& s = *state_;
+  s.status = {};
+  if (!available()) {
+    s.status.outcome = FactorOutcome::backend;
+    return s.status;
+  }
+  if (s.scales_wanted) s.elements.eval_scales(s.scales);
+  s.scales_wanted = false;
+  if (prepare.run != nullptr) {
+    auto visit = [&](tree::SubdomainId id) {
+      const tree::Subdomain& sub = s.tree.subdomains[at(id)];
+      if (sub.is_leaf() && sub.element_begin < sub.element_end) prepare.run(prepare.context, id, sub.element_begin, sub.element_end);
+    };
+    walker.walk_up(s.tree, tree::make_visit(visit));
+  }
+  s.assemble(0.0);
+  ++s.counters.factorizations;
+  for (std::size_t k = 0; k < s.values.size(); ++k) {
+    if (std::isfinite(s.values[k])) continue;
+    const auto next = std::upper_bound(s.tree.unknown_begin.begin(), s.tree.unknown_begin.end(), s.row_index[k]);
+    s.status.outcome = FactorOutcome::not_finite;
+    s.status.block = static_cast<int>(next - s.tree.unknown_begin.begin()) - 1;
+    return s.status;
+  }
+  const bool was_regularised = std::exchange(s.regularised, false);
+  if (s.factor_values(was_regularised)) return s.status;
+  s.regularised = true;
+  s.assemble(s.options.rank_tolerance);
+  s.status.deficiency = -1;
+  if (!s.factor_values(true)) {
+    s.status.outcome = FactorOutcome::singular;
+#ifdef BOUGH_HAS_KLU
+    const int column = s.common.singular_col;
+    if (column >= 0 && column < static_cast<int>(s.rhs.size())) {
+      const auto next = std::upper_bound(s.tree.unknown_begin.begin(), s.tree.unknown_begin.end(), static_cast<std::int64_t>(column));
+      s.status.block = static_cast<int>(next - s.tree.unknown_begin.begin()) - 1;
+      s.status.local = static_cast<int>(column - s.tree.unknown_begin[at(s.status.block)]);
+    }
+#endif
+  }
+  return s.status;
+}
+
+SolveReport Monolithic::solve(const tree::Walker& walker, const double* rhs, double* x) {
+  State& s = *state_;
+  const std::size_t n = s.rhs.size();
+  SolveReport report;
+  report.deficiency = s.status.deficiency;
+  ++s.counters.solutions;
+  std::copy(rhs, rhs + n, s.rhs.begin());
+  const auto apply = [&](const std::vector<double>& b) {
+    for (std::size_t i = 0; i < n; ++i) s.work[i] = s.scales.row[i] * b[i];
+    s.solve_scaled(s.work.data());
+    for (std::size_t i = 0; i < n; ++i) s.work[i] *= s.scales.column[i];
+  };
+  apply(s.rhs);
+  std::copy(s.work.begin(), s.work.end(), s.x_scaled.begin());
+  if (s.options.check == SolveCheck::backward_error || s.regularised) {
+    auto errors = s.elements.eval_residual(walker, s.scales, s.x_scaled.data(), s.rhs.data(), s.residual.data());
+    const int most = s.regularised ? std::max(6, s.options.refinement_steps) : s.options.refinement_steps;
+    while (errors.finite && errors.normwise > s.options.refinement_above && report.refinement_steps < most) {
+      apply(s.residual);
+      for (std::size_t i = 0; i < n; ++i) s.work[i] += s.x_scaled[i];
+      const auto refined = s.elements.eval_residual(walker, s.scales, s.work.data(), s.rhs.data(), s.residual.data());
+      if (!(refined.normwise < errors.normwise)) break;
+      errors = refined;
+      std::swap(s.x_scaled, s.work);
+      ++report.refinement_steps;
+    }
+    report.backward_error = errors.normwise;
+    report.componentwise_backward_error = errors.componentwise;
+    report.finite = errors.finite;
+    if (s.regularised && errors.normwise > 1e-8) report.inconsistency = errors.normwise;
+  }
+  std::copy(s.x_scaled.begin(), s.x_scaled.end(), x);
+  return report;
+}
+
+SolverCounters Monolithic::counters() const {
+  const State& s = *state_;
+  SolverCounters c = s.counters;
+  c.memory_bytes = s.elements.memory_bytes() + static_cast<std::int64_t>(s.values.size() * (sizeof(double) + sizeof(int)));
+#ifdef BOUGH_HAS_KLU
+  if (s.numeric != nullptr) {
+    c.memory_bytes += static_cast<std::int64_t>(s.common.mempeak);
+    c.factor_flops = s.common.flops;
+  }
+#endif
+  return c;
+}
+
+}  // namespace bough::solve

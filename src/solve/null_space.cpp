@@ -1,0 +1,130 @@
+/// What is left at the root without a pivot: null vectors, least multipliers, consistency.
+#include <algorithm>
+#include <cmath>
+
+#include "hierarchical_state.hpp"
+
+namespace bough::solve {
+
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+double dot(const double* a, const double* b, const double* weight, std::size_t n) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i] * (weight != nullptr ? weight[i] * weight[i] : 1.0);
+  return sum;
+}
+
+/// Modified Gram-Schmidt, twice.
+void orthonormalise(std::vector<double>& vectors, int count, std::size_t n, const double* weight) {
+  for (int k = 0; k < count; ++k) {
+    double* v = vectors.data() + at(k) * n;
+    for (int sweep = 0; sweep < 2; ++sweep) {
+      const double before = std::sqrt(dot(v, v, weight, n));
+      for (std::size_t i = 0; i < n; ++i) v[i] /= before;
+      for (int p = 0; p < k; ++p) {
+        const double* q = vectors.data() + at(p) * n;
+        const double c = dot(v, q, weight, n);
+        for (std::size_t i = 0; i < n; ++i) v[i] -= c * q[i];
+      }
+    }
+    const double norm = std::sqrt(dot(v, v, weight, n));
+    for (std::size_t i = 0; i < n; ++i) v[i] /= norm;
+  }
+}
+
+}  // namespace
+
+/// Right vectors by back-substitution with a unit in one left-over column at a time, left ones likewise with L; then the verdict.
+void Hierarchical::State::find_null_space() {
+  const FrontData& root = fronts.back();
+  const int k = root.num_delayed();
+  null_space.dimension = k;
+  if (k == 0) return;
+  const std::size_t n = at(tree.num_unknowns());
+  null_space.right.assign(at(k) * n, 0.0);
+  null_space.left.assign(at(k) * n, 0.0);
+  for (FrontData& d : fronts) std::fill(d.vector, d.vector + d.pivots, 0.0);
+  for (int v = 0; v < k; ++v) {
+    for (int i = 0; i < k; ++i) x_scaled[at(root.columns[root.pivots + i])] = i == v ? 1.0 : 0.0;
+    for (tree::FrontId f = tree.num_fronts(); f-- > 0;) backward_front(f);
+    std::copy(x_scaled.begin(), x_scaled.end(), null_space.right.begin() + static_cast<std::ptrdiff_t>(at(v) * n));
+    double* left = null_space.left.data() + at(v) * n;
+    left[at(root.rows[root.pivots + v])] = 1.0;
+    for (tree::FrontId f = tree.num_fronts(); f-- > 0;) {
+      FrontData& d = data(f);
+      double* z = d.delayed_in > 0 ? d.vector + d.size : scratch_pool.data() + vector_begin[at(f)];
+      for (int i = 0; i < d.full; ++i) z[i] = i < d.pivots ? 0.0 : left[at(d.rows[i])];
+      double* zb = z + d.full;
+      for (int b : tree.boundary_blocks(front(f)))
+        zb = std::copy(left + tree.unknown_begin[at(b)], left + tree.unknown_begin[at(b) + 1], zb);
+      substitute_backward_left(d.a, d.size, d.pivots, z);
+      for (int i = 0; i < d.pivots; ++i) left[at(d.rows[i])] = z[i];
+    }
+  }
+  orthonormalise(null_space.right, k, n, scales.weight.data());
+  orthonormalise(null_space.left, k, n, nullptr);
+  // A null vector with motion in it: something is held by nothing.
+  double worst = 0.0;
+  std::size_t unknown = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_constraint[i]) continue;
+    double share = 0.0;
+    for (int v = 0; v < k; ++v) share += std::pow(null_space.right[at(v) * n + i], 2);
+    if (share > worst) {
+      worst = share;
+      unknown = i;
+    }
+  }
+  status.deficiency = k;
+  if (!(std::sqrt(worst) <= options.null_motion_tolerance)) {
+    const auto next = std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), static_cast<std::int64_t>(unknown));
+    status.outcome = FactorOutcome::singular;
+    status.front = tree.num_fronts() - 1;
+    status.block = static_cast<int>(next - tree.unknown_begin.begin()) - 1;
+    status.local = static_cast<int>(static_cast<std::int64_t>(unknown) - tree.unknown_begin[at(status.block)]);
+    status.magnitude = std::sqrt(worst);
+  }
+}
+
+void Hierarchical::State::project_multipliers() {
+  const std::size_t n = at(tree.num_unknowns());
+  for (int v = 0; v < null_space.dimension; ++v) {
+    const double* z = null_space.right.data() + at(v) * n;
+    const double c = dot(x_scaled.data(), z, scales.weight.data(), n);
+    for (std::size_t i = 0; i < n; ++i)
+      if (is_constraint[i]) x_scaled[i] -= c * z[i];
+  }
+}
+
+void Hierarchical::State::eval_inconsistency(const double* b, SolveReport& report) {
+  if (null_space.dimension == 0) return;
+  const std::size_t n = at(tree.num_unknowns());
+  std::vector<double>& part = correction;  // Y Y^T b
+  std::fill(part.begin(), part.end(), 0.0);
+  double whole = 0.0, left = 0.0;
+  for (std::size_t i = 0; i < n; ++i) whole += std::pow(scales.row[i] * b[i], 2);
+  for (int v = 0; v < null_space.dimension; ++v) {
+    const double* y = null_space.left.data() + at(v) * n;
+    double c = 0.0;
+    for (std::size_t i = 0; i < n; ++i) c += y[i] * scales.row[i] * b[i];
+    for (std::size_t i = 0; i < n; ++i) part[i] += c * y[i];
+    left += c * c;
+  }
+  report.inconsistency = whole > 0.0 ? std::sqrt(left / whole) : 0.0;
+  double worst = 0.0;
+  for (int blk = 0; blk + 1 < static_cast<int>(tree.unknown_begin.size()); ++blk) {
+    double sum = 0.0, amount = 0.0;
+    for (std::size_t i = at(tree.unknown_begin[at(blk)]); i < at(tree.unknown_begin[at(blk) + 1]); ++i) {
+      sum += part[i] * part[i];
+      amount = std::max(amount, std::abs(part[i] / scales.row[i]));
+    }
+    if (sum <= worst) continue;
+    worst = sum;
+    report.inconsistent_block = blk;
+    report.inconsistent_amount = amount;
+  }
+}
+
+}  // namespace bough::solve
