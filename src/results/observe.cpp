@@ -121,7 +121,7 @@ void eval_point_sensor(const step::System& system, const step::State& state, con
   if (s.beam >= 0) {
     const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
     const auto [k, local] = locate(beam, s.sensor.station);
-    with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)], [&](const auto& e) {
+    with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)], [&, local = local](const auto& e) {
       const BeamPoint p = eval_point(e, f, local);
       pose = p.pose;
       v = p.v;

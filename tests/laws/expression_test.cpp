@@ -168,7 +168,7 @@ TEST(Expression, breaks_agree_with_a_fine_scan) {
     const Times breaks = law.breakpoints(-3.0, 3.0);
     std::size_t found = 0;
     const std::size_t n = 200000;
-    const auto time = [n](std::size_t i) {
+    const auto time = [](std::size_t i) {
       return -3.0 + 6.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
     };
     double slope = law.at(time(0)).rate;
