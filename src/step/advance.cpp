@@ -71,7 +71,7 @@ StepReport advance(System& system, State& state, const StepOptions& options, dou
   }
   state.time = end;
   const elements::Slopes slopes{c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false};
-  report = iterate(system, state, options, slopes, true, [&](State& s) { return rule.follow(system, s); });
+  report = iterate(system, state, options, slopes, Reuse::while_it_contracts, [&](State& s) { return rule.follow(system, s); });
   if (!report.converged) return report;
   if (const auto t = check_shape(system, state)) {
     report.converged = false;
@@ -88,7 +88,7 @@ StepReport equilibrate(System& system, State& state, const StepOptions& options,
   }
   state.time = load_factor;
   for (elements::NodeMotion& n : state.nodes) n.dq = n.v = n.a = Vec6<double>::zero();
-  report = iterate(system, state, options, {}, true, [](State& s) -> std::optional<Trouble> {
+  report = iterate(system, state, options, {}, Reuse::never, [](State& s) -> std::optional<Trouble> {
     for (elements::NodeMotion& n : s.nodes) n.dq = Vec6<double>::zero();  // statics has no rotation limit per step
     return std::nullopt;
   });

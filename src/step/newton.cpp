@@ -4,8 +4,8 @@
 
 namespace bough::step {
 
-bool is_small(const ResidualSize& r, double tolerance, double length_scale) {
-  return r.force <= tolerance * r.force_scale && r.moment <= tolerance * std::max(r.moment_scale, r.force_scale * length_scale) &&
+bool is_small(const ResidualSize& r, double tolerance, double length_scale, double moment_arm) {
+  return r.force <= tolerance * r.force_scale && r.moment <= tolerance * std::max(r.moment_scale, r.force_scale * moment_arm) &&
          r.length <= tolerance * length_scale && r.angle <= tolerance;
 }
 

@@ -5,7 +5,7 @@
 namespace bough::step {
 
 template <class Follow>
-StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes, bool rescale,
+StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes, Reuse reuse,
                    Follow&& follow) {
   StepReport report;
   std::vector<double> rhs(system.num_unknowns()), x(system.num_unknowns());
@@ -14,22 +14,28 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     return report;
   };
   const double length = system.plan().length_scale;
-  double previous = 0.0;
+  const bool may_reuse = reuse == Reuse::while_it_contracts;
+  double previous = 0.0, rate = system.last_contraction();
+  bool fresh = !may_reuse || !system.has_factor(slopes);  // whether the next solution gets a new factor
   for (int k = 0;; ++k) {
-    const bool first = k == 0;
-    if (const auto t = system.evaluate(state, slopes, first)) return fail(*t);
+    if (const auto t = system.evaluate(state, slopes, fresh && k == 0)) return fail(*t);
     report.residual = system.residual_size();
-    if (!first) {
+    if (k > 0) {
       if (options.single_solution) {
         report.converged = true;
         return report;
       }
+      if (k > 1) rate = previous > 0.0 ? report.change / previous : 0.0;
       const bool still = report.change < options.tolerance;
-      if (still && is_small(report.residual, options.tolerance, length)) {
+      // What is left after the last change, were the contraction to go on: an old factor must come as near as a new one.
+      const bool stalled = k > 1 && rate > 0.3;
+      const bool near = !may_reuse || stalled || report.change * rate <= 1e-6 * options.tolerance;
+      if (still && near && is_small(report.residual, options.tolerance, length, system.moment_arm())) {
         report.converged = true;
+        if (k > 1) system.set_last_contraction(rate);
         return report;
       }
-      if (still && k >= 3) {  // changes have stopped: is what is left only round-off?
+      if (still && (stalled || report.change == 0.0)) {  // is what is left only round-off?
         const ResidualSize floor = system.round_off_floor(state);
         const ResidualSize& r = report.residual;
         const bool at_floor = r.force <= std::max(16.0 * floor.force, options.tolerance * r.force_scale) &&
@@ -49,9 +55,12 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
         report.cause = "the iteration diverges: " + describe(system, report.residual, options.tolerance);
         return report;
       }
-      if (const auto t = system.evaluate(state, slopes, true)) return fail(*t);
+      fresh = !may_reuse || (k > 1 && rate > slowest_contraction);
+      if (fresh)
+        if (const auto t = system.evaluate(state, slopes, true)) return fail(*t);
     }
-    if (const auto t = system.factor(first && rescale)) return fail(*t);
+    if (fresh)
+      if (const auto t = system.factor(k == 0, slopes)) return fail(*t);
     for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
     if (const auto t = system.solve(rhs.data(), x.data())) return fail(*t);
     previous = report.change;

@@ -31,7 +31,7 @@ void set_rows(const System& system, std::vector<double>& to, From&& from) {
 /// Matrix [M G^T; G 0] of the present positions, factored.
 std::optional<Trouble> factor_mass(System& system, const State& state) {
   if (auto t = system.evaluate(state, mass_slopes, true)) return t;
-  if (auto t = system.factor(true))
+  if (auto t = system.factor(true, mass_slopes))
     return Trouble{t->text + "; every part that can move needs inertia or has to be held by a joint"};
   return std::nullopt;
 }
@@ -178,7 +178,7 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   system.evaluate_rate(state, rate);
   system.constraint_series(state, nullptr, h, series);
   if (const auto t = system.evaluate(state, slopes, true)) return failed(t->text);
-  if (const auto t = system.factor(true)) return failed(t->text);
+  if (const auto t = system.factor(true, slopes)) return failed(t->text);
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -acceleration * rate[i];
   set_rows(system, rhs, [&](std::size_t m) { return -6.0 * series[m].c[3]; });
   if (const auto t = system.solve(rhs.data(), x.data())) return failed(t->text);

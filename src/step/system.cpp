@@ -44,8 +44,8 @@ std::unique_ptr<tree::Tree> make_scene_tree(const plan::Plan& plan, const scene:
 constexpr std::int64_t element_grain = 32, block_grain = 128;
 
 template <class E>
-double length_of(const E& e, const std::vector<plan::NodePlan>&, double) requires requires { e.length; }
-{
+  requires requires(const E& e) { e.length; }
+double length_of(const E& e, const std::vector<plan::NodePlan>&, double) {
   return e.length;
 }
 template <class E>
@@ -73,9 +73,12 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
     element_begin_.push_back(at);
     plan::with_element(plan.elements, plan.directory[e], [&](const auto& element) {
       element_length_[e] = length_of(element, plan.nodes, plan.length_scale);
+      if constexpr (requires { element.length; }) moment_arm_ = std::max(moment_arm_, element.length);
     });
   }
+  if (moment_arm_ == 0.0) moment_arm_ = plan.length_scale;
   element_residual_.assign(static_cast<std::size_t>(element_begin_.back()), 0.0);
+  element_magnitude_ = element_residual_;
   use_begin_.assign(1, 0);
   for (const auto& list : uses) {
     uses_.insert(uses_.end(), list.begin(), list.end());
@@ -133,7 +136,9 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
       }
       double* matrix = tangent ? solver_->element_matrix(static_cast<int>(id)) : nullptr;
       plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
-        elements::evaluate(e, f, multipliers, turns, element_residual_.data() + element_begin_[id], matrix);
+        double* residual = element_residual_.data() + element_begin_[id];
+        elements::evaluate(e, f, multipliers, turns, residual, matrix);
+        elements::eval_magnitude(e, f, residual, element_magnitude_.data() + element_begin_[id]);
       });
     }
   };
@@ -147,9 +152,10 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
       for (int i = 0; i < size; ++i) r[i] = m[i] = 0.0;
       for (std::int64_t u = use_begin_[block]; u < use_begin_[block + 1]; ++u) {
         const double* part = element_residual_.data() + uses_[static_cast<std::size_t>(u)];
+        const double* terms = element_magnitude_.data() + uses_[static_cast<std::size_t>(u)];
         for (int i = 0; i < size; ++i) {
           r[i] += part[i];
-          m[i] += std::abs(part[i]);
+          m[i] += terms[i];
         }
       }
     }
@@ -228,14 +234,24 @@ ResidualSize System::round_off_floor(const State&) const {
   return s;
 }
 
-std::optional<Trouble> System::factor(bool rescale) {
+bool System::has_factor(const elements::Slopes& s) const {
+  return is_factored_ && s.velocity == factored_.velocity && s.acceleration == factored_.acceleration &&
+         s.mass_only == factored_.mass_only;
+}
+
+std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slopes) {
   PhaseTimer timer{counts_.factor};
-  if (rescale || !scaled_) solver_->rescale();
-  scaled_ = true;
+  if (rescale || !has_factor(slopes)) solver_->rescale();
+  is_factored_ = false;
+  contraction_ = 1.0;
   ++counts_.factorizations;
   const solve::FactorStatus status = solver_->factor(walker_);
   counts_.deficiency = std::max(counts_.deficiency, status.deficiency);
-  if (status.ok()) return std::nullopt;
+  if (status.ok()) {
+    factored_ = slopes;
+    is_factored_ = true;
+    return std::nullopt;
+  }
   if (status.outcome == solve::FactorOutcome::not_finite) return Trouble{"a tangent is not finite"};
   std::string text = "the linear system is singular";
   if (status.block >= 0) {

@@ -1,6 +1,7 @@
 #pragma once
 /// From node kinematics to an element's residual and tangent in the unknowns of its nodes: one driver for all element types. The tangent
 /// is the residual's own source run on jets, so it is exact and cannot drift from it.
+#include <type_traits>
 #include <vector>
 
 #include "bough/elements/beam.hpp"
@@ -64,6 +65,25 @@ int num_unknowns(const E& e) {
 /// `multipliers` and `turns` are looked at by joints only. No allocation.
 template <class E>
 void evaluate(const E& e, const Field& field, const double* multipliers, double turns, double* residual, double* tangent);
+
+/// Sum of the magnitudes of the terms behind each entry of a residual, against which its smallness is measured. Elements between nodes push
+/// and pull on several; a body's own terms balance within it and are told apart:  |M a| + |M g| + |ad(v)^T M v|.
+template <class E>
+void eval_magnitude(const E& e, const Field& field, const double* residual, double* magnitude) {
+  for (int i = 0; i < num_unknowns(e); ++i) magnitude[i] = residual[i] < 0.0 ? -residual[i] : residual[i];
+  if constexpr (std::is_same_v<E, RigidBody>) {
+    const NodeMotion& n = field.nodes[e.ports[0].node];
+    Vec6<double> terms[3] = {
+        e.mass * lanes::join(lanes::transpose_times(n.R, field.around.gravity), Vec3<double>::zero()), Vec6<double>::zero(),
+        Vec6<double>::zero()};
+    if (field.around.has_inertia) {
+      terms[1] = e.mass * n.a;
+      terms[2] = motion::cross6_transpose_times(n.v, Vec6<double>(e.mass * n.v));
+    }
+    for (int i = 0; i < 6; ++i)
+      for (const Vec6<double>& t : terms) magnitude[i] += t[i] < 0.0 ? -t[i] : t[i];
+  }
+}
 
 /// Energies, powers and momentum of one element.
 template <class E>

@@ -56,8 +56,13 @@ class System {
   /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment.
   ResidualSize round_off_floor(const State& state) const;
 
-  /// Factors the element matrices now present.
-  [[nodiscard]] std::optional<Trouble> factor(bool rescale);
+  /// Factors the element matrices now present, made with these slopes.
+  [[nodiscard]] std::optional<Trouble> factor(bool rescale, const elements::Slopes& slopes);
+  /// Whether the present factor was made with these slopes (of some earlier state).
+  bool has_factor(const elements::Slopes& slopes) const;
+  /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
+  double last_contraction() const { return contraction_; }
+  void set_last_contraction(double contraction) { contraction_ = contraction; }
   /// x <- A^-1 rhs.
   [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x);
   const solve::SolveReport& last_solution() const { return last_solution_; }
@@ -74,6 +79,8 @@ class System {
   /// Largest |Phi| (order 0) or |Phi'| (order 1) over all rows and the joint it belongs to.
   double constraint_violation(const State& state, int order, int* joint = nullptr);
 
+  /// Arm that turns the scale of forces into one of moments [m]: the longest element, or the whole where none has a length.
+  double moment_arm() const { return moment_arm_; }
   int joint_of_block(int block) const;
   /// "node 'a'" or "joint 'b'": the owner of a block, for messages.
   std::string block_name(int block) const;
@@ -91,6 +98,7 @@ class System {
   std::vector<double> law_values_, law_rates_, law_accelerations_;
   std::vector<std::int64_t> element_begin_;       ///< place of an element's residual
   std::vector<double> element_residual_;
+  std::vector<double> element_magnitude_;         ///< sum of |terms| of each entry of element_residual_
   std::vector<int> joint_of_element_;             ///< index in plan.joints or -1
   std::vector<int> joint_of_block_;
   std::vector<std::int64_t> use_begin_;           ///< by block: range in uses_
@@ -98,8 +106,11 @@ class System {
   std::vector<double> residual_, magnitude_;
   std::vector<double> chunk_max_;
   std::vector<double> element_length_;            ///< size of each element, for relative changes [m]
+  double moment_arm_ = 0.0;
   double time_ = 0.0;
-  bool scaled_ = false;
+  elements::Slopes factored_;
+  bool is_factored_ = false;
+  double contraction_ = 1.0;
 };
 
 }  // namespace bough::step
