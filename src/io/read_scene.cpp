@@ -21,8 +21,12 @@ class Report {
 
   void add(const CheckFault& f) {
     std::string value = f.length == 0 ? token(f.source, f.offset) : excerpt(f.source, f.offset, f.length);
-    if (const JsonValue* at = locate(f.pointer, nullptr); f.length != 0 && at != nullptr) value = summary(*at);
+    if (const JsonValue* at = f.length == 0 ? nullptr : locate(f.pointer, nullptr)) value = summary(*at);
     put(problems_, {f.pointer, 0, 0, std::move(value), f.rule, f.hint}, f.source, f.offset);
+  }
+
+  void add_override(const PlacedFault& f) {
+    put(problems_, {f.pointer, 0, 0, shown(f.value), f.rule, f.hint}, 1, 0);
   }
 
   void add(const PlacedFault& f, bool is_warning) {
@@ -49,21 +53,24 @@ class Report {
   };
 
   void put(std::vector<Placed>& list, Problem p, int source, std::size_t offset) {
-    if (source == source_file) {
-      const LineColumn at = lines_.at(offset);
-      p.line = at.line;
-      p.column = at.column;
-    } else if (source > 0) {
+    if (source > 0) {
       p.hint += std::string(p.hint.empty() ? "" : "; ") + "given by an override";
     }
     list.push_back({std::move(p), source == source_file, offset});
   }
 
-  static void finish(std::vector<Placed>& list, std::vector<Problem>& out) {
+  void finish(std::vector<Placed>& list, std::vector<Problem>& out) const {
     std::stable_sort(list.begin(), list.end(), [](const Placed& a, const Placed& b) {
       return a.in_file != b.in_file ? a.in_file : a.in_file && a.offset < b.offset;
     });
-    for (std::size_t i = 0; i < list.size() && i < max_problems; ++i) out.push_back(std::move(list[i].problem));
+    for (std::size_t i = 0; i < list.size() && i < max_problems; ++i) {
+      if (list[i].in_file) {
+        const LineColumn at = lines_.at(list[i].offset);
+        list[i].problem.line = at.line;
+        list[i].problem.column = at.column;
+      }
+      out.push_back(std::move(list[i].problem));
+    }
     if (list.size() > max_problems) {
       Problem& last = out.back();
       last.hint += (last.hint.empty() ? "" : "; ") + std::to_string(list.size() - max_problems) + " more problems are not shown";
@@ -201,7 +208,7 @@ SceneFile read_scene_text(std::string_view text, std::string name, std::span<con
   }
   Report report(text, root ? &*root : nullptr, override_texts);
   for (const JsonFault& f : text_faults) report.add(f);
-  for (const PlacedFault& f : override_faults) report.add(f, false);
+  for (const PlacedFault& f : override_faults) report.add_override(f);
   for (const CheckFault& f : check_faults) report.add(f);
   if (root && root->is(JsonKind::object) && !breaks_outline(check_faults)) {
     Converter converter(*root);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bough/io/read_scene.hpp"
 #include "bough/io/schema_rule.hpp"
 #include "bough/scene/nearest_name.hpp"
 
@@ -186,6 +187,10 @@ class Checker {
 
   /// Reports a key that is not known; returns the one that was probably meant, which is then not reported as missing.
   std::string unknown_key(const JsonValue& value, std::size_t i, const std::string& at, const std::vector<std::string>& known) {
+    if (faults_.size() > max_problems) {  // not shown, so no search for the key that was meant: it would be quadratic
+      fail(value.items[i], at, "this key is not known here", {}, true);
+      return {};
+    }
     std::vector<std::string> free_keys;
     for (const std::string& k : known)
       if (value.find(k) == nullptr) free_keys.push_back(k);

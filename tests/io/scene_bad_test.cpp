@@ -1,0 +1,180 @@
+// Every case spoils the base scene in one place. '@' marks where the problem has to be reported; it is taken out before reading.
+#include <gtest/gtest.h>
+
+#include "bough/io/json_value.hpp"
+#include "bough/io/read_scene.hpp"
+#include "scene_base.hpp"
+#include "scene_table_cases.hpp"
+#include "support/untrapped.hpp"
+
+namespace bough::io {
+namespace {
+
+using test::Bad;
+using test::table_cases;
+
+// Text, geometry and references: what only the reader sees.
+const Bad scene_cases[] = {
+    {"\"title\": \"base\",", "\"title\": \"base\", @\"title\": \"again\",", "/title", "given before"},
+    {"\"mass\": 2, ", "\"mass\": 2, @\"mass\": 3, ", "/bodies/0/mass", "given before"},
+    {"\"stiffness\": 10 }", "\"stiffness\": @1e-400 }", "/springs/0/stiffness", "too small for a double"},
+    {"\"kind\": \"rectangle\", \"width\": 0.02, \"height\": 0.04", "\"kind\": \"tube\", \"outer_radius\": 1, \"inner_radius\": @1", "/sections/0/shape/inner_radius", "below the outer radius"},
+    {"\"material\": \"steel\"", "\"material\": @\"steal\"", "/sections/0/material", "did you mean \"steel\"?"},
+    {"{ \"axis\": [0, 0, 1], \"angle\": 0.5 }", "{ \"axis\": @[0, 0, 0], \"angle\": 0.5 }", "/frames/0/rotation/axis", "length other than 0"},
+    {"{ \"axis\": [0, 0, 1], \"angle\": 0.5 }", "{ \"quaternion\": @[1, 1, 0, 0] }", "/frames/0/rotation/quaternion", "length 1"},
+    {"{ \"axis\": [0, 0, 1], \"angle\": 0.5 }", "{ \"axes\": @{ \"1\": [1, 0, 0] } }", "/frames/0/rotation/axes", "exactly two"},
+    {"{ \"axis\": [0, 0, 1], \"angle\": 0.5 }", "{ \"axes\": @{ \"1\": [1, 0, 0], \"2\": [2, 0, 0] } }", "/frames/0/rotation/axes", "parallel"},
+    {"\"name\": \"bench\", ", "\"name\": \"bench\", \"frame\": @\"bench\", ", "/frames/0/frame", "stands in itself"},
+    {"\"name\": \"bench\", ", "\"name\": \"bench\", \"frame\": @\"bank\", ", "/frames/0/frame", "no frame has this name"},
+    {"\"name\": \"knee\", ", "\"name\": \"knee\", \"frame\": @\"root\", ", "/nodes/1/frame", "this is not a frame"},
+    {"\"name\": \"rubber\"", "\"name\": @\"knee\"", "/bushings/0/name", "taken already"},
+    {"\"EI3\": 30 }, \"mass\"", "\"EI3\": 30 }, \"damping\": @[-1, 0, 0, 0, 0, 0], \"mass\"", "/sections/1/damping", "at least 0"},
+    {"{ \"mass_per_length\": 2, \"rotary\": [0.2, 0.1, 0.1] }", "@[2, 2, 2, 0.2, -0.1, 0.1]", "/sections/1/mass", "at least 0"},
+    {"{ \"EA\": 1e6, \"GA2\": 1e6, \"GA3\": 1e6, \"GJ\": 10, \"EI2\": 20, \"EI3\": 30 }",
+     "@[[1,0,0,0,0,2],[0,1,0,0,0,0],[0,0,1,0,0,0],[0,0,0,1,0,0],[0,0,0,0,1,0],[2,0,0,0,0,1]]", "/sections/1/stiffness", "not positive definite"},
+    {"{ \"EA\": 1e6, \"GA2\": 1e6, \"GA3\": 1e6, \"GJ\": 10, \"EI2\": 20, \"EI3\": 30 }",
+     "@[[1,0.5,0,0,0,0],[0,1,0,0,0,0],[0,0,1,0,0,0],[0,0,0,1,0,0],[0,0,0,0,1,0],[0,0,0,0,0,1]]", "/sections/1/stiffness", "not symmetric"},
+    {"[0.1, 0.2, 0.25]", "@[0.1, 0.2, 0.35]", "/bodies/0/inertia", "exceeds the sum of the others"},
+    {"[0.1, 0.2, 0.25]", "@[[0.1, 0.3, 0], [0.3, 0.1, 0], [0, 0, 0.1]]", "/bodies/0/inertia", "not negative"},
+    {"[0.1, 0.2, 0.25]", "@[[0.1, 0.01, 0], [0, 0.1, 0], [0, 0, 0.1]]", "/bodies/0/inertia", "symmetric"},
+    {"{ \"name\": \"cart\", \"mass\": 2, \"inertia\": [0.1, 0.2, 0.25],", "@{ \"name\": \"cart\", \"mass\": 2,", "/bodies/0", "exactly one of the keys \"inertia\" or \"shape\""},
+    {"{ \"name\": \"bob\", \"kind\": \"point_mass\", \"mass\": 0.5,", "@{ \"name\": \"bob\", \"kind\": \"point_mass\",", "/bodies/1", "needs the key \"mass\""},
+    {"\"inertia\": [0.1, 0.2, 0.25]", "\"shape\": { \"kind\": \"box\", \"size\": [0, 1, 1] }", "/bodies/0/shape/size/0", "above 0"},
+    {"\"section\": \"bar\"", "\"section\": @\"baar\"", "/beams/0/section", "did you mean \"bar\"?"},
+    {"\"start\": \"root\"", "\"start\": @\"rot\"", "/beams/0/start", "did you mean \"root\"?"},
+    {"\"start\": \"root\"", "\"start\": @\"ground\"", "/beams/0/start", "not the ground"},
+    {"\"start\": \"root\"", "\"start\": @\"bench\"", "/beams/0/start", "not a node or body"},
+    {"\"start\": \"root\"", "\"start\": @\"lower.1\"", "/beams/0/start", "not at an inner node"},
+    {"\"start\": \"root\", \"end\": \"knee\"", "\"start\": \"root\", \"end\": @\"root\"", "/beams/0/end", "length 0"},
+    {"\"axis_2\": [0, 1, 0]", "\"axis_2\": @[1, 0, 0]", "/beams/0/axis_2", "runs along the beam"},
+    {"\"axis_2\": [0, 1, 0]", "\"axis_2\": @[0, 0, 0]", "/beams/0/axis_2", "length other than 0"},
+    {"\"axis_2\": [0, 1, 0], \"elements\": 4", "\"end\": \"knee\"", "/beams/0/end", "given before"},
+    {"\"start\": \"root\", \"end\": \"knee\",", "\"start\": \"root\", \"end\": @\"knee\", \"curve\": { \"curvature\": [0, 0, 1], \"length\": 1, \"tangent\": [1, 0, 0] },", "/beams/0/end", "m away from this end"},
+    {"\"name\": \"clamp\", \"kind\": \"fixed\", \"first\": \"ground\"", "\"name\": \"clamp\", \"kind\": \"fixed\", \"first\": \"root\"", "/joints/0/second", "the same thing"},
+    {"\"second\": \"bob\"", "\"second\": @\"bobb\"", "/joints/2/second", "did you mean \"bob\"?"},
+    {"\"second\": \"bob\"", "\"second\": @\"lower.9\"", "/joints/2/second", "numbered 0 to 4"},
+    {"\"second\": \"bob\"", "\"second\": @\"lower\"", "/joints/2/second", "name one of its ends"},
+    {"\"axis\": [0, 1, 0], \"forces\"", "\"axis\": @[0, 0, 0], \"forces\"", "/joints/2/axis", "length other than 0"},
+    {"\"position\": [0, 2, 0], \"axis\": [0, 1, 0], \"forces\"", "\"position\": [0, 2, 0], \"forces\"", "/joints/2", "needs the key \"axis\""},
+    {"\"position\": [0, 2, 0], \"axis\": [0, 1, 0], \"forces\"", "\"axis\": [0, 1, 0], \"forces\"", "/joints/2", "needs a position"},
+    {"\"second\": \"bob\", \"position\": [0, 2, 0]", "\"second\": { \"to\": \"bob\", \"position\": [0, 0, 1] }, \"position\": @[0, 2, 0]", "/joints/2/position", "one of the two"},
+    {"\"first\": \"cart\", \"second\": \"bob\", \"position\": [0, 2, 0]",
+     "\"first\": { \"to\": \"cart\", \"position\": [0, 0, 0] }, \"second\": { \"to\": \"bob\", \"position\": [0, 0, 0.9] }", "/joints/2", "0.1 m apart"},
+    {"\"damping\": 0.1", "\"coordinate\": @\"displacement\"", "/joints/2/forces/0/coordinate", "\"angle\" only"},
+    {"\"forces\": [ { \"damping\": 0.1 } ]", "\"drives\": [ { \"law\": 0 }, @{ \"law\": 0 } ]", "/joints/2/drives/1", "driven twice"},
+    {"\"kind\": \"fixed\", \"first\": \"ground\", \"second\": \"root\"", "\"kind\": \"fixed\", \"first\": \"ground\", \"second\": \"root\", \"drives\": [ @{ \"law\": 0 } ]", "/joints/0/drives/0", "no coordinate"},
+    {"\"kind\": \"prismatic\", \"first\"", "\"kind\": \"prismatic\", \"pitch\": @0.1, \"first\"", "/joints/1/pitch", "only a screw"},
+    {"\"kind\": \"prismatic\", \"first\"", "\"kind\": \"screw\", \"first\"", "/joints/1", "needs a pitch"},
+    {"\"name\": \"coil\", \"first\": \"tip\", \"second\": \"cart\"", "\"name\": \"coil\", \"first\": \"tip\", \"second\": @{ \"to\": \"cart\", \"position\": [1, -2, -1] }", "/springs/0/second", "coincide at the start"},
+    {"\"at\": \"tip\", \"force\"", "\"at\": @\"ground\", \"force\"", "/loads/0/at", "not the ground"},
+    {"{ \"kind\": \"ramp\", \"end_time\": 0.5 }", "{ \"expression\": @\"sin(t\" }", "/loads/0/law/expression", "character"},
+    {"{ \"kind\": \"ramp\", \"end_time\": 0.5 }", "@{ \"kind\": \"ramp\", \"start_time\": 1, \"end_time\": 0.5 }", "/loads/0/law", "t"},
+    {"{ \"kind\": \"ramp\", \"end_time\": 0.5 }", "@{ \"expression\": \"1/t\" }", "/loads/0/law", "not finite at t = 0"},
+    {"\"beam\": \"upper\", \"force\"", "\"beam\": @\"uper\", \"force\"", "/loads/1/beam", "did you mean \"upper\"?"},
+    {"\"motions\": [ ]", "\"motions\": [ @{ \"at\": \"knee\" } ]", "/motions/0", "prescribes nothing"},
+    {"\"motions\": [ ]", "\"motions\": [ { \"at\": \"knee\", \"x\": 0 }, { \"at\": \"knee\", \"x\": @0 } ]", "/motions/1/x", "prescribed twice"},
+    {"\"of\": \"cart\"", "\"of\": @\"card\"", "/initial_velocities/0/of", "did you mean \"cart\"?"},
+    {"\"joint\": \"hinge\"", "\"joint\": @\"rail\"", "/sensors/2/joint", "no angle"},
+    {"\"joint\": \"hinge\"", "\"joint\": @\"hing\"", "/sensors/2/joint", "did you mean \"hinge\"?"},
+    {"\"spectral_radius\": 0.9", "\"spectral_radius\": @1", "/analysis/spectral_radius", "below 1"},
+    {"\"step_size\": 1e-3", "\"step_size\": @2", "/analysis/step_size", "longer than the whole"},
+    {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tp.x\"", "/expected/0/quantity", "did you mean \"tip\"?"},
+    {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tip\"", "/expected/0/quantity", "components x, y, z"},
+    {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tip.w\"", "/expected/0/quantity", "components x, y, z"},
+    {"\"quantity\": \"tip.x\"", "\"quantity\": @\"energy.x\"", "/expected/0/quantity", "one number"},
+    {"\"time\": 1, \"value\"", "\"time\": @2, \"value\"", "/expected/0/time", "ends at 1"},
+    {"{ \"name\": \"root\" },", "{ \"name\": \"root\" }, { \"name\": @\"spare\" },", "/nodes/1/name", "nothing holds it"},
+};
+
+struct Expectation {
+  std::string text;
+  int line = 0, column = 0;
+};
+
+Expectation marked(const Bad& bad) {
+  Expectation e;
+  e.text = test::spoilt(bad.from, bad.to);
+  const std::size_t at = e.text.find('@');
+  if (at == std::string::npos) return e;
+  e.text.erase(at, 1);
+  const LineColumn place = LineIndex(e.text).at(at);
+  e.line = place.line;
+  e.column = place.column;
+  return e;
+}
+
+void check(const Bad& bad) {
+  SCOPED_TRACE(std::string(bad.from) + "  ->  " + bad.to);
+  const Expectation e = marked(bad);
+  ASSERT_FALSE(e.text.empty()) << "the piece to replace is not in the base scene exactly once";
+  const SceneFile file = read_scene_text(e.text, "bad");
+  bool found = false;
+  std::string all;
+  for (const Problem& p : file.problems) {
+    all += p.text() + "\n";
+    const bool here = p.pointer == bad.pointer && p.text().find(bad.message) != std::string::npos;
+    if (here && e.line > 0) {
+      EXPECT_EQ(p.line, e.line) << p.text();
+      EXPECT_EQ(p.column, e.column) << p.text();
+    }
+    found = found || here;
+  }
+  EXPECT_TRUE(found) << "expected " << bad.pointer << ": " << bad.message << "\ngot\n" << all;
+  EXPECT_EQ(file.problems.size(), 1u) << "one fault, one problem; got\n" << all;
+}
+
+TEST(SceneBad, the_base_scene_itself_is_good) {
+  const SceneFile file = read_scene_text(test::base_scene(), "base");
+  for (const Problem& p : file.problems) ADD_FAILURE() << p.text();
+  for (const Problem& p : file.warnings) ADD_FAILURE() << p.text();
+}
+
+TEST(SceneBad, each_broken_rule_is_reported_once_at_its_place) {
+  for (const Bad& bad : table_cases) check(bad);
+}
+
+TEST(SceneBad, each_impossible_scene_is_reported_once_at_its_place) {
+  const ::bough::test::Untrapped untrapped;  // the law 1/t
+  for (const Bad& bad : scene_cases) check(bad);
+}
+
+TEST(SceneBad, all_faults_of_a_file_are_reported_together_in_the_order_of_the_file) {
+  std::string text = test::spoilt("\"young\": 2.1e11", "\"young\": -1");
+  const auto replace = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+  replace("\"start\": \"root\"", "\"start\": \"rot\"");
+  replace("\"kind\": \"prismatic\"", "\"kind\": \"sliding\"");
+  replace("\"of\": \"cart\"", "\"of\": \"card\"");
+  replace("\"tip.x\"", "\"tip.q\"");
+  const SceneFile file = read_scene_text(text, "many");
+  ASSERT_EQ(file.problems.size(), 5u);
+  EXPECT_EQ(file.problems[0].pointer, "/materials/0/young");
+  EXPECT_EQ(file.problems[1].pointer, "/beams/0/start");
+  EXPECT_EQ(file.problems[2].pointer, "/joints/1/kind");
+  EXPECT_EQ(file.problems[3].pointer, "/initial_velocities/0/of");
+  EXPECT_EQ(file.problems[4].pointer, "/expected/0/quantity");
+}
+
+TEST(SceneBad, a_misspelt_list_does_not_flood_the_report_with_missing_names) {
+  const SceneFile file = read_scene_text(test::spoilt("\"nodes\"", "\"noods\""), "list");
+  ASSERT_EQ(file.problems.size(), 1u);
+  EXPECT_EQ(file.problems[0].pointer, "/noods");
+}
+
+TEST(SceneBad, a_flood_is_cut_and_counted) {
+  std::string nodes;
+  for (int i = 0; i < 1000; ++i) nodes += (i == 0 ? "" : ",") + std::string("{}");
+  const SceneFile file = read_scene_text("{\"schema_version\": 1, \"analysis\": {\"kind\": \"static\"}, \"nodes\": [" + nodes + "]}", "flood");
+  ASSERT_EQ(file.problems.size(), max_problems);
+  EXPECT_NE(file.problems.back().hint.find("more problems"), std::string::npos);
+}
+
+TEST(SceneBad, an_angle_that_looks_like_degrees_is_warned_about) {
+  const SceneFile file = read_scene_text(test::spoilt("\"angle\": 0.5", "\"angle\": 45"), "degrees");
+  EXPECT_TRUE(file.ok());
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0].pointer, "/frames/0/rotation/angle");
+  EXPECT_NE(file.warnings[0].text().find("radians"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bough::io
