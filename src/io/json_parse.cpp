@@ -16,7 +16,8 @@ using Base = nlohmann::json;
 /// stands for one token, so a cursor that steps over the same tokens knows where every one of them lies.
 class Builder : public nlohmann::json_sax<Base> {
  public:
-  Builder(std::string_view text, int source, std::vector<JsonFault>& faults) : text_(text), source_(source), faults_(faults) {
+  Builder(std::string_view text, int source, std::vector<JsonFault>& faults)
+      : text_(text), source_(source), faults_(faults) {
     if (text_.substr(0, 3) == "\xEF\xBB\xBF") cursor_ = 3;
   }
 
@@ -83,7 +84,8 @@ class Builder : public nlohmann::json_sax<Base> {
   }
 
   void skip_gap() {
-    while (cursor_ < text_.size() && std::string_view(" \t\r\n,:").find(text_[cursor_]) != std::string_view::npos) ++cursor_;
+    while (cursor_ < text_.size() && std::string_view(" \t\r\n,:").find(text_[cursor_]) != std::string_view::npos)
+      ++cursor_;
   }
 
   void take_token() {
@@ -96,9 +98,11 @@ class Builder : public nlohmann::json_sax<Base> {
     } else if (end < text_.size() && std::string_view("{}[]").find(text_[end]) != std::string_view::npos) {
       ++end;
     } else {
-      while (end < text_.size() && std::string_view(" \t\r\n,:{}[]\"").find(text_[end]) == std::string_view::npos) ++end;
+      while (end < text_.size() && std::string_view(" \t\r\n,:{}[]\"").find(text_[end]) == std::string_view::npos)
+        ++end;
       const std::size_t zero = cursor_ + (text_.substr(cursor_, 1) == "-" ? 1 : 0);
-      if (zero + 1 < end && text_[zero] == '0' && text_[zero + 1] >= '0' && text_[zero + 1] <= '9') end = zero + 1;  // 01: two tokens
+      if (zero + 1 < end && text_[zero] == '0' && text_[zero + 1] >= '0' && text_[zero + 1] <= '9')
+        end = zero + 1;  // 01: two tokens
     }
     token_offset_ = static_cast<std::uint32_t>(cursor_);
     token_length_ = static_cast<std::uint32_t>(std::min(end, text_.size()) - cursor_);
@@ -139,7 +143,8 @@ class Builder : public nlohmann::json_sax<Base> {
     if (error == std::errc() && end == word.data() + word.size()) return true;
     last_->sound = false;
     last_->number = 0.0;
-    const bool vanishes = word.find_first_of("eE") != std::string_view::npos && word.find('-', 1) != std::string_view::npos;
+    const bool vanishes =
+        word.find_first_of("eE") != std::string_view::npos && word.find('-', 1) != std::string_view::npos;
     fault(token_offset_, value_path(), std::string(word),
           vanishes ? "is too small for a double (it would silently become 0)" : "is too large for a double",
           vanishes ? "write 0 if that is meant" : "");
@@ -159,7 +164,8 @@ class Builder : public nlohmann::json_sax<Base> {
   bool open(JsonKind kind) {
     if (!scalar(kind)) return false;
     if (levels_.size() == max_json_depth) {
-      fault(token_offset_, value_path(), "", "arrays and objects are nested deeper than " + std::to_string(max_json_depth), "");
+      fault(token_offset_, value_path(), "",
+            "arrays and objects are nested deeper than " + std::to_string(max_json_depth), "");
       return false;
     }
     levels_.push_back({last_, {}, 0, false, {}});
@@ -192,7 +198,8 @@ std::string syntax_hint(std::string_view rest, char before, bool after_zero) {
   if (starts("//") || starts("/*") || starts("#")) return "JSON has no comments; use a \"comment\" key";
   if (starts("'")) return "strings and keys take double quotes";
   if (before == ',' && (starts("]") || starts("}"))) return "remove the comma before it";
-  if (starts("NaN") || starts("nan") || starts("Inf") || starts("inf") || starts("-I") || starts("-i") || starts("-N") || starts("-n"))
+  if (starts("NaN") || starts("nan") || starts("Inf") || starts("inf") || starts("-I") || starts("-i") ||
+      starts("-N") || starts("-n"))
     return "numbers are finite";
   if (starts("+") || starts(".") || starts("-.")) return "write numbers as 0.5, 1e-3 or -2";
   if (after_zero && rest.front() >= '0' && rest.front() <= '9') return "numbers have no leading zeros";
@@ -225,7 +232,8 @@ bool Builder::parse_error(std::size_t position, const std::string& last_token, c
   const bool after_zero = end_of_last == cursor_ && cursor_ > 0 && text_[cursor_ - 1] == '0';
   std::string token(rest.substr(0, std::min(rest.find_first_of(" \t\r\n,:{}[]", 1), std::size_t{40})));
   if (token.empty()) token = shown(last_token);
-  fault(offset, levels_.empty() ? "" : path(), token, shown(rule, 300), e.id == 406 ? "" : syntax_hint(rest, before, after_zero));
+  fault(offset, levels_.empty() ? "" : path(), token, shown(rule, 300),
+        e.id == 406 ? "" : syntax_hint(rest, before, after_zero));
   return false;
 }
 

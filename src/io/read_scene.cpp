@@ -25,9 +25,7 @@ class Report {
     put(problems_, {f.pointer, 0, 0, std::move(value), f.rule, f.hint}, f.source, f.offset);
   }
 
-  void add_override(const PlacedFault& f) {
-    put(problems_, {f.pointer, 0, 0, shown(f.value), f.rule, f.hint}, 1, 0);
-  }
+  void add_override(const PlacedFault& f) { put(problems_, {f.pointer, 0, 0, shown(f.value), f.rule, f.hint}, 1, 0); }
 
   void add(const PlacedFault& f, bool is_warning) {
     std::string reached;
@@ -35,7 +33,8 @@ class Report {
     // The value at fault may be inside what the pointer names; a longer pointer than the document has is cut to what is there.
     Problem p{reached, 0, 0, f.value, f.rule, f.hint};
     if (p.value.empty() && at != nullptr) p.value = summary(*at);
-    put(is_warning ? warnings_ : problems_, std::move(p), at == nullptr ? source_default : at->source, at == nullptr ? 0 : at->offset);
+    put(is_warning ? warnings_ : problems_, std::move(p), at == nullptr ? source_default : at->source,
+        at == nullptr ? 0 : at->offset);
   }
 
   bool empty() const { return problems_.empty(); }
@@ -73,7 +72,8 @@ class Report {
     }
     if (list.size() > max_problems) {
       Problem& last = out.back();
-      last.hint += (last.hint.empty() ? "" : "; ") + std::to_string(list.size() - max_problems) + " more problems are not shown";
+      last.hint +=
+          (last.hint.empty() ? "" : "; ") + std::to_string(list.size() - max_problems) + " more problems are not shown";
     }
   }
 
@@ -136,15 +136,16 @@ class Report {
 bool breaks_outline(const std::vector<CheckFault>& faults) {
   return std::any_of(faults.begin(), faults.end(), [](const CheckFault& f) {
     const bool is_top = std::count(f.pointer.begin(), f.pointer.end(), '/') <= 1;
-    return is_top && f.rule.find("needs the key") == std::string::npos && f.pointer != "/schema_version" && f.pointer != "/gravity" && f.pointer != "/title";
+    return is_top && f.rule.find("needs the key") == std::string::npos && f.pointer != "/schema_version" &&
+           f.pointer != "/gravity" && f.pointer != "/title";
   });
 }
 
 void add_scene_problems(const Converter& converter, Report& report) {
   for (const scene::SceneProblem& p : scene::problems_in(converter.scene, converter.defective)) {
     std::string pointer = "/" + p.section;
-    if (const auto it = converter.pointers.find(p.section); it != converter.pointers.end() && p.index >= 0 &&
-                                                            static_cast<std::size_t>(p.index) < it->second.size())
+    if (const auto it = converter.pointers.find(p.section);
+        it != converter.pointers.end() && p.index >= 0 && static_cast<std::size_t>(p.index) < it->second.size())
       pointer = it->second[static_cast<std::size_t>(p.index)];
     else if (p.section == "scene")
       pointer = "";

@@ -73,7 +73,8 @@ class Converter {
   };
   Side side(const Value& v, const std::string& at);
   scene::Attachment attachment(const Value& v, const std::string& at) { return side(v, at).to; }
-  std::optional<scene::Frame> common_frame(const Value& v, const std::string& at, scene::JointKind kind, const Side& a, const Side& b);
+  std::optional<scene::Frame> common_frame(const Value& v, const std::string& at, scene::JointKind kind, const Side& a,
+                                           const Side& b);
   void place_sides(const Value& v, const std::string& at, scene::JointKind kind, Side& a, Side& b);
   void joint(const Value& v, const std::string& at);
   void spring(const Value& v, const std::string& at);

@@ -54,7 +54,8 @@ Converter::Side Converter::side(const Value& v, const std::string& at) {
 
 /// The joint's frame at the start, from position and axes or from what the two sides say. Nothing where it can not be said; then a fault
 /// was reported, or one of the sides is not there (reported by the check of references).
-std::optional<Frame> Converter::common_frame(const Value& v, const std::string& at, JointKind kind, const Side& a, const Side& b) {
+std::optional<Frame> Converter::common_frame(const Value& v, const std::string& at, JointKind kind, const Side& a,
+                                             const Side& b) {
   const auto H_a = poses_->of(std::string_view(a.to.to)), H_b = poses_->of(std::string_view(b.to.to));
   const auto frame = poses_->of(scene::Placement{Frame::identity(), text_or(v, "frame")});
   if (!frame) {
@@ -63,11 +64,13 @@ std::optional<Frame> Converter::common_frame(const Value& v, const std::string& 
   }
   if (!H_a || !H_b) return std::nullopt;
   const Frame at_a = motion::compose(*H_a, a.to.offset), at_b = motion::compose(*H_b, b.to.offset);
-  const bool b_leads = b.to.to.empty() ? false : true;  // with bare names the joint sits at the second, unless that is the ground
+  const bool b_leads =
+      b.to.to.empty() ? false : true;  // with bare names the joint sits at the second, unless that is the ground
   Frame joint;
   if (const Value* position = v.find("position")) {
     joint.x = motion::transform(*frame, vector(*position));
-    if (a.has_position || b.has_position) fault(at + "/position", "the place is given here and in first or second: give one of the two");
+    if (a.has_position || b.has_position)
+      fault(at + "/position", "the place is given here and in first or second: give one of the two");
   } else if (a.has_position || b.has_position) {
     joint.x = b.has_position ? at_b.x : at_a.x;
   } else {
@@ -78,7 +81,8 @@ std::optional<Frame> Converter::common_frame(const Value& v, const std::string& 
   }
   const Value *axis = v.find("axis"), *second_axis = v.find("second_axis");
   if (axis != nullptr) {
-    if (a.has_rotation || b.has_rotation) fault(at + "/axis", "the axes are given here and in first or second: give one of the two");
+    if (a.has_rotation || b.has_rotation)
+      fault(at + "/axis", "the axes are given here and in first or second: give one of the two");
     const Vec3 main = frame->R * vector(*axis);
     if (norm(main) == 0.0) {
       fault(at + "/axis", "an axis has a length other than 0");
@@ -103,7 +107,8 @@ std::optional<Frame> Converter::common_frame(const Value& v, const std::string& 
     joint.R = b.has_rotation ? at_b.R : at_a.R;
   } else {
     if (needs_axis(kind)) {
-      fault(at, "a " + scene::to_string(kind) + " joint needs the key \"axis\"", "or a rotation in first or second, whose axis 3 it then is");
+      fault(at, "a " + scene::to_string(kind) + " joint needs the key \"axis\"",
+            "or a rotation in first or second, whose axis 3 it then is");
       return std::nullopt;
     }
     joint.R = b_leads ? H_b->R : H_a->R;
@@ -144,7 +149,8 @@ void Converter::joint(const Value& v, const std::string& at) {
   const Value& drives = *v.find("drives");
   for (std::size_t i = 0; i < drives.items.size(); ++i) {
     const Value& d = drives.items[i];
-    j.drives.push_back({coordinate(d), d.find("rate")->truth, law(*d.find("law"), at + "/drives/" + std::to_string(i) + "/law")});
+    j.drives.push_back(
+        {coordinate(d), d.find("rate")->truth, law(*d.find("law"), at + "/drives/" + std::to_string(i) + "/law")});
   }
   add(scene.joints, "joints", std::move(j), at);
 }

@@ -9,7 +9,8 @@ namespace {
 
 /// A bare word is a string; everything else is JSON.
 std::optional<JsonValue> parse_value(const std::string& text, int source, std::string& rule) {
-  const bool is_word = !text.empty() && (std::isalpha(static_cast<unsigned char>(text.front())) != 0 || text.front() == '_') &&
+  const bool is_word = !text.empty() &&
+                       (std::isalpha(static_cast<unsigned char>(text.front())) != 0 || text.front() == '_') &&
                        text != "true" && text != "false" && text != "null";
   if (is_word) {
     JsonValue v;
@@ -30,21 +31,27 @@ std::optional<JsonValue> parse_value(const std::string& text, int source, std::s
 JsonValue* item_of(JsonValue& array, const std::string& token) {
   std::size_t i = 0;
   const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), i);
-  if (error == std::errc() && end == token.data() + token.size()) return i < array.items.size() ? &array.items[i] : nullptr;
+  if (error == std::errc() && end == token.data() + token.size())
+    return i < array.items.size() ? &array.items[i] : nullptr;
   for (JsonValue& item : array.items)
-    if (const JsonValue* name = item.is(JsonKind::object) ? item.find("name") : nullptr; name != nullptr && name->text == token) return &item;
+    if (const JsonValue* name = item.is(JsonKind::object) ? item.find("name") : nullptr;
+        name != nullptr && name->text == token)
+      return &item;
   return nullptr;
 }
 
 std::string hint_for(const JsonValue& at, const std::string& token) {
   std::vector<std::string> known = at.keys;
   for (const JsonValue& item : at.items)
-    if (const JsonValue* name = item.is(JsonKind::object) ? item.find("name") : nullptr; name != nullptr && at.is(JsonKind::array)) known.push_back(name->text);
+    if (const JsonValue* name = item.is(JsonKind::object) ? item.find("name") : nullptr;
+        name != nullptr && at.is(JsonKind::array))
+      known.push_back(name->text);
   const std::string near = scene::nearest_name(token, known);
   return near.empty() ? "" : "did you mean \"" + near + "\"?";
 }
 
-void apply_one(JsonValue& root, const std::string& text, int source, std::string& value_text, std::vector<PlacedFault>& faults) {
+void apply_one(JsonValue& root, const std::string& text, int source, std::string& value_text,
+               std::vector<PlacedFault>& faults) {
   const std::size_t equals = text.find('=');
   const std::string pointer = text.substr(0, equals);
   const auto tokens = split_pointer(pointer);
@@ -62,7 +69,9 @@ void apply_one(JsonValue& root, const std::string& text, int source, std::string
   JsonValue* at = &root;
   for (std::size_t i = 0; i < tokens->size(); ++i) {
     const std::string& token = (*tokens)[i];
-    JsonValue* next = at->is(JsonKind::array) ? item_of(*at, token) : at->is(JsonKind::object) ? at->find(token) : nullptr;
+    JsonValue* next = at->is(JsonKind::array)    ? item_of(*at, token)
+                      : at->is(JsonKind::object) ? at->find(token)
+                                                 : nullptr;
     if (next == nullptr && at->is(JsonKind::object)) {
       JsonValue made;
       made.kind = JsonKind::object;
@@ -73,7 +82,9 @@ void apply_one(JsonValue& root, const std::string& text, int source, std::string
       next = &at->items.back();
     }
     if (next == nullptr) {
-      faults.push_back({pointer, token, at->is(JsonKind::array) ? "the array has no such item" : "there is nothing inside this value", hint_for(*at, token)});
+      faults.push_back({pointer, token,
+                        at->is(JsonKind::array) ? "the array has no such item" : "there is nothing inside this value",
+                        hint_for(*at, token)});
       return;
     }
     at = next;
@@ -88,7 +99,8 @@ void apply_one(JsonValue& root, const std::string& text, int source, std::string
 void apply_overrides(JsonValue& root, std::span<const std::string> overrides, std::vector<std::string>& texts,
                      std::vector<PlacedFault>& faults) {
   texts.assign(overrides.size(), "");
-  for (std::size_t i = 0; i < overrides.size(); ++i) apply_one(root, overrides[i], static_cast<int>(i) + 1, texts[i], faults);
+  for (std::size_t i = 0; i < overrides.size(); ++i)
+    apply_one(root, overrides[i], static_cast<int>(i) + 1, texts[i], faults);
 }
 
 }  // namespace bough::io

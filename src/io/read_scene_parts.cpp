@@ -50,7 +50,10 @@ const scene::Material* Converter::material_named(const std::string& name, const 
     return nullptr;
   }
   const std::string near = scene::nearest_name(name, known);
-  fault(at, "no material has this name", !near.empty() ? "did you mean \"" + near + "\"?" : known.empty() ? "the scene has no materials" : "");
+  fault(at, "no material has this name",
+        !near.empty()   ? "did you mean \"" + near + "\"?"
+        : known.empty() ? "the scene has no materials"
+                        : "");
   return nullptr;
 }
 
@@ -63,7 +66,8 @@ scene::Section Converter::shaped_section(const Value& v, const std::string& at) 
   if (kind == "circle") shape = scene::Circle{get("radius")};
   if (kind == "tube") {
     shape = scene::Tube{get("outer_radius"), get("inner_radius")};
-    if (get("inner_radius") >= get("outer_radius")) fault(at + "/shape/inner_radius", "has to be below the outer radius");
+    if (get("inner_radius") >= get("outer_radius"))
+      fault(at + "/shape/inner_radius", "has to be below the outer radius");
   }
   const scene::Material* m = material_named(v.find("material")->text, at + "/material");
   if (m == nullptr) return {};
@@ -77,7 +81,8 @@ scene::Section Converter::shaped_section(const Value& v, const std::string& at) 
 
 scene::Mat6 Converter::section_mass(const Value& v) const {
   if (v.is(JsonKind::array)) return matrix6(v);
-  return scene::section_mass_matrix(v.find("mass_per_length")->number, vector(*v.find("rotary")), vector(*v.find("center")));
+  return scene::section_mass_matrix(v.find("mass_per_length")->number, vector(*v.find("rotary")),
+                                    vector(*v.find("center")));
 }
 
 void Converter::section(const Value& v, const std::string& at) {
@@ -102,8 +107,8 @@ void Converter::section(const Value& v, const std::string& at) {
 }
 
 void Converter::body_inertia(const Value& v, const std::string& at, scene::Body& body) {
-  const Value *inertia = v.find("inertia"), *shape_value = v.find("shape"), *mass = v.find("mass"), *density = v.find("density"),
-              *material_name = v.find("material");
+  const Value *inertia = v.find("inertia"), *shape_value = v.find("shape"), *mass = v.find("mass"),
+              *density = v.find("density"), *material_name = v.find("material");
   if (mass != nullptr) body.mass = mass->number;
   const bool has_other = density != nullptr || material_name != nullptr;
   if (body.is_point_mass) {
@@ -112,12 +117,14 @@ void Converter::body_inertia(const Value& v, const std::string& at, scene::Body&
     return;
   }
   if (inertia == nullptr && shape_value == nullptr)
-    return fault(at, "needs exactly one of the keys \"inertia\" or \"shape\"", "for a point mass write \"kind\": \"point_mass\"");
+    return fault(at, "needs exactly one of the keys \"inertia\" or \"shape\"",
+                 "for a point mass write \"kind\": \"point_mass\"");
   if (shape_value == nullptr) {
     if (has_other) fault(at, "density and material go with a shape");
     if (mass == nullptr) fault(at, "needs the key \"mass\"");
     const bool is_diagonal = inertia->items[0].is(JsonKind::number);
-    body.inertia = is_diagonal ? diagonal3(inertia->items[0].number, inertia->items[1].number, inertia->items[2].number) : matrix3(*inertia);
+    body.inertia = is_diagonal ? diagonal3(inertia->items[0].number, inertia->items[1].number, inertia->items[2].number)
+                               : matrix3(*inertia);
     return;
   }
   const Value& s = *shape_value;
@@ -128,7 +135,8 @@ void Converter::body_inertia(const Value& v, const std::string& at, scene::Body&
   if (kind == "cylinder") shape = scene::Cylinder{s.find("radius")->number, s.find("length")->number, axis};
   if (kind == "sphere") shape = scene::Sphere{s.find("radius")->number};
   if (kind == "rod") shape = scene::Rod{s.find("length")->number, axis};
-  if (mass == nullptr && !has_other) return fault(at, "needs one of the keys \"mass\", \"density\" or \"material\" with its shape");
+  if (mass == nullptr && !has_other)
+    return fault(at, "needs one of the keys \"mass\", \"density\" or \"material\" with its shape");
   if (has_other && kind == "rod") return fault(at, "a rod has no volume: give its mass");
   double rho = density != nullptr ? density->number : 0.0;
   if (material_name != nullptr) {

@@ -76,7 +76,8 @@ void Converter::sensor(const Value& v, const std::string& at) {
   s.joint = text_or(v, "joint");
   s.axes = axes(v);
   s.station = number_or(v, "station", 0.0);
-  if (v.find("beam") != nullptr && v.find("station") == nullptr) fault(at, "needs the key \"station\"", "0 is the start of the beam, 1 its end");
+  if (v.find("beam") != nullptr && v.find("station") == nullptr)
+    fault(at, "needs the key \"station\"", "0 is the start of the beam, 1 its end");
   if (v.find("at") != nullptr && v.find("station") != nullptr) fault(at + "/station", "a station goes with a beam");
   add(scene.sensors, "sensors", std::move(s), at);
 }
@@ -143,14 +144,16 @@ void Converter::each(const char* list, void (Converter::*read)(const Value&, con
     if (faults.size() == faults_before_ && !left_out_) continue;
     const Value* name = v.is(JsonKind::object) ? v.find("name") : nullptr;
     const bool is_material = std::string_view(list) == "materials";
-    if (name != nullptr && name->is(JsonKind::string)) defective.push_back((is_material ? "material " : "") + name->text);
+    if (name != nullptr && name->is(JsonKind::string))
+      defective.push_back((is_material ? "material " : "") + name->text);
   }
 }
 
 void Converter::convert() {
   for (const Value& list : root_.items)
     for (const Value& item : list.is(JsonKind::array) ? list.items : std::vector<Value>{})
-      if (const Value* name = item.is(JsonKind::object) ? item.find("name") : nullptr; name != nullptr) names_.insert(name->text);
+      if (const Value* name = item.is(JsonKind::object) ? item.find("name") : nullptr; name != nullptr)
+        names_.insert(name->text);
   const Value* analysis = root_.find("analysis");
   const Value* kind = analysis != nullptr && analysis->is(JsonKind::object) ? analysis->find("kind") : nullptr;
   is_static_ = kind != nullptr && kind->text == "static";

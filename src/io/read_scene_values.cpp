@@ -50,7 +50,8 @@ Mat6 Converter::matrix6(const Value& v) const {
 void Converter::warn_of_degrees(const Value& angle, const std::string& at) {
   const double x = std::abs(angle.number);
   if (x >= 15.0 && std::fmod(x, 5.0) == 0.0)
-    warnings.push_back({at, "", "this angle is in radians: it is more than two turns", "for degrees multiply by pi/180 = 0.017453292519943295"});
+    warnings.push_back({at, "", "this angle is in radians: it is more than two turns",
+                        "for degrees multiply by pi/180 = 0.017453292519943295"});
 }
 
 Mat3 Converter::rotation_from_axes(const Value& axes, const std::string& at) {
@@ -79,7 +80,8 @@ Mat3 Converter::rotation(const Value& v, const std::string& at) {
     if (length > 0.0) return motion::exp_so3(Vec3((v.find("angle")->number / length) * a));
     fault(at + "/axis", "an axis has a length other than 0");
   } else if (const Value* q = v.find("quaternion")) {
-    const motion::Quaternion<double> raw = {q->items[0].number, {{q->items[1].number, q->items[2].number, q->items[3].number}}};
+    const motion::Quaternion<double> raw = {q->items[0].number,
+                                            {{q->items[1].number, q->items[2].number, q->items[3].number}}};
     const double length = std::hypot(raw.w, std::hypot(raw.v[0], raw.v[1], raw.v[2]));
     if (std::abs(length - 1.0) <= 1e-3) return motion::rotation_of(motion::normalise(raw));
     fault(at + "/quaternion", "a rotation is a quaternion of length 1, scalar first");
@@ -100,7 +102,9 @@ scene::Placement Converter::placement(const Value& v, const std::string& at) {
   return p;
 }
 
-scene::LoadAxes Converter::axes(const Value& v) const { return text_or(v, "axes") == "body" ? scene::LoadAxes::body : scene::LoadAxes::space; }
+scene::LoadAxes Converter::axes(const Value& v) const {
+  return text_or(v, "axes") == "body" ? scene::LoadAxes::body : scene::LoadAxes::space;
+}
 
 laws::Law Converter::load_law(const Value& object, const std::string& at) {
   if (const Value* v = object.find("law")) return law(*v, at + "/law");
@@ -114,7 +118,9 @@ laws::Law Converter::law(const Value& v, const std::string& at) {
     return law_of_kind(v, at);
   } catch (const laws::LawError& e) {
     if (const Value* formula = v.find("expression"))
-      fault(at + "/expression", e.what(), "at character " + std::to_string(e.position + 1) + ": \"" + shown(formula->text.substr(std::min(e.position, formula->text.size())), 20) + "\"");
+      fault(at + "/expression", e.what(),
+            "at character " + std::to_string(e.position + 1) + ": \"" +
+                shown(formula->text.substr(std::min(e.position, formula->text.size())), 20) + "\"");
     else
       fault(at, e.what());
     return {};
@@ -131,7 +137,9 @@ laws::Law Converter::law_table(const Value& v) const {
   std::vector<double> times, values;
   for (const Value& t : v.find("times")->items) times.push_back(t.number);
   for (const Value& x : v.find("values")->items) values.push_back(x.number);
-  return laws::make_table(times, values, v.find("interpolation")->text == "cubic" ? laws::Interpolation::cubic : laws::Interpolation::linear);
+  return laws::make_table(
+      times, values,
+      v.find("interpolation")->text == "cubic" ? laws::Interpolation::cubic : laws::Interpolation::linear);
 }
 
 laws::Law Converter::law_of_kind(const Value& v, const std::string& at) {
@@ -154,7 +162,8 @@ laws::Law Converter::law_of_kind(const Value& v, const std::string& at) {
   std::vector<laws::Segment> pieces;
   const Value& list = *v.find("pieces");
   for (std::size_t i = 0; i < list.items.size(); ++i)
-    pieces.push_back({list.items[i].find("start")->number, law(*list.items[i].find("law"), at + "/pieces/" + std::to_string(i) + "/law")});
+    pieces.push_back({list.items[i].find("start")->number,
+                      law(*list.items[i].find("law"), at + "/pieces/" + std::to_string(i) + "/law")});
   return laws::make_piecewise(pieces);
 }
 

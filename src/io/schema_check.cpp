@@ -17,18 +17,25 @@ std::string shown_number(double x) {
 
 std::string quoted_list(const std::vector<std::string>& words) {
   std::string r;
-  for (std::size_t i = 0; i < words.size(); ++i) r += (i == 0 ? "\"" : i + 1 == words.size() ? " or \"" : ", \"") + words[i] + "\"";
+  for (std::size_t i = 0; i < words.size(); ++i)
+    r += (i == 0 ? "\"" : i + 1 == words.size() ? " or \"" : ", \"") + words[i] + "\"";
   return r;
 }
 
 std::string with_article(JsonKind kind) {
   switch (kind) {
-    case JsonKind::null: return "null";
-    case JsonKind::boolean: return "a truth value";
-    case JsonKind::number: return "a number";
-    case JsonKind::string: return "a string";
-    case JsonKind::array: return "an array";
-    case JsonKind::object: return "an object";
+    case JsonKind::null:
+      return "null";
+    case JsonKind::boolean:
+      return "a truth value";
+    case JsonKind::number:
+      return "a number";
+    case JsonKind::string:
+      return "a string";
+    case JsonKind::array:
+      return "an array";
+    case JsonKind::object:
+      return "an object";
   }
   return "";
 }
@@ -36,11 +43,16 @@ std::string with_article(JsonKind kind) {
 JsonKind json_kind(Form form) {
   switch (form) {
     case Form::number:
-    case Form::integer: return JsonKind::number;
-    case Form::boolean: return JsonKind::boolean;
-    case Form::array: return JsonKind::array;
-    case Form::object: return JsonKind::object;
-    default: return JsonKind::string;
+    case Form::integer:
+      return JsonKind::number;
+    case Form::boolean:
+      return JsonKind::boolean;
+    case Form::array:
+      return JsonKind::array;
+    case Form::object:
+      return JsonKind::object;
+    default:
+      return JsonKind::string;
   }
 }
 
@@ -62,7 +74,8 @@ class Checker {
   }
 
  private:
-  bool fail(const JsonValue& value, const std::string& pointer, std::string rule, std::string hint = {}, bool at_key = false) {
+  bool fail(const JsonValue& value, const std::string& pointer, std::string rule, std::string hint = {},
+            bool at_key = false) {
     const std::uint32_t offset = at_key ? value.key_offset : value.offset;
     const std::uint32_t length = at_key ? 0 : value.length;  // 0: one token
     faults_.push_back({value.source, offset, length, pointer, std::move(rule), std::move(hint)});
@@ -70,13 +83,16 @@ class Checker {
   }
 
   bool check_form(const Rule& rule, JsonValue& value, const std::string& pointer) {
-    if (value.is(JsonKind::null)) return fail(value, pointer, "null is not a value here", "leave the key out where nothing is meant");
+    if (value.is(JsonKind::null))
+      return fail(value, pointer, "null is not a value here", "leave the key out where nothing is meant");
     if (rule.form == Form::choice) return check_choice(rule, value, pointer);
     if (!value.is(json_kind(rule.form)))
-      return fail(value, pointer, "has to be " + wanted(rule) + ", not " + with_article(value.kind), type_hint(rule, value));
+      return fail(value, pointer, "has to be " + wanted(rule) + ", not " + with_article(value.kind),
+                  type_hint(rule, value));
     switch (rule.form) {
       case Form::number:
-      case Form::integer: return check_number(rule, value, pointer);
+      case Form::integer:
+        return check_number(rule, value, pointer);
       case Form::name: {
         const std::string fault = name_fault(value.text);
         return fault.empty() || fail(value, pointer, fault);
@@ -84,14 +100,18 @@ class Checker {
       case Form::word:
         if (std::find(rule.words.begin(), rule.words.end(), value.text) != rule.words.end()) return true;
         return fail(value, pointer, "has to be " + quoted_list(rule.words), suggestion(value.text, rule.words));
-      case Form::array: return check_array(rule, value, pointer);
-      case Form::object: return check_object(rule, value, pointer);
-      default: return true;
+      case Form::array:
+        return check_array(rule, value, pointer);
+      case Form::object:
+        return check_object(rule, value, pointer);
+      default:
+        return true;
     }
   }
 
   static std::string type_hint(const Rule& rule, const JsonValue& value) {
-    if (json_kind(rule.form) == JsonKind::number && value.is(JsonKind::string)) return "write numbers without quotes, in SI units";
+    if (json_kind(rule.form) == JsonKind::number && value.is(JsonKind::string))
+      return "write numbers without quotes, in SI units";
     if (rule.form == Form::array && value.is(JsonKind::object)) return "put it in brackets: [ ... ]";
     return "";
   }
@@ -100,19 +120,25 @@ class Checker {
   std::string wanted(const Rule& rule_in) const {
     const Rule& rule = table_.resolve(rule_in);
     switch (rule.form) {
-      case Form::number: return "a number" + range(rule);
-      case Form::integer: return "a whole number" + range(rule);
-      case Form::boolean: return "true or false";
-      case Form::text: return "a string";
-      case Form::name: return "a name";
-      case Form::word: return quoted_list(rule.words);
+      case Form::number:
+        return "a number" + range(rule);
+      case Form::integer:
+        return "a whole number" + range(rule);
+      case Form::boolean:
+        return "true or false";
+      case Form::text:
+        return "a string";
+      case Form::name:
+        return "a name";
+      case Form::word:
+        return quoted_list(rule.words);
       case Form::array: {
         const Rule& item = table_.resolve(*rule.item);
         const std::string what = item.form == Form::number ? "numbers" : item.form == Form::array ? "arrays" : "items";
         return "an array of " + (rule.min_items == rule.max_items ? std::to_string(rule.min_items) + " " : "") + what;
       }
       case Form::object:
-        return !rule.kinds.empty() ? "an object of kind " + quoted_list(rule.kinds)
+        return !rule.kinds.empty()   ? "an object of kind " + quoted_list(rule.kinds)
                : rule.marker.empty() ? "an object"
                                      : "an object with \"" + rule.marker + "\"";
       case Form::choice: {
@@ -121,7 +147,8 @@ class Checker {
           r += (i == 0 ? "" : i + 1 == rule.options.size() ? " or " : ", ") + wanted(*rule.options[i]);
         return r;
       }
-      case Form::named: break;
+      case Form::named:
+        break;
     }
     return "";
   }
@@ -149,7 +176,8 @@ class Checker {
                                                                  : "at most " + std::to_string(rule.max_items);
       sound = fail(value, pointer, "has " + std::to_string(n) + " items and needs " + count);
     }
-    for (std::size_t i = 0; i < n; ++i) sound = check(*rule.item, value.items[i], pointer + "/" + std::to_string(i)) && sound;
+    for (std::size_t i = 0; i < n; ++i)
+      sound = check(*rule.item, value.items[i], pointer + "/" + std::to_string(i)) && sound;
     return sound;
   }
 
@@ -162,7 +190,8 @@ class Checker {
     }
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
       const std::string& key = value.keys[i];
-      const auto field = std::find_if(rule.fields.begin(), rule.fields.end(), [&](const Field& f) { return f.key == key; });
+      const auto field =
+          std::find_if(rule.fields.begin(), rule.fields.end(), [&](const Field& f) { return f.key == key; });
       const std::string at = pointer_to(pointer, key);
       if (key == "comment" && field == rule.fields.end()) {
         if (!value.items[i].is(JsonKind::string)) sound = fail(value.items[i], at, "a comment has to be a string");
@@ -175,18 +204,21 @@ class Checker {
         std::erase(missing, meant.back());
       }
     }
-    for (const std::string& key : missing) sound = fail(value, pointer, "needs the key \"" + key + "\"", about(rule, key));
+    for (const std::string& key : missing)
+      sound = fail(value, pointer, "needs the key \"" + key + "\"", about(rule, key));
     sound = check_sets(rule, value, pointer, meant) && sound;
     for (const Field& field : rule.fields)
       if (!field.default_json.empty() && value.find(field.key) == nullptr) {
         add_default(field, value);
-        check(*field.rule, value.items.back(), pointer_to(pointer, field.key));  // fills the defaults inside the default
+        check(*field.rule, value.items.back(),
+              pointer_to(pointer, field.key));  // fills the defaults inside the default
       }
     return sound;
   }
 
   /// Reports a key that is not known; returns the one that was probably meant, which is then not reported as missing.
-  std::string unknown_key(const JsonValue& value, std::size_t i, const std::string& at, const std::vector<std::string>& known) {
+  std::string unknown_key(const JsonValue& value, std::size_t i, const std::string& at,
+                          const std::vector<std::string>& known) {
     if (faults_.size() > max_problems) {  // not shown, so no search for the key that was meant: it would be quadratic
       fail(value.items[i], at, "this key is not known here", {}, true);
       return {};
@@ -207,7 +239,8 @@ class Checker {
     return "";
   }
 
-  bool check_sets(const Rule& rule, const JsonValue& value, const std::string& pointer, const std::vector<std::string>& meant) {
+  bool check_sets(const Rule& rule, const JsonValue& value, const std::string& pointer,
+                  const std::vector<std::string>& meant) {
     bool sound = true;
     const auto count = [&](const std::vector<std::string>& set) {
       return std::count_if(set.begin(), set.end(), [&](const std::string& k) {
@@ -263,14 +296,16 @@ class Checker {
     }
     JsonValue* kind = value.find("kind");
     if (kind != nullptr && !kinds.empty()) {
-      if (!kind->is(JsonKind::string)) return fail(*kind, pointer_to(pointer, "kind"), "has to be " + quoted_list(kinds));
+      if (!kind->is(JsonKind::string))
+        return fail(*kind, pointer_to(pointer, "kind"), "has to be " + quoted_list(kinds));
       for (const Rule* option : options)
         if (std::find(option->kinds.begin(), option->kinds.end(), kind->text) != option->kinds.end())
           return check(*option, value, pointer);
       return fail(*kind, pointer_to(pointer, "kind"), "has to be " + quoted_list(kinds), suggestion(kind->text, kinds));
     }
     std::string needed = kinds.empty() ? "" : "the key \"kind\" (" + quoted_list(kinds) + ")";
-    if (!markers.empty()) needed += (needed.empty() ? "" : ", or ") + std::string("one of the keys ") + quoted_list(markers);
+    if (!markers.empty())
+      needed += (needed.empty() ? "" : ", or ") + std::string("one of the keys ") + quoted_list(markers);
     if (!kinds.empty()) keys.push_back("kind");
     std::vector<std::string> telling = markers;
     if (!kinds.empty()) telling.push_back("kind");
@@ -278,8 +313,8 @@ class Checker {
       if (value.keys[i] == "comment" || std::find(keys.begin(), keys.end(), value.keys[i]) != keys.end()) continue;
       std::string hint = suggestion(value.keys[i], telling);
       if (hint.empty()) hint = suggestion(value.keys[i], keys);
-      return fail(value.items[i], pointer_to(pointer, value.keys[i]), "this key is not known here; the object needs " + needed,
-                  std::move(hint), true);
+      return fail(value.items[i], pointer_to(pointer, value.keys[i]),
+                  "this key is not known here; the object needs " + needed, std::move(hint), true);
     }
     return fail(value, pointer, "needs " + needed);
   }

@@ -35,13 +35,17 @@ void add_vectors(RuleTable& t) {
                        need("angle", any, "Angle [rad].")},
                       "axis")),
        made(object_of("Unit quaternion, scalar first.",
-                      {need("quaternion", array_rule("", any, 4, 4), "(w, x, y, z); it is normalised, and must be within 1e-3 of unit length.")},
+                      {need("quaternion", array_rule("", any, 4, 4),
+                            "(w, x, y, z); it is normalised, and must be within 1e-3 of unit length.")},
                       "quaternion")),
-       made(object_of("Rotation vector: axis times angle.", {need("rotation_vector", named_rule("vector"), "[rad].")}, "rotation_vector")),
-       made(object_of("Two of the new axes in the surrounding frame; the third follows. The first named keeps its direction, the other is "
+       made(object_of("Rotation vector: axis times angle.", {need("rotation_vector", named_rule("vector"), "[rad].")},
+                      "rotation_vector")),
+       made(object_of("Two of the new axes in the surrounding frame; the third follows. The first named keeps its "
+                      "direction, the other is "
                       "made perpendicular to it.",
                       {need("axes",
-                            made(object_of("Two of the three.", {may("1", named_rule("vector"), "Axis 1."), may("2", named_rule("vector"), "Axis 2."),
+                            made(object_of("Two of the three.", {may("1", named_rule("vector"), "Axis 1."),
+                                                                 may("2", named_rule("vector"), "Axis 2."),
                                                                  may("3", named_rule("vector"), "Axis 3.")})),
                             "Exactly two axes.")},
                       "axes"))});
@@ -51,60 +55,76 @@ void add_attachments(RuleTable& t) {
   t.named["attachment"] = choice_rule(
       "What something is fixed to: a name, or a name with a place on it.",
       {text_rule("A node, a body, an inner node of a beam (\"<beam>.<k>\"), or \"ground\"."),
-       made(object_of("A place on a named thing.",
-                      {need("to", text_rule(""), "A node, a body, an inner node of a beam (\"<beam>.<k>\"), or \"ground\"."),
-                       may("position", named_rule("vector"), "In the frame of that thing; for the ground inertial [m]. Default: its origin."),
-                       may("rotation", named_rule("rotation"), "Of the attached axes in the frame of that thing. Default: none.")}))});
+       made(object_of(
+           "A place on a named thing.",
+           {need("to", text_rule(""), "A node, a body, an inner node of a beam (\"<beam>.<k>\"), or \"ground\"."),
+            may("position", named_rule("vector"),
+                "In the frame of that thing; for the ground inertial [m]. Default: its origin."),
+            may("rotation", named_rule("rotation"),
+                "Of the attached axes in the frame of that thing. Default: none.")}))});
   t.named["beam_end"] = choice_rule(
       "The node or body a beam ends at, with the place on it where the beam's axis ends.",
       {text_rule("A node or a body."),
-       made(object_of("A place on a node or body.",
-                      {need("to", text_rule(""), "A node or a body."),
-                       need("position", named_rule("vector"), "End of the beam's axis in the frame of that thing [m].")}))});
-  t.named["axes"] = word_rule("space: components in inertial axes, fixed in space (a dead load). body: in the axes of the thing itself, turning "
-                              "with it (a follower).",
-                              {"space", "body"});
+       made(object_of(
+           "A place on a node or body.",
+           {need("to", text_rule(""), "A node or a body."),
+            need("position", named_rule("vector"), "End of the beam's axis in the frame of that thing [m].")}))});
+  t.named["axes"] = word_rule(
+      "space: components in inertial axes, fixed in space (a dead load). body: in the axes of the thing itself, "
+      "turning "
+      "with it (a follower).",
+      {"space", "body"});
 }
 
 void add_section_parts(RuleTable& t) {
   t.named["section_shape"] = choice_rule(
-      "Shape of a cross-section, centred on the axis. Torsion constants are those of Saint-Venant; shear factors, unless given, Cowper's for "
+      "Shape of a cross-section, centred on the axis. Torsion constants are those of Saint-Venant; shear factors, "
+      "unless given, Cowper's for "
       "Poisson's ratio 0 (rectangle 5/6, circle 6/7).",
-      {made(object_of_kind({"rectangle"}, "Solid rectangle.",
-                           {need("width", positive(""), "Along axis 2 [m]."), need("height", positive(""), "Along axis 3 [m].")})),
+      {made(object_of_kind(
+           {"rectangle"}, "Solid rectangle.",
+           {need("width", positive(""), "Along axis 2 [m]."), need("height", positive(""), "Along axis 3 [m].")})),
        made(object_of_kind({"circle"}, "Solid circle.", {need("radius", positive(""), "[m].")})),
        made(object_of_kind({"tube"}, "Circular tube.",
-                           {need("outer_radius", positive(""), "[m]."), need("inner_radius", positive(""), "[m], below the outer one.")}))});
+                           {need("outer_radius", positive(""), "[m]."),
+                            need("inner_radius", positive(""), "[m], below the outer one.")}))});
   t.named["section_stiffness"] = choice_rule(
       "Section stiffness in the order (N, Q2, Q3, T, M2, M3) [N, N m, N m^2]; symmetric, positive definite.",
       {named_rule("diagonal6"), named_rule("matrix6"),
-       made(object_of("Diagonal by name.",
-                      {need("EA", positive(""), "Axial [N]."), need("GA2", positive(""), "Shear along axis 2 [N]."),
-                       need("GA3", positive(""), "Shear along axis 3 [N]."), need("GJ", positive(""), "Torsion [N m^2]."),
-                       need("EI2", positive(""), "Bending about axis 2 [N m^2]."), need("EI3", positive(""), "Bending about axis 3 [N m^2].")}))});
+       made(object_of(
+           "Diagonal by name.",
+           {need("EA", positive(""), "Axial [N]."), need("GA2", positive(""), "Shear along axis 2 [N]."),
+            need("GA3", positive(""), "Shear along axis 3 [N]."), need("GJ", positive(""), "Torsion [N m^2]."),
+            need("EI2", positive(""), "Bending about axis 2 [N m^2]."),
+            need("EI3", positive(""), "Bending about axis 3 [N m^2].")}))});
   t.named["section_mass"] = choice_rule(
       "Mass per length of a section; symmetric, positive semi-definite.",
       {named_rule("diagonal6"), named_rule("matrix6"),
-       made(object_of("By name.",
-                      {need("mass_per_length", not_negative(""), "[kg/m]."),
-                       may("rotary", array_rule("", not_negative(""), 3, 3), "Rotary inertia per length about axes 1, 2, 3 through the centre of mass [kg m].",
-                           "[0, 0, 0]"),
-                       may("center", named_rule("vector"), "Centre of mass in section axes [m].", "[0, 0, 0]")}))});
-  t.named["section_damping"] = choice_rule(
-      "Viscous stiffness of strain rates.",
-      {named_rule("diagonal6"), named_rule("matrix6"),
-       made(object_of("Proportional to the stiffness.", {need("time", not_negative(""), "tau: damping = tau times stiffness [s].")}))});
+       made(object_of(
+           "By name.",
+           {need("mass_per_length", not_negative(""), "[kg/m]."),
+            may("rotary", array_rule("", not_negative(""), 3, 3),
+                "Rotary inertia per length about axes 1, 2, 3 through the centre of mass [kg m].", "[0, 0, 0]"),
+            may("center", named_rule("vector"), "Centre of mass in section axes [m].", "[0, 0, 0]")}))});
+  t.named["section_damping"] =
+      choice_rule("Viscous stiffness of strain rates.",
+                  {named_rule("diagonal6"), named_rule("matrix6"),
+                   made(object_of("Proportional to the stiffness.",
+                                  {need("time", not_negative(""), "tau: damping = tau times stiffness [s].")}))});
 }
 
 void add_body_parts(RuleTable& t) {
   const RuleRef axis = integer_rule("", 1, 3);
-  t.named["inertia"] = choice_rule("Inertia about the centre of mass in the body's axes [kg m^2].",
-                                   {array_rule("Principal values for axes 1, 2, 3.", not_negative(""), 3, 3), named_rule("matrix3")});
+  t.named["inertia"] =
+      choice_rule("Inertia about the centre of mass in the body's axes [kg m^2].",
+                  {array_rule("Principal values for axes 1, 2, 3.", not_negative(""), 3, 3), named_rule("matrix3")});
   t.named["body_shape"] = choice_rule(
       "Shape of a homogeneous body, centred on its centre of mass.",
-      {made(object_of_kind({"box"}, "Cuboid.", {need("size", array_rule("", positive(""), 3, 3), "Edges along axes 1, 2, 3 [m].")})),
+      {made(object_of_kind({"box"}, "Cuboid.",
+                           {need("size", array_rule("", positive(""), 3, 3), "Edges along axes 1, 2, 3 [m].")})),
        made(object_of_kind({"cylinder"}, "Solid circular cylinder.",
-                           {need("radius", positive(""), "[m]."), need("length", positive(""), "[m]."), may("axis", axis, "1, 2 or 3.", "1")})),
+                           {need("radius", positive(""), "[m]."), need("length", positive(""), "[m]."),
+                            may("axis", axis, "1, 2 or 3.", "1")})),
        made(object_of_kind({"sphere"}, "Solid sphere.", {need("radius", positive(""), "[m].")})),
        made(object_of_kind({"rod"}, "Slender rod; no inertia about its own axis.",
                            {need("length", positive(""), "[m]."), may("axis", axis, "1, 2 or 3.", "1")}))});

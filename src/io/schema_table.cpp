@@ -6,7 +6,10 @@ namespace {
 const RuleRef reference = text_rule("");
 const RuleRef any_number = number_rule("");
 
-Field name_field() { return need("name", name_rule("1 to 100 characters without '.', '/' and control characters; not \"ground\"."), "Its name."); }
+Field name_field() {
+  return need("name", name_rule("1 to 100 characters without '.', '/' and control characters; not \"ground\"."),
+              "Its name.");
+}
 Field law_field(std::string about) { return may("law", named_rule("law"), std::move(about), "1"); }
 Field frame_field(std::string about) { return may("frame", reference, std::move(about)); }
 
@@ -21,26 +24,30 @@ void add_properties(RuleTable& t) {
   add_placement(frame.fields, "frame");
   t.named["frame"] = made(std::move(frame));
 
-  Rule material = object_of("An isotropic elastic material.",
-                            {name_field(), need("young", positive(""), "Young's modulus E [Pa]."), may("shear", positive(""), "Shear modulus G [Pa]."),
-                             may("poisson", number_rule("", -1.0, true, 0.5), "Poisson's ratio [-]; G = E / (2 (1 + nu))."),
-                             may("density", not_negative(""), "[kg/m^3].", "0")});
+  Rule material =
+      object_of("An isotropic elastic material.",
+                {name_field(), need("young", positive(""), "Young's modulus E [Pa]."),
+                 may("shear", positive(""), "Shear modulus G [Pa]."),
+                 may("poisson", number_rule("", -1.0, true, 0.5), "Poisson's ratio [-]; G = E / (2 (1 + nu))."),
+                 may("density", not_negative(""), "[kg/m^3].", "0")});
   material.exactly_one = {{"shear", "poisson"}};
   t.named["material"] = made(std::move(material));
 
-  Rule shaped = object_of("A section of given shape and material.",
-                          {name_field(), need("shape", named_rule("section_shape"), "Shape of the cross-section."),
-                           need("material", reference, "Name of its material."),
-                           may("shear_factors", array_rule("", positive(""), 2, 2), "Shear correction factors for axes 2 and 3 [-]."),
-                           may("damping", named_rule("section_damping"), "Viscous damping. Default: none.")},
-                          "shape");
+  Rule shaped = object_of(
+      "A section of given shape and material.",
+      {name_field(), need("shape", named_rule("section_shape"), "Shape of the cross-section."),
+       need("material", reference, "Name of its material."),
+       may("shear_factors", array_rule("", positive(""), 2, 2), "Shear correction factors for axes 2 and 3 [-]."),
+       may("damping", named_rule("section_damping"), "Viscous damping. Default: none.")},
+      "shape");
   Rule given = object_of("A section of given stiffness and mass.",
                          {name_field(), need("stiffness", named_rule("section_stiffness"), "Section stiffness."),
                           may("mass", named_rule("section_mass"), "Mass per length. Default: none (statics)."),
                           may("damping", named_rule("section_damping"), "Viscous damping. Default: none.")},
                          "stiffness");
-  t.named["section"] = choice_rule("Cross-section of beams, about the beam's axis; axis 1 along the beam, resultants (N, Q2, Q3, T, M2, M3).",
-                                   {made(std::move(shaped)), made(std::move(given))});
+  t.named["section"] = choice_rule(
+      "Cross-section of beams, about the beam's axis; axis 1 along the beam, resultants (N, Q2, Q3, T, M2, M3).",
+      {made(std::move(shaped)), made(std::move(given))});
 }
 
 void add_parts(RuleTable& t) {
@@ -48,147 +55,206 @@ void add_parts(RuleTable& t) {
   add_placement(node.fields, "node");
   t.named["node"] = made(std::move(node));
 
-  Rule body = object_of("A rigid body or a point mass. Its frame is also a node of the same name. A rigid body takes inertia or shape; a point mass neither.",
-                        {name_field(), may("kind", word_rule("", {"rigid", "point_mass"}), "Rigid body or point mass.", "\"rigid\""),
-                         may("mass", not_negative(""), "[kg]; may be left out where density or material say it."),
-                         may("inertia", named_rule("inertia"), "About the centre of mass, in the body's axes."),
-                         may("shape", named_rule("body_shape"), "Shape that the inertia follows from."),
-                         may("density", positive(""), "With a shape [kg/m^3]."), may("material", reference, "Material whose density a shape takes."),
-                         may("center_of_mass", named_rule("vector"), "In the body's frame [m].", "[0, 0, 0]")});
+  Rule body = object_of(
+      "A rigid body or a point mass. Its frame is also a node of the same name. A rigid body takes inertia or shape; a "
+      "point mass neither.",
+      {name_field(), may("kind", word_rule("", {"rigid", "point_mass"}), "Rigid body or point mass.", "\"rigid\""),
+       may("mass", not_negative(""), "[kg]; may be left out where density or material say it."),
+       may("inertia", named_rule("inertia"), "About the centre of mass, in the body's axes."),
+       may("shape", named_rule("body_shape"), "Shape that the inertia follows from."),
+       may("density", positive(""), "With a shape [kg/m^3]."),
+       may("material", reference, "Material whose density a shape takes."),
+       may("center_of_mass", named_rule("vector"), "In the body's frame [m].", "[0, 0, 0]")});
   add_placement(body.fields, "body's frame");
   body.at_most_one = {{"inertia", "shape"}, {"mass", "density", "material"}};
   t.named["body"] = made(std::move(body));
 
-  t.named["curve"] = made(object_of("Axis of constant curvature: a circle or a helix.",
-                                    {need("curvature", named_rule("vector"), "Body components (k1, k2, k3) of the curvature vector: twist rate, bending about axes 2 and 3 [1/m]."),
-                                     need("length", positive(""), "Length of the axis [m]."),
-                                     need("tangent", named_rule("vector"), "Axis 1 at the start, inertial or in `frame`.")}));
+  t.named["curve"] = made(object_of(
+      "Axis of constant curvature: a circle or a helix.",
+      {need("curvature", named_rule("vector"),
+            "Body components (k1, k2, k3) of the curvature vector: twist rate, bending about axes 2 and 3 [1/m]."),
+       need("length", positive(""), "Length of the axis [m]."),
+       need("tangent", named_rule("vector"), "Axis 1 at the start, inertial or in `frame`.")}));
   t.named["beam"] = made(object_of(
       "A beam between two nodes or bodies. Its inner nodes are named \"<beam>.<k>\", k = 0 at the start.",
-      {name_field(), need("section", reference, "Name of its section."), need("start", named_rule("beam_end"), "Where it starts."),
-       need("end", named_rule("beam_end"), "Where it ends."),
-       may("axis_2", named_rule("vector"), "Vector, inertial or in `frame`, to which section axis 2 at the start lies nearest. Default: chosen; any section with equal properties in both directions may leave it out."),
+      {name_field(), need("section", reference, "Name of its section."),
+       need("start", named_rule("beam_end"), "Where it starts."), need("end", named_rule("beam_end"), "Where it ends."),
+       may("axis_2", named_rule("vector"),
+           "Vector, inertial or in `frame`, to which section axis 2 at the start lies nearest. Default: chosen; any "
+           "section with equal properties in both directions may leave it out."),
        frame_field("Frame of axis_2 and of the curve's tangent. Default: the inertial frame."),
-       may("twist", any_number, "Rotation of the section about axis 1 from start to end of a straight beam [rad].", "0"),
-       may("curve", named_rule("curve"), "Default: straight."), may("elements", integer_rule("", 1, 1e6), "Number of finite elements.", "1"),
+       may("twist", any_number, "Rotation of the section about axis 1 from start to end of a straight beam [rad].",
+           "0"),
+       may("curve", named_rule("curve"), "Default: straight."),
+       may("elements", integer_rule("", 1, 1e6), "Number of finite elements.", "1"),
        may("order", integer_rule("", 1, 3), "Polynomial order of the elements: 1 (two nodes), 2 or 3.", "1")}));
 }
 
 void add_joints(RuleTable& t) {
   const RuleRef coordinate = word_rule("", {"angle", "displacement"});
   const std::string which = "Which coordinate; may be left out where the joint has only one.";
-  const RuleRef force = made(object_of("A spring, damper or effort along a free coordinate of the joint.",
-                                       {may("coordinate", coordinate, which), may("stiffness", not_negative(""), "[N m/rad] or [N/m].", "0"),
-                                        may("rest", any_number, "Coordinate at which the spring is free [rad] or [m].", "0"),
-                                        may("damping", not_negative(""), "[N m s/rad] or [N s/m].", "0"),
-                                        may("effort", named_rule("law"), "Torque [N m] or force [N] on the second about or along the axis.", "0")}));
-  const RuleRef drive = made(object_of("Prescribes a coordinate of the joint: the second relative to the first.",
-                                       {may("coordinate", coordinate, which), need("law", named_rule("law"), "Value [rad] or [m]; with rate [rad/s] or [m/s]."),
-                                        may("rate", boolean_rule(""), "The law is the rate; it is integrated exactly from the initial value.", "false")}));
-  t.named["joint"] = made(object_of(
-      "A joint between two things. Its reaction is the wrench of the first on the second, at the second's joint frame. Axis 3 of the joint frames is the axis of revolute, prismatic, "
-      "cylindrical and screw joints and the normal of planar ones; universal: axis 1 is fixed in the first, axis 2 in the second, both perpendicular.",
-      {name_field(),
-       need("kind", word_rule("", {"fixed", "revolute", "spherical", "prismatic", "cylindrical", "universal", "planar", "screw"}), "What it leaves free."),
-       need("first", named_rule("attachment"), "What it joins. A bare name takes the place the other one, or `position`, says."),
-       need("second", named_rule("attachment"), "What it joins to the first."),
-       may("position", named_rule("vector"), "Place of the joint at the start, in `frame` [m]. Default: from the attachments; with two bare names, the origin of the second, unless that is the ground."),
-       may("axis", named_rule("vector"), "Axis of the joint at the start, in `frame` (universal: the axis fixed in the first)."),
-       may("second_axis", named_rule("vector"), "Universal: the axis fixed in the second. Others: direction from which the angle is counted (axis 1 of the joint)."),
-       frame_field("Frame of position and axes. Default: the inertial frame."),
-       may("pitch", any_number, "Screw: displacement per turn [m]."),
-       may("forces", array_rule("", force), "Springs, dampers and efforts along its coordinates.", "[]"),
-       may("drives", array_rule("", drive), "Prescribed coordinates.", "[]")}));
+  const RuleRef force = made(object_of(
+      "A spring, damper or effort along a free coordinate of the joint.",
+      {may("coordinate", coordinate, which), may("stiffness", not_negative(""), "[N m/rad] or [N/m].", "0"),
+       may("rest", any_number, "Coordinate at which the spring is free [rad] or [m].", "0"),
+       may("damping", not_negative(""), "[N m s/rad] or [N s/m].", "0"),
+       may("effort", named_rule("law"), "Torque [N m] or force [N] on the second about or along the axis.", "0")}));
+  const RuleRef drive =
+      made(object_of("Prescribes a coordinate of the joint: the second relative to the first.",
+                     {may("coordinate", coordinate, which),
+                      need("law", named_rule("law"), "Value [rad] or [m]; with rate [rad/s] or [m/s]."),
+                      may("rate", boolean_rule(""),
+                          "The law is the rate; it is integrated exactly from the initial value.", "false")}));
+  t.named["joint"] =
+      made(object_of("A joint between two things. Its reaction is the wrench of the first on the second, at the "
+                     "second's joint frame. Axis 3 of the joint frames is the axis of revolute, prismatic, "
+                     "cylindrical and screw joints and the normal of planar ones; universal: axis 1 is fixed in the "
+                     "first, axis 2 in the second, both perpendicular.",
+                     {name_field(),
+                      need("kind",
+                           word_rule("", {"fixed", "revolute", "spherical", "prismatic", "cylindrical", "universal",
+                                          "planar", "screw"}),
+                           "What it leaves free."),
+                      need("first", named_rule("attachment"),
+                           "What it joins. A bare name takes the place the other one, or `position`, says."),
+                      need("second", named_rule("attachment"), "What it joins to the first."),
+                      may("position", named_rule("vector"),
+                          "Place of the joint at the start, in `frame` [m]. Default: from the attachments; with two "
+                          "bare names, the origin of the second, unless that is the ground."),
+                      may("axis", named_rule("vector"),
+                          "Axis of the joint at the start, in `frame` (universal: the axis fixed in the first)."),
+                      may("second_axis", named_rule("vector"),
+                          "Universal: the axis fixed in the second. Others: direction from which the angle is counted "
+                          "(axis 1 of the joint)."),
+                      frame_field("Frame of position and axes. Default: the inertial frame."),
+                      may("pitch", any_number, "Screw: displacement per turn [m]."),
+                      may("forces", array_rule("", force), "Springs, dampers and efforts along its coordinates.", "[]"),
+                      may("drives", array_rule("", drive), "Prescribed coordinates.", "[]")}));
 
-  t.named["spring"] = made(object_of("Spring and damper along the line between two points.",
-                                     {name_field(), need("first", named_rule("attachment"), "One end."), need("second", named_rule("attachment"), "The other end."),
-                                      may("stiffness", not_negative(""), "[N/m].", "0"), may("rest_length", not_negative(""), "[m]. Default: the distance at the start."),
-                                      may("damping", not_negative(""), "[N s/m].", "0")}));
+  t.named["spring"] = made(object_of(
+      "Spring and damper along the line between two points.",
+      {name_field(), need("first", named_rule("attachment"), "One end."),
+       need("second", named_rule("attachment"), "The other end."), may("stiffness", not_negative(""), "[N/m].", "0"),
+       may("rest_length", not_negative(""), "[m]. Default: the distance at the start."),
+       may("damping", not_negative(""), "[N s/m].", "0")}));
   const RuleRef six = choice_rule("", {named_rule("diagonal6"), named_rule("matrix6")});
-  t.named["bushing"] = made(object_of("Elastic and viscous coupling of all relative motions of two frames, in the axes of the first; at rest at the start.",
-                                      {name_field(), need("first", named_rule("attachment"), "One side."), need("second", named_rule("attachment"), "The other side."),
-                                       may("position", named_rule("vector"), "Place at the start, inertial [m], as of a joint."),
-                                       may("stiffness", six, "[N/m, N, N m/rad], order (linear; angular). Default: none."),
-                                       may("damping", six, "The same for rates. Default: none.")}));
+  t.named["bushing"] =
+      made(object_of("Elastic and viscous coupling of all relative motions of two frames, in the axes of the first; at "
+                     "rest at the start.",
+                     {name_field(), need("first", named_rule("attachment"), "One side."),
+                      need("second", named_rule("attachment"), "The other side."),
+                      may("position", named_rule("vector"), "Place at the start, inertial [m], as of a joint."),
+                      may("stiffness", six, "[N/m, N, N m/rad], order (linear; angular). Default: none."),
+                      may("damping", six, "The same for rates. Default: none.")}));
 }
 
 void add_loads(RuleTable& t) {
   const RuleRef free_name = name_rule("");
-  const std::vector<Field> common = {may("name", free_name, "Its name. Default: numbered."), may("axes", named_rule("axes"), "Dead or follower.", "\"space\"")};
+  const std::vector<Field> common = {may("name", free_name, "Its name. Default: numbered."),
+                                     may("axes", named_rule("axes"), "Dead or follower.", "\"space\"")};
   std::vector<Field> point = common, line = common;
   point.push_back(need("at", named_rule("attachment"), "Where it acts."));
   point.push_back(may("force", named_rule("vector"), "[N].", "[0, 0, 0]"));
   point.push_back(may("moment", named_rule("vector"), "[N m]. A dead moment is a vector fixed in space.", "[0, 0, 0]"));
-  point.push_back(law_field("Factor over time (statics: over the load factor; default there: the load factor itself)."));
+  point.push_back(
+      law_field("Factor over time (statics: over the load factor; default there: the load factor itself)."));
   point.back().default_json.clear();
   line.push_back(need("beam", reference, "The beam it acts on."));
   line.push_back(may("force", named_rule("vector"), "Per reference length [N/m].", "[0, 0, 0]"));
   line.push_back(may("moment", named_rule("vector"), "Per reference length [N].", "[0, 0, 0]"));
   line.push_back(point.back());
-  t.named["load"] = choice_rule("A force and moment, at a point or along a beam.",
-                                {made(object_of("At a point.", point, "at")), made(object_of("Along a beam.", line, "beam"))});
+  t.named["load"] =
+      choice_rule("A force and moment, at a point or along a beam.",
+                  {made(object_of("At a point.", point, "at")), made(object_of("Along a beam.", line, "beam"))});
 
-  const RuleRef turning = choice_rule("", {word_rule("The orientation is held.", {"hold"}),
-                                           made(object_of("Rotation about a fixed inertial axis from the initial orientation.",
-                                                          {need("axis", named_rule("vector"), "Inertial."), need("angle", named_rule("law"), "[rad]; counts turns. With rate: [rad/s].")}))});
-  t.named["motion"] = made(object_of("Prescribed motion of a node or body from its initial pose. What is not given stays free.",
-                                     {may("name", free_name, "Its name. Default: numbered."), need("at", named_rule("attachment"), "What moves."),
-                                      may("x", named_rule("law"), "Displacement along inertial x [m]; with rate: velocity [m/s]."),
-                                      may("y", named_rule("law"), "The same along y."), may("z", named_rule("law"), "The same along z."),
-                                      may("rotation", turning, "Prescribed rotation. Default: free."),
-                                      may("rate", boolean_rule(""), "The laws are rates, integrated exactly from the initial pose.", "false")}));
-  t.named["initial_velocity"] = made(object_of("Velocity at the start. What is not given starts at rest, or as the joints demand.",
-                                               {need("of", reference, "A node, a body, or a beam: then all its nodes, as a rigid motion about its start."),
-                                                may("axes", named_rule("axes"), "Axes of the components.", "\"space\""),
-                                                may("velocity", named_rule("vector"), "Of the frame's origin [m/s].", "[0, 0, 0]"),
-                                                may("angular_velocity", named_rule("vector"), "[rad/s].", "[0, 0, 0]")}));
+  const RuleRef turning = choice_rule(
+      "", {word_rule("The orientation is held.", {"hold"}),
+           made(object_of("Rotation about a fixed inertial axis from the initial orientation.",
+                          {need("axis", named_rule("vector"), "Inertial."),
+                           need("angle", named_rule("law"), "[rad]; counts turns. With rate: [rad/s].")}))});
+  t.named["motion"] = made(object_of(
+      "Prescribed motion of a node or body from its initial pose. What is not given stays free.",
+      {may("name", free_name, "Its name. Default: numbered."), need("at", named_rule("attachment"), "What moves."),
+       may("x", named_rule("law"), "Displacement along inertial x [m]; with rate: velocity [m/s]."),
+       may("y", named_rule("law"), "The same along y."), may("z", named_rule("law"), "The same along z."),
+       may("rotation", turning, "Prescribed rotation. Default: free."),
+       may("rate", boolean_rule(""), "The laws are rates, integrated exactly from the initial pose.", "false")}));
+  t.named["initial_velocity"] = made(object_of(
+      "Velocity at the start. What is not given starts at rest, or as the joints demand.",
+      {need("of", reference, "A node, a body, or a beam: then all its nodes, as a rigid motion about its start."),
+       may("axes", named_rule("axes"), "Axes of the components.", "\"space\""),
+       may("velocity", named_rule("vector"), "Of the frame's origin [m/s].", "[0, 0, 0]"),
+       may("angular_velocity", named_rule("vector"), "[rad/s].", "[0, 0, 0]")}));
 }
 
 void add_sensors(RuleTable& t) {
   const Field axes = may("axes", named_rule("axes"), "Axes of the components.", "\"space\"");
-  Rule motion = object_of_kind({"position", "rotation", "quaternion", "velocity", "acceleration"},
-                               "Motion of a point. Components: position x y z [m]; rotation rx ry rz, rotation vector from inertial axes [rad]; quaternion q0 q1 q2 q3; velocity vx vy vz [m/s] wx wy wz "
-                               "[rad/s]; acceleration ax ay az [m/s^2] alx aly alz [rad/s^2].",
-                               {name_field(), may("at", named_rule("attachment"), "The point."), may("beam", reference, "A point of this beam's axis."),
-                                may("station", number_rule("", 0.0, false, 1.0), "Fraction of the beam's length from its start [-]."), axes});
+  Rule motion = object_of_kind(
+      {"position", "rotation", "quaternion", "velocity", "acceleration"},
+      "Motion of a point. Components: position x y z [m]; rotation rx ry rz, rotation vector from inertial axes [rad]; "
+      "quaternion q0 q1 q2 q3; velocity vx vy vz [m/s] wx wy wz "
+      "[rad/s]; acceleration ax ay az [m/s^2] alx aly alz [rad/s^2].",
+      {name_field(), may("at", named_rule("attachment"), "The point."),
+       may("beam", reference, "A point of this beam's axis."),
+       may("station", number_rule("", 0.0, false, 1.0), "Fraction of the beam's length from its start [-]."), axes});
   motion.exactly_one = {{"at", "beam"}};
   t.named["sensor"] = choice_rule(
       "A measured quantity, written over time. Its columns are \"<name>.<component>\", or \"<name>\" for scalars.",
       {made(std::move(motion)),
-       made(object_of_kind({"section_force", "section_strain"}, "Section resultants N Q2 Q3 T M2 M3 [N, N m], or strains e1 g2 g3 k1 k2 k3 [-, 1/m], in section axes.",
-                           {name_field(), need("beam", reference, "The beam."), need("station", number_rule("", 0.0, false, 1.0), "Fraction of its length from its start [-].")})),
-       made(object_of_kind({"joint_reaction"}, "Wrench of the first on the second at the second's joint frame: fx fy fz [N] mx my mz [N m]. Axes body: those of the second's joint frame.",
+       made(object_of_kind(
+           {"section_force", "section_strain"},
+           "Section resultants N Q2 Q3 T M2 M3 [N, N m], or strains e1 g2 g3 k1 k2 k3 [-, 1/m], in section axes.",
+           {name_field(), need("beam", reference, "The beam."),
+            need("station", number_rule("", 0.0, false, 1.0), "Fraction of its length from its start [-].")})),
+       made(object_of_kind({"joint_reaction"},
+                           "Wrench of the first on the second at the second's joint frame: fx fy fz [N] mx my mz [N "
+                           "m]. Axes body: those of the second's joint frame.",
                            {name_field(), need("joint", reference, "The joint."), axes})),
-       made(object_of_kind({"joint_angle", "joint_displacement", "joint_rate"}, "Coordinate of a joint, counting turns [rad] or [m], or its rate; one number.",
+       made(object_of_kind({"joint_angle", "joint_displacement", "joint_rate"},
+                           "Coordinate of a joint, counting turns [rad] or [m], or its rate; one number.",
                            {name_field(), need("joint", reference, "The joint.")})),
-       made(object_of_kind({"kinetic_energy", "strain_energy", "potential_energy", "total_energy"}, "Energy of the whole [J]; one number.", {name_field()}))});
+       made(object_of_kind({"kinetic_energy", "strain_energy", "potential_energy", "total_energy"},
+                           "Energy of the whole [J]; one number.", {name_field()}))});
 }
 
 void add_settings(RuleTable& t) {
-  const std::vector<Field> newton = {may("newton", word_rule("", {"full", "single"}), "full: to convergence. single: one linear solution per step.", "\"full\""),
-                                     may("tolerance", number_rule("", 0.0, true, 1e-2), "Of relative motions, and of residuals relative to their contributions [-].", "1e-8"),
-                                     may("max_iterations", integer_rule("", 1, 1000), "Newton's limit per step.", "20"),
-                                     may("max_cuts", integer_rule("", 0, 60), "Halvings of a step before the run fails.", "10")};
-  std::vector<Field> statics = {may("load_steps", integer_rule("", 1, 1e6), "Steps of the load factor from 0 to 1.", "1")};
-  std::vector<Field> dynamics = {need("end_time", positive(""), "[s]."), may("step_size", positive(""), "h [s].", "1e-3"),
-                                 may("spectral_radius", number_rule("", 0.0, false, 1.0), "Of the time integrator at high frequency: 0 damps most, 1 not at all [-].", "0.8")};
+  const std::vector<Field> newton = {
+      may("newton", word_rule("", {"full", "single"}), "full: to convergence. single: one linear solution per step.",
+          "\"full\""),
+      may("tolerance", number_rule("", 0.0, true, 1e-2),
+          "Of relative motions, and of residuals relative to their contributions [-].", "1e-8"),
+      may("max_iterations", integer_rule("", 1, 1000), "Newton's limit per step.", "20"),
+      may("max_cuts", integer_rule("", 0, 60), "Halvings of a step before the run fails.", "10")};
+  std::vector<Field> statics = {
+      may("load_steps", integer_rule("", 1, 1e6), "Steps of the load factor from 0 to 1.", "1")};
+  std::vector<Field> dynamics = {
+      need("end_time", positive(""), "[s]."), may("step_size", positive(""), "h [s].", "1e-3"),
+      may("spectral_radius", number_rule("", 0.0, false, 1.0),
+          "Of the time integrator at high frequency: 0 damps most, 1 not at all [-].", "0.8")};
   statics.insert(statics.end(), newton.begin(), newton.end());
   dynamics.insert(dynamics.end(), newton.begin(), newton.end());
-  t.named["analysis"] = choice_rule("What is computed.", {made(object_of_kind({"static"}, "Equilibrium at load factors up to 1, or under prescribed motions.", statics)),
-                                                          made(object_of_kind({"dynamic"}, "Motion in time.", dynamics))});
-  t.named["solver"] = made(object_of("Linear solver. What is left out is chosen from the scene.",
-                                     {may("kind", word_rule("", {"automatic", "hierarchical", "monolithic"}), "Hierarchy of sub-domains, or one factorization.", "\"automatic\""),
-                                      may("leaf_size", integer_rule("", 1, 1e6), "Elements in a sub-domain at the bottom. Default: chosen."),
-                                      may("depth", integer_rule("", 0, 40), "Levels of the hierarchy. Default: chosen."),
-                                      may("penalty_factor", positive(""), "Times the interface's own stiffness [-].", "1"),
-                                      may("tasks", boolean_rule(""), "Run as tasks on several threads.", "true")}));
-  t.named["output"] = made(object_of("What is written.", {may("stride", integer_rule("", 1, 1e9), "History rows: every n-th step.", "1"),
-                                                          may("motion", boolean_rule(""), "Write the moving structure for pictures.", "false"),
-                                                          may("motion_stride", integer_rule("", 1, 1e9), "Pictures: every n-th step.", "1")}));
-  t.named["expected"] = made(object_of("A figure the run has to meet.",
-                                       {need("quantity", reference, "\"<sensor>.<component>\", or \"<sensor>\" for a scalar."),
-                                        may("time", not_negative(""), "[s] (statics: load factor). Default: at the end."), need("value", any_number, "The figure."),
-                                        need("tolerance", positive(""), "Largest difference, absolute."), may("source", text_rule(""), "Where the figure comes from.", "\"\"")}));
+  t.named["analysis"] = choice_rule(
+      "What is computed.",
+      {made(object_of_kind({"static"}, "Equilibrium at load factors up to 1, or under prescribed motions.", statics)),
+       made(object_of_kind({"dynamic"}, "Motion in time.", dynamics))});
+  t.named["solver"] = made(
+      object_of("Linear solver. What is left out is chosen from the scene.",
+                {may("kind", word_rule("", {"automatic", "hierarchical", "monolithic"}),
+                     "Hierarchy of sub-domains, or one factorization.", "\"automatic\""),
+                 may("leaf_size", integer_rule("", 1, 1e6), "Elements in a sub-domain at the bottom. Default: chosen."),
+                 may("depth", integer_rule("", 0, 40), "Levels of the hierarchy. Default: chosen."),
+                 may("penalty_factor", positive(""), "Times the interface's own stiffness [-].", "1"),
+                 may("tasks", boolean_rule(""), "Run as tasks on several threads.", "true")}));
+  t.named["output"] = made(object_of(
+      "What is written.", {may("stride", integer_rule("", 1, 1e9), "History rows: every n-th step.", "1"),
+                           may("motion", boolean_rule(""), "Write the moving structure for pictures.", "false"),
+                           may("motion_stride", integer_rule("", 1, 1e9), "Pictures: every n-th step.", "1")}));
+  t.named["expected"] = made(object_of(
+      "A figure the run has to meet.",
+      {need("quantity", reference, "\"<sensor>.<component>\", or \"<sensor>\" for a scalar."),
+       may("time", not_negative(""), "[s] (statics: load factor). Default: at the end."),
+       need("value", any_number, "The figure."), need("tolerance", positive(""), "Largest difference, absolute."),
+       may("source", text_rule(""), "Where the figure comes from.", "\"\"")}));
 }
 
 RuleTable make_table() {
@@ -205,20 +271,37 @@ RuleTable make_table() {
     return may(std::move(key), array_rule("", named_rule(std::move(item))), std::move(about), "[]");
   };
   t.root = made(object_of(
-      "A bough scene. SI units and radians throughout. Things are named and refer to each other by name: frames, nodes, bodies, beams, joints, springs, bushings, loads and motions share one set of names; "
-      "materials, sections and sensors have their own. Axis 1 of a section runs along the beam; section resultants are (N, Q2, Q3, T, M2, M3). Quaternions have the scalar first. A reaction is the wrench "
-      "of the first on the second, at the joint. A dead moment is a vector fixed in space; a follower turns with its node. A \"comment\" string is allowed in every object. null is never a value.",
+      "A bough scene. SI units and radians throughout. Things are named and refer to each other by name: frames, "
+      "nodes, bodies, beams, joints, springs, bushings, loads and motions share one set of names; "
+      "materials, sections and sensors have their own. Axis 1 of a section runs along the beam; section resultants are "
+      "(N, Q2, Q3, T, M2, M3). Quaternions have the scalar first. A reaction is the wrench "
+      "of the first on the second, at the joint. A dead moment is a vector fixed in space; a follower turns with its "
+      "node. A \"comment\" string is allowed in every object. null is never a value.",
       {may("$schema", text_rule(""), "Address of this schema, for editors; not read."),
-       need("schema_version", integer_rule("", 1, 1), "Version of the format: 1."), may("title", text_rule(""), "One line.", "\"\""),
-       may("gravity", choice_rule("", {named_rule("vector"), made(object_of("Gravity that changes.", {need("vector", named_rule("vector"), "[m/s^2], inertial."),
-                                                                                                         law_field("Factor over time.")}))}),
+       need("schema_version", integer_rule("", 1, 1), "Version of the format: 1."),
+       may("title", text_rule(""), "One line.", "\"\""),
+       may("gravity",
+           choice_rule(
+               "", {named_rule("vector"),
+                    made(object_of("Gravity that changes.", {need("vector", named_rule("vector"), "[m/s^2], inertial."),
+                                                             law_field("Factor over time.")}))}),
            "Acceleration of gravity [m/s^2], inertial.", "[0, 0, 0]"),
-       list("frames", "frame", "Fixed frames."), list("materials", "material", "Materials."), list("sections", "section", "Beam sections."),
-       list("nodes", "node", "Nodes."), list("bodies", "body", "Rigid bodies and point masses."), list("beams", "beam", "Beams."),
-       list("joints", "joint", "Joints."), list("springs", "spring", "Springs and dampers between points."), list("bushings", "bushing", "Bushings."),
-       list("loads", "load", "Loads."), list("motions", "motion", "Prescribed motions."), list("initial_velocities", "initial_velocity", "Velocities at the start."),
-       list("sensors", "sensor", "What is measured."), need("analysis", named_rule("analysis"), "What is computed."),
-       may("solver", named_rule("solver"), "Linear solver.", "{}"), may("output", named_rule("output"), "What is written.", "{}"),
+       list("frames", "frame", "Fixed frames."),
+       list("materials", "material", "Materials."),
+       list("sections", "section", "Beam sections."),
+       list("nodes", "node", "Nodes."),
+       list("bodies", "body", "Rigid bodies and point masses."),
+       list("beams", "beam", "Beams."),
+       list("joints", "joint", "Joints."),
+       list("springs", "spring", "Springs and dampers between points."),
+       list("bushings", "bushing", "Bushings."),
+       list("loads", "load", "Loads."),
+       list("motions", "motion", "Prescribed motions."),
+       list("initial_velocities", "initial_velocity", "Velocities at the start."),
+       list("sensors", "sensor", "What is measured."),
+       need("analysis", named_rule("analysis"), "What is computed."),
+       may("solver", named_rule("solver"), "Linear solver.", "{}"),
+       may("output", named_rule("output"), "What is written.", "{}"),
        list("expected", "expected", "Figures the run has to meet.")}));
   return t;
 }

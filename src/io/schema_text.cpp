@@ -12,7 +12,9 @@ using Json = nlohmann::ordered_json;
 
 Json to_schema(const Rule& rule);
 
-Json number_of(double x) { return x == std::floor(x) && std::abs(x) < 1e15 ? Json(static_cast<long long>(x)) : Json(x); }
+Json number_of(double x) {
+  return x == std::floor(x) && std::abs(x) < 1e15 ? Json(static_cast<long long>(x)) : Json(x);
+}
 
 void add_range(const Rule& rule, Json& out) {
   if (std::isfinite(rule.low)) out[rule.low_open ? "exclusiveMinimum" : "minimum"] = number_of(rule.low);
@@ -41,7 +43,8 @@ void add_object(const Rule& rule, Json& out) {
   }
   if (!properties.contains("comment")) properties["comment"] = Json{{"type", "string"}, {"description", "Free text."}};
   out["properties"] = std::move(properties);
-  if (!rule.marker.empty() && std::find(required.begin(), required.end(), rule.marker) == required.end()) required.push_back(rule.marker);
+  if (!rule.marker.empty() && std::find(required.begin(), required.end(), rule.marker) == required.end())
+    required.push_back(rule.marker);
   if (!required.empty()) out["required"] = std::move(required);
   out["additionalProperties"] = false;
   Json all = Json::array();
@@ -68,8 +71,12 @@ Json to_schema(const Rule& rule) {
       out["type"] = "integer";
       add_range(rule, out);
       break;
-    case Form::boolean: out["type"] = "boolean"; break;
-    case Form::text: out["type"] = "string"; break;
+    case Form::boolean:
+      out["type"] = "boolean";
+      break;
+    case Form::text:
+      out["type"] = "string";
+      break;
     case Form::name:
       out["type"] = "string";
       out["minLength"] = 1;
@@ -77,21 +84,26 @@ Json to_schema(const Rule& rule) {
       out["pattern"] = "^[^./\\u0000-\\u001f\\u007f ]([^./\\u0000-\\u001f\\u007f]*[^./\\u0000-\\u001f\\u007f ])?$";
       out["not"] = Json{{"const", "ground"}};
       break;
-    case Form::word: out["enum"] = rule.words; break;
+    case Form::word:
+      out["enum"] = rule.words;
+      break;
     case Form::array:
       out["type"] = "array";
       out["items"] = to_schema(*rule.item);
       if (rule.min_items > 0) out["minItems"] = rule.min_items;
       if (rule.max_items != std::numeric_limits<std::size_t>::max()) out["maxItems"] = rule.max_items;
       break;
-    case Form::object: add_object(rule, out); break;
+    case Form::object:
+      add_object(rule, out);
+      break;
     case Form::choice: {
       Json options = Json::array();
       for (const RuleRef& option : rule.options) options.push_back(to_schema(*option));
       out["oneOf"] = std::move(options);
       break;
     }
-    case Form::named: break;
+    case Form::named:
+      break;
   }
   return out;
 }

@@ -5,19 +5,29 @@ namespace bough::scene {
 const std::vector<std::string>& components_of(SensorKind kind) {
   using List = std::vector<std::string>;
   static const List position = {"x", "y", "z"}, rotation = {"rx", "ry", "rz"}, quaternion = {"q0", "q1", "q2", "q3"},
-                    velocity = {"vx", "vy", "vz", "wx", "wy", "wz"}, acceleration = {"ax", "ay", "az", "alx", "aly", "alz"},
-                    force = {"N", "Q2", "Q3", "T", "M2", "M3"}, strain = {"e1", "g2", "g3", "k1", "k2", "k3"},
-                    reaction = {"fx", "fy", "fz", "mx", "my", "mz"}, none = {};
+                    velocity = {"vx", "vy", "vz", "wx", "wy", "wz"},
+                    acceleration = {"ax", "ay", "az", "alx", "aly", "alz"}, force = {"N", "Q2", "Q3", "T", "M2", "M3"},
+                    strain = {"e1", "g2", "g3", "k1", "k2", "k3"}, reaction = {"fx", "fy", "fz", "mx", "my", "mz"},
+                    none = {};
   switch (kind) {
-    case SensorKind::position: return position;
-    case SensorKind::rotation: return rotation;
-    case SensorKind::quaternion: return quaternion;
-    case SensorKind::velocity: return velocity;
-    case SensorKind::acceleration: return acceleration;
-    case SensorKind::section_force: return force;
-    case SensorKind::section_strain: return strain;
-    case SensorKind::joint_reaction: return reaction;
-    default: return none;
+    case SensorKind::position:
+      return position;
+    case SensorKind::rotation:
+      return rotation;
+    case SensorKind::quaternion:
+      return quaternion;
+    case SensorKind::velocity:
+      return velocity;
+    case SensorKind::acceleration:
+      return acceleration;
+    case SensorKind::section_force:
+      return force;
+    case SensorKind::section_strain:
+      return strain;
+    case SensorKind::joint_reaction:
+      return reaction;
+    default:
+      return none;
   }
 }
 
@@ -34,23 +44,29 @@ const std::vector<std::string>& coordinates_of(JointKind kind) {
   static const List angle = {"angle"}, displacement = {"displacement"}, both = {"angle", "displacement"}, none = {};
   switch (kind) {
     case JointKind::revolute:
-    case JointKind::planar: return angle;
-    case JointKind::prismatic: return displacement;
+    case JointKind::planar:
+      return angle;
+    case JointKind::prismatic:
+      return displacement;
     case JointKind::cylindrical:
-    case JointKind::screw: return both;
-    default: return none;
+    case JointKind::screw:
+      return both;
+    default:
+      return none;
   }
 }
 
 std::string to_string(JointKind kind) {
-  static const char* const names[] = {"fixed", "revolute", "spherical", "prismatic", "cylindrical", "universal", "planar", "screw"};
+  static const char* const names[] = {"fixed",       "revolute",  "spherical", "prismatic",
+                                      "cylindrical", "universal", "planar",    "screw"};
   return names[static_cast<int>(kind)];
 }
 
 std::string to_string(SensorKind kind) {
-  static const char* const names[] = {"position",       "rotation",     "quaternion",         "velocity",    "acceleration",
-                                      "section_force",  "section_strain", "joint_reaction",   "joint_angle", "joint_displacement",
-                                      "joint_rate",     "kinetic_energy", "strain_energy",    "potential_energy", "total_energy"};
+  static const char* const names[] = {"position",      "rotation",           "quaternion",     "velocity",
+                                      "acceleration",  "section_force",      "section_strain", "joint_reaction",
+                                      "joint_angle",   "joint_displacement", "joint_rate",     "kinetic_energy",
+                                      "strain_energy", "potential_energy",   "total_energy"};
   return names[static_cast<int>(kind)];
 }
 

@@ -103,10 +103,14 @@ std::optional<Frame> Poses::of(std::string_view name) const {
   if (name.empty() || name == "ground") return Frame::identity();
   if (const auto thing = find(name)) {
     switch (thing->kind) {
-      case ThingKind::frame: return chain(scene_.frames[thing->index].placement);
-      case ThingKind::node: return chain(scene_.nodes[thing->index].placement);
-      case ThingKind::body: return chain(scene_.bodies[thing->index].placement);
-      default: return std::nullopt;
+      case ThingKind::frame:
+        return chain(scene_.frames[thing->index].placement);
+      case ThingKind::node:
+        return chain(scene_.nodes[thing->index].placement);
+      case ThingKind::body:
+        return chain(scene_.bodies[thing->index].placement);
+      default:
+        return std::nullopt;
     }
   }
   const std::size_t dot_at = name.rfind('.');
@@ -131,7 +135,8 @@ double Poses::length_of(const Beam& beam) const {
 }
 
 std::optional<Frame> Poses::of_section(const Beam& beam, double fraction) const {
-  if (beam.start.find('.') != std::string::npos || beam.end.find('.') != std::string::npos) return std::nullopt;  // no beam ends at an inner node
+  if (beam.start.find('.') != std::string::npos || beam.end.find('.') != std::string::npos)
+    return std::nullopt;  // no beam ends at an inner node
   const auto start = of(std::string_view(beam.start));
   const auto frame = chain(Placement{Frame::identity(), beam.frame});
   if (!start || !frame) return std::nullopt;

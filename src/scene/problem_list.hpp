@@ -18,22 +18,27 @@ struct ProblemList {
   Poses poses;
   std::unordered_set<std::string> defective;
   std::vector<SceneProblem> problems;
-  std::vector<std::string> sections, sensors, joints, beams, places, frames;  ///< names that references are compared with
-  double size = 1.0;          ///< of the model: diagonal of the box around all nodes and bodies [m]; 1 where that is 0
+  std::vector<std::string> sections, sensors, joints, beams, places,
+      frames;         ///< names that references are compared with
+  double size = 1.0;  ///< of the model: diagonal of the box around all nodes and bodies [m]; 1 where that is 0
   bool is_dynamic = false;
-  double last_time = 1.0;     ///< end time [s], or load factor 1
+  double last_time = 1.0;  ///< end time [s], or load factor 1
 
-  void add(const char* section, std::size_t index, std::string key, std::string value, std::string rule, std::string hint = {});
-  void warn(const char* section, std::size_t index, std::string key, std::string value, std::string rule, std::string hint = {});
+  void add(const char* section, std::size_t index, std::string key, std::string value, std::string rule,
+           std::string hint = {});
+  void warn(const char* section, std::size_t index, std::string key, std::string value, std::string rule,
+            std::string hint = {});
   bool is_defective(const std::string& name) const;
 
   /// A reference to a place: node, body, inner node; ground where allowed. True where the place can be used.
-  bool check_place(const char* section, std::size_t index, const std::string& key, const std::string& name, bool ground_allowed);
+  bool check_place(const char* section, std::size_t index, const std::string& key, const std::string& name,
+                   bool ground_allowed);
   /// A reference into a list of names. True where it is there.
   bool check_reference(const char* section, std::size_t index, const std::string& key, const std::string& name,
                        const std::vector<std::string>& known, const char* what);
   /// A law that is finite over the analysis; with derivatives where it prescribes a motion.
-  void check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law, bool with_derivatives);
+  void check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law,
+                 bool with_derivatives);
 
   std::optional<Thing> body_of(const std::string& place) const;  ///< the body of that name, if it is one
 };

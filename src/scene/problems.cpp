@@ -12,7 +12,8 @@
 namespace bough::scene {
 namespace {
 
-constexpr std::size_t max_suggestions = 200;  // a scene with more faults than this gets no more nearest names: the search is quadratic
+constexpr std::size_t max_suggestions =
+    200;  // a scene with more faults than this gets no more nearest names: the search is quadratic
 
 template <class List>
 std::vector<std::string> names_of(const List& list) {
@@ -43,11 +44,14 @@ double model_size(const Scene& scene, const Poses& poses) {
 }
 
 template <class List>
-void check_one_set(ProblemList& list, const char* section, const List& things, std::unordered_map<std::string, std::string>& seen) {
+void check_one_set(ProblemList& list, const char* section, const List& things,
+                   std::unordered_map<std::string, std::string>& seen) {
   for (std::size_t i = 0; i < things.size(); ++i) {
     if (things[i].name.empty()) continue;
     const auto [it, is_new] = seen.try_emplace(things[i].name, std::string(section) + " " + std::to_string(i));
-    if (!is_new) list.add(section, i, "name", things[i].name, "this name is taken already (" + it->second + ")", "names are used once");
+    if (!is_new)
+      list.add(section, i, "name", things[i].name, "this name is taken already (" + it->second + ")",
+               "names are used once");
   }
 }
 
@@ -82,11 +86,15 @@ ProblemList::ProblemList(const Scene& scene_in, std::span<const std::string> def
   }
 }
 
-void ProblemList::add(const char* section, std::size_t index, std::string key, std::string value, std::string rule, std::string hint) {
-  problems.push_back({section, static_cast<int>(index), std::move(key), std::move(value), std::move(rule), std::move(hint), false});
+void ProblemList::add(const char* section, std::size_t index, std::string key, std::string value, std::string rule,
+                      std::string hint) {
+  problems.push_back(
+      {section, static_cast<int>(index), std::move(key), std::move(value), std::move(rule), std::move(hint), false});
 }
-void ProblemList::warn(const char* section, std::size_t index, std::string key, std::string value, std::string rule, std::string hint) {
-  problems.push_back({section, static_cast<int>(index), std::move(key), std::move(value), std::move(rule), std::move(hint), true});
+void ProblemList::warn(const char* section, std::size_t index, std::string key, std::string value, std::string rule,
+                       std::string hint) {
+  problems.push_back(
+      {section, static_cast<int>(index), std::move(key), std::move(value), std::move(rule), std::move(hint), true});
 }
 
 bool ProblemList::is_defective(const std::string& name) const {
@@ -95,36 +103,42 @@ bool ProblemList::is_defective(const std::string& name) const {
   return dot_at != std::string::npos && defective.count(name.substr(0, dot_at)) > 0;
 }
 
-bool ProblemList::check_reference(const char* section, std::size_t index, const std::string& key, const std::string& name,
-                                  const std::vector<std::string>& known, const char* what) {
+bool ProblemList::check_reference(const char* section, std::size_t index, const std::string& key,
+                                  const std::string& name, const std::vector<std::string>& known, const char* what) {
   if (is_defective(name)) return false;
   if (&known == &sections || &known == &sensors) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return true;
   } else if (const auto thing = poses.find(name)) {
-    const bool fits = &known == &joints ? thing->kind == ThingKind::joint : &known == &beams ? thing->kind == ThingKind::beam
-                                                                                              : thing->kind == ThingKind::frame;
+    const bool fits = &known == &joints  ? thing->kind == ThingKind::joint
+                      : &known == &beams ? thing->kind == ThingKind::beam
+                                         : thing->kind == ThingKind::frame;
     if (fits) return true;
     add(section, index, key, name, std::string("this is not a ") + what);
     return false;
   }
   const std::string near = problems.size() < max_suggestions ? nearest_name(name, known) : "";
-  std::string hint = !near.empty() ? "did you mean \"" + near + "\"?" : known.empty() ? std::string("the scene has no ") + what : "";
+  std::string hint = !near.empty()   ? "did you mean \"" + near + "\"?"
+                     : known.empty() ? std::string("the scene has no ") + what
+                                     : "";
   add(section, index, key, name, std::string("no ") + what + " has this name", std::move(hint));
   return false;
 }
 
-bool ProblemList::check_place(const char* section, std::size_t index, const std::string& key, const std::string& name, bool ground_allowed) {
+bool ProblemList::check_place(const char* section, std::size_t index, const std::string& key, const std::string& name,
+                              bool ground_allowed) {
   if (is_defective(name)) return false;
   if (name.empty() || name == "ground") {
     if (!ground_allowed) add(section, index, key, "ground", "has to be a node or body, not the ground");
     return ground_allowed;
   }
   if (const auto thing = poses.find(name)) {
-    if (thing->kind == ThingKind::node || thing->kind == ThingKind::body) return poses.of(std::string_view(name)).has_value();
+    if (thing->kind == ThingKind::node || thing->kind == ThingKind::body)
+      return poses.of(std::string_view(name)).has_value();
     std::string hint;
     if (thing->kind == ThingKind::beam)
       hint = "name one of its ends, or an inner node \"" + name + ".0\" to \"" + name + "." +
-             std::to_string(static_cast<long>(scene.beams[thing->index].elements) * scene.beams[thing->index].order) + "\"";
+             std::to_string(static_cast<long>(scene.beams[thing->index].elements) * scene.beams[thing->index].order) +
+             "\"";
     add(section, index, key, name, "this is not a node or body", std::move(hint));
     return false;
   }
@@ -134,7 +148,8 @@ bool ProblemList::check_place(const char* section, std::size_t index, const std:
       const Beam& beam = scene.beams[thing->index];
       const long last = static_cast<long>(beam.elements) * beam.order;
       const std::string digits = name.substr(dot_at + 1);
-      const bool is_number = !digits.empty() && digits.size() < 9 && digits.find_first_not_of("0123456789") == std::string::npos &&
+      const bool is_number = !digits.empty() && digits.size() < 9 &&
+                             digits.find_first_not_of("0123456789") == std::string::npos &&
                              (digits.size() == 1 || digits[0] != '0');
       if (is_number && std::stol(digits) <= last) return poses.of(std::string_view(name)).has_value();
       add(section, index, key, name, "the inner nodes of this beam are numbered 0 to " + std::to_string(last));
@@ -146,14 +161,17 @@ bool ProblemList::check_place(const char* section, std::size_t index, const std:
   return false;
 }
 
-void ProblemList::check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law, bool with_derivatives) {
+void ProblemList::check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law,
+                            bool with_derivatives) {
   constexpr int samples = 16;
   for (int i = 0; i <= samples; ++i) {
     const double t = std::isfinite(last_time) ? last_time * i / samples : 0.0;
     const laws::LawValue v = law.at(t);
-    if (std::isfinite(v.value) && (!with_derivatives || (std::isfinite(v.rate) && std::isfinite(v.acceleration)))) continue;
+    if (std::isfinite(v.value) && (!with_derivatives || (std::isfinite(v.rate) && std::isfinite(v.acceleration))))
+      continue;
     add(section, index, key, "",
-        std::string("this law or its derivative is not finite at ") + (is_dynamic ? "t = " : "load factor ") + text_of(t),
+        std::string("this law or its derivative is not finite at ") + (is_dynamic ? "t = " : "load factor ") +
+            text_of(t),
         with_derivatives ? "a prescribed motion needs a finite velocity and acceleration" : "");
     return;
   }

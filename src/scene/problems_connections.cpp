@@ -25,13 +25,17 @@ std::string closure_fault(JointKind kind, const Frame& H, double size) {
                      : kind == JointKind::planar                                    ? along
                      : kind == JointKind::screw                                     ? off_axis
                                                                                     : all;
-  if (gap > gap_tolerance * size) return "the joint frames of first and second are " + in_metres(gap) + " apart at the start";
+  if (gap > gap_tolerance * size)
+    return "the joint frames of first and second are " + in_metres(gap) + " apart at the start";
   double angle = 0.0;
   if (kind == JointKind::fixed || kind == JointKind::prismatic) angle = turn;
-  if (kind == JointKind::revolute || kind == JointKind::cylindrical || kind == JointKind::planar || kind == JointKind::screw) angle = tilt;
+  if (kind == JointKind::revolute || kind == JointKind::cylindrical || kind == JointKind::planar ||
+      kind == JointKind::screw)
+    angle = tilt;
   if (kind == JointKind::universal) angle = std::abs(std::asin(std::clamp(H.R(0, 1), -1.0, 1.0)));
   if (angle <= angle_tolerance) return "";
-  return (kind == JointKind::universal ? "the two axes are off a right angle by " : "the joint frames of first and second are turned by ") +
+  return (kind == JointKind::universal ? "the two axes are off a right angle by "
+                                       : "the joint frames of first and second are turned by ") +
          in_radians(angle) + " against each other at the start";
 }
 
@@ -44,7 +48,8 @@ void check_coordinate(ProblemList& list, std::size_t i, const std::string& key, 
   else if (coordinate.empty())
     list.add("joints", i, key, "", "say which coordinate: \"" + known[0] + "\" or \"" + known.back() + "\"");
   else
-    list.add("joints", i, key, coordinate, "a " + to_string(j.kind) + " joint has the coordinate \"" + known[0] + "\" only");
+    list.add("joints", i, key, coordinate,
+             "a " + to_string(j.kind) + " joint has the coordinate \"" + known[0] + "\" only");
 }
 
 void check_drives(ProblemList& list, std::size_t i, const Frame* H) {
@@ -58,11 +63,13 @@ void check_drives(ProblemList& list, std::size_t i, const Frame* H) {
     if (!driven.insert(drive.coordinate).second)
       list.add("joints", i, key, drive.coordinate, "this coordinate is driven twice");
     else if (j.kind == JointKind::screw && driven.size() > 1)
-      list.add("joints", i, key, drive.coordinate, "the angle and the displacement of a screw depend on each other: drive one");
+      list.add("joints", i, key, drive.coordinate,
+               "the angle and the displacement of a screw depend on each other: drive one");
     if (H == nullptr || drive.is_rate || !list.is_dynamic) continue;
     const double now = drive.coordinate == "angle" ? std::atan2(H->R(1, 0), H->R(0, 0)) : H->x[2];
     const double jump = drive.law.at(0.0).value - now;
-    const double off = drive.coordinate == "angle" ? std::abs(std::remainder(jump, 2.0 * 3.14159265358979323846)) : std::abs(jump) / list.size;
+    const double off = drive.coordinate == "angle" ? std::abs(std::remainder(jump, 2.0 * 3.14159265358979323846))
+                                                   : std::abs(jump) / list.size;
     if (off > gap_tolerance)
       list.warn("joints", i, key + "/law", text_of(drive.law.at(0.0).value),
                 "the law jumps at the start: the joint stands at " + text_of(now), "let it start there");
@@ -113,9 +120,11 @@ void check_couplings(ProblemList& list) {
     if (check_pair(list, "springs", i, s)) {
       const auto a = list.poses.of(s.first), b = list.poses.of(s.second);
       if (a && b && norm_of(b->x - a->x) <= 1e-12 * list.size)
-        list.add("springs", i, "second", "", "the two ends coincide at the start: the spring has no direction", "use a bushing");
+        list.add("springs", i, "second", "", "the two ends coincide at the start: the spring has no direction",
+                 "use a bushing");
     }
-    if (s.stiffness == 0.0 && s.damping == 0.0) list.warn("springs", i, "", "", "without stiffness and damping it does nothing");
+    if (s.stiffness == 0.0 && s.damping == 0.0)
+      list.warn("springs", i, "", "", "without stiffness and damping it does nothing");
   }
   for (std::size_t i = 0; i < list.scene.bushings.size(); ++i) {
     const Bushing& b = list.scene.bushings[i];
@@ -124,7 +133,8 @@ void check_couplings(ProblemList& list) {
       list.add("bushings", i, "stiffness", "", "the stiffness " + fault);
     if (const std::string fault = definite_fault(b.damping, Definite::semi); !fault.empty())
       list.add("bushings", i, "damping", "", "the damping " + fault);
-    if (is_zero(b.stiffness) && is_zero(b.damping)) list.warn("bushings", i, "", "", "without stiffness and damping it does nothing");
+    if (is_zero(b.stiffness) && is_zero(b.damping))
+      list.warn("bushings", i, "", "", "without stiffness and damping it does nothing");
   }
 }
 
@@ -134,7 +144,8 @@ void check_loads(ProblemList& list) {
     const PointLoad& l = s.point_loads[i];
     list.check_place("point_loads", i, "at", l.at.to, false);
     list.check_law("point_loads", i, "law", l.law, false);
-    if (is_zero(l.force) && is_zero(l.moment)) list.warn("point_loads", i, "", "", "the load has neither force nor moment");
+    if (is_zero(l.force) && is_zero(l.moment))
+      list.warn("point_loads", i, "", "", "the load has neither force nor moment");
     const auto body = list.body_of(l.at.to);
     if (body && s.bodies[body->index].is_point_mass && !is_zero(l.moment))
       list.add("point_loads", i, "moment", "", "a point mass takes no moment");
@@ -143,7 +154,8 @@ void check_loads(ProblemList& list) {
     const LineLoad& l = s.line_loads[i];
     list.check_reference("line_loads", i, "beam", l.beam, list.beams, "beam");
     list.check_law("line_loads", i, "law", l.law, false);
-    if (is_zero(l.force) && is_zero(l.moment)) list.warn("line_loads", i, "", "", "the load has neither force nor moment");
+    if (is_zero(l.force) && is_zero(l.moment))
+      list.warn("line_loads", i, "", "", "the load has neither force nor moment");
   }
   list.check_law("gravity", 0, "law", s.gravity_law, false);
 }
@@ -159,7 +171,8 @@ void check_motion(ProblemList& list, std::size_t i, std::set<std::string>& taken
   };
   const auto jump = [&](const std::string& key, const laws::Law& law) {
     if (!m.is_rate && list.is_dynamic && std::abs(law.at(0.0).value) > gap_tolerance * list.size)
-      list.warn("motions", i, key, text_of(law.at(0.0).value), "the law jumps at the start: motions count from the initial pose", "let it start at 0");
+      list.warn("motions", i, key, text_of(law.at(0.0).value),
+                "the law jumps at the start: motions count from the initial pose", "let it start at 0");
   };
   const char* const names[3] = {"x", "y", "z"};
   bool any = false;
@@ -175,7 +188,8 @@ void check_motion(ProblemList& list, std::size_t i, std::set<std::string>& taken
     take("rotation");
   }
   if (m.rotation_axis) {
-    if (is_zero(*m.rotation_axis)) list.add("motions", i, "rotation/axis", "0, 0, 0", "an axis has a length other than 0");
+    if (is_zero(*m.rotation_axis))
+      list.add("motions", i, "rotation/axis", "0, 0, 0", "an axis has a length other than 0");
     list.check_law("motions", i, "rotation/angle", m.angle, true);
     jump("rotation/angle", m.angle);
   }
@@ -192,8 +206,10 @@ void check_motions(ProblemList& list) {
     const InitialVelocity& v = s.initial_velocities[i];
     const auto thing = list.poses.find(v.of);
     if (!thing || thing->kind != ThingKind::beam) list.check_place("initial_velocities", i, "of", v.of, false);
-    if (!started.insert(v.of).second) list.add("initial_velocities", i, "of", v.of, "this thing has an initial velocity already");
-    if (s.analysis.kind == AnalysisKind::statics) list.warn("initial_velocities", i, "", "", "the analysis is static: an initial velocity does nothing");
+    if (!started.insert(v.of).second)
+      list.add("initial_velocities", i, "of", v.of, "this thing has an initial velocity already");
+    if (s.analysis.kind == AnalysisKind::statics)
+      list.warn("initial_velocities", i, "", "", "the analysis is static: an initial velocity does nothing");
     if (thing && thing->kind == ThingKind::body && s.bodies[thing->index].is_point_mass && !is_zero(v.angular_velocity))
       list.warn("initial_velocities", i, "angular_velocity", "", "a point mass does not turn");
   }

@@ -27,7 +27,8 @@ Pivot smallest_pivot(const Mat6& a) {
   for (int k = 0; k < 6; ++k) {
     const double pivot = m(k, k);
     if (pivot < smallest.value) smallest = {pivot, k, smallest.off_diagonal_of_zero};
-    if (!(pivot > 1e-12)) {  // nothing left of this direction: what still couples with it shows as an indefinite remainder
+    if (!(pivot >
+          1e-12)) {  // nothing left of this direction: what still couples with it shows as an indefinite remainder
       for (int j = k + 1; j < 6; ++j)
         if (std::abs(m(k, j)) > 1e-6) smallest.off_diagonal_of_zero = true;
       continue;
@@ -74,7 +75,8 @@ void check_body(ProblemList& list, std::size_t i) {
   for (const double x : J.m) largest = std::max(largest, std::abs(x));
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < r; ++c)
-      if (std::abs(J(r, c) - J(c, r)) > 1e-9 * largest) return list.add("bodies", i, "inertia", "", "an inertia matrix is symmetric");
+      if (std::abs(J(r, c) - J(c, r)) > 1e-9 * largest)
+        return list.add("bodies", i, "inertia", "", "an inertia matrix is symmetric");
   if (largest == 0.0) return;
   Mat3 scaled = J;
   for (double& x : scaled.m) x /= largest;
@@ -83,7 +85,8 @@ void check_body(ProblemList& list, std::size_t i) {
   if (p[0] < -1e-9)
     list.add("bodies", i, "inertia", values, "principal moments of inertia are not negative");
   else if (p[0] + p[1] < p[2] * (1.0 - 1e-9))
-    list.add("bodies", i, "inertia", values, "no body has these principal moments: the largest exceeds the sum of the others",
+    list.add("bodies", i, "inertia", values,
+             "no body has these principal moments: the largest exceeds the sum of the others",
              "is it given about the centre of mass, in the body's axes?");
 }
 
@@ -91,10 +94,13 @@ void check_beam_axis(ProblemList& list, std::size_t i) {
   const Beam& b = list.scene.beams[i];
   const double length = list.poses.length_of(b);
   const bool is_straight = b.curve == BeamCurve::straight;
-  if (!(length > 1e-12 * list.size)) return list.add("beams", i, is_straight ? "end" : "curve", "", "the beam has length 0");
-  if (!is_straight && is_zero(b.tangent)) return list.add("beams", i, "curve/tangent", "0, 0, 0", "a tangent has a length other than 0");
+  if (!(length > 1e-12 * list.size))
+    return list.add("beams", i, is_straight ? "end" : "curve", "", "the beam has length 0");
+  if (!is_straight && is_zero(b.tangent))
+    return list.add("beams", i, "curve/tangent", "0, 0, 0", "a tangent has a length other than 0");
   if (!list.poses.of_section(b, 0.0))
-    return list.add("beams", i, "axis_2", "", "axis_2 runs along the beam and can not tell where section axis 2 points");
+    return list.add("beams", i, "axis_2", "",
+                    "axis_2 runs along the beam and can not tell where section axis 2 points");
   if (is_straight) return;
   const auto tip = list.poses.of_section(b, 1.0);
   const auto end = list.poses.of(b.end);
@@ -114,10 +120,13 @@ std::string definite_fault(const Mat6& a, Definite wanted) {
         return "is not symmetric (row " + std::to_string(i + 1) + ", column " + std::to_string(j + 1) + ")";
   for (int i = 0; i < 6; ++i)
     if (a(i, i) < 0.0 || (wanted == Definite::positive && a(i, i) == 0.0))
-      return "entry " + std::to_string(i + 1) + " of the diagonal has to be " + (wanted == Definite::positive ? "above 0" : "at least 0");
+      return "entry " + std::to_string(i + 1) + " of the diagonal has to be " +
+             (wanted == Definite::positive ? "above 0" : "at least 0");
   const Pivot pivot = smallest_pivot(a);
-  if (wanted == Definite::positive && (pivot.value < 1e-12 || pivot.off_diagonal_of_zero)) return "is not positive definite";
-  if (wanted == Definite::semi && (pivot.value < -1e-9 || pivot.off_diagonal_of_zero)) return "is not positive semi-definite";
+  if (wanted == Definite::positive && (pivot.value < 1e-12 || pivot.off_diagonal_of_zero))
+    return "is not positive definite";
+  if (wanted == Definite::semi && (pivot.value < -1e-9 || pivot.off_diagonal_of_zero))
+    return "is not positive semi-definite";
   return "";
 }
 
@@ -126,7 +135,8 @@ void check_sections(ProblemList& list) {
     const Section& s = list.scene.sections[i];
     if (const std::string fault = definite_fault(s.stiffness, Definite::positive); !fault.empty())
       list.add("sections", i, "stiffness", "", "the stiffness " + fault);
-    if (const std::string fault = definite_fault(s.mass, Definite::semi); !fault.empty()) list.add("sections", i, "mass", "", "the mass matrix " + fault);
+    if (const std::string fault = definite_fault(s.mass, Definite::semi); !fault.empty())
+      list.add("sections", i, "mass", "", "the mass matrix " + fault);
     if (const std::string fault = definite_fault(s.damping, Definite::semi); !fault.empty())
       list.add("sections", i, "damping", "", "the damping " + fault);
   }
@@ -146,14 +156,17 @@ void check_beams(ProblemList& list) {
     has_ends = list.check_place("beams", i, "end", b.end, false) && has_ends;
     for (const auto& [key, end] : {std::pair<const char*, const std::string&>{"start", b.start}, {"end", b.end}})
       if (has_ends && !list.poses.find(end)) {
-        list.add("beams", i, key, end, "a beam ends at a node or body, not at an inner node of a beam", "split that beam there with a node");
+        list.add("beams", i, key, end, "a beam ends at a node or body, not at an inner node of a beam",
+                 "split that beam there with a node");
         has_ends = false;
       }
-    if (has_ends && !b.frame.empty() && b.frame != "ground") has_ends = list.check_reference("beams", i, "frame", b.frame, list.frames, "frame");
+    if (has_ends && !b.frame.empty() && b.frame != "ground")
+      has_ends = list.check_reference("beams", i, "frame", b.frame, list.frames, "frame");
     if (has_ends) check_beam_axis(list, i);
     if (has_section && list.is_dynamic)
       for (const Section& s : list.scene.sections)
-        if (s.name == b.section && is_zero(s.mass)) list.warn("beams", i, "section", b.section, "this section has no mass, and the analysis is dynamic");
+        if (s.name == b.section && is_zero(s.mass))
+          list.warn("beams", i, "section", b.section, "this section has no mass, and the analysis is dynamic");
   }
   for (std::size_t i = 0; i < list.scene.sections.size(); ++i)
     if (used.count(list.scene.sections[i].name) == 0)

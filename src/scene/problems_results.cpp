@@ -28,8 +28,11 @@ void check_sensor(ProblemList& list, std::size_t i) {
       }
       break;
     case SensorKind::section_force:
-    case SensorKind::section_strain: break;
-    case SensorKind::joint_reaction: list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint"); return;
+    case SensorKind::section_strain:
+      break;
+    case SensorKind::joint_reaction:
+      list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint");
+      return;
     case SensorKind::joint_angle:
     case SensorKind::joint_displacement:
     case SensorKind::joint_rate: {
@@ -38,13 +41,16 @@ void check_sensor(ProblemList& list, std::size_t i) {
       const JointKind kind = list.scene.joints[thing->index].kind;
       const auto& known = coordinates_of(kind);
       const std::string wanted = s.kind == SensorKind::joint_displacement ? "displacement" : "angle";
-      const bool fits = s.kind == SensorKind::joint_rate ? !known.empty() : std::find(known.begin(), known.end(), wanted) != known.end();
+      const bool fits = s.kind == SensorKind::joint_rate ? !known.empty()
+                                                         : std::find(known.begin(), known.end(), wanted) != known.end();
       if (!fits)
         list.add("sensors", i, "joint", s.joint,
-                 "a " + to_string(kind) + " joint has no " + (s.kind == SensorKind::joint_rate ? "coordinate whose rate could be taken" : wanted));
+                 "a " + to_string(kind) + " joint has no " +
+                     (s.kind == SensorKind::joint_rate ? "coordinate whose rate could be taken" : wanted));
       return;
     }
-    default: return;
+    default:
+      return;
   }
   list.check_reference("sensors", i, "beam", s.beam, list.beams, "beam");
   if (!(s.station >= 0.0 && s.station <= 1.0))
@@ -63,15 +69,19 @@ void check_expected(ProblemList& list, std::size_t i) {
     const auto& known = components_of(s.kind);
     if (dot_at == std::string::npos) {
       if (!known.empty())
-        list.add("expected", i, "quantity", e.quantity, "this sensor has the components " + list_of(known), "write \"" + name + "." + known[0] + "\"");
+        list.add("expected", i, "quantity", e.quantity, "this sensor has the components " + list_of(known),
+                 "write \"" + name + "." + known[0] + "\"");
       return;
     }
     const std::string component = e.quantity.substr(dot_at + 1);
     if (std::find(known.begin(), known.end(), component) != known.end()) return;
     const std::string near = nearest_name(component, known);
     list.add("expected", i, "quantity", e.quantity,
-             known.empty() ? "this sensor is one number without components" : "this sensor has the components " + list_of(known),
-             known.empty() ? "write \"" + name + "\"" : near.empty() ? "" : "did you mean \"" + name + "." + near + "\"?");
+             known.empty() ? "this sensor is one number without components"
+                           : "this sensor has the components " + list_of(known),
+             known.empty()  ? "write \"" + name + "\""
+             : near.empty() ? ""
+                            : "did you mean \"" + name + "." + near + "\"?");
     return;
   }
 }
@@ -98,10 +108,14 @@ std::size_t place_number(const ProblemList& list, const std::string& name) {
   if (!thing && name.rfind('.') != std::string::npos) thing = list.poses.find(name.substr(0, name.rfind('.')));
   if (!thing) return ground;
   switch (thing->kind) {
-    case ThingKind::node: return thing->index;
-    case ThingKind::body: return s.nodes.size() + thing->index;
-    case ThingKind::beam: return s.nodes.size() + s.bodies.size() + thing->index;
-    default: return ground;
+    case ThingKind::node:
+      return thing->index;
+    case ThingKind::body:
+      return s.nodes.size() + thing->index;
+    case ThingKind::beam:
+      return s.nodes.size() + s.bodies.size() + thing->index;
+    default:
+      return ground;
   }
 }
 
@@ -120,18 +134,24 @@ void check_analysis(ProblemList& list) {
   if (!list.is_dynamic) return;  // or the analysis itself is at fault
   if (!(a.end_time > 0.0)) list.add("analysis", 0, "end_time", text_of(a.end_time), "has to be above 0");
   if (!(a.step_size > 0.0)) list.add("analysis", 0, "step_size", text_of(a.step_size), "has to be above 0");
-  if (a.step_size > a.end_time) list.add("analysis", 0, "step_size", text_of(a.step_size), "the step is longer than the whole analysis");
+  if (a.step_size > a.end_time)
+    list.add("analysis", 0, "step_size", text_of(a.step_size), "the step is longer than the whole analysis");
   if (a.step_size > 0.0 && a.end_time / a.step_size > 1e8)
-    list.warn("analysis", 0, "step_size", text_of(a.step_size), "this makes " + text_of(a.end_time / a.step_size) + " steps");
+    list.warn("analysis", 0, "step_size", text_of(a.step_size),
+              "this makes " + text_of(a.end_time / a.step_size) + " steps");
   if (a.spectral_radius == 1.0 && (!s.joints.empty() || !s.motions.empty()))
-    list.add("analysis", 0, "spectral_radius", "1", "with joints or prescribed motions the spectral radius has to be below 1",
+    list.add("analysis", 0, "spectral_radius", "1",
+             "with joints or prescribed motions the spectral radius has to be below 1",
              "the constraint forces would oscillate undamped; 0.9 is nearly free of damping");
-  const bool has_mass = std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.mass > 0.0 || !(b.inertia(0, 0) == 0.0); }) ||
+  const bool has_mass = std::any_of(s.bodies.begin(), s.bodies.end(),
+                                    [](const Body& b) { return b.mass > 0.0 || !(b.inertia(0, 0) == 0.0); }) ||
                         std::any_of(s.beams.begin(), s.beams.end(), [&](const Beam& b) {
-                          return std::any_of(s.sections.begin(), s.sections.end(), [&](const Section& c) { return c.name == b.section && !is_zero(c.mass); });
+                          return std::any_of(s.sections.begin(), s.sections.end(),
+                                             [&](const Section& c) { return c.name == b.section && !is_zero(c.mass); });
                         });
   if (!has_mass && list.defective.empty() && !(s.nodes.empty() && s.bodies.empty()))
-    list.add("analysis", 0, "kind", "dynamic", "nothing in the scene has mass", "give the material a density, the section a mass or the bodies a mass");
+    list.add("analysis", 0, "kind", "dynamic", "nothing in the scene has mass",
+             "give the material a density, the section a mass or the bodies a mass");
 }
 
 void check_holding(ProblemList& list) {
@@ -154,7 +174,8 @@ void check_holding(ProblemList& list) {
   for (const PrescribedMotion& m : s.motions) join(m.at.to, "ground", true);
   for (std::size_t i = 0; i < s.nodes.size(); ++i)
     if (used[i] == 0)
-      list.add("nodes", i, "name", s.nodes[i].name, "no beam, joint, bushing or prescribed motion takes this node, so nothing holds it and it has no mass",
+      list.add("nodes", i, "name", s.nodes[i].name,
+               "no beam, joint, bushing or prescribed motion takes this node, so nothing holds it and it has no mass",
                "remove it, or use a fixed frame where only a place is meant");
   if (list.is_dynamic) return;
   std::vector<char> told(ground + 1, 0);

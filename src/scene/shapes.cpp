@@ -52,7 +52,8 @@ Mat3 inertia(const Box& s, double m) {
                   m * (a[0] * a[0] + a[1] * a[1]) / 12.0);
 }
 Mat3 inertia(const Cylinder& s, double m) {
-  return axial_inertia(s.axis, 0.5 * m * s.radius * s.radius, m * (3.0 * s.radius * s.radius + s.length * s.length) / 12.0);
+  return axial_inertia(s.axis, 0.5 * m * s.radius * s.radius,
+                       m * (3.0 * s.radius * s.radius + s.length * s.length) / 12.0);
 }
 Mat3 inertia(const Sphere& s, double m) {
   const double j = 0.4 * m * s.radius * s.radius;
@@ -82,15 +83,18 @@ Section make_section(const std::string& name, const SectionShape& shape, const M
                      std::optional<double> shear_factor_2, std::optional<double> shear_factor_3) {
   const AreaFigures f = area_figures(shape);
   const double E = material.young, G = material.shear, rho = material.density;
-  const double stiffness[6] = {E * f.area,    shear_factor_2.value_or(f.shear_factor_2) * G * f.area,
+  const double stiffness[6] = {E * f.area,
+                               shear_factor_2.value_or(f.shear_factor_2) * G * f.area,
                                shear_factor_3.value_or(f.shear_factor_3) * G * f.area,
-                               G * f.torsion, E * f.second_moment_2,
+                               G * f.torsion,
+                               E * f.second_moment_2,
                                E * f.second_moment_3};
   Section s;
   s.name = name;
   s.stiffness = s.damping = Mat6::zero();
   for (int i = 0; i < 6; ++i) s.stiffness(i, i) = stiffness[i];
-  const Vec3 rotary = {{rho * (f.second_moment_2 + f.second_moment_3), rho * f.second_moment_2, rho * f.second_moment_3}};
+  const Vec3 rotary = {
+      {rho * (f.second_moment_2 + f.second_moment_3), rho * f.second_moment_2, rho * f.second_moment_3}};
   s.mass = section_mass_matrix(rho * f.area, rotary, Vec3::zero());
   return s;
 }

@@ -13,7 +13,9 @@ namespace {
 
 using namespace std::string_literals;
 
-std::optional<JsonValue> parse(const std::string& text, std::vector<JsonFault>& faults) { return parse_json(text, source_file, faults); }
+std::optional<JsonValue> parse(const std::string& text, std::vector<JsonFault>& faults) {
+  return parse_json(text, source_file, faults);
+}
 
 bool accepted(const std::string& text) {
   std::vector<JsonFault> faults;
@@ -22,21 +24,123 @@ bool accepted(const std::string& text) {
 }
 
 TEST(SceneJson, every_form_of_the_grammar_is_read) {
-  const std::string good[] = {"[]", "{}", "0", "-0", "1", "-1.5", "1e3", "1E+3", "1e-3", "1.0e0", "\"\"", "\"a\"", "true", "false", "null",
-                              " [ 1 , 2 ] ", "{\"a\":{\"b\":[]}}", "[[],[[]]]", "\"\\\"\\\\\\/\\b\\f\\n\\r\\t\"", "\"\\u0041\"",
-                              "\"\\uD834\\uDD1E\"", "\"\xE2\x82\xAC\"", "\"\xF0\x9D\x84\x9E\"", "\t[\n1\r]\n", "{\"\":0}", "{\"a b\":0}",
-                              "[1,\n2]", "\"\x7F\"", "123456789012345678901234567890", "0.1", "[-0.0]", "{\"a\":1,\"b\":2}", "\"\\u0000\"",
-                              "[true,false,null]", "1.7976931348623157e308", "5e-324", "2.2250738585072014e-308"};
+  const std::string good[] = {"[]",
+                              "{}",
+                              "0",
+                              "-0",
+                              "1",
+                              "-1.5",
+                              "1e3",
+                              "1E+3",
+                              "1e-3",
+                              "1.0e0",
+                              "\"\"",
+                              "\"a\"",
+                              "true",
+                              "false",
+                              "null",
+                              " [ 1 , 2 ] ",
+                              "{\"a\":{\"b\":[]}}",
+                              "[[],[[]]]",
+                              "\"\\\"\\\\\\/\\b\\f\\n\\r\\t\"",
+                              "\"\\u0041\"",
+                              "\"\\uD834\\uDD1E\"",
+                              "\"\xE2\x82\xAC\"",
+                              "\"\xF0\x9D\x84\x9E\"",
+                              "\t[\n1\r]\n",
+                              "{\"\":0}",
+                              "{\"a b\":0}",
+                              "[1,\n2]",
+                              "\"\x7F\"",
+                              "123456789012345678901234567890",
+                              "0.1",
+                              "[-0.0]",
+                              "{\"a\":1,\"b\":2}",
+                              "\"\\u0000\"",
+                              "[true,false,null]",
+                              "1.7976931348623157e308",
+                              "5e-324",
+                              "2.2250738585072014e-308"};
   for (const std::string& text : good) EXPECT_TRUE(accepted(text)) << text;
 }
 
 TEST(SceneJson, everything_outside_the_grammar_is_refused) {
-  const std::string bad[] = {"", " ", "[", "]", "{", "}", "[1", "[1,", "[1,]", "[,1]", "[1,,2]", "[1 2]", "{\"a\"}", "{\"a\":}", "{\"a\":1,}", "{\"a\" 1}",
-                             "{a:1}", "{1:1}", "{'a':1}", "['a']", "[1]]", "{}}", "[1}", "{\"a\":1]", "1 2", "[1] x", "nul", "tru", "True", "NULL",
-                             "NaN", "nan", "Infinity", "-Infinity", "inf", "+1", ".5", "5.", "01", "-01", "1e", "1e+", "1.e3", "0x10", "1_000", "--1", "- 1",
-                             "1,5", "\"", "\"a", "\"\\x\"", "\"\\u12\"", "\"\\u12G4\"", "\"\n\"", "\"\t\"", "\"\\uD834\"", "\"\\uDD1E\"",
-                             "// a\n1", "/* a */ 1", "# a\n1", "[1] // a", "\"\xFF\"", "\"\xC0\x80\"", "\"\xED\xA0\x80\"", "\"\xE2\x82\"", "\"\xF4\x90\x80\x80\"",
-                             "\xFF\xFE[\0]\0"s, "\0"s, "[\0]"s, "\"a\0b\""s, "[1\0]"s, "\xEF\xBB", "undefined", "[1;2]", "{\"a\"=1}", "\xC2\xA0[]"};
+  const std::string bad[] = {"",
+                             " ",
+                             "[",
+                             "]",
+                             "{",
+                             "}",
+                             "[1",
+                             "[1,",
+                             "[1,]",
+                             "[,1]",
+                             "[1,,2]",
+                             "[1 2]",
+                             "{\"a\"}",
+                             "{\"a\":}",
+                             "{\"a\":1,}",
+                             "{\"a\" 1}",
+                             "{a:1}",
+                             "{1:1}",
+                             "{'a':1}",
+                             "['a']",
+                             "[1]]",
+                             "{}}",
+                             "[1}",
+                             "{\"a\":1]",
+                             "1 2",
+                             "[1] x",
+                             "nul",
+                             "tru",
+                             "True",
+                             "NULL",
+                             "NaN",
+                             "nan",
+                             "Infinity",
+                             "-Infinity",
+                             "inf",
+                             "+1",
+                             ".5",
+                             "5.",
+                             "01",
+                             "-01",
+                             "1e",
+                             "1e+",
+                             "1.e3",
+                             "0x10",
+                             "1_000",
+                             "--1",
+                             "- 1",
+                             "1,5",
+                             "\"",
+                             "\"a",
+                             "\"\\x\"",
+                             "\"\\u12\"",
+                             "\"\\u12G4\"",
+                             "\"\n\"",
+                             "\"\t\"",
+                             "\"\\uD834\"",
+                             "\"\\uDD1E\"",
+                             "// a\n1",
+                             "/* a */ 1",
+                             "# a\n1",
+                             "[1] // a",
+                             "\"\xFF\"",
+                             "\"\xC0\x80\"",
+                             "\"\xED\xA0\x80\"",
+                             "\"\xE2\x82\"",
+                             "\"\xF4\x90\x80\x80\"",
+                             "\xFF\xFE[\0]\0"s,
+                             "\0"s,
+                             "[\0]"s,
+                             "\"a\0b\""s,
+                             "[1\0]"s,
+                             "\xEF\xBB",
+                             "undefined",
+                             "[1;2]",
+                             "{\"a\"=1}",
+                             "\xC2\xA0[]"};
   for (const std::string& text : bad) EXPECT_FALSE(accepted(text)) << shown(text);
 }
 
@@ -89,11 +193,16 @@ TEST(SceneJson, faults_of_the_text_name_the_place_and_the_remedy) {
     std::string text;
     int line, column;
     std::string pointer, message;
-  } cases[] = {{"{\"a\": [1, 2,]}", 1, 13, "/a/2", "remove the comma"},   {"{\"a\": NaN}", 1, 7, "/a", "numbers are finite"},
-               {"{\n  \"a\": 1\n  \"b\": 2\n}", 3, 3, "", "a comma may be missing"}, {"{\n // note\n}", 2, 2, "", "comment"},
-               {"{'a': 1}", 1, 2, "", "double quotes"},                    {"{\"a\": .5}", 1, 7, "/a", "0.5"},
-               {"{\"a\": 007}", 1, 8, "", "leading zeros"},                {"{\"a\": 1e400}", 1, 7, "/a", "too large"},
-               {"{\"a\": [1, 2", 1, 12, "/a", "ends too early"},           {"{\"a\": True}", 1, 7, "/a", "true or false"}};
+  } cases[] = {{"{\"a\": [1, 2,]}", 1, 13, "/a/2", "remove the comma"},
+               {"{\"a\": NaN}", 1, 7, "/a", "numbers are finite"},
+               {"{\n  \"a\": 1\n  \"b\": 2\n}", 3, 3, "", "a comma may be missing"},
+               {"{\n // note\n}", 2, 2, "", "comment"},
+               {"{'a': 1}", 1, 2, "", "double quotes"},
+               {"{\"a\": .5}", 1, 7, "/a", "0.5"},
+               {"{\"a\": 007}", 1, 8, "", "leading zeros"},
+               {"{\"a\": 1e400}", 1, 7, "/a", "too large"},
+               {"{\"a\": [1, 2", 1, 12, "/a", "ends too early"},
+               {"{\"a\": True}", 1, 7, "/a", "true or false"}};
   for (const auto& c : cases) {
     const SceneFile file = read_scene_text(c.text, "text");
     ASSERT_EQ(file.problems.size(), 1u) << c.text;
@@ -121,7 +230,9 @@ TEST(SceneJson, large_objects_and_long_strings_take_linear_time) {
   many += "}";
   const auto start = std::chrono::steady_clock::now();
   EXPECT_FALSE(read_scene_text(many, "many").ok());
-  EXPECT_FALSE(read_scene_text("{\"" + std::string(5'000'000, 'a') + "\": \"" + std::string(5'000'000, 'b') + "\"}", "long").ok());
+  EXPECT_FALSE(
+      read_scene_text("{\"" + std::string(5'000'000, 'a') + "\": \"" + std::string(5'000'000, 'b') + "\"}", "long")
+          .ok());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_LT(seconds, 20.0) << "quadratic work would take minutes";
 }

@@ -57,9 +57,12 @@ TEST(SceneRead, the_name_of_a_scene_is_that_of_its_file) {
 }
 
 TEST(SceneRead, all_forms_of_a_rotation_say_the_same) {
-  const std::string forms[] = {R"({"axis": [0, 0, 7], "angle": 1.5707963267948966})", R"({"quaternion": [0.7071067811865476, 0, 0, 0.7071067811865476]})",
-                               R"({"rotation_vector": [0, 0, 1.5707963267948966]})", R"({"axes": {"1": [0, 2, 0], "2": [-1, 5, 0]}})",
-                               R"({"axes": {"3": [0, 0, 1], "1": [0, 1, 9]}})", R"({"axes": {"2": [-1, 0, 0], "1": [0, 3, 0]}})",
+  const std::string forms[] = {R"({"axis": [0, 0, 7], "angle": 1.5707963267948966})",
+                               R"({"quaternion": [0.7071067811865476, 0, 0, 0.7071067811865476]})",
+                               R"({"rotation_vector": [0, 0, 1.5707963267948966]})",
+                               R"({"axes": {"1": [0, 2, 0], "2": [-1, 5, 0]}})",
+                               R"({"axes": {"3": [0, 0, 1], "1": [0, 1, 9]}})",
+                               R"({"axes": {"2": [-1, 0, 0], "1": [0, 3, 0]}})",
                                R"({"axes": {"1": [0, 1, 0], "3": [0, 0, 3]}})"};
   for (const std::string& form : forms) {
     SCOPED_TRACE(form);
@@ -102,12 +105,14 @@ TEST(SceneRead, a_bare_name_takes_the_place_of_the_other_side) {
   expect_near(s.joints[0].first.offset.x, Vec3::zero());
   EXPECT_EQ(s.joints[2].forces[0].coordinate, "angle");
   expect_near(s.joints[2].second.offset.x, {{0, 0, 1}});
-  const scene::Scene t = good(test::spoilt("\"first\": \"ground\", \"second\": \"root\"", "\"first\": \"ground\", \"second\": \"tip\""));
+  const scene::Scene t =
+      good(test::spoilt("\"first\": \"ground\", \"second\": \"root\"", "\"first\": \"ground\", \"second\": \"tip\""));
   expect_near(t.joints[0].first.offset.x, {{1, 0, -1}});
 }
 
 TEST(SceneRead, a_universal_joint_has_its_first_axis_in_the_first_and_its_second_in_the_second) {
-  const scene::Scene s = good(minimal(R"("bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1]}, {"name": "b", "mass": 1, "inertia": [1, 1, 1], "position": [1, 0, 0]}],
+  const scene::Scene s = good(minimal(
+      R"("bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1]}, {"name": "b", "mass": 1, "inertia": [1, 1, 1], "position": [1, 0, 0]}],
     "joints": [{"name": "j", "kind": "universal", "first": "a", "second": "b", "position": [1, 0, 0], "axis": [0, 2, 0], "second_axis": [0, 0, 3]}])"));
   expect_near(column(s.joints[0].first.offset.R, 0), {{0, 1, 0}});
   expect_near(column(s.joints[0].second.offset.R, 1), {{0, 0, 1}});
@@ -122,19 +127,21 @@ TEST(SceneRead, laws_of_every_kind_have_the_values_they_promise) {
   const struct {
     std::string json;
     double t, value;
-  } cases[] = {{"3", 0.5, 3},
-               {R"({"kind": "constant", "value": 2})", 0.5, 2},
-               {R"({"kind": "ramp", "end_time": 2, "to": 4})", 0.5, 1},
-               {R"({"kind": "smooth_ramp", "end_time": 1, "from": 1, "to": 3})", 0.5, 2},
-               {R"({"kind": "cycloidal", "end_time": 1, "to": 2})", 0.5, 1},
-               {R"({"kind": "harmonic", "amplitude": 2, "omega": 3, "phase": 0.1, "offset": 1})", 0.5, 1 + 2 * std::sin(1.6)},
-               {R"({"kind": "table", "times": [0, 1], "values": [1, 3]})", 0.5, 2},
-               {R"({"kind": "table", "times": [0, 0.5, 1], "values": [0, 0.25, 1], "interpolation": "cubic"})", 0.25, 0.0625},
-               {R"({"kind": "piecewise", "pieces": [{"start": 0, "law": 1}, {"start": 0.4, "law": {"expression": "t"}}]})", 0.5, 0.5},
-               {R"({"kind": "sum", "terms": [1, {"expression": "2*t"}]})", 0.5, 2},
-               {R"({"kind": "product", "factors": [4, {"expression": "t"}, {"expression": "t"}]})", 0.5, 1},
-               {R"({"kind": "scaled", "factor": -2, "law": {"expression": "t"}})", 0.5, -1},
-               {"{\"expression\": \"sin(pi*t)\"}", 0.5, 1}};
+  } cases[] = {
+      {"3", 0.5, 3},
+      {R"({"kind": "constant", "value": 2})", 0.5, 2},
+      {R"({"kind": "ramp", "end_time": 2, "to": 4})", 0.5, 1},
+      {R"({"kind": "smooth_ramp", "end_time": 1, "from": 1, "to": 3})", 0.5, 2},
+      {R"({"kind": "cycloidal", "end_time": 1, "to": 2})", 0.5, 1},
+      {R"({"kind": "harmonic", "amplitude": 2, "omega": 3, "phase": 0.1, "offset": 1})", 0.5, 1 + 2 * std::sin(1.6)},
+      {R"({"kind": "table", "times": [0, 1], "values": [1, 3]})", 0.5, 2},
+      {R"({"kind": "table", "times": [0, 0.5, 1], "values": [0, 0.25, 1], "interpolation": "cubic"})", 0.25, 0.0625},
+      {R"({"kind": "piecewise", "pieces": [{"start": 0, "law": 1}, {"start": 0.4, "law": {"expression": "t"}}]})", 0.5,
+       0.5},
+      {R"({"kind": "sum", "terms": [1, {"expression": "2*t"}]})", 0.5, 2},
+      {R"({"kind": "product", "factors": [4, {"expression": "t"}, {"expression": "t"}]})", 0.5, 1},
+      {R"({"kind": "scaled", "factor": -2, "law": {"expression": "t"}})", 0.5, -1},
+      {"{\"expression\": \"sin(pi*t)\"}", 0.5, 1}};
   for (const auto& c : cases) {
     const scene::Scene s = good(test::spoilt("{ \"kind\": \"ramp\", \"end_time\": 0.5 }", c.json));
     ASSERT_EQ(s.point_loads.size(), 1u) << c.json;
@@ -147,7 +154,9 @@ TEST(SceneRead, loads_without_a_law_are_constant_in_time_and_grow_with_the_load_
   EXPECT_EQ(moving.line_loads[0].law.at(0.25).value, 1.0);
   EXPECT_EQ(moving.gravity_law.at(0.25).value, 1.0);
   EXPECT_EQ(moving.line_loads[0].name, "load_1");
-  std::string text = test::spoilt("{ \"kind\": \"dynamic\", \"end_time\": 1, \"step_size\": 1e-3, \"spectral_radius\": 0.9 }", "{ \"kind\": \"static\", \"load_steps\": 4 }");
+  std::string text =
+      test::spoilt("{ \"kind\": \"dynamic\", \"end_time\": 1, \"step_size\": 1e-3, \"spectral_radius\": 0.9 }",
+                   "{ \"kind\": \"static\", \"load_steps\": 4 }");
   const scene::Scene still = good(text);
   EXPECT_EQ(still.analysis.load_steps, 4);
   EXPECT_EQ(still.line_loads[0].law.at(0.25).value, 0.25);
@@ -170,13 +179,16 @@ TEST(SceneRead, sections_and_bodies_from_shapes_have_the_closed_forms_of_mechani
 }
 
 TEST(SceneRead, damping_by_a_time_is_that_multiple_of_the_stiffness) {
-  const scene::Scene s = good(test::spoilt("\"material\": \"steel\" }", "\"material\": \"steel\", \"damping\": { \"time\": 0.01 } }"));
+  const scene::Scene s =
+      good(test::spoilt("\"material\": \"steel\" }", "\"material\": \"steel\", \"damping\": { \"time\": 0.01 } }"));
   for (int i = 0; i < 36; ++i) EXPECT_EQ(s.sections[0].damping.m[i], 0.01 * s.sections[0].stiffness.m[i]);
 }
 
 TEST(SceneRead, overrides_change_values_make_keys_and_reach_items_by_name) {
-  const scene::Scene s = good(test::base_scene(), {"/analysis/step_size=2e-3", "/beams/upper/elements=7", "/solver/kind=monolithic", "/solver/leaf_size=3",
-                                                   "/gravity=[0, 0, 0]", "/nodes/1/position/0=1.5", "/output/motion=true"});
+  const scene::Scene s =
+      good(test::base_scene(),
+           {"/analysis/step_size=2e-3", "/beams/upper/elements=7", "/solver/kind=monolithic", "/solver/leaf_size=3",
+            "/gravity=[0, 0, 0]", "/nodes/1/position/0=1.5", "/output/motion=true"});
   EXPECT_EQ(s.analysis.step_size, 2e-3);
   EXPECT_EQ(s.beams[0].elements, 7);
   EXPECT_EQ(s.solver.kind, scene::SolverKind::monolithic);
@@ -189,23 +201,34 @@ TEST(SceneRead, overrides_change_values_make_keys_and_reach_items_by_name) {
 TEST(SceneRead, wrong_overrides_are_problems_that_say_where_they_come_from) {
   const struct {
     std::string override, message;
-  } cases[] = {{"/analysis/step_size=-1", "above 0"},      {"/analysis/stepsize=1", "did you mean \"step_size\"?"}, {"/nodes/9/name=a", "no such item"},
-               {"/nodes/kne/position=[0,0,0]", "did you mean \"knee\"?"}, {"analysis=1", "/pointer=value"},        {"/analysis/step_size", "/pointer=value"},
-               {"/analysis/step_size=[1", "not JSON"},     {"/analysis/step_size=1e400", "too large"},             {"/analysis/step_size=1e-400", "too small"},
-               {"/analysis/step_size/x=1", "nothing inside"}, {"/analysis/end_time=NaN", "not a string"},          {"/analysis/end_time=null", "null is not a value"},
-               {"=1", "/pointer=value"},                   {"/~2=1", "/pointer=value"}};
+  } cases[] = {{"/analysis/step_size=-1", "above 0"},
+               {"/analysis/stepsize=1", "did you mean \"step_size\"?"},
+               {"/nodes/9/name=a", "no such item"},
+               {"/nodes/kne/position=[0,0,0]", "did you mean \"knee\"?"},
+               {"analysis=1", "/pointer=value"},
+               {"/analysis/step_size", "/pointer=value"},
+               {"/analysis/step_size=[1", "not JSON"},
+               {"/analysis/step_size=1e400", "too large"},
+               {"/analysis/step_size=1e-400", "too small"},
+               {"/analysis/step_size/x=1", "nothing inside"},
+               {"/analysis/end_time=NaN", "not a string"},
+               {"/analysis/end_time=null", "null is not a value"},
+               {"=1", "/pointer=value"},
+               {"/~2=1", "/pointer=value"}};
   for (const auto& c : cases) {
     const std::vector<std::string> overrides = {c.override};
     const SceneFile file = read_scene_text(test::base_scene(), "override", overrides);
     ASSERT_EQ(file.problems.size(), 1u) << c.override;
-    EXPECT_NE(file.problems[0].text().find(c.message), std::string::npos) << c.override << " gave " << file.problems[0].text();
+    EXPECT_NE(file.problems[0].text().find(c.message), std::string::npos)
+        << c.override << " gave " << file.problems[0].text();
     EXPECT_EQ(file.problems[0].line, 0) << file.problems[0].text();
   }
 }
 
 TEST(SceneRead, every_scene_of_the_gallery_is_good_and_says_what_it_has_to_meet) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(BOUGH_SOURCE_DIR) / "data" / "scenarios")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(BOUGH_SOURCE_DIR) / "data" / "scenarios")) {
     if (entry.path().extension() != ".json") continue;
     ++count;
     SCOPED_TRACE(entry.path().string());

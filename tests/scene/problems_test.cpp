@@ -1,8 +1,9 @@
 // Scenes that a program may build without a file: the checks stand on their own.
+#include "bough/scene/problems.hpp"
+
 #include <gtest/gtest.h>
 
 #include "bough/laws/make_law.hpp"
-#include "bough/scene/problems.hpp"
 
 namespace bough::scene {
 namespace {
@@ -33,7 +34,8 @@ Scene cantilever() {
 /// "section index key" of each problem.
 std::vector<std::string> places(const Scene& s, std::vector<std::string> defective = {}) {
   std::vector<std::string> r;
-  for (const SceneProblem& p : problems_in(s, defective)) r.push_back((p.is_warning ? "warning " : "") + p.section + " " + std::to_string(p.index) + " " + p.key);
+  for (const SceneProblem& p : problems_in(s, defective))
+    r.push_back((p.is_warning ? "warning " : "") + p.section + " " + std::to_string(p.index) + " " + p.key);
   return r;
 }
 

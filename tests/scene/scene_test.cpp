@@ -47,7 +47,8 @@ TEST(SceneShapes, the_torsion_series_meets_prandtl_s_stress_function_on_a_grid) 
 }
 
 TEST(SceneShapes, a_tube_is_the_difference_of_two_circles) {
-  const AreaFigures tube = area_figures(Tube{0.5, 0.3}), outer = area_figures(Circle{0.5}), inner = area_figures(Circle{0.3});
+  const AreaFigures tube = area_figures(Tube{0.5, 0.3}), outer = area_figures(Circle{0.5}),
+                    inner = area_figures(Circle{0.3});
   EXPECT_NEAR(tube.area, outer.area - inner.area, 1e-15);
   EXPECT_NEAR(tube.second_moment_2, outer.second_moment_2 - inner.second_moment_2, 1e-15);
   EXPECT_NEAR(tube.torsion, outer.torsion - inner.torsion, 1e-15);
@@ -66,7 +67,8 @@ TEST(SceneShapes, the_mass_matrix_gives_the_kinetic_energy_of_the_offset_mass) {
   const Mat6 M = section_mass_matrix(2.0, J, c);
   const Vec6 twist = lanes::join(v, w);
   const Vec3 v_c = v + cross(w, c);
-  const double energy = 0.5 * 2.0 * dot(v_c, v_c) + 0.5 * (J[0] * w[0] * w[0] + J[1] * w[1] * w[1] + J[2] * w[2] * w[2]);
+  const double energy =
+      0.5 * 2.0 * dot(v_c, v_c) + 0.5 * (J[0] * w[0] * w[0] + J[1] * w[1] * w[1] + J[2] * w[2] * w[2]);
   EXPECT_NEAR(0.5 * lanes::dot(twist, Vec6(M * twist)), energy, 1e-14);
 }
 

@@ -13,21 +13,21 @@ namespace bough::io {
 enum class JsonKind : std::uint8_t { null, boolean, number, string, array, object };
 
 /// Which text a value comes from.
-inline constexpr int source_file = 0;       ///< the file; n > 0: the n-th override
-inline constexpr int source_default = -1;   ///< the schema's default
+inline constexpr int source_file = 0;      ///< the file; n > 0: the n-th override
+inline constexpr int source_default = -1;  ///< the schema's default
 
 struct JsonValue {
   JsonKind kind = JsonKind::null;
-  bool truth = false;            ///< of a boolean
-  bool sound = true;             ///< cleared by the schema check where this value or anything in it is at fault
+  bool truth = false;  ///< of a boolean
+  bool sound = true;   ///< cleared by the schema check where this value or anything in it is at fault
   int source = source_file;
   std::uint32_t offset = 0;      ///< of the first byte in its source
   std::uint32_t length = 0;      ///< [bytes]
   std::uint32_t key_offset = 0;  ///< of the key, for a member of an object
   double number = 0.0;
-  std::string text;                ///< of a string, decoded
-  std::vector<std::string> keys;   ///< of an object, in the order of the file
-  std::vector<JsonValue> items;    ///< of an object or array
+  std::string text;               ///< of a string, decoded
+  std::vector<std::string> keys;  ///< of an object, in the order of the file
+  std::vector<JsonValue> items;   ///< of an object or array
 
   const JsonValue* find(std::string_view key) const;
   JsonValue* find(std::string_view key);

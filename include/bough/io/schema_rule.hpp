@@ -41,13 +41,14 @@ struct Rule {
   Form form = Form::text;
   std::string about = {};
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-  bool low_open = false;             ///< low itself is not allowed
+  bool low_open = false;  ///< low itself is not allowed
   std::vector<std::string> words = {};
   std::size_t min_items = 0, max_items = std::numeric_limits<std::size_t>::max();
   RuleRef item = nullptr;
   std::vector<Field> fields = {};
-  std::vector<std::string> kinds = {};  ///< of an object told by "kind": the values that mean this one (they become the key's enum)
-  std::string marker = {};              ///< of an object in a choice: the key whose presence tells it
+  std::vector<std::string> kinds =
+      {};                   ///< of an object told by "kind": the values that mean this one (they become the key's enum)
+  std::string marker = {};  ///< of an object in a choice: the key whose presence tells it
   std::vector<std::vector<std::string>> exactly_one = {};  ///< sets of keys of which exactly one is given
   std::vector<std::vector<std::string>> at_most_one = {};
   std::vector<RuleRef> options = {};

@@ -9,12 +9,12 @@
 namespace bough::scene {
 
 struct SceneProblem {
-  std::string section;     ///< name of the list or struct in Scene: "beams", "point_loads", "analysis" ...
-  int index = -1;          ///< in the list; -1 for a struct
-  std::string key;         ///< key in the thing, with '/' into nested ones ("drives/0/coordinate"); may be empty
-  std::string value;       ///< at fault
-  std::string rule;        ///< what is asked
-  std::string hint;        ///< what to do; may be empty
+  std::string section;      ///< name of the list or struct in Scene: "beams", "point_loads", "analysis" ...
+  int index = -1;           ///< in the list; -1 for a struct
+  std::string key;          ///< key in the thing, with '/' into nested ones ("drives/0/coordinate"); may be empty
+  std::string value;        ///< at fault
+  std::string rule;         ///< what is asked
+  std::string hint;         ///< what to do; may be empty
   bool is_warning = false;  ///< legal, but probably not meant
 };
 

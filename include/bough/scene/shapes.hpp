@@ -21,10 +21,10 @@ using SectionShape = std::variant<Rectangle, Circle, Tube>;
 
 /// Figures of a plane area, axes through its centroid.
 struct AreaFigures {
-  double area = 0.0;                       ///< A [m^2]
-  double second_moment_2 = 0.0;            ///< I2, int x3^2 dA: bending about axis 2 [m^4]
-  double second_moment_3 = 0.0;            ///< I3, int x2^2 dA [m^4]
-  double torsion = 0.0;                    ///< J of Saint-Venant [m^4]
+  double area = 0.0;                                  ///< A [m^2]
+  double second_moment_2 = 0.0;                       ///< I2, int x3^2 dA: bending about axis 2 [m^4]
+  double second_moment_3 = 0.0;                       ///< I3, int x2^2 dA [m^4]
+  double torsion = 0.0;                               ///< J of Saint-Venant [m^4]
   double shear_factor_2 = 0.0, shear_factor_3 = 0.0;  ///< Cowper (1966) for Poisson's ratio 0 [-]
 };
 AreaFigures area_figures(const SectionShape& shape);
@@ -35,7 +35,8 @@ double rectangle_torsion_constant(double a, double b);
 
 /// Stiffness diag(EA, k2 GA, k3 GA, GJ, EI2, EI3), mass per length diag(rho A (3 times), rho (I2 + I3), rho I2, rho I3); no damping.
 Section make_section(const std::string& name, const SectionShape& shape, const Material& material,
-                     std::optional<double> shear_factor_2 = std::nullopt, std::optional<double> shear_factor_3 = std::nullopt);
+                     std::optional<double> shear_factor_2 = std::nullopt,
+                     std::optional<double> shear_factor_3 = std::nullopt);
 
 /// Mass matrix per length of a section about its reference axis:
 ///   M = [m I, -m ~c; m ~c, J - m ~c ~c]
