@@ -38,6 +38,7 @@ double model_size(const Scene& scene, const Poses& poses) {
   };
   for (const Node& n : scene.nodes) include(n.placement);
   for (const Body& b : scene.bodies) include(b.placement);
+  if (low[0] > high[0]) return 1.0;  // nothing there
   double size = 0.0;
   for (int k = 0; k < 3; ++k) size = std::max(size, high[k] - low[k]);
   return std::isfinite(size) && size > 0.0 ? size : 1.0;

@@ -46,9 +46,9 @@ Vec3 principal_values(Mat3 a) {
     for (int p = 0; p < 3; ++p)
       for (int q = p + 1; q < 3; ++q) {
         off += std::abs(a(p, q));
-        if (a(p, q) == 0.0) continue;
+        if (std::abs(a(p, q)) < 1e-18) continue;  // entries are at most 1 in size: below round-off
         const double theta = 0.5 * (a(q, q) - a(p, p)) / a(p, q);
-        const double t = (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+        const double t = (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::hypot(theta, 1.0));
         const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
         Mat3 g = Mat3::identity();
         g(p, p) = g(q, q) = c;
@@ -57,7 +57,7 @@ Vec3 principal_values(Mat3 a) {
         a = lanes::transpose_times(g, a) * g;
         a(p, q) = a(q, p) = 0.0;
       }
-    if (off == 0.0) break;
+    if (off < 1e-17) break;
   }
   Vec3 r = {{a(0, 0), a(1, 1), a(2, 2)}};
   std::sort(r.v, r.v + 3);

@@ -8,6 +8,7 @@
 #include "bough/motion/se3.hpp"
 #include "bough/scene/poses.hpp"
 #include "scene_base.hpp"
+#include "support/untrapped.hpp"
 
 namespace bough::io {
 namespace {
@@ -199,6 +200,7 @@ TEST(SceneRead, overrides_change_values_make_keys_and_reach_items_by_name) {
 }
 
 TEST(SceneRead, wrong_overrides_are_problems_that_say_where_they_come_from) {
+  const ::bough::test::Untrapped untrapped;  // 1e400
   const struct {
     std::string override, message;
   } cases[] = {{"/analysis/step_size=-1", "above 0"},
