@@ -53,11 +53,11 @@ struct Node {
 /// Rigid body or point mass. Its frame is a node of its own name.
 struct Body {
   std::string name;
-  Placement placement;                  ///< of the body's reference frame
-  double mass = 0.0;                    ///< [kg]
-  Mat3 inertia = Mat3::zero();          ///< about the centre of mass, in the body's axes [kg m^2]
-  Vec3 center_of_mass = Vec3::zero();   ///< in the body's frame [m]
-  bool is_point_mass = false;           ///< three unknowns would do; rotation is held where nothing else holds it
+  Placement placement;                 ///< of the body's reference frame
+  double mass = 0.0;                   ///< [kg]
+  Mat3 inertia = Mat3::zero();         ///< about the centre of mass, in the body's axes [kg m^2]
+  Vec3 center_of_mass = Vec3::zero();  ///< in the body's frame [m]
+  bool is_point_mass = false;          ///< three unknowns would do; rotation is held where nothing else holds it
 };
 
 /// Something fixed to a node, a body or the ground: the pose `offset` in the frame of `to`; `to` empty = ground (then in the inertial
@@ -76,18 +76,19 @@ enum class BeamCurve : std::uint8_t {
 struct Beam {
   std::string name;
   std::string section;
-  std::string start, end;             ///< nodes or bodies
-  std::optional<Vec3> start_offset;   ///< position of the beam's ends in the frames of `start` and `end` [m]
+  std::string start, end;            ///< nodes or bodies
+  std::optional<Vec3> start_offset;  ///< position of the beam's ends in the frames of `start` and `end` [m]
   std::optional<Vec3> end_offset;
   BeamCurve curve = BeamCurve::straight;
-  Vec3 axis_2 = Vec3::zero();         ///< a vector (inertial or in `frame`) that section axis 2 at the start lies nearest to; zero: chosen
-  std::string frame;                  ///< frame in which axis_2 and curvature start are given
-  double twist = 0.0;                 ///< rotation of the section about axis 1 from start to end [rad] (straight)
-  Vec3 curvature = Vec3::zero();      ///< body components (k1, k2, k3) [1/m] (curvature)
-  double length = 0.0;                ///< [m] (curvature)
-  Vec3 tangent = Vec3::zero();        ///< axis 1 at the start (curvature)
+  Vec3 axis_2 = Vec3::
+      zero();  ///< a vector (inertial or in `frame`) that section axis 2 at the start lies nearest to; zero: chosen
+  std::string frame;              ///< frame in which axis_2 and curvature start are given
+  double twist = 0.0;             ///< rotation of the section about axis 1 from start to end [rad] (straight)
+  Vec3 curvature = Vec3::zero();  ///< body components (k1, k2, k3) [1/m] (curvature)
+  double length = 0.0;            ///< [m] (curvature)
+  Vec3 tangent = Vec3::zero();    ///< axis 1 at the start (curvature)
   int elements = 1;
-  int order = 1;                      ///< polynomial order of the element: 1 (two nodes), 2, 3
+  int order = 1;  ///< polynomial order of the element: 1 (two nodes), 2, 3
 };
 
 enum class JointKind : std::uint8_t { fixed, revolute, spherical, prismatic, cylindrical, universal, planar, screw };
@@ -98,7 +99,7 @@ struct JointForce {
   double stiffness = 0.0;  ///< [N m/rad] or [N/m]
   double rest = 0.0;       ///< [rad] or [m]
   double damping = 0.0;
-  laws::Law effort;        ///< torque [N m] or force [N] on the second body along the axis
+  laws::Law effort;  ///< torque [N m] or force [N] on the second body along the axis
 };
 
 /// What prescribes a joint's coordinate.
@@ -164,30 +165,41 @@ struct PrescribedMotion {
   std::optional<laws::Law> displacement[3];
   std::optional<Vec3> rotation_axis;  ///< given: orientation is exp(angle(t) axis) times the initial one
   laws::Law angle;
-  bool hold_rotation = false;         ///< orientation held at its initial value
+  bool hold_rotation = false;  ///< orientation held at its initial value
   bool is_rate = false;
 };
 
 struct InitialVelocity {
-  std::string of;                    ///< node, body, or beam (then all its nodes, as a rigid motion about its start)
+  std::string of;  ///< node, body, or beam (then all its nodes, as a rigid motion about its start)
   LoadAxes axes = LoadAxes::space;
-  Vec3 velocity = Vec3::zero();      ///< of the frame's origin [m/s]
+  Vec3 velocity = Vec3::zero();  ///< of the frame's origin [m/s]
   Vec3 angular_velocity = Vec3::zero();
 };
 
 enum class SensorKind : std::uint8_t {
-  position, rotation, quaternion, velocity, acceleration,
-  section_force, section_strain,
-  joint_reaction, joint_angle, joint_displacement, joint_rate,
-  kinetic_energy, strain_energy, potential_energy, total_energy,
+  position,
+  rotation,
+  quaternion,
+  velocity,
+  acceleration,
+  section_force,
+  section_strain,
+  joint_reaction,
+  joint_angle,
+  joint_displacement,
+  joint_rate,
+  kinetic_energy,
+  strain_energy,
+  potential_energy,
+  total_energy,
 };
 
 struct Sensor {
   std::string name;
   SensorKind kind = SensorKind::position;
-  Attachment at;                    ///< node or body with offset (position, rotation, velocity, acceleration)
-  std::string beam;                 ///< section sensors, or a point on a beam's axis
-  double station = 0.0;             ///< fraction of the beam's length, 0 to 1
+  Attachment at;         ///< node or body with offset (position, rotation, velocity, acceleration)
+  std::string beam;      ///< section sensors, or a point on a beam's axis
+  double station = 0.0;  ///< fraction of the beam's length, 0 to 1
   std::string joint;
   LoadAxes axes = LoadAxes::space;  ///< resolved in inertial axes or in the body's own
 };
@@ -200,29 +212,29 @@ struct Analysis {
   // statics
   int load_steps = 1;
   // dynamics
-  double end_time = 0.0;       ///< [s]
-  double step_size = 1e-3;     ///< h [s]
+  double end_time = 0.0;    ///< [s]
+  double step_size = 1e-3;  ///< h [s]
   double spectral_radius = 0.8;
   // both
   Newton newton = Newton::full;
-  double tolerance = 1e-8;     ///< of relative motions and of residuals relative to their contributions [-]
+  double tolerance = 1e-8;  ///< of relative motions and of residuals relative to their contributions [-]
   int max_iterations = 20;
-  int max_cuts = 10;           ///< halvings of a step before the run fails
+  int max_cuts = 10;  ///< halvings of a step before the run fails
 };
 
 enum class SolverKind : std::uint8_t { automatic, hierarchical, monolithic };
 
 struct Solver {
   SolverKind kind = SolverKind::automatic;
-  int leaf_size = 0;              ///< elements; 0 = chosen
-  int depth = -1;                 ///< -1 = chosen
-  double penalty_factor = 1.0;    ///< times the interface's own stiffness
+  int leaf_size = 0;            ///< elements; 0 = chosen
+  int depth = -1;               ///< -1 = chosen
+  double penalty_factor = 1.0;  ///< times the interface's own stiffness
   bool tasks = true;
 };
 
 struct Output {
-  int stride = 1;          ///< history rows: every n-th accepted step
-  bool motion = false;     ///< write motion.pvd and VTU
+  int stride = 1;       ///< history rows: every n-th accepted step
+  bool motion = false;  ///< write motion.pvd and VTU
   int motion_stride = 1;
 };
 
