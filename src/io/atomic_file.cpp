@@ -36,15 +36,20 @@ int sync_descriptor(int descriptor) {
   return 0;
 }
 
+void sync_path(const std::filesystem::path& path, int flags) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
+  const int error = descriptor < 0 ? errno : sync_descriptor(descriptor);
+  if (descriptor >= 0) ::close(descriptor);
+  if (error != 0) throw std::runtime_error("cannot make " + path.string() + " durable: " + reason(error));
+}
+
 }  // namespace
 
 void sync_directory(const std::filesystem::path& directory) {
-  const std::filesystem::path& name = directory.empty() ? std::filesystem::path(".") : directory;
-  const int descriptor = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const int error = descriptor < 0 ? errno : sync_descriptor(descriptor);
-  if (descriptor >= 0) ::close(descriptor);
-  if (error != 0) throw std::runtime_error("cannot make " + name.string() + " durable: " + reason(error));
+  sync_path(directory.empty() ? "." : directory, O_DIRECTORY);
 }
+
+void sync_file(const std::filesystem::path& path) { sync_path(path, 0); }
 
 AtomicFile::AtomicFile(std::filesystem::path final_path) : final_path_(std::move(final_path)), partial_path_(final_path_) {
   partial_path_ += ".partial";
@@ -98,20 +103,21 @@ void AtomicFile::flush() {
   fail(error);
 }
 
-void AtomicFile::commit() {
+void AtomicFile::commit(Durability durability) {
   flush();
-  if (const int error = sync_descriptor(descriptor_); error != 0) fail(error);
+  const bool now = durability == Durability::now;
+  if (const int error = now ? sync_descriptor(descriptor_) : 0; error != 0) fail(error);
   if (::rename(partial_path_.c_str(), final_path_.c_str()) != 0) fail(errno);
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0 && errno != EINTR) fail(errno);
-  sync_directory(final_path_.parent_path());
+  if (now) sync_directory(final_path_.parent_path());
 }
 
-void write_file(const std::filesystem::path& path, std::string_view text) {
+void write_file(const std::filesystem::path& path, std::string_view text, Durability durability) {
   AtomicFile file(path);
   file.write(text);
-  file.commit();
+  file.commit(durability);
 }
 
 }  // namespace bough::io

@@ -105,13 +105,15 @@ results::MotionFrame read_frame(const JsonValue& value, const Names& names, bool
     }
   }
   for (std::size_t k = 0; good && k < names.bodies.size(); ++k) {
-    const std::vector<double> x = read_part(value, "b", k, 15, good);
+    const std::vector<double> x = read_part(value, "b", k, 0, good);
+    good = good && x.size() >= 15;
     if (!good) break;
     results::BodyPose& body = frame.bodies.emplace_back();
     body.name = names.bodies[k];
     std::copy_n(x.begin(), 3, body.position);
     std::copy_n(x.begin() + 3, 9, body.axes);
     std::copy_n(x.begin() + 12, 3, body.center);
+    for (std::size_t p = 15; p < x.size(); p += 3) body.attachments.push_back({x[p], x[p + 1], x[p + 2]});
   }
   for (std::size_t k = 0; good && k < names.links.size(); ++k) {
     const std::vector<double> x = read_part(value, "l", k, 6, good);
@@ -155,6 +157,7 @@ void MotionLinesWriter::frame(const results::MotionFrame& frame) {
     append_values(line_, body.position);
     append_values(line_, body.axes);
     append_values(line_, body.center);
+    for (const std::array<double, 3>& point : body.attachments) append_values(line_, point);
   });
   append_parts(line_, "l", frame.links, [this](const results::Link& link) {
     append_values(line_, link.first);

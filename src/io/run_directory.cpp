@@ -69,13 +69,14 @@ void RunDirectory::motion(const results::MotionFrame& frame) {
     motion_lines_ = std::make_unique<MotionLinesWriter>(directory_ / "motion.jsonl");
   }
   const std::string name = frame_name(frames_.size());
-  write_file(directory_ / "motion" / name, vtu_text(frame, vtu_options_));
+  write_file(directory_ / "motion" / name, vtu_text(frame, vtu_options_), Durability::later);
   frames_.push_back({frame.time, "motion/" + name});
   motion_lines_->frame(frame);
 }
 
 void RunDirectory::end(const results::Summary& summary) {
   if (!history_) begin(summary.header);
+  has_ended_ = true;
   std::exception_ptr failure;
   const auto attempt = [&](const char* name, const auto& write) {
     try {
@@ -98,11 +99,22 @@ void RunDirectory::end(const results::Summary& summary) {
   attempt("history.csv", [&] { commit(*history_); });
   if (motion_lines_) {
     attempt("motion.jsonl", [&] { commit(*motion_lines_); });
+    attempt("motion", [&] {
+      for (const PvdEntry& frame : frames_) sync_file(directory_ / frame.file);
+      sync_directory(directory_ / "motion");
+    });
     attempt("motion.pvd", [&] { write_file(directory_ / "motion.pvd", pvd_text(frames_)); });
   }
   if (failure) std::rethrow_exception(failure);  // no summary: the directory is not whole
   attempt("summary.json", [&] { write_file(directory_ / "summary.json", summary_text(summary, version_)); });
   if (failure) std::rethrow_exception(failure);
+}
+
+void RunDirectory::end_as_failed(results::Summary summary, const std::string& cause) {
+  if (!has_begun() || has_ended()) return;
+  summary.status = results::RunStatus::failed;
+  summary.cause = cause;
+  end(summary);
 }
 
 }  // namespace bough::io

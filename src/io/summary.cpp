@@ -192,6 +192,10 @@ SummaryFile read_summary(const std::filesystem::path& path) {
       if (number_of(checks->items[k], value)) summary.checks.emplace_back(checks->keys[k], value);
     }
   }
+  if (const JsonValue* options = json->find("options"); options != nullptr) {
+    for (std::size_t k = 0; k < options->items.size() && k < options->keys.size(); ++k)
+      if (options->items[k].is(JsonKind::string)) summary.options.emplace_back(options->keys[k], options->items[k].text);
+  }
   if (const JsonValue* notes = json->find("notes"); notes != nullptr)
     for (const JsonValue& note : notes->items) summary.notes.push_back(note.text);
   if (const JsonValue* expected = json->find("expected"); expected != nullptr) read_expected(*expected, summary);

@@ -123,7 +123,7 @@ TEST(RunDirectory, writes_every_file_and_the_summary_last) {
   run.motion(sample_frame(1.0));
   EXPECT_FALSE(fs::exists(scratch / "out/history.csv"));
   run.end(sample_summary());
-  EXPECT_EQ(run.files(), (std::vector<std::string>{"history.csv", "motion.jsonl", "motion.pvd", "summary.json"}));
+  EXPECT_EQ(run.files(), (std::vector<std::string>{"history.csv", "motion.jsonl", "motion", "motion.pvd", "summary.json"}));
   EXPECT_EQ(names_in(scratch / "out"), (std::vector<std::string>{"history.csv", "motion", "motion.jsonl", "motion.pvd", "summary.json"}));
   EXPECT_EQ(names_in(scratch / "out/motion"), (std::vector<std::string>{"frame_000000.vtu", "frame_000001.vtu"}));
 }

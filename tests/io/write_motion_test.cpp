@@ -93,6 +93,7 @@ TEST(MotionLines, frames_come_back_to_nine_digits) {
     EXPECT_EQ(frames[k].bodies.at(0).name, "crank");
     EXPECT_EQ(frames[k].links.at(0).name, "hinge");
     EXPECT_EQ(frames[k].bodies.at(0).center[0], 0.1);
+    EXPECT_EQ(frames[k].bodies.at(0).attachments, expected.bodies[0].attachments);
     for (std::size_t p = 0; p < 5; ++p)
       for (int c = 0; c < 3; ++c)  // half a unit of the ninth digit, coordinates below 1
         EXPECT_NEAR(frames[k].curves.at(0).points.at(p).position[c], expected.curves[0].points[p].position[c], 5e-10);

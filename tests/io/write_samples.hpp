@@ -50,7 +50,7 @@ inline results::MotionFrame sample_frame(double t, std::size_t num_points = 5) {
                               {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}};
     curve.points.push_back(point);
   }
-  frame.bodies.push_back({"crank", {0.0, 0.0, 0.0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.1, 0.0, 0.0}});
+  frame.bodies.push_back({"crank", {0.0, 0.0, 0.0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.1, 0.0, 0.0}, {{0.2, 0.0, 0.3}}});
   frame.links.push_back({"hinge", {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}});
   return frame;
 }

@@ -6,6 +6,8 @@
 
 namespace bough::io {
 
+enum class Durability { now, later };
+
 /// Writes to `<name>.partial` beside the final name; `commit` makes it durable and renames it. A former file of the final name stays
 /// untouched until then. Without `commit` the destructor removes the partial file; after a crash the next writer takes it over.
 /// Every failure (no space, no permission, a second writer) is a std::runtime_error that names the file and the system's reason.
@@ -24,7 +26,8 @@ class AtomicFile {
   void flush();
 
   /// Flush, fsync of the file, rename, fsync of the directory. On failure the final name keeps its former content.
-  void commit();
+  /// later: without the two fsync; whoever writes many files calls `sync_file` on each and `sync_directory` once when all are written.
+  void commit(Durability durability = Durability::now);
 
   /// False after `commit`, and where a failed write could not be undone.
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
@@ -42,7 +45,10 @@ class AtomicFile {
 };
 
 /// Writes a whole text in one go through an `AtomicFile`.
-void write_file(const std::filesystem::path& path, std::string_view text);
+void write_file(const std::filesystem::path& path, std::string_view text, Durability durability = Durability::now);
+
+/// Makes the content of a file that is already there durable.
+void sync_file(const std::filesystem::path& path);
 
 /// Makes the entries of a directory (a rename, a removal) durable; file systems that cannot do so are let pass.
 void sync_directory(const std::filesystem::path& directory);

@@ -2,7 +2,8 @@
 /// `motion.jsonl`: the moving structure in a compact text form, for pictures. JSON Lines: the first line is a header
 ///   {"format":"bough motion 1","curves":[names],"bodies":[names],"links":[names]}
 /// and each further line one frame
-///   {"t":time,"c":[[x,y,z, x,y,z, ...] per curve],"b":[[x,y,z, R row-major, center x,y,z] per body],"l":[[x,y,z, x,y,z] per link]}
+///   {"t":time,"c":[[x,y,z, x,y,z, ...] per curve],
+///    "b":[[x,y,z, R row-major, center x,y,z, attachments x,y,z ...] per body],"l":[[x,y,z, x,y,z] per link]}
 /// with nine significant digits: enough for any picture; full precision stands in history.csv and in the VTU files.
 #include <filesystem>
 #include <optional>

@@ -30,6 +30,12 @@ class RunDirectory final : public results::Recorder {
   void end(const results::Summary& summary) override;
 
   [[nodiscard]] bool has_begun() const { return history_ != nullptr; }
+  [[nodiscard]] bool has_ended() const { return has_ended_; }  ///< `end` was called, whether it went well or not
+
+  /// For a run that was cut off by `cause` (a recorder that could not write, say) before `end`: ends it as failed with what is there.
+  /// Does nothing where it did not begin or did end. Throws as `end`.
+  void end_as_failed(results::Summary summary, const std::string& cause);
+
   [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
   /// Names of the files that are whole, relative to the directory, for the message at the end.
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
@@ -41,6 +47,7 @@ class RunDirectory final : public results::Recorder {
   std::string version_;
   std::unique_ptr<HistoryWriter> history_;
   std::unique_ptr<MotionLinesWriter> motion_lines_;
+  bool has_ended_ = false;
   VtuOptions vtu_options_;
   std::vector<PvdEntry> frames_;
   std::vector<std::string> files_;

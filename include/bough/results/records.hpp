@@ -1,5 +1,6 @@
 #pragma once
 /// What a run hands to whoever records it: plain data, no file formats.
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -33,6 +34,7 @@ struct BodyPose {
   double position[3];   ///< of the body's reference point
   double axes[9];
   double center[3];     ///< centre of mass
+  std::vector<std::array<double, 3>> attachments = {};  ///< where joints, springs and beams hold it; drawn as spokes from the centre
 };
 struct Link {
   std::string name;     ///< joint or spring, drawn as a segment (a joint may have length 0)

@@ -1,0 +1,60 @@
+#pragma once
+/// What the command line says, verb by verb, as plain data.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bough::app {
+
+/// Exit statuses of all verbs.
+enum Exit : int {
+  exit_done = 0,
+  exit_failed = 1,     ///< a run failed, histories differ
+  exit_bad_input = 2,  ///< bad input, bad options, a file that cannot be read
+};
+
+struct RunArguments {
+  std::filesystem::path scene, out;  ///< out empty: ./<scene>.out
+  int threads = 0;                   ///< 0: as many as the machine has
+  std::vector<std::string> overrides;
+  bool quiet = false;
+  bool check_expected = false;
+};
+struct ViewArguments {
+  std::filesystem::path directory, out, svg;
+  std::string view = "auto";
+  int positions = 9;
+};
+struct BatchArguments {
+  std::filesystem::path folder, out;
+  int threads = 0;
+  double time_limit = 0.0;
+  std::vector<std::string> overrides;
+  bool quiet = false;
+  bool check_expected = false;
+};
+struct CheckArguments {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;
+};
+struct CompareArguments {
+  std::filesystem::path a, b;
+  double relative = 1e-9, absolute = 0.0;
+};
+struct SchemaArguments {};
+struct DoctorArguments {};
+
+/// One page per verb: cmd_<verb>.cpp. Each returns the exit status.
+int run(const RunArguments& arguments);
+int view(const ViewArguments& arguments);
+int batch(const BatchArguments& arguments);
+int check(const CheckArguments& arguments);
+int compare(const CompareArguments& arguments);
+int schema(const SchemaArguments& arguments);
+int doctor(const DoctorArguments& arguments);
+
+/// Reads the command line and calls the verb.
+int dispatch(int count, char** values);
+
+}  // namespace bough::app

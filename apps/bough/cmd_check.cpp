@@ -1,0 +1,46 @@
+/// bough check SCENE, bough schema.
+#include <iostream>
+
+#include "arguments.hpp"
+#include "bough/io/read_scene.hpp"
+#include "terminal.hpp"
+
+namespace bough::app {
+namespace {
+
+void count(std::string& text, std::size_t number, const char* one, const char* many) {
+  if (number == 0) return;
+  text += (text.empty() ? " " : ", ") + std::to_string(number) + " " + (number == 1 ? one : many);
+}
+
+}  // namespace
+
+int check(const CheckArguments& arguments) {
+  const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
+  print_problems(arguments.scene, file, false);
+  if (!file.ok()) {
+    std::cerr << file.problems.size() << (file.problems.size() == 1 ? " problem\n" : " problems\n");
+    return exit_bad_input;
+  }
+  const scene::Scene& s = file.scene;
+  std::string parts;
+  count(parts, s.nodes.size(), "node", "nodes");
+  count(parts, s.bodies.size(), "body", "bodies");
+  count(parts, s.beams.size(), "beam", "beams");
+  count(parts, s.joints.size(), "joint", "joints");
+  count(parts, s.springs.size(), "spring", "springs");
+  count(parts, s.bushings.size(), "bushing", "bushings");
+  count(parts, s.point_loads.size() + s.line_loads.size(), "load", "loads");
+  count(parts, s.motions.size(), "prescribed motion", "prescribed motions");
+  count(parts, s.sensors.size(), "sensor", "sensors");
+  count(parts, s.expected.size(), "expected figure", "expected figures");
+  std::cout << "ok:" << (parts.empty() ? " an empty scene" : parts) << "\n";
+  return exit_done;
+}
+
+int schema(const SchemaArguments&) {
+  std::cout << io::schema_text() << std::flush;
+  return std::cout.good() ? exit_done : exit_failed;
+}
+
+}  // namespace bough::app

@@ -1,0 +1,80 @@
+/// bough doctor: what this program was built with, what the machine offers, and a small run of its own.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "arguments.hpp"
+#include "bough/io/read_scene.hpp"
+#include "bough/lanes/pack.hpp"
+#include "bough/schedule/threads.hpp"
+#include "bough/study/simulate.hpp"
+#include "bough/version.hpp"
+#include "terminal.hpp"
+
+namespace bough::app {
+namespace {
+
+/// A ball that falls freely; all figures are exact in binary.
+constexpr std::string_view falling_ball = R"({
+  "schema_version": 1, "title": "falling", "gravity": [0, 0, -8],
+  "bodies": [{"name": "ball", "kind": "point_mass", "mass": 2, "position": [0, 0, 0]}],
+  "sensors": [{"name": "ball", "kind": "position", "at": "ball"}],
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.0625}
+})";
+
+struct InMemory final : results::Recorder {
+  std::vector<results::HistoryRow> rows;
+  void begin(const results::HistoryHeader&) override {}
+  void row(const results::HistoryRow& row) override { rows.push_back(row); }
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+};
+
+std::string instruction_sets() {
+  std::string text = "this program packs " + std::to_string(lanes::register_doubles) + " doubles; the processor offers";
+#if defined(__x86_64__)
+  std::string offered;
+  if (__builtin_cpu_supports("avx2")) offered += " AVX2";
+  if (__builtin_cpu_supports("fma")) offered += " FMA";
+  if (__builtin_cpu_supports("avx512f")) offered += " AVX-512";
+  return text + (offered.empty() ? " SSE2" : offered);
+#else
+  return "this program packs " + std::to_string(lanes::register_doubles) + " doubles";
+#endif
+}
+
+bool line(bool good, const std::string& text) {
+  std::cout << (good ? "  ok    " : "  FAIL  ") << text << "\n";
+  return good;
+}
+
+bool test_run() {
+  const io::SceneFile file = io::read_scene_text(falling_ball, "falling");
+  for (const io::Problem& problem : file.problems) std::cerr << problem.text() << "\n";
+  if (!line(file.ok(), "a scene in memory is read")) return false;
+  InMemory one, two;
+  const results::Summary summary = study::simulate(file.scene, {.threads = 1}, one);
+  (void)study::simulate(file.scene, {.threads = 2}, two);
+  bool good = line(summary.status == results::RunStatus::ok && !one.rows.empty(), "it is simulated" + (summary.cause.empty() ? "" : ": " + summary.cause));
+  if (!good) return false;
+  const double height = one.rows.back().values.at(2);
+  good = line(std::abs(height + 4.0) < 1e-9, "a free fall ends where g t^2 / 2 says") && good;
+  const auto same = [](const results::HistoryRow& a, const results::HistoryRow& b) { return a.values == b.values && a.time == b.time; };
+  return line(std::equal(one.rows.begin(), one.rows.end(), two.rows.begin(), two.rows.end(), same), "one and two threads give the same bits") && good;
+}
+
+}  // namespace
+
+int doctor(const DoctorArguments&) {
+  std::cout << "bough " << version << " (" << commit << ")\n"
+            << "  built   " << compiler << ", " << compiler_flags << "\n"
+            << "  with    " << BOUGH_LIBRARIES << "\n"
+            << "  lanes   " << instruction_sets() << "\n"
+            << "  threads " << default_threads() << " on this machine\n";
+  bool good = line(schedule::Threads(2).count() == 2, "two threads can be had");
+  good = test_run() && good;
+  std::cout << (good ? "all is well\n" : "something is wrong: see the lines marked FAIL\n");
+  return good ? exit_done : exit_failed;
+}
+
+}  // namespace bough::app

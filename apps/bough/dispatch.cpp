@@ -1,0 +1,142 @@
+/// The command line: verbs, options, examples. The only file that knows CLI11.
+#include "arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "bough/scene/nearest_name.hpp"
+#include "bough/version.hpp"
+
+namespace bough::app {
+namespace {
+
+const std::vector<std::string> verbs = {"run", "view", "batch", "check", "schema", "compare", "doctor"};
+
+void add_overrides(CLI::App& verb, std::vector<std::string>& overrides) {
+  verb.add_option("--set", overrides, "Replace a value of the scene; may be given several times")
+      ->type_name("/POINTER=VALUE")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_threads(CLI::App& verb, int& threads, const std::string& what) {
+  verb.add_option("--threads", threads, what + " (default: as many as the machine has)")->type_name("N")->check(CLI::Range(1, 1024));
+}
+
+CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples) {
+  CLI::App* verb = app.add_subcommand(name, what);
+  verb->footer("Examples:\n" + examples);
+  return *verb;
+}
+
+void add_run(CLI::App& app, RunArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, "run", "Simulate a scene and write the results",
+                            "  bough run four_bar.json\n"
+                            "  bough run four_bar.json --out results --threads 4\n"
+                            "  bough run four_bar.json --set /analysis/step_size=1e-4 --set /output/motion=true\n"
+                            "Exit status: 0 done, 1 the run failed or was stopped, 2 bad input.");
+  verb.add_option("SCENE", a.scene, "Scene file (JSON)")->required();
+  verb.add_option("--out", a.out, "Directory of the results (default: ./<scene>.out)")->type_name("DIR");
+  add_threads(verb, a.threads, "Threads");
+  add_overrides(verb, a.overrides);
+  verb.add_flag("--quiet", a.quiet, "Print problems only");
+  verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
+  verb.callback([&] { code = run(a); });
+}
+
+void add_view(CLI::App& app, ViewArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, "view", "Draw the motion and the sensors of a run as one page",
+                            "  bough view four_bar.out\n"
+                            "  bough view four_bar.out --view xz --out page.html --svg four_bar.svg\n"
+                            "The page is one file: it needs no network, and can be read without scripts.");
+  verb.add_option("DIR", a.directory, "Directory of the results")->required();
+  verb.add_option("--out", a.out, "Page to write (default: DIR/view.html)")->type_name("FILE");
+  verb.add_option("--svg", a.svg, "Write the drawing of the motion alone, too")->type_name("FILE");
+  verb.add_option("--view", a.view, "auto, xy, xz, yz or iso (default: auto)")->check(CLI::IsMember({"auto", "xy", "xz", "yz", "iso"}));
+  verb.add_option("--positions", a.positions, "Positions laid over each other, 1 to 9 (default: 9)")->type_name("N")->check(CLI::Range(1, 9));
+  verb.callback([&] { code = view(a); });
+}
+
+void add_batch(CLI::App& app, BatchArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, "batch", "Run every scene of a folder, one thread a case",
+                            "  bough batch scenes --out results --threads 8\n"
+                            "Writes results/NAME for every NAME.json and the table results/batch.csv.\n"
+                            "Exit status: 0 all done, 1 a case failed, 2 nothing could be run.");
+  verb.add_option("FOLDER", a.folder, "Folder of scene files")->required();
+  verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR")->required();
+  add_threads(verb, a.threads, "Cases at a time");
+  verb.add_option("--time-limit", a.time_limit, "Stop a case after so many seconds (default: none)")->type_name("S")->check(CLI::Range(0.001, 1e9));
+  add_overrides(verb, a.overrides);
+  verb.add_flag("--quiet", a.quiet, "Print failed cases only");
+  verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
+  verb.callback([&] { code = batch(a); });
+}
+
+void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArguments& compare_arguments, int& code) {
+  CLI::App& check_verb = add_verb(app, "check", "Say what is wrong with a scene, without running it",
+                                  "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0");
+  check_verb.add_option("SCENE", check_arguments.scene, "Scene file (JSON)")->required();
+  add_overrides(check_verb, check_arguments.overrides);
+  check_verb.callback([&] { code = check(check_arguments); });
+
+  CLI::App& compare_verb = add_verb(app, "compare", "Compare two runs, column by column",
+                                    "  bough compare four_bar.out reference.out --rel 1e-6\n"
+                                    "  bough compare a/history.csv b/history.csv\n"
+                                    "Exit status: 0 equal within the tolerance, 1 not, 2 bad input. NaN is never equal.");
+  compare_verb.add_option("A", compare_arguments.a, "Directory or history.csv; differences are measured by its ranges")->required();
+  compare_verb.add_option("B", compare_arguments.b, "Directory or history.csv")->required();
+  compare_verb.add_option("--rel", compare_arguments.relative, "Largest difference over the sensor's range (default: 1e-9)")
+      ->type_name("TOL")
+      ->check(CLI::Range(0.0, 1e300));
+  compare_verb.add_option("--abs", compare_arguments.absolute, "Differences up to this are equal (default: 0)")
+      ->type_name("TOL")
+      ->check(CLI::Range(0.0, 1e300));
+  compare_verb.callback([&] { code = compare(compare_arguments); });
+
+  add_verb(app, "schema", "Print the JSON Schema of scenes", "  bough schema > scene.schema.json").callback([&] { code = schema({}); });
+  add_verb(app, "doctor", "Say what this program was built with and test itself", "  bough doctor").callback([&] { code = doctor({}); });
+}
+
+/// The first word, where it is neither an option nor a verb.
+bool is_misspelt(const std::string& word) {
+  return !word.empty() && word.front() != '-' && std::find(verbs.begin(), verbs.end(), word) == verbs.end();
+}
+
+int explain_verb(const std::string& word) {
+  std::cerr << "bough: '" << word << "' is not a verb";
+  const std::string nearest = scene::nearest_name(word, verbs);
+  if (!nearest.empty()) std::cerr << "; did you mean '" << nearest << "'?";
+  std::cerr << "\nVerbs:";
+  for (const std::string& verb : verbs) std::cerr << ' ' << verb;
+  std::cerr << "\n";
+  return exit_bad_input;
+}
+
+}  // namespace
+
+int dispatch(int count, char** values) {
+  if (count > 1 && is_misspelt(values[1])) return explain_verb(values[1]);
+  CLI::App app{"Flexible multibody dynamics: beams, rigid bodies and joints on a tree of sub-domains.", "bough"};
+  app.set_version_flag("--version", "bough " + std::string(version));
+  app.require_subcommand(1);
+  app.footer("Examples:\n  bough run four_bar.json\n  bough view four_bar.out\n  bough VERB --help");
+
+  int code = exit_done;
+  RunArguments run_arguments;
+  ViewArguments view_arguments;
+  BatchArguments batch_arguments;
+  CheckArguments check_arguments;
+  CompareArguments compare_arguments;
+  add_run(app, run_arguments, code);
+  add_view(app, view_arguments, code);
+  add_batch(app, batch_arguments, code);
+  add_small_verbs(app, check_arguments, compare_arguments, code);
+  try {
+    app.parse(count, values);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_done : exit_bad_input;  // --help and --version are 0, all else 100 to 127
+  }
+  return code;
+}
+
+}  // namespace bough::app

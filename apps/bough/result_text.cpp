@@ -1,0 +1,71 @@
+#include "result_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bough/io/number_text.hpp"
+
+namespace bough::app {
+namespace {
+
+using io::rounded_text;
+
+std::string count_text(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
+
+std::string checks_text(const results::Checks& checks) {
+  std::string text = "  energy balance     " + rounded_text(checks.energy_balance, 3) + " J";
+  if (checks.energy_scale > 0.0 && std::isfinite(checks.energy_balance)) {
+    text += " (" + rounded_text(checks.energy_balance / checks.energy_scale, 2) + " of the largest energy)";
+  }
+  text += "\n";
+  if (checks.numerical_dissipation != 0.0) text += "  taken by the integrator  " + rounded_text(checks.numerical_dissipation, 3) + " J\n";
+  text += "  momentum balance   " + rounded_text(checks.momentum_balance, 3) + " kg m/s\n";
+  text += "  constraints        " + rounded_text(checks.constraint_violation_position, 3) + " in position, " +
+          rounded_text(checks.constraint_violation_velocity, 3) + " in velocity\n";
+  text += "  linear solutions   backward error up to " + rounded_text(checks.linear_backward_error_max, 2) + "\n";
+  if (checks.round_off_floor_reached) text += "  Newton reached the floor of round-off before its tolerance in some steps\n";
+  return text;
+}
+
+std::string expected_text(const std::vector<results::ExpectedResult>& expected) {
+  std::vector<std::vector<std::string>> rows = {{"  expected", "value", "reference", "tolerance", ""}};
+  for (const results::ExpectedResult& figure : expected)
+    rows.push_back({"  " + figure.name, rounded_text(figure.value, 9), rounded_text(figure.reference, 9), rounded_text(figure.tolerance, 3),
+                    figure.holds ? "holds" : "fails"});
+  return table_text(rows);
+}
+
+}  // namespace
+
+std::string table_text(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) line += row[c] + std::string(widths[c] - row[c].size() + 2, ' ');
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string result_text(const results::Summary& summary, const std::string& directory, const std::vector<std::string>& files) {
+  const char* words = summary.status == results::RunStatus::ok ? "done" : summary.status == results::RunStatus::failed ? "FAILED" : "stopped";
+  std::string text = summary.scene + ": " + words + "\n";
+  if (!summary.cause.empty()) text += "  cause: " + summary.cause + "\n";
+  text += "  " + count_text(summary.steps.accepted, "step") + " accepted, " + std::to_string(summary.steps.rejected) + " rejected, " +
+          count_text(summary.steps.newton_iterations, "Newton iteration") + ", " + count_text(summary.steps.factorizations, "factorization") +
+          " in " + rounded_text(summary.times.total, 3) + " s with " + count_text(summary.threads, "thread") + "\n";
+  text += checks_text(summary.checks);
+  for (const std::string& note : summary.notes) text += "  note: " + note + "\n";
+  if (!summary.expected.empty()) text += expected_text(summary.expected);
+  text += "  results in " + directory + ":";
+  for (const std::string& file : files) text += " " + file;
+  return text + "\n";
+}
+
+}  // namespace bough::app

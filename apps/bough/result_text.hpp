@@ -1,0 +1,16 @@
+#pragma once
+/// The printed result of a run.
+#include <string>
+#include <vector>
+
+#include "bough/results/records.hpp"
+
+namespace bough::app {
+
+/// Status, steps, checks in words, expected figures, where the files lie.
+std::string result_text(const results::Summary& summary, const std::string& directory, const std::vector<std::string>& files);
+
+/// Columns padded to equal widths, two spaces apart.
+std::string table_text(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace bough::app

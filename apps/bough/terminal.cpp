@@ -1,0 +1,89 @@
+#include "terminal.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <thread>
+#include <unistd.h>
+
+#include "bough/io/number_text.hpp"
+
+namespace bough::app {
+namespace {
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+extern "C" void ask_to_stop(int) { stop_asked = 1; }
+
+std::string duration_text(double seconds) {
+  if (seconds < 60.0) return io::rounded_text(seconds < 10.0 ? std::max(seconds, 0.0) : static_cast<double>(static_cast<int>(seconds)), 2) + " s";
+  const long minutes = static_cast<long>(seconds / 60.0);
+  if (minutes < 60) return std::to_string(minutes) + " min";
+  return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
+}
+
+std::string words(const results::Progress& progress, double remaining) {
+  std::string text = "t = " + io::rounded_text(progress.time, 4) + " of " + io::rounded_text(progress.end_time, 4) +
+                     ", h = " + io::rounded_text(progress.step_size, 3) + ", " + std::to_string(progress.iterations) + " iterations";
+  if (remaining > 0.0) text += ", " + duration_text(remaining) + " left";
+  return text;
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  struct sigaction action = {};
+  action.sa_handler = ask_to_stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted() { return stop_asked != 0; }
+
+int default_threads() { return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 1024u)); }
+
+ProgressBar::ProgressBar(bool quiet) : quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void ProgressBar::show(const results::Progress& progress) {
+  if (quiet_) return;
+  constexpr std::chrono::milliseconds redraw{100};
+  constexpr std::chrono::seconds next_line{2};
+  const auto now = Clock::now();
+  if (now - shown_at_ < redraw) return;
+  const double part = progress.end_time > 0.0 ? std::clamp(progress.time / progress.end_time, 0.0, 1.0) : 0.0;
+  const std::chrono::duration<double> elapsed = now - start_;
+  const double remaining = part > 0.0 ? elapsed.count() * (1.0 - part) / part : 0.0;
+  if (on_terminal_) {
+    shown_at_ = now;
+    show_bar(progress, part, remaining);
+  } else if (static_cast<int>(10.0 * part) > tenths_ && now - shown_at_ >= next_line) {
+    shown_at_ = now;
+    tenths_ = static_cast<int>(10.0 * part);
+    std::cerr << words(progress, remaining) << "\n";
+  }
+}
+
+void ProgressBar::show_bar(const results::Progress& progress, double part, double remaining) {
+  constexpr int width = 24;
+  const int filled = static_cast<int>(part * width);
+  std::string line = "\r[" + std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.') + "] ";
+  line += words(progress, remaining) + "\x1b[K";
+  std::cerr << line << std::flush;
+  bar_is_shown_ = true;
+}
+
+void ProgressBar::clear() {
+  if (bar_is_shown_) std::cerr << "\r\x1b[K" << std::flush;
+  bar_is_shown_ = false;
+}
+
+void print_problems(const std::filesystem::path& file, const io::SceneFile& scene, bool quiet) {
+  for (const io::Problem& problem : scene.problems) std::cerr << file.string() << ": " << problem.text() << "\n";
+  if (quiet) return;
+  for (const io::Problem& warning : scene.warnings) std::cerr << file.string() << ": warning: " << warning.text() << "\n";
+}
+
+}  // namespace bough::app

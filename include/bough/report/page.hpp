@@ -1,0 +1,33 @@
+#pragma once
+/// The results of one run as one self-contained page: the motion, the histories and how well the laws hold. No network, no library;
+/// readable without scripts, with a player where scripts run.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bough/io/history.hpp"
+#include "bough/io/summary.hpp"
+#include "bough/report/picture.hpp"
+
+namespace bough::report {
+
+struct RunFiles {
+  std::string name;
+  std::optional<io::SummaryFile> summary;    ///< none: the run did not end
+  io::History history;
+  std::vector<results::MotionFrame> motion;  ///< empty: not recorded
+};
+
+/// Reads a result directory. Throws std::runtime_error where it holds no history or something in it is damaged.
+RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames = 301);
+
+bool is_static(const RunFiles& run);  ///< its histories run over the load factor
+
+/// options.is_static is for the caller to set.
+std::string page_html(const RunFiles& run, const PictureOptions& options);
+
+/// What to do where no motion was recorded, in one sentence.
+std::string_view how_to_record_motion();
+
+}  // namespace bough::report

@@ -1,0 +1,144 @@
+#include "bough/report/plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bough/io/columns.hpp"
+#include "svg_text.hpp"
+
+namespace bough::report {
+namespace {
+
+constexpr double width = 468.0, height = 220.0, left = 66.0, right = width - 14.0, top = 40.0, bottom = height - 40.0;  // [px]
+constexpr std::size_t num_colors = 6;
+constexpr double constant_below = 1e-12;  // range over magnitude: round-off, drawn as a constant
+
+struct Range {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  bool empty() const { return low > high; }
+  void include(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+Range padded(Range range) {
+  if (range.empty()) return {-1.0, 1.0};
+  const double magnitude = std::max(std::abs(range.low), std::abs(range.high)), extent = range.high - range.low;
+  if (extent <= constant_below * magnitude || extent == 0.0) {
+    const double half = magnitude > 0.0 ? 0.5 * magnitude : 1.0, middle = 0.5 * (range.low + range.high);
+    return {middle - half, middle + half};
+  }
+  return {range.low - 0.05 * extent, range.high + 0.05 * extent};
+}
+
+struct Scale {
+  Range x, y;
+  double to_x(double t) const { return left + (right - left) * (t - x.low) / (x.high - x.low); }
+  double to_y(double v) const { return bottom - (bottom - top) * (v - y.low) / (y.high - y.low); }
+};
+
+/// Rows to draw of one column: all where they are few; else, per pixel column, the rows of the smallest and largest value in their order.
+std::vector<std::size_t> rows_to_draw(const io::History& history, std::size_t column, const Scale& scale) {
+  std::vector<std::size_t> rows;
+  const std::size_t num_rows = history.rows.size();
+  const auto value = [&](std::size_t k) { return history.rows[k].values[column]; };
+  for (std::size_t begin = 0; begin < num_rows;) {
+    const double pixel_column = std::floor(scale.to_x(history.rows[begin].time));
+    std::size_t low = begin, high = begin, end = begin;
+    bool all_finite = true;
+    for (; end < num_rows && std::floor(scale.to_x(history.rows[end].time)) == pixel_column; ++end) {
+      if (!std::isfinite(value(end))) {
+        all_finite = false;
+        rows.push_back(end);
+        continue;
+      }
+      if (!std::isfinite(value(low)) || value(end) < value(low)) low = end;
+      if (!std::isfinite(value(high)) || value(end) > value(high)) high = end;
+    }
+    if (end == begin) break;  // a time that is not finite
+    rows.push_back(begin);
+    rows.push_back(end - 1);
+    if (all_finite || std::isfinite(value(low))) rows.insert(rows.end(), {low, high});
+    begin = end;
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+std::string curve_path(const io::History& history, std::size_t column, const Scale& scale) {
+  std::string path;
+  bool pen_down = false;
+  for (const std::size_t k : rows_to_draw(history, column, scale)) {
+    const double value = history.rows[k].values[column];
+    if (!std::isfinite(value)) {
+      pen_down = false;
+      continue;
+    }
+    path += pen_down ? 'L' : 'M';
+    append_pixel(path, scale.to_x(history.rows[k].time));
+    path += ' ';
+    append_pixel(path, scale.to_y(value));
+    pen_down = true;
+  }
+  return path;
+}
+
+std::string axes(const Scale& scale, std::string_view time_label) {
+  std::string text;
+  for (const double y : round_ticks(scale.y.low, scale.y.high, 5)) {
+    text += line_element("grid", left, scale.to_y(y), right, scale.to_y(y));
+    text += text_element("tiny soft", left - 6.0, scale.to_y(y) + 4.0, "end", io::rounded_text(y, 6));
+  }
+  for (const double x : round_ticks(scale.x.low, scale.x.high, 6)) {
+    text += line_element("axis", scale.to_x(x), bottom, scale.to_x(x), bottom + 4.0);
+    text += text_element("tiny soft", scale.to_x(x), bottom + 17.0, "middle", io::rounded_text(x, 6));
+  }
+  return text + line_element("axis", left, bottom, right, bottom) + text_element("tiny soft", right, height - 6.0, "end", time_label);
+}
+
+}  // namespace
+
+std::vector<double> round_ticks(double low, double high, int wanted) {
+  const double rough = (high - low) / wanted, power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * power >= rough * (1.0 - 1e-12)) step = factor * power;
+  std::vector<double> ticks;
+  const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
+  for (double k = first; k <= last && ticks.size() < 20; k += 1.0) ticks.push_back(k * step);
+  return ticks;
+}
+
+Plot make_plot(const io::History& history, const std::string& title, const std::vector<std::size_t>& columns, std::string_view time_label) {
+  Range times, values;
+  for (const results::HistoryRow& row : history.rows) {
+    times.include(row.time);
+    for (const std::size_t c : columns) values.include(row.values[c]);
+  }
+  if (times.empty()) times = {0.0, 1.0};
+  if (times.low == times.high) times.high = times.low + 1.0;
+  const Scale scale{times, padded(values)};
+  Plot plot;
+  plot.geometry = {left, right, times.low, times.high};
+  plot.svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixel(width) + " " + pixel(height) + "\" role=\"img\" aria-label=\"" +
+             escaped(title) + " over time\">\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n" +
+             text_element("head ink", 10.0, 20.0, "start", title) + axes(scale, time_label);
+  double legend_x = right;
+  for (std::size_t k = columns.size(); k-- > 0;) {
+    const std::string color = "curve s" + std::to_string(k % num_colors);
+    plot.svg += path_element(color, curve_path(history, columns[k], scale));
+    const std::string component = io::split_column(history.header.columns[columns[k]]).component;
+    if (columns.size() < 2 || component.empty()) continue;
+    plot.svg += text_element("tiny soft", legend_x, 20.0, "end", component);
+    legend_x -= 9.0 * static_cast<double>(component.size()) + 6.0;
+    plot.svg += path_element(color, level_stroke(legend_x - 16.0, 16.0, 14.0));
+    legend_x -= 26.0;
+  }
+  plot.svg += "</svg>\n";
+  return plot;
+}
+
+}  // namespace bough::report
