@@ -1,9 +1,42 @@
-// The smallest user of the installed package: headers are found, targets link, the version is the package's.
+// A user of the installed package: reads a scene, simulates it and counts what it is given.
+//   consumer SOURCE_TREE
 #include <cstdio>
+#include <string>
+#include <vector>
 
+#include "bough/io/read_scene.hpp"
+#include "bough/results/records.hpp"
+#include "bough/study/simulate.hpp"
 #include "bough/version.hpp"
 
-int main() {
-  std::printf("bough %.*s\n", static_cast<int>(bough::version.size()), bough::version.data());
-  return bough::version == EXPECTED_VERSION ? 0 : 1;
+namespace {
+
+struct CountRows : bough::results::Recorder {
+  long rows = 0;
+  void begin(const bough::results::HistoryHeader&) override {}
+  void row(const bough::results::HistoryRow&) override { ++rows; }
+  void motion(const bough::results::MotionFrame&) override {}
+  void end(const bough::results::Summary&) override {}
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2 || bough::version != EXPECTED_VERSION) {
+    std::printf("one argument, and version %s\n", EXPECTED_VERSION);
+    return 1;
+  }
+  const std::vector<std::string> overrides = {"/analysis/end_time=1.5", "/expected=[]"};
+  const bough::io::SceneFile file =
+      bough::io::read_scene(std::string(argv[1]) + "/data/scenarios/pendulum.json", overrides);
+  for (const bough::io::Problem& problem : file.problems) {
+    std::printf("%s\n", problem.text().c_str());
+  }
+  if (!file.ok()) {
+    return 1;
+  }
+  CountRows recorder;
+  const bough::results::Summary summary = bough::study::simulate(file.scene, {.threads = 2}, recorder);
+  std::printf("bough %s: %ld rows, %s\n", EXPECTED_VERSION, recorder.rows, summary.cause.c_str());
+  return summary.status == bough::results::RunStatus::ok && recorder.rows > 100 ? 0 : 1;
 }
