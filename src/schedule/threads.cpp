@@ -7,6 +7,8 @@
 
 #include "bough/schedule/serial.hpp"
 #ifdef BOUGH_HAS_TBB
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
@@ -24,6 +26,7 @@ struct Threads::State {
 
 #ifdef BOUGH_HAS_TBB
   tbb::task_arena arena;
+  std::unique_ptr<tbb::global_control> allowance;  ///< more threads than the machine has need a permission
 
   void delay() {
     const unsigned limit = delay_microseconds.load(std::memory_order_relaxed);
@@ -110,6 +113,8 @@ Threads::Threads(int count, double grain_flops) {
   if (!(grain_flops >= 0.0)) throw std::invalid_argument("Threads: grain_flops must be >= 0");
   state_ = std::make_unique<State>(count, grain_flops);
 #ifdef BOUGH_HAS_TBB
+  if (count > tbb::info::default_concurrency())
+    state_->allowance = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
   if (count > 1) state_->arena.initialize(count);
 #endif
 }

@@ -28,10 +28,10 @@ struct PivotRule {
 /// Returns the number of pivots, or -1 when an entry is not finite.
 int eliminate_with_threshold(FrontMatrix& front, const PivotRule& rule);
 
-/// Goes on from `pivots` with complete pivoting over the remaining fully summed block (precondition: no boundary). An entry that touches a
-/// constraint (is_constraint by global unknown) must reach least_constraint, one between motion unknowns least_motion.
-/// Returns the number of pivots reached.
-int eliminate_completely(FrontMatrix& front, int pivots, const bool* is_constraint, double least_constraint, double least_motion);
+/// Goes on from `pivots` up to `most` with complete pivoting over the remaining fully summed block (precondition: no boundary), as long as
+/// the largest entry reaches `least`. row_weight, column_weight: one factor for each remaining row and column by which entries are
+/// compared, permuted along; or null for ones. Returns the number of pivots reached.
+int eliminate_completely(FrontMatrix& front, int pivots, int most, double least, double* row_weight = nullptr, double* column_weight = nullptr);
 
 /// f = L^-1 f for the first `pivots` entries, the rest reduced: f_B -= L21 y. f already permuted.
 void substitute_forward(const double* a, int size, int pivots, double* f);

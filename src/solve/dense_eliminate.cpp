@@ -122,25 +122,28 @@ int eliminate_with_threshold(FrontMatrix& f, const PivotRule& rule) {
   return k;
 }
 
-int eliminate_completely(FrontMatrix& f, int k, const bool* is_constraint, double least_constraint, double least_motion) {
+int eliminate_completely(FrontMatrix& f, int k, int most, double least, double* row_weight, double* column_weight) {
   const View v{f.a, f.size};
-  while (k < f.full) {
+  const int first = k;
+  while (k < most) {
     double best = 0.0;
     int row = -1, column = -1;
-    for (int j = k; j < f.full; ++j) {
-      const bool constraint_column = is_constraint[f.columns[j]];
+    for (int j = k; j < f.full; ++j)
       for (int i = k; i < f.full; ++i) {
-        const double m = std::abs(v(i, j));
-        if (m <= best) continue;
-        if (m < (constraint_column || is_constraint[f.rows[i]] ? least_constraint : least_motion)) continue;
+        double m = std::abs(v(i, j));
+        if (row_weight != nullptr) m *= row_weight[i - first] * column_weight[j - first];
+        if (m <= best || m < least) continue;
         best = m;
         row = i;
         column = j;
       }
-    }
     if (row < 0) break;
     swap_columns(v, f, k, column);
     swap_rows(v, f, row, k);
+    if (row_weight != nullptr) {
+      std::swap(row_weight[k - first], row_weight[row - first]);
+      std::swap(column_weight[k - first], column_weight[column - first]);
+    }
     eliminate_one(v, k, f.size, f.size);
     ++k;
   }

@@ -114,6 +114,42 @@ ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, con
   return errors;
 }
 
+/// An unknown with little or nothing on the diagonal may still resist through a constraint to one that does (the turning of a massless bar
+/// that carries a mass): a row g then lends it g_u^2 / sum_{v != u} g_v^2 / a_v. Taken where the own diagonal is weaker by `weak`;
+/// scaled by noise instead, such an unknown would dwarf the others in its rows and make them look dependent.
+void ElementStore::lift_weak_diagonals(std::vector<double>& diagonal) const {
+  constexpr double weak = 1e-6;
+  for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
+    if (graph_.block_kind[at(b)] == blocks::BlockKind::motion) continue;
+    for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
+      const Touch touch = touches_[at(t)];
+      const std::int64_t ne = size_of(touch.element);
+      const auto for_motion = [&](auto&& visit) {
+        std::int64_t j = 0;
+        for (int p = 0; p < num_blocks_of(touch.element); ++p) {
+          const int other = blocks_of(touch.element)[p];
+          for (std::int64_t u = tree_.unknown_begin[at(other)]; u < tree_.unknown_begin[at(other) + 1]; ++u, ++j)
+            if (graph_.block_kind[at(other)] == blocks::BlockKind::motion) visit(at(u), j);
+        }
+      };
+      for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
+        const double* g = matrix(touch.element) + (touch.offset + i) * ne;
+        for_motion([&](std::size_t u, std::int64_t j) {
+          if (g[j] == 0.0) return;
+          double others = 0.0;  // mobility of the row's other unknowns; one without any diagonal gives way freely
+          bool held = true;
+          for_motion([&](std::size_t v, std::int64_t k) {
+            if (v == u || g[k] == 0.0) return;
+            held = held && diagonal[v] > 0.0;
+            if (held) others += g[k] * g[k] / diagonal[v];
+          });
+          if (held && others > 0.0 && diagonal[u] < weak * (g[j] * g[j] / others)) diagonal[u] = g[j] * g[j] / others;
+        });
+      }
+    }
+  }
+}
+
 void ElementStore::eval_scales(Scales& s) const {
   const std::size_t n = at(tree_.num_unknowns());
   std::vector<double>& exact_row = s.row;
@@ -141,6 +177,7 @@ void ElementStore::eval_scales(Scales& s) const {
       }
     }
   }
+  lift_weak_diagonals(exact_row);
   s.empty_unknown = -1;
   const auto empty = [&](std::size_t i) {
     if (s.empty_unknown < 0 || static_cast<std::int64_t>(i) < s.empty_unknown) s.empty_unknown = static_cast<std::int64_t>(i);

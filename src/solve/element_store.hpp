@@ -54,6 +54,7 @@ class ElementStore {
     int element;
     int offset;  ///< first row of the block in the element
   };
+  void lift_weak_diagonals(std::vector<double>& diagonal) const;
   template <class Row>
   void for_rows(std::int64_t begin, std::int64_t end, Row&& row) const;
 

@@ -122,6 +122,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare) {
   }
   s.counters.delayed_pivots += s.status.delayed_pivots;
   s.null_space.dimension = 0;
+  if (s.status.ok()) s.decide_rank();
   if (s.status.ok()) s.find_null_space();
   return s.status;
 }
@@ -136,6 +137,7 @@ SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, d
   s.solve_scaled(walker, s.rhs.data());
   for (std::size_t i = 0; i < n; ++i) x[i] = s.scales.column[i] * s.x_scaled[i];
   s.eval_inconsistency(s.rhs.data(), report);
+  s.eval_growth(s.rhs.data(), report);
   if (s.options.check == SolveCheck::none) return report;
   ElementStore::Errors errors = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
   while (errors.finite && errors.normwise > s.options.refinement_above && report.refinement_steps < s.options.refinement_steps) {

@@ -44,6 +44,9 @@ struct NullSpace {
   std::vector<double> left;   ///< dimension x unknowns, orthonormal
 };
 
+/// Root pivots below this, scaled, are looked at before they are used.
+constexpr double suspect_pivot = 1e-5;
+
 /// Textbook condensation of one interface: F and F^-1 as they were computed.
 struct PlainInterface {
   std::vector<double> flexibility, inverse, penalty, work;
@@ -87,9 +90,12 @@ struct Hierarchical::State {
   void backward_front(tree::FrontId f);
   void solve_scaled(const tree::Walker& walker, const double* b);
   // null_space.cpp
+  void decide_rank();
   void find_null_space();
+  void eval_null_candidates();
   void project_multipliers();
   void eval_inconsistency(const double* b, SolveReport& report);
+  void eval_growth(const double* b, SolveReport& report) const;
   // interfaces.cpp
   void condense_through_flexibility(tree::SubdomainId s);
   void correct_forward(tree::SubdomainId s);

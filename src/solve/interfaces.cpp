@@ -16,7 +16,8 @@ using Map = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
 
 }  // namespace
 
-/// |diagonal| that the sub-domain's own elements have at its interface, scaled; 0 for multipliers.
+/// |diagonal| that the sub-domain's own elements have at its interface, scaled; where only joints of it hold a motion unknown, the diagonal
+/// that the whole has there, 1; for multipliers 0.
 std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s) const {
   const tree::Subdomain& sub = tree.subdomains[at(s)];
   const tree::Front& top = front(sub.top());
@@ -44,6 +45,10 @@ std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s
       k += size;
     }
   }
+  int row = 0;
+  for (int b : boundary)
+    for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u, ++row)
+      if (stiffness[at(row)] == 0.0 && !is_constraint[at(u)]) stiffness[at(row)] = 1.0;
   return stiffness;
 }
 

@@ -14,6 +14,9 @@ namespace bough::solve {
 
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// d^2 in scaled variables: refinement contracts by about d^2 a step, null vectors pick up eps / d^2: half the digits each.
+constexpr double regularisation = 1e-7;
 }  // namespace
 
 struct Monolithic::State {
@@ -22,7 +25,7 @@ struct Monolithic::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  void assemble(double regularisation);
+  void assemble(double lowered);
   void solve_scaled(double* b);  ///< in place
   bool factor_values(bool fresh);
 
@@ -106,8 +109,8 @@ Monolithic::State::~State() {
 #endif
 }
 
-/// values = D_r A D_c, multipliers' diagonal lowered by regularisation (in the exact scaling of the multipliers).
-void Monolithic::State::assemble(double regularisation) {
+/// values = D_r A D_c, multipliers' diagonal lowered by `lowered` (in the exact scaling of the multipliers).
+void Monolithic::State::assemble(double lowered) {
   const auto& graph = elements.graph();
   std::fill(values.begin(), values.end(), 0.0);
   for (int e = 0; e < graph.num_elements(); ++e) {
@@ -136,12 +139,12 @@ void Monolithic::State::assemble(double regularisation) {
       i0 += np;
     }
   }
-  if (regularisation == 0.0) return;
+  if (lowered == 0.0) return;
   for (int b = 0; b < graph.num_blocks(); ++b) {
     if (graph.block_kind[at(b)] == blocks::BlockKind::motion) continue;
     for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u)
       for (int k = column_begin[at(u)]; k < column_begin[at(u) + 1]; ++k)
-        if (row_index[at(k)] == u) values[at(k)] -= regularisation * scales.weight[at(u)] * scales.weight[at(u)];
+        if (row_index[at(k)] == u) values[at(k)] -= lowered * scales.weight[at(u)] * scales.weight[at(u)];
   }
 }
 
@@ -225,7 +228,7 @@ FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
   const bool was_regularised = std::exchange(s.regularised, false);
   if (s.factor_values(was_regularised)) return s.status;
   s.regularised = true;
-  s.assemble(s.options.rank_tolerance);
+  s.assemble(regularisation);
   s.status.deficiency = -1;
   if (!s.factor_values(true)) {
     s.status.outcome = FactorOutcome::singular;

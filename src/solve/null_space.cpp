@@ -1,6 +1,8 @@
 /// What is left at the root without a pivot: null vectors, least multipliers, consistency.
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hierarchical_state.hpp"
 
@@ -36,12 +38,11 @@ void orthonormalise(std::vector<double>& vectors, int count, std::size_t n, cons
 
 }  // namespace
 
-/// Right vectors by back-substitution with a unit in one left-over column at a time, left ones likewise with L; then the verdict.
-void Hierarchical::State::find_null_space() {
+/// With the k left-over rows and columns of the root held at unit vectors in turn: right vectors z by back-substitution, left ones y with L.
+/// Then y_i^T A z_j is the left-over block of the root.
+void Hierarchical::State::eval_null_candidates() {
   const FrontData& root = fronts.back();
   const int k = root.num_delayed();
-  null_space.dimension = k;
-  if (k == 0) return;
   const std::size_t n = at(tree.num_unknowns());
   null_space.right.assign(at(k) * n, 0.0);
   null_space.left.assign(at(k) * n, 0.0);
@@ -63,6 +64,54 @@ void Hierarchical::State::find_null_space() {
       for (int i = 0; i < d.pivots; ++i) left[at(d.rows[i])] = z[i];
     }
   }
+}
+
+/// The left-over block T of the root is small, but small against what? With Z = Q_z R_z and Y = Q_y R_y the smallest singular values of A
+/// are, nearly, those of R_y^-T T R_z^-1: the distances to singular matrices. Directions without motion count as dependent rows below
+/// rank_tolerance, others as singular below singular_tolerance; all the rest is eliminated after all.
+void Hierarchical::State::decide_rank() {
+  FrontData& root = fronts.back();
+  const int m = root.num_delayed();
+  if (m == 0) return;
+  eval_null_candidates();
+  const std::size_t n = at(tree.num_unknowns());
+  using Matrix = Eigen::MatrixXd;
+  const auto rows = static_cast<Eigen::Index>(n);
+  const Eigen::Map<const Matrix> Z(null_space.right.data(), rows, m), Y(null_space.left.data(), rows, m);
+  const Eigen::HouseholderQR<Matrix> qr_z(Z), qr_y(Y);
+  const Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> T(root.a + root.pivots + static_cast<std::ptrdiff_t>(root.pivots) * root.size, m, m,
+                                                            Eigen::OuterStride<>(root.size));
+  const auto R_z = qr_z.matrixQR().topRows(m).triangularView<Eigen::Upper>();
+  const auto R_y = qr_y.matrixQR().topRows(m).triangularView<Eigen::Upper>();
+  Matrix core = R_y.transpose().solve(Matrix(T));
+  core = R_z.transpose().solve(Matrix(core.transpose())).transpose();
+  const Eigen::JacobiSVD<Matrix> svd(core, Eigen::ComputeFullV);
+  const Matrix directions = Z * R_z.solve(svd.matrixV());  // unit vectors
+  int dependent = 0;
+  for (int j = 0; j < m; ++j) {
+    double motion = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+      if (!is_constraint[i]) motion = std::max(motion, std::abs(directions(static_cast<Eigen::Index>(i), j)));
+    const double least = motion > options.null_motion_tolerance ? options.singular_tolerance : options.rank_tolerance;
+    if (!(svd.singularValues()(j) > least)) ++dependent;
+  }
+  std::vector<double> row_weight(at(m)), column_weight(at(m));
+  for (int j = 0; j < m; ++j) {
+    row_weight[at(j)] = 1.0 / Y.col(j).norm();
+    column_weight[at(j)] = 1.0 / Z.col(j).norm();
+  }
+  FrontMatrix matrix{root.a, root.size, root.full, root.rows, root.columns, root.row_from};
+  root.pivots = eliminate_completely(matrix, root.pivots, root.full - dependent, std::numeric_limits<double>::min(), row_weight.data(),
+                                     column_weight.data());
+}
+
+/// Orthonormal null vectors of what is left now, and the verdict.
+void Hierarchical::State::find_null_space() {
+  const int k = fronts.back().num_delayed();
+  null_space.dimension = k;
+  if (k == 0) return;
+  const std::size_t n = at(tree.num_unknowns());
+  eval_null_candidates();
   orthonormalise(null_space.right, k, n, scales.weight.data());
   orthonormalise(null_space.left, k, n, nullptr);
   // A null vector with motion in it: something is held by nothing.

@@ -1,5 +1,6 @@
 /// Forward substitution on the way up, back-substitution on the way down.
 #include <algorithm>
+#include <cmath>
 
 #include "hierarchical_state.hpp"
 
@@ -70,6 +71,21 @@ void Hierarchical::State::solve_scaled(const tree::Walker& walker, const double*
   };
   walker.walk_down(tree, tree::make_visit(backward));
   if (null_space.dimension > 0) project_multipliers();
+}
+
+void Hierarchical::State::eval_growth(const double* b, SolveReport& report) const {
+  double rhs_size = 0.0, size = 0.0;
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < x_scaled.size(); ++i) {
+    rhs_size = std::max(rhs_size, std::abs(scales.row[i] * b[i]));
+    if (std::abs(x_scaled[i]) <= size) continue;
+    size = std::abs(x_scaled[i]);
+    largest = i;
+  }
+  if (rhs_size == 0.0 || size == 0.0) return;
+  report.growth = size / rhs_size;
+  const auto next = std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), static_cast<std::int64_t>(largest));
+  report.growth_block = static_cast<int>(next - tree.unknown_begin.begin()) - 1;
 }
 
 }  // namespace bough::solve

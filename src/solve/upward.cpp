@@ -132,11 +132,11 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
   }
   FrontMatrix matrix{d.a, d.size, d.full, d.rows, d.columns, d.row_from};
   const bool is_root = f + 1 == tree.num_fronts();
-  // At the root the easy pivots go first; complete pivoting decides on the rest, and with it on the rank.
+  // At the root the easy pivots go first, then the others by complete pivoting down to what decide_rank() must look at.
   const PivotRule rule{is_root ? std::max(options.pivot_threshold, 0.1) : options.pivot_threshold, is_root ? 1e-2 : options.tiny_pivot};
   d.pivots = eliminate_with_threshold(matrix, rule);
   if (d.pivots >= 0 && is_root)
-    d.pivots = eliminate_completely(matrix, d.pivots, is_constraint.get(), options.rank_tolerance, options.singular_tolerance);
+    d.pivots = eliminate_completely(matrix, d.pivots, d.full, suspect_pivot);
   if (d.pivots < 0) {
     d.failed = true;
     d.pivots = d.full;

@@ -37,6 +37,8 @@ struct SolveReport {
   double inconsistency = 0.0;    ///< |Y^T b| / |b|, Y the left null vectors: 0 when dependent constraints agree with each other.
   int inconsistent_block = -1;   ///< block with the largest part of Y Y^T b.
   double inconsistent_amount = 0.0;  ///< that part, in the units of the block's right-hand side.
+  double growth = 0.0;           ///< |x| / |b|, maximum norms, scaled: a lower bound of |A^-1|. Near 1/eps: singular for this load.
+  int growth_block = -1;         ///< block with the largest scaled unknown.
   bool finite = true;            ///< false: the solution holds NaN or infinity.
 };
 

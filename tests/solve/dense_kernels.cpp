@@ -1,0 +1,132 @@
+/// Dense kernels of a front against Eigen, and the law P A Q = L U.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <numeric>
+#include <random>
+
+#include "../../src/solve/dense.hpp"
+
+namespace bough::test {
+namespace {
+
+using Eigen::MatrixXd;
+
+MatrixXd uniform(std::mt19937& random, int rows, int columns) {
+  std::uniform_real_distribution<double> d(-1.0, 1.0);
+  return MatrixXd::NullaryExpr(rows, columns, [&] { return d(random); });
+}
+
+struct Front {
+  MatrixXd a;
+  std::vector<int> rows, columns, row_from;
+  solve::FrontMatrix matrix;
+  Front(const MatrixXd& m, int full) : a(m), rows(static_cast<std::size_t>(full)) {
+    std::iota(rows.begin(), rows.end(), 0);
+    columns = row_from = rows;
+    matrix = {a.data(), static_cast<int>(m.rows()), full, rows.data(), columns.data(), row_from.data()};
+  }
+};
+
+/// Largest entry of P A Q - L U over the parts that must agree.
+double defect(const MatrixXd& original, const Front& f, int pivots) {
+  const int n = static_cast<int>(original.rows());
+  MatrixXd permuted = original;
+  for (std::size_t i = 0; i < f.rows.size(); ++i) permuted.row(static_cast<int>(i)) = original.row(f.row_from[i]);
+  MatrixXd both = permuted;
+  for (std::size_t j = 0; j < f.columns.size(); ++j) both.col(static_cast<int>(j)) = permuted.col(f.columns[j]);
+  MatrixXd L = MatrixXd::Identity(n, n), U = f.a;
+  for (int k = 0; k < pivots; ++k) {
+    L.col(k).tail(n - k - 1) = f.a.col(k).tail(n - k - 1);
+    U.col(k).tail(n - k - 1).setZero();
+  }
+  return (L * U - both).cwiseAbs().maxCoeff();
+}
+
+TEST(DenseKernels, ProductMatchesEigenForAllShapes) {
+  std::mt19937 random(1);
+  for (int m : {0, 1, 3, 7, 8, 16, 17, 33})
+    for (int n : {0, 1, 3, 4, 5, 9})
+      for (int k : {0, 1, 2, 31}) {
+        const MatrixXd a = uniform(random, m, k), b = uniform(random, k, n);
+        MatrixXd c = uniform(random, m, n);
+        const MatrixXd expected = c - a * b;
+        solve::subtract_product(m, n, k, a.data(), std::max(m, 1), b.data(), std::max(k, 1), c.data(), std::max(m, 1));
+        if (c.size() == 0) continue;
+        EXPECT_LE((c - expected).cwiseAbs().maxCoeff(), 1e-14 * (k + 1));
+      }
+}
+
+TEST(DenseKernels, FactorsReproduceTheFrontForEverySizeAndSplit) {
+  std::mt19937 random(2);
+  for (int n : {1, 2, 5, 12, 31, 32, 33, 47, 48, 49, 64, 80, 81, 130})
+    for (int full : {0, 1, n / 3, n / 2, n}) {
+      if (full > n) continue;
+      const MatrixXd a = uniform(random, n, n);
+      Front f(a, full);
+      const int pivots = solve::eliminate_with_threshold(f.matrix, {.threshold = 0.1, .least = 1e-9});
+      ASSERT_GE(pivots, 0);
+      EXPECT_LE(defect(a, f, pivots), 1e-13 * n) << n << " " << full << " " << pivots;  // growth 10 a pivot is allowed, never met
+    }
+}
+
+TEST(DenseKernels, SaddlePointFrontsDelayNothingThatHasAPivot) {
+  std::mt19937 random(3);
+  for (int m : {6, 30, 60}) {  // [K G^T; G 0], K first: the zero diagonal fills before its turn
+    const int r = m - 1;
+    MatrixXd a = MatrixXd::Zero(m + r, m + r);
+    a.topLeftCorner(m, m) = MatrixXd::Identity(m, m);
+    a.bottomLeftCorner(r, m) = uniform(random, r, m);
+    a.topRightCorner(m, r) = a.bottomLeftCorner(r, m).transpose();
+    // multipliers first is the hard order: all of them are refused at first sight or take a row of K
+    for (bool reversed : {false, true}) {
+      const MatrixXd b = reversed ? MatrixXd(a.reverse()) : a;
+      Front f(b, m + r);
+      EXPECT_EQ(solve::eliminate_with_threshold(f.matrix, {.threshold = 0.01, .least = 1e-12}), m + r);
+      EXPECT_LE(defect(b, f, m + r), 1e-11);
+    }
+  }
+}
+
+TEST(DenseKernels, ColumnsWithoutAPivotAreLeftWithAConsistentSchurComplement) {
+  std::mt19937 random(4);
+  for (int n : {10, 50, 100}) {
+    MatrixXd a = uniform(random, n, n);
+    const int full = n - 4;
+    for (int j : {0, 3, full - 1}) a.col(j).head(full).setZero();  // fully summed rows have nothing in these columns
+    Front f(a, full);
+    const int pivots = solve::eliminate_with_threshold(f.matrix, {.threshold = 0.01, .least = 1e-9});
+    EXPECT_EQ(pivots, full - 3);
+    EXPECT_LE(defect(a, f, pivots), 1e-10);
+  }
+}
+
+TEST(DenseKernels, CompletePivotingFindsTheRank) {
+  std::mt19937 random(5);
+  for (int n : {1, 4, 12, 40})
+    for (int rank = 0; rank <= n; rank += std::max(1, n / 4)) {
+      const MatrixXd a = uniform(random, n, rank) * uniform(random, rank, n);
+      Front f(a, n);
+      EXPECT_EQ(solve::eliminate_completely(f.matrix, 0, n, 1e-10), rank);
+      EXPECT_LE(defect(a, f, n), 1e-10);
+    }
+}
+
+TEST(DenseKernels, SubstitutionsInvertTheFactors) {
+  std::mt19937 random(6);
+  for (int n : {1, 7, 40}) {
+    const MatrixXd a = uniform(random, n, n) + 3.0 * MatrixXd::Identity(n, n);
+    Front f(a, n);
+    ASSERT_EQ(solve::eliminate_with_threshold(f.matrix, {.threshold = 0.1, .least = 1e-9}), n);
+    const Eigen::VectorXd b = uniform(random, n, 1);
+    Eigen::VectorXd v(n), x(n);
+    for (int i = 0; i < n; ++i) v(i) = b(f.row_from[static_cast<std::size_t>(i)]);
+    solve::substitute_forward(f.a.data(), n, n, v.data());
+    solve::substitute_backward(f.a.data(), n, n, v.data());
+    for (int i = 0; i < n; ++i) x(f.columns[static_cast<std::size_t>(i)]) = v(i);
+    EXPECT_LE((a * x - b).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace bough::test

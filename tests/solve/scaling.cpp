@@ -1,0 +1,80 @@
+/// Scaled variables: the condition number does not grow as the time step falls, and units do not matter.
+#include <gtest/gtest.h>
+
+#include "solving.hpp"
+
+namespace bough::test {
+namespace {
+
+TEST(Scaling, ConditionIsConstantBelowTheSmallestPeriod) {
+  // The beams' fastest period is about 2 pi sqrt(0.1 / 1e8) = 2e-4 s.
+  double reference = 0.0;
+  for (double step = 1e-5; step > 1e-12; step *= 0.1) {
+    const Scene scene = make_chain(1, 4, 3, step);
+    Solved s(scene, {}, {});
+    ASSERT_TRUE(s.factor().ok());
+    const double condition = condition_of(s.scaled_dense());
+    if (reference == 0.0) reference = condition;
+    EXPECT_LE(condition, 2.0 * reference) << step;
+    EXPECT_GE(condition, 0.5 * reference) << step;
+    const Eigen::VectorXd b = s.random_rhs(1);
+    s.solve(b);
+    EXPECT_LE(s.report.backward_error, 1e-15) << step;
+  }
+  EXPECT_LE(reference, 1e4);
+}
+
+TEST(Scaling, TheSameMatrixWithoutItIsHopeless) {
+  EXPECT_GT(condition_of(make_chain(1, 4, 3, 1e-5).dense()), 1e12);  // so the test above tests something
+}
+
+TEST(Scaling, ScalesArePowersOfTwoAndLeaveDiagonalsAndRowsNearOne) {
+  for (const Scene& scene : make_all_families(2)) {
+    Solved s(scene, {}, {});
+    ASSERT_TRUE(s.factor().ok());
+    for (double scale : s.solver.column_scale()) {
+      int exponent = 0;
+      EXPECT_EQ(std::frexp(scale, &exponent), 0.5);
+    }
+    const Eigen::MatrixXd A = s.scaled_dense();
+    const auto first = scene.first_unknown();
+    for (int b = 0; b < scene.graph.num_blocks(); ++b)
+      for (int u = first[static_cast<std::size_t>(b)]; u < first[static_cast<std::size_t>(b) + 1]; ++u) {
+        const bool motion = scene.graph.block_kind[static_cast<std::size_t>(b)] == blocks::BlockKind::motion;
+        const double size = motion ? A(u, u) : A.row(u).norm();
+        EXPECT_GE(size, 0.3) << scene.name;  // rounding to powers of two: at most sqrt 2 on either side, twice
+        EXPECT_LE(size, 2.1) << scene.name;
+      }
+  }
+}
+
+TEST(Scaling, ASecondFactorKeepsTheScalesUntilAskedOtherwise) {
+  Scene scene = make_chain(1, 2, 2);
+  Solved s(scene, {}, {});
+  ASSERT_TRUE(s.factor().ok());
+  const double before = s.solver.column_scale()[0];
+  for (auto& e : scene.elements) e *= 1e6;
+  write_elements(scene, s.solver);
+  ASSERT_TRUE(s.factor().ok());
+  EXPECT_EQ(s.solver.column_scale()[0], before);
+  s.solver.rescale();
+  ASSERT_TRUE(s.factor().ok());
+  EXPECT_NE(s.solver.column_scale()[0], before);
+  s.solve(s.random_rhs(1));
+  EXPECT_LE(s.report.backward_error, 1e-15);
+}
+
+TEST(Scaling, ExtremeStiffnessRatiosStaySolvable) {
+  for (double ratio : {1e-12, 1e12}) {
+    Scene scene = make_chain(3, 3, 4);
+    for (std::size_t e = 0; e < scene.elements.size(); e += 3)
+      if (scene.elements[e].rows() == 12) scene.elements[e] *= ratio;
+    Solved s(scene, {}, {});
+    ASSERT_TRUE(s.factor().ok()) << ratio;
+    s.solve(s.random_rhs(1));
+    EXPECT_LE(s.report.backward_error, 1e-15) << ratio;
+  }
+}
+
+}  // namespace
+}  // namespace bough::test

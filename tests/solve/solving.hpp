@@ -1,0 +1,58 @@
+#pragma once
+/// One scene with its tree and solver, and the comparison with dense algebra.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "bough/schedule/serial.hpp"
+#include "bough/solve/hierarchical.hpp"
+#include "bough/solve/monolithic.hpp"
+#include "random_scene.hpp"
+
+namespace bough::test {
+
+template <class Solver>
+void write_elements(const Scene& scene, Solver& solver) {
+  for (int e = 0; e < scene.graph.num_elements(); ++e) {
+    const Eigen::MatrixXd& a = scene.elements[static_cast<std::size_t>(e)];
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(solver.element_matrix(e), a.rows(), a.cols()) = a;
+  }
+}
+
+struct Solved {
+  const Scene& scene;
+  tree::Tree tree;
+  solve::Hierarchical solver;
+  solve::SolveReport report;
+
+  Solved(const Scene& s, const tree::TreeOptions& tree_options, const solve::SolveOptions& options)
+      : scene(s), tree(tree::make_tree(s.graph, tree_options)), solver(s.graph, tree, options) {
+    write_elements(scene, solver);
+  }
+
+  solve::FactorStatus factor() { return solver.factor(schedule::make_serial_walker()); }
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) {
+    Eigen::VectorXd x(b.size());
+    report = solver.solve(schedule::make_serial_walker(), b.data(), x.data());
+    return x;
+  }
+  /// Entries of order one in scaled rows.
+  Eigen::VectorXd random_rhs(unsigned seed) const;
+  /// max |x - y| / max |y| in scaled unknowns.
+  double scaled_difference(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const;
+  /// D_r A D_c, dense.
+  Eigen::MatrixXd scaled_dense() const;
+};
+
+/// Largest over smallest singular value (floating-point traps masked: the decomposition overflows on purpose).
+double condition_of(const Eigen::MatrixXd& A);
+
+/// Column scales before they are rounded to powers of two, from the definition (dense).
+Eigen::VectorXd exact_column_scale(const Solved& s);
+
+/// Factor, solve, and compare with Eigen's fully pivoted LU in scaled variables: the backward error stays below the bar, the difference of
+/// the solutions below condition times it.
+void expect_matches_dense(const Scene& scene, const tree::TreeOptions& tree_options, double backward_bar,
+                          const solve::SolveOptions& options = {.refinement_steps = 0});
+
+}  // namespace bough::test

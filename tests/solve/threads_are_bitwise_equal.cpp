@@ -1,0 +1,75 @@
+/// Number of threads and timing never change a bit.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "bough/schedule/threads.hpp"
+#include "solving.hpp"
+
+namespace bough::test {
+namespace {
+
+std::vector<double> run(const Scene& scene, const tree::Walker& walker, int leaf) {
+  Solved s(scene, {.leaf_size = leaf}, {.refinement_steps = 2, .refinement_above = 0.0});
+  EXPECT_TRUE(s.solver.factor(walker).ok());
+  const Eigen::VectorXd b = s.random_rhs(5);
+  std::vector<double> x(static_cast<std::size_t>(b.size()));
+  const auto report = s.solver.solve(walker, b.data(), x.data());
+  x.push_back(report.backward_error);
+  x.push_back(report.componentwise_backward_error);
+  x.push_back(s.solver.last_status().delayed_pivots);
+  std::vector<double> y(x.size() - 3);
+  s.solver.multiply(walker, x.data(), y.data());
+  x.insert(x.end(), y.begin(), y.end());
+  return x;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+TEST(Threads, GiveTheSameBitsForAnyCountAndAnyTiming) {
+  std::vector<Scene> scenes = make_all_families(41);
+  scenes.push_back(make_chain(7, 20, 4));
+  scenes.push_back(make_lattice(8, 7, 7));
+  for (const Scene& scene : scenes)
+    for (int leaf : {1, 5}) {
+      const auto serial = run(scene, schedule::make_serial_walker(), leaf);
+      for (int count : {1, 2, 3, 8}) {
+        schedule::Threads threads(count, 0.0);  // grain 0: every sub-domain is a task
+        EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), leaf))) << scene.name << " " << count;
+        threads.set_random_delay(20, static_cast<unsigned>(count));
+        EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), leaf))) << scene.name << " delayed " << count;
+      }
+    }
+}
+
+TEST(Threads, PrepareRunsOncePerLeafBeforeItsElementsAreUsed) {
+  const Scene scene = make_chain(3, 12, 4);
+  Solved reference(scene, {.leaf_size = 4}, {});
+  ASSERT_TRUE(reference.factor().ok());
+  schedule::Threads threads(3, 0.0);
+  const tree::Tree tree = tree::make_tree(scene.graph, {.leaf_size = 4});
+  solve::Hierarchical solver(scene.graph, tree);
+  write_elements(scene, solver);
+  ASSERT_TRUE(solver.factor(threads.walker()).ok());  // scales from the true matrices
+  for (int e = 0; e < scene.graph.num_elements(); ++e) std::fill_n(solver.element_matrix(e), scene.elements[static_cast<std::size_t>(e)].size(), 0.0);
+  std::vector<int> seen(static_cast<std::size_t>(scene.graph.num_elements()), 0);
+  auto body = [&](tree::SubdomainId, int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      const auto e = static_cast<std::size_t>(tree.element_order[static_cast<std::size_t>(p)]);
+      ++seen[e];
+      Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(solver.element_matrix(static_cast<int>(e)), scene.elements[e].rows(),
+                                                                scene.elements[e].cols()) = scene.elements[e];
+    }
+  };
+  ASSERT_TRUE(solver.factor(threads.walker(), solve::make_prepare(body)).ok());
+  for (int count : seen) EXPECT_EQ(count, 1);
+  const Eigen::VectorXd b = reference.random_rhs(1);
+  Eigen::VectorXd x(b.size());
+  (void)solver.solve(threads.walker(), b.data(), x.data());
+  EXPECT_EQ(reference.solve(b), x);
+}
+
+}  // namespace
+}  // namespace bough::test

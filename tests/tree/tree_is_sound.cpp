@@ -1,0 +1,176 @@
+/// Laws of the tree: everything is in it once, in the right order, and the cost grows as it should.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bough/tree/tree.hpp"
+#include "solve/random_scene.hpp"
+
+namespace bough::test {
+namespace {
+
+using blocks::BlockKind;
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+std::span<const int> blocks_of(const blocks::BlockGraph& g, int e) {
+  return {g.element_blocks.data() + g.element_begin[at(e)], at(g.element_begin[at(e) + 1] - g.element_begin[at(e)])};
+}
+
+bool is_below(const tree::Tree& t, tree::FrontId low, tree::FrontId high) {
+  while (low != tree::none && low < high) low = t.fronts[at(low)].parent;
+  return low == high;
+}
+
+void expect_sound(const Scene& scene, const tree::TreeOptions& options) {
+  const auto& g = scene.graph;
+  const tree::Tree t = tree::make_tree(g, options);
+  const std::string what = scene.name + " leaf " + std::to_string(options.leaf_size) + " depth " + std::to_string(options.depth);
+  SCOPED_TRACE(what);
+
+  // every element once, every block eliminated once
+  std::vector<int> order = t.element_order;
+  std::sort(order.begin(), order.end());
+  ASSERT_EQ(order.size(), at(g.num_elements()));
+  for (int e = 0; e < g.num_elements(); ++e) ASSERT_EQ(order[at(e)], e);
+  std::vector<int> times(at(g.num_blocks()), 0);
+  for (const tree::Front& f : t.fronts)
+    for (int k = 0; k < f.num_eliminated_blocks; ++k) ++times[at(t.blocks(f)[at(k)])];
+  for (int n : times) ASSERT_EQ(n, 1);
+
+  for (tree::FrontId id = 0; id < t.num_fronts(); ++id) {
+    const tree::Front& f = t.fronts[at(id)];
+    int rows = 0, eliminated = 0;
+    std::set<int> own;
+    for (std::size_t k = 0; k < t.blocks(f).size(); ++k) {
+      const int b = t.blocks(f)[k];
+      ASSERT_TRUE(own.insert(b).second);
+      rows += g.block_size[at(b)];
+      if (static_cast<int>(k) < f.num_eliminated_blocks) {
+        eliminated += g.block_size[at(b)];
+        ASSERT_EQ(t.front_of_block[at(b)], id);
+      } else {  // a boundary block waits for a front above
+        ASSERT_TRUE(t.front_of_block[at(b)] > id && is_below(t, id, t.front_of_block[at(b)]));
+      }
+    }
+    ASSERT_EQ(rows, f.size());
+    ASSERT_EQ(eliminated, f.num_eliminated);
+    if (id + 1 < t.num_fronts()) {
+      ASSERT_GT(f.parent, id);
+    } else {
+      ASSERT_EQ(f.parent, tree::none);
+      ASSERT_EQ(f.num_boundary, 0);
+    }
+    // scatter maps point at the block they mean
+    const auto row_of = [&](const tree::Front& in, int block) {
+      int row = 0;
+      for (int b : t.blocks(in)) {
+        if (b == block) return row;
+        row += g.block_size[at(b)];
+      }
+      return -2;
+    };
+    for (int p = f.element_begin; p < f.element_end; ++p) {
+      const auto blocks = blocks_of(g, t.element_order[at(p)]);
+      for (std::size_t k = 0; k < blocks.size(); ++k) ASSERT_EQ(t.scatter[at(t.scatter_begin[at(p)]) + k], row_of(f, blocks[k]));
+      ASSERT_EQ(t.leaf_of_element[at(t.element_order[at(p)])], f.subdomain);
+    }
+    for (tree::FrontId c : t.children(f)) {
+      const tree::Front& child = t.fronts[at(c)];
+      ASSERT_EQ(child.parent, id);
+      for (auto k = child.block_begin + child.num_eliminated_blocks; k < child.block_end; ++k)
+        ASSERT_EQ(t.parent_row[at(k)], row_of(f, t.front_blocks[at(k)]));
+    }
+  }
+
+  // motion: eliminated once all its elements are assembled; multipliers: not before a motion block that they constrain
+  for (int e = 0; e < g.num_elements(); ++e) {
+    tree::FrontId assembled = tree::none;
+    for (tree::FrontId id = 0; id < t.num_fronts(); ++id)
+      for (int other : t.elements(t.fronts[at(id)]))
+        if (other == e) assembled = id;
+    for (int b : blocks_of(g, e)) {
+      ASSERT_TRUE(is_below(t, assembled, t.front_of_block[at(b)]));
+      if (g.block_kind[at(b)] == BlockKind::motion) continue;
+      bool one = false;
+      for (int other : blocks_of(g, e))
+        one = one || (g.block_kind[at(other)] == BlockKind::motion && is_below(t, t.front_of_block[at(other)], t.front_of_block[at(b)]));
+      ASSERT_TRUE(one);
+    }
+  }
+
+  // sub-domains: postorder, contiguous fronts and elements, one top each, sizes as asked
+  for (tree::SubdomainId id = 0; id < t.num_subdomains(); ++id) {
+    const tree::Subdomain& s = t.subdomains[at(id)];
+    ASSERT_LT(s.front_begin, s.front_end);
+    for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) ASSERT_EQ(t.fronts[at(f)].subdomain, id);
+    for (tree::FrontId f = s.subtree_front_begin; f < s.front_end; ++f) ASSERT_TRUE(is_below(t, f, s.top()));
+    if (s.is_leaf() && options.leaf_size > 0 && options.depth < 0) ASSERT_LE(s.element_end - s.element_begin, options.leaf_size);
+    if (options.depth >= 0) ASSERT_LE(s.level, options.depth);
+    for (tree::SubdomainId c : t.children(s)) ASSERT_EQ(t.subdomains[at(c)].parent, id);
+    if (id < t.root()) ASSERT_EQ(t.fronts[at(s.top())].parent, t.subdomains[at(s.parent)].top());
+  }
+  ASSERT_EQ(t.subdomains.back().element_end - t.subdomains.back().element_begin, g.num_elements());
+}
+
+TEST(Tree, IsSoundForAllFamiliesLeafSizesAndDepths) {
+  for (unsigned seed = 1; seed <= 3; ++seed)
+    for (const Scene& scene : make_all_families(seed)) {
+      for (int leaf : {0, 1, 2, 3, 7, 20, 1000}) expect_sound(scene, {.leaf_size = leaf});
+      for (int depth : {0, 1, 2, 5}) expect_sound(scene, {.depth = depth});
+    }
+  expect_sound(SceneMaker(1).finish("empty"), {});
+}
+
+TEST(Tree, IsTheSameEveryTime) {
+  const Scene scene = make_lattice(3, 9, 8);
+  const tree::Tree a = tree::make_tree(scene.graph, {.leaf_size = 4}), b = tree::make_tree(scene.graph, {.leaf_size = 4});
+  EXPECT_EQ(a.element_order, b.element_order);
+  EXPECT_EQ(a.front_blocks, b.front_blocks);
+  EXPECT_EQ(a.scatter, b.scatter);
+}
+
+TEST(Tree, CostOfAChainIsLinearForEveryLeafSize) {
+  for (int leaf : {1, 8, 64, 100000}) {
+    const auto flops = [&](int links) { return tree::make_tree(make_chain(1, links, 4).graph, {.leaf_size = leaf}).subdomains.back().subtree_flops; };
+    const double ratio = flops(256) / flops(64);
+    EXPECT_GT(ratio, 3.5) << leaf;
+    EXPECT_LT(ratio, 4.6) << leaf;
+  }
+}
+
+TEST(Tree, ACutOfAChainIsOneNodeAndTheTreeIsShallow) {
+  const Scene scene = make_chain(1, 128, 4);
+  const tree::Tree t = tree::make_tree(scene.graph, {.leaf_size = 4});
+  int deepest = 0;
+  for (const tree::Subdomain& s : t.subdomains) {
+    deepest = std::max(deepest, s.level);
+    EXPECT_LE(t.fronts[at(s.top())].num_boundary, 24);  // two cuts, a node and at most its joint each
+  }
+  EXPECT_LE(deepest, 12);  // log2(640 / 4) = 7.3; cuts between two thirds and one third would give 12.5
+}
+
+TEST(Tree, AStarKeepsOneHubAtAllInterfaces) {
+  const Scene scene = make_star(1, 16, 4);
+  const tree::Tree t = tree::make_tree(scene.graph, {.leaf_size = 6});
+  for (tree::SubdomainId s = 0; s < t.root(); ++s) EXPECT_LE(t.fronts[at(t.subdomains[at(s)].top())].num_boundary, 12);
+}
+
+TEST(Tree, RefusesGraphsThatAreNotConsistent) {
+  blocks::BlockGraph g;
+  g.block_size = {6};
+  g.block_kind = {BlockKind::motion};
+  g.element_blocks = {0, 1};
+  g.element_begin = {0, 2};
+  EXPECT_THROW((void)tree::make_tree(g), std::invalid_argument);
+  g.element_blocks = {0, 0};
+  EXPECT_THROW((void)tree::make_tree(g), std::invalid_argument);
+  g.element_blocks = {0};
+  g.element_begin = {0, 1};
+  g.block_size = {0};
+  EXPECT_THROW((void)tree::make_tree(g), std::invalid_argument);
+  EXPECT_THROW((void)tree::make_tree({}, {.leaf_size = -1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace bough::test
