@@ -16,13 +16,14 @@ constexpr double largest_turn = 2.8;  ///< rotation of a node in one step [rad]:
 struct Integrator {
   AlphaCoefficients c;
   double h;
-  std::vector<Vec6<double>> v, a, algorithmic;  ///< at the start of the step
+  std::vector<Vec6<double>>&v, &a, &algorithmic;  ///< at the start of the step
 
-  Integrator(const State& state, const StepOptions& options, double step)
-      : c(make_alpha_coefficients(options.spectral_radius)), h(step), v(state.nodes.size()), a(v), algorithmic(state.algorithmic) {
+  Integrator(const State& state, const StepOptions& options, double step, Workspace& work)
+      : c(make_alpha_coefficients(options.spectral_radius)), h(step), v(work.v), a(work.a), algorithmic(work.algorithmic) {
     for (std::size_t n = 0; n < v.size(); ++n) {
       v[n] = state.nodes[n].v;
       a[n] = state.nodes[n].a;
+      algorithmic[n] = state.algorithmic[n];
     }
   }
 
@@ -48,14 +49,13 @@ struct Integrator {
 
 StepReport advance(System& system, State& state, const StepOptions& options, double end_time) {
   const double h = state.step_size;
-  const Integrator rule(state, options, h);
+  const Integrator rule(state, options, h, system.work());
   const AlphaCoefficients& c = rule.c;
   StepReport report;
   if (const auto t = system.set_time(end_time, laws::Side::left)) {
     report.cause = t->text;
     return report;
   }
-  const double end = end_time;
   // Predictor: dv/dt stays, a_{n+1} follows from it.
   for (std::size_t n = 0; n < state.nodes.size(); ++n) {
     const Vec6<double> next =
@@ -69,7 +69,7 @@ StepReport advance(System& system, State& state, const StepOptions& options, dou
     report.cause = t->text;
     return report;
   }
-  state.time = end;
+  state.time = end_time;
   const elements::Slopes slopes{c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false};
   report = iterate(system, state, options, slopes, Reuse::while_it_contracts, [&](State& s) { return rule.follow(system, s); });
   if (!report.converged) return report;

@@ -8,7 +8,7 @@ template <class Follow>
 StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes, Reuse reuse,
                    Follow&& follow) {
   StepReport report;
-  std::vector<double> rhs(system.num_unknowns()), x(system.num_unknowns());
+  std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
   const auto fail = [&report](const Trouble& t) {
     report.cause = t.text;
     return report;
@@ -65,7 +65,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     if (const auto t = system.solve(rhs.data(), x.data())) return fail(*t);
     previous = report.change;
     report.change = system.apply(state, x.data());
-    report.changes.push_back(report.change);
+    if (report.iterations < StepReport::remembered_changes) report.change_list[static_cast<std::size_t>(report.iterations)] = report.change;
     ++report.iterations;
     if (!std::isfinite(report.change)) return fail({"the iteration left finite numbers"});
     if (const auto t = follow(state)) return fail(*t);

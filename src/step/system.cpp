@@ -94,6 +94,12 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   }
   law_values_.assign(plan.laws.size(), 0.0);
   law_rates_ = law_accelerations_ = law_values_;
+  law_series_.resize(plan.laws.size());
+  row_series_.resize(static_cast<std::size_t>(plan.num_multipliers));
+  work_.rhs.assign(num_unknowns(), 0.0);
+  work_.x = work_.rhs;
+  work_.v.assign(plan.nodes.size(), Vec6<double>::zero());
+  work_.a = work_.algorithmic = work_.v;
   chunk_max_.assign((num_elements + element_grain - 1) / element_grain + 1, 0.0);
 }
 
@@ -357,9 +363,9 @@ void System::evaluate_rate(const State& state, std::vector<double>& rate) {
 }
 
 void System::constraint_series(const State& state, const Vec6<double>* jerk, double step_size,
-                               std::vector<lanes::Taylor<double, 3>>& out) {
+                               std::vector<lanes::Taylor<double, 3>>& out) const {
   const elements::Field f = field(state);
-  std::vector<lanes::Taylor<double, 3>> laws(plan_.laws.size());
+  std::vector<lanes::Taylor<double, 3>>& laws = law_series_;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     laws[i].c[0] = law_values_[i];
     laws[i].c[1] = law_rates_[i];
@@ -380,8 +386,8 @@ void System::constraint_series(const State& state, const Vec6<double>* jerk, dou
     });
 }
 
-double System::constraint_violation(const State& state, int order, int* joint) {
-  std::vector<lanes::Taylor<double, 3>> series;
+double System::constraint_violation(const State& state, int order, int* joint) const {
+  std::vector<lanes::Taylor<double, 3>>& series = row_series_;
   constraint_series(state, nullptr, 0.0, series);
   double most = 0.0;
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {

@@ -146,7 +146,7 @@ class Run {
   schedule::Threads threads_;
   plan::Plan plan_;
   step::System system_;
-  step::State state_;
+  step::State state_, before_;
   Summary summary_;
   results::Balance balance_;
   std::vector<double> values_;
@@ -168,17 +168,17 @@ bool Run::run_statics() {
       const double from = static_cast<double>(k) / steps, width = 1.0 / steps;
       const double target =
           part + 1 == (1L << level) && k + 1 == steps ? 1.0 : from + width * static_cast<double>(part + 1) / static_cast<double>(1L << level);
-      const step::State before = state_;
+      before_ = state_;
       const step::StepReport report = step::equilibrate(system_, state_, options_, target);
       count(report, report.converged);
       if (!report.converged) {
-        state_ = before;
+        state_ = before_;
         if (++level > options_.max_cuts)
           return fail("no equilibrium at load factor " + std::to_string(target) + ": " + report.cause);
         part *= 2;
         continue;
       }
-      last_step_ = target - before.time;
+      last_step_ = target - before_.time;
       step::accept_turns(system_, state_);
       check_constraints();
       ++part;
@@ -228,7 +228,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
   if (!start_segment(h, begin == 0.0)) return false;
   while (done < (steps << level)) {
     const double size = h / static_cast<double>(1L << level);
-    const step::State before = state_;
+    before_ = state_;
     const step::StartReport changed = step::change_step_size(system_, state_, options_, size);
     if (!changed.ok) return fail(changed.cause);
     const long next = done + 1;
@@ -236,10 +236,10 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     const step::StepReport report = step::advance(system_, state_, options_, target);
     count(report, report.converged);
     if (!report.converged) {
-      state_ = before;
+      state_ = before_;
       easy = 0;
       if (++level > options_.max_cuts)
-        return fail("the step at time " + std::to_string(before.time) + " fails down to a step size of " + std::to_string(size) + ": " +
+        return fail("the step at time " + std::to_string(before_.time) + " fails down to a step size of " + std::to_string(size) + ": " +
                     report.cause);
       done *= 2;
       continue;

@@ -1,6 +1,8 @@
 #pragma once
 /// Verbs that take a state to the next: consistent start, one step in time, one step of load.
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,13 +13,18 @@ namespace bough::step {
 
 /// Outcome of one attempt.
 struct StepReport {
+  static constexpr int remembered_changes = 32;
   bool converged = false;
   bool at_floor = false;      ///< accepted at the round-off floor of the residual, above the tolerance
   int iterations = 0;         ///< linear solutions
   double change = 0.0;        ///< last change of relative motions
   ResidualSize residual;      ///< at the end
   std::string cause;          ///< why not, when not converged
-  std::vector<double> changes;  ///< of every iteration (statics: shows the quadratic convergence)
+  std::array<double, remembered_changes> change_list{};
+  /// Changes of the first iterations (statics: shows the quadratic convergence).
+  std::span<const double> changes() const {
+    return {change_list.data(), static_cast<std::size_t>(iterations < remembered_changes ? iterations : remembered_changes)};
+  }
 };
 
 /// Outcome of a consistent start.

@@ -29,6 +29,12 @@ struct ResidualSize {
   int worst_force_node = -1, worst_moment_node = -1, worst_joint = -1;
 };
 
+/// Buffers of the verbs in advance.hpp, sized once: a step does not allocate.
+struct Workspace {
+  std::vector<double> rhs, x;                               ///< of the linear system
+  std::vector<motion::Vec6<double>> v, a, algorithmic;      ///< of the nodes at the start of a step
+};
+
 /// Why a step or a run cannot go on, in words for the user.
 struct Trouble {
   std::string text;
@@ -43,6 +49,7 @@ class System {
   solve::AnySolver& solver() { return *solver_; }
   const tree::Walker& walker() const { return walker_; }
   WorkCounts& counts() { return counts_; }
+  Workspace& work() { return work_; }
 
   /// Values of all time functions at t (right or left limit). A value that is not finite is told with its owner and the time.
   [[nodiscard]] std::optional<Trouble> set_time(double time, laws::Side side = laws::Side::left);
@@ -75,9 +82,9 @@ class System {
   void evaluate_rate(const State& state, std::vector<double>& rate);
   /// Constraint rows and their first three time derivatives (jerk may be null: then 0), by multiplier.
   void constraint_series(const State& state, const motion::Vec6<double>* jerk, double step_size,
-                         std::vector<lanes::Taylor<double, 3>>& out);
+                         std::vector<lanes::Taylor<double, 3>>& out) const;
   /// Largest |Phi| (order 0) or |Phi'| (order 1) over all rows and the joint it belongs to.
-  double constraint_violation(const State& state, int order, int* joint = nullptr);
+  double constraint_violation(const State& state, int order, int* joint = nullptr) const;
 
   /// Arm that turns the scale of forces into one of moments [m]: the longest element, or the whole where none has a length.
   double moment_arm() const { return moment_arm_; }
@@ -94,8 +101,10 @@ class System {
   std::unique_ptr<solve::AnySolver> solver_;
   tree::Walker walker_;
   WorkCounts counts_;
+  Workspace work_;
   solve::SolveReport last_solution_;
   std::vector<double> law_values_, law_rates_, law_accelerations_;
+  mutable std::vector<lanes::Taylor<double, 3>> law_series_, row_series_;  ///< scratch of constraint_series, constraint_violation
   std::vector<std::int64_t> element_begin_;       ///< place of an element's residual
   std::vector<double> element_residual_;
   std::vector<double> element_magnitude_;         ///< sum of |terms| of each entry of element_residual_
