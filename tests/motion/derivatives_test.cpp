@@ -4,6 +4,7 @@
 #include "bough/lanes/jet.hpp"
 #include "bough/lanes/taylor.hpp"
 #include "bough/motion/group.hpp"
+#include "bough/motion/second_slopes.hpp"
 #include "samples.hpp"
 
 namespace bough::motion {
@@ -40,6 +41,34 @@ TEST(Derivatives, of_the_tangent_transpose_times_a_wrench_match_the_complex_step
 TEST(Derivatives, of_the_inverse_tangent_transpose_times_a_wrench_match_the_complex_step) {
   expect_derivative([](const auto& d, const auto& n) { return inverse_tangent_transpose_derivative(d, n); },
                     [](const auto& d, const auto& n) { return inverse_tangent_transpose_times(d, n); }, 14);
+}
+
+TEST(Derivatives, second_ones_of_the_tangent_match_the_complex_step_of_the_first) {
+  test::Random random(21);
+  for (const double phi : test::angles_beyond_pi()) {
+    const Vec6<double> d = random.motion(phi), x = random.vector<6>(), y = random.vector<6>(), n = random.vector<6>();
+    const TangentSlopes<double> slopes(d);
+    const auto along_x = [&](const Vec6<Complex>& z) {
+      return tangent_operator(z).slope_times(lanes::cast<Complex>(x), lanes::cast<Complex>(y));
+    };
+    const auto gradient = [&](const Vec6<Complex>& z) {
+      return lanes::transpose_times(tangent_derivative(z, lanes::cast<Complex>(y)), lanes::cast<Complex>(n));
+    };
+    const double bound = 64 * test::epsilon;  // entries up to 5
+    EXPECT_LT(test::largest(slopes.T().slope_times(x, y) - tangent_derivative(d, y) * x), bound) << "phi = " << phi;
+    EXPECT_LT(test::largest(slopes.second(x, y) - test::complex_step<6>(along_x, d)), bound) << "phi = " << phi;
+    EXPECT_LT(test::largest(slopes.hessian(n, y) - test::complex_step<6>(gradient, d)), bound) << "phi = " << phi;
+  }
+}
+
+TEST(Derivatives, exp_from_the_tangents_coefficients_is_exp) {
+  test::Random random(22);
+  for (const double phi : test::angles_beyond_pi()) {
+    const Vec6<double> d = random.motion(phi);
+    const Frame<double> a = exp_se3(d), b = exp_se3(tangent_operator(d));
+    EXPECT_LT(test::largest(a.R - b.R), 8 * test::epsilon) << "phi = " << phi;
+    EXPECT_LT(test::largest(a.x - b.x), 8 * test::epsilon) << "phi = " << phi;
+  }
 }
 
 TEST(Derivatives, of_the_exponential_are_the_tangent_operator) {

@@ -26,8 +26,9 @@ struct Beam {
 /// Motions of the nodes relative to the reference node: the only positions that a beam looks at.
 template <class S, int N>
 struct BeamShape {
-  Frame<S> relative[N];  ///< H_r^-1 H_i
-  Vec6<S> d[N];          ///< their logarithms
+  Frame<S> relative[N];                  ///< H_r^-1 H_i
+  Vec6<S> d[N];                          ///< their logarithms
+  motion::MotionOperator<S> inverse[N];  ///< T(d_i)^-1
 };
 
 template <class S, int N>
@@ -41,6 +42,7 @@ BeamShape<S, N> eval_shape(const PortMotion<S>* p) {
     } else {
       b.relative[i] = motion::relative(p[r].H, p[i].H);
       b.d[i] = motion::Se3::log(b.relative[i]);
+      b.inverse[i] = motion::inverse_tangent_operator(b.d[i]);
     }
   }
   return b;
@@ -74,7 +76,7 @@ void add_nodal_wrenches(const BeamShape<S, N>& b, const Vec6<S>* p, Vec6<S>* wre
   constexpr int r = Beam<N>::reference;
   for (int i = 0; i < N; ++i) {
     if (i == r) continue;
-    const Vec6<S> f = motion::Se3::inverse_tangent_transpose_times(b.d[i], p[i]);
+    const Vec6<S> f = b.inverse[i].transpose_times(p[i]);
     wrench[i] += f;
     wrench[r] -= motion::inverse_adjoint_transpose_times(b.relative[i], f);
   }
@@ -86,8 +88,7 @@ void eval_shape_rates(const BeamShape<S, N>& b, const PortMotion<S>* p, Vec6<S>*
   constexpr int r = Beam<N>::reference;
   for (int i = 0; i < N; ++i)
     rate[i] = i == r ? Vec6<S>::zero()
-                     : motion::Se3::inverse_tangent_times(
-                           b.d[i], p[i].v - motion::inverse_adjoint_times(b.relative[i], p[r].v));
+                     : b.inverse[i].times(p[i].v - motion::inverse_adjoint_times(b.relative[i], p[r].v));
 }
 
 /// Elastic and viscous forces conjugate to d_i:  n = C (e - e0) + D e',  p_i += w (N_i' T^T n + N_i A^T n),  A = d(T d')/dd.
@@ -104,16 +105,16 @@ void add_internal_forces(const Beam<N>& beam, const BeamShape<S, N>& b, const Ve
     for (int g = 0; g < Beam<N>::num_strain_points; ++g) {
       const Vec6<S> d = blend<S, N>(rule.shape[g], b.d);
       const Vec6<S> slope = blend<S, N>(rule.slope[g], b.d);
-      Vec6<S> e = (1.0 / beam.length) * motion::Se3::tangent_times(d, slope);
+      const auto T = motion::tangent_operator(d);
+      Vec6<S> e = (1.0 / beam.length) * T.times(slope);
       for (int k = 0; k < 6; ++k) e[k] = e[k] - beam.reference_strain[g][k];
       Vec6<S> n = beam.stiffness * e;
-      const Mat6<S> bending = motion::Se3::tangent_derivative(d, slope);
+      const Mat6<S> bending = T.derivative(slope);
       if (rate != nullptr && beam.has_damping) {
-        const Vec6<S> e_rate = motion::Se3::tangent_times(d, blend<S, N>(rule.slope[g], rate)) +
-                               bending * blend<S, N>(rule.shape[g], rate);
+        const Vec6<S> e_rate = T.times(blend<S, N>(rule.slope[g], rate)) + bending * blend<S, N>(rule.shape[g], rate);
         n += beam.damping * ((1.0 / beam.length) * e_rate);
       }
-      const Vec6<S> by_slope = motion::Se3::tangent_transpose_times(d, n);
+      const Vec6<S> by_slope = T.transpose_times(n);
       const Vec6<S> by_shape = lanes::transpose_times(bending, n);
       for (int i = 0; i < N; ++i)
         if (i != Beam<N>::reference)
@@ -126,7 +127,8 @@ void add_internal_forces(const Beam<N>& beam, const BeamShape<S, N>& b, const Ve
 template <class S>
 struct SectionMotion {
   Vec6<S> d;
-  Frame<S> relative;  ///< exp(d)
+  motion::MotionOperator<S> T;  ///< T(d)
+  Frame<S> relative;            ///< exp(d)
   Vec6<S> v, a;
 };
 
@@ -135,15 +137,16 @@ SectionMotion<S> eval_section(const double* shape, const BeamShape<S, N>& b, con
                               const PortMotion<S>& r) {
   SectionMotion<S> m;
   m.d = blend<S, N>(shape, b.d);
-  m.relative = motion::Se3::exp(m.d);
+  m.T = motion::tangent_operator(m.d);
+  m.relative = motion::exp_se3(m.T);
   if (rate == nullptr) return m;
   const Vec6<S> d1 = blend<S, N>(shape, rate);
   const Vec6<S> carried = motion::inverse_adjoint_times(m.relative, r.v);
-  const Vec6<S> own = motion::Se3::tangent_times(m.d, d1);
+  const Vec6<S> own = m.T.times(d1);
   m.v = carried + own;
   if (rate2 != nullptr)
     m.a = motion::inverse_adjoint_times(m.relative, r.a) - motion::cross6_times(own, carried) +
-          motion::Se3::tangent_times(m.d, blend<S, N>(shape, rate2)) + motion::Se3::tangent_derivative(m.d, d1) * d1;
+          m.T.times(blend<S, N>(shape, rate2)) + m.T.slope_times(d1, d1);
   return m;
 }
 
@@ -158,9 +161,9 @@ void eval_shape_accelerations(const BeamShape<S, N>& b, const PortMotion<S>* p, 
     }
     const Vec6<S> carried = motion::inverse_adjoint_times(b.relative[i], p[r].v);
     const Vec6<S> own = p[i].v - carried;
-    rate2[i] = motion::Se3::inverse_tangent_times(
-        b.d[i], p[i].a - motion::inverse_adjoint_times(b.relative[i], p[r].a) + motion::cross6_times(own, carried) -
-                    motion::Se3::tangent_derivative(b.d[i], rate[i]) * rate[i]);
+    rate2[i] = b.inverse[i].times(p[i].a - motion::inverse_adjoint_times(b.relative[i], p[r].a) +
+                                  motion::cross6_times(own, carried) -
+                                  motion::tangent_operator(b.d[i]).slope_times(rate[i], rate[i]));
   }
 }
 
@@ -168,10 +171,19 @@ void eval_shape_accelerations(const BeamShape<S, N>& b, const PortMotion<S>* p, 
 /// virtual motion of the section = Ad(exp d)^-1 eta_r + T(d) delta d.
 template <class S, int N>
 void add_section_wrench(const double* shape, const SectionMotion<S>& m, const Vec6<S>& f, Vec6<S>* p, Vec6<S>* wrench) {
-  const Vec6<S> q = motion::Se3::tangent_transpose_times(m.d, f);
+  const Vec6<S> q = m.T.transpose_times(f);
   for (int i = 0; i < N; ++i)
     if (i != Beam<N>::reference) p[i] += shape[i] * q;
   wrench[Beam<N>::reference] += motion::inverse_adjoint_transpose_times(m.relative, f);
+}
+
+/// Motion of the reference node seen by masses: gravity is an acceleration (-g; 0) of the whole frame,
+///   a_r - (R_r^T g; 0), and none of the motion is looked at in statics.
+template <class S>
+PortMotion<S> add_gravity(const PortMotion<S>& r, const Surroundings<S>& around) {
+  const Vec6<S> weight = lanes::join<S>(lanes::transpose_times(r.H.R, around.gravity), Vec3<S>::zero());
+  if (around.has_inertia) return {r.H, r.v, r.a - weight};
+  return {r.H, Vec6<S>::zero(), -weight};
 }
 
 /// Inertia with the consistent velocity field, and gravity:  f = m (a - R^T g) - ad(v)^T m v  per length, at the mass points.
@@ -179,18 +191,14 @@ template <class S, int N>
 void add_inertia_forces(const Beam<N>& beam, const BeamShape<S, N>& b, const PortMotion<S>* ports, const Vec6<S>* rate,
                         const Surroundings<S>& around, Vec6<S>* p, Vec6<S>* wrench) {
   const auto& rule = mass_rule<N>();
-  const PortMotion<S>& r = ports[Beam<N>::reference];
+  const PortMotion<S> r = add_gravity(ports[Beam<N>::reference], around);
+  const bool moves = around.has_inertia;
   Vec6<S> rate2[N];
-  const Vec3<S> g_r = lanes::transpose_times(r.H.R, around.gravity);
-  if (around.has_inertia) eval_shape_accelerations<S, N>(b, ports, rate, rate2);
+  if (moves) eval_shape_accelerations<S, N>(b, ports, rate, rate2);
   for (int g = 0; g < Beam<N>::num_mass_points; ++g) {
-    const SectionMotion<S> m = eval_section<S, N>(rule.shape[g], b, around.has_inertia ? rate : nullptr,
-                                                  around.has_inertia ? rate2 : nullptr, r);
-    const Vec3<S> weight = lanes::transpose_times(m.relative.R, g_r);
-    Vec6<S> a = lanes::join<S>(-weight, Vec3<S>::zero());
-    if (around.has_inertia) a += m.a;
-    Vec6<S> f = beam.mass * a;
-    if (around.has_inertia) f -= motion::cross6_transpose_times(m.v, Vec6<S>(beam.mass * m.v));
+    const SectionMotion<S> m = eval_section<S, N>(rule.shape[g], b, moves ? rate : nullptr, moves ? rate2 : nullptr, r);
+    Vec6<S> f = beam.mass * (moves ? m.a : motion::inverse_adjoint_times(m.relative, r.a));
+    if (moves) f -= motion::cross6_transpose_times(m.v, Vec6<S>(beam.mass * m.v));
     add_section_wrench<S, N>(rule.shape[g], m, (rule.weight[g] * beam.length) * f, p, wrench);
   }
 }

@@ -62,7 +62,7 @@ template <class S, int N>
 Jet<S, N> operator/(const Jet<S, N>& x, const Jet<S, N>& y) {
   Jet<S, N> r;
   const S inv = S(1.0) / y.a;
-  r.a = x.a * inv;
+  r.a = x.a / y.a;  // the bits of the plain quotient
   for (int i = 0; i < N; ++i) r.d[i] = (x.d[i] - r.a * y.d[i]) * inv;
   return r;
 }
@@ -97,7 +97,9 @@ Jet<S, N> operator-(double k, const Jet<S, N>& x) {
 }
 template <class S, int N>
 Jet<S, N> operator/(const Jet<S, N>& x, double k) {
-  return (1.0 / k) * x;
+  Jet<S, N> r = (1.0 / k) * x;
+  r.a = x.a / k;
+  return r;
 }
 template <class S, int N>
 Jet<S, N> operator/(double k, const Jet<S, N>& x) {

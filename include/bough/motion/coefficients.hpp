@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "bough/lanes/jet.hpp"
 #include "bough/motion/types.hpp"
 
 namespace bough::motion {
@@ -19,6 +20,16 @@ S horner(const std::array<L, N>& table, const S& x) {
   S r(table[N - 1]);
   for (std::size_t k = N - 1; k-- > 0;) r = r * x + table[k];
   return r;
+}
+/// Its derivative by x.
+template <class S, class L, std::size_t N>
+S horner_slope(const std::array<L, N>& table, const S& x) {
+  S r(table[N - 1]), d(0.0);
+  for (std::size_t k = N - 1; k-- > 0;) {
+    d = d * x + r;
+    r = r * x + table[k];
+  }
+  return d;
 }
 /// A table in the precision of a scalar's literals, rounded when the program is compiled.
 template <class L, std::size_t N>
@@ -98,6 +109,30 @@ lanes::Vec<S, 8> eval_stumpff(const S& x) {
         c[7] = (one / 120 - c[5]) * inv;
         return c;
       });
+}
+
+/// The same for jets: values as for S, slopes c_n' = (n c_{n+2} - c_{n+1}) / 2 in S, instead of series of jets.
+template <class S, int N>
+lanes::Vec<lanes::Jet<S, N>, 8> eval_stumpff(const lanes::Jet<S, N>& x) {
+  using L = Literal<S>;
+  const lanes::Vec<S, 8> c = eval_stumpff(x.a);
+  const auto small = less(x.a, S(detail::switch_x));
+  const lanes::Vec<S, 2> last = choose(
+      small,
+      [&] {
+        const S near = select(small, x.a, S(0.0));
+        return lanes::Vec<S, 2>{{detail::horner_slope(detail::stumpff_6<L>, near), detail::horner_slope(detail::stumpff_7<L>, near)}};
+      },
+      [&] {
+        const S inv = S(1.0) / select(small, S(detail::switch_x), x.a);
+        const S c8 = (L(1) / 720 - c[6]) * inv, c9 = (L(1) / 5040 - c[7]) * inv;
+        return lanes::Vec<S, 2>{{L(0.5) * (L(6) * c8 - c[7]), L(0.5) * (L(7) * c9 - c8)}};
+      });
+  lanes::Vec<lanes::Jet<S, N>, 8> r;
+  r[0] = lanes::chain(x, c[0], S(-L(0.5) * c[1]));
+  for (int n = 1; n < 6; ++n) r[n] = lanes::chain(x, c[n], S(L(0.5) * (L(n) * c[n + 2] - c[n + 1])));
+  for (int n = 6; n < 8; ++n) r[n] = lanes::chain(x, c[n], last[n - 6]);
+  return r;
 }
 
 /// a, b, c with first (d) and second (dd) derivatives by x = phi^2. What a caller does not read is not computed once

@@ -100,6 +100,17 @@ Mat6<S> upper(const Mat3<S>& A, const Mat3<S>& B) {
     }
   return r;
 }
+/// [0, A; A, B]: the shape of derivatives of their transposes.
+template <class S>
+Mat6<S> lower_right(const Mat3<S>& A, const Mat3<S>& B) {
+  Mat6<S> r = Mat6<S>::zero();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      r(i, j + 3) = r(i + 3, j) = A(i, j);
+      r(i + 3, j + 3) = B(i, j);
+    }
+  return r;
+}
 }  // namespace detail
 
 /// ad(v) = ~V = [~w, ~v; 0, ~w] [1.35].
@@ -122,108 +133,115 @@ Vec6<S> cross6_transpose_times(const Vec6<S>& v, const Vec6<S>& f) {
 /// ^P = [0, ~p; ~p, ~q] of P = (p; q): ad(v)^T P = ^P v [1.41].
 template <class S>
 Mat6<S> hat6(const Vec6<S>& P) {
-  Mat6<S> r = Mat6<S>::zero();
-  const Mat3<S> p = skew(linear_part(P)), q = skew(angular_part(P));
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      r(i, j + 3) = r(i + 3, j) = p(i, j);
-      r(i + 3, j + 3) = q(i, j);
-    }
-  return r;
+  return detail::lower_right(skew(linear_part(P)), skew(angular_part(P)));
 }
 
-namespace detail {
-/// f(ad d), d = (u; psi), for one operator f: the matrix, f a, and f^T n (coefficients of f given, not of f^T).
+/// An operator f(ad d) of one d = (u; psi) with its coefficients, for several products at the same d:
+/// T(d), exp(d)^-1 D exp(d)[delta] = (T(d) delta)~, T = I - ad/2 + ad^2/6 - ..., or T^-1 = I + ad/2 + ad^2/12 - ...
+/// a, x are motion increments, n is a wrench. Matrices: row i, column j is d(.)_i / dd_j.
 template <class S>
-Mat6<S> dual_matrix(const SkewSeries<S>& f, const Vec6<S>& d) {
-  const Vec3<S> psi = angular_part(d);
-  return upper(series_matrix(f, psi), series_slope_matrix(f, psi, linear_part(d)));
-}
-template <class S>
-Vec6<S> dual_times(const SkewSeries<S>& f, const Vec6<S>& d, const Vec6<S>& a) {
-  const Vec3<S> psi = angular_part(d), a_w = angular_part(a);
-  return join(series_times(f, psi, linear_part(a)) + series_slope_times(f, psi, linear_part(d), a_w),
-              series_times(f, psi, a_w));
-}
-template <class S>
-Vec6<S> dual_transpose_times(const SkewSeries<S>& f, const Vec6<S>& d, const Vec6<S>& n) {
-  const SkewSeries<S> g = transposed(f);
-  const Vec3<S> psi = angular_part(d), n_l = linear_part(n);
-  return join(series_times(g, psi, n_l),
-              series_times(g, psi, angular_part(n)) + series_slope_times(g, psi, linear_part(d), n_l));
-}
-/// d(f(ad d) a)/dd = [M(a_w), M(a_l) + M_u(a_w); 0, M(a_w)].
-template <class S>
-Mat6<S> dual_derivative(const SkewSeries<S>& f, const Vec6<S>& d, const Vec6<S>& a) {
-  const Vec3<S> psi = angular_part(d);
-  const SeriesJacobian<S> m = series_jacobian(f, psi, linear_part(d), angular_part(a));
-  return upper(m.value, series_jacobian(f, psi, linear_part(a)) + m.slope);
-}
-/// d(f(ad d)^T n)/dd = [0, M(n_l); M(n_l), M(n_w) + M_u(n_l)], M of f^T.
-template <class S>
-Mat6<S> dual_transpose_derivative(const SkewSeries<S>& f, const Vec6<S>& d, const Vec6<S>& n) {
-  const SkewSeries<S> g = transposed(f);
-  const Vec3<S> psi = angular_part(d);
-  const SeriesJacobian<S> m = series_jacobian(g, psi, linear_part(d), linear_part(n));
-  const Mat3<S> corner = series_jacobian(g, psi, angular_part(n)) + m.slope;
-  Mat6<S> r = Mat6<S>::zero();
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      r(i, j + 3) = r(i + 3, j) = m.value(i, j);
-      r(i + 3, j + 3) = corner(i, j);
-    }
-  return r;
-}
-template <class S>
-S angle_squared(const Vec6<S>& d) {
-  const Vec3<S> psi = angular_part(d);
-  return dot(psi, psi);
-}
-}  // namespace detail
+struct MotionOperator {
+  SkewSeries<S> f;
+  Vec6<S> d;
 
-/// T(d): exp(d)^-1 D exp(d)[delta] = (T(d) delta)~; T = I - ad/2 + ad^2/6 - ..., ad = ad(d).
+  Mat6<S> matrix() const { return detail::upper(series_matrix(f, psi()), series_slope_matrix(f, psi(), linear_part(d))); }
+  /// f a.
+  Vec6<S> times(const Vec6<S>& a) const {
+    const Vec3<S> a_w = angular_part(a);
+    return join(series_times(f, psi(), linear_part(a)) + series_slope_times(f, psi(), linear_part(d), a_w),
+                series_times(f, psi(), a_w));
+  }
+  /// f^T n.
+  Vec6<S> transpose_times(const Vec6<S>& n) const {
+    const SkewSeries<S> g = transposed(f);
+    const Vec3<S> n_l = linear_part(n);
+    return join(series_times(g, psi(), n_l),
+                series_times(g, psi(), angular_part(n)) + series_slope_times(g, psi(), linear_part(d), n_l));
+  }
+  /// d(f a)/dd = [M(a_w), M(a_l) + M_u(a_w); 0, M(a_w)].
+  Mat6<S> derivative(const Vec6<S>& a) const {
+    const SeriesJacobian<S> m = series_jacobian(f, psi(), linear_part(d), angular_part(a));
+    return detail::upper(m.value, series_jacobian(f, psi(), linear_part(a)) + m.slope);
+  }
+  /// d(f a)/dd x, without a 6x6 matrix.
+  Vec6<S> slope_times(const Vec6<S>& x, const Vec6<S>& a) const {
+    const Vec3<S> x_w = angular_part(x), a_w = angular_part(a);
+    return join(series_slope_times(f, psi(), x_w, linear_part(a)) + series_slope_times(f, psi(), linear_part(x), a_w) +
+                    series_second_times(f, psi(), linear_part(d), x_w, a_w),
+                series_slope_times(f, psi(), x_w, a_w));
+  }
+  /// d(f^T n)/dd = [0, M(n_l); M(n_l), M(n_w) + M_u(n_l)], M of f^T.
+  Mat6<S> transpose_derivative(const Vec6<S>& n) const {
+    const SkewSeries<S> g = transposed(f);
+    const SeriesJacobian<S> m = series_jacobian(g, psi(), linear_part(d), linear_part(n));
+    return detail::lower_right(m.value, series_jacobian(g, psi(), angular_part(n)) + m.slope);
+  }
+
+ private:
+  Vec3<S> psi() const { return angular_part(d); }
+};
+template <class S>
+MotionOperator<S> tangent_operator(const Vec6<S>& d) {
+  const Vec3<S> psi = angular_part(d);
+  return {tangent_series(dot(psi, psi)), d};
+}
+/// |psi| != 2 pi, 4 pi, ...
+template <class S>
+MotionOperator<S> inverse_tangent_operator(const Vec6<S>& d) {
+  const Vec3<S> psi = angular_part(d);
+  return {inverse_tangent_series(dot(psi, psi)), d};
+}
+/// exp(d) from T(d), without new coefficients: sin(phi)/phi = 1 - x c.
+template <class S>
+Frame<S> exp_se3(const MotionOperator<S>& T) {
+  const Vec3<S> psi = angular_part(T.d);
+  const S o(0.0), a = S(1.0) - dot(psi, psi) * T.f.q;
+  return {series_matrix(SkewSeries<S>{a, -T.f.p, o, o, o, o}, psi),
+          series_times(SkewSeries<S>{-T.f.p, T.f.q, o, o, o, o}, psi, linear_part(T.d))};
+}
+
+/// T(d) and T(d)^-1 as matrices.
 template <class S>
 Mat6<S> tangent(const Vec6<S>& d) {
-  return detail::dual_matrix(tangent_series(detail::angle_squared(d)), d);
+  return tangent_operator(d).matrix();
 }
-/// T(d)^-1 = I + ad/2 + ad^2/12 - ...; |psi| != 2 pi, 4 pi, ...
 template <class S>
 Mat6<S> inverse_tangent(const Vec6<S>& d) {
-  return detail::dual_matrix(inverse_tangent_series(detail::angle_squared(d)), d);
+  return inverse_tangent_operator(d).matrix();
 }
 /// T a, T^-1 a, T^T n, T^-T n without a 6x6 matrix; a is a motion increment, n a wrench.
 template <class S>
 Vec6<S> tangent_times(const Vec6<S>& d, const Vec6<S>& a) {
-  return detail::dual_times(tangent_series(detail::angle_squared(d)), d, a);
+  return tangent_operator(d).times(a);
 }
 template <class S>
 Vec6<S> inverse_tangent_times(const Vec6<S>& d, const Vec6<S>& a) {
-  return detail::dual_times(inverse_tangent_series(detail::angle_squared(d)), d, a);
+  return inverse_tangent_operator(d).times(a);
 }
 template <class S>
 Vec6<S> tangent_transpose_times(const Vec6<S>& d, const Vec6<S>& n) {
-  return detail::dual_transpose_times(tangent_series(detail::angle_squared(d)), d, n);
+  return tangent_operator(d).transpose_times(n);
 }
 template <class S>
 Vec6<S> inverse_tangent_transpose_times(const Vec6<S>& d, const Vec6<S>& n) {
-  return detail::dual_transpose_times(inverse_tangent_series(detail::angle_squared(d)), d, n);
+  return inverse_tangent_operator(d).transpose_times(n);
 }
 /// Derivatives by d of T(d) a, T(d)^-1 a, T(d)^T n, T(d)^-T n, in closed form; row i, column j: d(.)_i / dd_j.
 template <class S>
 Mat6<S> tangent_derivative(const Vec6<S>& d, const Vec6<S>& a) {
-  return detail::dual_derivative(tangent_series(detail::angle_squared(d)), d, a);
+  return tangent_operator(d).derivative(a);
 }
 template <class S>
 Mat6<S> inverse_tangent_derivative(const Vec6<S>& d, const Vec6<S>& a) {
-  return detail::dual_derivative(inverse_tangent_series(detail::angle_squared(d)), d, a);
+  return inverse_tangent_operator(d).derivative(a);
 }
 template <class S>
 Mat6<S> tangent_transpose_derivative(const Vec6<S>& d, const Vec6<S>& n) {
-  return detail::dual_transpose_derivative(tangent_series(detail::angle_squared(d)), d, n);
+  return tangent_operator(d).transpose_derivative(n);
 }
 template <class S>
 Mat6<S> inverse_tangent_transpose_derivative(const Vec6<S>& d, const Vec6<S>& n) {
-  return detail::dual_transpose_derivative(inverse_tangent_series(detail::angle_squared(d)), d, n);
+  return inverse_tangent_operator(d).transpose_derivative(n);
 }
 
 }  // namespace bough::motion

@@ -63,6 +63,20 @@ Vec3<S> series_slope_times(const SkewSeries<S>& f, const Vec3<S>& psi, const Vec
   return cross(u, f.p * v + f.q * w) + cross(psi, (s * f.dp) * v + (s * f.dq) * w + f.q * cross(u, v));
 }
 
+/// D^2 f(psi)[u, x] v: how D f(psi)[x] v changes along u.
+///   2 (x.u) (p' w1 + q' w2) + 2 (psi.x) (p' u x v + q' (w2)_u + 2 (psi.u) (p'' w1 + q'' w2))
+///   + 2 (psi.u) (p' x x v + q' (w2)_x) + q (x x (u x v) + u x (x x v)),   w1 = psi x v, w2 = psi x w1
+template <class S>
+Vec3<S> series_second_times(const SkewSeries<S>& f, const Vec3<S>& psi, const Vec3<S>& u, const Vec3<S>& x,
+                            const Vec3<S>& v) {
+  const S half_u = dot(psi, u), half_x = dot(psi, x), half_ux = dot(u, x);
+  const S su = half_u + half_u, sx = half_x + half_x, sux = half_ux + half_ux, both = su * sx;
+  const Vec3<S> w1 = cross(psi, v), uv = cross(u, v), xv = cross(x, v);
+  const Vec3<S> first = (both * f.ddp + sux * f.dp) * v + (both * f.ddq + sux * f.dq) * w1;
+  return cross(psi, first + (sx * f.dq) * uv + (su * f.dq) * xv) +
+         cross(u, (sx * f.dp) * v + (sx * f.dq) * w1 + f.q * xv) + cross(x, (su * f.dp) * v + (su * f.dq) * w1 + f.q * uv);
+}
+
 /// d(f(psi) v)/dpsi as a matrix and, along u, its derivative: the pair that makes the 6x6 derivative on SE(3).
 ///   M   = -p ~v - q (~w1 + ~psi ~v) + 2 (p' w1 + q' w2) psi^T,           w1 = psi x v, w2 = psi x w1
 ///   M_u = -2 (psi.u) (p' ~v + q' (~w1 + ~psi ~v)) - q (~(u x v) + ~u ~v) + 2 (p' w1 + q' w2) u^T
