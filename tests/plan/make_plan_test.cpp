@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../step/small_scenes.hpp"
+#include "bough/plan/plan.hpp"
+
+namespace bough::plan {
+namespace {
+
+TEST(MakePlan, numbers_elements_blocks_and_multipliers_without_gaps) {
+  const Plan p = make_plan(test::make_chain(3));
+  EXPECT_EQ(p.nodes.size(), 9u);  // two ends and one inner node a link
+  EXPECT_EQ(p.directory.size(), 9u);  // two elements and one hinge a link
+  EXPECT_EQ(p.num_multipliers, 15);
+  EXPECT_EQ(p.graph.num_blocks(), 12);
+  EXPECT_EQ(p.graph.num_elements(), 9);
+  for (int e = 0; e < p.graph.num_elements(); ++e) {
+    int size = 0, unknowns = 0;
+    for (auto k = p.graph.element_begin[static_cast<std::size_t>(e)]; k < p.graph.element_begin[static_cast<std::size_t>(e) + 1]; ++k)
+      size += p.graph.block_size[static_cast<std::size_t>(p.graph.element_blocks[static_cast<std::size_t>(k)])];
+    with_element(p.elements, p.directory[static_cast<std::size_t>(e)], [&](const auto& x) { unknowns = elements::num_unknowns(x); });
+    EXPECT_EQ(size, unknowns) << e;
+  }
+  for (const JointPlan& j : p.joints) {
+    EXPECT_EQ(p.element_owner[static_cast<std::size_t>(j.element)], j.name);
+    EXPECT_EQ(p.graph.block_kind[static_cast<std::size_t>(j.block)], blocks::BlockKind::multiplier);
+  }
+  for (const BeamPlan& b : p.beams)
+    for (int e : b.elements) EXPECT_EQ(p.element_owner[static_cast<std::size_t>(e)], b.name);
+}
+
+TEST(MakePlan, lays_a_curved_beam_on_its_circle) {
+  scene::Scene s;
+  s.sections.push_back(test::make_bar_section());
+  const double radius = 2.0, angle = 1.0;
+  for (int k = 0; k < 2; ++k) {
+    scene::Node n;
+    n.name = k == 0 ? "start" : "end";
+    if (k == 1) n.placement.pose.x = {{radius * std::sin(angle), radius * (1.0 - std::cos(angle)), 0.0}};
+    s.nodes.push_back(n);
+  }
+  scene::Beam b;
+  b.name = "arc";
+  b.section = "bar";
+  b.start = "start";
+  b.end = "end";
+  b.curve = scene::BeamCurve::curvature;
+  b.tangent = {{1.0, 0.0, 0.0}};
+  b.axis_2 = {{0.0, 1.0, 0.0}};
+  b.curvature = {{0.0, 0.0, 1.0 / radius}};
+  b.length = radius * angle;
+  b.elements = 3;
+  b.order = 2;
+  s.beams.push_back(b);
+  const Plan p = make_plan(s);
+  for (int node : p.beams[0].nodes) {
+    const auto& x = p.nodes[static_cast<std::size_t>(node)].pose.x;
+    EXPECT_NEAR(std::hypot(x[0], x[1] - radius), radius, 1e-14);
+  }
+  // Stress-free as it lies: the reference strain is (1, 0, 0; curvature).
+  for (const auto& e : array_of<elements::Beam<3>>(p.elements))
+    for (const auto& strain : e.reference_strain) {
+      EXPECT_NEAR(strain[0], 1.0, 1e-14);
+      EXPECT_NEAR(strain[5], 1.0 / radius, 1e-14);
+    }
+}
+
+TEST(MakePlan, holds_the_rotation_of_a_point_mass_only_where_nothing_feels_it) {
+  scene::Scene s;
+  for (const char* name : {"free", "barred"}) {
+    scene::Body b;
+    b.name = name;
+    b.mass = 1.0;
+    b.is_point_mass = true;
+    s.bodies.push_back(b);
+  }
+  scene::Spring spring;
+  spring.name = "line";
+  spring.first.offset.x = {{0.0, 1.0, 0.0}};
+  spring.second.to = "free";
+  s.springs.push_back(spring);
+  scene::Joint j;
+  j.name = "hinge";
+  j.kind = scene::JointKind::revolute;
+  j.second.to = "barred";
+  j.second.offset.x = {{0.0, 1.0, 0.0}};
+  s.joints.push_back(j);
+  const Plan p = make_plan(s);
+  ASSERT_EQ(p.joints.size(), 2u);
+  EXPECT_EQ(p.joints[1].what, "held rotation");
+  EXPECT_EQ(p.joints[1].name, "free");
+}
+
+TEST(MakePlan, integrates_a_driven_rate_from_the_initial_angle) {
+  scene::Scene s;
+  scene::Body b;
+  b.name = "wheel";
+  b.mass = 1.0;
+  b.inertia = motion::Mat3<double>::identity();
+  b.placement.pose.R = motion::exp_so3(motion::Vec3<double>{{0.0, 0.0, 0.3}});
+  s.bodies.push_back(b);
+  scene::Joint j;
+  j.name = "axle";
+  j.kind = scene::JointKind::revolute;
+  j.second.to = "wheel";
+  j.drives.push_back({"angle", true, laws::make_constant(2.0)});
+  s.joints.push_back(j);
+  const Plan p = make_plan(s);
+  const auto& joint = array_of<elements::Joint>(p.elements)[0];
+  ASSERT_EQ(joint.num_rows, 6);
+  const laws::Law& law = p.laws[static_cast<std::size_t>(joint.rows[5].law)].law;
+  EXPECT_NEAR(law.at(0.0).value, 0.3, 1e-15);
+  EXPECT_NEAR(law.at(5.0).value, 10.3, 1e-14);
+}
+
+}  // namespace
+}  // namespace bough::plan

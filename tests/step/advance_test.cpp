@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "bough/schedule/threads.hpp"
+#include "bough/step/advance.hpp"
+#include "small_scenes.hpp"
+
+namespace bough::step {
+namespace {
+
+State run(const scene::Scene& scene, int threads, int steps, double h) {
+  const plan::Plan plan = plan::make_plan(scene);
+  const schedule::Threads pool(threads);
+  System system(plan, scene.solver, pool.walker());
+  State state = make_initial_state(plan);
+  const StepOptions options = make_step_options(scene.analysis);
+  EXPECT_TRUE(make_consistent(system, state, true).ok);
+  EXPECT_TRUE(start_alpha(system, state, options, h).ok);
+  for (int k = 1; k <= steps; ++k) {
+    const StepReport report = advance(system, state, options, k * h);
+    EXPECT_TRUE(report.converged) << report.cause;
+  }
+  return state;
+}
+
+TEST(Advance, gives_the_same_bits_on_any_number_of_threads) {
+  scene::Scene s = test::make_chain(12);
+  s.solver.leaf_size = 3;
+  const State one = run(s, 1, 15, 1e-3);
+  for (int threads : {2, 3, 8}) {
+    const State many = run(s, threads, 15, 1e-3);
+    for (std::size_t n = 0; n < one.nodes.size(); ++n)
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(one.nodes[n].x.hi[i], many.nodes[n].x.hi[i]);
+        EXPECT_EQ(one.nodes[n].x.lo[i], many.nodes[n].x.lo[i]);
+        EXPECT_EQ(one.nodes[n].v[i], many.nodes[n].v[i]);
+      }
+    for (std::size_t m = 0; m < one.multipliers.size(); ++m) EXPECT_EQ(one.multipliers[m], many.multipliers[m]);
+  }
+}
+
+TEST(Advance, refuses_a_step_in_which_a_body_turns_by_nearly_half_a_turn) {
+  scene::Scene s;
+  scene::Body b;
+  b.name = "top";
+  b.mass = 1.0;
+  b.inertia = motion::Mat3<double>::identity();
+  s.bodies.push_back(b);
+  scene::InitialVelocity v;
+  v.of = "top";
+  v.angular_velocity = {{0.0, 0.0, 30.0}};
+  s.initial_velocities.push_back(v);
+  const plan::Plan plan = plan::make_plan(s);
+  const schedule::Threads pool(1);
+  System system(plan, s.solver, pool.walker());
+  State state = make_initial_state(plan);
+  const StepOptions options = make_step_options(s.analysis);
+  ASSERT_TRUE(make_consistent(system, state, true).ok);
+  ASSERT_TRUE(start_alpha(system, state, options, 0.1).ok);
+  const StepReport report = advance(system, state, options, 0.1);
+  EXPECT_FALSE(report.converged);
+  EXPECT_NE(report.cause.find("top"), std::string::npos) << report.cause;
+}
+
+TEST(Equilibrate, converges_quadratically_under_a_bending_load) {
+  scene::Scene s;
+  s.analysis.kind = scene::AnalysisKind::statics;
+  s.sections.push_back(test::make_bar_section());
+  for (double x : {0.0, 1.0}) {
+    scene::Node n;
+    n.name = x == 0.0 ? "root" : "tip";
+    n.placement.pose.x = {{x, 0.0, 0.0}};
+    s.nodes.push_back(n);
+  }
+  scene::Beam b;
+  b.name = "beam";
+  b.section = "bar";
+  b.start = "root";
+  b.end = "tip";
+  b.elements = 4;
+  s.beams.push_back(b);
+  scene::Joint clamp;
+  clamp.name = "clamp";
+  clamp.second.to = "root";
+  s.joints.push_back(clamp);
+  scene::PointLoad load;
+  load.name = "weight";
+  load.at.to = "tip";
+  load.force = {{0.0, 0.0, -400.0}};
+  s.point_loads.push_back(load);
+  const plan::Plan plan = plan::make_plan(s);
+  const schedule::Threads pool(1);
+  System system(plan, s.solver, pool.walker());
+  State state = make_initial_state(plan);
+  StepOptions options = make_step_options(s.analysis);
+  const StepReport report = equilibrate(system, state, options, 1.0);
+  ASSERT_TRUE(report.converged) << report.cause;
+  const auto changes = report.changes();
+  // Near the end the exponent of change_{k+1} = C change_k^p is 2; round-off bounds the last change from below.
+  double order = 0.0;
+  for (std::size_t k = 2; k < changes.size(); ++k)
+    if (changes[k] > 1e-13 && changes[k - 1] < 0.05)
+      order = std::max(order, std::log(changes[k] / changes[k - 1]) / std::log(changes[k - 1] / changes[k - 2]));
+  EXPECT_GT(order, 1.7);
+}
+
+TEST(MoveNode, adds_up_increments_like_the_group) {
+  scene::Scene s = test::make_chain(1);
+  const plan::Plan plan = plan::make_plan(s);
+  State state = make_initial_state(plan);
+  const motion::Vec6<double> a{{0.1, -0.2, 0.3, 0.4, 0.5, -0.6}}, b{{-0.3, 0.1, 0.2, 0.2, -0.4, 0.1}};
+  const motion::Frame<double> start{state.nodes[1].R, state.nodes[1].x.hi};
+  move_node(state, 1, a);
+  move_node(state, 1, b);
+  const auto step = motion::compose(motion::Se3::exp(a), motion::Se3::exp(b));
+  const auto expected = motion::compose(start, step);
+  const auto dq = motion::Se3::log(step);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(state.nodes[1].x.hi[i], expected.x[i], 1e-15);
+  for (int i = 0; i < 9; ++i) EXPECT_NEAR(state.nodes[1].R.m[i], expected.R.m[i], 1e-15);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(state.nodes[1].dq[i], dq[i], 1e-15);
+}
+
+}  // namespace
+}  // namespace bough::step

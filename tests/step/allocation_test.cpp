@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "bough/schedule/serial.hpp"
+#include "bough/step/advance.hpp"
+#include "small_scenes.hpp"
+
+namespace {
+long allocations = 0;
+}
+
+// Counts every allocation of the program; freed with free.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size > 0 ? size : 1)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void* operator new(std::size_t size, std::align_val_t align) {
+  ++allocations;
+  const auto a = static_cast<std::size_t>(align);
+  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+namespace bough::step {
+namespace {
+
+long allocations_of_steps(const scene::Scene& scene, int steps) {
+  const plan::Plan plan = plan::make_plan(scene);
+  System system(plan, scene.solver, schedule::make_serial_walker());
+  State state = make_initial_state(plan);
+  StepOptions options = make_step_options(scene.analysis);
+  EXPECT_TRUE(make_consistent(system, state, true).ok);
+  EXPECT_TRUE(start_alpha(system, state, options, 1e-3).ok);
+  State before = state;
+  EXPECT_TRUE(advance(system, state, options, 1e-3).converged);
+  const long first = allocations;
+  for (int k = 2; k < 2 + steps; ++k) {
+    before = state;
+    if (!advance(system, state, options, k * 1e-3).converged) return -1;
+    if (check_shape(system, state)) return -1;
+    accept_turns(system, state);
+    (void)system.constraint_violation(state, 1);
+  }
+  return allocations - first;
+}
+
+TEST(Advance, allocates_nothing_after_the_first_step_of_a_flexible_chain) {
+  EXPECT_EQ(allocations_of_steps(test::make_chain(6), 20), 0);
+}
+
+TEST(Advance, allocates_nothing_after_the_first_step_with_elements_of_higher_order) {
+  EXPECT_EQ(allocations_of_steps(test::make_chain(2, 3), 5), 0);
+}
+
+}  // namespace
+}  // namespace bough::step
