@@ -14,11 +14,22 @@
 namespace bough::app {
 namespace {
 
+/// Enough to know what is meant; `bough check` tells all.
+std::string first_problems(const io::SceneFile& file) {
+  constexpr std::size_t shown = 3;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(shown, file.problems.size()); ++k) text += file.problems[k].text() + "\n";
+  if (file.problems.size() > shown) text += "and " + std::to_string(file.problems.size() - shown) + " more problems";
+  return text;
+}
+
 /// Runs in the case's own process.
 int run_case(const study::BatchCase& which, const std::vector<std::string>& overrides, std::string& cause) {
   const io::SceneFile file = io::read_scene(which.scene, overrides);
-  for (const io::Problem& problem : file.problems) cause += problem.text() + "\n";
-  if (!file.ok()) return exit_bad_input;
+  if (!file.ok()) {
+    cause = first_problems(file);
+    return exit_bad_input;
+  }
   io::RunDirectory directory(which.directory, std::string(version));
   results::Summary summary;
   try {

@@ -68,10 +68,13 @@ AtomicFile::AtomicFile(std::filesystem::path final_path) : final_path_(std::move
   descriptor_ = descriptor;
 }
 
-AtomicFile::~AtomicFile() {
+AtomicFile::~AtomicFile() { give_up(); }
+
+void AtomicFile::give_up() {
   if (descriptor_ < 0) return;
   ::unlink(partial_path_.c_str());
   ::close(descriptor_);
+  descriptor_ = -1;
 }
 
 void AtomicFile::fail(int error) const {
@@ -95,18 +98,17 @@ void AtomicFile::flush() {
   }
   const bool cut = ::ftruncate(descriptor_, static_cast<off_t>(flushed_)) == 0 &&
                    ::lseek(descriptor_, static_cast<off_t>(flushed_), SEEK_SET) >= 0;
-  if (!cut) {  // what is in the file is not known to be whole: give it up
-    ::unlink(partial_path_.c_str());
-    ::close(descriptor_);
-    descriptor_ = -1;
-  }
+  if (!cut) give_up();  // what is in the file is not known to be whole
   fail(error);
 }
 
 void AtomicFile::commit(Durability durability) {
   flush();
   const bool now = durability == Durability::now;
-  if (const int error = now ? sync_descriptor(descriptor_) : 0; error != 0) fail(error);
+  if (const int error = now ? sync_descriptor(descriptor_) : 0; error != 0) {
+    give_up();  // the system may have dropped what it could not write: a second fsync would say nothing of that
+    fail(error);
+  }
   if (::rename(partial_path_.c_str(), final_path_.c_str()) != 0) fail(errno);
   const int descriptor = descriptor_;
   descriptor_ = -1;

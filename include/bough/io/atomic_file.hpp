@@ -37,6 +37,7 @@ class AtomicFile {
 
  private:
   [[noreturn]] void fail(int error) const;
+  void give_up();
 
   std::filesystem::path final_path_, partial_path_;
   std::string buffer_;

@@ -1,0 +1,141 @@
+#!/bin/sh
+# check_cli.sh PROGRAM   exit statuses, messages and files of the command line, each in a scratch directory.
+set -u
+program=$(realpath "$1")
+. "$(dirname "$0")/scenes.sh"
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch" || exit 1
+failures=0
+checks=0
+
+# expect STATUS PATTERN WORDS...   PATTERN must occur in what is printed (both streams), unless it is "silence"
+expect() {
+  want=$1 pattern=$2
+  shift 2
+  "$program" "$@" > printed 2>&1
+  got=$?
+  checks=$((checks + 1))
+  if [ "$got" -ne "$want" ] || { [ "$pattern" != silence ] && ! grep -qe "$pattern" printed; }; then
+    failures=$((failures + 1))
+    echo "FAIL: bough $*: status $got, wanted $want and '$pattern':"
+    cat printed
+  fi
+}
+# holds WORDS...   a shell test
+holds() {
+  checks=$((checks + 1))
+  "$@" || { failures=$((failures + 1)); echo "FAIL: $*"; }
+}
+
+pendulum 0.5 > good.json
+echo '{"schema_version": 1, "bodies": [{"name": "a", "mass": -1}, 7], "nonsense": 1}' > bad.json
+
+# words
+expect 0 '^bough [0-9]' --version
+expect 0 'bough run' --help
+for verb in run view batch check schema compare doctor; do expect 0 '  bough '$verb $verb --help; done
+expect 2 "did you mean 'run'" rnu good.json
+expect 2 "did you mean 'compare'" comapre a b
+expect 2 'Verbs:' xyzzy
+expect 2 . 
+expect 2 . run
+expect 2 . run good.json --threads 0
+expect 2 . run good.json --threads many
+expect 2 . run good.json --no-such-option
+expect 2 . run good.json more
+expect 2 . view good.out --view sideways
+expect 2 . compare a b --rel nan
+holds test ! -e good.out
+
+# bad input: every problem, also when quiet; no directory
+expect 2 'no such file' run missing.json
+expect 2 'nonsense' run bad.json --out bad.out --quiet
+expect 2 'mass' run bad.json --out bad.out --quiet
+holds test ! -e bad.out
+expect 2 'problem' check bad.json
+expect 2 . run good.json --set /analysis/step_size=-1 --out bad.out
+expect 2 . run good.json --set nonsense --out bad.out
+holds test ! -e bad.out
+
+# a run
+expect 0 '1 body, 1 joint' check good.json
+expect 0 'done' run good.json
+for file in history.csv motion.pvd motion.jsonl summary.json motion/frame_000000.vtu; do holds test -s good.out/$file; done
+holds test -z "$(find good.out -name '*.partial')"
+holds test "$(head -1 good.out/history.csv)" = 'time,step_size,iterations,bob.x,bob.y,bob.z'
+holds test "$(wc -l < good.out/history.csv)" -eq 52
+holds grep -q '"status": "ok"' good.out/summary.json
+expect 0 silence run good.json --out quiet --quiet
+holds test ! -s printed
+LC_ALL=de_DE.UTF-8 "$program" run good.json --out german --threads 2 --quiet
+holds cmp good.out/history.csv german/history.csv
+expect 0 'done' run good.json --out stride --set /output/stride=10
+holds test "$(wc -l < stride/history.csv)" -eq 7
+
+# what cannot be written
+: > file
+expect 1 'file' run good.json --out file
+expect 1 'file' run good.json --out file/below
+holds test -f file
+
+# pages
+expect 0 'view.html' view good.out --svg drawing.svg
+holds grep -q '</html>' good.out/view.html
+holds grep -q '</svg>' drawing.svg
+expect 0 'page.html' view stride --view xz --out page.html
+"$program" run good.json --out still --set /output/motion=false --quiet
+expect 0 'motion=true' view still
+expect 2 'motion=true' view still --svg still.svg
+holds test ! -e still.svg
+expect 2 'missing' view missing
+
+# comparison
+expect 0 '^equal' compare good.out german --rel 0
+expect 0 '^equal' compare good.out/history.csv german/history.csv
+sed '10s/,[^,]*$/,nan/' good.out/history.csv > nan.csv
+expect 1 'not finite' compare good.out/history.csv nan.csv --rel 1e300
+expect 1 'not finite' compare nan.csv nan.csv
+"$program" run good.json --out finer --set /analysis/spectral_radius=0.5 --quiet
+expect 1 'differs' compare good.out finer
+expect 0 '^equal' compare good.out finer --rel 0.1
+expect 1 'rows' compare good.out stride --rel 1
+expect 2 'missing' compare good.out missing
+expect 2 'not a history' compare good.out/history.csv good.out/motion.pvd
+mkdir unfinished && cp good.out/history.csv unfinished
+expect 2 'summary.json' compare good.out unfinished
+
+# schema
+expect 0 '"\$schema"' schema
+holds python3 -c 'import json, sys; json.load(open("printed"))'
+
+# batch
+mkdir scenes && cp good.json scenes/a.json && cp good.json scenes/c.json && cp bad.json scenes/b.json
+expect 1 'b: bad_input' batch scenes --out batch --threads 2 --quiet
+holds test "$(wc -l < batch/batch.csv)" -eq 4
+holds cmp good.out/history.csv batch/a/history.csv
+holds test ! -e batch/b
+rm scenes/b.json
+expect 0 '2 cases, 0 not done' batch scenes --out batch2
+mkdir empty
+expect 2 'no scene' batch empty --out batch3
+expect 2 'missing' batch missing --out batch3
+
+expect 0 'all is well' doctor
+
+# Ctrl-C keeps the history to the last accepted step and says so
+pendulum 100000 > long.json
+"$program" run long.json --out long --set /output/motion=false --quiet 2> printed &
+process=$!
+sleep 1.5
+kill -INT $process
+wait $process
+holds test $? -eq 1
+holds grep -q '"status": "interrupted"' long/summary.json
+holds test "$(wc -l < long/history.csv)" -gt 2
+holds test "$(tail -1 long/history.csv | tr -cd , | wc -c)" -eq 5
+accepted=$(sed -n 's/.*"accepted": \([0-9]*\).*/\1/p' long/summary.json)
+holds test "$(wc -l < long/history.csv)" -eq "$((accepted + 2))"
+
+echo "command line: $((checks - failures)) of $checks checks passed"
+[ "$failures" -eq 0 ]

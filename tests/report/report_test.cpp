@@ -1,0 +1,199 @@
+#include <cmath>
+#include <limits>
+#include <regex>
+
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/run_directory.hpp"
+#include "bough/report/page.hpp"
+#include "bough/report/plot.hpp"
+#include "io/write_samples.hpp"
+
+namespace bough::report {
+namespace {
+
+std::vector<results::MotionFrame> sample_motion(int num_frames = 30) {
+  std::vector<results::MotionFrame> frames;
+  for (int k = 0; k < num_frames; ++k) frames.push_back(io::sample_frame(0.2 * k, 20));
+  return frames;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++count;
+  return count;
+}
+
+TEST(Projection, of_every_view_is_orthonormal) {
+  for (const View view : {View::xy, View::xz, View::yz, View::iso}) {
+    const Projection p = projection_of(view);
+    double rr = 0.0, uu = 0.0, ru = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      rr += p.right[k] * p.right[k];
+      uu += p.up[k] * p.up[k];
+      ru += p.right[k] * p.up[k];
+    }
+    EXPECT_NEAR(rr, 1.0, 1e-15);
+    EXPECT_NEAR(uu, 1.0, 1e-15);
+    EXPECT_NEAR(ru, 0.0, 1e-15);
+  }
+}
+
+TEST(Projection, isometric_shortens_the_three_axes_alike) {
+  const Projection p = projection_of(View::iso);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(std::hypot(p.right[k], p.up[k]), std::sqrt(2.0 / 3.0), 1e-15);
+}
+
+TEST(Projection, a_planar_motion_is_drawn_in_its_plane) {
+  const auto box = [](double x, double y, double z) { return Box{{0.0, 0.0, 0.0}, {x, y, z}, false}; };
+  EXPECT_EQ(resolve_view(View::automatic, box(2, 1, 0)), View::xy);
+  EXPECT_EQ(resolve_view(View::automatic, box(2, 1e-6, 1)), View::xz);
+  EXPECT_EQ(resolve_view(View::automatic, box(0, 1, 1)), View::yz);
+  EXPECT_EQ(resolve_view(View::automatic, box(1, 1, 1)), View::iso);
+  EXPECT_EQ(resolve_view(View::automatic, box(0, 0, 1)), View::xz);
+  EXPECT_EQ(resolve_view(View::yz, box(2, 1, 0)), View::yz) << "a choice is kept";
+}
+
+/// Coordinates of the first and last point of the first path of a picture.
+std::array<double, 4> ends_of(const std::string& path) {
+  const std::regex number(R"([ML](-?[0-9.]+) (-?[0-9.]+))");
+  std::array<double, 4> ends{};
+  bool first = true;
+  for (std::sregex_iterator it(path.begin(), path.end(), number), end; it != end; ++it) {
+    if (first) ends = {std::stod((*it)[1]), std::stod((*it)[2]), 0.0, 0.0};
+    first = false;
+    ends[2] = std::stod((*it)[1]);
+    ends[3] = std::stod((*it)[2]);
+  }
+  return ends;
+}
+
+TEST(Picture, has_equal_axes_whatever_the_shape) {
+  for (const double height : {0.01, 1.0, 100.0}) {
+    results::MotionFrame frame;
+    const auto curve = [&](double x, double y) {
+      results::Curve c;
+      c.points.resize(2);
+      c.points[1].position[0] = x;
+      c.points[1].position[1] = y;
+      return c;
+    };
+    frame.curves = {curve(1.0, 0.0), curve(0.0, height)};
+    const Picture picture = make_picture({frame}, {.view = View::xy});
+    const std::string& path = picture.frames.at(0).beams;
+    const std::size_t second = path.find('M', 1);
+    const auto a = ends_of(path.substr(0, second)), b = ends_of(path.substr(second));
+    const double per_x = a[2] - a[0], per_y = (b[1] - b[3]) / height;
+    EXPECT_NEAR(per_y, per_x, 0.1 / std::min(height, 1.0)) << "a twentieth of a pixel at each end";
+    EXPECT_GT(per_x * std::max(1.0, height), 100.0) << "the drawing fills the sheet";
+  }
+}
+
+TEST(Picture, lays_the_asked_number_of_positions_over_each_other) {
+  const std::vector<results::MotionFrame> frames = sample_motion();
+  for (const int wanted : {1, 2, 5, 9}) {
+    const Picture picture = make_picture(frames, {.num_positions = wanted});
+    const std::string positions = picture.svg.substr(0, picture.svg.find("</g>"));
+    EXPECT_EQ(count_of(positions, "class=\"beams "), static_cast<std::size_t>(wanted));
+  }
+  EXPECT_EQ(make_picture(frames, {}).frames.size(), frames.size());
+}
+
+TEST(Picture, points_that_are_not_finite_are_left_out) {
+  std::vector<results::MotionFrame> frames = sample_motion(3);
+  frames[1].curves[0].points[3].position[0] = std::numeric_limits<double>::quiet_NaN();
+  frames[2].bodies[0].center[1] = std::numeric_limits<double>::infinity();
+  const Picture picture = make_picture(frames, {});
+  for (const char* word : {"nan", "inf"}) EXPECT_EQ(picture.svg.find(std::string(word) + " "), std::string::npos) << word;
+  for (const Picture::Paths& paths : picture.frames)
+    for (const std::string* path : {&paths.beams, &paths.bodies, &paths.links})
+      EXPECT_EQ(path->find_first_not_of("MLh0123456789.- "), std::string::npos) << *path;
+}
+
+TEST(Picture, of_a_single_point_that_stays_is_still_a_picture) {
+  results::MotionFrame frame;
+  frame.bodies.push_back({"ball", {1e6, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {1e6, 0, 0}});
+  const Picture picture = make_picture({frame, frame}, {});
+  EXPECT_EQ(picture.frames[0].links.find_first_not_of("Mh0123456789.- "), std::string::npos) << picture.frames[0].links;
+}
+
+TEST(Plot, ticks_are_round_and_inside) {
+  for (const auto& [low, high] : {std::pair{0.0, 1.0}, {-3.7, 12.2}, {1e-9, 2e-9}, {1e6, 1e6 + 3.0}, {-0.001, 0.0}}) {
+    const std::vector<double> ticks = round_ticks(low, high, 5);
+    ASSERT_GE(ticks.size(), 2u);
+    EXPECT_LE(ticks.size(), 7u);
+    const double step = ticks[1] - ticks[0], slack = 1e-6 * step;
+    EXPECT_GE(ticks.front(), low - slack);
+    EXPECT_LE(ticks.back(), high + slack);
+    const double leading = step / std::pow(10.0, std::floor(std::log10(step) + 1e-6));
+    EXPECT_TRUE(std::abs(leading - 1.0) < 1e-3 || std::abs(leading - 2.0) < 1e-3 || std::abs(leading - 5.0) < 1e-3) << step;
+  }
+}
+
+TEST(Plot, of_many_rows_is_small_and_keeps_its_peak) {
+  io::History history;
+  history.header.columns = {"a"};
+  for (int k = 0; k < 200000; ++k) history.rows.push_back({1e-3 * k, 1e-3, 1, {k == 123457 ? 50.0 : std::sin(1e-3 * k)}});
+  const Plot plot = make_plot(history, "a", {0}, "time");
+  EXPECT_LT(plot.svg.size(), 60'000u);
+  std::vector<double> heights;
+  const std::regex number(R"([ML]-?[0-9.]+ (-?[0-9.]+))");
+  for (std::sregex_iterator it(plot.svg.begin(), plot.svg.end(), number), end; it != end; ++it) heights.push_back(std::stod((*it)[1]));
+  std::sort(heights.begin(), heights.end());
+  EXPECT_LT(heights[0], heights[10] - 50.0) << "one point stands far above all others";
+}
+
+TEST(Plot, values_that_are_not_finite_leave_a_gap) {
+  io::History history;
+  history.header.columns = {"a"};
+  for (int k = 0; k < 10; ++k) history.rows.push_back({1.0 * k, 1.0, 1, {k == 5 ? std::nan("") : 1.0 * k}});
+  const Plot plot = make_plot(history, "a", {0}, "time");
+  EXPECT_EQ(plot.svg.find("nan"), std::string::npos);
+  const std::size_t curve = plot.svg.find("class=\"curve");
+  EXPECT_EQ(count_of(plot.svg.substr(curve, plot.svg.find("/>", curve) - curve), "M"), 2u);
+}
+
+class Page : public testing::Test {
+ protected:
+  RunFiles written(bool with_motion) {
+    io::RunDirectory run(scratch_ / "run", "1.0");
+    results::Summary summary = io::sample_summary();
+    summary.title = "<b>&\"";
+    run.begin(summary.header);
+    for (int k = 0; k < 5; ++k) run.row({0.1 * k, 0.1, 2, {1.0, 0.5 * k, 3.5}});
+    if (with_motion)
+      for (int k = 0; k < 5; ++k) run.motion(io::sample_frame(0.1 * k));
+    run.end(summary);
+    return read_run(scratch_ / "run");
+  }
+  io::ScratchDirectory scratch_;
+};
+
+TEST_F(Page, stands_alone_and_asks_for_nothing_from_elsewhere) {
+  const std::string html = page_html(written(true), {});
+  EXPECT_EQ(count_of(html, "http://"), count_of(html, "http://www.w3.org/2000/svg")) << "names of formats only";
+  for (const char* word : {"https://", "src=", "href=", "url(", "@import"}) EXPECT_EQ(count_of(html, word), 0u) << word;
+  EXPECT_EQ(count_of(html, "<svg"), 1u + 2u) << "the motion, tip and energy";
+}
+
+TEST_F(Page, escapes_what_names_may_hold) {
+  const std::string html = page_html(written(true), {});
+  EXPECT_EQ(count_of(html, "<b>"), 0u);
+  EXPECT_NE(html.find("&lt;b&gt;&amp;&quot;"), std::string::npos);
+}
+
+TEST_F(Page, without_motion_says_what_to_do) {
+  const std::string html = page_html(written(false), {});
+  EXPECT_NE(html.find("--set /output/motion=true"), std::string::npos);
+  EXPECT_EQ(count_of(html, "<svg"), 2u);
+}
+
+TEST_F(Page, of_a_run_that_did_not_end_says_so) {
+  RunFiles files = written(true);
+  files.summary.reset();
+  EXPECT_NE(page_html(files, {}).find("did not end"), std::string::npos);
+}
+
+TEST_F(Page, a_directory_without_a_history_is_refused) { EXPECT_THROW((void)read_run(scratch_ / "none"), std::runtime_error); }
+
+}  // namespace
+}  // namespace bough::report
