@@ -11,7 +11,7 @@ NEED := sh cmake/install_dependencies.sh
 .PHONY: help run build test bench check-all install lint format clean
 
 help:
-	@echo "make run        install what is missing, build, simulate $(SCENARIO), write $(RESULTS)"
+	@echo "make run        install what is missing, build, simulate $(SCENARIO), write and draw $(RESULTS)"
 	@echo "make build      install what is missing, build the library and the program in build/release"
 	@echo "make test       build and run the unit and verification tests"
 	@echo "make bench      build and run the benchmarks"
@@ -31,7 +31,8 @@ build: build/release/build.ninja
 run: build/release/build.ninja
 	@$(NEED) build
 	cmake --build build/release --parallel $(JOBS) --target bough
-	build/release/bough run $(SCENARIO) --out $(RESULTS)
+	build/release/bough run $(SCENARIO) --out $(RESULTS) --set /output/motion=true
+	build/release/bough view $(RESULTS)
 	@echo "Results in $(RESULTS):" && ls -1 $(RESULTS)
 
 test:
