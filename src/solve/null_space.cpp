@@ -85,15 +85,22 @@ void Hierarchical::State::decide_rank() {
   const auto R_y = qr_y.matrixQR().topRows(m).triangularView<Eigen::Upper>();
   Matrix core = R_y.transpose().solve(Matrix(T));
   core = R_z.transpose().solve(Matrix(core.transpose())).transpose();
-  const Eigen::JacobiSVD<Matrix> svd(core, Eigen::ComputeFullV);
-  const Matrix directions = Z * R_z.solve(svd.matrixV());  // unit vectors
-  int dependent = 0;
-  for (int j = 0; j < m; ++j) {
-    double motion = 0.0;
+  const Matrix basis = Z * Matrix(R_z.solve(Matrix::Identity(m, m)));  // Q_z
+  const auto motion_share = [&](const Matrix& unit_vectors) {
+    double sum = 0.0;
     for (std::size_t i = 0; i < n; ++i)
-      if (!is_constraint[i]) motion = std::max(motion, std::abs(directions(static_cast<Eigen::Index>(i), j)));
-    const double least = motion > options.null_motion_tolerance ? options.singular_tolerance : options.rank_tolerance;
-    if (!(svd.singularValues()(j) > least)) ++dependent;
+      if (!is_constraint[i]) sum += unit_vectors.row(static_cast<Eigen::Index>(i)).squaredNorm();
+    return std::sqrt(sum);
+  };
+  int dependent = 0;
+  if (core.norm() <= options.rank_tolerance && motion_share(basis) <= options.null_motion_tolerance) {
+    dependent = m;  // the usual case: constraint rows that depend, and nothing else
+  } else {
+    const Eigen::JacobiSVD<Matrix> svd(core, Eigen::ComputeFullV);
+    for (int j = 0; j < m; ++j) {
+      const double motion = motion_share(basis * svd.matrixV().col(j));
+      if (!(svd.singularValues()(j) > (motion > options.null_motion_tolerance ? options.singular_tolerance : options.rank_tolerance))) ++dependent;
+    }
   }
   std::vector<double> row_weight(at(m)), column_weight(at(m));
   for (int j = 0; j < m; ++j) {

@@ -105,10 +105,16 @@ void expect_sound(const Scene& scene, const tree::TreeOptions& options) {
     ASSERT_LT(s.front_begin, s.front_end);
     for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) ASSERT_EQ(t.fronts[at(f)].subdomain, id);
     for (tree::FrontId f = s.subtree_front_begin; f < s.front_end; ++f) ASSERT_TRUE(is_below(t, f, s.top()));
-    if (s.is_leaf() && options.leaf_size > 0 && options.depth < 0) ASSERT_LE(s.element_end - s.element_begin, options.leaf_size);
-    if (options.depth >= 0) ASSERT_LE(s.level, options.depth);
+    if (s.is_leaf() && options.leaf_size > 0 && options.depth < 0) {
+      ASSERT_LE(s.element_end - s.element_begin, options.leaf_size);
+    }
+    if (options.depth >= 0) {
+      ASSERT_LE(s.level, options.depth);
+    }
     for (tree::SubdomainId c : t.children(s)) ASSERT_EQ(t.subdomains[at(c)].parent, id);
-    if (id < t.root()) ASSERT_EQ(t.fronts[at(s.top())].parent, t.subdomains[at(s.parent)].top());
+    if (id < t.root()) {
+      ASSERT_EQ(t.fronts[at(s.top())].parent, t.subdomains[at(s.parent)].top());
+    }
   }
   ASSERT_EQ(t.subdomains.back().element_end - t.subdomains.back().element_begin, g.num_elements());
 }
