@@ -3,6 +3,8 @@
 #include "bough/elements/evaluate.hpp"
 #include "bough/lanes/jet.hpp"
 #include "bough/lanes/taylor.hpp"
+#include "beam_tangent.hpp"
+#include "relative_tangent.hpp"
 
 namespace bough::elements {
 
@@ -19,27 +21,25 @@ void eval_kernel(const E& e, const PortMotion<S>* p, const S* multipliers, const
 /// Port motion with derivative directions first .. first + 5 = the port's own increment eta:
 ///   R (1 + ~eta_w), x + R eta_u, v + A eta, a + B eta.
 template <int D>
-PortMotion<lanes::Jet<double, D>> seed_port(const PortMotion<double>& p, int first, bool position, const Mat6<double>* A,
-                                            const Mat6<double>* B) {
+PortMotion<lanes::Jet<double, D>> seed_port(const PortMotion<double>& p, int first, const PortSlopes& slopes) {
   using J = lanes::Jet<double, D>;
   PortMotion<J> r;
   r.H.R = lanes::cast<J>(p.H.R);
   r.H.x = lanes::cast<J>(p.H.x);
   r.v = lanes::cast<J>(p.v);
   r.a = lanes::cast<J>(p.a);
-  if (position)
-    for (int i = 0; i < 3; ++i) {
+  if (slopes.moves)
+    for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) {
         const int next = (k + 1) % 3, last = (k + 2) % 3;
         r.H.x[i].d[first + k] = p.H.R(i, k);
         r.H.R(i, next).d[first + 3 + k] = p.H.R(i, last);   // e_k x e_next = e_last
         r.H.R(i, last).d[first + 3 + k] = -p.H.R(i, next);  // e_k x e_last = -e_next
       }
-    }
   for (int i = 0; i < 6; ++i)
     for (int k = 0; k < 6; ++k) {
-      if (A != nullptr) r.v[i].d[first + k] = (*A)(i, k);
-      if (B != nullptr) r.a[i].d[first + k] = (*B)(i, k);
+      r.v[i].d[first + k] = slopes.velocity(i, k);
+      r.a[i].d[first + k] = slopes.acceleration(i, k);
     }
   return r;
 }
@@ -50,7 +50,7 @@ Surroundings<S> cast_surroundings(const Surroundings<double>& a, const S* laws) 
 }
 
 /// Largest number of laws one element looks at.
-constexpr int max_element_laws = max_rows + max_efforts;
+constexpr int max_element_laws = 1;
 
 /// The laws an element looks at, as constants of scalar S behind the same indices.
 template <class S>
@@ -65,16 +65,7 @@ struct LawView {
 };
 
 template <class S>
-void take_laws(Joint& e, LawView<S>& view, const double* laws) {
-  for (int k = 0; k < e.num_rows; ++k) view.take(e.rows[k].law, laws);
-  for (int k = 0; k < e.num_efforts; ++k) view.take(e.efforts[k].law, laws);
-}
-template <class S>
 void take_laws(PointLoad& e, LawView<S>& view, const double* laws) {
-  view.take(e.law, laws);
-}
-template <class S, int N>
-void take_laws(LineLoad<N>& e, LawView<S>& view, const double* laws) {
   view.take(e.law, laws);
 }
 template <class E>
@@ -151,6 +142,52 @@ void gather(const E& e, const double* in_residual, const double* in_tangent, int
     for (int j = 0; j < m; ++j) tangent[(n + i) * size + n + j] = 0.0;
 }
 
+/// How the ports of an element follow the unknowns of their nodes.
+template <class E>
+void eval_port_slopes(const E& e, const Field& field, PortSlopes* ports) {
+  for (int k = 0; k < E::num_ports; ++k) {
+    const Port& port = e.ports[k];
+    ports[k] = {!field.slopes.mass_only, Mat6<double>::zero(), Mat6<double>::zero()};
+    if (port.node == ground || !field.around.has_inertia) continue;
+    if (field.slopes.mass_only) {
+      ports[k].acceleration = Mat6<double>::identity();
+      continue;
+    }
+    Vec6<double> dq = field.nodes[port.node].dq;
+    if (port.has_offset) dq = motion::inverse_adjoint_times(port.offset, dq);
+    const Mat6<double> inverse = motion::Se3::inverse_tangent(dq);
+    ports[k].velocity = field.slopes.velocity * inverse;
+    ports[k].acceleration = field.slopes.acceleration * inverse;
+  }
+}
+
+/// Elements without a tangent of their own: the residual on jets.
+template <class E>
+void eval_tangent_by_jets(const E& e, const PortMotion<double>* p, const PortSlopes* ports,
+                          const Surroundings<double>& around, double* matrix) {
+  constexpr int P = E::num_ports, D = 6 * P;
+  using J = lanes::Jet<double, D>;
+  PortMotion<J> jets[P];
+  for (int k = 0; k < P; ++k) jets[k] = seed_port<D>(p[k], 6 * k, ports[k]);
+  J out[D];
+  if constexpr (looks_at_laws<E>) {
+    E local = e;
+    LawView<J> view;
+    take_laws(local, view, around.laws);
+    eval_residual(local, jets, static_cast<const J*>(nullptr), cast_surroundings<J>(around, view.values), out);
+  } else {
+    eval_residual(e, jets, static_cast<const J*>(nullptr), cast_surroundings<J>(around, nullptr), out);
+  }
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) matrix[i * D + j] = out[i].d[j];
+}
+
+template <class E>
+constexpr bool has_closed_tangent = requires(const E& e, const PortMotion<double>* p, const PortSlopes* ports,
+                                             const Surroundings<double>& around, double* matrix) {
+  eval_tangent(e, p, ports, around, matrix);
+};
+
 template <class E>
 void evaluate(const E& e, const Field& field, const double* multipliers, double turns, double* residual, double* tangent) {
   constexpr int P = E::num_ports, D = 6 * P, rows = D + E::num_multipliers;
@@ -158,48 +195,20 @@ void evaluate(const E& e, const Field& field, const double* multipliers, double 
   PortMotion<double> p[P];
   for (int k = 0; k < P; ++k) p[k] = eval_port(e.ports[k], field.nodes, anchor);
   double out[rows];
+  eval_kernel<E, double>(e, p, multipliers, field.around, out, turns);
   if (tangent == nullptr) {
-    eval_kernel<E, double>(e, p, multipliers, field.around, out, turns);
     gather(e, out, nullptr, 0, residual, nullptr);
     return;
   }
-  using J = lanes::Jet<double, D>;
-  const bool is_joint = E::num_multipliers > 0;
-  PortMotion<J> jets[P];
-  for (int k = 0; k < P; ++k) {
-    const Port& port = e.ports[k];
-    if (port.node == ground) {
-      jets[k] = seed_port<D>(p[k], 6 * k, false, nullptr, nullptr);
-    } else if (field.slopes.mass_only) {
-      const Mat6<double> one = Mat6<double>::identity();
-      jets[k] = seed_port<D>(p[k], 6 * k, is_joint, nullptr, &one);
-    } else if (!field.around.has_inertia) {
-      jets[k] = seed_port<D>(p[k], 6 * k, true, nullptr, nullptr);
-    } else {
-      Vec6<double> dq = field.nodes[port.node].dq;
-      if (port.has_offset) dq = motion::inverse_adjoint_times(port.offset, dq);
-      const Mat6<double> inverse = motion::Se3::inverse_tangent(dq);
-      const Mat6<double> A = field.slopes.velocity * inverse, B = field.slopes.acceleration * inverse;
-      jets[k] = seed_port<D>(p[k], 6 * k, true, &A, &B);
-    }
-  }
-  J lambda[E::num_multipliers + 1] = {}, jet_out[rows];
-  for (int k = 0; k < num_multipliers(e); ++k) lambda[k] = J(multipliers[k]);
-  if constexpr (looks_at_laws<E>) {
-    E local = e;
-    LawView<J> view;
-    take_laws(local, view, field.around.laws);
-    eval_kernel<E, J>(local, jets, lambda, cast_surroundings<J>(field.around, view.values), jet_out, turns);
-  } else {
-    eval_kernel<E, J>(e, jets, lambda, cast_surroundings<J>(field.around, nullptr), jet_out, turns);
-  }
+  PortSlopes ports[P];
+  eval_port_slopes(e, field, ports);
   double matrix[rows * D];
-  const int used = D + num_multipliers(e);
-  for (int i = 0; i < used; ++i) {
-    out[i] = jet_out[i].a;
-    for (int j = 0; j < D; ++j)
-      matrix[i * D + j] = field.slopes.mass_only && is_joint && i < D ? 0.0 : jet_out[i].d[j];
-  }
+  if constexpr (E::num_multipliers > 0)
+    eval_tangent(e, p, ports, multipliers, field.around, turns, matrix);
+  else if constexpr (has_closed_tangent<E>)
+    eval_tangent(e, p, ports, field.around, matrix);
+  else
+    eval_tangent_by_jets(e, p, ports, field.around, matrix);
   gather(e, out, matrix, D, residual, tangent);
 }
 
