@@ -82,7 +82,8 @@ Port section_port(int node, const Frame<double>& node_pose, const Frame<double>&
 }
 
 template <int N>
-void add_elements(Builder& b, const scene::Beam& beam, BeamPlan& plan, const Axis& axis, const std::vector<Port>& ports) {
+void add_elements(Builder& b, const scene::Beam& beam, BeamPlan& plan, const Axis& axis,
+                  const std::vector<Port>& ports) {
   const scene::Section& section = section_of(b.scene, beam.section);
   elements::Beam<N> e;
   e.length = axis.length / beam.elements;

@@ -107,8 +107,8 @@ void add_kind_rows(elements::Joint& j, const scene::Joint& given) {
   using elements::RowKind;
   using scene::JointKind;
   const JointKind kind = given.kind;
-  const bool all_displacements = kind == JointKind::fixed || kind == JointKind::revolute || kind == JointKind::spherical ||
-                                 kind == JointKind::universal;
+  const bool all_displacements = kind == JointKind::fixed || kind == JointKind::revolute ||
+                                 kind == JointKind::spherical || kind == JointKind::universal;
   if (all_displacements)
     for (int i = 0; i < 3; ++i) add_row(j, RowKind::along, i);
   else if (kind == JointKind::planar)
@@ -185,7 +185,8 @@ void Builder::add_motions() {
     shift.ports[0] = port_at("ground", {Mat3<double>::identity(), start.x});
     shift.ports[1] = moving;
     for (int i = 0; i < 3; ++i)
-      if (m.displacement[i]) add_row(shift, elements::RowKind::along, i, 0, add_drive(*m.displacement[i], m.is_rate, 0.0, m.name));
+      if (m.displacement[i])
+        add_row(shift, elements::RowKind::along, i, 0, add_drive(*m.displacement[i], m.is_rate, 0.0, m.name));
     if (shift.num_rows > 0) add_joint(shift, m.name, "prescribed motion");
     if (!m.rotation_axis && !m.hold_rotation) continue;
     elements::Joint turn;  // both frames along the axis of rotation, equal at the start
@@ -253,7 +254,8 @@ void Builder::hold_point_masses() {
       else if constexpr (std::is_same_v<E, elements::Spring>)
         mark(e, false);
       else if constexpr (std::is_same_v<E, elements::PointLoad>)
-        mark(e, e.follows || lanes::dot(e.wrench, e.wrench) != lanes::dot(lanes::linear_part(e.wrench), lanes::linear_part(e.wrench)));
+        mark(e, e.follows || lanes::dot(e.wrench, e.wrench) !=
+                                 lanes::dot(lanes::linear_part(e.wrench), lanes::linear_part(e.wrench)));
       else if constexpr (std::is_same_v<E, elements::Joint>) {
         // A row along an axis of the first frame turns with the first body; three of them meet in a point and do not.
         bool turns = e.num_efforts > 0;
@@ -282,7 +284,8 @@ void Builder::hold_point_masses() {
 void Builder::add_initial_velocities() {
   for (const scene::InitialVelocity& v : scene.initial_velocities) {
     std::vector<int> targets;
-    const auto beam = std::find_if(plan.beams.begin(), plan.beams.end(), [&](const BeamPlan& b) { return b.name == v.of; });
+    const auto beam =
+        std::find_if(plan.beams.begin(), plan.beams.end(), [&](const BeamPlan& b) { return b.name == v.of; });
     if (beam != plan.beams.end())
       targets = beam->nodes;
     else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace bough::results {
 
@@ -41,8 +42,8 @@ struct BeamPoint {
 /// Wrenches of a beam element and its line loads on its first and last node, in section axes; out-of-element ends see (-first, last) as the
 /// section resultants: nodal equilibrium, one order more accurate than the strains.
 template <class E>
-void eval_end_wrenches(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f, Vec6<double>& first,
-                       Vec6<double>& last) {
+void eval_end_wrenches(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f,
+                       Vec6<double>& first, Vec6<double>& last) {
   constexpr int N = E::num_ports;
   const motion::Vec3Pair anchor = elements::anchor_of(e, f.nodes);
   PortMotion<double> p[N];
@@ -54,15 +55,16 @@ void eval_end_wrenches(const step::System& system, const E& e, const std::vector
     last[k] = out[6 * (N - 1) + k];
   }
   for (int id : loads)
-    plan::with_element(system.plan().elements, system.plan().directory[static_cast<std::size_t>(id)], [&](const auto& load) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(load)>, elements::LineLoad<N>>) {
-        elements::eval_residual(load, p, static_cast<const double*>(nullptr), f.around, out);
-        for (int k = 0; k < 6; ++k) {
-          first[k] -= out[k];
-          last[k] += out[6 * (N - 1) + k];
-        }
-      }
-    });
+    plan::with_element(system.plan().elements, system.plan().directory[static_cast<std::size_t>(id)],
+                       [&](const auto& load) {
+                         if constexpr (std::is_same_v<std::decay_t<decltype(load)>, elements::LineLoad<N>>) {
+                           elements::eval_residual(load, p, static_cast<const double*>(nullptr), f.around, out);
+                           for (int k = 0; k < 6; ++k) {
+                             first[k] -= out[k];
+                             last[k] += out[6 * (N - 1) + k];
+                           }
+                         }
+                       });
 }
 
 template <class E>
@@ -114,7 +116,8 @@ Vec6<double> resolve(const Mat3<double>& R, const Vec6<double>& v, scene::LoadAx
   return lanes::join(R * lanes::linear_part(v), R * lanes::angular_part(v));
 }
 
-void eval_point_sensor(const step::System& system, const step::State& state, const plan::SensorPlan& s, std::vector<double>& values) {
+void eval_point_sensor(const step::System& system, const step::State& state, const plan::SensorPlan& s,
+                       std::vector<double>& values) {
   const Field f = system.field(state);
   Frame<double> pose;
   Vec6<double> v, a;
@@ -151,13 +154,15 @@ void eval_point_sensor(const step::System& system, const step::State& state, con
       break;
     default: {  // acceleration of the origin: R (a + w x v)
       const Vec3<double> w = lanes::angular_part(v);
-      const Vec6<double> full = lanes::join(lanes::linear_part(a) + lanes::cross(w, lanes::linear_part(v)), lanes::angular_part(a));
+      const Vec6<double> full =
+          lanes::join(lanes::linear_part(a) + lanes::cross(w, lanes::linear_part(v)), lanes::angular_part(a));
       append(values, resolve(pose.R, full, s.sensor.axes));
     }
   }
 }
 
-Vec6<double> eval_section_force(const step::System& system, const Field& f, const plan::BeamPlan& beam, int k, double local) {
+Vec6<double> eval_section_force(const step::System& system, const Field& f, const plan::BeamPlan& beam, int k,
+                                double local) {
   Vec6<double> first, last;
   with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)], [&](const auto& e) {
     eval_end_wrenches(system, e, beam.loads[static_cast<std::size_t>(k)], f, first, last);
@@ -165,27 +170,30 @@ Vec6<double> eval_section_force(const step::System& system, const Field& f, cons
   return (1.0 - local) * first + local * last;
 }
 
-void eval_joint_sensor(const step::System& system, const step::State& state, const plan::SensorPlan& s, std::vector<double>& values) {
+void eval_joint_sensor(const step::System& system, const step::State& state, const plan::SensorPlan& s,
+                       std::vector<double>& values) {
   const plan::JointPlan& joint = system.plan().joints[static_cast<std::size_t>(s.joint)];
   const Field f = system.field(state);
-  plan::with_element(system.plan().elements, system.plan().directory[static_cast<std::size_t>(joint.element)], [&](const auto& e) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>) {
-      const double turns = state.turns[static_cast<std::size_t>(s.joint)];
-      const elements::JointMotion m = elements::eval_joint_motion(e, f, turns);
-      if (s.sensor.kind == scene::SensorKind::joint_angle) {
-        values.push_back(m.angle);
-      } else if (s.sensor.kind == scene::SensorKind::joint_displacement) {
-        values.push_back(m.relative.x[2]);
-      } else if (s.sensor.kind == scene::SensorKind::joint_rate) {
-        const bool turning = joint.counts_turns;
-        values.push_back(turning ? m.angle_rate : (m.relative.R * lanes::linear_part(m.twist))[2]);
-      } else {
-        const Vec6<double> wrench = elements::eval_reaction(e, f, state.multipliers.data() + joint.multiplier_begin, turns);
-        const PortMotion<double> p = elements::eval_port(e.ports[1], f.nodes, elements::anchor_of(e, f.nodes));
-        append(values, resolve(p.H.R, wrench, s.sensor.axes));
-      }
-    }
-  });
+  plan::with_element(
+      system.plan().elements, system.plan().directory[static_cast<std::size_t>(joint.element)], [&](const auto& e) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>) {
+          const double turns = state.turns[static_cast<std::size_t>(s.joint)];
+          const elements::JointMotion m = elements::eval_joint_motion(e, f, turns);
+          if (s.sensor.kind == scene::SensorKind::joint_angle) {
+            values.push_back(m.angle);
+          } else if (s.sensor.kind == scene::SensorKind::joint_displacement) {
+            values.push_back(m.relative.x[2]);
+          } else if (s.sensor.kind == scene::SensorKind::joint_rate) {
+            const bool turning = joint.counts_turns;
+            values.push_back(turning ? m.angle_rate : (m.relative.R * lanes::linear_part(m.twist))[2]);
+          } else {
+            const Vec6<double> wrench =
+                elements::eval_reaction(e, f, state.multipliers.data() + joint.multiplier_begin, turns);
+            const PortMotion<double> p = elements::eval_port(e.ports[1], f.nodes, elements::anchor_of(e, f.nodes));
+            append(values, resolve(p.H.R, wrench, s.sensor.axes));
+          }
+        }
+      });
 }
 
 }  // namespace
@@ -193,7 +201,8 @@ void eval_joint_sensor(const step::System& system, const step::State& state, con
 HistoryHeader make_header(const plan::Plan& plan) {
   HistoryHeader header;
   for (const plan::SensorPlan& s : plan.sensors)
-    for (const std::string& c : s.components) header.columns.push_back(c.empty() ? s.sensor.name : s.sensor.name + "." + c);
+    for (const std::string& c : s.components)
+      header.columns.push_back(c.empty() ? s.sensor.name : s.sensor.name + "." + c);
   return header;
 }
 
@@ -248,7 +257,8 @@ Measures eval_measures(const step::System& system, const step::State& state) {
     using E = typename std::decay_t<decltype(array)>::value_type;
     for (const E& e : array) {
       if constexpr (std::is_same_v<E, elements::Joint>) {
-        add(sum, elements::measure(e, f, state.multipliers.data() + plan.joints[joint].multiplier_begin, state.turns[joint]));
+        add(sum, elements::measure(e, f, state.multipliers.data() + plan.joints[joint].multiplier_begin,
+                                   state.turns[joint]));
         ++joint;
       } else {
         add(sum, elements::measure(e, f, nullptr, 0.0));
@@ -306,12 +316,30 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
     }
     frame.links.push_back(link);
   };
+  std::vector<int> body_of(plan.nodes.size(), -1);
+  for (std::size_t b = 0; b < plan.body_nodes.size(); ++b)
+    body_of[static_cast<std::size_t>(plan.body_nodes[b])] = static_cast<int>(b);
+  const auto attach = [&](const Port& port) {
+    const int body = port.node == elements::ground ? -1 : body_of[static_cast<std::size_t>(port.node)];
+    if (body < 0) return;
+    const Vec3<double> x = position_of(state, port);
+    frame.bodies[static_cast<std::size_t>(body)].attachments.push_back({x[0], x[1], x[2]});
+  };
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
-      if constexpr (std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> || std::is_same_v<E, elements::Bushing>)
+      if constexpr (std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> ||
+                    std::is_same_v<E, elements::Bushing>) {
         add_link(plan.element_owner[id], e.ports[0], e.ports[1]);
+        attach(e.ports[0]);
+        attach(e.ports[1]);
+      }
     });
+  for (const plan::BeamPlan& beam : plan.beams) {
+    if (beam.elements.empty()) continue;
+    with_beam_element(plan, beam.elements.front(), [&](const auto& e) { attach(*std::begin(e.ports)); });
+    with_beam_element(plan, beam.elements.back(), [&](const auto& e) { attach(*std::prev(std::end(e.ports))); });
+  }
   return frame;
 }
 
@@ -332,7 +360,8 @@ void Balance::add(const Measures& now, double h) {
   expected_ += (0.5 * h) * (last_.load + now.load);
   last_error_ = now.kinetic + now.strain + now.potential - start_energy_ - work_;
   energy_error_ = std::max(energy_error_, std::abs(last_error_));
-  energy_scale_ = std::max(energy_scale_, now.kinetic + now.strain + std::abs(now.potential - start_energy_) + std::abs(work_));
+  energy_scale_ =
+      std::max(energy_scale_, now.kinetic + now.strain + std::abs(now.potential - start_energy_) + std::abs(work_));
   for (int i = 0; i < 3; ++i) {
     momentum_error_ = std::max(momentum_error_, std::abs(now.momentum[i] - expected_[i]));
     momentum_scale_ = std::max(momentum_scale_, std::abs(now.momentum[i]));

@@ -10,7 +10,8 @@ using motion::Vec6;
 
 namespace {
 
-constexpr double largest_turn = 2.8;  ///< rotation of a node in one step [rad]: below pi, where the logarithm is no longer unique
+constexpr double largest_turn =
+    2.8;  ///< rotation of a node in one step [rad]: below pi, where the logarithm is no longer unique
 
 /// Velocities and accelerations that belong to dq by the integrator's formulas.
 struct Integrator {
@@ -19,7 +20,11 @@ struct Integrator {
   std::vector<Vec6<double>>&v, &a, &algorithmic;  ///< at the start of the step
 
   Integrator(const State& state, const StepOptions& options, double step, Workspace& work)
-      : c(make_alpha_coefficients(options.spectral_radius)), h(step), v(work.v), a(work.a), algorithmic(work.algorithmic) {
+      : c(make_alpha_coefficients(options.spectral_radius)),
+        h(step),
+        v(work.v),
+        a(work.a),
+        algorithmic(work.algorithmic) {
     for (std::size_t n = 0; n < v.size(); ++n) {
       v[n] = state.nodes[n].v;
       a[n] = state.nodes[n].a;
@@ -58,8 +63,7 @@ StepReport advance(System& system, State& state, const StepOptions& options, dou
   }
   // Predictor: dv/dt stays, a_{n+1} follows from it.
   for (std::size_t n = 0; n < state.nodes.size(); ++n) {
-    const Vec6<double> next =
-        (1.0 / (1.0 - c.alpha_m)) * (rule.a[n] - c.alpha_m * rule.algorithmic[n]);
+    const Vec6<double> next = (1.0 / (1.0 - c.alpha_m)) * (rule.a[n] - c.alpha_m * rule.algorithmic[n]);
     const Vec6<double> dq = h * rule.v[n] + (h * h) * ((0.5 - c.beta) * rule.algorithmic[n] + c.beta * next);
     state.nodes[n].dq = Vec6<double>::zero();
     move_node(state, n, dq);
@@ -70,8 +74,10 @@ StepReport advance(System& system, State& state, const StepOptions& options, dou
     return report;
   }
   state.time = end_time;
-  const elements::Slopes slopes{c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false};
-  report = iterate(system, state, options, slopes, Reuse::while_it_contracts, [&](State& s) { return rule.follow(system, s); });
+  const elements::Slopes slopes{c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h),
+                                false};
+  report = iterate(system, state, options, slopes, Reuse::while_it_contracts,
+                   [&](State& s) { return rule.follow(system, s); });
   if (!report.converged) return report;
   if (const auto t = check_shape(system, state)) {
     report.converged = false;

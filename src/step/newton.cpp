@@ -5,7 +5,8 @@
 namespace bough::step {
 
 bool is_small(const ResidualSize& r, double tolerance, double length_scale, double moment_arm) {
-  return r.force <= tolerance * r.force_scale && r.moment <= tolerance * std::max(r.moment_scale, r.force_scale * moment_arm) &&
+  return r.force <= tolerance * r.force_scale &&
+         r.moment <= tolerance * std::max(r.moment_scale, r.force_scale * moment_arm) &&
          r.length <= tolerance * length_scale && r.angle <= tolerance;
 }
 
@@ -14,7 +15,8 @@ std::string describe(const System& system, const ResidualSize& r, double toleran
   const double length = system.plan().length_scale;
   if ((r.length > tolerance * length || r.angle > tolerance) && r.worst_joint >= 0) {
     const plan::JointPlan& j = system.plan().joints[static_cast<std::size_t>(r.worst_joint)];
-    std::snprintf(text, sizeof text, "%s '%s' stays open by %.3g", j.what.c_str(), j.name.c_str(), std::max(r.length, r.angle));
+    std::snprintf(text, sizeof text, "%s '%s' stays open by %.3g", j.what.c_str(), j.name.c_str(),
+                  std::max(r.length, r.angle));
     return text;
   }
   const bool force = r.force > tolerance * r.force_scale;
@@ -31,7 +33,8 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
   const elements::Field f = system.field(state);
   const auto turned = [&state](const elements::Port& a, const elements::Port& b) {
     const auto R = [&state](const elements::Port& p) {
-      const motion::Mat3<double>& node = p.node == elements::ground ? p.offset.R : state.nodes[static_cast<std::size_t>(p.node)].R;
+      const motion::Mat3<double>& node =
+          p.node == elements::ground ? p.offset.R : state.nodes[static_cast<std::size_t>(p.node)].R;
       return p.node == elements::ground || !p.has_offset ? node : node * p.offset.R;
     };
     const motion::Mat3<double> r = lanes::transpose_times(R(a), R(b));
@@ -47,8 +50,8 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
         for (int k = 0; k < e.num_rows; ++k) {
           if (e.rows[k].kind != elements::RowKind::across) continue;
           const bool by_pairs = e.rows[k].j == (e.rows[k].i + 1) % 3 && k + 2 < e.num_rows && e.rows[k].i == 0 &&
-                                e.rows[k + 1].kind == elements::RowKind::across && e.rows[k + 1].i == 1 && e.rows[k + 1].j == 2 &&
-                                e.rows[k + 2].kind == elements::RowKind::across;
+                                e.rows[k + 1].kind == elements::RowKind::across && e.rows[k + 1].i == 1 &&
+                                e.rows[k + 1].j == 2 && e.rows[k + 2].kind == elements::RowKind::across;
           if (by_pairs) {
             const motion::Mat3<double>& R = m.relative.R;
             flipped |= R(0, 0) < 0.0 || R(1, 1) < 0.0 || R(2, 2) < 0.0;
@@ -56,11 +59,13 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
           }
           if (e.rows[k].j == 2) flipped |= m.relative.R(2, 2) < 0.0;
         }
-        if (flipped) trouble = Trouble{"joint '" + plan.element_owner[id] + "' flipped to the opposite pose within one step"};
+        if (flipped)
+          trouble = Trouble{"joint '" + plan.element_owner[id] + "' flipped to the opposite pose within one step"};
       } else if constexpr (requires { e.reference_strain; }) {
         for (int i = 1; i < E::num_ports; ++i)
           if (turned(e.ports[0], e.ports[i]) < -0.95)
-            trouble = Trouble{"an element of beam '" + plan.element_owner[id] + "' bends by nearly half a turn; use more elements"};
+            trouble = Trouble{"an element of beam '" + plan.element_owner[id] +
+                              "' bends by nearly half a turn; use more elements"};
       }
     });
   return trouble;
@@ -71,10 +76,11 @@ void accept_turns(const System& system, State& state) {
   const elements::Field f = system.field(state);
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     if (!plan.joints[j].counts_turns) continue;
-    plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(plan.joints[j].element)], [&](const auto& e) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
-        state.turns[j] = elements::eval_joint_motion(e, f, state.turns[j]).angle;
-    });
+    plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(plan.joints[j].element)],
+                       [&](const auto& e) {
+                         if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
+                           state.turns[j] = elements::eval_joint_motion(e, f, state.turns[j]).angle;
+                       });
   }
 }
 

@@ -12,8 +12,8 @@ constexpr double slowest_contraction = 0.03;
 
 /// Repeats: evaluate, stop when converged, factor, solve, apply. `follow` brings velocities and accelerations along with the positions.
 template <class Follow>
-StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes, Reuse reuse,
-                   Follow&& follow);
+StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes,
+                   Reuse reuse, Follow&& follow);
 
 /// Residual within the tolerance of what makes it, forces, moments, lengths and angles apart.
 bool is_small(const ResidualSize& r, double tolerance, double length_scale, double moment_arm);

@@ -5,8 +5,8 @@
 namespace bough::step {
 
 template <class Follow>
-StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes, Reuse reuse,
-                   Follow&& follow) {
+StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes,
+                   Reuse reuse, Follow&& follow) {
   StepReport report;
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
   const auto fail = [&report](const Trouble& t) {
@@ -14,7 +14,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     return report;
   };
   const double length = system.plan().length_scale;
-  const bool may_reuse = reuse == Reuse::while_it_contracts;
+  const bool may_reuse = reuse == Reuse::while_it_contracts && !options.single_solution;
   double previous = 0.0, rate = system.last_contraction();
   bool fresh = !may_reuse || !system.has_factor(slopes);  // whether the next solution gets a new factor
   for (int k = 0;; ++k) {
@@ -48,7 +48,8 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
         }
       }
       if (k >= options.max_iterations) {
-        report.cause = "no convergence in " + std::to_string(k) + " iterations: " + describe(system, report.residual, options.tolerance);
+        report.cause = "no convergence in " + std::to_string(k) +
+                       " iterations: " + describe(system, report.residual, options.tolerance);
         return report;
       }
       if (k >= 4 && report.change > 1e3 * std::max(previous, 1.0)) {
@@ -65,7 +66,8 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     if (const auto t = system.solve(rhs.data(), x.data())) return fail(*t);
     previous = report.change;
     report.change = system.apply(state, x.data());
-    if (report.iterations < StepReport::remembered_changes) report.change_list[static_cast<std::size_t>(report.iterations)] = report.change;
+    if (report.iterations < StepReport::remembered_changes)
+      report.change_list[static_cast<std::size_t>(report.iterations)] = report.change;
     ++report.iterations;
     if (!std::isfinite(report.change)) return fail({"the iteration left finite numbers"});
     if (const auto t = follow(state)) return fail(*t);

@@ -14,7 +14,8 @@ StepOptions make_step_options(const scene::Analysis& a) {
 
 std::vector<std::string> problems_in(const StepOptions& o) {
   std::vector<std::string> problems;
-  if (!(o.spectral_radius >= 0.0 && o.spectral_radius <= 1.0)) problems.push_back("spectral_radius must be between 0 and 1");
+  if (!(o.spectral_radius >= 0.0 && o.spectral_radius <= 1.0))
+    problems.push_back("spectral_radius must be between 0 and 1");
   if (!(o.tolerance > 0.0 && o.tolerance < 1.0)) problems.push_back("tolerance must be between 0 and 1");
   if (o.max_iterations < 1) problems.push_back("max_iterations must be at least 1");
   if (o.max_cuts < 0) problems.push_back("max_cuts must not be negative");

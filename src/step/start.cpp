@@ -24,7 +24,8 @@ void set_rows(const System& system, std::vector<double>& to, From&& from) {
     if (j.block < 0) continue;
     const int size = system.plan().graph.block_size[static_cast<std::size_t>(j.block)];
     for (int i = 0; i < size; ++i)
-      to[static_cast<std::size_t>(system.block_begin(j.block) + i)] = from(static_cast<std::size_t>(j.multiplier_begin + i));
+      to[static_cast<std::size_t>(system.block_begin(j.block) + i)] =
+          from(static_cast<std::size_t>(j.multiplier_begin + i));
   }
 }
 
@@ -38,8 +39,10 @@ std::optional<Trouble> factor_mass(System& system, const State& state) {
 
 /// Joints whose constraints contradict each other, for a message.
 std::string contradicting(const System& system, int worst, const std::vector<int>& blocks) {
-  std::string text = system.plan().joints.empty() ? "" : system.plan().joints[static_cast<std::size_t>(worst)].what + " '" +
-                                                              system.plan().joints[static_cast<std::size_t>(worst)].name + "'";
+  std::string text = system.plan().joints.empty()
+                         ? ""
+                         : system.plan().joints[static_cast<std::size_t>(worst)].what + " '" +
+                               system.plan().joints[static_cast<std::size_t>(worst)].name + "'";
   std::string others;
   int named = 0;
   for (int b : blocks) {
@@ -53,7 +56,8 @@ std::string contradicting(const System& system, int worst, const std::vector<int
 }
 
 /// Velocities that satisfy the constraints (plus `offset` by multiplier when given), nearest in the mass metric. Mass matrix factored.
-std::optional<Trouble> project_velocities(System& system, State& state, const std::vector<double>* offset, double* impulse) {
+std::optional<Trouble> project_velocities(System& system, State& state, const std::vector<double>* offset,
+                                          double* impulse) {
   std::vector<double> rhs(system.num_unknowns(), 0.0), x(system.num_unknowns());
   std::vector<Taylor<double, 3>> series;
   system.constraint_series(state, nullptr, 0.0, series);
@@ -83,8 +87,8 @@ double speed_scale(const System& system, const State& state) {
 /// Steady velocity error of the index-3 scheme in the constraints' normals, by multiplier:
 ///   G delta = -h^2 G ((beta + shift/2 - 1/6) jerk - ad(v) a / 12)
 /// (local error of dq against the Magnus series of the motion). Element matrices hold G.
-void steady_velocity_error(System& system, const State& state, const AlphaCoefficients& c, double h, const std::vector<Vec6<double>>& jerk,
-                           std::vector<double>& offset) {
+void steady_velocity_error(System& system, const State& state, const AlphaCoefficients& c, double h,
+                           const std::vector<Vec6<double>>& jerk, std::vector<double>& offset) {
   std::vector<double> delta(system.num_unknowns(), 0.0), product(system.num_unknowns());
   for (std::size_t n = 0; n < state.nodes.size(); ++n) {
     const Vec6<double> d = (-h * h) * ((c.beta + 0.5 * c.shift() - 1.0 / 6.0) * jerk[n] -
@@ -96,7 +100,8 @@ void steady_velocity_error(System& system, const State& state, const AlphaCoeffi
   for (const plan::JointPlan& j : system.plan().joints) {
     const int size = j.block < 0 ? 0 : system.plan().graph.block_size[static_cast<std::size_t>(j.block)];
     for (int i = 0; i < size; ++i)
-      offset[static_cast<std::size_t>(j.multiplier_begin + i)] = product[static_cast<std::size_t>(system.block_begin(j.block) + i)];
+      offset[static_cast<std::size_t>(j.multiplier_begin + i)] =
+          product[static_cast<std::size_t>(system.block_begin(j.block) + i)];
   }
 }
 
@@ -160,7 +165,8 @@ StartReport make_consistent(System& system, State& state, bool fix_positions) {
   for (const plan::JointPlan& j : system.plan().joints) {
     const int size = j.block < 0 ? 0 : system.plan().graph.block_size[static_cast<std::size_t>(j.block)];
     for (int i = 0; i < size; ++i)
-      state.multipliers[static_cast<std::size_t>(j.multiplier_begin + i)] = x[static_cast<std::size_t>(system.block_begin(j.block) + i)];
+      state.multipliers[static_cast<std::size_t>(j.multiplier_begin + i)] =
+          x[static_cast<std::size_t>(system.block_begin(j.block) + i)];
   }
   report.ok = true;
   return report;

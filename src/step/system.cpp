@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
+
+#include "system_parts.hpp"
 
 namespace bough::step {
 
@@ -13,20 +14,8 @@ using motion::Vec6;
 
 namespace {
 
-/// CPU seconds of the whole process, all threads.
-double cpu_now() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-struct PhaseTimer {
-  double& sum;
-  double start = cpu_now();
-  ~PhaseTimer() { sum += cpu_now() - start; }
-};
-
-std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree::Tree& tree, const scene::Solver& given) {
+std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree::Tree& tree,
+                                              const scene::Solver& given) {
   solve::SolveOptions options;
   options.penalty_factor = given.penalty_factor;
   if (given.kind == scene::SolverKind::monolithic)
@@ -41,13 +30,9 @@ std::unique_ptr<tree::Tree> make_scene_tree(const plan::Plan& plan, const scene:
   return std::make_unique<tree::Tree>(tree::make_tree(plan.graph, options));
 }
 
-constexpr std::int64_t element_grain = 32, block_grain = 128;
-
 template <class E>
-  requires requires(const E& e) { e.length; }
-double length_of(const E& e, const std::vector<plan::NodePlan>&, double) {
-  return e.length;
-}
+requires requires(const E& e) { e.length; }
+double length_of(const E& e, const std::vector<plan::NodePlan>&, double) { return e.length; }
 template <class E>
 double length_of(const E&, const std::vector<plan::NodePlan>&, double fallback) {
   return fallback;
@@ -90,7 +75,8 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   joint_of_block_.assign(static_cast<std::size_t>(g.num_blocks()), -1);
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     joint_of_element_[static_cast<std::size_t>(plan.joints[j].element)] = static_cast<int>(j);
-    if (plan.joints[j].block >= 0) joint_of_block_[static_cast<std::size_t>(plan.joints[j].block)] = static_cast<int>(j);
+    if (plan.joints[j].block >= 0)
+      joint_of_block_[static_cast<std::size_t>(plan.joints[j].block)] = static_cast<int>(j);
   }
   law_values_.assign(plan.laws.size(), 0.0);
   law_rates_ = law_accelerations_ = law_values_;
@@ -108,7 +94,8 @@ std::optional<Trouble> System::set_time(double time, laws::Side side) {
   for (std::size_t i = 0; i < plan_.laws.size(); ++i) {
     const laws::LawValue v = plan_.laws[i].law.at(time, side);
     if (const auto which = laws::non_finite(v))
-      return Trouble{"the time function of '" + plan_.laws[i].user + "' is not finite at time " + std::to_string(time) + ": " + *which};
+      return Trouble{"the time function of '" + plan_.laws[i].user + "' is not finite at time " + std::to_string(time) +
+                     ": " + *which};
     law_values_[i] = v.value;
     law_rates_[i] = v.rate;
     law_accelerations_[i] = v.acceleration;
@@ -148,7 +135,8 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
       });
     }
   };
-  walker_.for_each_chunk(static_cast<std::int64_t>(tree_->element_order.size()), element_grain, tree::make_chunk(by_element));
+  walker_.for_each_chunk(static_cast<std::int64_t>(tree_->element_order.size()), element_grain,
+                         tree::make_chunk(by_element));
   auto by_block = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t b = begin; b < end; ++b) {
       const auto block = static_cast<std::size_t>(b);
@@ -172,7 +160,8 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
       for (std::size_t e = 0; e < plan_.directory.size(); ++e)
         for (std::int64_t i = element_begin_[e]; i < element_begin_[e + 1]; ++i)
           if (!std::isfinite(element_residual_[static_cast<std::size_t>(i)]))
-            return Trouble{"the forces of '" + plan_.element_owner[e] + "' are not finite at time " + std::to_string(time_)};
+            return Trouble{"the forces of '" + plan_.element_owner[e] + "' are not finite at time " +
+                           std::to_string(time_)};
       return Trouble{"a sum of forces is not finite at time " + std::to_string(time_)};
     }
   return std::nullopt;
@@ -261,8 +250,9 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
   if (status.outcome == solve::FactorOutcome::not_finite) return Trouble{"a tangent is not finite"};
   std::string text = "the linear system is singular";
   if (status.block >= 0) {
-    static const char* const axes[] = {"displacement along axis 1", "displacement along axis 2", "displacement along axis 3",
-                                       "rotation about axis 1", "rotation about axis 2", "rotation about axis 3"};
+    static const char* const axes[] = {"displacement along axis 1", "displacement along axis 2",
+                                       "displacement along axis 3", "rotation about axis 1",
+                                       "rotation about axis 2",     "rotation about axis 3"};
     text += ": nothing holds " + block_name(status.block);
     if (joint_of_block_[static_cast<std::size_t>(status.block)] < 0 && status.local >= 0 && status.local < 6)
       text += std::string(" (") + axes[status.local] + " of its own frame has the largest share)";
@@ -275,140 +265,18 @@ std::optional<Trouble> System::solve(const double* rhs, double* x) {
   ++counts_.solutions;
   last_solution_ = solver_->solve(walker_, rhs, x);
   if (!last_solution_.finite) return Trouble{"the solution of the linear system is not finite"};
-  if (last_solution_.backward_error > counts_.backward_error_max) counts_.backward_error_max = last_solution_.backward_error;
+  if (last_solution_.backward_error > counts_.backward_error_max)
+    counts_.backward_error_max = last_solution_.backward_error;
   return std::nullopt;
-}
-
-double System::apply(State& state, const double* x) {
-  PhaseTimer timer{counts_.update};
-  const auto node_increment = [&](int node) {
-    Vec6<double> eta;
-    const double* from = x + block_begin(node);
-    for (int i = 0; i < 6; ++i) eta[i] = from[i];
-    return eta;
-  };
-  auto by_element = [&](std::int64_t begin, std::int64_t end) {
-    double most = 0.0;
-    for (std::int64_t k = begin; k < end; ++k) {
-      const auto id = static_cast<std::size_t>(k);
-      plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
-        const elements::Port* first = nullptr;
-        for (const elements::Port& p : e.ports) {
-          if (p.node == elements::ground) continue;
-          Vec6<double> change = node_increment(p.node);
-          constexpr int num_ports = std::decay_t<decltype(e)>::num_ports;
-          if (first != nullptr) {
-            const NodeMotion& a = state.nodes[static_cast<std::size_t>(first->node)];
-            const NodeMotion& b = state.nodes[static_cast<std::size_t>(p.node)];
-            const motion::Frame<double> H{lanes::transpose_times(a.R, b.R),
-                                          lanes::transpose_times(a.R, motion::difference(b.x, a.x))};
-            change -= motion::inverse_adjoint_times(H, node_increment(first->node));
-          } else if (num_ports > 1 && e.ports[0].node != elements::ground) {
-            first = &p;
-            continue;
-          }
-          for (int i = 0; i < 3; ++i) {
-            most = std::max(most, std::abs(change[i]) / element_length_[id]);
-            most = std::max(most, std::abs(change[3 + i]));
-          }
-        }
-      });
-    }
-    chunk_max_[static_cast<std::size_t>(begin / element_grain)] = most;
-  };
-  std::fill(chunk_max_.begin(), chunk_max_.end(), 0.0);
-  walker_.for_each_chunk(static_cast<std::int64_t>(plan_.directory.size()), element_grain, tree::make_chunk(by_element));
-  auto by_node = [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t n = begin; n < end; ++n) move_node(state, static_cast<std::size_t>(n), node_increment(static_cast<int>(n)));
-  };
-  walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
-  for (const plan::JointPlan& j : plan_.joints) {
-    if (j.block < 0) continue;
-    const int size = plan_.graph.block_size[static_cast<std::size_t>(j.block)];
-    for (int i = 0; i < size; ++i) state.multipliers[static_cast<std::size_t>(j.multiplier_begin + i)] += x[block_begin(j.block) + i];
-  }
-  return *std::max_element(chunk_max_.begin(), chunk_max_.end());
-}
-
-void System::evaluate_rate(const State& state, std::vector<double>& rate) {
-  const elements::Field f = field(state);
-  using T = lanes::Taylor<double, 1>;
-  std::vector<T> laws(plan_.laws.size());
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    laws[i].c[0] = law_values_[i];
-    laws[i].c[1] = law_rates_[i];
-  }
-  elements::Surroundings<T> around;
-  for (int k = 0; k < 3; ++k) around.gravity[k] = plan_.gravity[k] * laws[static_cast<std::size_t>(plan_.gravity_law)];
-  around.laws = laws.data();
-  around.has_inertia = plan_.is_dynamic;
-  rate.assign(num_unknowns(), 0.0);
-  std::vector<double> part;
-  for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
-    part.assign(static_cast<std::size_t>(element_begin_[e + 1] - element_begin_[e]), 0.0);
-    const int j = joint_of_element_[e];
-    const double* multipliers =
-        j >= 0 ? state.multipliers.data() + plan_.joints[static_cast<std::size_t>(j)].multiplier_begin : nullptr;
-    const double turns = j >= 0 ? state.turns[static_cast<std::size_t>(j)] : 0.0;
-    plan::with_element(plan_.elements, plan_.directory[e], [&](const auto& element) {
-      elements::evaluate_rate(element, f, around, multipliers, turns, part.data());
-    });
-    std::size_t at = 0;
-    for (std::int64_t k = plan_.graph.element_begin[e]; k < plan_.graph.element_begin[e + 1]; ++k) {
-      const int block = plan_.graph.element_blocks[static_cast<std::size_t>(k)];
-      for (int i = 0; i < plan_.graph.block_size[static_cast<std::size_t>(block)]; ++i)
-        rate[static_cast<std::size_t>(block_begin(block) + i)] += part[at++];
-    }
-  }
-}
-
-void System::constraint_series(const State& state, const Vec6<double>* jerk, double step_size,
-                               std::vector<lanes::Taylor<double, 3>>& out) const {
-  const elements::Field f = field(state);
-  std::vector<lanes::Taylor<double, 3>>& laws = law_series_;
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    laws[i].c[0] = law_values_[i];
-    laws[i].c[1] = law_rates_[i];
-    laws[i].c[2] = 0.5 * law_accelerations_[i];
-    // Laws tell two derivatives; the third enters a term of order h^2 only, so a one-sided difference over a step will do.
-    laws[i].c[3] = 0.0;
-    if (step_size > 0.0 && !plan_.laws[i].law.is_constant()) {
-      const double next = plan_.laws[i].law.at(time_ + step_size, laws::Side::left).acceleration;
-      if (std::isfinite(next)) laws[i].c[3] = (next - law_accelerations_[i]) / (6.0 * step_size);
-    }
-  }
-  out.resize(static_cast<std::size_t>(plan_.num_multipliers));
-  for (std::size_t j = 0; j < plan_.joints.size(); ++j)
-    plan::with_element(plan_.elements, plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)], [&](const auto& e) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
-        elements::evaluate_constraint_series(e, f, jerk, laws.data(), state.turns[j],
-                                             out.data() + plan_.joints[j].multiplier_begin);
-    });
-}
-
-double System::constraint_violation(const State& state, int order, int* joint) const {
-  std::vector<lanes::Taylor<double, 3>>& series = row_series_;
-  constraint_series(state, nullptr, 0.0, series);
-  double most = 0.0;
-  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
-    const int block = plan_.joints[j].block;
-    const int size = block < 0 ? 0 : plan_.graph.block_size[static_cast<std::size_t>(block)];
-    for (int i = 0; i < size; ++i) {
-      const double value = std::abs(series[static_cast<std::size_t>(plan_.joints[j].multiplier_begin + i)].c[order]);
-      if (value > most) {
-        most = value;
-        if (joint != nullptr) *joint = static_cast<int>(j);
-      }
-    }
-  }
-  return most;
 }
 
 int System::joint_of_block(int block) const { return joint_of_block_[static_cast<std::size_t>(block)]; }
 
 std::string System::block_name(int block) const {
   const int joint = joint_of_block(block);
-  if (joint >= 0) return plan_.joints[static_cast<std::size_t>(joint)].what + " '" + plan_.joints[static_cast<std::size_t>(joint)].name + "'";
+  if (joint >= 0)
+    return plan_.joints[static_cast<std::size_t>(joint)].what + " '" +
+           plan_.joints[static_cast<std::size_t>(joint)].name + "'";
   return "'" + plan_.nodes[static_cast<std::size_t>(block)].name + "'";
 }
 

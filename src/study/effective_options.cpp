@@ -36,7 +36,8 @@ results::EffectiveOptions effective_options(const scene::Scene& scene, const ste
   list.emplace_back("analysis/tolerance", number(o.tolerance));
   list.emplace_back("analysis/max_iterations", std::to_string(o.max_iterations));
   list.emplace_back("analysis/max_cuts", std::to_string(o.max_cuts));
-  list.emplace_back("solver/kind", quoted(scene.solver.kind == scene::SolverKind::monolithic ? "monolithic" : "hierarchical"));
+  list.emplace_back("solver/kind",
+                    quoted(scene.solver.kind == scene::SolverKind::monolithic ? "monolithic" : "hierarchical"));
   list.emplace_back("solver/leaf_size", std::to_string(scene.solver.leaf_size));
   list.emplace_back("solver/depth", std::to_string(scene.solver.depth));
   list.emplace_back("solver/penalty_factor", number(scene.solver.penalty_factor));

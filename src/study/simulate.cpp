@@ -22,10 +22,17 @@ using results::Summary;
 /// One run as it goes: state, observers, summary.
 class Run {
  public:
-  Run(const scene::Scene& scene, const SimulateOptions& options, results::Recorder& recorder, const ProgressCallback& progress)
-      : scene_(scene), options_(step::make_step_options(scene.analysis)), recorder_(recorder), progress_(progress),
-        want_motion_(options.want_motion || scene.output.motion), threads_(std::max(1, scene.solver.tasks ? options.threads : 1)),
-        plan_(plan::make_plan(scene)), system_(plan_, scene.solver, threads_.walker()), state_(step::make_initial_state(plan_)) {
+  Run(const scene::Scene& scene, const SimulateOptions& options, results::Recorder& recorder,
+      const ProgressCallback& progress)
+      : scene_(scene),
+        options_(step::make_step_options(scene.analysis)),
+        recorder_(recorder),
+        progress_(progress),
+        want_motion_(options.want_motion || scene.output.motion),
+        threads_(std::max(1, scene.solver.tasks ? options.threads : 1)),
+        plan_(plan::make_plan(scene)),
+        system_(plan_, scene.solver, threads_.walker()),
+        state_(step::make_initial_state(plan_)) {
     summary_.scene = scene.name;
     summary_.title = scene.title;
     summary_.threads = threads_.count();
@@ -65,7 +72,8 @@ class Run {
   }
 
   void note(const std::string& text) {
-    if (std::find(summary_.notes.begin(), summary_.notes.end(), text) == summary_.notes.end()) summary_.notes.push_back(text);
+    if (std::find(summary_.notes.begin(), summary_.notes.end(), text) == summary_.notes.end())
+      summary_.notes.push_back(text);
   }
 
   void count(const step::StepReport& report, bool accepted) {
@@ -162,12 +170,13 @@ bool Run::run_statics() {
   record(0, false);
   const int steps = std::max(1, scene_.analysis.load_steps);
   for (int k = 0; k < steps; ++k) {
-    int level = 0;       // the step is cut into 2^level parts
-    long part = 0;       // parts of the present level done
+    int level = 0;  // the step is cut into 2^level parts
+    long part = 0;  // parts of the present level done
     while (part < (1L << level)) {
       const double from = static_cast<double>(k) / steps, width = 1.0 / steps;
-      const double target =
-          part + 1 == (1L << level) && k + 1 == steps ? 1.0 : from + width * static_cast<double>(part + 1) / static_cast<double>(1L << level);
+      const double target = part + 1 == (1L << level) && k + 1 == steps
+                                ? 1.0
+                                : from + width * static_cast<double>(part + 1) / static_cast<double>(1L << level);
       before_ = state_;
       const step::StepReport report = step::equilibrate(system_, state_, options_, target);
       count(report, report.converged);
@@ -198,12 +207,15 @@ bool Run::start_segment(double step_size, bool is_first) {
   const step::StartReport consistent = step::make_consistent(system_, state_, is_first);
   if (!consistent.ok) return fail(consistent.cause);
   if (is_first && consistent.position_correction > 1e-9)
-    note("the start was moved by up to " + std::to_string(consistent.position_correction) + " (relative) to close the joints");
+    note("the start was moved by up to " + std::to_string(consistent.position_correction) +
+         " (relative) to close the joints");
   const double speed_jump = consistent.velocity_impulse;
   if (speed_jump > 1e-9) {
     char text[160];
-    std::snprintf(text, sizeof text, "velocities were made consistent with joints and drives at time %.6g by impulses of up to %.3g N s (N m s)",
-                  state_.time, speed_jump);
+    std::snprintf(
+        text, sizeof text,
+        "velocities were made consistent with joints and drives at time %.6g by impulses of up to %.3g N s (N m s)",
+        state_.time, speed_jump);
     note(text);
   }
   const elements::Measures now = results::eval_measures(system_, state_);
@@ -239,8 +251,8 @@ bool Run::run_segment(double begin, double end, double& total_end) {
       state_ = before_;
       easy = 0;
       if (++level > options_.max_cuts)
-        return fail("the step at time " + std::to_string(before_.time) + " fails down to a step size of " + std::to_string(size) + ": " +
-                    report.cause);
+        return fail("the step at time " + std::to_string(before_.time) + " fails down to a step size of " +
+                    std::to_string(size) + ": " + report.cause);
       done *= 2;
       continue;
     }
@@ -295,7 +307,8 @@ void Run::finish() {
   summary_.checks.numerical_dissipation = std::max(0.0, -balance_.last_energy_error());
   summary_.checks.momentum_balance = balance_.momentum_error();
   if (work.deficiency > 0) {
-    std::string text = std::to_string(work.deficiency) + " constraint row(s) depend on others; the motion is unique, these reactions are not:";
+    std::string text = std::to_string(work.deficiency) +
+                       " constraint row(s) depend on others; the motion is unique, these reactions are not:";
     for (int b : system_.solver().blocks_not_unique()) text += " " + system_.block_name(b);
     note(text);
   }
@@ -328,6 +341,17 @@ void Run::finish() {
                      {"flops_per_factorization", counters.factor_flops},
                      {"delayed_pivots", static_cast<double>(counters.delayed_pivots)},
                      {"dependent_rows", static_cast<double>(work.deficiency)}};
+  if (const solve::Hierarchical* hierarchical = system_.solver().hierarchical();
+      hierarchical != nullptr && work.factorizations > 0) {
+    int widest = 0;
+    double condition = 1.0;
+    for (const solve::InterfaceReport& i : hierarchical->interfaces()) {
+      widest = std::max(widest, i.num_unknowns);
+      condition = std::max(condition, i.condition);
+    }
+    summary_.solver.emplace_back("interface_unknowns_max", static_cast<double>(widest));
+    summary_.solver.emplace_back("interface_condition_max", condition);
+  }
 }
 
 }  // namespace

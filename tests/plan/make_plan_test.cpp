@@ -10,16 +10,18 @@ namespace {
 
 TEST(MakePlan, numbers_elements_blocks_and_multipliers_without_gaps) {
   const Plan p = make_plan(test::make_chain(3));
-  EXPECT_EQ(p.nodes.size(), 9u);  // two ends and one inner node a link
+  EXPECT_EQ(p.nodes.size(), 9u);      // two ends and one inner node a link
   EXPECT_EQ(p.directory.size(), 9u);  // two elements and one hinge a link
   EXPECT_EQ(p.num_multipliers, 15);
   EXPECT_EQ(p.graph.num_blocks(), 12);
   EXPECT_EQ(p.graph.num_elements(), 9);
   for (int e = 0; e < p.graph.num_elements(); ++e) {
     int size = 0, unknowns = 0;
-    for (auto k = p.graph.element_begin[static_cast<std::size_t>(e)]; k < p.graph.element_begin[static_cast<std::size_t>(e) + 1]; ++k)
+    for (auto k = p.graph.element_begin[static_cast<std::size_t>(e)];
+         k < p.graph.element_begin[static_cast<std::size_t>(e) + 1]; ++k)
       size += p.graph.block_size[static_cast<std::size_t>(p.graph.element_blocks[static_cast<std::size_t>(k)])];
-    with_element(p.elements, p.directory[static_cast<std::size_t>(e)], [&](const auto& x) { unknowns = elements::num_unknowns(x); });
+    with_element(p.elements, p.directory[static_cast<std::size_t>(e)],
+                 [&](const auto& x) { unknowns = elements::num_unknowns(x); });
     EXPECT_EQ(size, unknowns) << e;
   }
   for (const JointPlan& j : p.joints) {

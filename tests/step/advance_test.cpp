@@ -1,10 +1,11 @@
+#include "bough/step/advance.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "bough/schedule/threads.hpp"
-#include "bough/step/advance.hpp"
 #include "small_scenes.hpp"
 
 namespace bough::step {

@@ -28,8 +28,10 @@ double spectral_radius_at(const AlphaCoefficients& c, double w) {
     for (int i = 0; i < 3; ++i) m[i][j] = column[static_cast<std::size_t>(i)];
   }
   const double trace = m[0][0] + m[1][1] + m[2][2];
-  const double minors = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0] + m[1][1] * m[2][2] - m[1][2] * m[2][1];
-  const double det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+  const double minors = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0] +
+                        m[1][1] * m[2][2] - m[1][2] * m[2][1];
+  const double det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                     m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                      m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
   std::complex<double> root[3] = {{1.0, 0.1}, {-0.4, 0.9}, {-0.5, -0.8}};
   for (int k = 0; k < 2000; ++k)
@@ -42,12 +44,14 @@ double spectral_radius_at(const AlphaCoefficients& c, double w) {
 
 TEST(AlphaCoefficients, give_the_spectral_radius_asked_for_at_infinite_frequency) {
   // The three roots meet at infinity, where a perturbation eps moves a triple root by its cube root: hence 1e-3.
-  for (double rho : {0.2, 0.5, 0.8, 0.95}) EXPECT_NEAR(spectral_radius_at(make_alpha_coefficients(rho), 1e4), rho, 2e-3) << rho;
+  for (double rho : {0.2, 0.5, 0.8, 0.95})
+    EXPECT_NEAR(spectral_radius_at(make_alpha_coefficients(rho), 1e4), rho, 2e-3) << rho;
 }
 
 TEST(AlphaCoefficients, never_amplify_at_any_frequency) {
   for (double rho : {0.0, 0.3, 0.6, 0.9, 1.0})
-    for (double w = 1e-2; w < 1e3; w *= 1.7) EXPECT_LE(spectral_radius_at(make_alpha_coefficients(rho), w), 1.0 + 1e-9) << rho << " " << w;
+    for (double w = 1e-2; w < 1e3; w *= 1.7)
+      EXPECT_LE(spectral_radius_at(make_alpha_coefficients(rho), w), 1.0 + 1e-9) << rho << " " << w;
 }
 
 TEST(AlphaCoefficients, meet_the_condition_of_second_order) {

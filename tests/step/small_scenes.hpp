@@ -11,7 +11,8 @@ inline scene::Section make_bar_section() {
   scene::Section s;
   s.name = "bar";
   s.stiffness = s.mass = s.damping = motion::Mat6<double>::zero();
-  const double stiffness[6] = {8.4e7, 2.7e7, 2.7e7, 1.8e3, 2.8e3, 2.8e3}, mass[6] = {3.14, 3.14, 3.14, 2.1e-4, 1.05e-4, 1.05e-4};
+  const double stiffness[6] = {8.4e7, 2.7e7, 2.7e7, 1.8e3, 2.8e3, 2.8e3},
+               mass[6] = {3.14, 3.14, 3.14, 2.1e-4, 1.05e-4, 1.05e-4};
   for (int i = 0; i < 6; ++i) {
     s.stiffness(i, i) = stiffness[i];
     s.mass(i, i) = mass[i];

@@ -15,7 +15,10 @@ struct Rig {
   System system;
   State state;
   explicit Rig(const scene::Scene& s)
-      : scene(s), plan(plan::make_plan(scene)), system(plan, scene.solver, schedule::make_serial_walker()), state(make_initial_state(plan)) {}
+      : scene(s),
+        plan(plan::make_plan(scene)),
+        system(plan, scene.solver, schedule::make_serial_walker()),
+        state(make_initial_state(plan)) {}
 };
 
 TEST(MakeConsistent, closes_positions_velocities_and_accelerations) {
@@ -91,7 +94,8 @@ TEST(MakeConsistent, refuses_contradicting_drives_by_name) {
   Rig rig(s);
   const StartReport report = make_consistent(rig.system, rig.state, true);
   EXPECT_FALSE(report.ok);
-  EXPECT_TRUE(report.cause.find("slow") != std::string::npos && report.cause.find("fast") != std::string::npos) << report.cause;
+  EXPECT_TRUE(report.cause.find("slow") != std::string::npos && report.cause.find("fast") != std::string::npos)
+      << report.cause;
 }
 
 }  // namespace

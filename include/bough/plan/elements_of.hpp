@@ -33,7 +33,8 @@ struct ElementPlace {
 template <class F>
 void with_element(const ElementArrays& all, ElementPlace place, F&& f) {
   const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    static_cast<void>(((place.array == I ? (f(std::get<I>(all)[static_cast<std::size_t>(place.index)]), true) : false) || ...));
+    static_cast<void>(
+        ((place.array == I ? (f(std::get<I>(all)[static_cast<std::size_t>(place.index)]), true) : false) || ...));
   };
   pick(std::make_index_sequence<std::tuple_size_v<ElementArrays>>{});
 }

@@ -11,9 +11,9 @@
 namespace bough::plan {
 
 struct NodePlan {
-  std::string name;                 ///< of the scene's node or body, or `<beam>.<k>`
-  motion::Frame<double> pose;       ///< at the start
-  motion::Vec6<double> twist;       ///< at the start, own axes, as given (not yet consistent)
+  std::string name;            ///< of the scene's node or body, or `<beam>.<k>`
+  motion::Frame<double> pose;  ///< at the start
+  motion::Vec6<double> twist;  ///< at the start, own axes, as given (not yet consistent)
 };
 
 /// A constraint element and where it comes from.
@@ -23,7 +23,7 @@ struct JointPlan {
   int block = -1;            ///< multiplier block
   int multiplier_begin = 0;  ///< in the array of all multipliers
   bool counts_turns = false;
-  std::string what;          ///< "joint", "prescribed motion", "held rotation"
+  std::string what;  ///< "joint", "prescribed motion", "held rotation"
 };
 
 /// Elements of one beam of the scene, in order along its axis.
@@ -31,9 +31,9 @@ struct BeamPlan {
   std::string name;
   int order = 1;
   double length = 0.0;
-  std::vector<int> elements;              ///< global ids
-  std::vector<std::vector<int>> loads;    ///< global ids of the line loads on each element
-  std::vector<int> nodes;                 ///< of the whole axis, start to end
+  std::vector<int> elements;            ///< global ids
+  std::vector<std::vector<int>> loads;  ///< global ids of the line loads on each element
+  std::vector<int> nodes;               ///< of the whole axis, start to end
 };
 
 /// A time function with its place in Surroundings::laws.
@@ -44,9 +44,9 @@ struct LawPlan {
 
 struct SensorPlan {
   scene::Sensor sensor;
-  elements::Port port;      ///< of point sensors
-  int beam = -1;            ///< index in Plan::beams
-  int joint = -1;           ///< index in Plan::joints (reaction, angle)
+  elements::Port port;                  ///< of point sensors
+  int beam = -1;                        ///< index in Plan::beams
+  int joint = -1;                       ///< index in Plan::joints (reaction, angle)
   std::vector<std::string> components;  ///< "" for a scalar
 };
 
@@ -64,11 +64,12 @@ struct Plan {
   std::vector<BeamPlan> beams;
   std::vector<LawPlan> laws;
   std::vector<SensorPlan> sensors;
-  std::vector<int> body_nodes;             ///< nodes of the scene's bodies, in its order
+  std::vector<int> body_nodes;  ///< nodes of the scene's bodies, in its order
   std::vector<motion::Vec3<double>> body_centers;
-  std::vector<std::pair<int, int>> links;  ///< element ids of joints and springs between two points, with their kind, for pictures
-  blocks::BlockGraph graph;                ///< blocks: nodes, then one per joint
-  double length_scale = 1.0;               ///< [m], size of the structure
+  std::vector<std::pair<int, int>>
+      links;                  ///< element ids of joints and springs between two points, with their kind, for pictures
+  blocks::BlockGraph graph;   ///< blocks: nodes, then one per joint
+  double length_scale = 1.0;  ///< [m], size of the structure
   std::vector<std::string> notes;
 };
 

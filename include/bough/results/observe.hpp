@@ -26,9 +26,11 @@ class Balance {
   /// After a jump (breakpoint): what is there now counts as start of the next interval, the energy of the jump is no error.
   void jump(const elements::Measures& after);
   void add(const elements::Measures& now, double step_size);
-  double energy_error() const { return energy_error_; }      ///< largest |kinetic + strain + potential - work + dissipation - start| [J]
-  double energy_scale() const { return energy_scale_; }      ///< largest sum of magnitudes [J]
-  double last_energy_error() const { return last_error_; }   ///< signed, now: negative is energy taken by the integrator
+  double energy_error() const {
+    return energy_error_;
+  }  ///< largest |kinetic + strain + potential - work + dissipation - start| [J]
+  double energy_scale() const { return energy_scale_; }     ///< largest sum of magnitudes [J]
+  double last_energy_error() const { return last_error_; }  ///< signed, now: negative is energy taken by the integrator
   double momentum_error() const { return momentum_error_; }  ///< largest |linear momentum - impulse - start| [kg m/s]
   double momentum_scale() const { return momentum_scale_; }
 

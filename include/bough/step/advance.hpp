@@ -15,15 +15,16 @@ namespace bough::step {
 struct StepReport {
   static constexpr int remembered_changes = 32;
   bool converged = false;
-  bool at_floor = false;      ///< accepted at the round-off floor of the residual, above the tolerance
-  int iterations = 0;         ///< linear solutions
-  double change = 0.0;        ///< last change of relative motions
-  ResidualSize residual;      ///< at the end
-  std::string cause;          ///< why not, when not converged
+  bool at_floor = false;  ///< accepted at the round-off floor of the residual, above the tolerance
+  int iterations = 0;     ///< linear solutions
+  double change = 0.0;    ///< last change of relative motions
+  ResidualSize residual;  ///< at the end
+  std::string cause;      ///< why not, when not converged
   std::array<double, remembered_changes> change_list{};
   /// Changes of the first iterations (statics: shows the quadratic convergence).
   std::span<const double> changes() const {
-    return {change_list.data(), static_cast<std::size_t>(iterations < remembered_changes ? iterations : remembered_changes)};
+    return {change_list.data(),
+            static_cast<std::size_t>(iterations < remembered_changes ? iterations : remembered_changes)};
   }
 };
 
@@ -32,7 +33,8 @@ struct StartReport {
   bool ok = false;
   std::string cause;
   double position_correction = 0.0;  ///< largest change of relative motions that closed the constraints
-  double velocity_impulse = 0.0;     ///< largest multiplier of the velocity projection: an impulse where a driven rate meets rest [N s, N m s]
+  double velocity_impulse =
+      0.0;  ///< largest multiplier of the velocity projection: an impulse where a driven rate meets rest [N s, N m s]
   std::vector<std::string> notes;
 };
 

@@ -22,7 +22,9 @@ std::vector<std::string> problems_in(const StepOptions& options);
 ///   alpha_m = (2 rho - 1)/(rho + 1), alpha_f = rho/(rho + 1), gamma = 1/2 + alpha_f - alpha_m, beta = (gamma + 1/2)^2 / 4
 struct AlphaCoefficients {
   double alpha_m, alpha_f, beta, gamma;
-  double shift() const { return alpha_m - alpha_f; }  ///< a_n stands for dv/dt at t_n + shift h (Arnold, Bruls, Cardona 2015)
+  double shift() const {
+    return alpha_m - alpha_f;
+  }  ///< a_n stands for dv/dt at t_n + shift h (Arnold, Bruls, Cardona 2015)
 };
 AlphaCoefficients make_alpha_coefficients(double spectral_radius);
 

@@ -9,13 +9,13 @@
 namespace bough::step {
 
 struct State {
-  double time = 0.0;                                   ///< [s], or the load factor in statics
-  double step_size = 0.0;                              ///< h that `algorithmic` belongs to [s]; 0 before the start
-  std::vector<elements::NodeMotion> nodes;             ///< R, x, v, dv/dt, and dq since the last accepted step
-  std::vector<motion::Quaternion<double>> rotation;    ///< of nodes; R is made from it
-  std::vector<motion::Vec6<double>> algorithmic;       ///< a_n, the acceleration-like variable of generalized-alpha
+  double time = 0.0;                                 ///< [s], or the load factor in statics
+  double step_size = 0.0;                            ///< h that `algorithmic` belongs to [s]; 0 before the start
+  std::vector<elements::NodeMotion> nodes;           ///< R, x, v, dv/dt, and dq since the last accepted step
+  std::vector<motion::Quaternion<double>> rotation;  ///< of nodes; R is made from it
+  std::vector<motion::Vec6<double>> algorithmic;     ///< a_n, the acceleration-like variable of generalized-alpha
   std::vector<double> multipliers;
-  std::vector<double> turns;                           ///< angle of each joint at the last accepted step [rad]
+  std::vector<double> turns;  ///< angle of each joint at the last accepted step [rad]
 };
 
 /// The scene's own poses and twists, not yet consistent.

@@ -31,8 +31,8 @@ struct ResidualSize {
 
 /// Buffers of the verbs in advance.hpp, sized once: a step does not allocate.
 struct Workspace {
-  std::vector<double> rhs, x;                               ///< of the linear system
-  std::vector<motion::Vec6<double>> v, a, algorithmic;      ///< of the nodes at the start of a step
+  std::vector<double> rhs, x;                           ///< of the linear system
+  std::vector<motion::Vec6<double>> v, a, algorithmic;  ///< of the nodes at the start of a step
 };
 
 /// Why a step or a run cannot go on, in words for the user.
@@ -104,17 +104,18 @@ class System {
   Workspace work_;
   solve::SolveReport last_solution_;
   std::vector<double> law_values_, law_rates_, law_accelerations_;
-  mutable std::vector<lanes::Taylor<double, 3>> law_series_, row_series_;  ///< scratch of constraint_series, constraint_violation
-  std::vector<std::int64_t> element_begin_;       ///< place of an element's residual
+  mutable std::vector<lanes::Taylor<double, 3>> law_series_,
+      row_series_;                           ///< scratch of constraint_series, constraint_violation
+  std::vector<std::int64_t> element_begin_;  ///< place of an element's residual
   std::vector<double> element_residual_;
-  std::vector<double> element_magnitude_;         ///< sum of |terms| of each entry of element_residual_
-  std::vector<int> joint_of_element_;             ///< index in plan.joints or -1
+  std::vector<double> element_magnitude_;  ///< sum of |terms| of each entry of element_residual_
+  std::vector<int> joint_of_element_;      ///< index in plan.joints or -1
   std::vector<int> joint_of_block_;
-  std::vector<std::int64_t> use_begin_;           ///< by block: range in uses_
-  std::vector<std::int64_t> uses_;                ///< places in element_residual_ that add up to the block, fixed order
+  std::vector<std::int64_t> use_begin_;  ///< by block: range in uses_
+  std::vector<std::int64_t> uses_;       ///< places in element_residual_ that add up to the block, fixed order
   std::vector<double> residual_, magnitude_;
   std::vector<double> chunk_max_;
-  std::vector<double> element_length_;            ///< size of each element, for relative changes [m]
+  std::vector<double> element_length_;  ///< size of each element, for relative changes [m]
   double moment_arm_ = 0.0;
   double time_ = 0.0;
   elements::Slopes factored_;

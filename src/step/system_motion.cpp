@@ -1,0 +1,142 @@
+/// System: moving the nodes, and time derivatives along a motion.
+#include <algorithm>
+#include <cmath>
+
+#include "bough/step/system.hpp"
+#include "system_parts.hpp"
+
+namespace bough::step {
+
+using elements::NodeMotion;
+using motion::Vec6;
+
+double System::apply(State& state, const double* x) {
+  PhaseTimer timer{counts_.update};
+  const auto node_increment = [&](int node) {
+    Vec6<double> eta;
+    const double* from = x + block_begin(node);
+    for (int i = 0; i < 6; ++i) eta[i] = from[i];
+    return eta;
+  };
+  auto by_element = [&](std::int64_t begin, std::int64_t end) {
+    double most = 0.0;
+    for (std::int64_t k = begin; k < end; ++k) {
+      const auto id = static_cast<std::size_t>(k);
+      plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
+        const elements::Port* first = nullptr;
+        for (const elements::Port& p : e.ports) {
+          if (p.node == elements::ground) continue;
+          Vec6<double> change = node_increment(p.node);
+          constexpr int num_ports = std::decay_t<decltype(e)>::num_ports;
+          if (first != nullptr) {
+            const NodeMotion& a = state.nodes[static_cast<std::size_t>(first->node)];
+            const NodeMotion& b = state.nodes[static_cast<std::size_t>(p.node)];
+            const motion::Frame<double> H{lanes::transpose_times(a.R, b.R),
+                                          lanes::transpose_times(a.R, motion::difference(b.x, a.x))};
+            change -= motion::inverse_adjoint_times(H, node_increment(first->node));
+          } else if (num_ports > 1 && e.ports[0].node != elements::ground) {
+            first = &p;
+            continue;
+          }
+          for (int i = 0; i < 3; ++i) {
+            most = std::max(most, std::abs(change[i]) / element_length_[id]);
+            most = std::max(most, std::abs(change[3 + i]));
+          }
+        }
+      });
+    }
+    chunk_max_[static_cast<std::size_t>(begin / element_grain)] = most;
+  };
+  std::fill(chunk_max_.begin(), chunk_max_.end(), 0.0);
+  walker_.for_each_chunk(static_cast<std::int64_t>(plan_.directory.size()), element_grain,
+                         tree::make_chunk(by_element));
+  auto by_node = [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t n = begin; n < end; ++n)
+      move_node(state, static_cast<std::size_t>(n), node_increment(static_cast<int>(n)));
+  };
+  walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
+  for (const plan::JointPlan& j : plan_.joints) {
+    if (j.block < 0) continue;
+    const int size = plan_.graph.block_size[static_cast<std::size_t>(j.block)];
+    for (int i = 0; i < size; ++i)
+      state.multipliers[static_cast<std::size_t>(j.multiplier_begin + i)] += x[block_begin(j.block) + i];
+  }
+  return *std::max_element(chunk_max_.begin(), chunk_max_.end());
+}
+
+void System::evaluate_rate(const State& state, std::vector<double>& rate) {
+  const elements::Field f = field(state);
+  using T = lanes::Taylor<double, 1>;
+  std::vector<T> laws(plan_.laws.size());
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    laws[i].c[0] = law_values_[i];
+    laws[i].c[1] = law_rates_[i];
+  }
+  elements::Surroundings<T> around;
+  for (int k = 0; k < 3; ++k) around.gravity[k] = plan_.gravity[k] * laws[static_cast<std::size_t>(plan_.gravity_law)];
+  around.laws = laws.data();
+  around.has_inertia = plan_.is_dynamic;
+  rate.assign(num_unknowns(), 0.0);
+  std::vector<double> part;
+  for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
+    part.assign(static_cast<std::size_t>(element_begin_[e + 1] - element_begin_[e]), 0.0);
+    const int j = joint_of_element_[e];
+    const double* multipliers =
+        j >= 0 ? state.multipliers.data() + plan_.joints[static_cast<std::size_t>(j)].multiplier_begin : nullptr;
+    const double turns = j >= 0 ? state.turns[static_cast<std::size_t>(j)] : 0.0;
+    plan::with_element(plan_.elements, plan_.directory[e], [&](const auto& element) {
+      elements::evaluate_rate(element, f, around, multipliers, turns, part.data());
+    });
+    std::size_t at = 0;
+    for (std::int64_t k = plan_.graph.element_begin[e]; k < plan_.graph.element_begin[e + 1]; ++k) {
+      const int block = plan_.graph.element_blocks[static_cast<std::size_t>(k)];
+      for (int i = 0; i < plan_.graph.block_size[static_cast<std::size_t>(block)]; ++i)
+        rate[static_cast<std::size_t>(block_begin(block) + i)] += part[at++];
+    }
+  }
+}
+
+void System::constraint_series(const State& state, const Vec6<double>* jerk, double step_size,
+                               std::vector<lanes::Taylor<double, 3>>& out) const {
+  const elements::Field f = field(state);
+  std::vector<lanes::Taylor<double, 3>>& laws = law_series_;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    laws[i].c[0] = law_values_[i];
+    laws[i].c[1] = law_rates_[i];
+    laws[i].c[2] = 0.5 * law_accelerations_[i];
+    // Laws tell two derivatives; the third enters a term of order h^2 only, so a one-sided difference over a step will do.
+    laws[i].c[3] = 0.0;
+    if (step_size > 0.0 && !plan_.laws[i].law.is_constant()) {
+      const double next = plan_.laws[i].law.at(time_ + step_size, laws::Side::left).acceleration;
+      if (std::isfinite(next)) laws[i].c[3] = (next - law_accelerations_[i]) / (6.0 * step_size);
+    }
+  }
+  out.resize(static_cast<std::size_t>(plan_.num_multipliers));
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j)
+    plan::with_element(plan_.elements, plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)],
+                       [&](const auto& e) {
+                         if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
+                           elements::evaluate_constraint_series(e, f, jerk, laws.data(), state.turns[j],
+                                                                out.data() + plan_.joints[j].multiplier_begin);
+                       });
+}
+
+double System::constraint_violation(const State& state, int order, int* joint) const {
+  std::vector<lanes::Taylor<double, 3>>& series = row_series_;
+  constraint_series(state, nullptr, 0.0, series);
+  double most = 0.0;
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    const int block = plan_.joints[j].block;
+    const int size = block < 0 ? 0 : plan_.graph.block_size[static_cast<std::size_t>(block)];
+    for (int i = 0; i < size; ++i) {
+      const double value = std::abs(series[static_cast<std::size_t>(plan_.joints[j].multiplier_begin + i)].c[order]);
+      if (value > most) {
+        most = value;
+        if (joint != nullptr) *joint = static_cast<int>(j);
+      }
+    }
+  }
+  return most;
+}
+
+}  // namespace bough::step
