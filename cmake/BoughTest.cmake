@@ -2,13 +2,14 @@ find_package(GTest REQUIRED)
 include(GoogleTest)
 
 # bough_add_test(name SOURCES a.cpp ... LAYERS layers ... LABEL unit|verification|slow [LIBS targets ...]
-#                [DEFS definitions ...] [TIMEOUT seconds] [NO_TRAPS])
-# makes one GoogleTest executable and one ctest entry FOLDER/name.Suite.case for each of its tests; the
-# targets tests_LABEL and tests_FOLDER_LABEL build all of them. The main function is ours: it unmasks
-# floating-point traps (tests/support/main.cpp); NO_TRAPS leaves them masked. BOUGH_SOURCE_DIR is defined as the path
-# of the source tree, for reading data/.
+#                [DEFS definitions ...] [TIMEOUT seconds] [NO_TRAPS] [NO_SANITIZERS])
+# makes one GoogleTest executable and one ctest entry FOLDER/name.Suite.case for each of its tests; the targets
+# tests_LABEL and tests_FOLDER_LABEL build all of them. The main function is ours: it unmasks floating-point traps
+# (tests/support/main.cpp); NO_TRAPS leaves them masked. NO_SANITIZERS leaves the test out of sanitized builds, for
+# tests that replace operator new as the sanitizers do. BOUGH_SOURCE_DIR is defined as the path of the source tree,
+# for reading data/.
 function(bough_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 TEST "NO_TRAPS" "LABEL;TIMEOUT" "SOURCES;LAYERS;LIBS;DEFS")
+  cmake_parse_arguments(PARSE_ARGV 1 TEST "NO_TRAPS;NO_SANITIZERS" "LABEL;TIMEOUT" "SOURCES;LAYERS;LIBS;DEFS")
   if(TEST_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "bough_add_test(${name}): unknown arguments ${TEST_UNPARSED_ARGUMENTS}")
   endif()
@@ -22,6 +23,9 @@ function(bough_add_test name)
     set(TEST_TIMEOUT ${timeout_${TEST_LABEL}})
   endif()
 
+  if(TEST_NO_SANITIZERS AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+    return()
+  endif()
   set(target test_${name})
   list(TRANSFORM TEST_LAYERS PREPEND bough_)
   foreach(used IN LISTS TEST_LAYERS)

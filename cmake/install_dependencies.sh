@@ -1,7 +1,7 @@
 #!/bin/sh
 # install_dependencies.sh GROUP...   installs the Debian packages of the groups that are not installed yet.
 #   build  what the library and the program need        bench  Google Benchmark
-#   test   GoogleTest and the Python of the checks      lint   clang-format and Python
+#   test   GoogleTest, the Python of the checks, strace lint   clang-format and Python
 #   asan   clang with its sanitizers                    tsan   asan, and what rebuilding TBB from source needs
 #   all    everything, with coverage, clang-tidy and a browser for `make check-all`
 # dpkg is asked first: when nothing is missing, neither the network nor root is needed. With --list the packages are
@@ -13,7 +13,7 @@ packages_of() {
     build)
       echo g++ cmake ninja-build libeigen3-dev libtbb-dev nlohmann-json3-dev libcli11-dev libmuparser-dev \
         libsuitesparse-dev libmetis-dev ;;
-    test) echo libgtest-dev libgmock-dev python3 python3-jsonschema ;;
+    test) echo libgtest-dev libgmock-dev python3 python3-jsonschema strace ;;
     bench) echo libbenchmark-dev python3 ;;
     lint) echo clang-format-14 python3 ;;
     asan) echo clang-14 libclang-rt-14-dev llvm-14 ;;
