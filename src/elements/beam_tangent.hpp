@@ -28,12 +28,14 @@ struct SectionSlopes {
 /// `block(row)` names with weight(row).
 template <int N, class Block>
 void spread_rows(const double* shape, const Mat6<double>& q, const Mat6<double>& h, double w, const Block& block) {
-  for (int i = 0; i < N; ++i) add_scaled(block(i), i == Beam<N>::reference ? w : w * shape[i], i == Beam<N>::reference ? h : q);
+  for (int i = 0; i < N; ++i)
+    add_scaled(block(i), i == Beam<N>::reference ? w : w * shape[i], i == Beam<N>::reference ? h : q);
 }
 template <int N>
 void spread_columns(const double* shape, const Mat6<double>& q, const Mat6<double>& h, Mat6<double> (&blocks)[N][N]) {
   for (int j = 0; j < N; ++j)
-    if (j != Beam<N>::reference) spread_rows<N>(shape, q, h, shape[j], [&](int i) -> Mat6<double>& { return blocks[i][j]; });
+    if (j != Beam<N>::reference)
+      spread_rows<N>(shape, q, h, shape[j], [&](int i) -> Mat6<double>& { return blocks[i][j]; });
 }
 template <int N>
 void spread_column(const double* shape, const Mat6<double>& q, const Mat6<double>& h, Mat6<double> (&blocks)[N]) {
@@ -48,13 +50,14 @@ void spread_force(const double* shape, const SectionSlopes& s, const Vec6<double
   for (int i = 0; i < N; ++i) b.force[i] += i == Beam<N>::reference ? h : shape[i] * q;
   Mat6<double> carried = f_by_d, by_shape = s.slopes.T().transpose_derivative(f);
   add_product(carried, motion::hat6(f), s.T, -1.0);
-  add_product(by_shape, lanes::transpose(s.T), f_by_d);
-  spread_columns<N>(shape, by_shape, product(lanes::transpose(s.E), carried), b.d);
+  add_transposed_product(by_shape, s.T, f_by_d);
+  spread_columns<N>(shape, by_shape, transposed_product(s.E, carried), b.d);
 }
 
 /// Elasticity and damping: n = C (e - e0) + D e',  p_i += w (N_i' T^T n + N_i A^T n).
 template <int N>
-void add_internal_slopes(const Beam<N>& beam, const BeamShape<double, N>& b, const Vec6<double>* rate, ShapeBlocks<N>& out) {
+void add_internal_slopes(const Beam<N>& beam, const BeamShape<double, N>& b, const Vec6<double>* rate,
+                         ShapeBlocks<N>& out) {
   const bool viscous = rate != nullptr && beam.has_damping;
   const double inverse = 1.0 / beam.length;
   if constexpr (N == 2) {
@@ -83,12 +86,12 @@ void add_internal_slopes(const Beam<N>& beam, const BeamShape<double, N>& b, con
         n_y1 = product(D, T);
       }
       const Vec6<double> by_slope = op.transpose_times(n), by_shape = lanes::transpose_times(A, n);
-      const Mat6<double> Tt = lanes::transpose(T), At = lanes::transpose(A), G = op.transpose_derivative(n);
+      const Mat6<double> G = op.transpose_derivative(n);
       Mat6<double> slope_d = G, shape_d = slopes.hessian(n, y), shape_y = lanes::transpose(G);
-      add_product(slope_d, Tt, n_d);
-      add_product(shape_d, At, n_d);
-      add_product(shape_y, At, n_y);
-      const Mat6<double> slope_y = product(Tt, n_y);
+      add_transposed_product(slope_d, T, n_d);
+      add_transposed_product(shape_d, A, n_d);
+      add_transposed_product(shape_y, A, n_y);
+      const Mat6<double> slope_y = transposed_product(T, n_y);
       const auto spread = [&](Mat6<double>(&blocks)[N][N], const Mat6<double>& sd, const Mat6<double>& sy,
                               const Mat6<double>& hd, const Mat6<double>& hy) {
         for (int i = 0; i < N; ++i)
@@ -102,7 +105,9 @@ void add_internal_slopes(const Beam<N>& beam, const BeamShape<double, N>& b, con
       for (int i = 0; i < N; ++i)
         if (i != Beam<N>::reference) out.force[i] += (w * slope[i]) * by_slope + (w * shape[i]) * by_shape;
       spread(out.d, slope_d, slope_y, shape_d, shape_y);
-      if (viscous) spread(out.rate, product(Tt, n_d1), product(Tt, n_y1), product(At, n_d1), product(At, n_y1));
+      if (viscous)
+        spread(out.rate, transposed_product(T, n_d1), transposed_product(T, n_y1), transposed_product(A, n_d1),
+               transposed_product(A, n_y1));
     }
   }
 }
@@ -117,12 +122,12 @@ void add_inertia_slopes(const Beam<N>& beam, const BeamShape<double, N>& b, cons
     const double* shape = rule.shape[g];
     const SectionSlopes s(blend<double, N>(shape, b.d));
     const Mat6<double> m = (rule.weight[g] * beam.length) * beam.mass;
-    const Mat6<double> Tt = lanes::transpose(s.T), Et = lanes::transpose(s.E), by_a = product(m, s.E);
+    const Mat6<double> by_a = product(m, s.E);
     const auto spread = [&](const Mat6<double>& by, Mat6<double>(&blocks)[N][N]) {
-      spread_columns<N>(shape, product(Tt, by), product(Et, by), blocks);
+      spread_columns<N>(shape, transposed_product(s.T, by), transposed_product(s.E, by), blocks);
     };
     const auto spread_one = [&](const Mat6<double>& by, Mat6<double>(&blocks)[N]) {
-      spread_column<N>(shape, product(Tt, by), product(Et, by), blocks);
+      spread_column<N>(shape, transposed_product(s.T, by), transposed_product(s.E, by), blocks);
     };
     const Vec6<double> carried = s.E * r.a;
     Mat6<double> a_d = cross6_product(carried, s.T);
@@ -136,10 +141,10 @@ void add_inertia_slopes(const Beam<N>& beam, const BeamShape<double, N>& b, cons
     const Vec6<double> c = s.E * r.v, own = s.T * d1, v = c + own;
     const Mat6<double> A = op.derivative(d1), cT = cross6_product(c, s.T), oT = cross6_product(own, s.T);
     const Vec6<double> mv = m * v;
-    const Vec6<double> f = m * (carried - motion::cross6_times(own, c) + s.T * d2 + A * d1) -
-                           motion::cross6_transpose_times(v, mv);
+    const Vec6<double> f =
+        m * (carried - motion::cross6_times(own, c) + s.T * d2 + A * d1) - motion::cross6_transpose_times(v, mv);
     Mat6<double> f_v = -1.0 * motion::hat6(mv);
-    add_product(f_v, lanes::transpose(motion::cross6(v)), m, -1.0);
+    add_transposed_product(f_v, motion::cross6(v), m, -1.0);
     a_d = a_d + cross6_product(c, A) - cross6_product(own, cT) + op.derivative(d2) + s.slopes.second(d1, d1);
     const Mat6<double> a_1 = cT + 2.0 * A - oT;
     Mat6<double> by_d = product(m, a_d), by_1 = product(m, a_1);
@@ -167,39 +172,39 @@ void eval_rate_slopes(const BeamShape<double, N>& b, int i, const PortMotion<dou
                       const Vec6<double>* rate, const Vec6<double>* rate2, const Mat6<double>& U, const Mat6<double>& Q,
                       RateSlopes& by_node, RateSlopes& by_reference) {
   constexpr int r = Beam<N>::reference;
-  const Mat6<double> zero = Mat6<double>::zero(), UQ = product(U, Q);
+  const Mat6<double> zero = Mat6<double>::zero(), UQ = motion_product(U, Q);
   const bool moves = ports[i].moves;
   by_node.d = moves ? U : zero;
   by_reference.d = moves ? -1.0 * UQ : zero;
   if (rate == nullptr) return;
-  by_node.rate = product(U, ports[i].velocity);
-  by_node.rate2 = product(U, ports[i].acceleration);
+  by_node.rate = motion_product(U, ports[i].velocity);
+  by_node.rate2 = motion_product(U, ports[i].acceleration);
   by_reference.rate = zero;
-  add_product(by_reference.rate, UQ, ports[r].velocity, -1.0);
+  add_motion_product(by_reference.rate, UQ, ports[r].velocity, -1.0);
   by_reference.rate2 = zero;
-  add_product(by_reference.rate2, UQ, ports[r].acceleration, -1.0);
+  add_motion_product(by_reference.rate2, UQ, ports[r].acceleration, -1.0);
   if (!moves) return;
   const motion::TangentSlopes<double> slopes(b.d[i]);
   const auto& op = slopes.T();
   const Vec6<double> c = Q * p[r].v, own = p[i].v - c;
-  const Mat6<double> A = op.derivative(rate[i]), ad_c = motion::cross6(c), ad_v = motion::cross6(p[i].v);
+  const Mat6<double> A = op.derivative(rate[i]), ad_c = motion::cross6(c);
   const Mat6<double> W = 2.0 * A - cross6_product(own, op.matrix());  // of A(d') d' by d'
   Mat6<double> inner = ad_c;
-  add_product(inner, A, U);
+  add_motion_product(inner, A, U);
   Mat6<double> rate_zeta = zero;  // by zeta, velocities held
-  add_product(rate_zeta, U, inner, -1.0);
+  add_motion_product(rate_zeta, U, inner, -1.0);
   Mat6<double> y = cross6_product(p[i].v, ad_c) - motion::cross6(Q * p[r].a);
-  add_product(y, op.derivative(rate2[i]) + slopes.second(rate[i], rate[i]), U, -1.0);
+  add_motion_product(y, op.derivative(rate2[i]) + slopes.second(rate[i], rate[i]), U, -1.0);
   by_node.rate = by_node.rate + rate_zeta;
-  add_product(by_reference.rate, rate_zeta, Q, -1.0);
+  add_motion_product(by_reference.rate, rate_zeta, Q, -1.0);
   Mat6<double> y_node = y, y_reference = zero;
-  add_product(y_node, ad_c, ports[i].velocity, -1.0);
-  add_product(y_node, W, by_node.rate, -1.0);
-  add_product(y_reference, y, Q, -1.0);
-  add_product(y_reference, product(ad_v, Q), ports[r].velocity);
-  add_product(y_reference, W, by_reference.rate, -1.0);
-  add_product(by_node.rate2, U, y_node);
-  add_product(by_reference.rate2, U, y_reference);
+  add_motion_product(y_node, ad_c, ports[i].velocity, -1.0);
+  add_motion_product(y_node, W, by_node.rate, -1.0);
+  add_motion_product(y_reference, y, Q, -1.0);
+  add_motion_product(y_reference, cross6_product(p[i].v, Q), ports[r].velocity);
+  add_motion_product(y_reference, W, by_reference.rate, -1.0);
+  add_motion_product(by_node.rate2, U, y_node);
+  add_motion_product(by_reference.rate2, U, y_reference);
 }
 
 /// From shape coordinates to the nodes:  F_i = U_i^T p_i,  F_r = f_r - sum_i Q_i^T F_i,  d(Q^T F) = Q^T (dF - ^F zeta).
@@ -235,9 +240,8 @@ void carry_to_nodes(const BeamShape<double, N>& b, const ShapeBlocks<N>& s, cons
   }
   for (int i = 0; i < N; ++i) {
     if (i == r) continue;
-    const Mat6<double> Ut = lanes::transpose(U[i]), Qt = lanes::transpose(Q[i]);
     const Mat6<double> hat = motion::hat6(b.inverse[i].transpose_times(s.force[i]));
-    for (int j = 0; j < N; ++j) K[i][j] = product(Ut, K[i][j]);
+    for (int j = 0; j < N; ++j) K[i][j] = transposed_product(U[i], K[i][j]);
     if (ports[i].moves) {
       const Mat6<double> G = product(b.inverse[i].transpose_derivative(s.force[i]), U[i]);
       K[i][i] += G;
@@ -247,25 +251,23 @@ void carry_to_nodes(const BeamShape<double, N>& b, const ShapeBlocks<N>& s, cons
       Mat6<double> carried = K[i][j];
       if (ports[i].moves && j == i) add_scaled(carried, -1.0, hat);
       if (ports[i].moves && j == r) add_product(carried, hat, Q[i]);
-      add_product(K[r][j], Qt, carried, -1.0);
+      add_transposed_product(K[r][j], Q[i], carried, -1.0);
     }
   }
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) put_block(K[i][j], 6 * i, 6 * j, 6 * N, matrix);
 }
 
-/// d(residual)/d(eta) of a beam at its ports, 6N x 6N, row-major.
+/// Residual of a beam, and its derivative by the ports' increments, 6N x 6N, row-major.
 template <int N>
 void eval_tangent(const Beam<N>& beam, const PortMotion<double>* p, const PortSlopes* ports,
-                  const Surroundings<double>& around, double* matrix) {
+                  const Surroundings<double>& around, double* residual, double* matrix) {
   constexpr int r = Beam<N>::reference;
   const bool moves = around.has_inertia;
-  const BeamShape<double, N> b = eval_shape<double, N>(p);
+  BeamShape<double, N> b;
   Vec6<double> rate[N], rate2[N];
-  if (moves) {
-    eval_shape_rates<double, N>(b, p, rate);
-    eval_shape_accelerations<double, N>(b, p, rate, rate2);
-  }
+  eval_beam_motion<double, N>(p, moves, b, rate, rate2);
+  eval_wrenches<double, N>(beam, p, b, moves ? rate : nullptr, rate2, around, residual);
   ShapeBlocks<N> s;
   add_internal_slopes<N>(beam, b, moves ? rate : nullptr, s);
   if (beam.has_mass) {
@@ -283,7 +285,8 @@ void eval_tangent(const Beam<N>& beam, const PortMotion<double>* p, const PortSl
 /// The same of a line load. A dead load turns against the section: d(R^T q) = ~(R^T q) theta.
 template <int N>
 void eval_tangent(const LineLoad<N>& load, const PortMotion<double>* p, const PortSlopes* ports,
-                  const Surroundings<double>& around, double* matrix) {
+                  const Surroundings<double>& around, double* residual, double* matrix) {
+  eval_residual<double, N>(load, p, nullptr, around, residual);
   const auto& rule = mass_rule<N>();
   const BeamShape<double, N> b = eval_shape<double, N>(p);
   ShapeBlocks<N> s;
@@ -293,7 +296,8 @@ void eval_tangent(const LineLoad<N>& load, const PortMotion<double>* p, const Po
     Mat6<double> turning = Mat6<double>::zero();
     if (!load.follows) {
       const Mat3<double> R = p[Beam<N>::reference].H.R * motion::exp_se3(section.slopes.T()).R;
-      f = lanes::join(lanes::transpose_times(R, lanes::linear_part(f)), lanes::transpose_times(R, lanes::angular_part(f)));
+      f = lanes::join(lanes::transpose_times(R, lanes::linear_part(f)),
+                      lanes::transpose_times(R, lanes::angular_part(f)));
       const Mat3<double> force = lanes::skew(lanes::linear_part(f)), moment = lanes::skew(lanes::angular_part(f));
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
@@ -303,8 +307,8 @@ void eval_tangent(const LineLoad<N>& load, const PortMotion<double>* p, const Po
     }
     spread_force<N>(rule.shape[g], section, f, product(turning, section.T), s);
     const Mat6<double> by_pose = product(turning, section.E);
-    spread_column<N>(rule.shape[g], product(lanes::transpose(section.T), by_pose),
-                     product(lanes::transpose(section.E), by_pose), s.pose);
+    spread_column<N>(rule.shape[g], transposed_product(section.T, by_pose), transposed_product(section.E, by_pose),
+                     s.pose);
   }
   carry_to_nodes<N>(b, s, p, ports, nullptr, nullptr, matrix);
 }

@@ -1,9 +1,9 @@
 #pragma once
 /// Bodies of the drivers in evaluate.hpp; included once per element type, in the file that instantiates it.
+#include "beam_tangent.hpp"
 #include "bough/elements/evaluate.hpp"
 #include "bough/lanes/jet.hpp"
 #include "bough/lanes/taylor.hpp"
-#include "beam_tangent.hpp"
 #include "relative_tangent.hpp"
 
 namespace bough::elements {
@@ -69,7 +69,9 @@ void take_laws(PointLoad& e, LawView<S>& view, const double* laws) {
   view.take(e.law, laws);
 }
 template <class E>
-constexpr bool looks_at_laws = requires(E e, LawView<double> view) { take_laws(e, view, nullptr); };
+constexpr bool looks_at_laws = requires(E e, LawView<double> view) {
+  take_laws(e, view, nullptr);
+};
 
 /// Carries wrench rows and increment columns from port axes to node axes, drops ports on the ground: F_node = J^T F, K_node = J^T K J,
 /// J = Ad(offset^-1).
@@ -164,7 +166,8 @@ void eval_port_slopes(const E& e, const Field& field, PortSlopes* ports) {
 /// Elements without a tangent of their own: the residual on jets.
 template <class E>
 void eval_tangent_by_jets(const E& e, const PortMotion<double>* p, const PortSlopes* ports,
-                          const Surroundings<double>& around, double* matrix) {
+                          const Surroundings<double>& around, double* residual, double* matrix) {
+  eval_residual(e, p, static_cast<const double*>(nullptr), around, residual);
   constexpr int P = E::num_ports, D = 6 * P;
   using J = lanes::Jet<double, D>;
   PortMotion<J> jets[P];
@@ -184,19 +187,20 @@ void eval_tangent_by_jets(const E& e, const PortMotion<double>* p, const PortSlo
 
 template <class E>
 constexpr bool has_closed_tangent = requires(const E& e, const PortMotion<double>* p, const PortSlopes* ports,
-                                             const Surroundings<double>& around, double* matrix) {
-  eval_tangent(e, p, ports, around, matrix);
+                                             const Surroundings<double>& around, double* out) {
+  eval_tangent(e, p, ports, around, out, out);
 };
 
 template <class E>
-void evaluate(const E& e, const Field& field, const double* multipliers, double turns, double* residual, double* tangent) {
+void evaluate(const E& e, const Field& field, const double* multipliers, double turns, double* residual,
+              double* tangent) {
   constexpr int P = E::num_ports, D = 6 * P, rows = D + E::num_multipliers;
   const motion::Vec3Pair anchor = anchor_of(e, field.nodes);
   PortMotion<double> p[P];
   for (int k = 0; k < P; ++k) p[k] = eval_port(e.ports[k], field.nodes, anchor);
   double out[rows];
-  eval_kernel<E, double>(e, p, multipliers, field.around, out, turns);
   if (tangent == nullptr) {
+    eval_kernel<E, double>(e, p, multipliers, field.around, out, turns);
     gather(e, out, nullptr, 0, residual, nullptr);
     return;
   }
@@ -204,11 +208,11 @@ void evaluate(const E& e, const Field& field, const double* multipliers, double 
   eval_port_slopes(e, field, ports);
   double matrix[rows * D];
   if constexpr (E::num_multipliers > 0)
-    eval_tangent(e, p, ports, multipliers, field.around, turns, matrix);
+    eval_tangent(e, p, ports, multipliers, field.around, turns, out, matrix);
   else if constexpr (has_closed_tangent<E>)
-    eval_tangent(e, p, ports, field.around, matrix);
+    eval_tangent(e, p, ports, field.around, out, matrix);
   else
-    eval_tangent_by_jets(e, p, ports, field.around, matrix);
+    eval_tangent_by_jets(e, p, ports, field.around, out, matrix);
   gather(e, out, matrix, D, residual, tangent);
 }
 
@@ -250,8 +254,7 @@ void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Tay
   constexpr int P = E::num_ports, rows = 6 * P + E::num_multipliers;
   const motion::Vec3Pair anchor = anchor_of(e, field.nodes);
   PortMotion<T> p[P];
-  for (int k = 0; k < P; ++k)
-    p[k] = series_of<1>(eval_port(e.ports[k], field.nodes, anchor), Vec6<double>::zero());
+  for (int k = 0; k < P; ++k) p[k] = series_of<1>(eval_port(e.ports[k], field.nodes, anchor), Vec6<double>::zero());
   T lambda[E::num_multipliers + 1] = {}, out[rows];
   for (int k = 0; k < num_multipliers(e); ++k) lambda[k] = T(multipliers[k]);
   eval_kernel<E, T>(e, p, lambda, around, out, turns);
@@ -264,6 +267,6 @@ void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Tay
 
 /// Instantiates the drivers for one element type.
 #define BOUGH_INSTANTIATE_ELEMENT(E)                                                                                \
-  template void evaluate(const E&, const Field&, const double*, double, double*, double*);                         \
+  template void evaluate(const E&, const Field&, const double*, double, double*, double*);                          \
   template void evaluate_rate(const E&, const Field&, const Surroundings<lanes::Taylor<double, 1>>&, const double*, \
                               double, double*);

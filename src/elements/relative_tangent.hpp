@@ -17,9 +17,9 @@ struct RelativeForce {
 };
 
 /// `matrix`: the first 12 rows of 12 columns, row-major.
-inline void carry_to_ports(const RelativeForce& e, const PortMotion<double>* p, const PortSlopes* ports, bool has_inertia,
-                           double* matrix) {
-  const Mat6<double> Q = motion::inverse_adjoint(e.H), Qt = lanes::transpose(Q);
+inline void carry_to_ports(const RelativeForce& e, const PortMotion<double>* p, const PortSlopes* ports,
+                           bool has_inertia, double* matrix) {
+  const Mat6<double> Q = motion::inverse_adjoint(e.H);
   Mat6<double> first = Mat6<double>::zero(), second = Mat6<double>::zero(), hat = Mat6<double>::zero();
   const bool moves = ports[0].moves;
   if (moves) {
@@ -35,29 +35,30 @@ inline void carry_to_ports(const RelativeForce& e, const PortMotion<double>* p, 
   put_block(first, 6, 0, 12, matrix);
   put_block(second, 6, 6, 12, matrix);
   add_product(first, hat, Q);
-  put_block(-1.0 * product(Qt, first), 0, 0, 12, matrix);
-  put_block(-1.0 * product(Qt, second - hat), 0, 6, 12, matrix);
+  put_block(-1.0 * transposed_product(Q, first), 0, 0, 12, matrix);
+  put_block(-1.0 * transposed_product(Q, second - hat), 0, 6, 12, matrix);
 }
 
 /// f = U^T n,  n = K (d - d0) + D U xi,  U = T(d)^-1,  dd = U zeta.
 inline void eval_tangent(const Bushing& bushing, const PortMotion<double>* p, const PortSlopes* ports,
-                         const Surroundings<double>& around, double* matrix) {
+                         const Surroundings<double>& around, double* residual, double* matrix) {
+  eval_residual<double>(bushing, p, nullptr, around, residual);
   RelativeForce e;
   e.H = motion::relative(p[0].H, p[1].H);
   const Vec6<double> d = motion::log_se3(e.H);
   const auto op = motion::inverse_tangent_operator(d);
-  const Mat6<double> U = op.matrix(), Ut = lanes::transpose(U);
+  const Mat6<double> U = op.matrix();
   Vec6<double> n = bushing.stiffness * (d - bushing.rest);
   Mat6<double> n_d = bushing.stiffness;
   if (around.has_inertia && bushing.has_damping) {
     const Vec6<double> xi = p[1].v - motion::inverse_adjoint_times(e.H, p[0].v);
     n += bushing.damping * op.times(xi);
     add_product(n_d, bushing.damping, op.derivative(xi));
-    e.by_twist = product(Ut, product(bushing.damping, U));
+    e.by_twist = transposed_product(U, product(bushing.damping, U));
   }
   e.f = op.transpose_times(n);
   Mat6<double> f_d = op.transpose_derivative(n);
-  add_product(f_d, Ut, n_d);
+  add_transposed_product(f_d, U, n_d);
   e.by_pose = product(f_d, U);
   carry_to_ports(e, p, ports, around.has_inertia, matrix);
 }
@@ -77,8 +78,10 @@ inline Frame<RotationJet> seed_rotation(const Frame<double>& H) {
 
 /// `matrix`: 12 rows of forces, then the constraint rows, 12 columns, row-major. With poses held (a consistent start) the
 /// forces do not change and the rows keep their gradient.
-inline void eval_tangent(const Joint& joint, const PortMotion<double>* p, const PortSlopes* ports, const double* multipliers,
-                         const Surroundings<double>& around, double turns, double* matrix) {
+inline void eval_tangent(const Joint& joint, const PortMotion<double>* p, const PortSlopes* ports,
+                         const double* multipliers, const Surroundings<double>& around, double turns, double* residual,
+                         double* matrix) {
+  eval_residual<double>(joint, p, multipliers, around, residual, turns);
   RelativeForce e;
   e.H = motion::relative(p[0].H, p[1].H);
   const Frame<RotationJet> H = seed_rotation(e.H);
@@ -103,8 +106,7 @@ inline void eval_tangent(const Joint& joint, const PortMotion<double>* p, const 
     }
   }
   const bool damped = around.has_inertia;
-  const Vec6<double> xi =
-      damped ? p[1].v - motion::inverse_adjoint_times(e.H, p[0].v) : Vec6<double>::zero();
+  const Vec6<double> xi = damped ? p[1].v - motion::inverse_adjoint_times(e.H, p[0].v) : Vec6<double>::zero();
   for (int k = 0; k < joint.num_efforts; ++k) {
     const Effort& effort = joint.efforts[k];
     const double value = eval_coordinate<RotationJet>(effort.coordinate, H, turns, gradient).a;

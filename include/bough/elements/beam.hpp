@@ -13,14 +13,16 @@ template <int N>
 struct Beam {
   static constexpr int num_ports = N;
   static constexpr int num_multipliers = 0;
-  static constexpr int reference = N / 2 == 1 ? (N == 3 ? 1 : 0) : 1;  ///< 2 nodes: the first; 3: the middle; 4: the second
-  static constexpr int num_strain_points = N - 1;                      ///< reduced: no locking
+  static constexpr int reference =
+      N / 2 == 1 ? (N == 3 ? 1 : 0) : 1;           ///< 2 nodes: the first; 3: the middle; 4: the second
+  static constexpr int num_strain_points = N - 1;  ///< reduced: no locking
   static constexpr int num_mass_points = N;
   Port ports[N];
-  double length = 0.0;                       ///< of the reference axis [m]
-  Mat6<double> stiffness, damping, mass;     ///< see scene::Section
+  double length = 0.0;                    ///< of the reference axis [m]
+  Mat6<double> stiffness, damping, mass;  ///< see scene::Section
   bool has_damping = false, has_mass = false;
-  Vec6<double> reference_strain[N - 1];      ///< (1 + axial, shear; curvature) of the stress-free shape at the strain points
+  Vec6<double>
+      reference_strain[N - 1];  ///< (1 + axial, shear; curvature) of the stress-free shape at the strain points
 };
 
 /// Motions of the nodes relative to the reference node: the only positions that a beam looks at.
@@ -87,8 +89,8 @@ template <class S, int N>
 void eval_shape_rates(const BeamShape<S, N>& b, const PortMotion<S>* p, Vec6<S>* rate) {
   constexpr int r = Beam<N>::reference;
   for (int i = 0; i < N; ++i)
-    rate[i] = i == r ? Vec6<S>::zero()
-                     : b.inverse[i].times(p[i].v - motion::inverse_adjoint_times(b.relative[i], p[r].v));
+    rate[i] =
+        i == r ? Vec6<S>::zero() : b.inverse[i].times(p[i].v - motion::inverse_adjoint_times(b.relative[i], p[r].v));
 }
 
 /// Elastic and viscous forces conjugate to d_i:  n = C (e - e0) + D e',  p_i += w (N_i' T^T n + N_i A^T n),  A = d(T d')/dd.
@@ -187,34 +189,48 @@ PortMotion<S> add_gravity(const PortMotion<S>& r, const Surroundings<S>& around)
 }
 
 /// Inertia with the consistent velocity field, and gravity:  f = m (a - R^T g) - ad(v)^T m v  per length, at the mass points.
+/// rate == nullptr: statics.
 template <class S, int N>
 void add_inertia_forces(const Beam<N>& beam, const BeamShape<S, N>& b, const PortMotion<S>* ports, const Vec6<S>* rate,
-                        const Surroundings<S>& around, Vec6<S>* p, Vec6<S>* wrench) {
+                        const Vec6<S>* rate2, const Surroundings<S>& around, Vec6<S>* p, Vec6<S>* wrench) {
   const auto& rule = mass_rule<N>();
   const PortMotion<S> r = add_gravity(ports[Beam<N>::reference], around);
-  const bool moves = around.has_inertia;
-  Vec6<S> rate2[N];
-  if (moves) eval_shape_accelerations<S, N>(b, ports, rate, rate2);
   for (int g = 0; g < Beam<N>::num_mass_points; ++g) {
-    const SectionMotion<S> m = eval_section<S, N>(rule.shape[g], b, moves ? rate : nullptr, moves ? rate2 : nullptr, r);
-    Vec6<S> f = beam.mass * (moves ? m.a : motion::inverse_adjoint_times(m.relative, r.a));
-    if (moves) f -= motion::cross6_transpose_times(m.v, Vec6<S>(beam.mass * m.v));
+    const SectionMotion<S> m = eval_section<S, N>(rule.shape[g], b, rate, rate2, r);
+    Vec6<S> f = beam.mass * (rate != nullptr ? m.a : motion::inverse_adjoint_times(m.relative, r.a));
+    if (rate != nullptr) f -= motion::cross6_transpose_times(m.v, Vec6<S>(beam.mass * m.v));
     add_section_wrench<S, N>(rule.shape[g], m, (rule.weight[g] * beam.length) * f, p, wrench);
   }
 }
 
-/// Residual: wrenches of elasticity, damping, inertia and gravity on the nodes, in the ports' own axes.
+/// Everything that a beam's forces look at; rates only if it `moves`.
 template <class S, int N>
-void eval_residual(const Beam<N>& beam, const PortMotion<S>* ports, const S*, const Surroundings<S>& around, S* out) {
-  const BeamShape<S, N> b = eval_shape<S, N>(ports);
-  Vec6<S> p[N], wrench[N], rate[N];
+void eval_beam_motion(const PortMotion<S>* ports, bool moves, BeamShape<S, N>& b, Vec6<S>* rate, Vec6<S>* rate2) {
+  b = eval_shape<S, N>(ports);
+  if (!moves) return;
+  eval_shape_rates<S, N>(b, ports, rate);
+  eval_shape_accelerations<S, N>(b, ports, rate, rate2);
+}
+
+/// Wrenches of elasticity, damping, inertia and gravity on the nodes, in the ports' own axes; rate == nullptr: statics.
+template <class S, int N>
+void eval_wrenches(const Beam<N>& beam, const PortMotion<S>* ports, const BeamShape<S, N>& b, const Vec6<S>* rate,
+                   const Vec6<S>* rate2, const Surroundings<S>& around, S* out) {
+  Vec6<S> p[N], wrench[N];
   for (int i = 0; i < N; ++i) p[i] = wrench[i] = Vec6<S>::zero();
-  if (around.has_inertia) eval_shape_rates<S, N>(b, ports, rate);
-  add_internal_forces<S, N>(beam, b, around.has_inertia ? rate : nullptr, p);
-  if (beam.has_mass) add_inertia_forces<S, N>(beam, b, ports, rate, around, p, wrench);
+  add_internal_forces<S, N>(beam, b, rate, p);
+  if (beam.has_mass) add_inertia_forces<S, N>(beam, b, ports, rate, rate2, around, p, wrench);
   add_nodal_wrenches<S, N>(b, p, wrench);
   for (int i = 0; i < N; ++i)
     for (int k = 0; k < 6; ++k) out[6 * i + k] = wrench[i][k];
+}
+
+template <class S, int N>
+void eval_residual(const Beam<N>& beam, const PortMotion<S>* ports, const S*, const Surroundings<S>& around, S* out) {
+  BeamShape<S, N> b;
+  Vec6<S> rate[N], rate2[N];
+  eval_beam_motion<S, N>(ports, around.has_inertia, b, rate, rate2);
+  eval_wrenches<S, N>(beam, ports, b, around.has_inertia ? rate : nullptr, rate2, around, out);
 }
 
 /// Strain energy [J].
@@ -266,7 +282,8 @@ struct LineLoad {
 };
 
 template <class S, int N>
-void eval_residual(const LineLoad<N>& load, const PortMotion<S>* ports, const S*, const Surroundings<S>& around, S* out) {
+void eval_residual(const LineLoad<N>& load, const PortMotion<S>* ports, const S*, const Surroundings<S>& around,
+                   S* out) {
   const BeamShape<S, N> b = eval_shape<S, N>(ports);
   const auto& rule = mass_rule<N>();
   const PortMotion<S>& r = ports[Beam<N>::reference];

@@ -1,6 +1,6 @@
 #pragma once
-/// From node kinematics to an element's residual and tangent in the unknowns of its nodes: one driver for all element types. The tangent
-/// is the residual's own source run on jets, so it is exact and cannot drift from it.
+/// From node kinematics to an element's residual and tangent in the unknowns of its nodes: one driver for all element types.
+/// Tangents are exact: the residual's own source run on jets, or closed forms checked against its complex step.
 #include <type_traits>
 #include <vector>
 

@@ -14,12 +14,14 @@ namespace bough::motion {
 
 namespace detail {
 
-/// Polynomial sum_k table[k] x^k, Horner.
+/// Polynomial sum_k table[k] x^k, Horner in x^2 for even and odd terms side by side: two short chains instead of a long one.
 template <class S, class L, std::size_t N>
 S horner(const std::array<L, N>& table, const S& x) {
-  S r(table[N - 1]);
-  for (std::size_t k = N - 1; k-- > 0;) r = r * x + table[k];
-  return r;
+  const S xx = x * x;
+  S even(table[(N - 1) / 2 * 2]), odd(table[N / 2 * 2 - 1]);
+  for (std::size_t k = (N - 1) / 2 * 2; k >= 2; k -= 2) even = even * xx + table[k - 2];
+  for (std::size_t k = N / 2 * 2 - 1; k >= 2; k -= 2) odd = odd * xx + table[k - 2];
+  return even + odd * x;
 }
 /// Its derivative by x.
 template <class S, class L, std::size_t N>
@@ -121,7 +123,8 @@ lanes::Vec<lanes::Jet<S, N>, 8> eval_stumpff(const lanes::Jet<S, N>& x) {
       small,
       [&] {
         const S near = select(small, x.a, S(0.0));
-        return lanes::Vec<S, 2>{{detail::horner_slope(detail::stumpff_6<L>, near), detail::horner_slope(detail::stumpff_7<L>, near)}};
+        return lanes::Vec<S, 2>{
+            {detail::horner_slope(detail::stumpff_6<L>, near), detail::horner_slope(detail::stumpff_7<L>, near)}};
       },
       [&] {
         const S inv = S(1.0) / select(small, S(detail::switch_x), x.a);

@@ -144,7 +144,9 @@ struct MotionOperator {
   SkewSeries<S> f;
   Vec6<S> d;
 
-  Mat6<S> matrix() const { return detail::upper(series_matrix(f, psi()), series_slope_matrix(f, psi(), linear_part(d))); }
+  Mat6<S> matrix() const {
+    return detail::upper(series_matrix(f, psi()), series_slope_matrix(f, psi(), linear_part(d)));
+  }
   /// f a.
   Vec6<S> times(const Vec6<S>& a) const {
     const Vec3<S> a_w = angular_part(a);

@@ -74,7 +74,8 @@ Vec3<S> series_second_times(const SkewSeries<S>& f, const Vec3<S>& psi, const Ve
   const Vec3<S> w1 = cross(psi, v), uv = cross(u, v), xv = cross(x, v);
   const Vec3<S> first = (both * f.ddp + sux * f.dp) * v + (both * f.ddq + sux * f.dq) * w1;
   return cross(psi, first + (sx * f.dq) * uv + (su * f.dq) * xv) +
-         cross(u, (sx * f.dp) * v + (sx * f.dq) * w1 + f.q * xv) + cross(x, (su * f.dp) * v + (su * f.dq) * w1 + f.q * uv);
+         cross(u, (sx * f.dp) * v + (sx * f.dq) * w1 + f.q * xv) +
+         cross(x, (su * f.dp) * v + (su * f.dq) * w1 + f.q * uv);
 }
 
 /// d(f(psi) v)/dpsi as a matrix and, along u, its derivative: the pair that makes the 6x6 derivative on SE(3).
