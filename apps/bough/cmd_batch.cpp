@@ -33,7 +33,8 @@ int run_case(const study::BatchCase& which, const std::vector<std::string>& over
   io::RunDirectory directory(which.directory, std::string(version));
   results::Summary summary;
   try {
-    summary = study::simulate(file.scene, {.threads = 1}, directory, [](const results::Progress&) { return !interrupted(); });
+    summary =
+        study::simulate(file.scene, {.threads = 1}, directory, [](const results::Progress&) { return !interrupted(); });
   } catch (const std::exception& error) {
     cause = error.what();
     summary.scene = file.scene.name;
@@ -47,7 +48,8 @@ int run_case(const study::BatchCase& which, const std::vector<std::string>& over
 }  // namespace
 
 int batch(const BatchArguments& arguments) {
-  study::BatchOptions options{arguments.folder, arguments.out, arguments.threads > 0 ? arguments.threads : default_threads(), arguments.time_limit};
+  study::BatchOptions options{arguments.folder, arguments.out,
+                              arguments.threads > 0 ? arguments.threads : default_threads(), arguments.time_limit};
   try {
     (void)study::cases_in(options);
   } catch (const std::exception& error) {
@@ -59,19 +61,22 @@ int batch(const BatchArguments& arguments) {
   const auto report_case = [&](const study::CaseResult& result, std::size_t done, std::size_t all) {
     const bool good = result.status == study::CaseStatus::ok;
     if (good && arguments.quiet) return;
-    (good ? std::cout : std::cerr) << "[" << done << "/" << all << "] " << result.which.name << ": " << study::text_of(result.status)
-                                   << (result.cause.empty() ? "" : ": ") << result.cause << std::endl;
+    (good ? std::cout : std::cerr) << "[" << done << "/" << all << "] " << result.which.name << ": "
+                                   << study::text_of(result.status) << (result.cause.empty() ? "" : ": ")
+                                   << result.cause << std::endl;
   };
   const std::vector<study::CaseResult> results = study::run_batch(
-      options, [&](const study::BatchCase& which, std::string& cause) { return run_case(which, arguments.overrides, cause); }, report_case, interrupted);
+      options,
+      [&](const study::BatchCase& which, std::string& cause) { return run_case(which, arguments.overrides, cause); },
+      report_case, interrupted);
   io::write_file(options.out / "batch.csv", study::batch_csv(results));
 
   const auto count = [&](const auto& condition) { return std::count_if(results.begin(), results.end(), condition); };
   const auto num_failed = count([](const study::CaseResult& r) { return r.status != study::CaseStatus::ok; });
   const auto num_not_as_expected = count([](const study::CaseResult& r) { return r.expected_fails > 0; });
   if (!arguments.quiet) {
-    std::cout << results.size() << " cases, " << num_failed << " not done, " << num_not_as_expected << " with an expected figure that fails: "
-              << (options.out / "batch.csv").string() << "\n";
+    std::cout << results.size() << " cases, " << num_failed << " not done, " << num_not_as_expected
+              << " with an expected figure that fails: " << (options.out / "batch.csv").string() << "\n";
   }
   return num_failed > 0 || (arguments.check_expected && num_not_as_expected > 0) ? exit_failed : exit_done;
 }

@@ -1,9 +1,8 @@
 /// bough compare A B: the largest difference of every column.
-#include "bough/io/compare.hpp"
-
 #include <iostream>
 
 #include "arguments.hpp"
+#include "bough/io/compare.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/summary.hpp"
 #include "result_text.hpp"
@@ -45,10 +44,12 @@ int compare(const CompareArguments& arguments) {
   }
   std::vector<std::vector<std::string>> rows = {{"column", "absolute", "over range", "at time", ""}};
   for (const io::ColumnDifference& column : comparison.columns)
-    rows.push_back({column.name, io::rounded_text(column.absolute, 3), io::rounded_text(column.relative, 3), io::rounded_text(column.time, 6), verdict(column)});
+    rows.push_back({column.name, io::rounded_text(column.absolute, 3), io::rounded_text(column.relative, 3),
+                    io::rounded_text(column.time, 6), verdict(column)});
   std::cout << table_text(rows);
   for (const std::string& problem : comparison.problems) std::cout << problem << "\n";
-  std::cout << (comparison.equal ? "equal" : "different") << " within " << io::rounded_text(arguments.relative, 3) << " of the range";
+  std::cout << (comparison.equal ? "equal" : "different") << " within " << io::rounded_text(arguments.relative, 3)
+            << " of the range";
   if (arguments.absolute > 0.0) std::cout << " or " << io::rounded_text(arguments.absolute, 3);
   std::cout << "\n";
   return comparison.equal ? exit_done : exit_failed;

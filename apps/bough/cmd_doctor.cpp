@@ -55,12 +55,17 @@ bool test_run() {
   InMemory one, two;
   const results::Summary summary = study::simulate(file.scene, {.threads = 1}, one);
   (void)study::simulate(file.scene, {.threads = 2}, two);
-  bool good = line(summary.status == results::RunStatus::ok && !one.rows.empty(), "it is simulated" + (summary.cause.empty() ? "" : ": " + summary.cause));
+  bool good = line(summary.status == results::RunStatus::ok && !one.rows.empty(),
+                   "it is simulated" + (summary.cause.empty() ? "" : ": " + summary.cause));
   if (!good) return false;
   const double height = one.rows.back().values.at(2);
   good = line(std::abs(height + 4.0) < 1e-9, "a free fall ends where g t^2 / 2 says") && good;
-  const auto same = [](const results::HistoryRow& a, const results::HistoryRow& b) { return a.values == b.values && a.time == b.time; };
-  return line(std::equal(one.rows.begin(), one.rows.end(), two.rows.begin(), two.rows.end(), same), "one and two threads give the same bits") && good;
+  const auto same = [](const results::HistoryRow& a, const results::HistoryRow& b) {
+    return a.values == b.values && a.time == b.time;
+  };
+  return line(std::equal(one.rows.begin(), one.rows.end(), two.rows.begin(), two.rows.end(), same),
+              "one and two threads give the same bits") &&
+         good;
 }
 
 }  // namespace

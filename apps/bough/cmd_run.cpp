@@ -17,7 +17,8 @@ int run(const RunArguments& arguments) {
   print_problems(arguments.scene, file, arguments.quiet);
   if (!file.ok()) return exit_bad_input;
 
-  io::RunDirectory directory(arguments.out.empty() ? std::filesystem::path(file.scene.name + ".out") : arguments.out, std::string(version));
+  io::RunDirectory directory(arguments.out.empty() ? std::filesystem::path(file.scene.name + ".out") : arguments.out,
+                             std::string(version));
   catch_interrupts();
   ProgressBar bar(arguments.quiet);
   const auto on_step = [&bar](const results::Progress& progress) {
@@ -38,12 +39,14 @@ int run(const RunArguments& arguments) {
     return exit_failed;
   }
   bar.clear();
-  if (!arguments.quiet) std::cout << result_text(summary, directory.directory().string(), directory.files()) << std::flush;
+  if (!arguments.quiet)
+    std::cout << result_text(summary, directory.directory().string(), directory.files()) << std::flush;
   if (summary.status != results::RunStatus::ok) {
     std::cerr << "bough: " << file.scene.name << ": " << summary.cause << "\n";
     return exit_failed;
   }
-  const bool all_hold = std::all_of(summary.expected.begin(), summary.expected.end(), [](const auto& figure) { return figure.holds; });
+  const bool all_hold =
+      std::all_of(summary.expected.begin(), summary.expected.end(), [](const auto& figure) { return figure.holds; });
   return arguments.check_expected && !all_hold ? exit_failed : exit_done;
 }
 

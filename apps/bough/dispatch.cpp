@@ -1,9 +1,8 @@
 /// The command line: verbs, options, examples. The only file that knows CLI11.
-#include "arguments.hpp"
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "arguments.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/version.hpp"
 
@@ -20,7 +19,9 @@ void add_overrides(CLI::App& verb, std::vector<std::string>& overrides) {
 }
 
 void add_threads(CLI::App& verb, int& threads, const std::string& what) {
-  verb.add_option("--threads", threads, what + " (default: as many as the machine has)")->type_name("N")->check(CLI::Range(1, 1024));
+  verb.add_option("--threads", threads, what + " (default: as many as the machine has)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
 }
 
 CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples) {
@@ -52,8 +53,11 @@ void add_view(CLI::App& app, ViewArguments& a, int& code) {
   verb.add_option("DIR", a.directory, "Directory of the results")->required();
   verb.add_option("--out", a.out, "Page to write (default: DIR/view.html)")->type_name("FILE");
   verb.add_option("--svg", a.svg, "Write the drawing of the motion alone, too")->type_name("FILE");
-  verb.add_option("--view", a.view, "auto, xy, xz, yz or iso (default: auto)")->check(CLI::IsMember({"auto", "xy", "xz", "yz", "iso"}));
-  verb.add_option("--positions", a.positions, "Positions laid over each other, 1 to 9 (default: 9)")->type_name("N")->check(CLI::Range(1, 9));
+  verb.add_option("--view", a.view, "auto, xy, xz, yz or iso (default: auto)")
+      ->check(CLI::IsMember({"auto", "xy", "xz", "yz", "iso"}));
+  verb.add_option("--positions", a.positions, "Positions laid over each other, 1 to 9 (default: 9)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 9));
   verb.callback([&] { code = view(a); });
 }
 
@@ -65,7 +69,9 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
   verb.add_option("FOLDER", a.folder, "Folder of scene files")->required();
   verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR")->required();
   add_threads(verb, a.threads, "Cases at a time");
-  verb.add_option("--time-limit", a.time_limit, "Stop a case after so many seconds (default: none)")->type_name("S")->check(CLI::Range(0.001, 1e9));
+  verb.add_option("--time-limit", a.time_limit, "Stop a case after so many seconds (default: none)")
+      ->type_name("S")
+      ->check(CLI::Range(0.001, 1e9));
   add_overrides(verb, a.overrides);
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
@@ -73,19 +79,23 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
 }
 
 void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArguments& compare_arguments, int& code) {
-  CLI::App& check_verb = add_verb(app, "check", "Say what is wrong with a scene, without running it",
-                                  "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0");
+  CLI::App& check_verb =
+      add_verb(app, "check", "Say what is wrong with a scene, without running it",
+               "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0");
   check_verb.add_option("SCENE", check_arguments.scene, "Scene file (JSON)")->required();
   add_overrides(check_verb, check_arguments.overrides);
   check_verb.callback([&] { code = check(check_arguments); });
 
-  CLI::App& compare_verb = add_verb(app, "compare", "Compare two runs, column by column",
-                                    "  bough compare four_bar.out reference.out --rel 1e-6\n"
-                                    "  bough compare a/history.csv b/history.csv\n"
-                                    "Exit status: 0 equal within the tolerance, 1 not, 2 bad input. NaN is never equal.");
-  compare_verb.add_option("A", compare_arguments.a, "Directory or history.csv; differences are measured by its ranges")->required();
+  CLI::App& compare_verb =
+      add_verb(app, "compare", "Compare two runs, column by column",
+               "  bough compare four_bar.out reference.out --rel 1e-6\n"
+               "  bough compare a/history.csv b/history.csv\n"
+               "Exit status: 0 equal within the tolerance, 1 not, 2 bad input. NaN is never equal.");
+  compare_verb.add_option("A", compare_arguments.a, "Directory or history.csv; differences are measured by its ranges")
+      ->required();
   compare_verb.add_option("B", compare_arguments.b, "Directory or history.csv")->required();
-  compare_verb.add_option("--rel", compare_arguments.relative, "Largest difference over the sensor's range (default: 1e-9)")
+  compare_verb
+      .add_option("--rel", compare_arguments.relative, "Largest difference over the sensor's range (default: 1e-9)")
       ->type_name("TOL")
       ->check(CLI::Range(0.0, 1e300));
   compare_verb.add_option("--abs", compare_arguments.absolute, "Differences up to this are equal (default: 0)")
@@ -93,8 +103,12 @@ void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArgu
       ->check(CLI::Range(0.0, 1e300));
   compare_verb.callback([&] { code = compare(compare_arguments); });
 
-  add_verb(app, "schema", "Print the JSON Schema of scenes", "  bough schema > scene.schema.json").callback([&] { code = schema({}); });
-  add_verb(app, "doctor", "Say what this program was built with and test itself", "  bough doctor").callback([&] { code = doctor({}); });
+  add_verb(app, "schema", "Print the JSON Schema of scenes", "  bough schema > scene.schema.json").callback([&] {
+    code = schema({});
+  });
+  add_verb(app, "doctor", "Say what this program was built with and test itself", "  bough doctor").callback([&] {
+    code = doctor({});
+  });
 }
 
 /// The first word, where it is neither an option nor a verb.

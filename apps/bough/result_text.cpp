@@ -10,28 +10,45 @@ namespace {
 
 using io::rounded_text;
 
-std::string count_text(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
+std::string count_text(long count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
 
-std::string checks_text(const results::Checks& checks) {
+/// Balances over time are those of dynamics; a static run has none.
+bool is_static(const results::Summary& summary) {
+  return std::any_of(summary.options.begin(), summary.options.end(), [](const auto& option) {
+    return option.first == "analysis/kind" && option.second == "\"static\"";
+  });
+}
+
+std::string balances_text(const results::Checks& checks) {
   std::string text = "  energy balance     " + rounded_text(checks.energy_balance, 3) + " J";
   if (checks.energy_scale > 0.0 && std::isfinite(checks.energy_balance)) {
     text += " (" + rounded_text(checks.energy_balance / checks.energy_scale, 2) + " of the largest energy)";
   }
   text += "\n";
-  if (checks.numerical_dissipation != 0.0) text += "  taken by the integrator  " + rounded_text(checks.numerical_dissipation, 3) + " J\n";
-  text += "  momentum balance   " + rounded_text(checks.momentum_balance, 3) + " kg m/s\n";
-  text += "  constraints        " + rounded_text(checks.constraint_violation_position, 3) + " in position, " +
-          rounded_text(checks.constraint_violation_velocity, 3) + " in velocity\n";
+  if (checks.numerical_dissipation != 0.0)
+    text += "  integrator took    " + rounded_text(checks.numerical_dissipation, 3) + " J\n";
+  return text + "  momentum balance   " + rounded_text(checks.momentum_balance, 3) + " kg m/s\n";
+}
+
+std::string checks_text(const results::Summary& summary) {
+  const results::Checks& checks = summary.checks;
+  std::string text = is_static(summary) ? std::string() : balances_text(checks);
+  text += "  constraints        " + rounded_text(checks.constraint_violation_position, 3) + " in position";
+  if (!is_static(summary)) text += ", " + rounded_text(checks.constraint_violation_velocity, 3) + " in velocity";
+  text += "\n";
   text += "  linear solutions   backward error up to " + rounded_text(checks.linear_backward_error_max, 2) + "\n";
-  if (checks.round_off_floor_reached) text += "  Newton reached the floor of round-off before its tolerance in some steps\n";
+  if (checks.round_off_floor_reached)
+    text += "  Newton reached the floor of round-off before its tolerance in some steps\n";
   return text;
 }
 
 std::string expected_text(const std::vector<results::ExpectedResult>& expected) {
   std::vector<std::vector<std::string>> rows = {{"  expected", "value", "reference", "tolerance", ""}};
   for (const results::ExpectedResult& figure : expected)
-    rows.push_back({"  " + figure.name, rounded_text(figure.value, 9), rounded_text(figure.reference, 9), rounded_text(figure.tolerance, 3),
-                    figure.holds ? "holds" : "fails"});
+    rows.push_back({"  " + figure.name, rounded_text(figure.value, 9), rounded_text(figure.reference, 9),
+                    rounded_text(figure.tolerance, 3), figure.holds ? "holds" : "fails"});
   return table_text(rows);
 }
 
@@ -53,14 +70,18 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-std::string result_text(const results::Summary& summary, const std::string& directory, const std::vector<std::string>& files) {
-  const char* words = summary.status == results::RunStatus::ok ? "done" : summary.status == results::RunStatus::failed ? "FAILED" : "stopped";
+std::string result_text(const results::Summary& summary, const std::string& directory,
+                        const std::vector<std::string>& files) {
+  const char* words = summary.status == results::RunStatus::ok       ? "done"
+                      : summary.status == results::RunStatus::failed ? "FAILED"
+                                                                     : "stopped";
   std::string text = summary.scene + ": " + words + "\n";
   if (!summary.cause.empty()) text += "  cause: " + summary.cause + "\n";
-  text += "  " + count_text(summary.steps.accepted, "step") + " accepted, " + std::to_string(summary.steps.rejected) + " rejected, " +
-          count_text(summary.steps.newton_iterations, "Newton iteration") + ", " + count_text(summary.steps.factorizations, "factorization") +
-          " in " + rounded_text(summary.times.total, 3) + " s with " + count_text(summary.threads, "thread") + "\n";
-  text += checks_text(summary.checks);
+  text += "  " + count_text(summary.steps.accepted, "step") + " accepted, " + std::to_string(summary.steps.rejected) +
+          " rejected, " + count_text(summary.steps.newton_iterations, "Newton iteration") + ", " +
+          count_text(summary.steps.factorizations, "factorization") + " in " + rounded_text(summary.times.total, 3) +
+          " s with " + count_text(summary.threads, "thread") + "\n";
+  text += checks_text(summary);
   for (const std::string& note : summary.notes) text += "  note: " + note + "\n";
   if (!summary.expected.empty()) text += expected_text(summary.expected);
   text += "  results in " + directory + ":";

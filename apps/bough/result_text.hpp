@@ -8,7 +8,8 @@
 namespace bough::app {
 
 /// Status, steps, checks in words, expected figures, where the files lie.
-std::string result_text(const results::Summary& summary, const std::string& directory, const std::vector<std::string>& files);
+std::string result_text(const results::Summary& summary, const std::string& directory,
+                        const std::vector<std::string>& files);
 
 /// Columns padded to equal widths, two spaces apart.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);

@@ -1,11 +1,12 @@
 #include "terminal.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <thread>
-#include <unistd.h>
 
 #include "bough/io/number_text.hpp"
 
@@ -17,7 +18,10 @@ volatile std::sig_atomic_t stop_asked = 0;
 extern "C" void ask_to_stop(int) { stop_asked = 1; }
 
 std::string duration_text(double seconds) {
-  if (seconds < 60.0) return io::rounded_text(seconds < 10.0 ? std::max(seconds, 0.0) : static_cast<double>(static_cast<int>(seconds)), 2) + " s";
+  if (seconds < 60.0)
+    return io::rounded_text(seconds < 10.0 ? std::max(seconds, 0.0) : static_cast<double>(static_cast<int>(seconds)),
+                            2) +
+           " s";
   const long minutes = static_cast<long>(seconds / 60.0);
   if (minutes < 60) return std::to_string(minutes) + " min";
   return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
@@ -25,7 +29,8 @@ std::string duration_text(double seconds) {
 
 std::string words(const results::Progress& progress, double remaining) {
   std::string text = "t = " + io::rounded_text(progress.time, 4) + " of " + io::rounded_text(progress.end_time, 4) +
-                     ", h = " + io::rounded_text(progress.step_size, 3) + ", " + std::to_string(progress.iterations) + " iterations";
+                     ", h = " + io::rounded_text(progress.step_size, 3) + ", " + std::to_string(progress.iterations) +
+                     " iterations";
   if (remaining > 0.0) text += ", " + duration_text(remaining) + " left";
   return text;
 }
@@ -69,7 +74,8 @@ void ProgressBar::show(const results::Progress& progress) {
 void ProgressBar::show_bar(const results::Progress& progress, double part, double remaining) {
   constexpr int width = 24;
   const int filled = static_cast<int>(part * width);
-  std::string line = "\r[" + std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.') + "] ";
+  std::string line = "\r[" + std::string(static_cast<std::size_t>(filled), '#') +
+                     std::string(static_cast<std::size_t>(width - filled), '.') + "] ";
   line += words(progress, remaining) + "\x1b[K";
   std::cerr << line << std::flush;
   bar_is_shown_ = true;
@@ -83,7 +89,8 @@ void ProgressBar::clear() {
 void print_problems(const std::filesystem::path& file, const io::SceneFile& scene, bool quiet) {
   for (const io::Problem& problem : scene.problems) std::cerr << file.string() << ": " << problem.text() << "\n";
   if (quiet) return;
-  for (const io::Problem& warning : scene.warnings) std::cerr << file.string() << ": warning: " << warning.text() << "\n";
+  for (const io::Problem& warning : scene.warnings)
+    std::cerr << file.string() << ": warning: " << warning.text() << "\n";
 }
 
 }  // namespace bough::app

@@ -1,11 +1,12 @@
 #include "bough/io/atomic_file.hpp"
 
-#include <cerrno>
 #include <fcntl.h>
-#include <stdexcept>
 #include <sys/file.h>
-#include <system_error>
 #include <unistd.h>
+
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
 
 namespace bough::io {
 namespace {
@@ -51,7 +52,14 @@ void sync_directory(const std::filesystem::path& directory) {
 
 void sync_file(const std::filesystem::path& path) { sync_path(path, 0); }
 
-AtomicFile::AtomicFile(std::filesystem::path final_path) : final_path_(std::move(final_path)), partial_path_(final_path_) {
+AtomicFile::AtomicFile(std::filesystem::path final_path)
+    : final_path_(std::move(final_path)), partial_path_(final_path_) {
+  // A rename would put a file in the place of a device, a pipe or a folder's link: only files and links to files are replaced.
+  std::error_code ignored;
+  const std::filesystem::file_status there = std::filesystem::status(final_path_, ignored);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+    throw std::runtime_error("cannot write " + final_path_.string() + ": it is not a regular file");
+  }
   partial_path_ += ".partial";
   // Not truncated before it is locked: another run may be writing it.
   const int descriptor = ::open(partial_path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);

@@ -14,7 +14,8 @@ std::vector<ColumnGroup> group_columns(const std::vector<std::string>& columns) 
   std::vector<ColumnGroup> sensors;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const std::string sensor = split_column(columns[c]).sensor;
-    const auto found = std::find_if(sensors.begin(), sensors.end(), [&](const ColumnGroup& g) { return g.sensor == sensor; });
+    const auto found =
+        std::find_if(sensors.begin(), sensors.end(), [&](const ColumnGroup& g) { return g.sensor == sensor; });
     if (found == sensors.end())
       sensors.push_back({sensor, {c}});
     else

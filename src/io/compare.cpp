@@ -51,10 +51,11 @@ ColumnDifference compare_column(const std::string& name, const History& a, const
     }
   }
   if (difference.absolute > 0.0) {
-    difference.relative = difference.scale > 0.0 ? difference.absolute / difference.scale : std::numeric_limits<double>::infinity();
+    difference.relative =
+        difference.scale > 0.0 ? difference.absolute / difference.scale : std::numeric_limits<double>::infinity();
   }
-  difference.holds =
-      !difference.has_non_finite && (difference.absolute <= options.absolute || difference.relative <= options.relative);
+  difference.holds = !difference.has_non_finite &&
+                     (difference.absolute <= options.absolute || difference.relative <= options.relative);
   return difference;
 }
 
@@ -77,7 +78,8 @@ std::vector<Bounds> bounds_by_group(const History& a) {
 Comparison compare_histories(const History& a, const History& b, const CompareOptions& options) {
   Comparison comparison;
   if (a.rows.size() != b.rows.size()) {
-    comparison.problems.push_back("A has " + std::to_string(a.rows.size()) + " rows, B has " + std::to_string(b.rows.size()));
+    comparison.problems.push_back("A has " + std::to_string(a.rows.size()) + " rows, B has " +
+                                  std::to_string(b.rows.size()));
   }
   if (a.rows.empty() || b.rows.empty()) comparison.problems.emplace_back("a history without rows");
   const auto compare_fixed = [&](const char* name, bool is_judged, const auto& value_of) {
@@ -86,7 +88,8 @@ Comparison compare_histories(const History& a, const History& b, const CompareOp
   };
   compare_fixed("time", true, [](const results::HistoryRow& row) { return row.time; });
   compare_fixed("step_size", false, [](const results::HistoryRow& row) { return row.step_size; });
-  compare_fixed("iterations", false, [](const results::HistoryRow& row) { return static_cast<double>(row.iterations); });
+  compare_fixed("iterations", false,
+                [](const results::HistoryRow& row) { return static_cast<double>(row.iterations); });
 
   const std::vector<Bounds> bounds = bounds_by_group(a);
   for (std::size_t c = 0; c < a.header.columns.size(); ++c) {

@@ -23,7 +23,8 @@ results::HistoryHeader read_header(const std::filesystem::path& path, std::strin
   return {{fields.begin() + 3, fields.end()}};
 }
 
-results::HistoryRow read_row(const std::filesystem::path& path, std::size_t number, std::string_view line, std::size_t num_columns) {
+results::HistoryRow read_row(const std::filesystem::path& path, std::size_t number, std::string_view line,
+                             std::size_t num_columns) {
   results::HistoryRow row;
   row.values.reserve(num_columns);
   std::size_t field = 0;
@@ -31,7 +32,8 @@ results::HistoryRow read_row(const std::filesystem::path& path, std::size_t numb
     const std::size_t comma = line.find(',');
     double value = 0.0;
     if (!read_number(line.substr(0, comma), value)) {
-      fail_at(path, number, "field " + std::to_string(field + 1) + " is not a number: '" + std::string(line.substr(0, comma)) + "'");
+      fail_at(path, number,
+              "field " + std::to_string(field + 1) + " is not a number: '" + std::string(line.substr(0, comma)) + "'");
     }
     if (field == 0) row.time = value;
     if (field == 1) row.step_size = value;

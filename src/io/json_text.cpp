@@ -21,7 +21,8 @@ std::size_t utf8_length(std::string_view text) {
     return good ? 3 : 0;
   }
   if (first >= 0xF0u && first <= 0xF4u) {
-    const bool good = tail(1) && tail(2) && tail(3) && !(first == 0xF0u && second < 0x90u) && !(first == 0xF4u && second > 0x8Fu);
+    const bool good =
+        tail(1) && tail(2) && tail(3) && !(first == 0xF0u && second < 0x90u) && !(first == 0xF4u && second > 0x8Fu);
     return good ? 4 : 0;
   }
   return 0;

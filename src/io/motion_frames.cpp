@@ -76,10 +76,12 @@ JsonValue parse_line(const std::filesystem::path& path, std::size_t number, cons
 }
 
 /// Numbers of part k of the list `key`; their count must be `count`, or any multiple of 3 where count is 0.
-std::vector<double> read_part(const JsonValue& frame, std::string_view key, std::size_t k, std::size_t count, bool& good) {
+std::vector<double> read_part(const JsonValue& frame, std::string_view key, std::size_t k, std::size_t count,
+                              bool& good) {
   std::vector<double> values;
   const JsonValue* list = frame.find(key);
-  good = good && list != nullptr && list->is(JsonKind::array) && k < list->items.size() && list->items[k].is(JsonKind::array);
+  good = good && list != nullptr && list->is(JsonKind::array) && k < list->items.size() &&
+         list->items[k].is(JsonKind::array);
   if (!good) return values;
   for (const JsonValue& item : list->items[k].items) {
     good = good && item.is(JsonKind::number);
@@ -129,9 +131,11 @@ results::MotionFrame read_frame(const JsonValue& value, const Names& names, bool
 Names read_header(const std::filesystem::path& path, const std::string& line) {
   const JsonValue header = parse_line(path, 1, line);
   const JsonValue* format = header.find("format");
-  if (format == nullptr || format->text != format_name) fail_at(path, 1, std::string("not a file of the format '") + format_name + "'");
+  if (format == nullptr || format->text != format_name)
+    fail_at(path, 1, std::string("not a file of the format '") + format_name + "'");
   bool good = true;
-  Names names{read_names(header, "curves", good), read_names(header, "bodies", good), read_names(header, "links", good)};
+  Names names{read_names(header, "curves", good), read_names(header, "bodies", good),
+              read_names(header, "links", good)};
   if (!good) fail_at(path, 1, "the header must list the names of curves, bodies and links");
   return names;
 }

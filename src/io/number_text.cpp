@@ -24,7 +24,8 @@ void append_number(std::string& text, long long value) {
 void append_rounded(std::string& text, double value, int digits) {
   if (!std::isfinite(value)) return append_number(text, value);
   char buffer[40];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value == 0.0 ? 0.0 : value, std::chars_format::general, digits);
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value == 0.0 ? 0.0 : value, std::chars_format::general, digits);
   text.append(buffer, end.ptr);
 }
 

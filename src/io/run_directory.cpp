@@ -20,7 +20,8 @@ void make_directory(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) throw std::runtime_error("cannot make the directory " + path.string() + ": " + error.message());
-  if (!fs::is_directory(path, error)) throw std::runtime_error("cannot write into " + path.string() + ": not a directory");
+  if (!fs::is_directory(path, error))
+    throw std::runtime_error("cannot write into " + path.string() + ": not a directory");
 }
 
 std::string frame_name(std::size_t number) {
@@ -35,7 +36,8 @@ bool is_frame_name(const std::string& name) {
 
 }  // namespace
 
-RunDirectory::RunDirectory(fs::path directory, std::string version) : directory_(std::move(directory)), version_(std::move(version)) {}
+RunDirectory::RunDirectory(fs::path directory, std::string version)
+    : directory_(std::move(directory)), version_(std::move(version)) {}
 
 void RunDirectory::remove_former_results() {
   remove_file(directory_ / "summary.json");

@@ -67,7 +67,8 @@ void write_sensors(JsonText& json, const results::Summary& summary) {
     json.begin_object();
     for (std::size_t k = c; k < columns.size() && k < summary.final_values.size(); ++k) {
       const ColumnName other = split_column(columns[k]);
-      if (other.sensor == name.sensor && !other.component.empty()) json.member(other.component, summary.final_values[k]);
+      if (other.sensor == name.sensor && !other.component.empty())
+        json.member(other.component, summary.final_values[k]);
     }
     json.end_object();
   }
@@ -128,9 +129,12 @@ void read_expected(const JsonValue& list, SummaryFile& summary) {
 
 std::string_view status_text(results::RunStatus status) {
   switch (status) {
-    case results::RunStatus::ok: return "ok";
-    case results::RunStatus::failed: return "failed";
-    case results::RunStatus::interrupted: return "interrupted";
+    case results::RunStatus::ok:
+      return "ok";
+    case results::RunStatus::failed:
+      return "failed";
+    case results::RunStatus::interrupted:
+      return "interrupted";
   }
   return "failed";
 }
@@ -173,7 +177,8 @@ SummaryFile read_summary(const std::filesystem::path& path) {
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::vector<JsonFault> faults;
   const std::optional<JsonValue> json = parse_json(text, source_file, faults);
-  if (!json || !faults.empty() || !json->is(JsonKind::object)) throw std::runtime_error(path.string() + ": not a JSON object");
+  if (!json || !faults.empty() || !json->is(JsonKind::object))
+    throw std::runtime_error(path.string() + ": not a JSON object");
   SummaryFile summary;
   summary.status = text_of(*json, "status");
   if (summary.status.empty()) throw std::runtime_error(path.string() + ": not the summary of a run: it has no status");
@@ -194,7 +199,8 @@ SummaryFile read_summary(const std::filesystem::path& path) {
   }
   if (const JsonValue* options = json->find("options"); options != nullptr) {
     for (std::size_t k = 0; k < options->items.size() && k < options->keys.size(); ++k)
-      if (options->items[k].is(JsonKind::string)) summary.options.emplace_back(options->keys[k], options->items[k].text);
+      if (options->items[k].is(JsonKind::string))
+        summary.options.emplace_back(options->keys[k], options->items[k].text);
   }
   if (const JsonValue* notes = json->find("notes"); notes != nullptr)
     for (const JsonValue& note : notes->items) summary.notes.push_back(note.text);

@@ -28,7 +28,8 @@ struct Grid {
   std::int64_t num_points() const { return static_cast<std::int64_t>(points.size() / 3); }
 
   /// Adds the point `origin + a axis_2 + b axis_3 + c axis_1`; `axes` row-major with the axes as columns, or null.
-  void add_point(const double* origin, const double* axes, const std::array<double, 3>& along, const double* resultants) {
+  void add_point(const double* origin, const double* axes, const std::array<double, 3>& along,
+                 const double* resultants) {
     for (std::size_t row = 0; row < 3; ++row) {
       double value = origin[row];
       if (axes != nullptr)
@@ -64,7 +65,8 @@ void add_curve(Grid& grid, const results::Curve& curve, std::size_t index, doubl
   }
   constexpr std::int64_t per_section = 5;
   std::vector<std::int64_t> axis;
-  for (std::size_t k = 0; k < curve.points.size(); ++k) axis.push_back(first + per_section * static_cast<std::int64_t>(k));
+  for (std::size_t k = 0; k < curve.points.size(); ++k)
+    axis.push_back(first + per_section * static_cast<std::int64_t>(k));
   grid.add_cell(vtk_polyline, axis, Kind::beam, index);
   for (std::size_t k = 0; k + 1 < axis.size(); ++k) {
     std::array<std::int64_t, 8> corners{};
@@ -80,7 +82,8 @@ void add_body(Grid& grid, const results::BodyPose& body, std::size_t index, doub
   std::array<std::int64_t, 8> corners{};
   for (std::size_t k = 0; k < 8; ++k) {
     corners[k] = grid.num_points();
-    const std::array<double, 3> along{k < 4 ? -0.5 * width : 0.5 * width, width * corner_2[k % 4], width * corner_3[k % 4]};
+    const std::array<double, 3> along{k < 4 ? -0.5 * width : 0.5 * width, width * corner_2[k % 4],
+                                      width * corner_3[k % 4]};
     grid.add_point(body.center, body.axes, along, nullptr);
   }
   grid.add_cell(vtk_hexahedron, corners, Kind::body, index);
@@ -168,7 +171,8 @@ std::string vtu_text(const results::MotionFrame& frame, const VtuOptions& option
   append_number(file.xml, frame.time);
   file.line("</DataArray>");
   file.line("    </FieldData>");
-  file.xml += "    <Piece NumberOfPoints=\"" + std::to_string(grid.num_points()) + "\" NumberOfCells=\"" + std::to_string(grid.types.size()) + "\">\n";
+  file.xml += "    <Piece NumberOfPoints=\"" + std::to_string(grid.num_points()) + "\" NumberOfCells=\"" +
+              std::to_string(grid.types.size()) + "\">\n";
   file.line("      <Points>");
   file.array("Float64", "Points", 3, grid.points);
   file.line("      </Points>");
@@ -196,7 +200,8 @@ std::string vtu_text(const results::MotionFrame& frame, const VtuOptions& option
 
 std::string pvd_text(const std::vector<PvdEntry>& entries) {
   std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  "
+      "<Collection>\n";
   for (const PvdEntry& entry : entries) {
     text += "    <DataSet timestep=\"";
     append_number(text, entry.time);

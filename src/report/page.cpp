@@ -53,14 +53,16 @@ struct PlotEntry {
   std::vector<std::size_t> columns;
 };
 
-void append_plot_data(std::string& json, const PlotEntry& entry, const io::History& history, const std::vector<std::size_t>& samples) {
+void append_plot_data(std::string& json, const PlotEntry& entry, const io::History& history,
+                      const std::vector<std::size_t>& samples) {
   const PlotGeometry& g = entry.plot.geometry;
   json += "{\"l\":" + pixel(g.left) + ",\"r\":" + pixel(g.right) + ",\"a\":";
   append_value(json, g.first_time);
   json += ",\"b\":";
   append_value(json, g.last_time);
   json += ",\"n\":";
-  append_list(json, entry.columns, [&](std::size_t c) { json += io::json_string(io::split_column(history.header.columns[c]).component); });
+  append_list(json, entry.columns,
+              [&](std::size_t c) { json += io::json_string(io::split_column(history.header.columns[c]).component); });
   json += ",\"t\":";
   append_list(json, samples, [&](std::size_t k) { append_value(json, history.rows[k].time); });
   json += ",\"v\":";
@@ -70,12 +72,14 @@ void append_plot_data(std::string& json, const PlotEntry& entry, const io::Histo
   json += '}';
 }
 
-std::string run_data(const std::vector<Picture::Paths>& frames, const std::vector<PlotEntry>& plots, const io::History& history) {
+std::string run_data(const std::vector<Picture::Paths>& frames, const std::vector<PlotEntry>& plots,
+                     const io::History& history) {
   std::string json = "{\"frames\":";
   append_list(json, frames, [&](const Picture::Paths& frame) {
     json += '[';
     append_value(json, frame.time);
-    for (const std::string* path : {&frame.beams, &frame.bodies, &frame.links}) json += ",\"" + *path + '"';
+    for (const std::string* path : {&frame.beams, &frame.bodies, &frame.springs, &frame.joints})
+      json += ",\"" + *path + '"';
     json += ']';
   });
   json += ",\"plots\":";
@@ -89,10 +93,13 @@ std::string heading(const RunFiles& run) {
   std::string html = "<h1>" + escaped(title) + "</h1>\n";
   if (!run.summary) return html + "<p class=\"status\">The run did not end: there is no summary.</p>\n";
   const io::SummaryFile& s = *run.summary;
-  const std::string words = s.status == "ok" ? "The run is complete." : s.status == "failed" ? "The run failed." : "The run was interrupted.";
+  const std::string words = s.status == "ok"       ? "The run is complete."
+                            : s.status == "failed" ? "The run failed."
+                                                   : "The run was interrupted.";
   html += "<p><span class=\"status\">" + words + "</span> " + escaped(s.cause) + "</p>\n";
-  return html + "<p class=\"lead\">" + escaped(s.scene) + " · " + std::to_string(s.accepted) + " steps, " + std::to_string(s.rejected) +
-         " rejected, " + std::to_string(s.newton_iterations) + " Newton iterations · bough " + escaped(s.version) + "</p>\n";
+  return html + "<p class=\"lead\">" + escaped(s.scene) + " · " + std::to_string(s.accepted) + " steps, " +
+         std::to_string(s.rejected) + " rejected, " + std::to_string(s.newton_iterations) +
+         " Newton iterations · bough " + escaped(s.version) + "</p>\n";
 }
 
 std::string motion_section(const Picture* picture) {
@@ -106,10 +113,12 @@ std::string plots_section(const std::vector<PlotEntry>& plots, std::size_t num_g
   if (plots.empty()) return {};
   std::string html = "<h2>Sensors</h2>\n<p class=\"lead\">SI units.</p>\n<div class=\"plots\">\n";
   for (std::size_t k = 0; k < plots.size(); ++k)
-    html += "<figure id=\"plot" + std::to_string(k) + "\">\n" + plots[k].plot.svg + "<div class=\"reading\"></div></figure>\n";
+    html += "<figure id=\"plot" + std::to_string(k) + "\">\n" + plots[k].plot.svg +
+            "<div class=\"reading\"></div></figure>\n";
   html += "</div>\n";
   if (num_groups > plots.size())
-    html += "<p class=\"lead\">" + std::to_string(num_groups - plots.size()) + " more plots are left out; history.csv holds all columns.</p>\n";
+    html += "<p class=\"lead\">" + std::to_string(num_groups - plots.size()) +
+            " more plots are left out; history.csv holds all columns.</p>\n";
   return html;
 }
 
@@ -122,11 +131,13 @@ std::string words_of(std::string name) {
 std::string tables(const io::SummaryFile& summary) {
   std::string html;
   if (!summary.expected.empty()) {
-    html += "<h2>Expected figures</h2>\n<div class=\"wide\"><table>\n<tr><th>figure</th><th>value</th><th>reference</th><th>tolerance</th><th></th></tr>\n";
+    html +=
+        "<h2>Expected figures</h2>\n<div "
+        "class=\"wide\"><table>\n<tr><th>figure</th><th>value</th><th>reference</th><th>tolerance</th><th></th></tr>\n";
     for (const results::ExpectedResult& figure : summary.expected) {
       html += "<tr><td>" + escaped(figure.name) + "</td><td>" + io::rounded_text(figure.value, 9) + "</td><td>" +
-              io::rounded_text(figure.reference, 9) + "</td><td>" + io::rounded_text(figure.tolerance, 3) + "</td><td>" +
-              (figure.holds ? "holds" : "fails") + "</td></tr>\n";
+              io::rounded_text(figure.reference, 9) + "</td><td>" + io::rounded_text(figure.tolerance, 3) +
+              "</td><td>" + (figure.holds ? "holds" : "fails") + "</td></tr>\n";
     }
     html += "</table></div>\n";
   }
@@ -147,7 +158,8 @@ std::string tables(const io::SummaryFile& summary) {
 }  // namespace
 
 std::string_view how_to_record_motion() {
-  return "No motion was recorded. Set \"output\": {\"motion\": true} in the scene, or run with --set /output/motion=true.";
+  return "No motion was recorded. Set \"output\": {\"motion\": true} in the scene, or run with --set "
+         "/output/motion=true.";
 }
 
 bool is_static(const RunFiles& run) {
@@ -165,7 +177,8 @@ RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames
     run.summary = io::read_summary(directory / "summary.json");
     if (!run.summary->scene.empty()) run.name = run.summary->scene;
   }
-  if (std::filesystem::exists(directory / "motion.jsonl")) run.motion = io::read_motion_lines(directory / "motion.jsonl", max_frames);
+  if (std::filesystem::exists(directory / "motion.jsonl"))
+    run.motion = io::read_motion_lines(directory / "motion.jsonl", max_frames);
   return run;
 }
 
@@ -180,13 +193,15 @@ std::string page_html(const RunFiles& run, const PictureOptions& options) {
 
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+         "script-src 'unsafe-inline'\">\n"
          "<title>" +
-         escaped(run.name) + "</title>\n<style>" + std::string(page_style) + std::string(style_text()) + "</style>\n</head>\n<body>\n" +
-         heading(run) + motion_section(picture ? &*picture : nullptr) + plots_section(plots, groups.size()) +
-         (run.summary ? tables(*run.summary) : std::string()) + "<script type=\"application/json\" id=\"run\">" +
-         run_data(picture ? picture->frames : std::vector<Picture::Paths>(), plots, run.history) + "</script>\n<script>" +
-         std::string(page_script) + "</script>\n</body>\n</html>\n";
+         escaped(run.name) + "</title>\n<style>" + std::string(page_style) + std::string(style_text()) +
+         "</style>\n</head>\n<body>\n" + heading(run) + motion_section(picture ? &*picture : nullptr) +
+         plots_section(plots, groups.size()) + (run.summary ? tables(*run.summary) : std::string()) +
+         "<script type=\"application/json\" id=\"run\">" +
+         run_data(picture ? picture->frames : std::vector<Picture::Paths>(), plots, run.history) +
+         "</script>\n<script>" + std::string(page_script) + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace bough::report

@@ -1,6 +1,6 @@
 #pragma once
 /// The page's script: a player for the motion and a reading of the histories. `run` is a JSON value in the page:
-///   {"frames":[[t,"beams","bodies","links"],...], "plots":[{"l":px,"r":px,"a":t0,"b":t1,"n":[names],"t":[...],"v":[[...],...]},...]}
+///   {"frames":[[t,"beams","bodies","springs","joints"],...], "plots":[{"l":px,"r":px,"a":t0,"b":t1,"n":[names],"t":[...],"v":[[...],...]},...]}
 #include <string_view>
 
 namespace bough::report {
@@ -45,7 +45,7 @@ inline constexpr std::string_view page_script = R"js(
   var svg = document.querySelector("#motion svg"), positions = svg.querySelector("#positions");
   var slider = player.querySelector("input"), button = player.querySelector("button"), clock = player.querySelector("output");
   var now = add(svg, "g", {});
-  var paths = ["beams", "bodies", "links"].map(function (name) { return add(now, "path", {"class": name + " now"}); });
+  var paths = ["beams", "bodies", "springs", "joints"].map(function (name) { return add(now, "path", {"class": name + " now"}); });
   slider.max = frames.length - 1;
   function show(k) {
     var frame = frames[k];

@@ -8,18 +8,18 @@
 namespace bough::report {
 namespace {
 
-constexpr double page_width = 960.0, margin = 24.0, foot = 64.0;        // [px]
-constexpr double tallest = 560.0, lowest = 150.0;                       // of the drawn area
-constexpr double same_spot = 0.35;                                      // points nearer than this are one [px]
+constexpr double page_width = 960.0, margin = 24.0, foot = 64.0;  // [px]
+constexpr double tallest = 560.0, lowest = 150.0;                 // of the drawn area
+constexpr double same_spot = 0.35;                                // points nearer than this are one [px]
 constexpr int num_colors = 9;
 
 /// From space to the drawing's pixels: u to the right, v down.
 struct Sheet {
   Projection projection;
-  double scale = 1.0;                    ///< [px/m]
-  double left = 0.0, top = 0.0;          ///< of the drawn area
+  double scale = 1.0;            ///< [px/m]
+  double left = 0.0, top = 0.0;  ///< of the drawn area
   double u_low = 0.0, v_high = 0.0;
-  double height = 0.0;                   ///< of the whole drawing
+  double height = 0.0;  ///< of the whole drawing
   double width() const { return page_width; }
 
   Point2 operator()(const double* x) const {
@@ -55,7 +55,8 @@ Sheet make_sheet(const std::vector<results::MotionFrame>& frames, const Projecti
     }
   }
   if (u_low > u_high) u_low = u_high = v_low = v_high = 0.0;
-  const double smallest = 1e-12 * std::max({std::abs(u_low), std::abs(u_high), std::abs(v_low), std::abs(v_high)}) + 1e-300;
+  const double smallest =
+      1e-12 * std::max({std::abs(u_low), std::abs(u_high), std::abs(v_low), std::abs(v_high)}) + 1e-300;
   double u_extent = u_high - u_low, v_extent = v_high - v_low;
   if (std::max(u_extent, v_extent) <= smallest) u_extent = 1.0;  // one point that stays: one metre around it
   const double inner = page_width - 2.0 * margin;
@@ -118,10 +119,15 @@ class PathData {
   std::string text_;
 };
 
+bool has_length(const results::Link& link) {
+  return std::hypot(link.second[0] - link.first[0], link.second[1] - link.first[1], link.second[2] - link.first[2]) >
+         0.0;
+}
+
 Picture::Paths paths_of(const results::MotionFrame& frame, const Sheet& sheet) {
   Picture::Paths paths;
   paths.time = frame.time;
-  PathData beams(sheet), bodies(sheet), links(sheet);
+  PathData beams(sheet), bodies(sheet), springs(sheet), joints(sheet);
   for (const results::Curve& curve : frame.curves) {
     if (curve.points.empty()) continue;
     beams.move(curve.points.front().position);
@@ -134,18 +140,20 @@ Picture::Paths paths_of(const results::MotionFrame& frame, const Sheet& sheet) {
       bodies.draw(point.data());
       bodies.finish();
     }
-    links.dot(body.center);
+    joints.dot(body.center);
   }
   for (const results::Link& link : frame.links) {
-    links.dot(link.first);
-    links.dot(link.second);
-    bodies.move(link.first);
-    bodies.draw(link.second);
-    bodies.finish();
+    joints.dot(link.first);
+    joints.dot(link.second);
+    if (!has_length(link)) continue;
+    springs.move(link.first);
+    springs.draw(link.second);
+    springs.finish();
   }
   paths.beams = beams.take();
   paths.bodies = bodies.take();
-  paths.links = links.take();
+  paths.springs = springs.take();
+  paths.joints = joints.take();
   return paths;
 }
 
@@ -168,7 +176,8 @@ std::string scale_bar(const Sheet& sheet) {
   const double length = round_below(160.0 / sheet.scale), end = margin + length * sheet.scale;
   const double y = sheet.height - 30.0;
   return line_element("mark", margin, y, end, y) + line_element("mark", margin, y - 4.0, margin, y + 4.0) +
-         line_element("mark", end, y - 4.0, end, y + 4.0) + text_element("tiny soft", margin, y + 18.0, "start", length_text(length));
+         line_element("mark", end, y - 4.0, end, y + 4.0) +
+         text_element("tiny soft", margin, y + 18.0, "start", length_text(length));
 }
 
 std::string axis_triad(const Sheet& sheet) {
@@ -179,15 +188,17 @@ std::string axis_triad(const Sheet& sheet) {
     const double u = sheet.projection.right[k], v = sheet.projection.up[k], size = std::hypot(u, v);
     if (size < 0.1) continue;
     text += line_element("mark", x0, y0, x0 + length * u, y0 - length * v);
-    text += text_element("tiny soft", x0 + (length + 9.0) * u / size, y0 - (length * size + 9.0) * v / size + 4.0, "middle",
-                         std::string_view("xyz").substr(k, 1));
+    text += text_element("tiny soft", x0 + (length + 9.0) * u / size, y0 - (length * size + 9.0) * v / size + 4.0,
+                         "middle", std::string_view("xyz").substr(k, 1));
   }
   return text;
 }
 
-std::string color_ramp(const Sheet& sheet, const std::vector<double>& times, const std::vector<int>& colors, bool is_static) {
+std::string color_ramp(const Sheet& sheet, const std::vector<double>& times, const std::vector<int>& colors,
+                       bool is_static) {
   constexpr double step = 26.0;
-  const double right = page_width - margin, left = right - step * static_cast<double>(times.size()), y = sheet.height - 36.0;
+  const double right = page_width - margin, left = right - step * static_cast<double>(times.size()),
+               y = sheet.height - 36.0;
   std::string text;
   for (std::size_t k = 0; k < times.size(); ++k) {
     const double x = left + step * static_cast<double>(k);
@@ -196,12 +207,14 @@ std::string color_ramp(const Sheet& sheet, const std::vector<double>& times, con
   text += text_element("tiny soft", left - 8.0, y + 4.0, "end", is_static ? "position at load" : "position at");
   const char* unit = is_static ? "" : " s";
   const bool several = times.size() > 1;
-  text += text_element("tiny soft", several ? left : right, y + 22.0, several ? "start" : "end", io::rounded_text(times.front(), 4) + unit);
+  text += text_element("tiny soft", several ? left : right, y + 22.0, several ? "start" : "end",
+                       io::rounded_text(times.front(), 4) + unit);
   if (several) text += text_element("tiny soft", right, y + 22.0, "end", io::rounded_text(times.back(), 4) + unit);
   return text;
 }
 
-std::string legend(const Sheet& sheet, const results::MotionFrame& frame) {
+std::string legend(const Sheet& sheet, const std::vector<results::MotionFrame>& frames) {
+  const results::MotionFrame& frame = frames.front();
   const double y = sheet.height - 36.0;
   double x = 330.0;
   std::string text;
@@ -209,10 +222,22 @@ std::string legend(const Sheet& sheet, const results::MotionFrame& frame) {
     text += path_element(classes, data) + text_element("tiny soft", x + 34.0, y + 4.0, "start", name);
     x += advance;
   };
-  const bool has_spokes = !frame.links.empty() || std::any_of(frame.bodies.begin(), frame.bodies.end(), [](const auto& b) { return !b.attachments.empty(); });
+  const bool has_spokes =
+      std::any_of(frame.bodies.begin(), frame.bodies.end(), [](const auto& body) { return !body.attachments.empty(); });
+  // A joint's two points differ by round-off, a spring's by much: what is seen of either is a line of some pixels.
+  const auto is_long = [&](const results::Link& link) {
+    const Point2 a = sheet(link.first), b = sheet(link.second);
+    return std::hypot(b.u - a.u, b.v - a.v) > 1.0;
+  };
+  const bool has_springs = std::any_of(frames.begin(), frames.end(), [&](const results::MotionFrame& f) {
+    return std::any_of(f.links.begin(), f.links.end(), is_long);
+  });
+  const char* joint_words = frame.bodies.empty() ? "joint" : frame.links.empty() ? "centre" : "centre, joint";
   if (!frame.curves.empty()) entry("beams t5", level_stroke(x, y, 26.0), "beam", 80.0);
   if (has_spokes) entry("bodies t5", level_stroke(x, y, 26.0), "body", 80.0);
-  if (!frame.bodies.empty() || !frame.links.empty()) entry("links t5", level_stroke(x + 20.0, y, 0.0), "centre, joint", 110.0);
+  if (has_springs) entry("springs t5", level_stroke(x, y, 26.0), "link", 80.0);
+  if (!frame.bodies.empty() || !frame.links.empty())
+    entry("joints t5", level_stroke(x + 20.0, y, 0.0), joint_words, 110.0);
   return text;
 }
 
@@ -234,21 +259,24 @@ Picture make_picture(const std::vector<results::MotionFrame>& frames, const Pict
     const int color = num_shown == 1 ? num_colors - 1 : static_cast<int>(k * (num_colors - 1) / (num_shown - 1));
     const std::string shade = " t" + std::to_string(color);
     const Picture::Paths& paths = picture.frames[f];
-    positions += path_element("bodies" + shade, paths.bodies) + path_element("beams" + shade, paths.beams) + path_element("links" + shade, paths.links);
+    positions += path_element("bodies" + shade, paths.bodies) + path_element("springs" + shade, paths.springs) +
+                 path_element("beams" + shade, paths.beams) + path_element("joints" + shade, paths.joints);
     times.push_back(paths.time);
     colors.push_back(color);
   }
-  picture.svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixel(page_width) + " " + pixel(sheet.height) +
-                "\" role=\"img\" aria-label=\"Positions of the structure over time, view " + std::string(name_of(picture.view)) + "\">\n" +
-                "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n<g id=\"positions\">\n" + positions + "</g>\n" +
-                scale_bar(sheet) + axis_triad(sheet) + legend(sheet, frames.front()) + color_ramp(sheet, times, colors, options.is_static) + "</svg>\n";
+  picture.svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixel(page_width) + " " +
+                pixel(sheet.height) + "\" role=\"img\" aria-label=\"Positions of the structure over time, view " +
+                std::string(name_of(picture.view)) + "\">\n" +
+                "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n<g id=\"positions\">\n" + positions +
+                "</g>\n" + scale_bar(sheet) + axis_triad(sheet) + legend(sheet, frames) +
+                color_ramp(sheet, times, colors, options.is_static) + "</svg>\n";
   return picture;
 }
 
 std::string standalone_svg(const Picture& picture, std::string_view title) {
   const std::size_t after_tag = picture.svg.find('\n') + 1;
-  return picture.svg.substr(0, after_tag) + "<title>" + escaped(title) + "</title>\n<style>" + std::string(style_text()) + "</style>\n" +
-         picture.svg.substr(after_tag);
+  return picture.svg.substr(0, after_tag) + "<title>" + escaped(title) + "</title>\n<style>" +
+         std::string(style_text()) + "</style>\n" + picture.svg.substr(after_tag);
 }
 
 }  // namespace bough::report

@@ -9,7 +9,8 @@
 namespace bough::report {
 namespace {
 
-constexpr double width = 468.0, height = 220.0, left = 66.0, right = width - 14.0, top = 40.0, bottom = height - 40.0;  // [px]
+constexpr double width = 468.0, height = 220.0, left = 66.0, right = width - 14.0, top = 40.0,
+                 bottom = height - 40.0;  // [px]
 constexpr std::size_t num_colors = 6;
 constexpr double constant_below = 1e-12;  // range over magnitude: round-off, drawn as a constant
 
@@ -96,7 +97,8 @@ std::string axes(const Scale& scale, std::string_view time_label) {
     text += line_element("axis", scale.to_x(x), bottom, scale.to_x(x), bottom + 4.0);
     text += text_element("tiny soft", scale.to_x(x), bottom + 17.0, "middle", io::rounded_text(x, 6));
   }
-  return text + line_element("axis", left, bottom, right, bottom) + text_element("tiny soft", right, height - 6.0, "end", time_label);
+  return text + line_element("axis", left, bottom, right, bottom) +
+         text_element("tiny soft", right, height - 6.0, "end", time_label);
 }
 
 }  // namespace
@@ -112,7 +114,8 @@ std::vector<double> round_ticks(double low, double high, int wanted) {
   return ticks;
 }
 
-Plot make_plot(const io::History& history, const std::string& title, const std::vector<std::size_t>& columns, std::string_view time_label) {
+Plot make_plot(const io::History& history, const std::string& title, const std::vector<std::size_t>& columns,
+               std::string_view time_label) {
   Range times, values;
   for (const results::HistoryRow& row : history.rows) {
     times.include(row.time);
@@ -123,8 +126,9 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
   const Scale scale{times, padded(values)};
   Plot plot;
   plot.geometry = {left, right, times.low, times.high};
-  plot.svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixel(width) + " " + pixel(height) + "\" role=\"img\" aria-label=\"" +
-             escaped(title) + " over time\">\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n" +
+  plot.svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixel(width) + " " + pixel(height) +
+             "\" role=\"img\" aria-label=\"" + escaped(title) +
+             " over time\">\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n" +
              text_element("head ink", 10.0, 20.0, "start", title) + axes(scale, time_label);
   double legend_x = right;
   for (std::size_t k = columns.size(); k-- > 0;) {

@@ -9,7 +9,7 @@ namespace {
 constexpr std::pair<std::string_view, View> names[] = {
     {"auto", View::automatic}, {"xy", View::xy}, {"xz", View::xz}, {"yz", View::yz}, {"iso", View::iso}};
 
-constexpr double planar_below = 1e-3;  // of the largest extent: invisible on paper
+constexpr double planar_below = 0.02;  // of the largest extent: hardly seen on paper
 
 void include(Box& box, const double* x) {
   if (!(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))) return;
@@ -36,11 +36,15 @@ std::string_view name_of(View view) {
 
 Projection projection_of(View view) {
   switch (view) {
-    case View::xy: return {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
-    case View::xz: return {{1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
-    case View::yz: return {{0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    case View::xy:
+      return {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    case View::xz:
+      return {{1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+    case View::yz:
+      return {{0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     case View::iso:
-    case View::automatic: break;
+    case View::automatic:
+      break;
   }
   const double a = 1.0 / std::sqrt(2.0), b = 1.0 / std::sqrt(6.0);
   return {{a, a, 0.0}, {-b, b, 2.0 * b}};

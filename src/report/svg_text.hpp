@@ -11,11 +11,20 @@ inline std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
     }
   }
   return result;
@@ -45,18 +54,20 @@ inline std::string level_stroke(double x, double y, double length) {
 }
 
 inline std::string line_element(std::string_view classes, double x1, double y1, double x2, double y2) {
-  return "<line class=\"" + std::string(classes) + "\" x1=\"" + pixel(x1) + "\" y1=\"" + pixel(y1) + "\" x2=\"" + pixel(x2) + "\" y2=\"" +
-         pixel(y2) + "\"/>\n";
+  return "<line class=\"" + std::string(classes) + "\" x1=\"" + pixel(x1) + "\" y1=\"" + pixel(y1) + "\" x2=\"" +
+         pixel(x2) + "\" y2=\"" + pixel(y2) + "\"/>\n";
 }
 
 /// anchor: "start", "middle", "end".
-inline std::string text_element(std::string_view classes, double x, double y, std::string_view anchor, std::string_view text) {
-  return "<text class=\"" + std::string(classes) + "\" x=\"" + pixel(x) + "\" y=\"" + pixel(y) + "\" text-anchor=\"" + std::string(anchor) +
-         "\">" + escaped(text) + "</text>\n";
+inline std::string text_element(std::string_view classes, double x, double y, std::string_view anchor,
+                                std::string_view text) {
+  return "<text class=\"" + std::string(classes) + "\" x=\"" + pixel(x) + "\" y=\"" + pixel(y) + "\" text-anchor=\"" +
+         std::string(anchor) + "\">" + escaped(text) + "</text>\n";
 }
 
 inline std::string path_element(std::string_view classes, std::string_view data) {
-  return data.empty() ? std::string() : "<path class=\"" + std::string(classes) + "\" d=\"" + std::string(data) + "\"/>\n";
+  return data.empty() ? std::string()
+                      : "<path class=\"" + std::string(classes) + "\" d=\"" + std::string(data) + "\"/>\n";
 }
 
 }  // namespace bough::report

@@ -1,14 +1,15 @@
 #include "bough/study/batch.hpp"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <stdexcept>
-#include <sys/wait.h>
 #include <system_error>
 #include <thread>
-#include <unistd.h>
 
 #include "bough/io/history.hpp"
 #include "bough/io/summary.hpp"
@@ -84,9 +85,12 @@ CaseStatus status_of(const Child& child, int wait_status) {
   if (child.timed_out) return CaseStatus::timed_out;
   if (WIFSIGNALED(wait_status)) return CaseStatus::crashed;
   switch (WEXITSTATUS(wait_status)) {
-    case 0: return CaseStatus::ok;
-    case 2: return CaseStatus::bad_input;
-    default: return CaseStatus::failed;
+    case 0:
+      return CaseStatus::ok;
+    case 2:
+      return CaseStatus::bad_input;
+    default:
+      return CaseStatus::failed;
   }
 }
 
@@ -97,7 +101,8 @@ void read_summary_into(CaseResult& result) {
   result.accepted = summary.accepted;
   result.rejected = summary.rejected;
   result.newton_iterations = summary.newton_iterations;
-  for (const results::ExpectedResult& figure : summary.expected) ++(figure.holds ? result.expected_holds : result.expected_fails);
+  for (const results::ExpectedResult& figure : summary.expected)
+    ++(figure.holds ? result.expected_holds : result.expected_fails);
   if (summary.status == "interrupted") result.status = CaseStatus::interrupted;
   if (result.cause.empty()) result.cause = one_line(summary.cause);
 }
@@ -124,12 +129,18 @@ CaseResult result_of(const Child& child, const BatchCase& which, int wait_status
 
 std::string_view text_of(CaseStatus status) {
   switch (status) {
-    case CaseStatus::ok: return "ok";
-    case CaseStatus::failed: return "failed";
-    case CaseStatus::interrupted: return "interrupted";
-    case CaseStatus::bad_input: return "bad_input";
-    case CaseStatus::crashed: return "crashed";
-    case CaseStatus::timed_out: return "timed_out";
+    case CaseStatus::ok:
+      return "ok";
+    case CaseStatus::failed:
+      return "failed";
+    case CaseStatus::interrupted:
+      return "interrupted";
+    case CaseStatus::bad_input:
+      return "bad_input";
+    case CaseStatus::crashed:
+      return "crashed";
+    case CaseStatus::timed_out:
+      return "timed_out";
   }
   return "failed";
 }
@@ -148,7 +159,8 @@ std::vector<BatchCase> cases_in(const BatchOptions& options) {
   return cases;
 }
 
-std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& run_case, const CaseDone& done, const std::function<bool()>& stop) {
+std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& run_case, const CaseDone& done,
+                                  const std::function<bool()>& stop) {
   const std::vector<BatchCase> cases = cases_in(options);
   std::vector<CaseResult> results(cases.size());
   std::vector<Child> running;
@@ -193,10 +205,12 @@ std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& ru
 }
 
 std::string batch_csv(const std::vector<CaseResult>& results) {
-  std::string text = "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails\n";
+  std::string text =
+      "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails\n";
   for (const CaseResult& result : results) {
-    text += io::csv_field(result.which.name) + ',' + std::string(text_of(result.status)) + ',' + io::csv_field(result.cause) + ',' +
-            std::to_string(result.accepted) + ',' + std::to_string(result.rejected) + ',' + std::to_string(result.newton_iterations) + ',' +
+    text += io::csv_field(result.which.name) + ',' + std::string(text_of(result.status)) + ',' +
+            io::csv_field(result.cause) + ',' + std::to_string(result.accepted) + ',' +
+            std::to_string(result.rejected) + ',' + std::to_string(result.newton_iterations) + ',' +
             std::to_string(result.expected_holds) + ',' + std::to_string(result.expected_fails) + '\n';
   }
   return text;

@@ -79,6 +79,10 @@ expect 1 'file' run good.json --out file
 expect 1 'file' run good.json --out file/below
 holds test -f file
 
+mkfifo pipe
+expect 1 'not a regular file' view good.out --out pipe
+holds test -p pipe
+
 # pages
 expect 0 'view.html' view good.out --svg drawing.svg
 holds grep -q '</html>' good.out/view.html

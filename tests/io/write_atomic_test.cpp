@@ -1,6 +1,7 @@
-#include <csignal>
 #include <sys/resource.h>
 #include <sys/stat.h>
+
+#include <csignal>
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/run_directory.hpp"
@@ -13,7 +14,8 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -97,6 +99,17 @@ TEST(AtomicFile, says_which_file_and_why_where_it_cannot_be_made) {
   EXPECT_EQ(names_in(scratch.path()), std::vector<std::string>{"folder"});
 }
 
+TEST(AtomicFile, never_takes_the_place_of_a_device_or_a_pipe) {
+  const ScratchDirectory scratch;
+  const std::string pipe = scratch / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink("/dev/null", scratch / "link");
+  for (const char* name : {"pipe", "link"}) EXPECT_THROW(write_file(scratch / name, "x"), std::runtime_error) << name;
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_TRUE(fs::is_character_file(fs::status("/dev/null")));
+  EXPECT_EQ(names_in(scratch.path()), (std::vector<std::string>{"link", "pipe"})) << "no partial file either";
+}
+
 TEST(AtomicFile, cut_short_by_a_full_disk_holds_whole_flushes_only) {
   const ScratchDirectory scratch;
   AtomicFile file(scratch / "a.txt");
@@ -123,8 +136,10 @@ TEST(RunDirectory, writes_every_file_and_the_summary_last) {
   run.motion(sample_frame(1.0));
   EXPECT_FALSE(fs::exists(scratch / "out/history.csv"));
   run.end(sample_summary());
-  EXPECT_EQ(run.files(), (std::vector<std::string>{"history.csv", "motion.jsonl", "motion", "motion.pvd", "summary.json"}));
-  EXPECT_EQ(names_in(scratch / "out"), (std::vector<std::string>{"history.csv", "motion", "motion.jsonl", "motion.pvd", "summary.json"}));
+  EXPECT_EQ(run.files(),
+            (std::vector<std::string>{"history.csv", "motion.jsonl", "motion", "motion.pvd", "summary.json"}));
+  EXPECT_EQ(names_in(scratch / "out"),
+            (std::vector<std::string>{"history.csv", "motion", "motion.jsonl", "motion.pvd", "summary.json"}));
   EXPECT_EQ(names_in(scratch / "out/motion"), (std::vector<std::string>{"frame_000000.vtu", "frame_000001.vtu"}));
 }
 
@@ -177,7 +192,8 @@ TEST(RunDirectory, a_full_disk_keeps_the_rows_written_before_it) {
   run.end(summary);
   const History history = read_history(scratch / "out/history.csv");
   ASSERT_GT(history.rows.size(), 1000u);
-  EXPECT_EQ(history.rows.back().time, 0.5 * static_cast<double>(history.rows.size() - 1)) << "no row is missing before the last";
+  EXPECT_EQ(history.rows.back().time, 0.5 * static_cast<double>(history.rows.size() - 1))
+      << "no row is missing before the last";
   EXPECT_TRUE(fs::exists(scratch / "out/summary.json"));
 }
 

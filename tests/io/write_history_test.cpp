@@ -41,7 +41,8 @@ TEST(NumberText, negative_zero_keeps_its_sign) {
 
 TEST(NumberText, text_that_is_not_wholly_a_number_is_refused) {
   double value = 0.0;
-  for (const char* text : {"", " 1", "1 ", "1,5", "+1", "1e", "0x10", "1.0.0", "one"}) EXPECT_FALSE(read_number(text, value)) << text;
+  for (const char* text : {"", " 1", "1 ", "1,5", "+1", "1e", "0x10", "1.0.0", "one"})
+    EXPECT_FALSE(read_number(text, value)) << text;
 }
 
 TEST(History, comes_back_bit_for_bit_with_names_that_need_quotes) {

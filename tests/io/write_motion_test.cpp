@@ -41,7 +41,8 @@ TEST(Vtu, arrays_stand_where_their_offsets_say_and_agree_in_length) {
   ASSERT_EQ(offsets.size(), num_cells);
   EXPECT_EQ(offsets.back(), static_cast<std::int64_t>(connectivity.size()));
   for (const std::int64_t index : connectivity) EXPECT_LT(index, static_cast<std::int64_t>(num_points));
-  for (const char* name : {"force", "moment", "axis_1", "axis_2", "axis_3"}) EXPECT_EQ(values_of<double>(vtu, name).size(), 3 * num_points) << name;
+  for (const char* name : {"force", "moment", "axis_1", "axis_2", "axis_3"})
+    EXPECT_EQ(values_of<double>(vtu, name).size(), 3 * num_points) << name;
   for (const char* name : {"kind", "part"}) EXPECT_EQ(values_of<std::int32_t>(vtu, name).size(), num_cells) << name;
   EXPECT_NE(vtu.find("NumberOfPoints=\"35\" NumberOfCells=\"7\""), std::string::npos);
   EXPECT_TRUE(vtu.ends_with("\n  </AppendedData>\n</VTKFile>\n")) << "nothing after the last block but the end";
@@ -59,7 +60,9 @@ TEST(Vtu, hexahedra_of_a_swept_beam_have_positive_volume) {
   for (std::size_t c = 0; c < types.size(); ++c) {
     if (types[c] != 12) continue;
     ++num_hexahedra;
-    const auto corner = [&](std::size_t k) { return &x[3 * static_cast<std::size_t>(corners[static_cast<std::size_t>(offsets[c]) - 8 + k])]; };
+    const auto corner = [&](std::size_t k) {
+      return &x[3 * static_cast<std::size_t>(corners[static_cast<std::size_t>(offsets[c]) - 8 + k])];
+    };
     double edge[3][3];
     for (int k = 0; k < 3; ++k) {
       edge[0][k] = corner(1)[k] - corner(0)[k];

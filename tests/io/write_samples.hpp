@@ -1,10 +1,11 @@
 #pragma once
 /// Hand-made records and a directory of one's own for tests of what a run writes.
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <gtest/gtest.h>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -45,9 +46,10 @@ inline results::MotionFrame sample_frame(double t, std::size_t num_points = 5) {
   curve.name = "beam";
   for (std::size_t k = 0; k < num_points; ++k) {
     const double s = static_cast<double>(k) / static_cast<double>(num_points - 1), angle = 0.3 * s * std::sin(t);
-    results::CurvePoint point{{s, 0.1 * s * s * std::sin(t), 0.0},
-                              {std::cos(angle), -std::sin(angle), 0.0, std::sin(angle), std::cos(angle), 0.0, 0.0, 0.0, 1.0},
-                              {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}};
+    results::CurvePoint point{
+        {s, 0.1 * s * s * std::sin(t), 0.0},
+        {std::cos(angle), -std::sin(angle), 0.0, std::sin(angle), std::cos(angle), 0.0, 0.0, 0.0, 1.0},
+        {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}};
     curve.points.push_back(point);
   }
   frame.bodies.push_back({"crank", {0.0, 0.0, 0.0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.1, 0.0, 0.0}, {{0.2, 0.0, 0.3}}});

@@ -46,7 +46,7 @@ TEST(Projection, isometric_shortens_the_three_axes_alike) {
 TEST(Projection, a_planar_motion_is_drawn_in_its_plane) {
   const auto box = [](double x, double y, double z) { return Box{{0.0, 0.0, 0.0}, {x, y, z}, false}; };
   EXPECT_EQ(resolve_view(View::automatic, box(2, 1, 0)), View::xy);
-  EXPECT_EQ(resolve_view(View::automatic, box(2, 1e-6, 1)), View::xz);
+  EXPECT_EQ(resolve_view(View::automatic, box(2, 0.01, 1)), View::xz);
   EXPECT_EQ(resolve_view(View::automatic, box(0, 1, 1)), View::yz);
   EXPECT_EQ(resolve_view(View::automatic, box(1, 1, 1)), View::iso);
   EXPECT_EQ(resolve_view(View::automatic, box(0, 0, 1)), View::xz);
@@ -103,9 +103,10 @@ TEST(Picture, points_that_are_not_finite_are_left_out) {
   frames[1].curves[0].points[3].position[0] = std::numeric_limits<double>::quiet_NaN();
   frames[2].bodies[0].center[1] = std::numeric_limits<double>::infinity();
   const Picture picture = make_picture(frames, {});
-  for (const char* word : {"nan", "inf"}) EXPECT_EQ(picture.svg.find(std::string(word) + " "), std::string::npos) << word;
+  for (const char* word : {"nan", "inf"})
+    EXPECT_EQ(picture.svg.find(std::string(word) + " "), std::string::npos) << word;
   for (const Picture::Paths& paths : picture.frames)
-    for (const std::string* path : {&paths.beams, &paths.bodies, &paths.links})
+    for (const std::string* path : {&paths.beams, &paths.bodies, &paths.springs, &paths.joints})
       EXPECT_EQ(path->find_first_not_of("MLh0123456789.- "), std::string::npos) << *path;
 }
 
@@ -113,7 +114,8 @@ TEST(Picture, of_a_single_point_that_stays_is_still_a_picture) {
   results::MotionFrame frame;
   frame.bodies.push_back({"ball", {1e6, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {1e6, 0, 0}});
   const Picture picture = make_picture({frame, frame}, {});
-  EXPECT_EQ(picture.frames[0].links.find_first_not_of("Mh0123456789.- "), std::string::npos) << picture.frames[0].links;
+  EXPECT_EQ(picture.frames[0].joints.find_first_not_of("Mh0123456789.- "), std::string::npos)
+      << picture.frames[0].joints;
 }
 
 TEST(Plot, ticks_are_round_and_inside) {
@@ -125,19 +127,22 @@ TEST(Plot, ticks_are_round_and_inside) {
     EXPECT_GE(ticks.front(), low - slack);
     EXPECT_LE(ticks.back(), high + slack);
     const double leading = step / std::pow(10.0, std::floor(std::log10(step) + 1e-6));
-    EXPECT_TRUE(std::abs(leading - 1.0) < 1e-3 || std::abs(leading - 2.0) < 1e-3 || std::abs(leading - 5.0) < 1e-3) << step;
+    EXPECT_TRUE(std::abs(leading - 1.0) < 1e-3 || std::abs(leading - 2.0) < 1e-3 || std::abs(leading - 5.0) < 1e-3)
+        << step;
   }
 }
 
 TEST(Plot, of_many_rows_is_small_and_keeps_its_peak) {
   io::History history;
   history.header.columns = {"a"};
-  for (int k = 0; k < 200000; ++k) history.rows.push_back({1e-3 * k, 1e-3, 1, {k == 123457 ? 50.0 : std::sin(1e-3 * k)}});
+  for (int k = 0; k < 200000; ++k)
+    history.rows.push_back({1e-3 * k, 1e-3, 1, {k == 123457 ? 50.0 : std::sin(1e-3 * k)}});
   const Plot plot = make_plot(history, "a", {0}, "time");
   EXPECT_LT(plot.svg.size(), 60'000u);
   std::vector<double> heights;
   const std::regex number(R"([ML]-?[0-9.]+ (-?[0-9.]+))");
-  for (std::sregex_iterator it(plot.svg.begin(), plot.svg.end(), number), end; it != end; ++it) heights.push_back(std::stod((*it)[1]));
+  for (std::sregex_iterator it(plot.svg.begin(), plot.svg.end(), number), end; it != end; ++it)
+    heights.push_back(std::stod((*it)[1]));
   std::sort(heights.begin(), heights.end());
   EXPECT_LT(heights[0], heights[10] - 50.0) << "one point stands far above all others";
 }
@@ -193,7 +198,9 @@ TEST_F(Page, of_a_run_that_did_not_end_says_so) {
   EXPECT_NE(page_html(files, {}).find("did not end"), std::string::npos);
 }
 
-TEST_F(Page, a_directory_without_a_history_is_refused) { EXPECT_THROW((void)read_run(scratch_ / "none"), std::runtime_error); }
+TEST_F(Page, a_directory_without_a_history_is_refused) {
+  EXPECT_THROW((void)read_run(scratch_ / "none"), std::runtime_error);
+}
 
 }  // namespace
 }  // namespace bough::report

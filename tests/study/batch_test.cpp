@@ -1,13 +1,15 @@
+#include "bough/study/batch.hpp"
+
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <map>
 #include <thread>
-#include <unistd.h>
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/run_directory.hpp"
-#include "bough/study/batch.hpp"
 #include "io/write_samples.hpp"
 
 namespace bough::study {
@@ -18,7 +20,9 @@ class Batch : public testing::Test {
  protected:
   Batch() { std::filesystem::create_directory(scratch_ / "in"); }
   void add(const std::string& name) { io::write_file(scratch_ / "in" / (name + ".json"), "{}"); }
-  BatchOptions options(int threads, double time_limit = 0.0) const { return {scratch_ / "in", scratch_ / "out", threads, time_limit}; }
+  BatchOptions options(int threads, double time_limit = 0.0) const {
+    return {scratch_ / "in", scratch_ / "out", threads, time_limit};
+  }
 
   static int run_case(const BatchCase& which, std::string& cause) {
     if (which.name.starts_with("bad")) {
@@ -43,7 +47,8 @@ class Batch : public testing::Test {
 
   std::vector<CaseResult> run(const BatchOptions& o) {
     std::filesystem::create_directories(o.out);
-    return run_batch(o, run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+    return run_batch(
+        o, run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
   }
 
   io::ScratchDirectory scratch_;
@@ -94,7 +99,8 @@ TEST_F(Batch, stopping_ends_what_runs_and_starts_nothing_more) {
   for (const char* name : {"hangs_1", "hangs_2", "later"}) add(name);
   std::filesystem::create_directories(scratch_ / "out");
   int asked = 0;
-  const auto results = run_batch(options(2), run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [&] { return ++asked > 3; });
+  const auto results = run_batch(
+      options(2), run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [&] { return ++asked > 3; });
   EXPECT_EQ(results.at(0).status, CaseStatus::crashed) << "these children do not catch SIGINT";
   EXPECT_EQ(results.at(2).status, CaseStatus::interrupted);
   EXPECT_EQ(results.at(2).cause, "not started");

@@ -10,7 +10,8 @@ enum class Durability { now, later };
 
 /// Writes to `<name>.partial` beside the final name; `commit` makes it durable and renames it. A former file of the final name stays
 /// untouched until then. Without `commit` the destructor removes the partial file; after a crash the next writer takes it over.
-/// Every failure (no space, no permission, a second writer) is a std::runtime_error that names the file and the system's reason.
+/// A name that is taken by anything but a file (a device, a pipe, a folder) is refused and left as it is; a link to a file is replaced, not
+/// followed. Every failure (no space, no permission, a second writer) is a std::runtime_error that names the file and the system's reason.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path final_path);

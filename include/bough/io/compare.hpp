@@ -19,8 +19,8 @@ struct CompareOptions {
 struct ColumnDifference {
   std::string name;
   double absolute = 0.0, relative = 0.0, scale = 0.0;
-  double time = 0.0;           ///< of the largest difference
-  bool is_judged = true;       ///< iterations and step counts are shown only
+  double time = 0.0;            ///< of the largest difference
+  bool is_judged = true;        ///< iterations and step counts are shown only
   bool has_non_finite = false;  ///< in either file: never equal
   bool holds = false;
 };

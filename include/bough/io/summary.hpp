@@ -20,7 +20,7 @@ std::string summary_text(const results::Summary& summary, std::string_view versi
 struct SummaryFile {
   std::string status, cause, scene, title, version;
   long accepted = 0, rejected = 0, newton_iterations = 0;
-  std::vector<std::pair<std::string, double>> checks;  ///< numbers only
+  std::vector<std::pair<std::string, double>> checks;        ///< numbers only
   std::vector<std::pair<std::string, std::string>> options;  ///< by JSON pointer; texts only
   std::vector<std::string> notes;
   std::vector<results::ExpectedResult> expected;

@@ -14,7 +14,7 @@ namespace bough::report {
 
 struct RunFiles {
   std::string name;
-  std::optional<io::SummaryFile> summary;    ///< none: the run did not end
+  std::optional<io::SummaryFile> summary;  ///< none: the run did not end
   io::History history;
   std::vector<results::MotionFrame> motion;  ///< empty: not recorded
 };

@@ -9,16 +9,16 @@ namespace bough::report {
 
 struct PictureOptions {
   View view = View::automatic;
-  int num_positions = 9;  ///< superposed, 1 to 9
+  int num_positions = 9;   ///< superposed, 1 to 9
   bool is_static = false;  ///< frames are told apart by the load factor, not by time [s]
 };
 
 /// The drawing and what a player needs to draw any frame over it.
 struct Picture {
-  std::string svg;       ///< one <svg> element, styled by classes (style_text)
+  std::string svg;  ///< one <svg> element, styled by classes (style_text)
   struct Paths {
     double time = 0.0;
-    std::string beams, bodies, links;  ///< path data in the drawing's coordinates [px]
+    std::string beams, bodies, springs, joints;  ///< path data in the drawing's coordinates [px]
   };
   std::vector<Paths> frames;
   View view = View::iso;  ///< as resolved

@@ -9,7 +9,7 @@ namespace bough::report {
 
 /// One plot of the columns of one sensor over time.
 struct PlotGeometry {
-  double left = 0.0, right = 0.0;        ///< of the plot area in the drawing [px]
+  double left = 0.0, right = 0.0;            ///< of the plot area in the drawing [px]
   double first_time = 0.0, last_time = 0.0;  ///< at these
 };
 struct Plot {
@@ -19,7 +19,8 @@ struct Plot {
 
 /// columns: indices into the header, of one unit. At most two points per pixel column and curve are drawn: the smallest and the largest
 /// value, so that no peak is lost. Non-finite values leave a gap.
-Plot make_plot(const io::History& history, const std::string& title, const std::vector<std::size_t>& columns, std::string_view time_label);
+Plot make_plot(const io::History& history, const std::string& title, const std::vector<std::size_t>& columns,
+               std::string_view time_label);
 
 /// Round numbers, about `wanted` of them, that cover [low, high] from inside; low < high, both finite.
 std::vector<double> round_ticks(double low, double high, int wanted);

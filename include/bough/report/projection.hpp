@@ -36,7 +36,7 @@ struct Box {
 };
 Box box_of(const std::vector<results::MotionFrame>& frames);
 
-/// Resolves `automatic`: the plane across the axis along which the motion extends less than 1e-3 of its largest extent.
+/// Resolves `automatic`: the plane across the axis along which the motion extends less than 2 % of its largest extent.
 View resolve_view(View view, const Box& box);
 
 }  // namespace bough::report

@@ -8,10 +8,10 @@
 namespace bough::study {
 
 struct BatchOptions {
-  std::filesystem::path folder;        ///< every *.json in it is a case, named by its stem; not searched deeper
-  std::filesystem::path out;           ///< case NAME writes to out/NAME
-  int threads = 1;                     ///< cases at a time, >= 1
-  double time_limit = 0.0;             ///< wall time of one case [s]; 0: none
+  std::filesystem::path folder;  ///< every *.json in it is a case, named by its stem; not searched deeper
+  std::filesystem::path out;     ///< case NAME writes to out/NAME
+  int threads = 1;               ///< cases at a time, >= 1
+  double time_limit = 0.0;       ///< wall time of one case [s]; 0: none
 };
 
 struct BatchCase {
@@ -41,7 +41,8 @@ std::vector<BatchCase> cases_in(const BatchOptions& options);
 /// Runs all cases; rows are in the order of `cases_in` whatever finishes first. Each case runs in a child process, so that one that crashes,
 /// hangs or takes all memory harms no other. `stop` is asked between cases; once true no further case starts and those running are told to
 /// stop (SIGINT). Call it while the process has one thread. Throws std::runtime_error where no process can be started.
-std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& run_case, const CaseDone& done, const std::function<bool()>& stop);
+std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& run_case, const CaseDone& done,
+                                  const std::function<bool()>& stop);
 
 /// The table: case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails. Holds no times, so that equal
 /// results give equal files.
