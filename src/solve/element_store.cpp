@@ -134,12 +134,16 @@ void ElementStore::lift_weak_diagonals(std::vector<double>& diagonal) const {
       };
       for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
         const double* g = matrix(touch.element) + (touch.offset + i) * ne;
+        double largest = 0.0;
+        for_motion([&](std::size_t, std::int64_t j) { largest = std::max(largest, std::abs(g[j])); });
+        // Entries that are round-off couple nothing: the mobility behind them would be lent a thousand times over.
+        const auto couples = [&](std::int64_t j) { return std::abs(g[j]) > 1e-8 * largest; };
         for_motion([&](std::size_t u, std::int64_t j) {
-          if (g[j] == 0.0) return;
+          if (!couples(j)) return;
           double others = 0.0;  // mobility of the row's other unknowns; one without any diagonal gives way freely
           bool held = true;
           for_motion([&](std::size_t v, std::int64_t k) {
-            if (v == u || g[k] == 0.0) return;
+            if (v == u || !couples(k)) return;
             held = held && diagonal[v] > 0.0;
             if (held) others += g[k] * g[k] / diagonal[v];
           });
