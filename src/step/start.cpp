@@ -205,30 +205,11 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
 }
 
 StartReport change_step_size(System& system, State& state, const StepOptions& options, double h) {
-  const AlphaCoefficients c = make_alpha_coefficients(options.spectral_radius);
   StartReport report;
   report.ok = true;
   if (h == state.step_size) return report;
-  if (state.step_size <= 0.0 || c.shift() == 0.0) {
-    if (state.step_size <= 0.0) return start_alpha(system, state, options, h);
-    state.step_size = h;
-    return report;
-  }
-  std::vector<Vec6<double>> jerk(state.nodes.size());
-  for (std::size_t n = 0; n < jerk.size(); ++n) {
-    const Vec6<double> lead = state.algorithmic[n] - state.nodes[n].a;
-    jerk[n] = (1.0 / (c.shift() * state.step_size)) * lead;
-    state.algorithmic[n] = state.nodes[n].a + (h / state.step_size) * lead;
-  }
-  state.step_size = h;
-  if (system.plan().num_multipliers == 0) return report;
-  for (elements::NodeMotion& n : state.nodes) n.dq = Vec6<double>::zero();
   if (const auto t = system.set_time(state.time, laws::Side::right)) return failed(t->text);
-  if (const auto t = factor_mass(system, state)) return failed(t->text);
-  std::vector<double> offset;
-  steady_velocity_error(system, state, c, h, jerk, offset);
-  if (const auto t = project_velocities(system, state, &offset, nullptr)) return failed(t->text);
-  return report;
+  return start_alpha(system, state, options, h);
 }
 
 }  // namespace bough::step

@@ -50,7 +50,8 @@ StartReport make_consistent(System& system, State& state, bool fix_positions);
 /// order from the first step on (Arnold, Bruls, Cardona 2015, sect. 5).
 StartReport start_alpha(System& system, State& state, const StepOptions& options, double step_size);
 
-/// The same when only the step size changes: d2v/dt2 is taken from a_n - dv/dt, no new accelerations are solved for.
+/// The same when only the step size changes: dv/dt and multipliers stay, d2v/dt2 is solved for anew. (a_n - dv/dt holds it, too, but with the
+/// slowly fading oscillations of earlier changes, which a few changes in a row would amplify.)
 StartReport change_step_size(System& system, State& state, const StepOptions& options, double step_size);
 
 /// One step of Lie-group generalized-alpha, index 3 (Bruls, Cardona, Arnold 2012), from `state` over h to `state`.

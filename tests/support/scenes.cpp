@@ -1,0 +1,144 @@
+#include "support/scenes.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "bough/io/read_scene.hpp"
+
+namespace bough::support {
+
+namespace {
+
+scene::Scene checked(io::SceneFile file) {
+  if (file.ok()) return std::move(file.scene);
+  std::string all = "scene '" + file.scene.name + "':";
+  for (const io::Problem& p : file.problems) all += "\n  " + p.text();
+  throw std::runtime_error(all);
+}
+
+class Memory final : public results::Recorder {
+ public:
+  explicit Memory(Table& table) : table_(table) {}
+  void begin(const results::HistoryHeader& header) override { table_.columns = header.columns; }
+  void row(const results::HistoryRow& row) override {
+    table_.times.push_back(row.time);
+    table_.rows.push_back(row.values);
+  }
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+
+ private:
+  Table& table_;
+};
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> parts;
+  std::stringstream in(!line.empty() && line.back() == '\r' ? line.substr(0, line.size() - 1) : line);
+  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+}  // namespace
+
+scene::Scene gallery(const std::string& stem, const std::vector<std::string>& overrides) {
+  return checked(io::read_scene(std::string(BOUGH_SOURCE_DIR) + "/data/scenarios/" + stem + ".json", overrides));
+}
+
+scene::Scene scene_of(const std::string& json, const std::vector<std::string>& overrides) {
+  const std::size_t brace = json.find('{');
+  return checked(io::read_scene_text("{\"schema_version\": 1, " + json.substr(brace + 1), "test", overrides));
+}
+
+scene::Sensor point_sensor(const std::string& name, scene::SensorKind kind, const scene::Attachment& at, scene::LoadAxes axes) {
+  scene::Sensor s;
+  s.name = name;
+  s.kind = kind;
+  s.at = at;
+  s.axes = axes;
+  return s;
+}
+
+scene::Sensor joint_sensor(const std::string& name, scene::SensorKind kind, const std::string& joint) {
+  scene::Sensor s;
+  s.name = name;
+  s.kind = kind;
+  s.joint = joint;
+  return s;
+}
+
+std::string text(double value) {
+  char buffer[40];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+std::size_t Table::column(const std::string& name) const {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found == columns.end()) throw std::runtime_error("no column '" + name + "'");
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::vector<double> Table::of(const std::string& name) const {
+  const std::size_t c = column(name);
+  std::vector<double> values;
+  for (const std::vector<double>& row : rows) values.push_back(row[c]);
+  return values;
+}
+
+std::size_t Table::row_at(double time) const {
+  const auto next = std::lower_bound(times.begin(), times.end(), time - 1e-9);
+  if (next == times.end() || *next > time + 1e-9) throw std::runtime_error("no row at " + text(time));
+  return static_cast<std::size_t>(next - times.begin());
+}
+
+double Table::largest(const std::string& name) const {
+  double most = 0.0;
+  for (double v : of(name)) most = std::max(most, std::abs(v));
+  return most;
+}
+
+Table reference(const std::string& file) {
+  std::ifstream in(std::string(BOUGH_SOURCE_DIR) + "/data/reference/" + file);
+  if (!in) throw std::runtime_error("cannot read " + file);
+  Table table;
+  std::string line;
+  std::getline(in, line);
+  table.columns = split(line);
+  table.columns.erase(table.columns.begin());
+  while (std::getline(in, line)) {
+    std::vector<double> values;
+    for (const std::string& part : split(line)) values.push_back(std::strtod(part.c_str(), nullptr));
+    table.times.push_back(values.front());
+    table.rows.emplace_back(values.begin() + 1, values.end());
+  }
+  return table;
+}
+
+Outcome run(const scene::Scene& scene, const study::ProgressCallback& progress) {
+  Outcome outcome;
+  Memory memory(outcome.history);
+  outcome.summary = study::simulate(scene, {}, memory, progress);
+  return outcome;
+}
+
+double order_of(double coarse_error, double fine_error, double ratio) { return std::log(coarse_error / fine_error) / std::log(ratio); }
+
+double largest_difference(const Table& a, const std::string& column_a, const Table& reference, const std::string& column_b) {
+  const std::size_t ca = a.column(column_a), cb = reference.column(column_b);
+  double most = 0.0;
+  int met = 0;
+  for (std::size_t r = 0; r < reference.times.size(); ++r) {
+    const double t = reference.times[r];
+    const auto next = std::lower_bound(a.times.begin(), a.times.end(), t - 1e-9);
+    if (next == a.times.end() || *next > t + 1e-9) continue;
+    most = std::max(most, std::abs(a.rows[static_cast<std::size_t>(next - a.times.begin())][ca] - reference.rows[r][cb]));
+    ++met;
+  }
+  if (met == 0) throw std::runtime_error("the tables have no time in common");
+  return most;
+}
+
+}  // namespace bough::support

@@ -1,0 +1,46 @@
+#pragma once
+/// A scene under the test's own step sizes: the verbs of step without the run around them.
+#include <string>
+#include <vector>
+
+#include "bough/plan/plan.hpp"
+#include "bough/step/advance.hpp"
+
+namespace bough::support {
+
+/// What a time integrator computes, as plain numbers.
+struct Sample {
+  double time = 0.0;
+  std::vector<double> positions, velocities, multipliers;  ///< R and x of all nodes; twists, own axes; reactions
+};
+
+class Stepper {
+ public:
+  explicit Stepper(const scene::Scene& scene);  ///< spectral radius, tolerance: the scene's
+  step::StepOptions& options() { return options_; }
+  step::System& system() { return system_; }
+  step::State& state() { return state_; }
+
+  /// Consistent start and first step size; throws std::runtime_error with the cause of a failure, as all below.
+  step::StartReport start(double step_size);
+  void change(double step_size);  ///< of the steps to come
+  void step(double end_time);     ///< by the present step size: end_time says it without round-off
+  Sample sample() const;
+
+ private:
+  plan::Plan plan_;
+  step::System system_;
+  step::State state_;
+  step::StepOptions options_;
+};
+
+/// Largest |a - b| relative to the largest |b|, of each part.
+struct Difference {
+  double positions = 0.0, velocities = 0.0, multipliers = 0.0;
+  void include(const Sample& a, const Sample& b, const Sample& scale);
+};
+
+/// Largest magnitudes over a run, one number in each part: the scale of differences.
+Sample scale_of(const std::vector<Sample>& run);
+
+}  // namespace bough::support
