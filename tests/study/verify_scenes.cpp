@@ -49,11 +49,16 @@ std::string Outcome::text() const {
   return all;
 }
 
-Outcome run(const scene::Scene& scene, int threads) {
-  Outcome out;
+std::string problems_of(const scene::Scene& scene) {
   std::string refused;
   for (const scene::SceneProblem& p : scene::problems_in(scene))
     if (!p.is_warning) refused += " " + p.section + " " + std::to_string(p.index) + " " + p.key + " '" + p.value + "': " + p.rule;
+  return refused;
+}
+
+Outcome run(const scene::Scene& scene, int threads) {
+  Outcome out;
+  const std::string refused = problems_of(scene);
   if (!refused.empty()) {
     out.summary.cause = "refused:" + refused;
     return out;
@@ -172,7 +177,10 @@ scene::Scene make_cantilever(const scene::Section& section, double length, int e
 
 Direct::Direct(const scene::Scene& scene)
     : plan(plan::make_plan(scene)), system(plan, scene.solver, schedule::make_serial_walker()), state(step::make_initial_state(plan)),
-      options(step::make_step_options(scene.analysis)) {}
+      options(step::make_step_options(scene.analysis)) {
+  const std::string refused = problems_of(scene);
+  if (!refused.empty()) throw std::invalid_argument("refused:" + refused);
+}
 
 Vec3<double> Direct::position(const std::string& node) const {
   for (std::size_t i = 0; i < plan.nodes.size(); ++i)

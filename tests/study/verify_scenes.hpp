@@ -28,6 +28,9 @@ struct Outcome {
   std::string text() const;
 };
 
+/// What problems_in has against a scene, warnings left out; empty when nothing.
+std::string problems_of(const scene::Scene& scene);
+
 /// Runs a scene that has to be without problems; otherwise the outcome is failed and the cause starts with "refused: ".
 Outcome run(const scene::Scene& scene, int threads = 1);
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "bough/laws/make_law.hpp"
 #include "verify_scenes.hpp"
@@ -31,6 +32,7 @@ scene::Scene arch(double depth, int elements_a_half, int order) {
   s.beams[1].tangent = {{1, 0, 0}};
   for (scene::Beam& b : s.beams) b.axis_2 = {{-b.tangent[1], b.tangent[0], 0.0}};
   s.joints = {make_weld("clamp", "left")};
+  s.joints[0].first.offset.x = left;
   scene::Joint hinge;
   hinge.name = "hinge";
   hinge.kind = scene::JointKind::revolute;
@@ -43,18 +45,31 @@ scene::Scene arch(double depth, int elements_a_half, int order) {
   down.displacement[1] = laws::make_ramp(0.0, 1.0, 0.0, -depth);
   s.motions = {down};
   s.analysis.kind = scene::AnalysisKind::statics;
-  s.analysis.tolerance = 1e-10;
+  s.analysis.tolerance = 1e-11;
   return s;
 }
 
 /// Load on the crown, positive downward, once equilibrium is found; the multiplier of the driven row is the force of the drive along y.
 struct Path {
   Direct direct;
-  double depth;
+  double depth, reached = 0.0;
   explicit Path(double d, int elements, int order) : direct(arch(d, elements, order)), depth(d) {}
+
+  /// Steps that fail are halved, as a run does.
   double load_at(double down) {
-    const step::StepReport r = step::equilibrate(direct.system, direct.state, direct.options, down / depth);
-    EXPECT_TRUE(r.converged) << "at " << down << ": " << r.cause;
+    double step = down - reached;
+    for (int failures = 0; reached != down;) {
+      const double next = std::abs(step) >= std::abs(down - reached) ? down : reached + step;
+      const step::State before = direct.state;
+      const step::StepReport r = step::equilibrate(direct.system, direct.state, direct.options, next / depth);
+      if (r.converged) {
+        reached = next;
+        continue;
+      }
+      direct.state = before;
+      step *= 0.5;
+      if (++failures > 10) throw std::runtime_error("no equilibrium at depth " + std::to_string(next) + ": " + r.cause);
+    }
     for (const plan::JointPlan& j : direct.plan.joints)
       if (j.name == "down") return direct.state.multipliers[static_cast<std::size_t>(j.multiplier_begin)];
     return 0.0;
@@ -69,8 +84,7 @@ struct Limit {
 /// Goes down the path, then finds the largest load by golden sections (equilibria depend on the depth alone here).
 Limit find_limit(int elements, int order) {
   Path path(130.0, elements, order);
-  for (double d = 2.0; d < 111.5; d += 2.0) path.load_at(d);
-  const double sign = path.load_at(112.0) < 0.0 ? -1.0 : 1.0;
+    const double sign = path.load_at(112.0) < 0.0 ? -1.0 : 1.0;
   double a = 112.0, b = 115.5;
   const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
   double c = b - ratio * (b - a), d = a + ratio * (b - a), fc = sign * path.load_at(c), fd = sign * path.load_at(d);
@@ -105,11 +119,9 @@ TEST(VerifyStatics, deep_arch_meets_its_limit_load_when_the_crown_is_driven) {
 TEST(VerifyStatics, deep_arch_converges_below_the_limit_with_orders_2_4_6) {
   const auto load = [](int elements, int order) {
     Path path(130.0, elements, order);
-    double last = 0.0;
-    for (double d = 4.0; d < 61.0; d += 4.0) last = path.load_at(d);
-    return last;
+    return path.load_at(60.0);
   };
-  const int coarsest[] = {12, 6, 4};
+  const int coarsest[] = {24, 6, 6};
   const double exact = load(32, 3);
   for (int order = 1; order <= 3; ++order) {
     const int n = coarsest[order - 1];

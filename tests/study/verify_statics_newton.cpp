@@ -9,43 +9,37 @@
 namespace bough::verify {
 namespace {
 
-struct Quadratic {
-  int steps = 0;         ///< pairs of changes compared
-  double worst = 1e300;  ///< smallest log(d_{k+1}) / log(d_k) seen
-};
-
-/// d_{k+1} = C d_k^2: for three changes in the quadratic range log(d2/d1)/log(d1/d0) tends to 2, with C dropping out.
-std::vector<double> exponents(const step::StepReport& r) {
-  std::vector<double> p;
-  const auto d = r.changes();
-  for (std::size_t k = 2; k < d.size(); ++k)
-    if (d[k - 2] < 0.3 && d[k - 1] < 0.05 * d[k - 2] && d[k] > 1e-12) p.push_back(std::log(d[k] / d[k - 1]) / std::log(d[k - 1] / d[k - 2]));
-  return p;
-}
-
+/// Changes obey d_{k+1} <= C d_k^2 once below 1e-2, down to round-off. C is of the order of the slenderness: bending moves nodes along their
+/// tangents first, and the length this adds answers with EA. A slow linear rate would break the bound at the small end.
 void expect_quadratic(const scene::Scene& scene, double from, double to) {
+  constexpr double C = 1e3, round_off = 1e-13;
   Direct run(scene);
   run.options.tolerance = 1e-13;
   run.options.max_iterations = 30;
-  if (from > 0.0) {
-    const step::StepReport first = step::equilibrate(run.system, run.state, run.options, from);
+  for (int k = 1; k <= 4; ++k) {
+    const step::StepReport first = step::equilibrate(run.system, run.state, run.options, 0.25 * k * from);
     ASSERT_TRUE(first.converged) << scene.name << ": " << first.cause;
   }
   const step::StepReport r = step::equilibrate(run.system, run.state, run.options, to);
   ASSERT_TRUE(r.converged) << scene.name << ": " << r.cause;
+  const auto d = r.changes();
   std::printf("  %s:", scene.name.c_str());
-  for (double d : r.changes()) std::printf(" %.1e", d);
-  const std::vector<double> p = exponents(r);
-  std::printf("  exponents:");
-  for (double x : p) std::printf(" %.2f", x);
+  for (double x : d) std::printf(" %.1e", x);
   std::printf("\n");
-  ASSERT_FALSE(p.empty()) << scene.name;
-  EXPECT_GT(p.back(), 1.8) << scene.name;
+  int small = 0;
+  for (std::size_t k = 0; k + 1 < d.size(); ++k) {
+    if (d[k] > 1e-2 || d[k] < 10 * round_off) continue;
+    small += d[k] < 1e-4 ? 1 : 0;
+    EXPECT_LE(d[k + 1], std::max(C * d[k] * d[k], round_off)) << scene.name << ", iteration " << k + 1;
+  }
+  EXPECT_GE(small, 1) << scene.name;
+  EXPECT_LE(r.iterations, 10) << scene.name;
 }
 
 TEST(VerifyStatics, newton_converges_quadratically) {
-  for (const char* name : {"elastica", "bend_45", "princeton_beam"}) expect_quadratic(gallery(name), 0.2, 0.3);
-  expect_quadratic(gallery("helix"), 0.1, 0.2);
+  for (const char* name : {"bend_45", "princeton_beam"}) expect_quadratic(gallery(name), 0.2, 0.3);
+  for (const char* name : {"helix", "roll_up"}) expect_quadratic(gallery(name), 0.2, 0.25);
+  expect_quadratic(gallery("elastica", {"/sections/0/stiffness/EA=1e4", "/sections/0/stiffness/GA2=1e4", "/sections/0/stiffness/GA3=1e4"}), 0.05, 0.1);
   // A follower force makes the tangent unsymmetric; a line load and a bushing add their own parts.
   scene::Scene s = make_cantilever(make_section("s", 1e6, 1e6, 1e6, 10, 10, 10), 1.0, 8, 2);
   s.name = "follower";
