@@ -137,6 +137,9 @@ SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, d
   s.solve_scaled(walker, s.rhs.data());
   for (std::size_t i = 0; i < n; ++i) x[i] = s.scales.column[i] * s.x_scaled[i];
   s.eval_inconsistency(s.rhs.data(), report);
+  // Dependent rows that disagree have no solution: what was solved, and is checked, is the nearest right-hand side that has one.
+  if (s.null_space.dimension > 0)
+    for (std::size_t i = 0; i < n; ++i) s.rhs[i] -= s.correction[i] / s.scales.row[i];
   s.eval_growth(s.rhs.data(), report);
   if (s.options.check == SolveCheck::none) return report;
   ElementStore::Errors errors = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());

@@ -241,7 +241,6 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
   contraction_ = 1.0;
   ++counts_.factorizations;
   const solve::FactorStatus status = solver_->factor(walker_);
-  counts_.deficiency = std::max(counts_.deficiency, status.deficiency);
   if (status.ok()) {
     factored_ = slopes;
     is_factored_ = true;

@@ -71,6 +71,15 @@ class Run {
     return false;
   }
 
+  /// Keeps the largest deficiency of an accepted step, with the reactions that were not unique then.
+  void watch_dependent_rows() {
+    const int deficiency = system_.solver().last_status().deficiency;
+    if (deficiency <= dependent_rows_) return;
+    dependent_rows_ = deficiency;
+    not_unique_.clear();
+    for (int b : system_.solver().blocks_not_unique()) not_unique_ += (not_unique_.empty() ? "" : ", ") + system_.block_name(b);
+  }
+
   void note(const std::string& text) {
     if (std::find(summary_.notes.begin(), summary_.notes.end(), text) == summary_.notes.end())
       summary_.notes.push_back(text);
@@ -80,6 +89,9 @@ class Run {
     (accepted ? summary_.steps.accepted : summary_.steps.rejected) += 1;
     summary_.steps.newton_iterations += report.iterations;
     if (accepted && report.at_floor) summary_.checks.round_off_floor_reached = true;
+    if (accepted) watch_dependent_rows();
+    if (!accepted && first_rejection_.empty())
+      first_rejection_ = "the first rejected step was that from " + std::to_string(before_.time) + ": " + report.cause;
   }
 
   /// Records the state (as its time's left limit, or right limit at a start).
@@ -160,6 +172,8 @@ class Run {
   std::vector<double> values_;
   std::vector<std::size_t> expected_columns_;
   std::vector<double> expected_values_, expected_distance_;
+  std::string first_rejection_, not_unique_;
+  int dependent_rows_ = 0;
   long rows_ = 0;
   double last_step_ = 0.0;
 };
@@ -306,12 +320,10 @@ void Run::finish() {
   summary_.checks.energy_scale = balance_.energy_scale();
   summary_.checks.numerical_dissipation = std::max(0.0, -balance_.last_energy_error());
   summary_.checks.momentum_balance = balance_.momentum_error();
-  if (work.deficiency > 0) {
-    std::string text = std::to_string(work.deficiency) +
-                       " constraint row(s) depend on others; the motion is unique, these reactions are not:";
-    for (int b : system_.solver().blocks_not_unique()) text += " " + system_.block_name(b);
-    note(text);
-  }
+  if (dependent_rows_ > 0)
+    note(std::to_string(dependent_rows_) +
+         " constraint row(s) depend on others: the motion is unique, the reactions of these are not: " + not_unique_);
+  if (!first_rejection_.empty() && summary_.status != RunStatus::failed) note(first_rejection_);
   if (summary_.checks.round_off_floor_reached)
     note("some steps were accepted at the round-off floor of the residual, above the tolerance asked for");
   for (std::size_t i = 0; i < scene_.expected.size(); ++i) {
@@ -340,7 +352,7 @@ void Run::finish() {
                      {"factor_bytes", static_cast<double>(counters.memory_bytes)},
                      {"flops_per_factorization", counters.factor_flops},
                      {"delayed_pivots", static_cast<double>(counters.delayed_pivots)},
-                     {"dependent_rows", static_cast<double>(work.deficiency)}};
+                     {"dependent_rows", static_cast<double>(dependent_rows_)}};
   if (const solve::Hierarchical* hierarchical = system_.solver().hierarchical();
       hierarchical != nullptr && work.factorizations > 0) {
     int widest = 0;

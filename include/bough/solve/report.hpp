@@ -30,6 +30,7 @@ struct FactorStatus {
 
 /// Outcome of solve(). Scaled variables: unit-free.
 struct SolveReport {
+  /// Of the part of b that can be met (see inconsistency).
   double backward_error = std::numeric_limits<double>::quiet_NaN();               ///< |r| / (|A| |x| + |b|), maximum norms, scaled.
   double componentwise_backward_error = std::numeric_limits<double>::quiet_NaN(); ///< max_i |r|_i / (|A||x| + |b|)_i [Oettli, Prager 1964].
   int refinement_steps = 0;

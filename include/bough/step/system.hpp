@@ -18,7 +18,6 @@ struct WorkCounts {
   double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0;
   long factorizations = 0, solutions = 0, evaluations = 0;
   double backward_error_max = 0.0;
-  int deficiency = 0;  ///< largest number of dependent constraint rows seen
 };
 
 /// Largest entries of a residual or constraint violation, forces and moments, lengths and angles apart.
