@@ -45,10 +45,11 @@ std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s
       k += size;
     }
   }
+  constexpr double round_off = 1e-12;  // joints alone leave noise there, not always zero
   int row = 0;
   for (int b : boundary)
     for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u, ++row)
-      if (stiffness[at(row)] == 0.0 && !is_constraint[at(u)]) stiffness[at(row)] = 1.0;
+      if (stiffness[at(row)] < round_off && !is_constraint[at(u)]) stiffness[at(row)] = 1.0;
   return stiffness;
 }
 
