@@ -69,6 +69,7 @@ inline void rest_of_column(int m, int k, const double* a, std::ptrdiff_t lda, co
 }  // namespace
 
 void subtract_product(int m, int n, int k, const double* a, int lda, const double* b, int ldb, double* c, int ldc) {
+  if (k == 0) return;  // an empty factor has no memory
   constexpr int tile_rows = 2 * width;
   const int m_tiled = m - m % tile_rows;
   const std::ptrdiff_t la = lda, lb = ldb, lc = ldc;

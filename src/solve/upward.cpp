@@ -64,7 +64,7 @@ void Hierarchical::State::assemble_front(tree::FrontId f) {
   const tree::Front& shape = front(f);
   FrontData& d = data(f);
   if (d.failed) return;
-  std::memset(d.a, 0, sizeof(double) * at(d.size) * at(d.size));
+  if (d.size > 0) std::memset(d.a, 0, sizeof(double) * at(d.size) * at(d.size));
   const int* own = own_unknowns.data() + index_begin[at(f)] / 3;
   for (int i = 0; i < d.full; ++i) {
     d.row_from[i] = i;
