@@ -40,7 +40,8 @@ std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s
       if (it != row_of.end() && it->first == b)
         for (int i = 0; i < size; ++i) {
           const std::size_t u = at(tree.unknown_begin[at(b)] + i);
-          if (!is_constraint[u]) stiffness[at(it->second + i)] += std::abs(a[(k + i) * n + k + i]) * scales.row[u] * scales.column[u];
+          if (!is_constraint[u])
+            stiffness[at(it->second + i)] += std::abs(a[(k + i) * n + k + i]) * scales.row[u] * scales.column[u];
         }
       k += size;
     }
@@ -100,7 +101,8 @@ std::vector<InterfaceReport> Hierarchical::interfaces() const {
     InterfaceReport report{.subdomain = s, .level = sub.level, .num_unknowns = n, .num_delayed = d.num_delayed()};
     if (n > 0 && !d.failed && state.counters.factorizations > 0) {
       std::vector<double> stiffness = state.interface_stiffness(s);
-      Matrix stiffened = ConstMap(d.a + d.full + static_cast<std::ptrdiff_t>(d.full) * d.size, n, n, Eigen::OuterStride<>(d.size));
+      Matrix stiffened =
+          ConstMap(d.a + d.full + static_cast<std::ptrdiff_t>(d.full) * d.size, n, n, Eigen::OuterStride<>(d.size));
       std::vector<int> motion;
       for (int i = 0; i < n; ++i) {
         const double penalty = state.options.penalty_factor * stiffness[at(i)];
@@ -115,10 +117,14 @@ std::vector<InterfaceReport> Hierarchical::interfaces() const {
       for (std::size_t i = 0; i < motion.size(); ++i)
         for (std::size_t j = 0; j < motion.size(); ++j)
           scaled(static_cast<int>(i), static_cast<int>(j)) =
-              F(motion[i], motion[j]) * state.options.penalty_factor * std::sqrt(stiffness[at(motion[i])] * stiffness[at(motion[j])]);
+              F(motion[i], motion[j]) * state.options.penalty_factor *
+              std::sqrt(stiffness[at(motion[i])] * stiffness[at(motion[j])]);
       if (!motion.empty() && scaled.allFinite()) {
         const Eigen::VectorXd values = Eigen::JacobiSVD<Matrix>(scaled).singularValues();
-        report.condition = values(values.size() - 1) > 0.0 ? values(0) / values(values.size() - 1) : std::numeric_limits<double>::infinity();
+        Eigen::Index last =
+            values.size() - 1;  // directions that joints hold at the interface itself have no flexibility
+        while (last > 0 && values(last) <= 1e-13 * values(0)) --last;
+        report.condition = values(0) / values(last);
       }
     }
     reports.push_back(report);
@@ -135,10 +141,13 @@ std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s) const {
   for (int i = d.pivots; i < d.full; ++i) x(i - d.pivots) = state.x_scaled[at(d.columns[i])];
   std::vector<std::size_t> unknowns;
   for (int b : state.tree.boundary_blocks(top))
-    for (std::int64_t u = state.tree.unknown_begin[at(b)]; u < state.tree.unknown_begin[at(b) + 1]; ++u) unknowns.push_back(at(u));
+    for (std::int64_t u = state.tree.unknown_begin[at(b)]; u < state.tree.unknown_begin[at(b) + 1]; ++u)
+      unknowns.push_back(at(u));
   for (int i = 0; i < n; ++i) x(d.full - d.pivots + i) = state.x_scaled[unknowns[at(i)]];
-  const ConstMap S(d.a + d.full + static_cast<std::ptrdiff_t>(d.pivots) * d.size, n, d.size - d.pivots, Eigen::OuterStride<>(d.size));
-  const Eigen::VectorXd l = (Eigen::Map<const Eigen::VectorXd>(d.vector + d.full, n) - S * x) / state.options.multiplier_scale;
+  const ConstMap S(d.a + d.full + static_cast<std::ptrdiff_t>(d.pivots) * d.size, n, d.size - d.pivots,
+                   Eigen::OuterStride<>(d.size));
+  const Eigen::VectorXd l =
+      (Eigen::Map<const Eigen::VectorXd>(d.vector + d.full, n) - S * x) / state.options.multiplier_scale;
   std::vector<double> multipliers(at(n));
   for (int i = 0; i < n; ++i) multipliers[at(i)] = l(i) / state.scales.row[unknowns[at(i)]];
   return multipliers;
