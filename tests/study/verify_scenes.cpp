@@ -52,7 +52,8 @@ std::string Outcome::text() const {
 std::string problems_of(const scene::Scene& scene) {
   std::string refused;
   for (const scene::SceneProblem& p : scene::problems_in(scene))
-    if (!p.is_warning) refused += " " + p.section + " " + std::to_string(p.index) + " " + p.key + " '" + p.value + "': " + p.rule;
+    if (!p.is_warning)
+      refused += " " + p.section + " " + std::to_string(p.index) + " " + p.key + " '" + p.value + "': " + p.rule;
   return refused;
 }
 
@@ -79,13 +80,15 @@ scene::Scene gallery(const std::string& name, const std::vector<std::string>& ov
 
 std::vector<std::string> gallery_names() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(BOUGH_SOURCE_DIR) / "data" / "scenarios"))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(BOUGH_SOURCE_DIR) / "data" / "scenarios"))
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 
-scene::Section make_section(const std::string& name, double EA, double GA2, double GA3, double GJ, double EI2, double EI3) {
+scene::Section make_section(const std::string& name, double EA, double GA2, double GA3, double GJ, double EI2,
+                            double EI3) {
   scene::Section s;
   s.name = name;
   s.stiffness = s.mass = s.damping = scene::Mat6::zero();
@@ -106,8 +109,8 @@ scene::Node make_node(const std::string& name, const Vec3<double>& position) {
   return n;
 }
 
-scene::Beam make_beam(const std::string& name, const std::string& section, const std::string& start, const std::string& end, int elements,
-                      int order) {
+scene::Beam make_beam(const std::string& name, const std::string& section, const std::string& start,
+                      const std::string& end, int elements, int order) {
   scene::Beam b;
   b.name = name;
   b.section = section;
@@ -127,7 +130,8 @@ scene::Joint make_weld(const std::string& name, const std::string& node) {
   return j;
 }
 
-scene::PointLoad make_load(const std::string& node, const Vec3<double>& force, const Vec3<double>& moment, scene::LoadAxes axes) {
+scene::PointLoad make_load(const std::string& node, const Vec3<double>& force, const Vec3<double>& moment,
+                           scene::LoadAxes axes) {
   scene::PointLoad l;
   l.name = "load at " + node;
   l.at.to = node;
@@ -169,14 +173,16 @@ scene::Scene make_cantilever(const scene::Section& section, double length, int e
   s.nodes = {make_node("root", Vec3<double>::zero()), make_node("tip", length * Vec3<double>::unit(0))};
   s.beams = {make_beam("beam", section.name, "root", "tip", elements, order)};
   s.joints = {make_weld("clamp", "root")};
-  s.sensors = {make_point_sensor("tip", scene::SensorKind::position, "tip"), make_point_sensor("turn", scene::SensorKind::rotation, "tip"),
-               make_joint_sensor("clamp", "clamp")};
+  s.sensors = {make_point_sensor("tip", scene::SensorKind::position, "tip"),
+               make_point_sensor("turn", scene::SensorKind::rotation, "tip"), make_joint_sensor("clamp", "clamp")};
   s.analysis.kind = scene::AnalysisKind::statics;
   return s;
 }
 
 Direct::Direct(const scene::Scene& scene)
-    : plan(plan::make_plan(scene)), system(plan, scene.solver, schedule::make_serial_walker()), state(step::make_initial_state(plan)),
+    : plan(plan::make_plan(scene)),
+      system(plan, scene.solver, schedule::make_serial_walker()),
+      state(step::make_initial_state(plan)),
       options(step::make_step_options(scene.analysis)) {
   const std::string refused = problems_of(scene);
   if (!refused.empty()) throw std::invalid_argument("refused:" + refused);

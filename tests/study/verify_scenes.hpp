@@ -39,18 +39,21 @@ scene::Scene gallery(const std::string& name, const std::vector<std::string>& ov
 std::vector<std::string> gallery_names();
 
 /// Diagonal section; mass per length and rotary inertia about the three axes when given.
-scene::Section make_section(const std::string& name, double EA, double GA2, double GA3, double GJ, double EI2, double EI3);
+scene::Section make_section(const std::string& name, double EA, double GA2, double GA3, double GJ, double EI2,
+                            double EI3);
 void set_mass(scene::Section& section, double mass, double rotary_1, double rotary_2, double rotary_3);
 
 scene::Node make_node(const std::string& name, const Vec3<double>& position);
-scene::Beam make_beam(const std::string& name, const std::string& section, const std::string& start, const std::string& end, int elements,
-                      int order);
+scene::Beam make_beam(const std::string& name, const std::string& section, const std::string& start,
+                      const std::string& end, int elements, int order);
 scene::Joint make_weld(const std::string& name, const std::string& node);
-scene::PointLoad make_load(const std::string& node, const Vec3<double>& force, const Vec3<double>& moment = Vec3<double>::zero(),
+scene::PointLoad make_load(const std::string& node, const Vec3<double>& force,
+                           const Vec3<double>& moment = Vec3<double>::zero(),
                            scene::LoadAxes axes = scene::LoadAxes::space);
 scene::Sensor make_point_sensor(const std::string& name, scene::SensorKind kind, const std::string& node);
 scene::Sensor make_section_sensor(const std::string& name, const std::string& beam, double station);
-scene::Sensor make_joint_sensor(const std::string& name, const std::string& joint, scene::SensorKind kind = scene::SensorKind::joint_reaction);
+scene::Sensor make_joint_sensor(const std::string& name, const std::string& joint,
+                                scene::SensorKind kind = scene::SensorKind::joint_reaction);
 
 /// Straight static cantilever from the origin along x, axis 2 along y: nodes "root" and "tip", beam "beam", joint "clamp", sensors "tip" (position),
 /// "turn" (rotation), "clamp" (reaction).

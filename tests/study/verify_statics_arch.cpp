@@ -19,7 +19,8 @@ scene::Scene arch(double depth, int elements_a_half, int order) {
   scene::Scene s;
   s.name = "arch";
   s.sections = {make_section("s", 1e8, 1e8, 1e8, 1e6, 1e6, 1e6)};
-  const Vec3<double> left{{-R * std::sin(half), R * std::cos(half), 0.0}}, right{{R * std::sin(half), R * std::cos(half), 0.0}};
+  const Vec3<double> left{{-R * std::sin(half), R * std::cos(half), 0.0}},
+      right{{R * std::sin(half), R * std::cos(half), 0.0}};
   s.nodes = {make_node("left", left), make_node("crown", {{0, R, 0}}), make_node("right", right)};
   s.beams = {make_beam("left half", "s", "left", "crown", elements_a_half, order),
              make_beam("right half", "s", "crown", "right", elements_a_half, order)};
@@ -84,7 +85,7 @@ struct Limit {
 /// Goes down the path, then finds the largest load by golden sections (equilibria depend on the depth alone here).
 Limit find_limit(int elements, int order) {
   Path path(130.0, elements, order);
-    const double sign = path.load_at(112.0) < 0.0 ? -1.0 : 1.0;
+  const double sign = path.load_at(112.0) < 0.0 ? -1.0 : 1.0;
   double a = 112.0, b = 115.5;
   const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
   double c = b - ratio * (b - a), d = a + ratio * (b - a), fc = sign * path.load_at(c), fd = sign * path.load_at(d);

@@ -21,7 +21,9 @@ double distance(const Vec3<double>& a, const Vec3<double>& b) {
   return std::sqrt(lanes::dot(d, d));
 }
 
-Vec3<double> final_point(const Outcome& o, const std::string& name) { return {{o.final(name + ".x"), o.final(name + ".y"), o.final(name + ".z")}}; }
+Vec3<double> final_point(const Outcome& o, const std::string& name) {
+  return {{o.final(name + ".x"), o.final(name + ".y"), o.final(name + ".z")}};
+}
 
 /// Runs a scene of `elements` elements of an order and gives a point.
 using Model = std::function<Vec3<double>(int elements, int order)>;
@@ -47,8 +49,8 @@ void expect_converges(const Model& model, std::array<int, 3> meshes, const Vec3<
   for (int order = 1; order <= 3; ++order) {
     const Convergence r = study(model, meshes[static_cast<std::size_t>(order - 1)], order, exact);
     ::testing::Test::RecordProperty("order_" + std::to_string(order), std::to_string(r.order));
-    std::printf("  order %d: observed %.3f, finest %.2e, extrapolated %.2e of the largest value\n", order, r.order, r.finest / scale,
-                r.extrapolated / scale);
+    std::printf("  order %d: observed %.3f, finest %.2e, extrapolated %.2e of the largest value\n", order, r.order,
+                r.finest / scale, r.extrapolated / scale);
     EXPECT_NEAR(r.order, 2.0 * order, 0.2) << "elements of order " << order;
     EXPECT_LT(std::min(r.finest, r.extrapolated), 1e-6 * scale) << "elements of order " << order;
   }
@@ -64,7 +66,8 @@ TEST(VerifyStatics, roll_up_is_exact_for_any_mesh) {
       const Outcome o = run(s);
       ASSERT_TRUE(o.ok()) << o.text();
       const double a = 2.0 * pi * f;
-      EXPECT_LT(distance(final_point(o, "tip"), {{L * std::sin(a) / a, L * (1.0 - std::cos(a)) / a, 0.0}}), 1e-9 * L) << f << " " << order;
+      EXPECT_LT(distance(final_point(o, "tip"), {{L * std::sin(a) / a, L * (1.0 - std::cos(a)) / a, 0.0}}), 1e-9 * L)
+          << f << " " << order;
     }
 }
 
@@ -76,7 +79,9 @@ TEST(VerifyStatics, constant_moment_winds_a_helix_whether_fixed_in_space_or_to_t
       s.analysis.load_steps = 10;
       const Outcome o = run(s);
       ASSERT_TRUE(o.ok()) << o.text();
-      EXPECT_LT(distance(final_point(o, "tip"), {{2.3725769284311828, 1.146140503258838, 5.7205673036766129}}), 1e-9 * 10) << order;
+      EXPECT_LT(distance(final_point(o, "tip"), {{2.3725769284311828, 1.146140503258838, 5.7205673036766129}}),
+                1e-9 * 10)
+          << order;
     }
 }
 
@@ -95,14 +100,16 @@ TEST(VerifyStatics, elastica_at_loads_1_5_10) {
   struct Row {
     double load, v, u;
   };
-  for (const Row r : {Row{1, .30172077379981353, .0564332362833768831}, Row{5, .713791523611912728, .387628360724429872},
-                      Row{10, .810609024880296453, .55499559775375127}}) {
+  for (const Row r :
+       {Row{1, .30172077379981353, .0564332362833768831}, Row{5, .713791523611912728, .387628360724429872},
+        Row{10, .810609024880296453, .55499559775375127}}) {
     const Vec3<double> exact{{1.0 - r.u, r.v, 0.0}};
     const Vec3<double> soft = elastica(r.load, 1e5, 16, 3), stiff = elastica(r.load, 1e6, 16, 3);
     const Vec3<double> limit = stiff + (1.0 / 9.0) * (stiff - soft);
     EXPECT_NEAR(distance(soft, exact) / distance(stiff, exact), 10.0, 0.2) << r.load;
     EXPECT_LT(distance(limit, exact), 1e-8) << r.load;
-    std::printf("  load %g: EA L^2/EI = 1e6 %.2e, limit %.2e\n", r.load, distance(stiff, exact), distance(limit, exact));
+    std::printf("  load %g: EA L^2/EI = 1e6 %.2e, limit %.2e\n", r.load, distance(stiff, exact),
+                distance(limit, exact));
   }
 }
 
@@ -113,9 +120,11 @@ TEST(VerifyStatics, elastica_converges_with_orders_2_4_6) {
 }
 
 Vec3<double> shear_cantilever(int elements, int order, double* slope = nullptr) {
-  const double h = 0.5, w = 0.1, E = 2.07e11, nu = 0.3, k = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu), G = E / (2.0 * (1.0 + nu));
+  const double h = 0.5, w = 0.1, E = 2.07e11, nu = 0.3, k = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu),
+               G = E / (2.0 * (1.0 + nu));
   const double A = h * w, I = w * h * h * h / 12.0;
-  scene::Scene s = make_cantilever(make_section("s", E * A, k * G * A, k * G * A, G * I, E * I, E * I), 2.0, elements, order);
+  scene::Scene s =
+      make_cantilever(make_section("s", E * A, k * G * A, k * G * A, G * I, E * I, E * I), 2.0, elements, order);
   s.point_loads = {make_load("tip", {{0, 5e8 * h * h * h, 0}})};
   s.analysis.load_steps = 4;
   s.analysis.tolerance = 1e-11;
@@ -135,8 +144,9 @@ TEST(VerifyStatics, shear_deformable_cantilever) {
 }
 
 Vec3<double> bend(double load, int elements, int order) {
-  scene::Scene s = gallery("bend_45", {"/beams/0/elements=" + std::to_string(elements), "/beams/0/order=" + std::to_string(order),
-                                       "/loads/0/force=[0,0," + std::to_string(load) + "]", "/analysis/tolerance=1e-11"});
+  scene::Scene s =
+      gallery("bend_45", {"/beams/0/elements=" + std::to_string(elements), "/beams/0/order=" + std::to_string(order),
+                          "/loads/0/force=[0,0," + std::to_string(load) + "]", "/analysis/tolerance=1e-11"});
   s.expected.clear();
   const Outcome o = run(s);
   EXPECT_TRUE(o.ok()) << o.text();
@@ -145,7 +155,8 @@ Vec3<double> bend(double load, int elements, int order) {
 
 TEST(VerifyStatics, bend_of_45_degrees_under_300_and_600) {
   const Vec3<double> start{{100.0 * std::sin(pi / 4), 100.0 * (1.0 - std::cos(pi / 4)), 0.0}};
-  const Vec3<double> u300{{-11.931780788680, -7.044642454669, 40.192392332295}}, u600{{-23.560581878313, -13.604632402366, 53.475477998225}};
+  const Vec3<double> u300{{-11.931780788680, -7.044642454669, 40.192392332295}},
+      u600{{-23.560581878313, -13.604632402366, 53.475477998225}};
   expect_converges([](int n, int order) { return bend(300.0, n, order); }, {16, 4, 4}, start + u300, 40.0);
   expect_converges([](int n, int order) { return bend(600.0, n, order); }, {16, 4, 4}, start + u600, 53.0);
 }
@@ -206,8 +217,8 @@ TEST(VerifyStatics, princeton_beam_every_five_degrees_at_both_loads) {
       largest[3] = std::max(largest[3], std::abs(r.moment[i]));
     }
   }
-  std::printf("  displacement %.2e, twist %.2e, rotation %.2e, root moment %.2e of the largest value\n", worst[0] / largest[0],
-              worst[1] / largest[1], worst[2] / largest[2], worst[3] / largest[3]);
+  std::printf("  displacement %.2e, twist %.2e, rotation %.2e, root moment %.2e of the largest value\n",
+              worst[0] / largest[0], worst[1] / largest[1], worst[2] / largest[2], worst[3] / largest[3]);
   for (int q = 0; q < 4; ++q) EXPECT_LT(worst[q], 1e-6 * largest[q]) << q;
 }
 

@@ -36,7 +36,8 @@ scene::Scene soft_cantilever(int elements = 8, int order = 3) {
 ///   N = F1, Q = (F2, F3), T = M1 and M2 = M2tip - (L - x) F3, M3 = M3tip + (L - x) F2, with q on the rest of the length.
 TEST(VerifyStatics, section_forces_at_the_nodes_under_tip_and_line_loads) {
   const double L = 2.0, tiny = 1e-6;
-  const Vec3<double> F = tiny * Vec3<double>{{3, 2, -5}}, M = tiny * Vec3<double>{{0.7, 0.3, -0.4}}, q = tiny * Vec3<double>{{1, -4, 6}};
+  const Vec3<double> F = tiny * Vec3<double>{{3, 2, -5}}, M = tiny * Vec3<double>{{0.7, 0.3, -0.4}},
+                     q = tiny * Vec3<double>{{1, -4, 6}};
   for (int order = 1; order <= 3; ++order) {
     // Axially as soft as in bending: the round-off of positions times EA stays below the small forces.
     scene::Scene s = make_cantilever(make_section("s", 400, 200, 300, 50, 80, 120), L, 4, order);
@@ -47,7 +48,8 @@ TEST(VerifyStatics, section_forces_at_the_nodes_under_tip_and_line_loads) {
     line.beam = "beam";
     line.force = q;
     s.line_loads = {line};
-    for (const int k : {0, 1, 2, 3, 4}) s.sensors.push_back(make_section_sensor("at " + std::to_string(k), "beam", 0.25 * k));
+    for (const int k : {0, 1, 2, 3, 4})
+      s.sensors.push_back(make_section_sensor("at " + std::to_string(k), "beam", 0.25 * k));
     const Outcome o = run(s);
     ASSERT_TRUE(o.ok()) << o.text();
     for (const int k : {0, 1, 2, 3, 4}) {
@@ -77,7 +79,8 @@ TEST(VerifyStatics, uniform_line_load_bends_a_cantilever_by_the_closed_form) {
       const Outcome o = run(s);
       ASSERT_TRUE(o.ok()) << o.text();
       const Vec3<double> tip = point(o, "tip"), slope = turn(o, "turn");
-      const double w2 = q * std::pow(L, 4) / (8 * 120) + q * L * L / (2 * 2e5), w3 = -2 * q * std::pow(L, 4) / (8 * 80) - 2 * q * L * L / (2 * 3e5);
+      const double w2 = q * std::pow(L, 4) / (8 * 120) + q * L * L / (2 * 2e5),
+                   w3 = -2 * q * std::pow(L, 4) / (8 * 80) - 2 * q * L * L / (2 * 3e5);
       EXPECT_NEAR(tip[1] / w2, 1.0, 1e-8) << order;
       EXPECT_NEAR(tip[2] / w3, 1.0, 1e-8) << order;
       EXPECT_NEAR(slope[2] / (q * L * L * L / (6 * 120)), 1.0, 1e-8) << order;
@@ -129,7 +132,8 @@ TEST(VerifyStatics, follower_loads_are_dead_loads_turned_with_the_tip) {
   s.point_loads = {make_load("tip", F, M, space)};
   const Outcome other = run(s);
   ASSERT_TRUE(other.ok()) << other.text();
-  EXPECT_GT(std::abs(point(other, "tip")[1] - point(follower, "tip")[1]), 0.01) << "the two kinds differ where the tip turns";
+  EXPECT_GT(std::abs(point(other, "tip")[1] - point(follower, "tip")[1]), 0.01)
+      << "the two kinds differ where the tip turns";
 }
 
 TEST(VerifyStatics, a_load_beside_a_node_is_the_load_and_its_moment) {
@@ -201,8 +205,9 @@ TEST(VerifyStatics, a_beam_on_a_hinge_and_a_slider) {
   line.beam = "beam";
   line.force = {{0, -q, 0}};
   s.line_loads = {line};
-  s.sensors = {make_joint_sensor("hinge", "hinge"), make_section_sensor("middle", "beam", 0.5), make_section_sensor("left", "beam", 0.0),
-               make_section_sensor("right", "beam", 1.0), make_joint_sensor("angle", "hinge", scene::SensorKind::joint_angle)};
+  s.sensors = {make_joint_sensor("hinge", "hinge"), make_section_sensor("middle", "beam", 0.5),
+               make_section_sensor("left", "beam", 0.0), make_section_sensor("right", "beam", 1.0),
+               make_joint_sensor("angle", "hinge", scene::SensorKind::joint_angle)};
   scene::Sensor sag = make_point_sensor("sag", scene::SensorKind::position, "");
   sag.beam = "beam";
   sag.station = 0.5;
@@ -233,7 +238,8 @@ TEST(VerifyStatics, bushings_answer_with_their_stiffness) {
   for (int i = 0; i < 6; ++i) k.stiffness(i, i) = diagonal[i];
   s.bushings = {k};
   s.analysis.kind = scene::AnalysisKind::statics;
-  s.sensors = {make_point_sensor("at", scene::SensorKind::position, "block"), make_point_sensor("turn", scene::SensorKind::rotation, "block")};
+  s.sensors = {make_point_sensor("at", scene::SensorKind::position, "block"),
+               make_point_sensor("turn", scene::SensorKind::rotation, "block")};
   for (int i = 0; i < 3; ++i) {
     s.point_loads = {make_load("block", 50.0 * Vec3<double>::unit(i))};
     Outcome o = run(s);
@@ -304,11 +310,13 @@ TEST(VerifyStatics, a_joint_spring_holds_an_arm) {
   s.gravity = {{0, -9.81, 0}};
   s.analysis.kind = scene::AnalysisKind::statics;
   s.analysis.load_steps = 3;
-  s.sensors = {make_joint_sensor("angle", "hinge", scene::SensorKind::joint_angle), make_joint_sensor("hinge", "hinge")};
+  s.sensors = {make_joint_sensor("angle", "hinge", scene::SensorKind::joint_angle),
+               make_joint_sensor("hinge", "hinge")};
   const Outcome o = run(s);
   ASSERT_TRUE(o.ok()) << o.text();
   double theta = 0.5;
-  for (int i = 0; i < 200; ++i) theta -= (12.0 * theta - 3.0 * 9.81 * 0.5 * std::cos(theta)) / (12.0 + 3.0 * 9.81 * 0.5 * std::sin(theta));
+  for (int i = 0; i < 200; ++i)
+    theta -= (12.0 * theta - 3.0 * 9.81 * 0.5 * std::cos(theta)) / (12.0 + 3.0 * 9.81 * 0.5 * std::sin(theta));
   EXPECT_NEAR(o.final("angle"), -theta, 1e-9);
   EXPECT_NEAR(o.final("hinge.fy"), 3.0 * 9.81, 1e-7);
 }
@@ -319,7 +327,8 @@ TEST(VerifyStatics, right_angle_frame_converges_with_orders_2_4_6) {
     scene::Scene s;
     s.sections = {make_section("s", 1e6, 1e6, 1e6, 1e3, 1e3, 1e3)};
     s.nodes = {make_node("root", {{0, 0, 0}}), make_node("corner", {{10, 0, 0}}), make_node("tip", {{10, 10, 0}})};
-    s.beams = {make_beam("first leg", "s", "root", "corner", elements, order), make_beam("second leg", "s", "corner", "tip", elements, order)};
+    s.beams = {make_beam("first leg", "s", "root", "corner", elements, order),
+               make_beam("second leg", "s", "corner", "tip", elements, order)};
     s.beams[1].axis_2 = {{-1, 0, 0}};
     s.joints = {make_weld("clamp", "root")};
     s.point_loads = {make_load("tip", {{3, -2, 12}})};
@@ -339,7 +348,8 @@ TEST(VerifyStatics, right_angle_frame_converges_with_orders_2_4_6) {
     const Vec3<double> a = tip(n, order), b = tip(2 * n, order), c = tip(4 * n, order);
     const double p = observed_order(size(a - b), size(b - c)), factor = std::pow(2.0, 2.0 * order);
     const double finest = size(c - exact), extrapolated = size(c + (1.0 / (factor - 1.0)) * (c - b) - exact);
-    std::printf("  order %d: observed %.3f, finest %.2e, extrapolated %.2e\n", order, p, finest / 10, extrapolated / 10);
+    std::printf("  order %d: observed %.3f, finest %.2e, extrapolated %.2e\n", order, p, finest / 10,
+                extrapolated / 10);
     EXPECT_NEAR(p, 2.0 * order, 0.2) << order;
     EXPECT_LT(std::min(finest, extrapolated), 1e-6 * 10) << order;
   }

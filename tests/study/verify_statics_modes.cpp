@@ -11,7 +11,8 @@ namespace {
 
 scene::Scene timoshenko(int elements, int order) {
   const double h = 0.1, E = 210e9, G = E / 2.6, rho = 7850.0, A = h * h, I = h * h * h * h / 12.0;
-  scene::Section section = make_section("s", E * A, 5.0 / 6.0 * G * A, 5.0 / 6.0 * G * A, 0.1406 * G * h * h * h * h, E * I, E * I);
+  scene::Section section =
+      make_section("s", E * A, 5.0 / 6.0 * G * A, 5.0 / 6.0 * G * A, 0.1406 * G * h * h * h * h, E * I, E * I);
   set_mass(section, rho * A, 2.0 * rho * I, rho * I, rho * I);
   scene::Scene s = make_cantilever(section, 1.0, elements, order);
   s.analysis.kind = scene::AnalysisKind::dynamics;
@@ -28,7 +29,8 @@ Eigen::MatrixXd assemble(Direct& run, const elements::Slopes& slopes) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
   for (int e = 0; e < g.num_elements(); ++e) {
     std::vector<int> place;
-    for (auto k = g.element_begin[static_cast<std::size_t>(e)]; k < g.element_begin[static_cast<std::size_t>(e) + 1]; ++k) {
+    for (auto k = g.element_begin[static_cast<std::size_t>(e)]; k < g.element_begin[static_cast<std::size_t>(e) + 1];
+         ++k) {
       const int b = g.element_blocks[static_cast<std::size_t>(k)];
       for (int i = 0; i < g.block_size[static_cast<std::size_t>(b)]; ++i) place.push_back(6 * b < n ? 6 * b + i : -1);
     }
@@ -50,7 +52,8 @@ std::pair<double, double> frequencies(int elements, int order) {
   const Eigen::MatrixXd M = assemble(run, {0.0, 0.0, true});
   EXPECT_LT((K - K.transpose()).norm(), 1e-12 * K.norm());
   EXPECT_LT((M - M.transpose()).norm(), 1e-12 * M.norm());
-  const Eigen::VectorXd w2 = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd w2 =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M, Eigen::EigenvaluesOnly).eigenvalues();
   EXPECT_NEAR(w2[0], w2[1], 1e-7 * w2[0]);
   return {std::sqrt(w2[0]), std::sqrt(w2[2])};
 }
@@ -65,10 +68,11 @@ TEST(VerifyStatics, timoshenko_frequencies_of_the_assembled_stiffness_and_mass) 
     for (int m = 0; m < 2; ++m) {
       const double p = observed_order(std::abs(pa[m] - pb[m]), std::abs(pb[m] - pc[m]));
       const double extrapolated = pc[m] + (pc[m] - pb[m]) / (std::pow(2.0, 2.0 * order) - 1.0);
-      std::printf("  order %d mode %d: %.8f, observed %.3f, finest %.2e, extrapolated %.2e\n", order, m + 1, pc[m], p, pc[m] / exact[m] - 1.0,
-                  extrapolated / exact[m] - 1.0);
+      std::printf("  order %d mode %d: %.8f, observed %.3f, finest %.2e, extrapolated %.2e\n", order, m + 1, pc[m], p,
+                  pc[m] / exact[m] - 1.0, extrapolated / exact[m] - 1.0);
       EXPECT_GT(p, 2.0 * order - 0.2) << order << " " << m;  // more where leading terms of stiffness and mass cancel
-      EXPECT_LT(std::min(std::abs(pc[m] - exact[m]), std::abs(extrapolated - exact[m])), 1e-6 * exact[1]) << order << " " << m;
+      EXPECT_LT(std::min(std::abs(pc[m] - exact[m]), std::abs(extrapolated - exact[m])), 1e-6 * exact[1])
+          << order << " " << m;
     }
   }
 }

@@ -39,7 +39,9 @@ void expect_quadratic(const scene::Scene& scene, double from, double to) {
 TEST(VerifyStatics, newton_converges_quadratically) {
   for (const char* name : {"bend_45", "princeton_beam"}) expect_quadratic(gallery(name), 0.2, 0.3);
   for (const char* name : {"helix", "roll_up"}) expect_quadratic(gallery(name), 0.2, 0.25);
-  expect_quadratic(gallery("elastica", {"/sections/0/stiffness/EA=1e4", "/sections/0/stiffness/GA2=1e4", "/sections/0/stiffness/GA3=1e4"}), 0.05, 0.1);
+  expect_quadratic(gallery("elastica", {"/sections/0/stiffness/EA=1e4", "/sections/0/stiffness/GA2=1e4",
+                                        "/sections/0/stiffness/GA3=1e4"}),
+                   0.05, 0.1);
   // A follower force makes the tangent unsymmetric; a line load and a bushing add their own parts.
   scene::Scene s = make_cantilever(make_section("s", 1e6, 1e6, 1e6, 10, 10, 10), 1.0, 8, 2);
   s.name = "follower";
