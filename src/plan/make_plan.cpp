@@ -329,6 +329,31 @@ void Builder::number_elements() {
   }
 }
 
+/// Diagonal of the box around all nodes and all places where elements take hold [m]; radius of gyration of the largest body where that is
+/// larger; 1 where nothing has a size.
+double Builder::size_of_structure() const {
+  Vec3<double> low = Vec3<double>::zero(), high = low;
+  bool is_first = true;
+  const auto add_point = [&](const Vec3<double>& x) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = is_first ? x[k] : std::min(low[k], x[k]);
+      high[k] = is_first ? x[k] : std::max(high[k], x[k]);
+    }
+    is_first = false;
+  };
+  for (const NodePlan& node : plan.nodes) add_point(node.pose.x);
+  for_each_array(plan.elements, [&](const auto& array) {
+    for (const auto& e : array)
+      for (const Port& p : e.ports) add_point(initial_pose(p).x);
+  });
+  const Vec3<double> size = high - low;
+  double most = std::sqrt(lanes::dot(size, size));
+  for (const scene::Body& b : scene.bodies)
+    if (b.mass > 0.0)
+      most = std::max(most, std::sqrt(0.5 * (b.inertia(0, 0) + b.inertia(1, 1) + b.inertia(2, 2)) / b.mass));
+  return most > 0.0 ? most : 1.0;
+}
+
 void Builder::make_graph() {
   blocks::BlockGraph& g = plan.graph;
   const int num_nodes = static_cast<int>(plan.nodes.size());
@@ -351,16 +376,7 @@ void Builder::make_graph() {
     });
     g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
   }
-  Vec3<double> low = Vec3<double>::zero(), high = low;
-  for (std::size_t i = 0; i < plan.nodes.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      const double x = plan.nodes[i].pose.x[k];
-      low[k] = i == 0 ? x : std::min(low[k], x);
-      high[k] = i == 0 ? x : std::max(high[k], x);
-    }
-  const Vec3<double> size = high - low;
-  const double diagonal = std::sqrt(lanes::dot(size, size));
-  plan.length_scale = diagonal > 0.0 ? diagonal : 1.0;
+  plan.length_scale = size_of_structure();
 }
 
 Plan make_plan(const scene::Scene& scene) {

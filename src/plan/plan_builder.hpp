@@ -57,6 +57,7 @@ struct Builder {
   void hold_point_masses();
   void add_initial_velocities();
   void number_elements();
+  double size_of_structure() const;
   void make_graph();
   void add_sensors();
 };

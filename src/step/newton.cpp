@@ -10,14 +10,32 @@ bool is_small(const ResidualSize& r, double tolerance, double length_scale, doub
          r.length <= tolerance * length_scale && r.angle <= tolerance;
 }
 
-std::string describe(const System& system, const ResidualSize& r, double tolerance) {
+namespace {
+
+/// Other joints whose constraints depend on each other now, with this one among them: " against 'b', 'c'", or nothing.
+std::string partners(System& system, int joint) {
+  std::string others;
+  bool takes_part = false;
+  int named = 0;
+  for (int b : system.solver().blocks_not_unique()) {
+    const int j = system.joint_of_block(b);
+    takes_part |= j == joint;
+    if (j < 0 || j == joint || named == 8) continue;
+    others += (named++ == 0 ? " against '" : ", '") + system.plan().joints[static_cast<std::size_t>(j)].name + "'";
+  }
+  return takes_part ? others : "";
+}
+
+}  // namespace
+
+std::string describe(System& system, const ResidualSize& r, double tolerance) {
   char text[200];
   const double length = system.plan().length_scale;
   if ((r.length > tolerance * length || r.angle > tolerance) && r.worst_joint >= 0) {
     const plan::JointPlan& j = system.plan().joints[static_cast<std::size_t>(r.worst_joint)];
     std::snprintf(text, sizeof text, "%s '%s' stays open by %.3g", j.what.c_str(), j.name.c_str(),
                   std::max(r.length, r.angle));
-    return text;
+    return text + partners(system, r.worst_joint);
   }
   const bool force = r.force > tolerance * r.force_scale;
   const int node = force ? r.worst_force_node : r.worst_moment_node;

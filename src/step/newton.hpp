@@ -19,7 +19,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
 bool is_small(const ResidualSize& r, double tolerance, double length_scale, double moment_arm);
 
 /// Names the part of the residual that is worst, for a message.
-std::string describe(const System& system, const ResidualSize& r, double tolerance);
+std::string describe(System& system, const ResidualSize& r, double tolerance);
 
 }  // namespace bough::step
 

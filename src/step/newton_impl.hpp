@@ -61,7 +61,8 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
         if (const auto t = system.evaluate(state, slopes, true)) return fail(*t);
     }
     if (fresh)
-      if (const auto t = system.factor(k == 0, slopes)) return fail(*t);
+      if (const auto t = system.factor(k == 0, slopes))
+        return fail(k == 0 ? *t : Trouble{"iteration " + std::to_string(k) + " came to a shape at which " + t->text});
     for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
     if (const auto t = system.solve(rhs.data(), x.data())) return fail(*t);
     previous = report.change;
