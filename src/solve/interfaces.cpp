@@ -112,7 +112,12 @@ std::vector<InterfaceReport> Hierarchical::interfaces() const {
         report.penalty_most = std::max(report.penalty_most, penalty);
         motion.push_back(i);
       }
-      const Matrix F = Eigen::FullPivLU<Matrix>(stiffened).inverse();
+      const Eigen::FullPivLU<Matrix> lu(stiffened);
+      if (!lu.isInvertible()) {  // rows that are empty here: what they hold is settled further up
+        reports.push_back(report);
+        continue;
+      }
+      const Matrix F = lu.inverse();
       Matrix scaled(motion.size(), motion.size());
       for (std::size_t i = 0; i < motion.size(); ++i)
         for (std::size_t j = 0; j < motion.size(); ++j)
@@ -124,7 +129,7 @@ std::vector<InterfaceReport> Hierarchical::interfaces() const {
         Eigen::Index last =
             values.size() - 1;  // directions that joints hold at the interface itself have no flexibility
         while (last > 0 && values(last) <= 1e-13 * values(0)) --last;
-        report.condition = values(0) / values(last);
+        if (values(last) > 0.0) report.condition = values(0) / values(last);
       }
     }
     reports.push_back(report);
