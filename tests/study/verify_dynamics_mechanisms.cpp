@@ -48,7 +48,8 @@ Convergence compare(const Quantity& q, const Table& coarse, const Table& fine, c
 /// Runs at h and h / 2; rows every `stride` steps of the coarse run (1: at every step of both).
 struct Pair {
   Table coarse, fine;
-  Pair(scene::Scene scene, double h, int stride) : coarse(at(scene, h, stride)), fine(at(scene, 0.5 * h, stride == 1 ? 1 : 2 * stride)) {}
+  Pair(scene::Scene scene, double h, int stride)
+      : coarse(at(scene, h, stride)), fine(at(scene, 0.5 * h, stride == 1 ? 1 : 2 * stride)) {}
 
  private:
   static Table at(scene::Scene& scene, double h, int stride) {
@@ -62,11 +63,12 @@ struct Pair {
   }
 };
 
-void expect_second_order(const std::string& name, const std::vector<Quantity>& quantities, const Pair& runs, const Table& reference,
-                         double until, double bar = 1e-6) {
+void expect_second_order(const std::string& name, const std::vector<Quantity>& quantities, const Pair& runs,
+                         const Table& reference, double until, double bar = 1e-6) {
   for (const Quantity& q : quantities) {
     const Convergence c = compare(q, runs.coarse, runs.fine, reference, until);
-    std::printf("| %s | %s | %.2f | %.1e | %.1e |\n", name.c_str(), q.name.c_str(), c.order(), c.fine / c.scale, c.extrapolated / c.scale);
+    std::printf("| %s | %s | %.2f | %.1e | %.1e |\n", name.c_str(), q.name.c_str(), c.order(), c.fine / c.scale,
+                c.extrapolated / c.scale);
     EXPECT_NEAR(c.order(), 2.0, 0.2) << name << ", " << q.name;
     EXPECT_LT(c.extrapolated, bar * c.scale) << name << ", " << q.name;
   }
@@ -80,22 +82,24 @@ TEST(VerifyMechanisms, pendulum_meets_the_closed_form_in_motion_and_reaction) {
   const std::size_t x = exact.column("x"), y = exact.column("y"), rate = exact.column("thetadot");
   // Force of the hinge on the bob: tension towards the hinge, T = m (theta'^2 L - g y / L) with L = 1.
   const auto tension = [rate, y](const std::vector<double>& row) { return row[rate] * row[rate] - 9.81 * row[y]; };
-  expect_second_order("pendulum",
-                      {{"x", pick(runs.fine, "bob.x"), pick(exact, "x")},
-                       {"y", pick(runs.fine, "bob.y"), pick(exact, "y")},
-                       {"angle", pick(runs.fine, "angle", -0.5 * pi), pick(exact, "theta_from_down")},
-                       {"rate", pick(runs.fine, "speed"), pick(exact, "thetadot")},
-                       {"reaction x", pick(runs.fine, "hinge force.fx"), [&](const auto& row) { return -tension(row) * row[x]; }},
-                       {"reaction y", pick(runs.fine, "hinge force.fy"), [&](const auto& row) { return -tension(row) * row[y]; }}},
-                      runs, exact, 10.0);
+  expect_second_order(
+      "pendulum",
+      {{"x", pick(runs.fine, "bob.x"), pick(exact, "x")},
+       {"y", pick(runs.fine, "bob.y"), pick(exact, "y")},
+       {"angle", pick(runs.fine, "angle", -0.5 * pi), pick(exact, "theta_from_down")},
+       {"rate", pick(runs.fine, "speed"), pick(exact, "thetadot")},
+       {"reaction x", pick(runs.fine, "hinge force.fx"), [&](const auto& row) { return -tension(row) * row[x]; }},
+       {"reaction y", pick(runs.fine, "hinge force.fy"), [&](const auto& row) { return -tension(row) * row[y]; }}},
+      runs, exact, 10.0);
 }
 
 TEST(VerifyMechanisms, four_bars_pass_flat_positions_on_their_branch) {
   const Table exact = support::reference("A02_fourbar_N2.csv");
   const Pair runs(support::gallery("four_bar_planar"), 2e-3, 50);
-  expect_second_order("four-bars, N = 2",
-                      {{"x", pick(runs.fine, "B0.x"), pick(exact, "B0x")}, {"y", pick(runs.fine, "B0.y"), pick(exact, "B0y")}}, runs, exact,
-                      10.0);
+  expect_second_order(
+      "four-bars, N = 2",
+      {{"x", pick(runs.fine, "B0.x"), pick(exact, "B0x")}, {"y", pick(runs.fine, "B0.y"), pick(exact, "B0y")}}, runs,
+      exact, 10.0);
   // B0 lies on y = 0 where the bars are flat: a singular instant at 0.714 s, then three a turn; all have been passed.
   int crossings = 0;
   const std::vector<double> height = runs.fine.of("B0.y");
@@ -128,7 +132,8 @@ TEST(VerifyMechanisms, bricard_moves_although_its_hinges_depend_on_each_other) {
 }
 
 /// R_ij of a quaternion (scalar first): the same for q and -q.
-std::function<double(const std::vector<double>&)> rotation_entry(const Table& t, const std::string& first, int i, int j) {
+std::function<double(const std::vector<double>&)> rotation_entry(const Table& t, const std::string& first, int i,
+                                                                 int j) {
   return [c = t.column(first), i, j](const std::vector<double>& row) {
     const double w = row[c], *v = row.data() + c + 1;
     const double cross[3][3] = {{0, -v[2], v[1]}, {v[2], 0, -v[0]}, {-v[1], v[0], 0}};
@@ -142,7 +147,8 @@ TEST(VerifyMechanisms, heavy_top_meets_euler_in_place_attitude_velocity_and_pivo
   const scene::Attachment center{"top", {scene::Mat3::identity(), {{0, 1, 0}}}};
   scene.sensors.push_back(support::point_sensor("velocity", scene::SensorKind::velocity, center));
   scene.sensors.push_back(support::point_sensor("spin", scene::SensorKind::velocity, center, scene::LoadAxes::body));
-  scene.sensors.push_back(support::point_sensor("attitude", scene::SensorKind::quaternion, {"top", scene::Frame::identity()}));
+  scene.sensors.push_back(
+      support::point_sensor("attitude", scene::SensorKind::quaternion, {"top", scene::Frame::identity()}));
   const Pair runs(scene, 5e-5, 2000);
   std::vector<Quantity> quantities;
   for (const char* axis : {"x", "y", "z"}) {
@@ -154,7 +160,8 @@ TEST(VerifyMechanisms, heavy_top_meets_euler_in_place_attitude_velocity_and_pivo
   quantities.push_back({"spin 1", pick(runs.fine, "spin.wx"), pick(exact, "Om1")});
   quantities.push_back({"spin 3", pick(runs.fine, "spin.wz"), pick(exact, "Om3")});
   for (int i = 0; i < 3; ++i)
-    quantities.push_back({"R" + std::to_string(i) + "2", rotation_entry(runs.fine, "attitude.q0", i, 2), rotation_entry(exact, "q0", i, 2)});
+    quantities.push_back({"R" + std::to_string(i) + "2", rotation_entry(runs.fine, "attitude.q0", i, 2),
+                          rotation_entry(exact, "q0", i, 2)});
   quantities.push_back({"R00", rotation_entry(runs.fine, "attitude.q0", 0, 0), rotation_entry(exact, "q0", 0, 0)});
   expect_second_order("heavy top", quantities, runs, exact, 2.0, 2e-6);
 }
@@ -196,11 +203,15 @@ TEST(VerifyMechanisms, periods_of_pendulum_and_tumbling_body_converge_to_the_clo
   scene::Scene pendulum = support::gallery("pendulum");
   pendulum.analysis.end_time = 5.0;
   const Pair swings(pendulum, 1e-3, 1);
-  const auto pendulum_period = [](const Table& t) { return falling_zero(t, "bob.x", 2.5) - falling_zero(t, "bob.x", 0.0); };
+  const auto pendulum_period = [](const Table& t) {
+    return falling_zero(t, "bob.x", 2.5) - falling_zero(t, "bob.x", 0.0);
+  };
   scene::Scene body = support::gallery("free_body");
   body.analysis.end_time = 60.0;
   const Pair turns(body, 2e-2, 1);
-  const auto body_period = [](const Table& t) { return falling_zero(t, "body.wy", 40.0) - falling_zero(t, "body.wy", 0.0); };
+  const auto body_period = [](const Table& t) {
+    return falling_zero(t, "body.wy", 40.0) - falling_zero(t, "body.wy", 0.0);
+  };
   const double a = pendulum_period(swings.coarse), b = pendulum_period(swings.fine);
   EXPECT_NEAR(support::order_of(a - 2.3678419475762374, b - 2.3678419475762374), 2.0, 0.2);
   EXPECT_NEAR(support::extrapolate(a, b), 2.3678419475762374, 1e-6 * 2.37);

@@ -26,6 +26,7 @@ class Memory final : public results::Recorder {
   void begin(const results::HistoryHeader& header) override { table_.columns = header.columns; }
   void row(const results::HistoryRow& row) override {
     table_.times.push_back(row.time);
+    table_.step_sizes.push_back(row.step_size);
     table_.rows.push_back(row.values);
   }
   void motion(const results::MotionFrame&) override {}
@@ -53,7 +54,8 @@ scene::Scene scene_of(const std::string& json, const std::vector<std::string>& o
   return checked(io::read_scene_text("{\"schema_version\": 1, " + json.substr(brace + 1), "test", overrides));
 }
 
-scene::Sensor point_sensor(const std::string& name, scene::SensorKind kind, const scene::Attachment& at, scene::LoadAxes axes) {
+scene::Sensor point_sensor(const std::string& name, scene::SensorKind kind, const scene::Attachment& at,
+                           scene::LoadAxes axes) {
   scene::Sensor s;
   s.name = name;
   s.kind = kind;
@@ -117,6 +119,48 @@ Table reference(const std::string& file) {
   return table;
 }
 
+scene::Scene moved(scene::Scene s, const scene::Frame& to) {
+  if (!s.frames.empty() || !s.motions.empty())
+    throw std::runtime_error("moved: frames and prescribed motions are not handled");
+  const auto place = [&to](scene::Placement& p) { p.pose = motion::compose(to, p.pose); };
+  const auto attach = [&to](scene::Attachment& a) {
+    if (a.to.empty() || a.to == "ground") a.offset = motion::compose(to, a.offset);
+  };
+  const auto turn = [&to](scene::Vec3& v) { v = to.R * v; };
+  turn(s.gravity);
+  for (scene::Node& n : s.nodes) place(n.placement);
+  for (scene::Body& b : s.bodies) place(b.placement);
+  for (scene::Beam& b : s.beams) {
+    turn(b.axis_2);
+    turn(b.tangent);
+  }
+  for (scene::Joint& j : s.joints) {
+    attach(j.first);
+    attach(j.second);
+  }
+  for (scene::Spring& k : s.springs) {
+    attach(k.first);
+    attach(k.second);
+  }
+  for (scene::Bushing& k : s.bushings) {
+    attach(k.first);
+    attach(k.second);
+  }
+  const auto turn_load = [&turn](auto& load) {
+    if (load.axes != scene::LoadAxes::space) return;
+    turn(load.force);
+    turn(load.moment);
+  };
+  for (scene::PointLoad& l : s.point_loads) turn_load(l);
+  for (scene::LineLoad& l : s.line_loads) turn_load(l);
+  for (scene::InitialVelocity& v : s.initial_velocities) {
+    if (v.axes != scene::LoadAxes::space) continue;
+    turn(v.velocity);
+    turn(v.angular_velocity);
+  }
+  return s;
+}
+
 Outcome run(const scene::Scene& scene, const study::ProgressCallback& progress) {
   Outcome outcome;
   Memory memory(outcome.history);
@@ -124,9 +168,12 @@ Outcome run(const scene::Scene& scene, const study::ProgressCallback& progress) 
   return outcome;
 }
 
-double order_of(double coarse_error, double fine_error, double ratio) { return std::log(coarse_error / fine_error) / std::log(ratio); }
+double order_of(double coarse_error, double fine_error, double ratio) {
+  return std::log(coarse_error / fine_error) / std::log(ratio);
+}
 
-double largest_difference(const Table& a, const std::string& column_a, const Table& reference, const std::string& column_b) {
+double largest_difference(const Table& a, const std::string& column_a, const Table& reference,
+                          const std::string& column_b) {
   const std::size_t ca = a.column(column_a), cb = reference.column(column_b);
   double most = 0.0;
   int met = 0;
@@ -134,7 +181,8 @@ double largest_difference(const Table& a, const std::string& column_a, const Tab
     const double t = reference.times[r];
     const auto next = std::lower_bound(a.times.begin(), a.times.end(), t - 1e-9);
     if (next == a.times.end() || *next > t + 1e-9) continue;
-    most = std::max(most, std::abs(a.rows[static_cast<std::size_t>(next - a.times.begin())][ca] - reference.rows[r][cb]));
+    most =
+        std::max(most, std::abs(a.rows[static_cast<std::size_t>(next - a.times.begin())][ca] - reference.rows[r][cb]));
     ++met;
   }
   if (met == 0) throw std::runtime_error("the tables have no time in common");

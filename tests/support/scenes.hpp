@@ -26,6 +26,7 @@ std::string text(double value);
 struct Table {
   std::vector<std::string> columns;
   std::vector<double> times;
+  std::vector<double> step_sizes;  ///< that led to each row; of runs only
   std::vector<std::vector<double>> rows;
 
   std::size_t column(const std::string& name) const;
@@ -47,6 +48,10 @@ struct Outcome {
   bool ok() const { return summary.status == results::RunStatus::ok; }
 };
 
+/// The whole scene in another place: positions, ground, gravity, dead loads and velocities turned and moved by `to`. Scenes without fixed
+/// frames and prescribed motions only.
+scene::Scene moved(scene::Scene scene, const scene::Frame& to);
+
 /// Runs a scene in memory on one thread. Does not throw where the run fails: ask ok() and summary.cause.
 Outcome run(const scene::Scene& scene, const study::ProgressCallback& progress = {});
 
@@ -57,6 +62,7 @@ double order_of(double coarse_error, double fine_error, double ratio = 2.0);
 inline double extrapolate(double coarse, double fine) { return fine + (fine - coarse) / 3.0; }
 
 /// Largest |a - b| over the rows of `reference`, of one column each, where both hold the time.
-double largest_difference(const Table& a, const std::string& column_a, const Table& reference, const std::string& column_b);
+double largest_difference(const Table& a, const std::string& column_a, const Table& reference,
+                          const std::string& column_b);
 
 }  // namespace bough::support

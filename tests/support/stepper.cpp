@@ -25,8 +25,10 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 }  // namespace
 
 Stepper::Stepper(const scene::Scene& scene)
-    : plan_(plan::make_plan(scene)), system_(plan_, scene.solver, schedule::make_serial_walker()),
-      state_(step::make_initial_state(plan_)), options_(step::make_step_options(scene.analysis)) {}
+    : plan_(plan::make_plan(scene)),
+      system_(plan_, scene.solver, schedule::make_serial_walker()),
+      state_(step::make_initial_state(plan_)),
+      options_(step::make_step_options(scene.analysis)) {}
 
 step::StartReport Stepper::start(double step_size) {
   const step::StartReport consistent = step::make_consistent(system_, state_, state_.time == 0.0);

@@ -1,0 +1,232 @@
+// What must not change: momentum in free flight, the motion seen from another place, balances as the step shrinks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "bough/motion/se3.hpp"
+#include "bough/results/observe.hpp"
+#include "support/scenes.hpp"
+#include "support/stepper.hpp"
+
+namespace bough::study {
+namespace {
+
+using support::Table;
+
+const std::string free_body_text = R"({
+    "bodies": [{"name": "body", "mass": 2, "inertia": [1, 2, 3], "center_of_mass": [0.2, 0.3, -0.1]}],
+    "initial_velocities": [{"of": "body", "velocity": [1.3, -0.7, 0.4], "angular_velocity": [0, 0, 0]}],
+    "sensors": [{"name": "v", "kind": "velocity", "at": "body"}, {"name": "x", "kind": "position", "at": "body"}],
+    "analysis": {"kind": "dynamic", "end_time": 100, "step_size": 1e-3}, "output": {"stride": 1000}})";
+
+const std::string free_beam_text = R"({
+    "sections": [{"name": "section", "stiffness": {"EA": 1e4, "GA2": 4e3, "GA3": 4e3, "GJ": 50, "EI2": 60, "EI3": 40},
+                  "mass": {"mass_per_length": 1.5, "rotary": [0.02, 0.01, 0.01]}}],
+    "nodes": [{"name": "start", "position": [1, 2, 3]}, {"name": "end", "position": [2, 2.5, 2.5]}],
+    "beams": [{"name": "beam", "section": "section", "start": "start", "end": "end", "elements": 2}],
+    "initial_velocities": [{"of": "beam", "velocity": [1.3, -0.7, 0.4], "angular_velocity": [0, 0, 0]}],
+    "sensors": [{"name": "v", "kind": "velocity", "at": "start"}, {"name": "x", "kind": "position", "at": "start"}],
+    "analysis": {"kind": "dynamic", "end_time": 100, "step_size": 1e-3}, "output": {"stride": 1000}})";
+
+void expect_straight_flight(const std::string& text) {
+  const support::Outcome outcome = support::run(support::scene_of(text));
+  ASSERT_TRUE(outcome.ok()) << outcome.summary.cause;
+  EXPECT_EQ(outcome.summary.steps.accepted, 100000);
+  const double v[3] = {1.3, -0.7, 0.4}, speed = std::sqrt(1.3 * 1.3 + 0.7 * 0.7 + 0.4 * 0.4);
+  const char* axes[3] = {"x", "y", "z"};
+  double drift = 0.0, distance = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    for (double now : outcome.history.of(std::string("v.v") + axes[k]))
+      drift = std::max(drift, std::abs(now - v[k]) / speed);
+    const std::string x = std::string("x.") + axes[k];
+    distance = std::max(distance,
+                        std::abs(outcome.history.last(x) - outcome.history.first(x) - 100.0 * v[k]) / (100.0 * speed));
+  }
+  std::printf("free flight, 1e5 steps: drift of velocity %.1e, of place %.1e (relative)\n", drift, distance);
+  EXPECT_LT(drift, 1e-10);
+  EXPECT_LT(distance, 1e-10);
+}
+
+TEST(Invariance, a_body_that_does_not_turn_keeps_its_momentum_for_1e5_steps) { expect_straight_flight(free_body_text); }
+TEST(Invariance, a_beam_that_does_not_turn_keeps_its_momentum_for_1e5_steps) { expect_straight_flight(free_beam_text); }
+
+/// Largest drift of linear and angular momentum, relative to their size, over time T; about the inertial origin.
+struct Drift {
+  double linear = 0.0, angular = 0.0,
+         spin = 0.0;  ///< spin: angular momentum of the first node's body about its mass centre, R J w
+};
+Drift drift_of(const std::string& text, double h, double duration) {
+  support::Stepper s(
+      support::scene_of(text, {"/initial_velocities/0/angular_velocity=[1.5, 3, 1]", "/analysis/tolerance=1e-11"}));
+  s.start(h);
+  const motion::Vec6<double> first = results::eval_measures(s.system(), s.state()).momentum;
+  const auto spin = [&s] {
+    const elements::NodeMotion& n = s.state().nodes.front();
+    return n.R * motion::Vec3<double>{{1.0 * n.v[3], 2.0 * n.v[4], 3.0 * n.v[5]}};
+  };
+  const motion::Vec3<double> first_spin = spin();
+  Drift d;
+  const long steps = std::lround(duration / h);
+  for (long k = 1; k <= steps; ++k) {
+    s.step(static_cast<double>(k) * h);
+    const motion::Vec6<double> now = results::eval_measures(s.system(), s.state()).momentum - first;
+    d.linear = std::max(d.linear, std::sqrt(lanes::dot(lanes::linear_part(now), lanes::linear_part(now)) /
+                                            lanes::dot(lanes::linear_part(first), lanes::linear_part(first))));
+    d.angular = std::max(d.angular, std::sqrt(lanes::dot(lanes::angular_part(now), lanes::angular_part(now)) /
+                                              lanes::dot(lanes::angular_part(first), lanes::angular_part(first))));
+    const motion::Vec3<double> turned = spin() - first_spin;
+    d.spin = std::max(d.spin, std::sqrt(lanes::dot(turned, turned) / lanes::dot(first_spin, first_spin)));
+  }
+  return d;
+}
+
+void expect_drift_of_second_order(const std::string& name, const std::string& text, double h, double duration) {
+  const Drift a = drift_of(text, h, duration), b = drift_of(text, h / 2, duration), c = drift_of(text, h / 4, duration);
+  const Drift longer = drift_of(text, h / 2, 4 * duration);
+  std::printf(
+      "%s that turns: drift of momentum %.1e %.1e %.1e, of angular momentum %.1e %.1e %.1e; four times as long %.1e, "
+      "%.1e\n",
+      name.c_str(), a.linear, b.linear, c.linear, a.angular, b.angular, c.angular, longer.linear, longer.angular);
+  EXPECT_NEAR(support::order_of(b.linear, c.linear), 2.0, 0.2);
+  EXPECT_NEAR(support::order_of(b.angular, c.angular), 2.0, 0.2);
+  EXPECT_NEAR(support::order_of(a.linear, b.linear), 2.0, 0.3);
+  EXPECT_NEAR(support::order_of(a.angular, b.angular), 2.0, 0.3);
+  // Velocities are carried in turning axes: the drift of a steady rotation has one sign and grows with time, not faster; angular momentum
+  // about the inertial origin holds the path of the mass centre times that drift, and grows with the square of time.
+  EXPECT_LT(longer.linear, 4.4 * b.linear);
+  EXPECT_LT(longer.angular, 17.0 * b.angular);
+}
+
+TEST(Invariance, momentum_of_a_turning_body_drifts_with_h_squared_and_no_faster_than_time) {
+  expect_drift_of_second_order("a body", free_body_text, 0.02, 10.0);
+}
+TEST(Invariance, momentum_of_a_turning_beam_drifts_with_h_squared_and_no_faster_than_time) {
+  expect_drift_of_second_order("a beam", free_beam_text, 0.004, 2.0);
+}
+
+TEST(Invariance, spin_of_a_turning_body_stays_within_a_bound_that_shrinks_with_h_squared) {
+  const Drift a = drift_of(free_body_text, 0.02, 20.0), b = drift_of(free_body_text, 0.01, 20.0),
+              c = drift_of(free_body_text, 0.005, 20.0);
+  const Drift longer = drift_of(free_body_text, 0.01, 160.0);
+  std::printf("a body that turns: drift of R J w %.1e %.1e %.1e, eight times as long %.1e\n", a.spin, b.spin, c.spin,
+              longer.spin);
+  EXPECT_NEAR(support::order_of(a.spin, b.spin), 2.0, 0.2);
+  EXPECT_NEAR(support::order_of(b.spin, c.spin), 2.0, 0.2);
+  EXPECT_LT(longer.spin, 9.0 * b.spin);
+}
+
+/// Beams of two orders, a body, joints of several kinds, a spring, dead and follower loads, a drive, gravity askew.
+const std::string mechanism_text = R"({
+    "gravity": [1, -2, -9],
+    "sections": [{"name": "section", "stiffness": {"EA": 2e4, "GA2": 8e3, "GA3": 8e3, "GJ": 20, "EI2": 40, "EI3": 30},
+                  "mass": {"mass_per_length": 1.5, "rotary": [0.02, 0.01, 0.01]}, "damping": {"time": 1e-3}}],
+    "nodes": [{"name": "A"}, {"name": "B of AB", "position": [0, 0.5, 0.1]}, {"name": "B of BC", "position": [0, 0.5, 0.1]},
+              {"name": "C", "position": [1, 0.6, -0.2]}],
+    "bodies": [{"name": "block", "mass": 1, "inertia": [0.02, 0.03, 0.04], "position": [1, 0.6, -0.2], "center_of_mass": [0.05, 0, 0.1]}],
+    "beams": [
+      {"name": "AB", "section": "section", "start": "A", "end": "B of AB", "elements": 3, "axis_2": [0, 0, 1]},
+      {"name": "BC", "section": "section", "start": "B of BC", "end": "C", "elements": 2, "order": 2, "axis_2": [0, 1, 0]}],
+    "joints": [
+      {"name": "motor", "kind": "revolute", "first": "ground", "second": "A", "position": [0, 0, 0], "axis": [0, 0.2, 1],
+       "drives": [{"law": {"expression": "0.8*t^2"}}]},
+      {"name": "elbow", "kind": "universal", "first": "B of AB", "second": "B of BC", "position": [0, 0.5, 0.1], "axis": [0, 0, 1], "second_axis": [0, 1, 0]},
+      {"name": "wrist", "kind": "revolute", "first": "C", "second": "block", "position": [1, 0.6, -0.2], "axis": [1, 1, 0],
+       "forces": [{"stiffness": 2, "damping": 0.1, "rest": 0.3}]}],
+    "springs": [{"name": "spring", "first": {"to": "ground", "position": [1, 0, 1]}, "second": {"to": "block", "position": [0.1, 0, 0]}, "stiffness": 30}],
+    "loads": [
+      {"name": "dead", "at": "block", "force": [1, 2, 3], "moment": [0.1, -0.1, 0.2]},
+      {"name": "follower", "at": "C", "axes": "body", "force": [0, 1, -2], "law": {"expression": "sin(5*t) + 0"}},
+      {"name": "wind", "beam": "AB", "force": [0, 1, 2]}],
+    "sensors": [
+      {"name": "x", "kind": "position", "at": "block"}, {"name": "tip", "kind": "position", "beam": "BC", "station": 0.6},
+      {"name": "v", "kind": "velocity", "at": "block", "axes": "body"}, {"name": "a", "kind": "acceleration", "at": "C", "axes": "body"},
+      {"name": "AB", "kind": "section_force", "beam": "AB", "station": 0.2}, {"name": "BC", "kind": "section_strain", "beam": "BC", "station": 0.5},
+      {"name": "motor", "kind": "joint_reaction", "joint": "motor", "axes": "body"}, {"name": "wrist", "kind": "joint_angle", "joint": "wrist"},
+      {"name": "strain", "kind": "strain_energy"}],
+    "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 2e-3, "tolerance": 1e-11}})";
+
+/// Largest difference of two runs by sensor, each relative to the sensor's largest value; positions transformed back by `place`.
+double largest_difference(const Table& here, const Table& there, const scene::Frame& place) {
+  double most = 0.0;
+  for (std::size_t first = 0; first < here.columns.size();) {
+    const std::string sensor = here.columns[first].substr(0, here.columns[first].find('.'));
+    std::size_t last = first;
+    while (last < here.columns.size() && here.columns[last].substr(0, here.columns[last].find('.')) == sensor) ++last;
+    const bool is_position = sensor == "x" || sensor == "tip";
+    double size = 0.0, difference = 0.0;
+    for (std::size_t r = 0; r < here.rows.size(); ++r) {
+      std::vector<double> b(there.rows[r].begin() + static_cast<std::ptrdiff_t>(first),
+                            there.rows[r].begin() + static_cast<std::ptrdiff_t>(last));
+      if (is_position) {
+        const scene::Vec3 p = lanes::transpose(place.R) * (scene::Vec3{{b[0], b[1], b[2]}} - place.x);
+        b.assign(p.v, p.v + 3);
+      }
+      for (std::size_t k = 0; k < b.size(); ++k) {
+        size = std::max(size, std::abs(here.rows[r][first + k]));
+        difference = std::max(difference, std::abs(here.rows[r][first + k] - b[k]));
+      }
+    }
+    most = std::max(most, difference / size);
+    first = last;
+  }
+  return most;
+}
+
+TEST(Invariance, a_mechanism_turned_and_moved_by_a_kilometre_moves_the_same) {
+  const scene::Scene scene = support::scene_of(mechanism_text);
+  const support::Outcome here = support::run(scene);
+  ASSERT_TRUE(here.ok()) << here.summary.cause;
+  // How much the motion itself makes of round-off: a twin whose load differs by 1e-15.
+  scene::Scene twin = scene;
+  twin.point_loads.front().force = (1.0 + 1e-15) * twin.point_loads.front().force;
+  twin.gravity = (1.0 + 1e-15) * twin.gravity;
+  const double natural = largest_difference(here.history, support::run(twin).history, scene::Frame::identity());
+  for (const scene::Vec3 turn : {scene::Vec3{{0, 0, 0}}, scene::Vec3{{0.7, -1.1, 2.0}}, scene::Vec3{{3.1, 0.1, 0.0}}}) {
+    const scene::Frame place{motion::exp_so3(turn), {{600.0, -700.0, 400.0}}};
+    const support::Outcome there = support::run(support::moved(scene, place));
+    ASSERT_TRUE(there.ok()) << there.summary.cause;
+    const double difference = largest_difference(here.history, there.history, place);
+    std::printf(
+        "moved by 1 km, turned by (%.1f, %.1f, %.1f): largest relative difference %.1e; a perturbation of 1e-15 makes "
+        "%.1e\n",
+        turn[0], turn[1], turn[2], difference, natural);
+    // Loads are rounded to 1e-16 and places are read as numbers of 1e3 with 1e-13 of round-off.
+    EXPECT_LT(difference, 1e-9);
+  }
+}
+
+/// Energy and momentum balance of a conservative system at two step sizes.
+void expect_balances_of_second_order(const std::string& name, scene::Scene scene, double h) {
+  double energy[3], momentum[3];
+  for (int k = 0; k < 3; ++k) {
+    scene.analysis.step_size = h / (1 << k);
+    scene.analysis.tolerance = 1e-11;
+    const support::Outcome outcome = support::run(scene);
+    ASSERT_TRUE(outcome.ok()) << outcome.summary.cause;
+    energy[k] = outcome.summary.checks.energy_balance / outcome.summary.checks.energy_scale;
+    momentum[k] = outcome.summary.checks.momentum_balance;
+  }
+  std::printf(
+      "%s: energy balance %.1e %.1e %.1e of the energy (order %.2f), momentum balance %.1e %.1e %.1e kg m/s (order "
+      "%.2f)\n",
+      name.c_str(), energy[0], energy[1], energy[2], support::order_of(energy[1], energy[2]), momentum[0], momentum[1],
+      momentum[2], support::order_of(momentum[1], momentum[2]));
+  EXPECT_GT(support::order_of(energy[1], energy[2]), 1.8) << name;  // beams: their fast motions fade faster than h^2
+  EXPECT_NEAR(support::order_of(momentum[1], momentum[2]), 2.0, 0.2) << name;
+}
+
+TEST(Balances, shrink_with_h_squared_where_nothing_is_lost) {
+  scene::Scene pendulum = support::gallery("double_pendulum");
+  pendulum.analysis.end_time = 1.0;
+  expect_balances_of_second_order("double pendulum", pendulum, 2e-3);
+  scene::Scene bricard = support::gallery("bricard");
+  expect_balances_of_second_order("Bricard", bricard, 4e-3);
+  scene::Scene mechanism =
+      support::scene_of(mechanism_text, {"/sections/0/damping={\"time\": 0}", "/joints/wrist/forces/0/damping=0"});
+  expect_balances_of_second_order("mechanism with beams", mechanism, 1e-3);
+}
+
+}  // namespace
+}  // namespace bough::study
