@@ -117,7 +117,7 @@ TEST(VerifyMechanisms, andrews_squeezer_meets_minimal_coordinates) {
                        {"rate", pick(runs.fine, "rate"), pick(exact, "betadot")},
                        {"F x", pick(runs.fine, "F.x"), pick(exact, "Fx")},
                        {"F y", pick(runs.fine, "F.y"), pick(exact, "Fy")}},
-                      runs, exact, 0.03, 2e-6);
+                      runs, exact, 0.05);
 }
 
 TEST(VerifyMechanisms, bricard_moves_although_its_hinges_depend_on_each_other) {
@@ -163,7 +163,7 @@ TEST(VerifyMechanisms, heavy_top_meets_euler_in_place_attitude_velocity_and_pivo
     quantities.push_back({"R" + std::to_string(i) + "2", rotation_entry(runs.fine, "attitude.q0", i, 2),
                           rotation_entry(exact, "q0", i, 2)});
   quantities.push_back({"R00", rotation_entry(runs.fine, "attitude.q0", 0, 0), rotation_entry(exact, "q0", 0, 0)});
-  expect_second_order("heavy top", quantities, runs, exact, 2.0, 2e-6);
+  expect_second_order("heavy top", quantities, runs, exact, 2.0);
 }
 
 TEST(VerifyMechanisms, free_body_tumbles_with_the_period_of_the_elliptic_functions) {
