@@ -116,8 +116,7 @@ Measures measure_beam(const Beam<N>& beam, const Field& field) {
   const auto& rule = mass_rule<N>();
   for (int g = 0; g < N; ++g) {
     const double w = rule.weight[g] * beam.length;
-    const SectionMotion<double> s =
-        eval_section<double, N>(rule.shape[g], b, moves ? rate : nullptr, nullptr, r);
+    const SectionMotion<double> s = eval_section<double, N>(rule.shape[g], b, moves ? rate : nullptr, nullptr, r);
     PortMotion<double> section;
     section.H = motion::compose(r.H, s.relative);
     if (moves) {

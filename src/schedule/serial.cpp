@@ -15,7 +15,8 @@ void down(void*, const tree::Tree& tree, tree::Visit visit) {
 }
 
 void each(void*, std::int64_t count, std::int64_t grain, tree::Chunk chunk) {
-  for (std::int64_t begin = 0; begin < count; begin += grain) chunk.run(chunk.context, begin, std::min(begin + grain, count));
+  for (std::int64_t begin = 0; begin < count; begin += grain)
+    chunk.run(chunk.context, begin, std::min(begin + grain, count));
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ struct Threads::State {
     }
     tbb::task_group children;
     const auto list = tree.children(s);
-    for (std::size_t c = 0; c + 1 < list.size(); ++c) children.run([this, &tree, id = list[c], visit] { visit_up(tree, id, visit); });
+    for (std::size_t c = 0; c + 1 < list.size(); ++c)
+      children.run([this, &tree, id = list[c], visit] { visit_up(tree, id, visit); });
     visit_up(tree, list.back(), visit);
     children.wait();
     delay();
@@ -66,7 +67,8 @@ struct Threads::State {
     visit.run(visit.context, top);
     tbb::task_group children;
     const auto list = tree.children(s);
-    for (std::size_t c = 0; c + 1 < list.size(); ++c) children.run([this, &tree, id = list[c], visit] { visit_down(tree, id, visit); });
+    for (std::size_t c = 0; c + 1 < list.size(); ++c)
+      children.run([this, &tree, id = list[c], visit] { visit_down(tree, id, visit); });
     visit_down(tree, list.back(), visit);
     children.wait();
   }
@@ -114,7 +116,8 @@ Threads::Threads(int count, double grain_flops) {
   state_ = std::make_unique<State>(count, grain_flops);
 #ifdef BOUGH_HAS_TBB
   if (count > tbb::info::default_concurrency())
-    state_->allowance = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+    state_->allowance = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                              static_cast<std::size_t>(count));
   if (count > 1) state_->arena.initialize(count);
 #endif
 }

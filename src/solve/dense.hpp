@@ -8,12 +8,12 @@ void subtract_product(int m, int n, int k, const double* a, int lda, const doubl
 
 /// A front being factored: the first `full` rows and columns are fully summed.
 struct FrontMatrix {
-  double* a = nullptr;    ///< size x size, column-major, leading dimension size
+  double* a = nullptr;  ///< size x size, column-major, leading dimension size
   int size = 0;
   int full = 0;
-  int* rows = nullptr;    ///< global unknown of each fully summed row, permuted with it
-  int* columns = nullptr; ///< the same for columns
-  int* row_from = nullptr;///< position of each row before any pivoting
+  int* rows = nullptr;      ///< global unknown of each fully summed row, permuted with it
+  int* columns = nullptr;   ///< the same for columns
+  int* row_from = nullptr;  ///< position of each row before any pivoting
 };
 
 /// Which pivots may be taken.
@@ -31,7 +31,8 @@ int eliminate_with_threshold(FrontMatrix& front, const PivotRule& rule);
 /// Goes on from `pivots` up to `most` with complete pivoting over the remaining fully summed block (precondition: no boundary), as long as
 /// the largest entry reaches `least`. row_weight, column_weight: one factor for each remaining row and column by which entries are
 /// compared, permuted along; or null for ones. Returns the number of pivots reached.
-int eliminate_completely(FrontMatrix& front, int pivots, int most, double least, double* row_weight = nullptr, double* column_weight = nullptr);
+int eliminate_completely(FrontMatrix& front, int pivots, int most, double least, double* row_weight = nullptr,
+                         double* column_weight = nullptr);
 
 /// f = L^-1 f for the first `pivots` entries, the rest reduced: f_B -= L21 y. f already permuted.
 void substitute_forward(const double* a, int size, int pivots, double* f);

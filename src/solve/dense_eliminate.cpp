@@ -101,8 +101,8 @@ void update_trailing(const View& v, int begin, int k, int end, int size) {
       for (int i = p + 1; i < k; ++i) c[i] -= l[i] * u;
     }
   }
-  subtract_product(size - k, size - end, width, &v(k, begin), static_cast<int>(v.ld), &v(begin, end), static_cast<int>(v.ld), &v(k, end),
-                   static_cast<int>(v.ld));
+  subtract_product(size - k, size - end, width, &v(k, begin), static_cast<int>(v.ld), &v(begin, end),
+                   static_cast<int>(v.ld), &v(k, end), static_cast<int>(v.ld));
 }
 
 }  // namespace

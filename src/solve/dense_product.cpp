@@ -25,7 +25,8 @@ inline Lanes load(const double* p) {
 inline void store(double* p, Lanes v) { std::memcpy(p, &v, sizeof v); }
 
 /// Tile of 2 registers x 4 columns.
-inline void tile_2x4(int k, const double* a, std::ptrdiff_t lda, const double* b, std::ptrdiff_t ldb, double* c, std::ptrdiff_t ldc) {
+inline void tile_2x4(int k, const double* a, std::ptrdiff_t lda, const double* b, std::ptrdiff_t ldb, double* c,
+                     std::ptrdiff_t ldc) {
   Lanes c00 = load(c), c10 = load(c + width);
   Lanes c01 = load(c + ldc), c11 = load(c + ldc + width);
   Lanes c02 = load(c + 2 * ldc), c12 = load(c + 2 * ldc + width);

@@ -43,7 +43,8 @@ void ElementStore::for_rows(std::int64_t begin, std::int64_t end, Row&& row) con
     for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
       const Touch touch = touches_[at(t)];
       const double* a = matrix(touch.element) + static_cast<std::int64_t>(touch.offset) * size_of(touch.element);
-      for (int i = 0; i < graph_.block_size[at(b)]; ++i, a += size_of(touch.element)) row(tree_.unknown_begin[at(b)] + i, touch.element, a);
+      for (int i = 0; i < graph_.block_size[at(b)]; ++i, a += size_of(touch.element))
+        row(tree_.unknown_begin[at(b)] + i, touch.element, a);
     }
 }
 
@@ -63,8 +64,8 @@ void ElementStore::multiply(const tree::Walker& walker, const double* x, double*
   walker.for_each_chunk(graph_.num_blocks(), chunk_blocks, tree::make_chunk(body));
 }
 
-ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, const Scales& scales, const double* x, const double* b,
-                                                 double* r) {
+ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, const Scales& scales, const double* x,
+                                                 const double* b, double* r) {
   std::fill(chunk_.begin(), chunk_.end(), 0.0);
   auto body = [&](std::int64_t begin, std::int64_t end) {
     double* most = chunk_.data() + 4 * (begin / chunk_blocks);  // |r|, |A| |x| per row norm, |x| and |b|, componentwise
@@ -184,7 +185,8 @@ void ElementStore::eval_scales(Scales& s) const {
   lift_weak_diagonals(exact_row);
   s.empty_unknown = -1;
   const auto empty = [&](std::size_t i) {
-    if (s.empty_unknown < 0 || static_cast<std::int64_t>(i) < s.empty_unknown) s.empty_unknown = static_cast<std::int64_t>(i);
+    if (s.empty_unknown < 0 || static_cast<std::int64_t>(i) < s.empty_unknown)
+      s.empty_unknown = static_cast<std::int64_t>(i);
   };
   for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
     if (!is_motion(b)) continue;

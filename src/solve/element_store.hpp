@@ -14,7 +14,8 @@ namespace bough::solve {
 /// A tangent K + C/h + M/h^2 then has diagonal near 1 and constraint rows of norm near 1 for every h.
 struct Scales {
   std::vector<double> row, column;
-  std::vector<double> weight;       ///< column / exact column scale, in [2^-1/2, 2^1/2]: measures multipliers free of the rounding
+  std::vector<double>
+      weight;  ///< column / exact column scale, in [2^-1/2, 2^1/2]: measures multipliers free of the rounding
   std::int64_t empty_unknown = -1;  ///< first unknown whose row or column is zero, or -1
   bool finite = true;
 };
@@ -26,7 +27,9 @@ class ElementStore {
   double* matrix(int element) { return values_.data() + begin_[static_cast<std::size_t>(element)]; }
   const double* matrix(int element) const { return values_.data() + begin_[static_cast<std::size_t>(element)]; }
   int size_of(int element) const { return size_[static_cast<std::size_t>(element)]; }
-  const int* blocks_of(int element) const { return graph_.element_blocks.data() + graph_.element_begin[static_cast<std::size_t>(element)]; }
+  const int* blocks_of(int element) const {
+    return graph_.element_blocks.data() + graph_.element_begin[static_cast<std::size_t>(element)];
+  }
   int num_blocks_of(int element) const {
     const auto e = static_cast<std::size_t>(element);
     return static_cast<int>(graph_.element_begin[e + 1] - graph_.element_begin[e]);
@@ -65,7 +68,7 @@ class ElementStore {
   std::vector<double> values_;
   std::vector<std::int64_t> touch_begin_;  ///< by block
   std::vector<Touch> touches_;
-  std::vector<double> chunk_;              ///< partial maxima, four per chunk
+  std::vector<double> chunk_;  ///< partial maxima, four per chunk
 };
 
 }  // namespace bough::solve

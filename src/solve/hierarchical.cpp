@@ -82,7 +82,8 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
 
 Hierarchical::Hierarchical(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options) {
   if (!problems_in(options).empty()) throw std::invalid_argument("Hierarchical: " + problems_in(options).front());
-  if (tree.unknown_begin.size() != graph.block_size.size() + 1 || static_cast<int>(tree.element_order.size()) != graph.num_elements())
+  if (tree.unknown_begin.size() != graph.block_size.size() + 1 ||
+      static_cast<int>(tree.element_order.size()) != graph.num_elements())
     throw std::invalid_argument("Hierarchical: the tree was made from another graph");
   state_ = std::make_unique<State>(graph, tree, options);
 }
@@ -92,13 +93,17 @@ Hierarchical::Hierarchical(Hierarchical&&) noexcept = default;
 Hierarchical& Hierarchical::operator=(Hierarchical&&) noexcept = default;
 
 double* Hierarchical::element_matrix(int element) { return state_->elements.matrix(element); }
-const double* Hierarchical::element_matrix(int element) const { return std::as_const(state_->elements).matrix(element); }
+const double* Hierarchical::element_matrix(int element) const {
+  return std::as_const(state_->elements).matrix(element);
+}
 void Hierarchical::rescale() { state_->scales_wanted = true; }
 const FactorStatus& Hierarchical::last_status() const { return state_->status; }
 std::span<const double> Hierarchical::column_scale() const { return state_->scales.column; }
 std::span<const double> Hierarchical::row_scale() const { return state_->scales.row; }
 const tree::Tree& Hierarchical::tree() const { return state_->tree; }
-void Hierarchical::multiply(const tree::Walker& walker, const double* x, double* y) const { state_->elements.multiply(walker, x, y); }
+void Hierarchical::multiply(const tree::Walker& walker, const double* x, double* y) const {
+  state_->elements.multiply(walker, x, y);
+}
 
 FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare) {
   State& s = *state_;
@@ -143,7 +148,8 @@ SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, d
   s.eval_growth(s.rhs.data(), report);
   if (s.options.check == SolveCheck::none) return report;
   ElementStore::Errors errors = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
-  while (errors.finite && errors.normwise > s.options.refinement_above && report.refinement_steps < s.options.refinement_steps) {
+  while (errors.finite && errors.normwise > s.options.refinement_above &&
+         report.refinement_steps < s.options.refinement_steps) {
     std::copy(s.x_scaled.begin(), s.x_scaled.end(), s.correction.begin());
     s.solve_scaled(walker, s.residual.data());
     for (std::size_t i = 0; i < n; ++i) s.x_scaled[i] += s.correction[i];
@@ -167,10 +173,11 @@ SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, d
 SolverCounters Hierarchical::counters() const {
   const State& s = *state_;
   SolverCounters c = s.counters;
-  std::size_t doubles = s.matrix_pool.size() + 2 * s.vector_pool.size() + 7 * s.x_scaled.size() + s.null_space.left.capacity() +
-                        s.null_space.right.capacity();
+  std::size_t doubles = s.matrix_pool.size() + 2 * s.vector_pool.size() + 7 * s.x_scaled.size() +
+                        s.null_space.left.capacity() + s.null_space.right.capacity();
   for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
-  c.memory_bytes = static_cast<std::int64_t>(doubles * sizeof(double) + s.index_pool.size() * sizeof(int)) + s.elements.memory_bytes();
+  c.memory_bytes = static_cast<std::int64_t>(doubles * sizeof(double) + s.index_pool.size() * sizeof(int)) +
+                   s.elements.memory_bytes();
   return c;
 }
 

@@ -12,22 +12,22 @@ namespace bough::solve {
 
 /// A run of boundary rows that goes to adjacent rows of the parent front.
 struct Run {
-  int from;    ///< first row, counted from the start of the boundary
-  int to;      ///< first row in the parent, before room is made for delayed pivots
+  int from;  ///< first row, counted from the start of the boundary
+  int to;    ///< first row in the parent, before room is made for delayed pivots
   int length;
 };
 
 /// Numbers of one front. Without delayed pivots all pointers go into the pools of State.
 struct FrontData {
-  double* a = nullptr;         ///< size x size, column-major
-  double* vector = nullptr;    ///< size: right-hand side, then [y; g]
-  int* rows = nullptr;         ///< full: global unknown of each fully summed row, in pivot order
+  double* a = nullptr;       ///< size x size, column-major
+  double* vector = nullptr;  ///< size: right-hand side, then [y; g]
+  int* rows = nullptr;       ///< full: global unknown of each fully summed row, in pivot order
   int* columns = nullptr;
-  int* row_from = nullptr;     ///< full: row before pivoting
+  int* row_from = nullptr;  ///< full: row before pivoting
   int size = 0, full = 0, pivots = 0;
-  int delayed_in = 0;          ///< unknowns that children could not eliminate: they come first
-  bool failed = false;         ///< not finite here or below
-  bool allocated = false;      ///< the enlarging took heap memory in this factorization
+  int delayed_in = 0;      ///< unknowns that children could not eliminate: they come first
+  bool failed = false;     ///< not finite here or below
+  bool allocated = false;  ///< the enlarging took heap memory in this factorization
   int num_delayed() const { return full - pivots; }
 };
 
@@ -64,19 +64,19 @@ struct Hierarchical::State {
   std::unique_ptr<bool[]> is_constraint;  ///< by unknown
 
   std::vector<FrontData> fronts;
-  std::vector<Enlarged> enlarged;         ///< by front
+  std::vector<Enlarged> enlarged;                                                ///< by front
   std::vector<std::int64_t> matrix_begin, vector_begin, index_begin, run_begin;  ///< by front, into the pools
   std::vector<double> matrix_pool, vector_pool, scratch_pool;
   std::vector<int> index_pool;
-  std::vector<int> own_unknowns;          ///< eliminated unknowns of every front (pool, a third of index_begin)
+  std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool, a third of index_begin)
   std::vector<Run> runs;
-  std::vector<PlainInterface> plain;      ///< by sub-domain; empty unless elimination is plain
+  std::vector<PlainInterface> plain;  ///< by sub-domain; empty unless elimination is plain
   NullSpace null_space;
   std::vector<double> x_scaled, rhs, residual, correction;
 
   FactorStatus status;
   SolverCounters counters;
-  const double* visit_rhs = nullptr;      ///< right-hand side of the walk at hand
+  const double* visit_rhs = nullptr;  ///< right-hand side of the walk at hand
 
   // upward.cpp: factor
   void factor_subdomain(tree::SubdomainId s, const Prepare& prepare);

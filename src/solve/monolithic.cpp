@@ -36,8 +36,8 @@ struct Monolithic::State {
   bool scales_wanted = true;
   std::vector<int> column_begin, row_index;
   std::vector<double> values;
-  std::vector<int> offset;              ///< for every pair (p, q) of every element: rows before block p in the columns of block q
-  std::vector<std::int64_t> pair_begin; ///< by element
+  std::vector<int> offset;  ///< for every pair (p, q) of every element: rows before block p in the columns of block q
+  std::vector<std::int64_t> pair_begin;  ///< by element
   std::vector<double> rhs, residual, work, x_scaled;
   bool regularised = false;
   FactorStatus status;
@@ -59,7 +59,8 @@ Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, c
   for (int b = 0; b < graph.num_blocks(); ++b) neighbours[at(b)].push_back(b);
   for (int e = 0; e < graph.num_elements(); ++e)
     for (int p = 0; p < elements.num_blocks_of(e); ++p)
-      for (int q = 0; q < elements.num_blocks_of(e); ++q) neighbours[at(elements.blocks_of(e)[q])].push_back(elements.blocks_of(e)[p]);
+      for (int q = 0; q < elements.num_blocks_of(e); ++q)
+        neighbours[at(elements.blocks_of(e)[q])].push_back(elements.blocks_of(e)[p]);
   std::vector<std::vector<int>> before(at(graph.num_blocks()));
   column_begin.assign(1, 0);
   for (int b = 0; b < graph.num_blocks(); ++b) {
@@ -69,7 +70,8 @@ Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, c
     int rows = 0;
     for (int other : list) {
       before[at(b)].push_back(rows);
-      rows += other == b && !is_motion(b) ? 1 : graph.block_size[at(other)];  // a multiplier keeps its diagonal entry only
+      rows +=
+          other == b && !is_motion(b) ? 1 : graph.block_size[at(other)];  // a multiplier keeps its diagonal entry only
     }
     for (int j = 0; j < graph.block_size[at(b)]; ++j) {
       for (int other : list) {
@@ -97,7 +99,7 @@ Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, c
   values.assign(row_index.size(), 0.0);
 #ifdef BOUGH_HAS_KLU
   klu_defaults(&common);
-  common.scale = 0;            // scaled here
+  common.scale = 0;  // scaled here
   common.halt_if_singular = 1;
 #endif
 }
@@ -126,7 +128,8 @@ void Monolithic::State::assemble(double lowered) {
           const std::int64_t column = tree.unknown_begin[at(bq)] + j;
           double* target = values.data() + column_begin[at(column)] + rows_before;
           for (int i = 0; i < np; ++i) {
-            const double value = scales.row[at(tree.unknown_begin[at(bp)] + i)] * a[(i0 + i) * n + j0 + j] * scales.column[at(column)];
+            const double value =
+                scales.row[at(tree.unknown_begin[at(bp)] + i)] * a[(i0 + i) * n + j0 + j] * scales.column[at(column)];
             if (!diagonal_only) {
               target[i] += value;
             } else if (i == j) {
@@ -157,13 +160,14 @@ bool Monolithic::State::factor_values(bool fresh) {
   if (symbolic == nullptr) return false;
   bool done = false;
   if (!fresh && numeric != nullptr) {
-    done = klu_refactor(column_begin.data(), row_index.data(), values.data(), symbolic, numeric, &common) != 0 && common.status == KLU_OK &&
-           klu_rcond(symbolic, numeric, &common) != 0 && common.rcond > 1e-13;
+    done = klu_refactor(column_begin.data(), row_index.data(), values.data(), symbolic, numeric, &common) != 0 &&
+           common.status == KLU_OK && klu_rcond(symbolic, numeric, &common) != 0 && common.rcond > 1e-13;
   }
   if (!done) {
     klu_free_numeric(&numeric, &common);
     numeric = klu_factor(column_begin.data(), row_index.data(), values.data(), symbolic, &common);
-    done = numeric != nullptr && common.status == KLU_OK && klu_rcond(symbolic, numeric, &common) != 0 && common.rcond > 1e-13;
+    done = numeric != nullptr && common.status == KLU_OK && klu_rcond(symbolic, numeric, &common) != 0 &&
+           common.rcond > 1e-13;
   }
   return done;
 }
@@ -197,7 +201,9 @@ double* Monolithic::element_matrix(int element) { return state_->elements.matrix
 const double* Monolithic::element_matrix(int element) const { return std::as_const(state_->elements).matrix(element); }
 void Monolithic::rescale() { state_->scales_wanted = true; }
 const FactorStatus& Monolithic::last_status() const { return state_->status; }
-void Monolithic::multiply(const tree::Walker& walker, const double* x, double* y) const { state_->elements.multiply(walker, x, y); }
+void Monolithic::multiply(const tree::Walker& walker, const double* x, double* y) const {
+  state_->elements.multiply(walker, x, y);
+}
 std::vector<int> Monolithic::blocks_not_unique() const { return {}; }
 
 FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
@@ -212,7 +218,8 @@ FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
   if (prepare.run != nullptr) {
     auto visit = [&](tree::SubdomainId id) {
       const tree::Subdomain& sub = s.tree.subdomains[at(id)];
-      if (sub.is_leaf() && sub.element_begin < sub.element_end) prepare.run(prepare.context, id, sub.element_begin, sub.element_end);
+      if (sub.is_leaf() && sub.element_begin < sub.element_end)
+        prepare.run(prepare.context, id, sub.element_begin, sub.element_end);
     };
     walker.walk_up(s.tree, tree::make_visit(visit));
   }
@@ -235,7 +242,8 @@ FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
 #ifdef BOUGH_HAS_KLU
     const int column = s.common.singular_col;
     if (column >= 0 && column < static_cast<int>(s.rhs.size())) {
-      const auto next = std::upper_bound(s.tree.unknown_begin.begin(), s.tree.unknown_begin.end(), static_cast<std::int64_t>(column));
+      const auto next =
+          std::upper_bound(s.tree.unknown_begin.begin(), s.tree.unknown_begin.end(), static_cast<std::int64_t>(column));
       s.status.block = static_cast<int>(next - s.tree.unknown_begin.begin()) - 1;
       s.status.local = static_cast<int>(column - s.tree.unknown_begin[at(s.status.block)]);
     }
@@ -282,7 +290,8 @@ SolveReport Monolithic::solve(const tree::Walker& walker, const double* rhs, dou
 SolverCounters Monolithic::counters() const {
   const State& s = *state_;
   SolverCounters c = s.counters;
-  c.memory_bytes = s.elements.memory_bytes() + static_cast<std::int64_t>(s.values.size() * (sizeof(double) + sizeof(int)));
+  c.memory_bytes =
+      s.elements.memory_bytes() + static_cast<std::int64_t>(s.values.size() * (sizeof(double) + sizeof(int)));
 #ifdef BOUGH_HAS_KLU
   if (s.numeric != nullptr) {
     c.memory_bytes += static_cast<std::int64_t>(s.common.mempeak);

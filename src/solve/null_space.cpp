@@ -79,8 +79,9 @@ void Hierarchical::State::decide_rank() {
   const auto rows = static_cast<Eigen::Index>(n);
   const Eigen::Map<const Matrix> Z(null_space.right.data(), rows, m), Y(null_space.left.data(), rows, m);
   const Eigen::HouseholderQR<Matrix> qr_z(Z), qr_y(Y);
-  const Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> T(root.a + root.pivots + static_cast<std::ptrdiff_t>(root.pivots) * root.size, m, m,
-                                                            Eigen::OuterStride<>(root.size));
+  const Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> T(
+      root.a + root.pivots + static_cast<std::ptrdiff_t>(root.pivots) * root.size, m, m,
+      Eigen::OuterStride<>(root.size));
   const auto R_z = qr_z.matrixQR().topRows(m).triangularView<Eigen::Upper>();
   const auto R_y = qr_y.matrixQR().topRows(m).triangularView<Eigen::Upper>();
   Matrix core = R_y.transpose().solve(Matrix(T));
@@ -99,7 +100,9 @@ void Hierarchical::State::decide_rank() {
     const Eigen::JacobiSVD<Matrix> svd(core, Eigen::ComputeFullV);
     for (int j = 0; j < m; ++j) {
       const double motion = motion_share(basis * svd.matrixV().col(j));
-      if (!(svd.singularValues()(j) > (motion > options.null_motion_tolerance ? options.singular_tolerance : options.rank_tolerance))) ++dependent;
+      if (!(svd.singularValues()(j) >
+            (motion > options.null_motion_tolerance ? options.singular_tolerance : options.rank_tolerance)))
+        ++dependent;
     }
   }
   std::vector<double> row_weight(at(m)), column_weight(at(m));
@@ -108,8 +111,8 @@ void Hierarchical::State::decide_rank() {
     column_weight[at(j)] = 1.0 / Z.col(j).norm();
   }
   FrontMatrix matrix{root.a, root.size, root.full, root.rows, root.columns, root.row_from};
-  root.pivots = eliminate_completely(matrix, root.pivots, root.full - dependent, std::numeric_limits<double>::min(), row_weight.data(),
-                                     column_weight.data());
+  root.pivots = eliminate_completely(matrix, root.pivots, root.full - dependent, std::numeric_limits<double>::min(),
+                                     row_weight.data(), column_weight.data());
 }
 
 /// Orthonormal null vectors of what is left now, and the verdict.
@@ -135,7 +138,8 @@ void Hierarchical::State::find_null_space() {
   }
   status.deficiency = k;
   if (!(std::sqrt(worst) <= options.null_motion_tolerance)) {
-    const auto next = std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), static_cast<std::int64_t>(unknown));
+    const auto next =
+        std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), static_cast<std::int64_t>(unknown));
     status.outcome = FactorOutcome::singular;
     status.front = tree.num_fronts() - 1;
     status.block = static_cast<int>(next - tree.unknown_begin.begin()) - 1;

@@ -84,7 +84,8 @@ void Hierarchical::State::eval_growth(const double* b, SolveReport& report) cons
   }
   if (rhs_size == 0.0 || size == 0.0) return;
   report.growth = size / rhs_size;
-  const auto next = std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), static_cast<std::int64_t>(largest));
+  const auto next =
+      std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), static_cast<std::int64_t>(largest));
   report.growth_block = static_cast<int>(next - tree.unknown_begin.begin()) - 1;
 }
 

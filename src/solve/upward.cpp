@@ -91,7 +91,9 @@ void Hierarchical::State::add_element(const tree::Front&, int position, double* 
       const double* column_scale = scales.column.data() + tree.unknown_begin[at(bj)];
       double* target = a + (rows[p] + shift) + static_cast<std::int64_t>(rows[q] + shift) * ld;
       for (int j = 0; j < nj; ++j)
-        for (int i = 0; i < ni; ++i) target[i + static_cast<std::int64_t>(j) * ld] += row_scale[i] * matrix[(i0 + i) * n + j0 + j] * column_scale[j];
+        for (int i = 0; i < ni; ++i)
+          target[i + static_cast<std::int64_t>(j) * ld] +=
+              row_scale[i] * matrix[(i0 + i) * n + j0 + j] * column_scale[j];
       j0 += nj;
     }
     i0 += ni;
@@ -115,7 +117,8 @@ void Hierarchical::State::add_child(tree::FrontId child, FrontData& parent, int&
   for (int j = 0; j < waiting; ++j) {
     parent.rows[delayed + j] = c.rows[c.pivots + j];
     parent.columns[delayed + j] = c.columns[c.pivots + j];
-    add_column(c.a + static_cast<std::int64_t>(c.pivots + j) * c.size, parent.a + static_cast<std::int64_t>(delayed + j) * parent.size);
+    add_column(c.a + static_cast<std::int64_t>(c.pivots + j) * c.size,
+               parent.a + static_cast<std::int64_t>(delayed + j) * parent.size);
   }
   for (const Run* r = runs_begin; r != runs_end; ++r)
     for (int j = 0; j < r->length; ++j)
@@ -133,10 +136,10 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
   FrontMatrix matrix{d.a, d.size, d.full, d.rows, d.columns, d.row_from};
   const bool is_root = f + 1 == tree.num_fronts();
   // At the root the easy pivots go first, then the others by complete pivoting down to what decide_rank() must look at.
-  const PivotRule rule{is_root ? std::max(options.pivot_threshold, 0.1) : options.pivot_threshold, is_root ? 1e-2 : options.tiny_pivot};
+  const PivotRule rule{is_root ? std::max(options.pivot_threshold, 0.1) : options.pivot_threshold,
+                       is_root ? 1e-2 : options.tiny_pivot};
   d.pivots = eliminate_with_threshold(matrix, rule);
-  if (d.pivots >= 0 && is_root)
-    d.pivots = eliminate_completely(matrix, d.pivots, d.full, suspect_pivot);
+  if (d.pivots >= 0 && is_root) d.pivots = eliminate_completely(matrix, d.pivots, d.full, suspect_pivot);
   if (d.pivots < 0) {
     d.failed = true;
     d.pivots = d.full;

@@ -22,11 +22,16 @@ struct Adjacency {
   std::span<const int> blocks_of(int element) const {
     const auto e = static_cast<std::size_t>(element);
     const auto& g = *graph;
-    return {g.element_blocks.data() + g.element_begin[e], static_cast<std::size_t>(g.element_begin[e + 1] - g.element_begin[e])};
+    return {g.element_blocks.data() + g.element_begin[e],
+            static_cast<std::size_t>(g.element_begin[e + 1] - g.element_begin[e])};
   }
   int size_of(int block) const { return graph->block_size[static_cast<std::size_t>(block)]; }
-  bool is_motion(int block) const { return graph->block_kind[static_cast<std::size_t>(block)] == blocks::BlockKind::motion; }
-  int degree(int block) const { return static_cast<int>(begin[static_cast<std::size_t>(block) + 1] - begin[static_cast<std::size_t>(block)]); }
+  bool is_motion(int block) const {
+    return graph->block_kind[static_cast<std::size_t>(block)] == blocks::BlockKind::motion;
+  }
+  int degree(int block) const {
+    return static_cast<int>(begin[static_cast<std::size_t>(block) + 1] - begin[static_cast<std::size_t>(block)]);
+  }
   int unknowns_of(int element) const;
 };
 

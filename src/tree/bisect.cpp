@@ -199,7 +199,8 @@ Cut Bisector::cut(const std::vector<int>& elements) {
   load(elements);
   Pieces pieces = find_pieces(elements);
   const double total = std::accumulate(pieces.weight.begin(), pieces.weight.end(), 0.0);
-  const int largest = static_cast<int>(std::max_element(pieces.weight.begin(), pieces.weight.end()) - pieces.weight.begin());
+  const int largest =
+      static_cast<int>(std::max_element(pieces.weight.begin(), pieces.weight.end()) - pieces.weight.begin());
   if (pieces.weight[at(largest)] > total * (2.0 / 3.0)) {
     if (piece_is_tree(elements, pieces, largest)) {
       const int block = centroid_block(elements, pieces, largest);
@@ -214,7 +215,8 @@ Cut Bisector::cut(const std::vector<int>& elements) {
   }
   std::vector<int> order(at(pieces.count));
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.weight[at(a)] > pieces.weight[at(b)]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return pieces.weight[at(a)] > pieces.weight[at(b)]; });
   std::vector<int> side_of(at(pieces.count), 0);
   double load[2] = {0.0, 0.0};
   for (int p : order) {
@@ -223,7 +225,8 @@ Cut Bisector::cut(const std::vector<int>& elements) {
     load[side] += pieces.weight[at(p)];
   }
   Cut result;
-  for (std::size_t i = 0; i < elements.size(); ++i) result.side[side_of[at(pieces.of_element[i])]].push_back(elements[i]);
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    result.side[side_of[at(pieces.of_element[i])]].push_back(elements[i]);
   if (result.side[0].empty() || result.side[1].empty()) {  // nothing separates: any halves are a valid cut of elements
     const auto half = static_cast<std::ptrdiff_t>(elements.size() / 2);
     result.side[0].assign(elements.begin(), elements.begin() + half);

@@ -42,17 +42,17 @@ class Bisector {
   const Adjacency& adjacency_;
   unsigned seed_;
   bool used_separator_ = false;
-  std::vector<double> weight_;     ///< by element: unknowns squared, a measure of assembly and evaluation
-  std::vector<int> touches_;       ///< by block: elements of the loaded set that hold it
-  std::vector<int> loaded_;        ///< blocks with touches_ > 0
+  std::vector<double> weight_;         ///< by element: unknowns squared, a measure of assembly and evaluation
+  std::vector<int> touches_;           ///< by block: elements of the loaded set that hold it
+  std::vector<int> loaded_;            ///< blocks with touches_ > 0
   mutable std::vector<int> position_;  ///< by element: position in the set at hand, or -1 (scratch)
-  std::vector<char> removed_;      ///< by block: separator of the present cut
-  std::vector<int> local_;         ///< by block: vertex number in a separator graph, or -1
+  std::vector<char> removed_;          ///< by block: separator of the present cut
+  std::vector<int> local_;             ///< by block: vertex number in a separator graph, or -1
 };
 
 /// Vertex separator of a graph in compressed rows: part 0, 1, or 2 (the separator). METIS with a fixed seed where it was built in and the
 /// graph is large enough, otherwise breadth-first levels from a far vertex.
-std::vector<int> separate_vertices(const std::vector<int>& row_begin, const std::vector<int>& columns, const std::vector<int>& weights,
-                                   unsigned seed);
+std::vector<int> separate_vertices(const std::vector<int>& row_begin, const std::vector<int>& columns,
+                                   const std::vector<int>& weights, unsigned seed);
 
 }  // namespace bough::tree

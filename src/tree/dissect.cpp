@@ -25,7 +25,8 @@ std::size_t choose_leaf_size(const Adjacency& adjacency, const TreeOptions& opti
 
 class Recursion {
  public:
-  Recursion(const Adjacency& adjacency, const TreeOptions& options) : bisector_(adjacency, options.seed), depth_(options.depth) {
+  Recursion(const Adjacency& adjacency, const TreeOptions& options)
+      : bisector_(adjacency, options.seed), depth_(options.depth) {
     if (options.leaf_size > 0) {
       leaf_size_ = static_cast<std::size_t>(options.leaf_size);
     } else {
@@ -34,9 +35,9 @@ class Recursion {
   }
 
   int run(std::vector<int> elements, int level, bool upper) {
-    const bool cut_subdomain = upper && elements.size() > std::max<std::size_t>(leaf_size_, 1) && (depth_ < 0 || level < depth_);
-    const bool cut_inside =
-        !cut_subdomain && elements.size() > terminal_elements && !bisector_.is_forest(elements);
+    const bool cut_subdomain =
+        upper && elements.size() > std::max<std::size_t>(leaf_size_, 1) && (depth_ < 0 || level < depth_);
+    const bool cut_inside = !cut_subdomain && elements.size() > terminal_elements && !bisector_.is_forest(elements);
     Part part;
     part.level = level;
     part.is_subdomain = upper;

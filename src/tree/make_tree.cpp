@@ -222,10 +222,11 @@ class Builder {
   void sort_boundaries() {
     std::vector<std::int64_t> rank(at(graph_.num_blocks()), 0);
     for (const Front& f : tree_.fronts)
-      for (auto k = f.block_begin; k < f.block_begin + f.num_eliminated_blocks; ++k) rank[at(tree_.front_blocks[at(k)])] = k;
+      for (auto k = f.block_begin; k < f.block_begin + f.num_eliminated_blocks; ++k)
+        rank[at(tree_.front_blocks[at(k)])] = k;
     for (const Front& f : tree_.fronts)
-      std::sort(tree_.front_blocks.begin() + f.block_begin + f.num_eliminated_blocks, tree_.front_blocks.begin() + f.block_end,
-                [&](int a, int b) { return rank[at(a)] < rank[at(b)]; });
+      std::sort(tree_.front_blocks.begin() + f.block_begin + f.num_eliminated_blocks,
+                tree_.front_blocks.begin() + f.block_end, [&](int a, int b) { return rank[at(a)] < rank[at(b)]; });
   }
 
   void lay_out() {
@@ -283,7 +284,9 @@ class Builder {
 std::span<const int> Tree::blocks(const Front& f) const {
   return {front_blocks.data() + f.block_begin, static_cast<std::size_t>(f.block_end - f.block_begin)};
 }
-std::span<const int> Tree::boundary_blocks(const Front& f) const { return blocks(f).subspan(at(f.num_eliminated_blocks)); }
+std::span<const int> Tree::boundary_blocks(const Front& f) const {
+  return blocks(f).subspan(at(f.num_eliminated_blocks));
+}
 std::span<const FrontId> Tree::children(const Front& f) const {
   return {front_children.data() + f.child_begin, static_cast<std::size_t>(f.child_end - f.child_begin)};
 }

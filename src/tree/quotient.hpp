@@ -52,12 +52,12 @@ class Quotient {
 
   const Adjacency& adjacency_;
   int num_elements_;
-  std::vector<char> live_;                  ///< by clique
-  std::vector<char> eliminated_;            ///< by block
-  std::vector<int> capacity_;               ///< by block: multipliers that it can still carry
-  std::vector<std::vector<int>> cliques_;   ///< by block: cliques that hold it (dead ones are dropped when seen)
-  std::vector<int> absorbed_;               ///< cliques of the elimination at hand
-  std::vector<int> united_;                 ///< their blocks
+  std::vector<char> live_;                 ///< by clique
+  std::vector<char> eliminated_;           ///< by block
+  std::vector<int> capacity_;              ///< by block: multipliers that it can still carry
+  std::vector<std::vector<int>> cliques_;  ///< by block: cliques that hold it (dead ones are dropped when seen)
+  std::vector<int> absorbed_;              ///< cliques of the elimination at hand
+  std::vector<int> united_;                ///< their blocks
   std::vector<int> block_stamp_, clique_stamp_;
   int stamp_ = 0;
 };

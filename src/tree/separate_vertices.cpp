@@ -13,7 +13,8 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Breadth-first levels from a vertex; -1 where not reached. Returns the number of levels.
-int find_levels(const std::vector<int>& row_begin, const std::vector<int>& columns, int start, std::vector<int>& level, int& last) {
+int find_levels(const std::vector<int>& row_begin, const std::vector<int>& columns, int start, std::vector<int>& level,
+                int& last) {
   std::fill(level.begin(), level.end(), -1);
   std::vector<int> queue(1, start);
   level[at(start)] = 0;
@@ -30,7 +31,8 @@ int find_levels(const std::vector<int>& row_begin, const std::vector<int>& colum
   return level[at(last)] + 1;
 }
 
-std::vector<int> separate_by_levels(const std::vector<int>& row_begin, const std::vector<int>& columns, const std::vector<int>& weights) {
+std::vector<int> separate_by_levels(const std::vector<int>& row_begin, const std::vector<int>& columns,
+                                    const std::vector<int>& weights) {
   const int n = static_cast<int>(weights.size());
   std::vector<int> level(at(n)), part(at(n), 0);
   int far = 0, num_levels = 0;
@@ -40,7 +42,8 @@ std::vector<int> separate_by_levels(const std::vector<int>& row_begin, const std
     num_levels = found;
     start = far;
   }
-  if (num_levels < 3) {  // nearly complete: no level cuts it, the first vertex against the rest of the separator is all there is
+  if (num_levels <
+      3) {  // nearly complete: no level cuts it, the first vertex against the rest of the separator is all there is
     for (int v = 0; v < n; ++v) part[at(v)] = v == 0 ? 0 : 2;
     if (n > 1) part[at(n - 1)] = 1;
     return part;
@@ -75,19 +78,21 @@ std::vector<int> separate_by_levels(const std::vector<int>& row_begin, const std
 
 }  // namespace
 
-std::vector<int> separate_vertices(const std::vector<int>& row_begin, const std::vector<int>& columns, const std::vector<int>& weights,
-                                   unsigned seed) {
+std::vector<int> separate_vertices(const std::vector<int>& row_begin, const std::vector<int>& columns,
+                                   const std::vector<int>& weights, unsigned seed) {
   (void)seed;
 #ifdef BOUGH_HAS_METIS
   constexpr int least_for_metis = 16;  // below, its coarsening has nothing to do and the levels are as good
   if (static_cast<int>(weights.size()) >= least_for_metis) {
-    std::vector<idx_t> xadj(row_begin.begin(), row_begin.end()), adjncy(columns.begin(), columns.end()), vwgt(weights.begin(), weights.end());
+    std::vector<idx_t> xadj(row_begin.begin(), row_begin.end()), adjncy(columns.begin(), columns.end()),
+        vwgt(weights.begin(), weights.end());
     std::vector<idx_t> part(weights.size(), 0);
     idx_t nvtxs = static_cast<idx_t>(weights.size()), sepsize = 0;
     idx_t options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = static_cast<idx_t>(seed);
-    const int status = METIS_ComputeVertexSeparator(&nvtxs, xadj.data(), adjncy.data(), vwgt.data(), options, &sepsize, part.data());
+    const int status =
+        METIS_ComputeVertexSeparator(&nvtxs, xadj.data(), adjncy.data(), vwgt.data(), options, &sepsize, part.data());
     const auto filled = [&](idx_t p) { return std::find(part.begin(), part.end(), p) != part.end(); };
     if (status == METIS_OK && filled(0) && filled(1)) return {part.begin(), part.end()};
   }

@@ -18,7 +18,8 @@ void expect_orders(const tree::Tree& t, const tree::Walker& walker) {
   for (std::size_t i = 0; i < n; ++i) done[i] = 0;
   std::atomic<int> wrong{0};
   auto up = [&](tree::SubdomainId s) {
-    for (tree::SubdomainId c : t.children(t.subdomains[static_cast<std::size_t>(s)])) wrong += done[static_cast<std::size_t>(c)] != 1;
+    for (tree::SubdomainId c : t.children(t.subdomains[static_cast<std::size_t>(s)]))
+      wrong += done[static_cast<std::size_t>(c)] != 1;
     ++done[static_cast<std::size_t>(s)];
   };
   walker.walk_up(t, tree::make_visit(up));

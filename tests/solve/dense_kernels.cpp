@@ -66,7 +66,8 @@ TEST(DenseKernels, FactorsReproduceTheFrontForEverySizeAndSplit) {
       Front f(a, full);
       const int pivots = solve::eliminate_with_threshold(f.matrix, {.threshold = 0.1, .least = 1e-9});
       ASSERT_GE(pivots, 0);
-      EXPECT_LE(defect(a, f, pivots), 1e-13 * n) << n << " " << full << " " << pivots;  // growth 10 a pivot is allowed, never met
+      EXPECT_LE(defect(a, f, pivots), 1e-13 * n)
+          << n << " " << full << " " << pivots;  // growth 10 a pivot is allowed, never met
     }
 }
 

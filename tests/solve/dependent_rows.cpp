@@ -63,7 +63,8 @@ TEST(DependentRows, SolutionHasLeastMultipliersAndUniqueMotion) {
       const Eigen::VectorXd row = Eigen::Map<const Eigen::VectorXd>(s.solver.row_scale().data(), A.rows());
       const Eigen::VectorXd column = Eigen::Map<const Eigen::VectorXd>(s.solver.column_scale().data(), A.rows());
       const Eigen::VectorXd exact = exact_column_scale(s);
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod(row.asDiagonal() * scene.dense() * exact.asDiagonal());
+      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod(row.asDiagonal() * scene.dense() *
+                                                                  exact.asDiagonal());
       cod.setThreshold(1e-11);
       const Eigen::VectorXd oracle = exact.cwiseProduct(cod.solve(row.cwiseProduct(b)));
       EXPECT_LE(s.scaled_difference(x, oracle), 1e-9) << "seed " << seed << ", leaf " << leaf;
@@ -75,7 +76,8 @@ TEST(DependentRows, SolutionHasLeastMultipliersAndUniqueMotion) {
       ASSERT_TRUE(klu.factor(schedule::make_serial_walker()).ok());
       Eigen::VectorXd y(b.size());
       EXPECT_LE(klu.solve(schedule::make_serial_walker(), b.data(), y.data()).backward_error, 1e-12);
-      EXPECT_LE(s.scaled_difference(y, oracle), 1e-6);  // the regularisation 1e-10 over its smallest multiplier stiffness
+      EXPECT_LE(s.scaled_difference(y, oracle),
+                1e-6);  // the regularisation 1e-10 over its smallest multiplier stiffness
     }
 }
 
@@ -89,15 +91,18 @@ TEST(DependentRows, LeastMultipliersDoNotDependOnUnits) {
   for (int b = 0; b < scene.graph.num_blocks(); ++b)
     for (int i = 0; i < scene.graph.block_size[static_cast<std::size_t>(b)]; ++i)
       unit(first[static_cast<std::size_t>(b)] + i) =
-          scene.graph.block_kind[static_cast<std::size_t>(b)] == blocks::BlockKind::multiplier ? 39.37 : (i < 3 ? 0.0254 : 1.0);
+          scene.graph.block_kind[static_cast<std::size_t>(b)] == blocks::BlockKind::multiplier ? 39.37
+                                                                                               : (i < 3 ? 0.0254 : 1.0);
   for (int e = 0; e < scene.graph.num_elements(); ++e) {
     Eigen::VectorXd d(scene.elements[static_cast<std::size_t>(e)].rows());
     int k = 0;
-    for (auto p = scene.graph.element_begin[static_cast<std::size_t>(e)]; p < scene.graph.element_begin[static_cast<std::size_t>(e) + 1]; ++p) {
+    for (auto p = scene.graph.element_begin[static_cast<std::size_t>(e)];
+         p < scene.graph.element_begin[static_cast<std::size_t>(e) + 1]; ++p) {
       const auto b = static_cast<std::size_t>(scene.graph.element_blocks[static_cast<std::size_t>(p)]);
       for (int i = 0; i < scene.graph.block_size[b]; ++i) d(k++) = unit(first[b] + i);
     }
-    other.elements[static_cast<std::size_t>(e)] = d.asDiagonal() * scene.elements[static_cast<std::size_t>(e)] * d.asDiagonal();
+    other.elements[static_cast<std::size_t>(e)] =
+        d.asDiagonal() * scene.elements[static_cast<std::size_t>(e)] * d.asDiagonal();
   }
   Solved s(scene, {}, {}), t(other, {}, {});
   ASSERT_TRUE(s.factor().ok());
@@ -117,7 +122,8 @@ TEST(DependentRows, InconsistentRightHandSideNamesAJointOfTheGroup) {
   b(row) += 1.0 / s.solver.row_scale()[static_cast<std::size_t>(row)];
   s.solve(b);
   EXPECT_GT(s.report.inconsistency, 1e-3);
-  EXPECT_TRUE(std::binary_search(again.begin(), again.end(), s.report.inconsistent_block)) << s.report.inconsistent_block;
+  EXPECT_TRUE(std::binary_search(again.begin(), again.end(), s.report.inconsistent_block))
+      << s.report.inconsistent_block;
   EXPECT_GT(s.report.inconsistent_amount, 0.0);
 }
 
@@ -136,7 +142,8 @@ TEST(DependentRows, RankMayChangeBetweenFactorizations) {
       const int b = scene.graph.element_blocks[static_cast<std::size_t>(k)];
       if (!std::binary_search(again.begin(), again.end(), b)) continue;
       const int rows = scene.graph.block_size[static_cast<std::size_t>(b)];
-      scene.elements[static_cast<std::size_t>(e)].bottomRightCorner(rows, rows) -= 1e-8 * Eigen::MatrixXd::Identity(rows, rows);
+      scene.elements[static_cast<std::size_t>(e)].bottomRightCorner(rows, rows) -=
+          1e-8 * Eigen::MatrixXd::Identity(rows, rows);
     }
   write_elements(scene, s.solver);
   ASSERT_TRUE(s.factor().ok());

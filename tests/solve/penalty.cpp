@@ -53,7 +53,7 @@ TEST(Penalty, PlainEliminationIsTheSameOnPaperAndLosesADigitPerDecade) {
   EXPECT_LE(run(scene, 1.0, solve::Elimination::plain).error, 1e4 * (flat.error + 1e-16));
   const double error_6 = run(scene, 1e6, solve::Elimination::plain).backward;
   const double error_12 = run(scene, 1e12, solve::Elimination::plain).backward;
-  EXPECT_GT(error_12, 1e3 * error_6);      // six decades of penalty cost at least three digits (in the mean six)
+  EXPECT_GT(error_12, 1e3 * error_6);  // six decades of penalty cost at least three digits (in the mean six)
   EXPECT_GT(error_12, 1e6 * flat.backward);
 }
 
@@ -66,7 +66,8 @@ TEST(Penalty, LocalMultipliersAreTheForcesBetweenSubdomains) {
   const auto& root = s.tree.subdomains.back();
   const auto children = s.tree.children(root);
   ASSERT_EQ(children.size(), 2u);
-  const auto shared = s.tree.boundary_blocks(s.tree.fronts[static_cast<std::size_t>(s.tree.subdomains[static_cast<std::size_t>(children[0])].top())]);
+  const auto shared = s.tree.boundary_blocks(
+      s.tree.fronts[static_cast<std::size_t>(s.tree.subdomains[static_cast<std::size_t>(children[0])].top())]);
   ASSERT_EQ(shared.size(), 1u);
   Eigen::VectorXd b = s.random_rhs(2);
   const int first = scene.first_unknown()[static_cast<std::size_t>(shared[0])];
@@ -79,7 +80,8 @@ TEST(Penalty, LocalMultipliersAreTheForcesBetweenSubdomains) {
     const auto& a = scene.elements[static_cast<std::size_t>(e)];
     Eigen::VectorXd xe(a.cols());
     int k = 0, at = -1;
-    for (auto p = scene.graph.element_begin[static_cast<std::size_t>(e)]; p < scene.graph.element_begin[static_cast<std::size_t>(e) + 1]; ++p) {
+    for (auto p = scene.graph.element_begin[static_cast<std::size_t>(e)];
+         p < scene.graph.element_begin[static_cast<std::size_t>(e) + 1]; ++p) {
       const auto blk = static_cast<std::size_t>(scene.graph.element_blocks[static_cast<std::size_t>(p)]);
       if (static_cast<int>(blk) == shared[0]) at = k;
       for (int i = 0; i < scene.graph.block_size[blk]; ++i) xe(k++) = x(scene.first_unknown()[blk] + i);

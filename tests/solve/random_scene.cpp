@@ -17,7 +17,8 @@ MatrixXd Scene::dense() const {
   MatrixXd A = MatrixXd::Zero(first.back(), first.back());
   for (int e = 0; e < graph.num_elements(); ++e) {
     std::vector<int> index;
-    for (auto k = graph.element_begin[static_cast<std::size_t>(e)]; k < graph.element_begin[static_cast<std::size_t>(e) + 1]; ++k) {
+    for (auto k = graph.element_begin[static_cast<std::size_t>(e)];
+         k < graph.element_begin[static_cast<std::size_t>(e) + 1]; ++k) {
       const auto b = static_cast<std::size_t>(graph.element_blocks[static_cast<std::size_t>(k)]);
       for (int i = 0; i < graph.block_size[b]; ++i) index.push_back(first[b] + i);
     }
@@ -76,7 +77,8 @@ void SceneMaker::add_beam(const std::vector<int>& nodes, double unsymmetry) {
     const MatrixXd X = uniform_matrix(n, n);
     Eigen::VectorXd d(n);
     for (int i = 0; i < n; ++i) d(i) = i % size < size / 2 ? 1.0 : 0.1;
-    A += (0.2 / (step_ * step_)) * (d.asDiagonal() * (MatrixXd::Identity(n, n) + 0.05 * X * X.transpose()) * d.asDiagonal());
+    A += (0.2 / (step_ * step_)) *
+         (d.asDiagonal() * (MatrixXd::Identity(n, n) + 0.05 * X * X.transpose()) * d.asDiagonal());
   }
   const Eigen::VectorXd scale = A.diagonal().cwiseSqrt();
   const MatrixXd X = uniform_matrix(n, n);
@@ -87,7 +89,8 @@ void SceneMaker::add_beam(const std::vector<int>& nodes, double unsymmetry) {
 void SceneMaker::add_body(int node, double factor) {
   const int n = scene_.graph.block_size[static_cast<std::size_t>(node)];
   const MatrixXd X = uniform_matrix(n, n);
-  add_element({node}, (factor / (step_ > 0.0 ? step_ * step_ : 1.0)) * (MatrixXd::Identity(n, n) + 0.1 * X * X.transpose()));
+  add_element({node},
+              (factor / (step_ > 0.0 ? step_ * step_ : 1.0)) * (MatrixXd::Identity(n, n) + 0.1 * X * X.transpose()));
 }
 
 int SceneMaker::add_joint(const std::vector<int>& nodes, int rows, double row_scale) {
@@ -95,7 +98,9 @@ int SceneMaker::add_joint(const std::vector<int>& nodes, int rows, double row_sc
   scene_.graph.block_size.push_back(rows);
   scene_.graph.block_kind.push_back(blocks::BlockKind::multiplier);
   const int multiplier = scene_.graph.num_blocks() - 1;
-  const MatrixXd W = row_scale * MatrixXd(MatrixXd(Eigen::HouseholderQR<MatrixXd>(uniform_matrix(size, size)).householderQ()).topRows(rows));
+  const MatrixXd W =
+      row_scale *
+      MatrixXd(MatrixXd(Eigen::HouseholderQR<MatrixXd>(uniform_matrix(size, size)).householderQ()).topRows(rows));
   MatrixXd G(rows, size * static_cast<int>(nodes.size()));
   if (nodes.size() == 2) {
     G << -W * transport(size), W;
@@ -115,7 +120,8 @@ int SceneMaker::add_joint(const std::vector<int>& nodes, int rows, double row_sc
 int SceneMaker::add_joint_again(int element) {
   const auto e = static_cast<std::size_t>(element);
   auto& g = scene_.graph;
-  std::vector<int> blocks(g.element_blocks.begin() + g.element_begin[e], g.element_blocks.begin() + g.element_begin[e + 1]);
+  std::vector<int> blocks(g.element_blocks.begin() + g.element_begin[e],
+                          g.element_blocks.begin() + g.element_begin[e + 1]);
   const int rows = g.block_size[static_cast<std::size_t>(blocks.back())];
   g.block_size.push_back(rows);
   g.block_kind.push_back(blocks::BlockKind::multiplier);
@@ -266,8 +272,8 @@ Scene make_rigid_chain(unsigned seed, int links, double step) {
 }
 
 std::vector<Scene> make_all_families(unsigned seed, double step) {
-  return {make_chain(seed, 5, 4, step), make_tree_of_bodies(seed + 1, 14, step), make_loop(seed + 2, 6, step),
-          make_star(seed + 3, 5, 3, step), make_lattice(seed + 4, 4, 4, step),   make_parts(seed + 5, 6, step),
+  return {make_chain(seed, 5, 4, step),        make_tree_of_bodies(seed + 1, 14, step), make_loop(seed + 2, 6, step),
+          make_star(seed + 3, 5, 3, step),     make_lattice(seed + 4, 4, 4, step),      make_parts(seed + 5, 6, step),
           make_rigid_chain(seed + 6, 12, step)};
 }
 

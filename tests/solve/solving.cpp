@@ -5,7 +5,9 @@
 namespace bough::test {
 
 namespace {
-Eigen::Map<const Eigen::VectorXd> as_vector(std::span<const double> s) { return {s.data(), static_cast<Eigen::Index>(s.size())}; }
+Eigen::Map<const Eigen::VectorXd> as_vector(std::span<const double> s) {
+  return {s.data(), static_cast<Eigen::Index>(s.size())};
+}
 }  // namespace
 
 Eigen::VectorXd Solved::random_rhs(unsigned seed) const {
@@ -38,9 +40,11 @@ Eigen::VectorXd exact_column_scale(const Solved& s) {
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(A.rows());  // sum over the elements of |diagonal|
   for (int e = 0; e < graph.num_elements(); ++e) {
     int k = 0;
-    for (auto p = graph.element_begin[static_cast<std::size_t>(e)]; p < graph.element_begin[static_cast<std::size_t>(e) + 1]; ++p) {
+    for (auto p = graph.element_begin[static_cast<std::size_t>(e)];
+         p < graph.element_begin[static_cast<std::size_t>(e) + 1]; ++p) {
       const auto b = static_cast<std::size_t>(graph.element_blocks[static_cast<std::size_t>(p)]);
-      for (int i = 0; i < graph.block_size[b]; ++i, ++k) diagonal(first[b] + i) += std::abs(s.scene.elements[static_cast<std::size_t>(e)](k, k));
+      for (int i = 0; i < graph.block_size[b]; ++i, ++k)
+        diagonal(first[b] + i) += std::abs(s.scene.elements[static_cast<std::size_t>(e)](k, k));
     }
   }
   Eigen::VectorXd scale(A.rows());
@@ -56,17 +60,20 @@ Eigen::VectorXd exact_column_scale(const Solved& s) {
         double sum = 0.0;
         for (int c = 0; c < graph.num_blocks(); ++c)
           if (graph.block_kind[static_cast<std::size_t>(c)] == blocks::BlockKind::motion)
-            for (int v = first[static_cast<std::size_t>(c)]; v < first[static_cast<std::size_t>(c) + 1]; ++v) sum += std::pow(A(v, u) * scale(v), 2);
+            for (int v = first[static_cast<std::size_t>(c)]; v < first[static_cast<std::size_t>(c) + 1]; ++v)
+              sum += std::pow(A(v, u) * scale(v), 2);
         scale(u) = sum > 0.0 ? 1.0 / std::sqrt(sum) : 1.0;
       }
     }
   return scale;
 }
 
-void expect_matches_dense(const Scene& scene, const tree::TreeOptions& tree_options, double backward_bar, const solve::SolveOptions& options) {
+void expect_matches_dense(const Scene& scene, const tree::TreeOptions& tree_options, double backward_bar,
+                          const solve::SolveOptions& options) {
   Solved s(scene, tree_options, options);
   const auto status = s.factor();
-  const std::string what = scene.name + ", leaf " + std::to_string(tree_options.leaf_size) + ", depth " + std::to_string(tree_options.depth);
+  const std::string what =
+      scene.name + ", leaf " + std::to_string(tree_options.leaf_size) + ", depth " + std::to_string(tree_options.depth);
   ASSERT_TRUE(status.ok()) << what << " block " << status.block << " magnitude " << status.magnitude;
   EXPECT_EQ(status.deficiency, 0) << what;
   if (scene.num_unknowns() == 0) return;
@@ -75,8 +82,9 @@ void expect_matches_dense(const Scene& scene, const tree::TreeOptions& tree_opti
   const Eigen::VectorXd x = s.solve(b);
   EXPECT_TRUE(s.report.finite) << what;
   EXPECT_LE(s.report.backward_error, backward_bar) << what;
-  const Eigen::VectorXd oracle = as_vector(s.solver.column_scale()).cwiseProduct(
-      Eigen::FullPivLU<Eigen::MatrixXd>(A).solve(as_vector(s.solver.row_scale()).cwiseProduct(b)));
+  const Eigen::VectorXd oracle =
+      as_vector(s.solver.column_scale())
+          .cwiseProduct(Eigen::FullPivLU<Eigen::MatrixXd>(A).solve(as_vector(s.solver.row_scale()).cwiseProduct(b)));
   EXPECT_LE(s.scaled_difference(x, oracle), condition_of(A) * backward_bar * static_cast<double>(A.rows())) << what;
 }
 

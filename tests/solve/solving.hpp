@@ -15,7 +15,8 @@ template <class Solver>
 void write_elements(const Scene& scene, Solver& solver) {
   for (int e = 0; e < scene.graph.num_elements(); ++e) {
     const Eigen::MatrixXd& a = scene.elements[static_cast<std::size_t>(e)];
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(solver.element_matrix(e), a.rows(), a.cols()) = a;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(solver.element_matrix(e),
+                                                                                       a.rows(), a.cols()) = a;
   }
 }
 

@@ -25,7 +25,8 @@ bool is_below(const tree::Tree& t, tree::FrontId low, tree::FrontId high) {
 void expect_sound(const Scene& scene, const tree::TreeOptions& options) {
   const auto& g = scene.graph;
   const tree::Tree t = tree::make_tree(g, options);
-  const std::string what = scene.name + " leaf " + std::to_string(options.leaf_size) + " depth " + std::to_string(options.depth);
+  const std::string what =
+      scene.name + " leaf " + std::to_string(options.leaf_size) + " depth " + std::to_string(options.depth);
   SCOPED_TRACE(what);
 
   // every element once, every block eliminated once
@@ -72,7 +73,8 @@ void expect_sound(const Scene& scene, const tree::TreeOptions& options) {
     };
     for (int p = f.element_begin; p < f.element_end; ++p) {
       const auto blocks = blocks_of(g, t.element_order[at(p)]);
-      for (std::size_t k = 0; k < blocks.size(); ++k) ASSERT_EQ(t.scatter[at(t.scatter_begin[at(p)]) + k], row_of(f, blocks[k]));
+      for (std::size_t k = 0; k < blocks.size(); ++k)
+        ASSERT_EQ(t.scatter[at(t.scatter_begin[at(p)]) + k], row_of(f, blocks[k]));
       ASSERT_EQ(t.leaf_of_element[at(t.element_order[at(p)])], f.subdomain);
     }
     for (tree::FrontId c : t.children(f)) {
@@ -94,7 +96,8 @@ void expect_sound(const Scene& scene, const tree::TreeOptions& options) {
       if (g.block_kind[at(b)] == BlockKind::motion) continue;
       bool one = false;
       for (int other : blocks_of(g, e))
-        one = one || (g.block_kind[at(other)] == BlockKind::motion && is_below(t, t.front_of_block[at(other)], t.front_of_block[at(b)]));
+        one = one || (g.block_kind[at(other)] == BlockKind::motion &&
+                      is_below(t, t.front_of_block[at(other)], t.front_of_block[at(b)]));
       ASSERT_TRUE(one);
     }
   }
@@ -130,7 +133,8 @@ TEST(Tree, IsSoundForAllFamiliesLeafSizesAndDepths) {
 
 TEST(Tree, IsTheSameEveryTime) {
   const Scene scene = make_lattice(3, 9, 8);
-  const tree::Tree a = tree::make_tree(scene.graph, {.leaf_size = 4}), b = tree::make_tree(scene.graph, {.leaf_size = 4});
+  const tree::Tree a = tree::make_tree(scene.graph, {.leaf_size = 4}),
+                   b = tree::make_tree(scene.graph, {.leaf_size = 4});
   EXPECT_EQ(a.element_order, b.element_order);
   EXPECT_EQ(a.front_blocks, b.front_blocks);
   EXPECT_EQ(a.scatter, b.scatter);
@@ -138,7 +142,9 @@ TEST(Tree, IsTheSameEveryTime) {
 
 TEST(Tree, CostOfAChainIsLinearForEveryLeafSize) {
   for (int leaf : {1, 8, 64, 100000}) {
-    const auto flops = [&](int links) { return tree::make_tree(make_chain(1, links, 4).graph, {.leaf_size = leaf}).subdomains.back().subtree_flops; };
+    const auto flops = [&](int links) {
+      return tree::make_tree(make_chain(1, links, 4).graph, {.leaf_size = leaf}).subdomains.back().subtree_flops;
+    };
     const double ratio = flops(256) / flops(64);
     EXPECT_GT(ratio, 3.5) << leaf;
     EXPECT_LT(ratio, 4.6) << leaf;

@@ -64,7 +64,8 @@ int num_unknowns(const E& e) {
 /// Residual in the unknowns of the nodes (and constraint rows), and the tangent dR/d(eta, lambda), row-major, when `tangent` is given.
 /// `multipliers` and `turns` are looked at by joints only. No allocation.
 template <class E>
-void evaluate(const E& e, const Field& field, const double* multipliers, double turns, double* residual, double* tangent);
+void evaluate(const E& e, const Field& field, const double* multipliers, double turns, double* residual,
+              double* tangent);
 
 /// Sum of the magnitudes of the terms behind each entry of a residual, against which its smallness is measured. Elements between nodes push
 /// and pull on several; a body's own terms balance within it and are told apart:  |M a| + |M g| + |ad(v)^T M v|.
@@ -74,8 +75,8 @@ void eval_magnitude(const E& e, const Field& field, const double* residual, doub
   if constexpr (std::is_same_v<E, RigidBody>) {
     const NodeMotion& n = field.nodes[e.ports[0].node];
     Vec6<double> terms[3] = {
-        e.mass * lanes::join(lanes::transpose_times(n.R, field.around.gravity), Vec3<double>::zero()), Vec6<double>::zero(),
-        Vec6<double>::zero()};
+        e.mass * lanes::join(lanes::transpose_times(n.R, field.around.gravity), Vec3<double>::zero()),
+        Vec6<double>::zero(), Vec6<double>::zero()};
     if (field.around.has_inertia) {
       terms[1] = e.mass * n.a;
       terms[2] = motion::cross6_transpose_times(n.v, Vec6<double>(e.mass * n.v));

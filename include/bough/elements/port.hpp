@@ -37,20 +37,21 @@ struct PortMotion {
 /// What all elements share at one instant.
 template <class S>
 struct Surroundings {
-  Vec3<S> gravity;      ///< acceleration in inertial axes [m/s^2]
-  const S* laws;        ///< value of each time function
-  bool has_inertia;     ///< false in statics: velocities and accelerations are not looked at
+  Vec3<S> gravity;   ///< acceleration in inertial axes [m/s^2]
+  const S* laws;     ///< value of each time function
+  bool has_inertia;  ///< false in statics: velocities and accelerations are not looked at
 };
 
 /// Energies [J], power [W] and momentum of one element, for the balances of a run.
 struct Measures {
   double kinetic = 0.0;
   double strain = 0.0;
-  double potential = 0.0;       ///< of gravity, about the inertial origin
-  double work_rate = 0.0;       ///< of loads, drives and efforts
-  double dissipation_rate = 0.0;  ///< taken by dampers, >= 0
+  double potential = 0.0;                        ///< of gravity, about the inertial origin
+  double work_rate = 0.0;                        ///< of loads, drives and efforts
+  double dissipation_rate = 0.0;                 ///< taken by dampers, >= 0
   Vec6<double> momentum = Vec6<double>::zero();  ///< (linear; angular about the inertial origin), inertial axes
-  Vec6<double> load = Vec6<double>::zero();      ///< resultant of gravity, loads and reactions of the ground, same point and axes
+  Vec6<double> load =
+      Vec6<double>::zero();  ///< resultant of gravity, loads and reactions of the ground, same point and axes
 };
 
 }  // namespace bough::elements

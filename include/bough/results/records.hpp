@@ -22,8 +22,8 @@ struct HistoryRow {
 /// The moving structure at one time, for pictures and VTU.
 struct CurvePoint {
   double position[3];
-  double axes[9];      ///< rotation matrix, row-major: columns are the section's axes
-  double force[6];     ///< section resultants (N, Q2, Q3, T, M2, M3)
+  double axes[9];   ///< rotation matrix, row-major: columns are the section's axes
+  double force[6];  ///< section resultants (N, Q2, Q3, T, M2, M3)
 };
 struct Curve {
   std::string name;
@@ -31,13 +31,14 @@ struct Curve {
 };
 struct BodyPose {
   std::string name;
-  double position[3];   ///< of the body's reference point
+  double position[3];  ///< of the body's reference point
   double axes[9];
-  double center[3];     ///< centre of mass
-  std::vector<std::array<double, 3>> attachments = {};  ///< where joints, springs and beams hold it; drawn as spokes from the centre
+  double center[3];  ///< centre of mass
+  std::vector<std::array<double, 3>> attachments =
+      {};  ///< where joints, springs and beams hold it; drawn as spokes from the centre
 };
 struct Link {
-  std::string name;     ///< joint or spring, drawn as a segment (a joint may have length 0)
+  std::string name;  ///< joint or spring, drawn as a segment (a joint may have length 0)
   double first[3];
   double second[3];
 };
@@ -54,14 +55,14 @@ struct StepCounts {
   long accepted = 0, rejected = 0, newton_iterations = 0, factorizations = 0;
 };
 struct StepTimes {
-  double total = 0.0;                                                          ///< wall [s]
+  double total = 0.0;                                                            ///< wall [s]
   double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0, output = 0.0;  ///< CPU seconds summed over threads
 };
 struct Checks {
-  double energy_balance = 0.0;              ///< largest |kinetic + strain + potential - work - start| [J]
-  double energy_scale = 0.0;                ///< largest sum of the parts' magnitudes [J]
-  double numerical_dissipation = 0.0;       ///< energy taken by the integrator [J]
-  double momentum_balance = 0.0;            ///< largest |momentum - impulse - start| [kg m/s]
+  double energy_balance = 0.0;                 ///< largest |kinetic + strain + potential - work - start| [J]
+  double energy_scale = 0.0;                   ///< largest sum of the parts' magnitudes [J]
+  double numerical_dissipation = 0.0;          ///< energy taken by the integrator [J]
+  double momentum_balance = 0.0;               ///< largest |momentum - impulse - start| [kg m/s]
   double constraint_violation_position = 0.0;  ///< [m] or [rad]
   double constraint_violation_velocity = 0.0;  ///< [m/s] or [rad/s]
   double linear_backward_error_max = 0.0;
@@ -86,11 +87,13 @@ struct Summary {
   StepTimes times;
   std::int64_t memory_peak_bytes = 0;
   Checks checks;
-  std::vector<std::string> notes;     ///< warnings in words: dependent constraints, impulses at the start, floors reached ...
+  std::vector<std::string>
+      notes;  ///< warnings in words: dependent constraints, impulses at the start, floors reached ...
   HistoryHeader header;
-  std::vector<double> final_values;   ///< by header
+  std::vector<double> final_values;  ///< by header
   std::vector<ExpectedResult> expected;
-  std::vector<std::pair<std::string, double>> solver;  ///< figures of the tree: sub-domains, levels, interface unknowns, condition, ...
+  std::vector<std::pair<std::string, double>>
+      solver;  ///< figures of the tree: sub-domains, levels, interface unknowns, condition, ...
 };
 
 /// Receives a run as it goes. A writer throws std::runtime_error where it cannot write; the run then fails with that cause.

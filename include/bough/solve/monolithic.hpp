@@ -16,7 +16,8 @@ namespace bough::solve {
 /// solution with least multipliers. The deficiency is then not counted (-1).
 class Monolithic {
  public:
-  static bool available();  ///< false when the library was built without KLU; then factor() answers FactorOutcome::backend.
+  static bool
+  available();  ///< false when the library was built without KLU; then factor() answers FactorOutcome::backend.
 
   Monolithic(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options = {});
   ~Monolithic();

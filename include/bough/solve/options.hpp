@@ -7,28 +7,35 @@ namespace bough::solve {
 
 /// How a sub-domain is condensed to its interface.
 enum class Elimination {
-  flat,   ///< boundary last: S appears without the penalty ever having been added; no digit depends on the penalty.
+  flat,  ///< boundary last: S appears without the penalty ever having been added; no digit depends on the penalty.
   plain,  ///< through the interface flexibility, S = s^2 F^-1 - P: the textbook form, loses a digit for each decade of penalty.
 };
 
 /// What solve() checks afterwards.
 enum class SolveCheck {
-  none,            ///< backward errors are not computed (NaN in the report).
+  none,  ///< backward errors are not computed (NaN in the report).
   backward_error,  ///< computed from the element matrices: one more product with the matrix. These must still be the factored ones.
 };
 
 struct SolveOptions {
   Elimination elimination = Elimination::flat;
-  double penalty_factor = 1.0;       ///< P = factor x the interface's own stiffness diagonal [-], > 0. Flat: only in what is reported.
-  double multiplier_scale = 1.0;     ///< s of the local multipliers [-], > 0, in scaled variables.
-  double pivot_threshold = 1e-3;    ///< u [-], 0 < u <= 1: a pivot of at least u times its column's largest entry is taken.
-  double tiny_pivot = 1e-10;         ///< [-] in scaled variables: smaller pivots wait for the parent front.
-  double rank_tolerance = 1e-10;     ///< [-] scaled distance to a singular matrix below which constraint rows are dependent.
-  double singular_tolerance = 2e-16; ///< [-] the same where motion is part of the null vector: the matrix is singular. (Found: 1e-16 / 4.)
-  double null_motion_tolerance = 1e-5;  ///< [-] largest motion part of a unit null vector that still counts as multipliers only.
+  double penalty_factor =
+      1.0;  ///< P = factor x the interface's own stiffness diagonal [-], > 0. Flat: only in what is reported.
+  double multiplier_scale = 1.0;  ///< s of the local multipliers [-], > 0, in scaled variables.
+  double pivot_threshold =
+      1e-3;                   ///< u [-], 0 < u <= 1: a pivot of at least u times its column's largest entry is taken.
+  double tiny_pivot = 1e-10;  ///< [-] in scaled variables: smaller pivots wait for the parent front.
+  double rank_tolerance =
+      1e-10;  ///< [-] scaled distance to a singular matrix below which constraint rows are dependent.
+  double singular_tolerance =
+      2e-16;  ///< [-] the same where motion is part of the null vector: the matrix is singular. (Found: 1e-16 / 4.)
+  double null_motion_tolerance =
+      1e-5;  ///< [-] largest motion part of a unit null vector that still counts as multipliers only.
   SolveCheck check = SolveCheck::backward_error;
-  int refinement_steps = 1;          ///< most steps of iterative refinement, >= 0; each only if the backward error is above refinement_above.
-  double refinement_above = 1e-14;   ///< normwise backward error [-] that calls for a refinement step (needs check = backward_error).
+  int refinement_steps =
+      1;  ///< most steps of iterative refinement, >= 0; each only if the backward error is above refinement_above.
+  double refinement_above =
+      1e-14;  ///< normwise backward error [-] that calls for a refinement step (needs check = backward_error).
 };
 
 /// What is wrong with the options; empty when nothing is.

@@ -23,45 +23,49 @@ struct FactorStatus {
   int block = -1;                    ///< block with the largest share in what failed; -1 when ok.
   int local = -1;                    ///< unknown within the block.
   double magnitude = 0.0;            ///< the pivot, or the share of the block in the null vector [-].
-  int deficiency = 0;                ///< dependent constraint rows (or null vectors when singular); -1: not known (monolithic).
-  int delayed_pivots = 0;            ///< pivots that moved to a parent front, counted once per move.
+  int deficiency = 0;      ///< dependent constraint rows (or null vectors when singular); -1: not known (monolithic).
+  int delayed_pivots = 0;  ///< pivots that moved to a parent front, counted once per move.
   bool ok() const { return outcome == FactorOutcome::ok; }
 };
 
 /// Outcome of solve(). Scaled variables: unit-free.
 struct SolveReport {
   /// Of the part of b that can be met (see inconsistency).
-  double backward_error = std::numeric_limits<double>::quiet_NaN();               ///< |r| / (|A| |x| + |b|), maximum norms, scaled.
-  double componentwise_backward_error = std::numeric_limits<double>::quiet_NaN(); ///< max_i |r|_i / (|A||x| + |b|)_i [Oettli, Prager 1964].
+  double backward_error = std::numeric_limits<double>::quiet_NaN();  ///< |r| / (|A| |x| + |b|), maximum norms, scaled.
+  double componentwise_backward_error =
+      std::numeric_limits<double>::quiet_NaN();  ///< max_i |r|_i / (|A||x| + |b|)_i [Oettli, Prager 1964].
   int refinement_steps = 0;
-  int deficiency = 0;            ///< as in FactorStatus.
-  double inconsistency = 0.0;    ///< |Y^T b| / |b|, Y the left null vectors: 0 when dependent constraints agree with each other.
-  int inconsistent_block = -1;   ///< block with the largest part of Y Y^T b.
+  int deficiency = 0;  ///< as in FactorStatus.
+  double inconsistency =
+      0.0;  ///< |Y^T b| / |b|, Y the left null vectors: 0 when dependent constraints agree with each other.
+  int inconsistent_block = -1;       ///< block with the largest part of Y Y^T b.
   double inconsistent_amount = 0.0;  ///< that part, in the units of the block's right-hand side.
-  double growth = 0.0;           ///< |x| / |b|, maximum norms, scaled: a lower bound of |A^-1|. Near 1/eps: singular for this load.
-  int growth_block = -1;         ///< block with the largest scaled unknown.
-  bool finite = true;            ///< false: the solution holds NaN or infinity.
+  double growth =
+      0.0;  ///< |x| / |b|, maximum norms, scaled: a lower bound of |A^-1|. Near 1/eps: singular for this load.
+  int growth_block = -1;  ///< block with the largest scaled unknown.
+  bool finite = true;     ///< false: the solution holds NaN or infinity.
 };
 
 /// Interface of one sub-domain, after factor(). Scaled variables.
 struct InterfaceReport {
   tree::SubdomainId subdomain = tree::none;
   int level = 0;
-  int num_unknowns = 0;          ///< motion unknowns and multipliers tied to the interface mesh.
-  int num_delayed = 0;           ///< unknowns whose pivots were delayed past this interface.
-  double condition = 1.0;        ///< of P^1/2 F P^1/2 on the motion unknowns that joints leave free, F = s^2 (S + P)^-1 (2-norm).
-  double penalty_least = 0.0;    ///< smallest and largest P used [-].
+  int num_unknowns = 0;  ///< motion unknowns and multipliers tied to the interface mesh.
+  int num_delayed = 0;   ///< unknowns whose pivots were delayed past this interface.
+  double condition =
+      1.0;  ///< of P^1/2 F P^1/2 on the motion unknowns that joints leave free, F = s^2 (S + P)^-1 (2-norm).
+  double penalty_least = 0.0;  ///< smallest and largest P used [-].
   double penalty_most = 0.0;
 };
 
 /// Running totals of one solver object.
 struct SolverCounters {
-  std::int64_t memory_bytes = 0;        ///< numeric storage.
-  double factor_flops = 0.0;            ///< estimate of one factorization without delays [flop].
+  std::int64_t memory_bytes = 0;  ///< numeric storage.
+  double factor_flops = 0.0;      ///< estimate of one factorization without delays [flop].
   std::int64_t factorizations = 0;
   std::int64_t solutions = 0;
-  std::int64_t delayed_pivots = 0;      ///< over all factorizations.
-  std::int64_t enlarged_fronts = 0;     ///< fronts that took delayed pivots, over all factorizations.
+  std::int64_t delayed_pivots = 0;         ///< over all factorizations.
+  std::int64_t enlarged_fronts = 0;        ///< fronts that took delayed pivots, over all factorizations.
   std::int64_t enlarging_allocations = 0;  ///< heap allocations these needed.
 };
 
@@ -75,7 +79,10 @@ struct Prepare {
 /// A Prepare that calls `body(leaf, begin, end)`; body must outlive the factorization.
 template <class Body>
 Prepare make_prepare(Body& body) {
-  return {[](void* context, tree::SubdomainId leaf, int begin, int end) { (*static_cast<Body*>(context))(leaf, begin, end); }, &body};
+  return {[](void* context, tree::SubdomainId leaf, int begin, int end) {
+            (*static_cast<Body*>(context))(leaf, begin, end);
+          },
+          &body};
 }
 
 }  // namespace bough::solve

@@ -20,10 +20,11 @@ constexpr std::int32_t none = -1;
 
 /// How the elements are cut.
 struct TreeOptions {
-  int leaf_size = 0;           ///< most elements of a leaf sub-domain, >= 1; 0: from a cost estimate (see target_leaf_flops).
-  int depth = -1;              ///< levels of sub-domains below the root, >= 0 (0: one sub-domain); -1: as leaf_size asks.
-  double target_leaf_flops = 1e5;  ///< flops of a leaf when leaf_size is 0: some tens of microseconds, well above a task's cost.
-  unsigned seed = 1;           ///< seed of the general partitioner; the tree is a function of the graph and these options alone.
+  int leaf_size = 0;  ///< most elements of a leaf sub-domain, >= 1; 0: from a cost estimate (see target_leaf_flops).
+  int depth = -1;     ///< levels of sub-domains below the root, >= 0 (0: one sub-domain); -1: as leaf_size asks.
+  double target_leaf_flops =
+      1e5;            ///< flops of a leaf when leaf_size is 0: some tens of microseconds, well above a task's cost.
+  unsigned seed = 1;  ///< seed of the general partitioner; the tree is a function of the graph and these options alone.
 };
 
 /// What is wrong with the options; empty when nothing is.
@@ -33,64 +34,68 @@ std::vector<std::string> problems_in(const TreeOptions& options);
 struct Front {
   FrontId parent = none;
   SubdomainId subdomain = none;
-  int num_eliminated = 0;           ///< unknowns eliminated here (before any delayed pivots).
-  int num_boundary = 0;             ///< unknowns of the boundary blocks.
+  int num_eliminated = 0;  ///< unknowns eliminated here (before any delayed pivots).
+  int num_boundary = 0;    ///< unknowns of the boundary blocks.
   int num_eliminated_blocks = 0;
-  std::int64_t block_begin = 0;     ///< blocks: eliminated ones first, then the boundary; range in Tree::front_blocks.
+  std::int64_t block_begin = 0;  ///< blocks: eliminated ones first, then the boundary; range in Tree::front_blocks.
   std::int64_t block_end = 0;
-  std::int64_t child_begin = 0;     ///< range in Tree::front_children, fixed order of addition.
+  std::int64_t child_begin = 0;  ///< range in Tree::front_children, fixed order of addition.
   std::int64_t child_end = 0;
-  int element_begin = 0;            ///< elements assembled here: range of positions in Tree::element_order.
+  int element_begin = 0;  ///< elements assembled here: range of positions in Tree::element_order.
   int element_end = 0;
-  double flops = 0.0;               ///< estimate of the elimination [flop].
-  double subtree_flops = 0.0;       ///< the same with all descendants [flop].
+  double flops = 0.0;          ///< estimate of the elimination [flop].
+  double subtree_flops = 0.0;  ///< the same with all descendants [flop].
   int size() const { return num_eliminated + num_boundary; }
 };
 
 /// One sub-domain: a set of elements and what is eliminated once all of them are known.
 struct Subdomain {
   SubdomainId parent = none;
-  int level = 0;                        ///< 0 at the root.
-  FrontId front_begin = 0;              ///< own fronts [front_begin, front_end); the last one is the top.
+  int level = 0;            ///< 0 at the root.
+  FrontId front_begin = 0;  ///< own fronts [front_begin, front_end); the last one is the top.
   FrontId front_end = 0;
-  FrontId subtree_front_begin = 0;      ///< fronts of the sub-domain and its descendants: [subtree_front_begin, front_end).
-  SubdomainId subtree_begin = 0;        ///< sub-domains of the subtree: [subtree_begin, own id].
-  std::int32_t child_begin = 0;         ///< range in Tree::subdomain_children.
+  FrontId subtree_front_begin = 0;  ///< fronts of the sub-domain and its descendants: [subtree_front_begin, front_end).
+  SubdomainId subtree_begin = 0;    ///< sub-domains of the subtree: [subtree_begin, own id].
+  std::int32_t child_begin = 0;     ///< range in Tree::subdomain_children.
   std::int32_t child_end = 0;
-  int element_begin = 0;                ///< elements of the subtree: range of positions in Tree::element_order.
+  int element_begin = 0;  ///< elements of the subtree: range of positions in Tree::element_order.
   int element_end = 0;
-  double flops = 0.0;                   ///< own fronts [flop].
-  double subtree_flops = 0.0;           ///< with descendants [flop].
+  double flops = 0.0;          ///< own fronts [flop].
+  double subtree_flops = 0.0;  ///< with descendants [flop].
   FrontId top() const { return front_end - 1; }
   bool is_leaf() const { return child_begin == child_end; }
 };
 
 /// The tree. Plain data, const after make_tree.
 struct Tree {
-  std::vector<Front> fronts;                ///< postorder.
-  std::vector<Subdomain> subdomains;        ///< postorder; the root is the last.
-  std::vector<int> front_blocks;            ///< block ids, see Front.
+  std::vector<Front> fronts;          ///< postorder.
+  std::vector<Subdomain> subdomains;  ///< postorder; the root is the last.
+  std::vector<int> front_blocks;      ///< block ids, see Front.
   std::vector<FrontId> front_children;
   std::vector<SubdomainId> subdomain_children;
-  std::vector<int> element_order;           ///< element ids by the leaf and front that assembles them: a leaf is a contiguous range.
-  std::vector<SubdomainId> leaf_of_element; ///< by element id.
-  std::vector<FrontId> front_of_block;      ///< where a block is eliminated, by block id.
-  std::vector<std::int64_t> unknown_begin;  ///< first unknown of each block (prefix sums of block_size), size num_blocks + 1.
-  std::vector<std::int64_t> scatter_begin;  ///< by position in element_order: range in scatter, one entry per block of the element.
-  std::vector<int> scatter;                 ///< first row of the element's block in its front.
-  std::vector<int> parent_row;              ///< parallel to front_blocks: first row of a boundary block in the parent front (-1 for eliminated).
-  std::string method;                       ///< how it was cut, in words, for reports.
+  std::vector<int>
+      element_order;  ///< element ids by the leaf and front that assembles them: a leaf is a contiguous range.
+  std::vector<SubdomainId> leaf_of_element;  ///< by element id.
+  std::vector<FrontId> front_of_block;       ///< where a block is eliminated, by block id.
+  std::vector<std::int64_t>
+      unknown_begin;  ///< first unknown of each block (prefix sums of block_size), size num_blocks + 1.
+  std::vector<std::int64_t>
+      scatter_begin;         ///< by position in element_order: range in scatter, one entry per block of the element.
+  std::vector<int> scatter;  ///< first row of the element's block in its front.
+  std::vector<int>
+      parent_row;  ///< parallel to front_blocks: first row of a boundary block in the parent front (-1 for eliminated).
+  std::string method;  ///< how it was cut, in words, for reports.
 
   int num_fronts() const { return static_cast<int>(fronts.size()); }
   int num_subdomains() const { return static_cast<int>(subdomains.size()); }
   SubdomainId root() const { return num_subdomains() - 1; }
   std::int64_t num_unknowns() const { return unknown_begin.back(); }
-  std::span<const int> blocks(const Front& f) const;           ///< eliminated, then boundary.
+  std::span<const int> blocks(const Front& f) const;  ///< eliminated, then boundary.
   std::span<const int> boundary_blocks(const Front& f) const;
   std::span<const FrontId> children(const Front& f) const;
   std::span<const SubdomainId> children(const Subdomain& s) const;
-  std::span<const int> elements(const Front& f) const;         ///< element ids assembled in this front.
-  std::span<const int> elements(const Subdomain& s) const;     ///< element ids of the whole sub-domain.
+  std::span<const int> elements(const Front& f) const;      ///< element ids assembled in this front.
+  std::span<const int> elements(const Subdomain& s) const;  ///< element ids of the whole sub-domain.
 };
 
 /// Cut the elements into sub-domains and lay out all fronts. Chains and trees of bodies are cut exactly (one block a cut); other graphs

@@ -40,7 +40,8 @@ Visit make_visit(Body& body) {
 /// A chunk that calls `body(begin, end)`; body must outlive the call.
 template <class Body>
 Chunk make_chunk(Body& body) {
-  return {[](void* context, std::int64_t begin, std::int64_t end) { (*static_cast<Body*>(context))(begin, end); }, &body};
+  return {[](void* context, std::int64_t begin, std::int64_t end) { (*static_cast<Body*>(context))(begin, end); },
+          &body};
 }
 
 }  // namespace bough::tree
