@@ -6,8 +6,7 @@ include(GoogleTest)
 # makes one GoogleTest executable and one ctest entry FOLDER/name.Suite.case for each of its tests; the targets
 # tests_LABEL and tests_FOLDER_LABEL build all of them. The main function is ours: it unmasks floating-point traps
 # (tests/support/main.cpp); NO_TRAPS leaves them masked. NO_SANITIZERS leaves the test out of sanitized builds, for
-# tests that replace operator new as the sanitizers do. BOUGH_SOURCE_DIR is defined as the path of the source tree,
-# for reading data/.
+# tests that replace operator new as the sanitizers do. support/source_dir.hpp tells where data/ lies.
 function(bough_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 TEST "NO_TRAPS;NO_SANITIZERS" "LABEL;TIMEOUT" "SOURCES;LAYERS;LIBS;DEFS")
   if(TEST_UNPARSED_ARGUMENTS)
@@ -40,7 +39,7 @@ function(bough_add_test name)
   endif()
   target_link_libraries(${target} PRIVATE ${TEST_LAYERS} ${TEST_LIBS} bough_base bough_warnings ${main})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
-  target_compile_definitions(${target} PRIVATE ${TEST_DEFS} BOUGH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(${target} PRIVATE ${TEST_DEFS})
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
   get_filename_component(folder "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
   gtest_discover_tests(${target} TEST_PREFIX "${folder}/${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60

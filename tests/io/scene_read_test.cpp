@@ -8,6 +8,7 @@
 #include "bough/motion/se3.hpp"
 #include "bough/scene/poses.hpp"
 #include "scene_base.hpp"
+#include "support/source_dir.hpp"
 #include "support/untrapped.hpp"
 
 namespace bough::io {
@@ -53,7 +54,7 @@ TEST(SceneRead, what_is_left_out_takes_the_defaults_of_the_scene) {
 }
 
 TEST(SceneRead, the_name_of_a_scene_is_that_of_its_file) {
-  const SceneFile file = read_scene(std::filesystem::path(BOUGH_SOURCE_DIR) / "data" / "scenarios" / "pendulum.json");
+  const SceneFile file = read_scene(support::source_dir() / "data" / "scenarios" / "pendulum.json");
   EXPECT_EQ(file.scene.name, "pendulum");
 }
 
@@ -230,7 +231,7 @@ TEST(SceneRead, wrong_overrides_are_problems_that_say_where_they_come_from) {
 TEST(SceneRead, every_scene_of_the_gallery_is_good_and_says_what_it_has_to_meet) {
   int count = 0;
   for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(BOUGH_SOURCE_DIR) / "data" / "scenarios")) {
+       std::filesystem::directory_iterator(support::source_dir() / "data" / "scenarios")) {
     if (entry.path().extension() != ".json") continue;
     ++count;
     SCOPED_TRACE(entry.path().string());

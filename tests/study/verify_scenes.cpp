@@ -9,6 +9,7 @@
 #include "bough/scene/problems.hpp"
 #include "bough/schedule/serial.hpp"
 #include "bough/study/simulate.hpp"
+#include "support/source_dir.hpp"
 
 namespace bough::verify {
 
@@ -72,7 +73,7 @@ Outcome run(const scene::Scene& scene, int threads) {
 }
 
 scene::Scene gallery(const std::string& name, const std::vector<std::string>& overrides) {
-  const auto file = std::filesystem::path(BOUGH_SOURCE_DIR) / "data" / "scenarios" / (name + ".json");
+  const auto file = support::source_dir() / "data" / "scenarios" / (name + ".json");
   const io::SceneFile read = io::read_scene(file, overrides);
   if (!read.ok()) throw std::runtime_error(name + ": " + read.problems.front().text());
   return read.scene;
@@ -81,7 +82,7 @@ scene::Scene gallery(const std::string& name, const std::vector<std::string>& ov
 std::vector<std::string> gallery_names() {
   std::vector<std::string> names;
   for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(BOUGH_SOURCE_DIR) / "data" / "scenarios"))
+       std::filesystem::directory_iterator(support::source_dir() / "data" / "scenarios"))
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;

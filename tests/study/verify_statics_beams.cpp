@@ -9,6 +9,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "support/source_dir.hpp"
 #include "verify_scenes.hpp"
 
 namespace bough::verify {
@@ -166,7 +167,7 @@ struct PrincetonRow {
 };
 
 std::vector<PrincetonRow> read_princeton() {
-  std::ifstream file(std::string(BOUGH_SOURCE_DIR) + "/data/reference/princeton_P1_P2.csv");
+  std::ifstream file(support::source_dir() / "data" / "reference" / "princeton_P1_P2.csv");
   std::string line;
   std::getline(file, line);
   std::vector<PrincetonRow> rows;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bough/io/read_scene.hpp"
+#include "support/source_dir.hpp"
 
 namespace bough::support {
 
@@ -46,7 +47,7 @@ std::vector<std::string> split(const std::string& line) {
 }  // namespace
 
 scene::Scene gallery(const std::string& stem, const std::vector<std::string>& overrides) {
-  return checked(io::read_scene(std::string(BOUGH_SOURCE_DIR) + "/data/scenarios/" + stem + ".json", overrides));
+  return checked(io::read_scene((source_dir() / "data" / "scenarios" / (stem + ".json")).string(), overrides));
 }
 
 scene::Scene scene_of(const std::string& json, const std::vector<std::string>& overrides) {
@@ -103,7 +104,7 @@ double Table::largest(const std::string& name) const {
 }
 
 Table reference(const std::string& file) {
-  std::ifstream in(std::string(BOUGH_SOURCE_DIR) + "/data/reference/" + file);
+  std::ifstream in(source_dir() / "data" / "reference" / file);
   if (!in) throw std::runtime_error("cannot read " + file);
   Table table;
   std::string line;
