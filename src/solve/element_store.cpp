@@ -11,7 +11,11 @@ constexpr std::int64_t chunk_blocks = 128;
 }  // namespace
 
 ElementStore::ElementStore(const blocks::BlockGraph& graph, const tree::Tree& tree)
-    : graph_(graph), tree_(tree), begin_(at(graph.num_elements()), 0), size_(at(graph.num_elements()), 0) {
+    : graph_(graph),
+      tree_(tree),
+      begin_(at(graph.num_elements()), 0),
+      stride_(at(graph.num_elements()), 1),
+      size_(at(graph.num_elements()), 0) {
   for (int e = 0; e < graph.num_elements(); ++e)
     for (int k = 0; k < num_blocks_of(e); ++k) size_[at(e)] += graph.block_size[at(blocks_of(e)[k])];
   std::int64_t total = 0;
@@ -42,21 +46,23 @@ void ElementStore::for_rows(std::int64_t begin, std::int64_t end, Row&& row) con
   for (std::int64_t b = begin; b < end; ++b)
     for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
       const Touch touch = touches_[at(t)];
-      const double* a = matrix(touch.element) + static_cast<std::int64_t>(touch.offset) * size_of(touch.element);
-      for (int i = 0; i < graph_.block_size[at(b)]; ++i, a += size_of(touch.element))
-        row(tree_.unknown_begin[at(b)] + i, touch.element, a);
+      const std::int64_t n = size_of(touch.element);
+      const ConstElementView a = view(touch.element);
+      for (int i = 0; i < graph_.block_size[at(b)]; ++i)
+        row(tree_.unknown_begin[at(b)] + i, touch.element, a.from((touch.offset + i) * n));
     }
 }
 
 void ElementStore::multiply(const tree::Walker& walker, const double* x, double* y) const {
   auto body = [&](std::int64_t begin, std::int64_t end) {
     std::fill(y + tree_.unknown_begin[at(begin)], y + tree_.unknown_begin[at(end)], 0.0);
-    for_rows(begin, end, [&](std::int64_t i, int e, const double* a) {
+    for_rows(begin, end, [&](std::int64_t i, int e, const ConstElementView& a) {
       double sum = 0.0;
+      std::int64_t c = 0;
       for (int k = 0; k < num_blocks_of(e); ++k) {
         const int b = blocks_of(e)[k];
         const double* xb = x + tree_.unknown_begin[at(b)];
-        for (int j = 0; j < graph_.block_size[at(b)]; ++j) sum += *a++ * xb[j];
+        for (int j = 0; j < graph_.block_size[at(b)]; ++j) sum += a[c++] * xb[j];
       }
       y[i] += sum;
     });
@@ -76,12 +82,13 @@ ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, con
         double sum = b[row], magnitude = std::abs(b[row]), norm = 0.0;
         for (std::int64_t t = touch_begin_[at(blk)]; t < touch_begin_[at(blk) + 1]; ++t) {
           const int e = touches_[at(t)].element;
-          const double* a = matrix(e) + static_cast<std::int64_t>(touches_[at(t)].offset + i) * size_of(e);
+          const auto a = view(e).from(static_cast<std::int64_t>(touches_[at(t)].offset + i) * size_of(e));
+          std::int64_t c = 0;
           for (int k = 0; k < num_blocks_of(e); ++k) {
             const int other = blocks_of(e)[k];
             const std::int64_t first = tree_.unknown_begin[at(other)];
             for (int j = 0; j < graph_.block_size[at(other)]; ++j) {
-              const double entry = *a++;
+              const double entry = a[c++];
               const double product = entry * x[first + j];
               sum -= product;
               magnitude += std::abs(product);
@@ -134,7 +141,7 @@ void ElementStore::lift_weak_diagonals(std::vector<double>& diagonal) const {
         }
       };
       for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
-        const double* g = matrix(touch.element) + (touch.offset + i) * ne;
+        const ConstElementView g = view(touch.element).from((touch.offset + i) * ne);
         double largest = 0.0;
         for_motion([&](std::size_t, std::int64_t j) { largest = std::max(largest, std::abs(g[j])); });
         // Entries that are round-off couple nothing: the mobility behind them would be lent a thousand times over.
@@ -170,7 +177,7 @@ void ElementStore::eval_scales(Scales& s) const {
     for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
       const Touch touch = touches_[at(t)];
       const std::int64_t ne = size_of(touch.element);
-      const double* a = matrix(touch.element);
+      const ConstElementView a = view(touch.element);
       for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
         const std::size_t row = at(tree_.unknown_begin[at(b)] + i);
         const std::int64_t k = touch.offset + i;
@@ -205,7 +212,7 @@ void ElementStore::eval_scales(Scales& s) const {
       for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
         const Touch touch = touches_[at(t)];
         const std::int64_t ne = size_of(touch.element), k = touch.offset + i;
-        const double* a = matrix(touch.element);
+        const ConstElementView a = view(touch.element);
         diagonal += std::abs(a[k * ne + k]);
         std::int64_t j = 0;
         for (int p = 0; p < num_blocks_of(touch.element); ++p) {

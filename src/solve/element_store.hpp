@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bough/blocks/block_graph.hpp"
+#include "bough/solve/element_view.hpp"
 #include "bough/tree/tree.hpp"
 #include "bough/tree/walker.hpp"
 
@@ -24,8 +25,12 @@ class ElementStore {
  public:
   ElementStore(const blocks::BlockGraph& graph, const tree::Tree& tree);
 
-  double* matrix(int element) { return values_.data() + begin_[static_cast<std::size_t>(element)]; }
-  const double* matrix(int element) const { return values_.data() + begin_[static_cast<std::size_t>(element)]; }
+  ElementView view(int element) {
+    return {values_.data() + begin_[static_cast<std::size_t>(element)], stride_[static_cast<std::size_t>(element)]};
+  }
+  ConstElementView view(int element) const {
+    return {values_.data() + begin_[static_cast<std::size_t>(element)], stride_[static_cast<std::size_t>(element)]};
+  }
   int size_of(int element) const { return size_[static_cast<std::size_t>(element)]; }
   const int* blocks_of(int element) const {
     return graph_.element_blocks.data() + graph_.element_begin[static_cast<std::size_t>(element)];
@@ -63,7 +68,8 @@ class ElementStore {
 
   const blocks::BlockGraph& graph_;
   const tree::Tree& tree_;
-  std::vector<std::int64_t> begin_;
+  std::vector<std::int64_t> begin_;  ///< by element, into values_
+  std::vector<int> stride_;          ///< by element
   std::vector<int> size_;
   std::vector<double> values_;
   std::vector<std::int64_t> touch_begin_;  ///< by block

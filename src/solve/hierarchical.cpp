@@ -92,10 +92,8 @@ Hierarchical::~Hierarchical() = default;
 Hierarchical::Hierarchical(Hierarchical&&) noexcept = default;
 Hierarchical& Hierarchical::operator=(Hierarchical&&) noexcept = default;
 
-double* Hierarchical::element_matrix(int element) { return state_->elements.matrix(element); }
-const double* Hierarchical::element_matrix(int element) const {
-  return std::as_const(state_->elements).matrix(element);
-}
+ElementView Hierarchical::element(int id) { return state_->elements.view(id); }
+ConstElementView Hierarchical::element(int id) const { return std::as_const(state_->elements).view(id); }
 void Hierarchical::rescale() { state_->scales_wanted = true; }
 const FactorStatus& Hierarchical::last_status() const { return state_->status; }
 std::span<const double> Hierarchical::column_scale() const { return state_->scales.column; }

@@ -31,7 +31,7 @@ std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s
   std::sort(row_of.begin(), row_of.end());
   std::vector<double> stiffness(at(rows), 0.0);
   for (int e : tree.elements(sub)) {
-    const double* a = elements.matrix(e);
+    const ConstElementView a = elements.view(e);
     const std::int64_t n = elements.size_of(e);
     std::int64_t k = 0;
     for (int p = 0; p < elements.num_blocks_of(e); ++p) {

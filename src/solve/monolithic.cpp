@@ -117,7 +117,7 @@ void Monolithic::State::assemble(double lowered) {
   std::fill(values.begin(), values.end(), 0.0);
   for (int e = 0; e < graph.num_elements(); ++e) {
     const int count = elements.num_blocks_of(e), n = elements.size_of(e);
-    const double* a = elements.matrix(e);
+    const ElementView a = elements.view(e);
     for (int p = 0, i0 = 0; p < count; ++p) {
       const int bp = elements.blocks_of(e)[p], np = graph.block_size[at(bp)];
       for (int q = 0, j0 = 0; q < count; ++q) {
@@ -197,8 +197,8 @@ Monolithic::~Monolithic() = default;
 Monolithic::Monolithic(Monolithic&&) noexcept = default;
 Monolithic& Monolithic::operator=(Monolithic&&) noexcept = default;
 
-double* Monolithic::element_matrix(int element) { return state_->elements.matrix(element); }
-const double* Monolithic::element_matrix(int element) const { return std::as_const(state_->elements).matrix(element); }
+ElementView Monolithic::element(int id) { return state_->elements.view(id); }
+ConstElementView Monolithic::element(int id) const { return std::as_const(state_->elements).view(id); }
 void Monolithic::rescale() { state_->scales_wanted = true; }
 const FactorStatus& Monolithic::last_status() const { return state_->status; }
 void Monolithic::multiply(const tree::Walker& walker, const double* x, double* y) const {

@@ -81,7 +81,7 @@ void Hierarchical::State::add_element(const tree::Front&, int position, double* 
   const int* rows = tree.scatter.data() + tree.scatter_begin[at(position)];
   const int* blocks = elements.blocks_of(e);
   const int count = elements.num_blocks_of(e), n = elements.size_of(e);
-  const double* matrix = elements.matrix(e);
+  const ConstElementView matrix = elements.view(e);
   const auto& sizes = elements.graph().block_size;
   for (int p = 0, i0 = 0; p < count; ++p) {
     const int bi = blocks[p], ni = sizes[at(bi)];

@@ -1,6 +1,7 @@
 #include "bough/step/system.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,8 @@ using motion::Vec3;
 using motion::Vec6;
 
 namespace {
+
+constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
 
 std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree::Tree& tree,
                                               const scene::Solver& given) {
@@ -127,10 +130,19 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
         multipliers = state.multipliers.data() + plan_.joints[static_cast<std::size_t>(j)].multiplier_begin;
         turns = state.turns[static_cast<std::size_t>(j)];
       }
-      double* matrix = tangent ? solver_->element_matrix(static_cast<int>(id)) : nullptr;
       plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
         double* residual = element_residual_.data() + element_begin_[id];
-        elements::evaluate(e, f, multipliers, turns, residual, matrix);
+        std::array<double, most_unknowns * most_unknowns> tangent_entries;
+        const solve::ElementView view = solver_->element(static_cast<int>(id));
+        const bool is_direct = view.stride == 1;
+        elements::evaluate(e, f, multipliers, turns, residual,
+                           !tangent    ? nullptr
+                           : is_direct ? view.first
+                                       : tangent_entries.data());
+        if (tangent && !is_direct) {
+          const int n = elements::num_unknowns(e);
+          for (int i = 0; i < n * n; ++i) view[i] = tangent_entries[static_cast<std::size_t>(i)];
+        }
         elements::eval_magnitude(e, f, residual, element_magnitude_.data() + element_begin_[id]);
       });
     }
@@ -202,7 +214,7 @@ ResidualSize System::round_off_floor(const State&) const {
   std::vector<double> floor(num_unknowns(), 0.0);
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
     const int n = static_cast<int>(element_begin_[e + 1] - element_begin_[e]);
-    const double* K = const_cast<solve::AnySolver&>(*solver_).element_matrix(static_cast<int>(e));
+    const solve::ElementView K = const_cast<solve::AnySolver&>(*solver_).element(static_cast<int>(e));
     int row = 0;
     for (std::int64_t kb = plan_.graph.element_begin[e]; kb < plan_.graph.element_begin[e + 1]; ++kb) {
       const int block = plan_.graph.element_blocks[static_cast<std::size_t>(kb)];

@@ -11,12 +11,16 @@
 
 namespace bough::test {
 
+inline void write_element(const Eigen::MatrixXd& a, solve::ElementView view) {
+  for (Eigen::Index i = 0; i < a.rows(); ++i)
+    for (Eigen::Index j = 0; j < a.cols(); ++j) view[i * a.cols() + j] = a(i, j);
+}
+
 template <class Solver>
 void write_elements(const Scene& scene, Solver& solver) {
   for (int e = 0; e < scene.graph.num_elements(); ++e) {
     const Eigen::MatrixXd& a = scene.elements[static_cast<std::size_t>(e)];
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(solver.element_matrix(e),
-                                                                                       a.rows(), a.cols()) = a;
+    write_element(a, solver.element(e));
   }
 }
 

@@ -54,15 +54,15 @@ TEST(Threads, PrepareRunsOncePerLeafBeforeItsElementsAreUsed) {
   write_elements(scene, solver);
   ASSERT_TRUE(solver.factor(threads.walker()).ok());  // scales from the true matrices
   for (int e = 0; e < scene.graph.num_elements(); ++e)
-    std::fill_n(solver.element_matrix(e), scene.elements[static_cast<std::size_t>(e)].size(), 0.0);
+    write_element(Eigen::MatrixXd::Zero(scene.elements[static_cast<std::size_t>(e)].rows(),
+                                        scene.elements[static_cast<std::size_t>(e)].cols()),
+                  solver.element(e));
   std::vector<int> seen(static_cast<std::size_t>(scene.graph.num_elements()), 0);
   auto body = [&](tree::SubdomainId, int begin, int end) {
     for (int p = begin; p < end; ++p) {
       const auto e = static_cast<std::size_t>(tree.element_order[static_cast<std::size_t>(p)]);
       ++seen[e];
-      Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(solver.element_matrix(static_cast<int>(e)),
-                                                                 scene.elements[e].rows(), scene.elements[e].cols()) =
-          scene.elements[e];
+      write_element(scene.elements[e], solver.element(static_cast<int>(e)));
     }
   };
   ASSERT_TRUE(solver.factor(threads.walker(), solve::make_prepare(body)).ok());

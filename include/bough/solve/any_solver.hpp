@@ -14,8 +14,8 @@ class AnySolver {
   AnySolver(Hierarchical solver) : solver_(std::move(solver)) {}
   AnySolver(Monolithic solver) : solver_(std::move(solver)) {}
 
-  double* element_matrix(int element) {
-    return std::visit([&](auto& s) { return s.element_matrix(element); }, solver_);
+  ElementView element(int id) {
+    return std::visit([&](auto& s) { return s.element(id); }, solver_);
   }
   void rescale() {
     std::visit([](auto& s) { s.rescale(); }, solver_);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bough/blocks/block_graph.hpp"
+#include "bough/solve/element_view.hpp"
 #include "bough/solve/options.hpp"
 #include "bough/solve/report.hpp"
 #include "bough/tree/tree.hpp"
@@ -26,10 +27,10 @@ class Hierarchical {
   Hierarchical(Hierarchical&&) noexcept;
   Hierarchical& operator=(Hierarchical&&) noexcept;
 
-  /// Where the assembler writes element e: row-major n_e x n_e in the element's block order, SI units. Values stay until overwritten;
-  /// elements of a leaf lie next to each other. Zero at the start.
-  double* element_matrix(int element);
-  const double* element_matrix(int element) const;
+  /// Where the assembler writes an element matrix. Values stay until overwritten; elements of a leaf lie next to each other. Zero at the
+  /// start.
+  ElementView element(int id);
+  ConstElementView element(int id) const;
 
   /// Take the scales anew from the element matrices at the next factor(). The first one always does. With a Prepare the scales are
   /// those of the matrices present before it runs, so call rescale() after the element matrices have been evaluated once.

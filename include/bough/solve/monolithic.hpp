@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bough/blocks/block_graph.hpp"
+#include "bough/solve/element_view.hpp"
 #include "bough/solve/options.hpp"
 #include "bough/solve/report.hpp"
 #include "bough/tree/walker.hpp"
@@ -24,8 +25,8 @@ class Monolithic {
   Monolithic(Monolithic&&) noexcept;
   Monolithic& operator=(Monolithic&&) noexcept;
 
-  double* element_matrix(int element);
-  const double* element_matrix(int element) const;
+  ElementView element(int id);
+  ConstElementView element(int id) const;
   void rescale();
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {});
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x);

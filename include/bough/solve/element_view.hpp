@@ -1,0 +1,19 @@
+#pragma once
+/// Where the assembler writes an element matrix.
+#include <cstdint>
+
+namespace bough::solve {
+
+/// One element matrix, row-major in the element's block order, SI units: entry (i, j) of an n x n matrix is view[i * n + j]. Equal elements
+/// of sub-domains that are factored in lockstep lie interleaved, so consecutive entries are `stride` doubles apart.
+template <class Real>
+struct BasicElementView {
+  Real* first = nullptr;
+  std::int64_t stride = 1;
+  Real& operator[](std::int64_t k) const { return first[k * stride]; }
+  BasicElementView from(std::int64_t k) const { return {first + k * stride, stride}; }
+};
+using ElementView = BasicElementView<double>;
+using ConstElementView = BasicElementView<const double>;
+
+}  // namespace bough::solve
