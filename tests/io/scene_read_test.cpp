@@ -230,8 +230,7 @@ TEST(SceneRead, wrong_overrides_are_problems_that_say_where_they_come_from) {
 
 TEST(SceneRead, every_scene_of_the_gallery_is_good_and_says_what_it_has_to_meet) {
   int count = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(support::source_dir() / "data" / "scenarios")) {
+  for (const auto& entry : std::filesystem::directory_iterator(support::source_dir() / "data" / "scenarios")) {
     if (entry.path().extension() != ".json") continue;
     ++count;
     SCOPED_TRACE(entry.path().string());

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "support/source_dir.hpp"
+
 namespace bough::motion {
 namespace {
 
@@ -26,7 +28,7 @@ double half_digit(double printed) {
 }
 
 TEST(SpinningDisc, meets_the_reference_to_all_printed_digits) {
-  std::ifstream in(BOUGH_SOURCE_DIR "/data/reference/razi_unit_disc.csv");
+  std::ifstream in(support::source_dir() / "data" / "reference" / "razi_unit_disc.csv");
   ASSERT_TRUE(in.good());
   std::string line;
   std::getline(in, line);

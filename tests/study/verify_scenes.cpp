@@ -81,8 +81,7 @@ scene::Scene gallery(const std::string& name, const std::vector<std::string>& ov
 
 std::vector<std::string> gallery_names() {
   std::vector<std::string> names;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(support::source_dir() / "data" / "scenarios"))
+  for (const auto& entry : std::filesystem::directory_iterator(support::source_dir() / "data" / "scenarios"))
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;

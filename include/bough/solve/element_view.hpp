@@ -1,6 +1,7 @@
 #pragma once
 /// Where the assembler writes an element matrix.
 #include <cstdint>
+#include <type_traits>
 
 namespace bough::solve {
 
@@ -11,6 +12,7 @@ struct BasicElementView {
   Real* first = nullptr;
   std::int64_t stride = 1;
   Real& operator[](std::int64_t k) const { return first[k * stride]; }
+  operator BasicElementView<const Real>() const requires(!std::is_const_v<Real>) { return {first, stride}; }
   BasicElementView from(std::int64_t k) const { return {first + k * stride, stride}; }
 };
 using ElementView = BasicElementView<double>;
