@@ -1,13 +1,23 @@
 #!/bin/sh
-# run.sh BUILD_FOLDER   runs every micro benchmark; tables to the terminal, JSON beside the programs.
+# run.sh BUILD_FOLDER   runs all benchmarks: micro (JSON beside the programs), solve (BUILD_FOLDER/solve.json) and
+# step (BUILD_FOLDER/step.json), then prints the table of ratios.
 set -eu
-folder=$1/benchmarks
+build=$1
+folder=$build/benchmarks
+here=$(dirname "$0")
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1   # one thread a call, whatever BLAS is installed
 found=0
+for name in solve step; do
+  program=$folder/bench_$name
+  [ -x "$program" ] || continue
+  found=1
+  "$program" --benchmark_out="$build/$name.json" --benchmark_out_format=json --benchmark_display_aggregates_only=true
+done
 for program in "$folder"/bench_*; do
-  case "$program" in *.json) continue ;; esac
+  case "$program" in *.json | */bench_solve | */bench_step) continue ;; esac
   [ -x "$program" ] || continue
   found=1
   "$program" --benchmark_min_time=0.2 --benchmark_out="$program.json" --benchmark_out_format=json
 done
 [ "$found" -eq 1 ] || { echo "no benchmarks in $folder" >&2; exit 1; }
-echo "JSON in $folder"
+python3 "$here/ratios.py" "$build"

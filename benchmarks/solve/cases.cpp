@@ -1,0 +1,200 @@
+#include "cases.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "../support/scenes.hpp"
+#include "bough_session.hpp"
+
+namespace bough::bench {
+
+namespace {
+
+constexpr double largest_backward_error = 1e-10, slowest_first = 20.0, longest_trial = 0.3;
+
+const std::vector<std::string> lattice_rivals{"cholmod", "umfpack", "mumps", "superlu"};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A peer with its best ordering, and what it took.
+struct Trial {
+  const Peer* peer = nullptr;
+  std::string ordering, failure;
+  std::unique_ptr<Session> session;
+  double first = 0.0, again = std::numeric_limits<double>::infinity(), backward_error = 0.0;
+};
+
+std::string describe_error(double backward_error, const std::string& ordering) {
+  char text[80];
+  std::snprintf(text, sizeof text, "backward error %.1e (%s)", backward_error, ordering.c_str());
+  return text;
+}
+
+/// One ordering: first factorization, then twice what is timed.
+Trial try_ordering(const Peer& peer, const Problem& p, const std::string& ordering) {
+  Trial t;
+  t.peer = &peer;
+  t.ordering = ordering;
+  t.session = peer.make(p, ordering);
+  const bool analyzed = t.session->analyze();
+  auto start = std::chrono::steady_clock::now();
+  if (!analyzed || !t.session->factor()) {
+    t.failure = "fails to factor the matrix (" + ordering + ")";
+    return t;
+  }
+  t.first = seconds_since(start);
+  std::vector<double> x;
+  for (int k = 0; k < 2; ++k) {
+    start = std::chrono::steady_clock::now();
+    if (!t.session->refactor_and_solve(x)) {
+      t.failure = "fails to solve (" + ordering + ")";
+      return t;
+    }
+    t.again = std::min(t.again, seconds_since(start));
+  }
+  t.backward_error = eval_backward_error(p.matrix, x, p.rhs);
+  if (!(t.backward_error <= largest_backward_error)) {
+    t.failure = describe_error(t.backward_error, ordering);
+  }
+  return t;
+}
+
+bool is_better(const Trial& a, const Trial& b) {
+  if (a.failure.empty() != b.failure.empty()) return a.failure.empty();
+  return a.again < b.again;
+}
+
+/// All orderings, or the one kept from the next smaller case where trials take long.
+Trial try_peer(const Peer& peer, const Problem& p, const std::string& kept) {
+  std::vector<std::string> orderings = peer.orderings(p);
+  const auto at_front = std::find(orderings.begin(), orderings.end(), kept);
+  if (at_front != orderings.end()) std::iter_swap(orderings.begin(), at_front);
+  Trial best = try_ordering(peer, p, orderings.front());
+  for (std::size_t k = 1; k < orderings.size(); ++k) {
+    if (!kept.empty() && best.failure.empty() && best.first > longest_trial) break;
+    if (orderings[k].starts_with("node") && order_nodes(p, orderings[k]).empty()) continue;
+    Trial t = try_ordering(peer, p, orderings[k]);
+    if (is_better(t, best)) best = std::move(t);
+  }
+  return best;
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+void add_bough(Field& field, const std::vector<int>& thread_counts, std::vector<LeftOut>& left_out) {
+  for (int threads : thread_counts) {
+    Entrant e{"bough", "tree", threads, std::make_unique<BoughSession>(*field.problem, threads)};
+    std::vector<double> x;
+    const bool ok = e.session->analyze() && e.session->factor() && e.session->refactor_and_solve(x);
+    e.backward_error = ok ? eval_backward_error(field.problem->matrix, x, field.problem->rhs) : 0.0;
+    if (ok && e.backward_error <= largest_backward_error)
+      field.entrants.push_back(std::move(e));
+    else
+      left_out.push_back({"bough", field.bench_case->name,
+                          ok ? describe_error(e.backward_error, "tree") : "fails to factor or to solve"});
+  }
+}
+
+}  // namespace
+
+std::string Case::family_key() const {
+  static const char* const names[] = {"chain", "star", "lat2", "lat3"};
+  return std::string(names[static_cast<int>(family)]) + (values == Values::symmetric ? "_s" : "_u");
+}
+
+scene::Scene Case::make_scene() const {
+  switch (family) {
+    case Family::chain:
+      return make_chain(size);
+    case Family::star:
+      return make_star(size, size);
+    case Family::lattice_2d:
+      return make_lattice_2d(size, Support::spring);
+    case Family::lattice_3d:
+      break;
+  }
+  return make_lattice_3d(size);
+}
+
+std::vector<Case> make_cases() {
+  std::vector<Case> cases;
+  for (Values values : {Values::unsymmetric, Values::symmetric}) {
+    const bool is_u = values == Values::unsymmetric;
+    const std::string end = is_u ? "_u" : "_s";
+    const std::vector<std::string> rival{is_u ? "klu" : "eigen_ldlt"};
+    for (int n : {32, 128, 512, 2048, 8192}) {
+      const double bar = !is_u || n == 32 ? 5.0 : n == 8192 ? 6.0 : 8.0;
+      cases.push_back({"chain_" + std::to_string(n) + end, Family::chain, n, values, bar, rival});
+    }
+    cases.push_back({"star_64" + end, Family::star, 64, values, is_u ? 8.0 : 5.0, rival});
+    for (int n : {20, 50, 100, 150})
+      cases.push_back({"lat2_" + std::to_string(n) + end, Family::lattice_2d, n, values, 1.5, lattice_rivals});
+    for (int n : {8, 12, 16})
+      cases.push_back({"lat3_" + std::to_string(n) + end, Family::lattice_3d, n, values, 1.2, lattice_rivals});
+  }
+  return cases;
+}
+
+Memory::Item& Memory::of(const std::string& key) {
+  for (Item& i : items)
+    if (i.key == key) return i;
+  items.push_back({key, "", false, ""});
+  return items.back();
+}
+
+Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const std::vector<int>& thread_counts,
+                 Memory& memory, std::vector<LeftOut>& left_out) {
+  Field field;
+  field.bench_case = &bench_case;
+  field.problem = std::make_unique<Problem>(make_problem(bench_case.name, bench_case.make_scene(), bench_case.values));
+  const Problem& p = *field.problem;
+  std::vector<Trial> trials;
+  double best_rival = std::numeric_limits<double>::infinity();
+  for (const bool rivals_turn : {true, false}) {
+    for (const Peer& peer : peers) {
+      if (contains(bench_case.rivals, peer.name) != rivals_turn) continue;
+      Memory::Item& kept = memory.of(peer.name + "/" + bench_case.family_key());
+      if (peer.orderings(p).empty()) {
+        left_out.push_back({peer.name, bench_case.name, "for symmetric matrices only"});
+        continue;
+      }
+      if (kept.is_out) {
+        left_out.push_back({peer.name, bench_case.name, kept.reason});
+        continue;
+      }
+      Trial t = try_peer(peer, p, kept.ordering);
+      kept.ordering = t.ordering;
+      if (!t.failure.empty()) {
+        left_out.push_back({peer.name, bench_case.name, t.failure});
+        continue;
+      }
+      if (rivals_turn) best_rival = std::min(best_rival, t.again);
+      trials.push_back(std::move(t));
+    }
+  }
+  const double limit = slowest_first * best_rival / bench_case.bar;
+  for (Trial& t : trials) {
+    if (t.first > limit && !contains(bench_case.rivals, t.peer->name)) {
+      char text[120];
+      std::snprintf(text, sizeof text, "first numeric factorization %.3g ms, more than 20 times the bar of %.3g ms",
+                    1e3 * t.first, 1e3 * best_rival / bench_case.bar);
+      left_out.push_back({t.peer->name, bench_case.name, text});
+      Memory::Item& kept = memory.of(t.peer->name + "/" + bench_case.family_key());
+      kept.is_out = true;
+      kept.reason = "left out of " + bench_case.name + " for its time already";
+      continue;
+    }
+    field.entrants.push_back({t.peer->name, t.ordering, 1, std::move(t.session), t.backward_error});
+  }
+  add_bough(field, thread_counts, left_out);
+  return field;
+}
+
+}  // namespace bough::bench

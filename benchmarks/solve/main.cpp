@@ -1,0 +1,82 @@
+/// bench_solve [--case=REGEX] [--solver=REGEX] [options of Google Benchmark]
+/// Numeric refactorization plus one solution, symbolic work reused: bough and its peers on the same matrices.
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "../support/context.hpp"
+#include "cases.hpp"
+
+namespace {
+
+using namespace bough::bench;
+
+void run_row(benchmark::State& state, const Problem& problem, Entrant& entrant) {
+  std::vector<double> x;
+  for (auto _ : state)
+    if (!entrant.session->refactor_and_solve(x)) {
+      state.SkipWithError("the solver failed");
+      return;
+    }
+  state.counters["backward_error"] = eval_backward_error(problem.matrix, x, problem.rhs);
+  state.counters["unknowns"] = problem.matrix.n;
+  state.counters["entries"] = problem.matrix.num_entries();
+  state.SetLabel(entrant.ordering);
+}
+
+/// Takes "--NAME=VALUE" out of the arguments.
+std::string take_option(std::vector<char*>& arguments, const std::string& name, const std::string& otherwise) {
+  std::string value = otherwise;
+  const std::string start = "--" + name + "=";
+  std::erase_if(arguments, [&](const char* a) {
+    if (!std::string(a).starts_with(start)) return false;
+    value = std::string(a).substr(start.size());
+    return true;
+  });
+  return value;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  const std::regex wanted_case(take_option(arguments, "case", ".*"));
+  const std::regex wanted_solver(take_option(arguments, "solver", ".*"));
+  std::vector<std::string> defaults{"--benchmark_repetitions=5", "--benchmark_enable_random_interleaving=true",
+                                    "--benchmark_min_time=0.05"};
+  for (std::string& d : defaults) arguments.insert(arguments.begin() + 1, d.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+  add_context();
+
+  std::vector<Peer> peers;
+  for (Peer& p : make_peers())
+    if (std::regex_match(p.name, wanted_solver)) {
+      benchmark::AddCustomContext("version " + p.name, p.version);
+      peers.push_back(std::move(p));
+    }
+  const std::vector<int> threads = std::regex_match("bough", wanted_solver) ? std::vector{1, 2} : std::vector<int>{};
+  const std::vector<Case> cases = make_cases();
+  std::vector<Field> fields;
+  std::vector<LeftOut> left_out;
+  Memory memory;
+  for (const Case& c : cases) {
+    if (!std::regex_match(c.name, wanted_case)) continue;
+    std::fprintf(stderr, "preparing %s\n", c.name.c_str());
+    fields.push_back(make_field(c, peers, threads, memory, left_out));
+  }
+  for (Field& f : fields)
+    for (Entrant& e : f.entrants)
+      benchmark::RegisterBenchmark(
+          (e.solver + "/" + f.bench_case->name + "/threads:" + std::to_string(e.threads)).c_str(),
+          [&f, &e](benchmark::State& state) { run_row(state, *f.problem, e); })
+          ->UseRealTime()
+          ->Unit(benchmark::kMillisecond);
+  for (const LeftOut& l : left_out) benchmark::AddCustomContext("left out " + l.solver + "/" + l.case_name, l.reason);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}
