@@ -76,28 +76,7 @@ StepReport advance(System& system, State& state, const StepOptions& options, dou
   state.time = end_time;
   const elements::Slopes slopes{c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h),
                                 false};
-  report = iterate(system, state, options, slopes, Reuse::while_it_contracts,
-                   [&](State& s) { return rule.follow(system, s); });
-  if (!report.converged) return report;
-  if (const auto t = check_shape(system, state)) {
-    report.converged = false;
-    report.cause = t->text;
-  }
-  return report;
-}
-
-StepReport equilibrate(System& system, State& state, const StepOptions& options, double load_factor) {
-  StepReport report;
-  if (const auto t = system.set_time(load_factor, laws::Side::left)) {
-    report.cause = t->text;
-    return report;
-  }
-  state.time = load_factor;
-  for (elements::NodeMotion& n : state.nodes) n.dq = n.v = n.a = Vec6<double>::zero();
-  report = iterate(system, state, options, {}, Reuse::never, [](State& s) -> std::optional<Trouble> {
-    for (elements::NodeMotion& n : s.nodes) n.dq = Vec6<double>::zero();  // statics has no rotation limit per step
-    return std::nullopt;
-  });
+  report = iterate(system, state, options, slopes, [&](State& s) { return rule.follow(system, s); });
   if (!report.converged) return report;
   if (const auto t = check_shape(system, state)) {
     report.converged = false;

@@ -4,10 +4,19 @@
 
 namespace bough::step {
 
-bool is_small(const ResidualSize& r, double tolerance, double length_scale, double moment_arm) {
-  return r.force <= tolerance * r.force_scale &&
-         r.moment <= tolerance * std::max(r.moment_scale, r.force_scale * moment_arm) &&
-         r.length <= tolerance * length_scale && r.angle <= tolerance;
+bool is_small(const System& system, const ResidualSize& r, double tolerance) {
+  const double arm = system.moment_arm();
+  return r.force <= tolerance * std::max(r.force_scale, r.moment_scale / arm) &&
+         r.moment <= tolerance * std::max(r.moment_scale, r.force_scale * arm) &&
+         r.length <= tolerance * system.plan().length_scale && r.angle <= tolerance;
+}
+
+bool is_at_floor(const System& system, const State& state, const ResidualSize& r, double tolerance) {
+  const ResidualSize floor = system.round_off_floor(state);
+  return r.force <= std::max(16.0 * floor.force, tolerance * r.force_scale) &&
+         r.moment <= std::max(16.0 * floor.moment, tolerance * r.moment_scale) &&
+         r.length <= std::max(floor.length, tolerance * system.plan().length_scale) &&
+         r.angle <= std::max(floor.angle, tolerance);
 }
 
 namespace {

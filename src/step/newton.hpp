@@ -1,11 +1,8 @@
 #pragma once
-/// The iteration shared by statics and dynamics.
+/// The iteration of a step in time, and what it shares with that of statics (equilibrate.cpp).
 #include "bough/step/advance.hpp"
 
 namespace bough::step {
-
-/// Whether a factor of an earlier iteration or step may serve again.
-enum class Reuse { never, while_it_contracts };
 
 /// A factor that contracts the changes less than this is made anew: four more solutions cost about as much as a tangent and its factor.
 constexpr double slowest_contraction = 0.03;
@@ -13,10 +10,13 @@ constexpr double slowest_contraction = 0.03;
 /// Repeats: evaluate, stop when converged, factor, solve, apply. `follow` brings velocities and accelerations along with the positions.
 template <class Follow>
 StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes,
-                   Reuse reuse, Follow&& follow);
+                   Follow&& follow);
 
 /// Residual within the tolerance of what makes it, forces, moments, lengths and angles apart.
-bool is_small(const ResidualSize& r, double tolerance, double length_scale, double moment_arm);
+bool is_small(const System& system, const ResidualSize& r, double tolerance);
+
+/// Whether what is left of a residual above the tolerance may be round-off.
+bool is_at_floor(const System& system, const State& state, const ResidualSize& r, double tolerance);
 
 /// Names the part of the residual that is worst, for a message.
 std::string describe(System& system, const ResidualSize& r, double tolerance);

@@ -6,15 +6,14 @@ namespace bough::step {
 
 template <class Follow>
 StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes,
-                   Reuse reuse, Follow&& follow) {
+                   Follow&& follow) {
   StepReport report;
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
   const auto fail = [&report](const Trouble& t) {
     report.cause = t.text;
     return report;
   };
-  const double length = system.plan().length_scale;
-  const bool may_reuse = reuse == Reuse::while_it_contracts && !options.single_solution;
+  const bool may_reuse = !options.single_solution;
   double previous = 0.0, rate = system.last_contraction();
   bool fresh = !may_reuse || !system.has_factor(slopes);  // whether the next solution gets a new factor
   for (int k = 0;; ++k) {
@@ -30,19 +29,13 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       // What is left after the last change, were the contraction to go on: an old factor must come as near as a new one.
       const bool stalled = k > 1 && rate > 0.3;
       const bool near = !may_reuse || stalled || report.change * rate <= 1e-6 * options.tolerance;
-      if (still && near && is_small(report.residual, options.tolerance, length, system.moment_arm())) {
+      if (still && near && is_small(system, report.residual, options.tolerance)) {
         report.converged = true;
         if (k > 1) system.set_last_contraction(rate);
         return report;
       }
       if (still && (stalled || report.change == 0.0)) {  // is what is left only round-off?
-        const ResidualSize floor = system.round_off_floor(state);
-        const ResidualSize& r = report.residual;
-        const bool at_floor = r.force <= std::max(16.0 * floor.force, options.tolerance * r.force_scale) &&
-                              r.moment <= std::max(16.0 * floor.moment, options.tolerance * r.moment_scale) &&
-                              r.length <= std::max(floor.length, options.tolerance * length) &&
-                              r.angle <= std::max(floor.angle, options.tolerance);
-        if (at_floor) {
+        if (is_at_floor(system, state, report.residual, options.tolerance)) {
           report.converged = report.at_floor = true;
           return report;
         }

@@ -64,6 +64,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
       if constexpr (requires { element.length; }) moment_arm_ = std::max(moment_arm_, element.length);
     });
   }
+  if (!plan.is_dynamic) motion_tree_ = make_motion_tree(plan);
   if (moment_arm_ == 0.0) moment_arm_ = plan.length_scale;
   element_residual_.assign(static_cast<std::size_t>(element_begin_.back()), 0.0);
   element_magnitude_ = element_residual_;

@@ -10,14 +10,7 @@ namespace bough::step {
 using elements::NodeMotion;
 using motion::Vec6;
 
-double System::apply(State& state, const double* x) {
-  PhaseTimer timer{counts_.update};
-  const auto node_increment = [&](int node) {
-    Vec6<double> eta;
-    const double* from = x + block_begin(node);
-    for (int i = 0; i < 6; ++i) eta[i] = from[i];
-    return eta;
-  };
+double System::relative_size(const State& state, const double* x) {
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     double most = 0.0;
     for (std::int64_t k = begin; k < end; ++k) {
@@ -26,14 +19,14 @@ double System::apply(State& state, const double* x) {
         const elements::Port* first = nullptr;
         for (const elements::Port& p : e.ports) {
           if (p.node == elements::ground) continue;
-          Vec6<double> change = node_increment(p.node);
+          Vec6<double> change = node_part(x, p.node);
           constexpr int num_ports = std::decay_t<decltype(e)>::num_ports;
           if (first != nullptr) {
             const NodeMotion& a = state.nodes[static_cast<std::size_t>(first->node)];
             const NodeMotion& b = state.nodes[static_cast<std::size_t>(p.node)];
             const motion::Frame<double> H{lanes::transpose_times(a.R, b.R),
                                           lanes::transpose_times(a.R, motion::difference(b.x, a.x))};
-            change -= motion::inverse_adjoint_times(H, node_increment(first->node));
+            change -= motion::inverse_adjoint_times(H, node_part(x, first->node));
           } else if (num_ports > 1 && e.ports[0].node != elements::ground) {
             first = &p;
             continue;
@@ -50,18 +43,35 @@ double System::apply(State& state, const double* x) {
   std::fill(chunk_max_.begin(), chunk_max_.end(), 0.0);
   walker_.for_each_chunk(static_cast<std::int64_t>(plan_.directory.size()), element_grain,
                          tree::make_chunk(by_element));
-  auto by_node = [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t n = begin; n < end; ++n)
-      move_node(state, static_cast<std::size_t>(n), node_increment(static_cast<int>(n)));
-  };
-  walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
+  return *std::max_element(chunk_max_.begin(), chunk_max_.end());
+}
+
+Vec6<double> System::node_part(const double* x, int node) const {
+  Vec6<double> eta;
+  const double* from = x + block_begin(node);
+  for (int i = 0; i < 6; ++i) eta[i] = from[i];
+  return eta;
+}
+
+void System::add_multipliers(State& state, const double* x, double factor) const {
   for (const plan::JointPlan& j : plan_.joints) {
     if (j.block < 0) continue;
     const int size = plan_.graph.block_size[static_cast<std::size_t>(j.block)];
     for (int i = 0; i < size; ++i)
-      state.multipliers[static_cast<std::size_t>(j.multiplier_begin + i)] += x[block_begin(j.block) + i];
+      state.multipliers[static_cast<std::size_t>(j.multiplier_begin + i)] += factor * x[block_begin(j.block) + i];
   }
-  return *std::max_element(chunk_max_.begin(), chunk_max_.end());
+}
+
+double System::apply(State& state, const double* x) {
+  PhaseTimer timer{counts_.update};
+  const double change = relative_size(state, x);
+  auto by_node = [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t n = begin; n < end; ++n)
+      move_node(state, static_cast<std::size_t>(n), node_part(x, static_cast<int>(n)));
+  };
+  walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
+  add_multipliers(state, x, 1.0);
+  return change;
 }
 
 void System::evaluate_rate(const State& state, std::vector<double>& rate) {

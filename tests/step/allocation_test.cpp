@@ -59,5 +59,20 @@ TEST(Advance, allocates_nothing_after_the_first_step_with_elements_of_higher_ord
   EXPECT_EQ(allocations_of_steps(test::make_chain(2, 3), 5), 0);
 }
 
+TEST(Equilibrate, allocates_nothing_after_the_first_load_step) {
+  scene::Scene scene = test::make_chain(1, 3);
+  scene.analysis.kind = scene::AnalysisKind::statics;
+  scene.joints[0].kind = scene::JointKind::fixed;
+  const plan::Plan plan = plan::make_plan(scene);
+  System system(plan, scene.solver, schedule::make_serial_walker());
+  State state = make_initial_state(plan);
+  const StepOptions options = make_step_options(scene.analysis);
+  ASSERT_TRUE(equilibrate(system, state, options, 0.5).converged);
+  const long first = allocations;
+  const StepReport second = equilibrate(system, state, options, 1.0);
+  EXPECT_EQ(allocations, first);
+  EXPECT_TRUE(second.converged);
+}
+
 }  // namespace
 }  // namespace bough::step

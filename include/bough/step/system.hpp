@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bough/solve/any_solver.hpp"
+#include "bough/step/motion_tree.hpp"
 #include "bough/step/state.hpp"
 #include "bough/tree/tree.hpp"
 #include "bough/tree/walker.hpp"
@@ -32,6 +33,7 @@ struct ResidualSize {
 struct Workspace {
   std::vector<double> rhs, x;                           ///< of the linear system
   std::vector<motion::Vec6<double>> v, a, algorithmic;  ///< of the nodes at the start of a step
+  State before;                                         ///< statics: where an iteration started
 };
 
 /// Why a step or a run cannot go on, in words for the user.
@@ -73,9 +75,18 @@ class System {
   [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x);
   const solve::SolveReport& last_solution() const { return last_solution_; }
 
-  /// Applies a solution: nodes move by their increments, multipliers grow by theirs. Returns the largest change of relative motions:
-  /// of elements' nodes with respect to each other, lengths relative to the element [-] and angles [rad].
+  /// Size of an increment: the largest change of relative motions, of elements' nodes with respect to each other, lengths relative to the
+  /// element [-] and angles [rad].
+  double relative_size(const State& state, const double* x);
+  /// Applies a solution: each node moves by its own increment, H <- H exp(eta), multipliers grow by theirs. Returns relative_size.
   double apply(State& state, const double* x);
+  /// Applies `factor` of a solution, nodes carrying each other along the motion tree; statics only (State's dq is left alone).
+  ///   S_b = (H_ab^-1 S_a H_ab) exp(factor (eta_b - Ad(H_ab)^-1 eta_a)),  H_b <- H_b S_b   for a node b that a carries
+  /// Agrees with apply to first order, but relative motions take their increments exactly: a beam that bends far in one go is not
+  /// stretched, as it is where nodes move alone, along their tangents.
+  void apply_along_tree(State& state, const double* x, double factor);
+  /// Power of the present residual at the end of the path that apply_along_tree took last with `x`:  sum of residual . d(increment)/d(factor).
+  double power_along_tree(const double* x);
 
   /// d(residual)/dt with accelerations and multipliers held.
   void evaluate_rate(const State& state, std::vector<double>& rate);
@@ -95,6 +106,9 @@ class System {
   const std::vector<double>& law_values() const { return law_values_; }
 
  private:
+  motion::Vec6<double> node_part(const double* x, int node) const;
+  void add_multipliers(State& state, const double* x, double factor) const;
+
   const plan::Plan& plan_;
   std::unique_ptr<tree::Tree> tree_;
   std::unique_ptr<solve::AnySolver> solver_;
@@ -117,6 +131,7 @@ class System {
   std::vector<double> element_length_;  ///< size of each element, for relative changes [m]
   double moment_arm_ = 0.0;
   double time_ = 0.0;
+  MotionTree motion_tree_;  ///< empty in dynamics
   elements::Slopes factored_;
   bool is_factored_ = false;
   double contraction_ = 1.0;

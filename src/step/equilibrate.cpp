@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cmath>
+
+#include "newton.hpp"
+
+namespace bough::step {
+
+namespace {
+
+constexpr double taken_whole = 1e-2;  ///< smaller changes are not tested: there Newton's own convergence has set in
+constexpr double loose =
+    0.8;  ///< part of the first power that may be left: the search only keeps Newton from overshooting
+constexpr int max_trials = 6;
+constexpr double divergence = 1e3;  ///< change of relative motions that no shape on the way to an equilibrium needs
+
+/// Applies as much of the correction in work().x as does not overshoot (line search on the power of the unbalanced forces along the path,
+/// Matthies, Strang 1979):  g(s) = residual(q(s)) . dq/ds,  not  g(s) / g(0) < -loose;  by regula falsi between 0 and 1.
+void apply_damped(System& system, State& state, double size) {
+  const std::vector<double>& x = system.work().x;
+  if (size <= taken_whole) return system.apply_along_tree(state, x.data(), 1.0);
+  State& before = system.work().before;
+  before = state;
+  double start = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) start += system.residual()[i] * x[i];
+  double s = 1.0;
+  for (int k = 1;; ++k) {
+    system.apply_along_tree(state, x.data(), s);
+    const bool finite = !system.evaluate(state, {}, false);
+    const double g = finite ? system.power_along_tree(x.data()) : 0.0;
+    if (finite && (g * start >= 0.0 || std::abs(g) <= loose * std::abs(start))) return;
+    if (k == max_trials) return;
+    s *= finite ? std::clamp(start / (start - g), 0.1, 0.9) : 0.5;
+    state = before;
+  }
+}
+
+}  // namespace
+
+StepReport equilibrate(System& system, State& state, const StepOptions& options, double load_factor) {
+  StepReport report;
+  const auto fail = [&report](const std::string& cause) {
+    report.converged = false;
+    report.cause = cause;
+    return report;
+  };
+  if (const auto t = system.set_time(load_factor, laws::Side::left)) return fail(t->text);
+  state.time = load_factor;
+  for (elements::NodeMotion& n : state.nodes) n.dq = n.v = n.a = motion::Vec6<double>::zero();
+  std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
+  double previous = 0.0;
+  for (int k = 0;; ++k) {
+    if (const auto t = system.evaluate(state, {}, true)) return fail(t->text);
+    report.residual = system.residual_size();
+    if (k > 0) {
+      const bool still = report.change < options.tolerance;
+      report.converged = still && (is_small(system, report.residual, options.tolerance) || options.single_solution);
+      const bool stalled = k > 1 && report.change > 0.3 * previous;
+      if (still && !report.converged && (stalled || report.change == 0.0))
+        report.converged = report.at_floor = is_at_floor(system, state, report.residual, options.tolerance);
+      if (report.converged) break;
+      if (k >= options.max_iterations)
+        return fail("no convergence in " + std::to_string(k) +
+                    " iterations: " + describe(system, report.residual, options.tolerance));
+    }
+    if (const auto t = system.factor(k == 0, {}))
+      return fail(k == 0 ? t->text : "iteration " + std::to_string(k) + " came to a shape at which " + t->text);
+    for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
+    if (const auto t = system.solve(rhs.data(), x.data())) return fail(t->text);
+    previous = report.change;
+    report.change = system.relative_size(state, x.data());
+    if (report.iterations < StepReport::remembered_changes)
+      report.change_list[static_cast<std::size_t>(report.iterations)] = report.change;
+    ++report.iterations;
+    if (!std::isfinite(report.change)) return fail("the iteration left finite numbers");
+    if (report.change > divergence)
+      return fail("the iteration diverges: " + describe(system, report.residual, options.tolerance));
+    apply_damped(system, state, report.change);
+  }
+  if (const auto t = check_shape(system, state)) return fail(t->text);
+  return report;
+}
+
+}  // namespace bough::step
