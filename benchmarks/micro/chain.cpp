@@ -28,7 +28,7 @@ struct Rig {
         system(plan, scene.solver, threads.walker()),
         state(step::make_initial_state(plan)),
         options(step::make_step_options(scene.analysis)) {
-    if (!step::make_consistent(system, state, true).ok || !step::start_alpha(system, state, options, 1e-3).ok)
+    if (!step::make_consistent(system, state, true, 1e-3).ok || !step::start_alpha(system, state, options, 1e-3).ok)
       std::abort();
     advance();
   }

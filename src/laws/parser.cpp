@@ -97,7 +97,8 @@ class Parser {
 
  private:
   /// Counts the levels of nesting while it lives.
-  struct Level {
+  class Level {
+   public:
     explicit Level(Parser& parser) : parser_(parser) {
       if (++parser_.depth_ > max_nesting) {
         parser_.fail(parser_.at_, "nested deeper than " + std::to_string(max_nesting) + " levels");
@@ -106,6 +107,8 @@ class Parser {
     Level(const Level&) = delete;
     Level& operator=(const Level&) = delete;
     ~Level() { --parser_.depth_; }
+
+   private:
     Parser& parser_;
   };
 

@@ -322,10 +322,10 @@ void Builder::number_elements() {
   static_assert(std::is_same_v<std::tuple_element_t<joint_array, ElementArrays>, std::vector<elements::Joint>>);
   for (JointPlan& j : plan.joints) j.element += first_of_array[joint_array];
   for (BeamPlan& b : plan.beams) {
-    const int array = b.order - 1;
-    for (int& e : b.elements) e += first_of_array[static_cast<std::size_t>(array)];
+    const std::size_t array = static_cast<std::size_t>(b.order) - 1;
+    for (int& e : b.elements) e += first_of_array[array];
     for (auto& list : b.loads)
-      for (int& e : list) e += first_of_array[static_cast<std::size_t>(8 + array)];
+      for (int& e : list) e += first_of_array[8 + array];
   }
 }
 

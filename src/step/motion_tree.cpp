@@ -178,12 +178,8 @@ double System::power_along_tree(const double* x) {
     const double* r = residual_.data() + block_begin(link.node);
     for (int i = 0; i < 6; ++i) power += r[i] * tree.twists[node][i];
   }
-  for (const plan::JointPlan& j : plan_.joints) {
-    if (j.block < 0) continue;
-    const int size = plan_.graph.block_size[static_cast<std::size_t>(j.block)];
-    for (int i = 0; i < size; ++i)
-      power += residual_[static_cast<std::size_t>(block_begin(j.block) + i)] * x[block_begin(j.block) + i];
-  }
+  for_each_multiplier(
+      *this, [&](int, std::size_t, std::size_t unknown, std::size_t) { power += residual_[unknown] * x[unknown]; });
   return power;
 }
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "bough/step/advance.hpp"
+#include "system_parts.hpp"
 
 namespace bough::step {
 
@@ -17,16 +18,17 @@ Vec6<double> node_part(const System& system, const std::vector<double>& x, std::
   return v;
 }
 
-/// Spreads values by multiplier over the solver's unknowns:  to[block of joint] = factor * from.
+constexpr double closed = 1e-13;  ///< relative gap that is not worth another correction
+constexpr double open = 1e-9;     ///< relative gap that constraints which contradict each other leave, at the least
+constexpr double apart = 1e-8;    ///< the same of rates, relative to the largest speed
+constexpr double still =
+    1e-12;  ///< relative gap that a rate may open in one step where nothing moves: round-off of drives
+
+/// Spreads values by multiplier over the solver's unknowns:  to[block of joint] = from.
 template <class From>
 void set_rows(const System& system, std::vector<double>& to, From&& from) {
-  for (const plan::JointPlan& j : system.plan().joints) {
-    if (j.block < 0) continue;
-    const int size = system.plan().graph.block_size[static_cast<std::size_t>(j.block)];
-    for (int i = 0; i < size; ++i)
-      to[static_cast<std::size_t>(system.block_begin(j.block) + i)] =
-          from(static_cast<std::size_t>(j.multiplier_begin + i));
-  }
+  for_each_multiplier(
+      system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) { to[unknown] = from(multiplier); });
 }
 
 /// Matrix [M G^T; G 0] of the present positions, factored.
@@ -55,33 +57,36 @@ std::string contradicting(const System& system, int worst, const std::vector<int
   return text;
 }
 
-/// Velocities that satisfy the constraints (plus `offset` by multiplier when given), nearest in the mass metric. Mass matrix factored.
+/// Largest speed, lengths relative to the size of the structure [1/s].
+double speed_scale(const System& system, const State& state) {
+  double most = 0.0;
+  for (const elements::NodeMotion& n : state.nodes)
+    for (int i = 0; i < 6; ++i) most = std::max(most, std::abs(n.v[i]) / (i < 3 ? system.plan().length_scale : 1.0));
+  return most;
+}
+
+/// Velocities that satisfy the constraints (plus `offset` by multiplier when given), nearest in the mass metric. Mass matrix factored. Says
+/// in `report` how much they changed.
 std::optional<Trouble> project_velocities(System& system, State& state, const std::vector<double>* offset,
-                                          double* impulse) {
+                                          StartReport* report) {
   std::vector<double> rhs(system.num_unknowns(), 0.0), x(system.num_unknowns());
   std::vector<Taylor<double, 3>> series;
   system.constraint_series(state, nullptr, 0.0, series);
   set_rows(system, rhs, [&](std::size_t m) { return -series[m].c[1] + (offset != nullptr ? (*offset)[m] : 0.0); });
   if (auto t = system.solve(rhs.data(), x.data())) return t;
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) state.nodes[n].v += node_part(system, x, n);
-  if (impulse != nullptr) {
-    *impulse = 0.0;
-    set_rows(system, rhs, [&](std::size_t) { return 0.0; });
-    for (const plan::JointPlan& j : system.plan().joints) {
-      const int size = j.block < 0 ? 0 : system.plan().graph.block_size[static_cast<std::size_t>(j.block)];
-      for (int i = 0; i < size; ++i)
-        *impulse = std::max(*impulse, std::abs(x[static_cast<std::size_t>(system.block_begin(j.block) + i)]));
-    }
+  if (report != nullptr) {
+    const double before = speed_scale(system, state);
+    double change = 0.0;
+    for (std::size_t n = 0; n < state.nodes.size(); ++n)
+      for (int i = 0; i < 6; ++i)
+        change = std::max(change, std::abs(node_part(system, x, n)[i]) / (i < 3 ? system.plan().length_scale : 1.0));
+    report->velocity_change = change > 0.0 ? change / std::max(before, change) : 0.0;
+    for_each_multiplier(system, [&](int, std::size_t, std::size_t unknown, std::size_t) {
+      report->velocity_impulse = std::max(report->velocity_impulse, std::abs(x[unknown]));
+    });
   }
+  for (std::size_t n = 0; n < state.nodes.size(); ++n) state.nodes[n].v += node_part(system, x, n);
   return std::nullopt;
-}
-
-/// Largest speed, to measure velocity constraints against: [m/s] and [rad/s] alike.
-double speed_scale(const System& system, const State& state) {
-  double most = 0.0;
-  for (const elements::NodeMotion& n : state.nodes)
-    for (int i = 0; i < 6; ++i) most = std::max(most, std::abs(n.v[i]) * (i < 3 ? 1.0 : system.plan().length_scale));
-  return most;
 }
 
 /// Steady velocity error of the index-3 scheme in the constraints' normals, by multiplier:
@@ -97,12 +102,9 @@ void steady_velocity_error(System& system, const State& state, const AlphaCoeffi
   }
   system.solver().multiply(system.walker(), delta.data(), product.data());
   offset.assign(static_cast<std::size_t>(system.plan().num_multipliers), 0.0);
-  for (const plan::JointPlan& j : system.plan().joints) {
-    const int size = j.block < 0 ? 0 : system.plan().graph.block_size[static_cast<std::size_t>(j.block)];
-    for (int i = 0; i < size; ++i)
-      offset[static_cast<std::size_t>(j.multiplier_begin + i)] =
-          product[static_cast<std::size_t>(system.block_begin(j.block) + i)];
-  }
+  for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
+    offset[multiplier] = product[unknown];
+  });
 }
 
 StartReport failed(const std::string& cause) {
@@ -113,17 +115,16 @@ StartReport failed(const std::string& cause) {
 
 }  // namespace
 
-StartReport make_consistent(System& system, State& state, bool fix_positions) {
+StartReport make_consistent(System& system, State& state, bool fix_positions, double step_size) {
   StartReport report;
   if (const auto t = system.set_time(state.time, laws::Side::right)) return failed(t->text);
   for (elements::NodeMotion& n : state.nodes) n.dq = n.a = Vec6<double>::zero();
   std::vector<double> rhs(system.num_unknowns(), 0.0), x(system.num_unknowns());
-  const double length = system.plan().length_scale;
   int worst = 0;
 
   if (const auto t = factor_mass(system, state)) return failed(t->text);
-  double gap = system.constraint_violation(state, 0, &worst);
-  for (int k = 0; fix_positions && gap > 1e-13 * std::max(length, 1.0) && k < 30; ++k) {
+  double gap = system.relative_violation(state, 0, &worst);
+  for (int k = 0; fix_positions && gap > closed && k < 30; ++k) {
     std::vector<Taylor<double, 3>> series;
     system.constraint_series(state, nullptr, 0.0, series);
     std::fill(rhs.begin(), rhs.end(), 0.0);
@@ -132,25 +133,28 @@ StartReport make_consistent(System& system, State& state, bool fix_positions) {
     set_rows(system, x, [](std::size_t) { return 0.0; });  // impulses of a projection are no reactions
     State trial = state;
     const double change = system.apply(trial, x.data());
-    const double next = system.constraint_violation(trial, 0, &worst);
+    const double next = system.relative_violation(trial, 0, &worst);
     if (!(next < gap)) break;  // as closed as round-off allows
     report.position_correction = std::max(report.position_correction, change);
     state = std::move(trial);
     gap = next;
     if (const auto t = factor_mass(system, state)) return failed(t->text);
   }
-  if (gap > 1e-9 * std::max(length, 1.0)) {
+  if (gap > open) {
     char text[80];
-    std::snprintf(text, sizeof text, " cannot be closed at time %.6g: a gap of %.3g is left", state.time, gap);
+    std::snprintf(text, sizeof text, " cannot be closed at time %.6g: a gap of %.3g is left", state.time,
+                  system.constraint_violation(state, 0));
     return failed(contradicting(system, worst, system.solver().blocks_not_unique()) + text);
   }
   for (elements::NodeMotion& n : state.nodes) n.dq = Vec6<double>::zero();
 
-  if (const auto t = project_velocities(system, state, nullptr, &report.velocity_impulse)) return failed(t->text);
-  const double rate = system.constraint_violation(state, 1, &worst);
-  if (rate > 1e-8 * std::max(speed_scale(system, state), 1e-6)) {
+  double speed = speed_scale(system, state);
+  if (const auto t = project_velocities(system, state, nullptr, &report)) return failed(t->text);
+  speed = std::max(speed, speed_scale(system, state));
+  if (system.relative_violation(state, 1, &worst) > apart * speed + still / step_size) {
     char text[80];
-    std::snprintf(text, sizeof text, " cannot move as asked at time %.6g: a rate of %.3g is left", state.time, rate);
+    std::snprintf(text, sizeof text, " cannot move as asked at time %.6g: a rate of %.3g is left", state.time,
+                  system.constraint_violation(state, 1));
     return failed(contradicting(system, worst, system.solver().blocks_not_unique()) + text);
   }
 
@@ -162,12 +166,9 @@ StartReport make_consistent(System& system, State& state, bool fix_positions) {
   set_rows(system, rhs, [&](std::size_t m) { return -2.0 * series[m].c[2]; });
   if (const auto t = system.solve(rhs.data(), x.data())) return failed(t->text);
   for (std::size_t n = 0; n < state.nodes.size(); ++n) state.nodes[n].a = node_part(system, x, n);
-  for (const plan::JointPlan& j : system.plan().joints) {
-    const int size = j.block < 0 ? 0 : system.plan().graph.block_size[static_cast<std::size_t>(j.block)];
-    for (int i = 0; i < size; ++i)
-      state.multipliers[static_cast<std::size_t>(j.multiplier_begin + i)] =
-          x[static_cast<std::size_t>(system.block_begin(j.block) + i)];
-  }
+  for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
+    state.multipliers[multiplier] = x[unknown];
+  });
   report.ok = true;
   return report;
 }

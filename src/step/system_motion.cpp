@@ -54,12 +54,9 @@ Vec6<double> System::node_part(const double* x, int node) const {
 }
 
 void System::add_multipliers(State& state, const double* x, double factor) const {
-  for (const plan::JointPlan& j : plan_.joints) {
-    if (j.block < 0) continue;
-    const int size = plan_.graph.block_size[static_cast<std::size_t>(j.block)];
-    for (int i = 0; i < size; ++i)
-      state.multipliers[static_cast<std::size_t>(j.multiplier_begin + i)] += factor * x[block_begin(j.block) + i];
-  }
+  for_each_multiplier(*this, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
+    state.multipliers[multiplier] += factor * x[unknown];
+  });
 }
 
 double System::apply(State& state, const double* x) {
@@ -131,22 +128,30 @@ void System::constraint_series(const State& state, const Vec6<double>* jerk, dou
                        });
 }
 
-double System::constraint_violation(const State& state, int order, int* joint) const {
+double System::largest_violation(const State& state, int order, double length, int* joint) const {
   std::vector<lanes::Taylor<double, 3>>& series = row_series_;
   constraint_series(state, nullptr, 0.0, series);
   double most = 0.0;
-  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
-    const int block = plan_.joints[j].block;
-    const int size = block < 0 ? 0 : plan_.graph.block_size[static_cast<std::size_t>(block)];
-    for (int i = 0; i < size; ++i) {
-      const double value = std::abs(series[static_cast<std::size_t>(plan_.joints[j].multiplier_begin + i)].c[order]);
-      if (value > most) {
-        most = value;
-        if (joint != nullptr) *joint = static_cast<int>(j);
-      }
+  for_each_multiplier(*this, [&](int j, std::size_t multiplier, std::size_t, std::size_t row) {
+    const auto& e = plan::array_of<elements::Joint>(plan_.elements)[static_cast<std::size_t>(
+        plan_.directory[static_cast<std::size_t>(plan_.joints[static_cast<std::size_t>(j)].element)].index)];
+    const elements::RowKind kind = e.rows[row].kind;
+    const bool is_length = kind == elements::RowKind::along || kind == elements::RowKind::screw;
+    const double value = std::abs(series[multiplier].c[order]) / (is_length ? length : 1.0);
+    if (value > most) {
+      most = value;
+      if (joint != nullptr) *joint = j;
     }
-  }
+  });
   return most;
+}
+
+double System::constraint_violation(const State& state, int order, int* joint) const {
+  return largest_violation(state, order, 1.0, joint);
+}
+
+double System::relative_violation(const State& state, int order, int* joint) const {
+  return largest_violation(state, order, plan_.length_scale, joint);
 }
 
 }  // namespace bough::step

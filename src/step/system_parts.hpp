@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <ctime>
 
+#include "bough/step/system.hpp"
+
 namespace bough::step {
 
 /// CPU seconds of the whole process, all threads.
@@ -20,5 +22,20 @@ struct PhaseTimer {
 
 /// Items a task takes at once; chunks do not depend on the number of threads.
 inline constexpr std::int64_t element_grain = 32, block_grain = 128;
+
+/// Calls f(joint, multiplier, unknown, row) for every multiplier that is an unknown: its place in State::multipliers and in the solver's
+/// vectors, and its number among the rows of the joint.
+template <class F>
+void for_each_multiplier(const System& system, F&& f) {
+  const plan::Plan& plan = system.plan();
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const int block = plan.joints[j].block;
+    if (block < 0) continue;
+    const auto size = static_cast<std::size_t>(plan.graph.block_size[static_cast<std::size_t>(block)]);
+    const auto multiplier = static_cast<std::size_t>(plan.joints[j].multiplier_begin);
+    const auto unknown = static_cast<std::size_t>(system.block_begin(block));
+    for (std::size_t i = 0; i < size; ++i) f(static_cast<int>(j), multiplier + i, unknown + i, i);
+  }
+}
 
 }  // namespace bough::step

@@ -219,18 +219,17 @@ bool Run::run_statics() {
 }
 
 bool Run::start_segment(double step_size, bool is_first) {
-  const step::StartReport consistent = step::make_consistent(system_, state_, is_first);
+  const step::StartReport consistent = step::make_consistent(system_, state_, is_first, step_size);
   if (!consistent.ok) return fail(consistent.cause);
   if (is_first && consistent.position_correction > 1e-9)
     note("the start was moved by up to " + std::to_string(consistent.position_correction) +
          " (relative) to close the joints");
-  const double speed_jump = consistent.velocity_impulse;
-  if (speed_jump > 1e-9) {
+  if (consistent.velocity_change > 1e-9) {
     char text[160];
     std::snprintf(
         text, sizeof text,
         "velocities were made consistent with joints and drives at time %.6g by impulses of up to %.3g N s (N m s)",
-        state_.time, speed_jump);
+        state_.time, consistent.velocity_impulse);
     note(text);
   }
   const elements::Measures now = results::eval_measures(system_, state_);

@@ -17,7 +17,7 @@ State run(const scene::Scene& scene, int threads, int steps, double h) {
   System system(plan, scene.solver, pool.walker());
   State state = make_initial_state(plan);
   const StepOptions options = make_step_options(scene.analysis);
-  EXPECT_TRUE(make_consistent(system, state, true).ok);
+  EXPECT_TRUE(make_consistent(system, state, true, 1e-3).ok);
   EXPECT_TRUE(start_alpha(system, state, options, h).ok);
   for (int k = 1; k <= steps; ++k) {
     const StepReport report = advance(system, state, options, k * h);
@@ -58,7 +58,7 @@ TEST(Advance, refuses_a_step_in_which_a_body_turns_by_nearly_half_a_turn) {
   System system(plan, s.solver, pool.walker());
   State state = make_initial_state(plan);
   const StepOptions options = make_step_options(s.analysis);
-  ASSERT_TRUE(make_consistent(system, state, true).ok);
+  ASSERT_TRUE(make_consistent(system, state, true, 1e-3).ok);
   ASSERT_TRUE(start_alpha(system, state, options, 0.1).ok);
   const StepReport report = advance(system, state, options, 0.1);
   EXPECT_FALSE(report.converged);

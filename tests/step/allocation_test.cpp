@@ -36,7 +36,7 @@ long allocations_of_steps(const scene::Scene& scene, int steps) {
   System system(plan, scene.solver, schedule::make_serial_walker());
   State state = make_initial_state(plan);
   StepOptions options = make_step_options(scene.analysis);
-  EXPECT_TRUE(make_consistent(system, state, true).ok);
+  EXPECT_TRUE(make_consistent(system, state, true, 1e-3).ok);
   EXPECT_TRUE(start_alpha(system, state, options, 1e-3).ok);
   State before = state;
   EXPECT_TRUE(advance(system, state, options, 1e-3).converged);

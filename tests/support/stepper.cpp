@@ -31,7 +31,7 @@ Stepper::Stepper(const scene::Scene& scene)
       options_(step::make_step_options(scene.analysis)) {}
 
 step::StartReport Stepper::start(double step_size) {
-  const step::StartReport consistent = step::make_consistent(system_, state_, state_.time == 0.0);
+  const step::StartReport consistent = step::make_consistent(system_, state_, state_.time == 0.0, step_size);
   if (!consistent.ok) throw std::runtime_error(consistent.cause);
   const step::StartReport started = step::start_alpha(system_, state_, options_, step_size);
   if (!started.ok) throw std::runtime_error(started.cause);

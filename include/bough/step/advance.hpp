@@ -35,15 +35,16 @@ struct StartReport {
   double position_correction = 0.0;  ///< largest change of relative motions that closed the constraints
   double velocity_impulse =
       0.0;  ///< largest multiplier of the velocity projection: an impulse where a driven rate meets rest [N s, N m s]
-  std::vector<std::string> notes;
+  double velocity_change = 0.0;  ///< largest change of a velocity, relative to the largest speed before or after [-]
 };
 
 /// Makes a state consistent at its time (a start, or the far side of a jump in a load or motion):
 ///   positions   [M G^T; G 0] (eta, mu) = (0, -Phi)      repeated
 ///   velocities  [M G^T; G 0] (dv, mu)  = (0, -Phi')
 ///   accelerations and multipliers  [M G^T; G 0] (a, lambda) = (-(forces), -Phi''|_{a = 0})
-/// M may be singular where constraints hold. `impulsive_note`: report the impulse of a velocity jump.
-StartReport make_consistent(System& system, State& state, bool fix_positions);
+/// M may be singular where constraints hold. Fails where constraints contradict each other: a gap above 1e-9 of the size of the
+/// structure (or rad) is left, or a rate above 1e-8 of the largest speed and above what opens 1e-12 in one step of `step_size` [s].
+StartReport make_consistent(System& system, State& state, bool fix_positions, double step_size);
 
 /// Prepares generalized-alpha for step size h from a consistent state: a_n = dv/dt + shift h (d2v/dt2), and velocities moved along the
 /// constraints' normals by the steady error of the index-3 scheme, so that positions, velocities and multipliers are of second

@@ -95,6 +95,8 @@ class System {
                          std::vector<lanes::Taylor<double, 3>>& out) const;
   /// Largest |Phi| (order 0) or |Phi'| (order 1) over all rows and the joint it belongs to.
   double constraint_violation(const State& state, int order, int* joint = nullptr) const;
+  /// The same in no unit of length: lengths relative to Plan::length_scale, angles as they are [-] (order 0), [1/s] (order 1).
+  double relative_violation(const State& state, int order, int* joint = nullptr) const;
 
   /// Arm that turns the scale of forces into one of moments [m]: the longest element, or the whole where none has a length.
   double moment_arm() const { return moment_arm_; }
@@ -107,6 +109,7 @@ class System {
 
  private:
   motion::Vec6<double> node_part(const double* x, int node) const;
+  double largest_violation(const State& state, int order, double length, int* joint) const;
   void add_multipliers(State& state, const double* x, double factor) const;
 
   const plan::Plan& plan_;
