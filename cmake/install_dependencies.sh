@@ -1,7 +1,8 @@
 #!/bin/sh
 # install_dependencies.sh GROUP...   installs the Debian packages of the groups that are not installed yet.
 #   build  what the library and the program need        bench  Google Benchmark and the solvers compared with
-#   test   GoogleTest, the Python of the checks, strace lint   clang-format and Python
+#   test   GoogleTest, Boost headers (Multiprecision), the Python of the checks, strace
+#   lint   clang-format and Python
 #   asan   clang with its sanitizers                    tsan   asan, and what rebuilding TBB from source needs
 #   all    everything, with coverage, clang-tidy and a browser for `make check-all`
 # dpkg is asked first: when nothing is missing, neither the network nor root is needed. With --list the packages are
@@ -13,7 +14,7 @@ packages_of() {
     build)
       echo g++ cmake ninja-build libeigen3-dev libtbb-dev nlohmann-json3-dev libcli11-dev libmuparser-dev \
         libsuitesparse-dev libmetis-dev ;;
-    test) echo libgtest-dev libgmock-dev python3 python3-jsonschema strace ;;
+    test) echo libgtest-dev libgmock-dev libboost-dev python3 python3-jsonschema strace ;;
     bench)
       echo libbenchmark-dev python3 libsuitesparse-dev libmumps-seq-dev libsuperlu-dev libopenblas-pthread-dev ;;
     lint) echo clang-format-14 python3 ;;
