@@ -42,7 +42,19 @@ struct CompareArguments {
   std::filesystem::path a, b;
   double relative = 1e-9, absolute = 0.0;
 };
-struct SchemaArguments {};
+/// What a verb of numbers writes besides its table.
+struct NumberFiles {
+  std::filesystem::path csv, json, svg;  ///< empty: not written
+};
+struct RaziArguments {
+  std::filesystem::path chain;  ///< empty: the disc
+  std::optional<double> spin, precession, tilt, radius;
+  std::optional<int> points;
+  NumberFiles files;
+};
+struct SchemaArguments {
+  bool chain = false;  ///< of chains of frames, not of scenes
+};
 struct DoctorArguments {};
 
 /// One page per verb: cmd_<verb>.cpp. Each returns the exit status.
@@ -51,6 +63,7 @@ int view(const ViewArguments& arguments);
 int batch(const BatchArguments& arguments);
 int check(const CheckArguments& arguments);
 int compare(const CompareArguments& arguments);
+int kinematics_razi(const RaziArguments& arguments);
 int schema(const SchemaArguments& arguments);
 int doctor(const DoctorArguments& arguments);
 

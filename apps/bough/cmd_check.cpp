@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "arguments.hpp"
+#include "bough/io/read_frames.hpp"
 #include "bough/io/read_scene.hpp"
 #include "terminal.hpp"
 
@@ -38,8 +39,8 @@ int check(const CheckArguments& arguments) {
   return exit_done;
 }
 
-int schema(const SchemaArguments&) {
-  std::cout << io::schema_text() << std::flush;
+int schema(const SchemaArguments& arguments) {
+  std::cout << (arguments.chain ? io::frames_schema_text() : io::schema_text()) << std::flush;
   return std::cout.good() ? exit_done : exit_failed;
 }
 

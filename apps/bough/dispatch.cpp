@@ -3,13 +3,26 @@
 #include <iostream>
 
 #include "arguments.hpp"
+#include "bough/io/number_text.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/version.hpp"
 
 namespace bough::app {
 namespace {
 
-const std::vector<std::string> verbs = {"run", "view", "batch", "check", "schema", "compare", "doctor"};
+const std::vector<std::string> verbs = {"run", "view", "batch", "check", "schema", "compare", "kinematics", "doctor"};
+
+/// A finite number from low to high. (CLI::Range lets NaN pass.)
+CLI::Validator between(double low, double high) {
+  const auto number = [](double x) { return io::rounded_text(x, 6); };
+  const std::string range = number(low) + " to " + number(high);
+  return {[=](const std::string& text) {
+            double x = 0.0;
+            const bool good = io::read_number(text, x) && x >= low && x <= high;
+            return good ? std::string() : "'" + text + "' is not a number from " + range;
+          },
+          range};
+}
 
 void add_overrides(CLI::App& verb, std::vector<std::string>& overrides) {
   verb.add_option("--set", overrides, "Replace a value of the scene; may be given several times")
@@ -71,14 +84,15 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
   add_threads(verb, a.threads, "Cases at a time");
   verb.add_option("--time-limit", a.time_limit, "Stop a case after so many seconds (default: none)")
       ->type_name("S")
-      ->check(CLI::Range(0.001, 1e9));
+      ->check(between(0.001, 1e9));
   add_overrides(verb, a.overrides);
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
   verb.callback([&] { code = batch(a); });
 }
 
-void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArguments& compare_arguments, int& code) {
+void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArguments& compare_arguments,
+                     SchemaArguments& schema_arguments, int& code) {
   CLI::App& check_verb =
       add_verb(app, "check", "Say what is wrong with a scene, without running it",
                "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0");
@@ -97,18 +111,49 @@ void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArgu
   compare_verb
       .add_option("--rel", compare_arguments.relative, "Largest difference over the sensor's range (default: 1e-9)")
       ->type_name("TOL")
-      ->check(CLI::Range(0.0, 1e300));
+      ->check(between(0.0, 1e300));
   compare_verb.add_option("--abs", compare_arguments.absolute, "Differences up to this are equal (default: 0)")
       ->type_name("TOL")
-      ->check(CLI::Range(0.0, 1e300));
+      ->check(between(0.0, 1e300));
   compare_verb.callback([&] { code = compare(compare_arguments); });
 
-  add_verb(app, "schema", "Print the JSON Schema of scenes", "  bough schema > scene.schema.json").callback([&] {
-    code = schema({});
-  });
+  CLI::App& schema_verb = add_verb(app, "schema", "Print the JSON Schema of scenes",
+                                   "  bough schema > scene.schema.json\n  bough schema --chain > chain.schema.json");
+  schema_verb.add_flag("--chain", schema_arguments.chain, "Of the chains of frames of bough kinematics razi");
+  schema_verb.callback([&] { code = schema(schema_arguments); });
   add_verb(app, "doctor", "Say what this program was built with and test itself", "  bough doctor").callback([&] {
     code = doctor({});
   });
+}
+
+void add_razi(CLI::App& kinematics, RaziArguments& a, int& code) {
+  CLI::App& verb = add_verb(
+      kinematics, "razi", "Split the acceleration of a point in nested frames into its parts",
+      "  bough kinematics razi --svg razi.svg\n"
+      "  bough kinematics razi --spin 5 --precession 1 --tilt 30 --points 25 --csv razi.csv\n"
+      "  bough kinematics razi --chain rotor.json --json rotor.out.json\n"
+      "Without --chain: a point of a disc that spins on a turning shaft, over one turn of the spin angle psi,\n"
+      "seen from the ground; without speeds for the pairs (5,1) (4,2) (3,3) (2,4) (1,5) (5,0) rad/s.\n"
+      "Exit status: 0 done, 1 a law is not finite or a file cannot be written, 2 bad input.");
+  CLI::Option* chain = verb.add_option("--chain", a.chain, "Chain of moving frames with a point (JSON)");
+  chain->type_name("FILE");
+  const auto disc_option = [&](const std::string& name, auto& value, const std::string& what, const char* unit) {
+    return verb.add_option(name, value, what)->type_name(unit)->excludes(chain);
+  };
+  // Bounds far beyond any disc, so that no product overflows.
+  const CLI::Validator speeds = between(-1e9, 1e9);
+  CLI::Option* spin = disc_option("--spin", a.spin, "Spin of the disc on the shaft", "RAD/S")->check(speeds);
+  CLI::Option* precession = disc_option("--precession", a.precession, "Speed of the shaft", "RAD/S")->check(speeds);
+  spin->needs(precession);
+  precession->needs(spin);
+  disc_option("--tilt", a.tilt, "Angle between their axes (default: 45)", "DEG")->check(between(-360.0, 360.0));
+  disc_option("--radius", a.radius, "Distance of the point from the axis (default: 1)", "M")->check(between(1e-9, 1e9));
+  disc_option("--points", a.points, "Values of psi from 0 to 360 degrees, both among them (default: 361)", "N")
+      ->check(CLI::Range(2, 1000000));
+  verb.add_option("--csv", a.files.csv, "Write the magnitudes")->type_name("FILE");
+  verb.add_option("--json", a.files.json, "Write magnitudes and vectors")->type_name("FILE");
+  verb.add_option("--svg", a.files.svg, "Draw the magnitudes")->type_name("FILE");
+  verb.callback([&] { code = kinematics_razi(a); });
 }
 
 /// The first word, where it is neither an option nor a verb.
@@ -144,7 +189,13 @@ int dispatch(int count, char** values) {
   add_run(app, run_arguments, code);
   add_view(app, view_arguments, code);
   add_batch(app, batch_arguments, code);
-  add_small_verbs(app, check_arguments, compare_arguments, code);
+  SchemaArguments schema_arguments;
+  add_small_verbs(app, check_arguments, compare_arguments, schema_arguments, code);
+  RaziArguments razi_arguments;
+  CLI::App& kinematics =
+      add_verb(app, "kinematics", "Kinematics without a simulation: razi", "  bough kinematics razi --help");
+  kinematics.require_subcommand(1);
+  add_razi(kinematics, razi_arguments, code);
   try {
     app.parse(count, values);
   } catch (const CLI::ParseError& error) {

@@ -86,11 +86,14 @@ void ProgressBar::clear() {
   bar_is_shown_ = false;
 }
 
+void print_problems(const std::filesystem::path& file, const std::vector<io::Problem>& problems,
+                    const std::vector<io::Problem>& warnings) {
+  for (const io::Problem& problem : problems) std::cerr << file.string() << ": " << problem.text() << "\n";
+  for (const io::Problem& warning : warnings) std::cerr << file.string() << ": warning: " << warning.text() << "\n";
+}
+
 void print_problems(const std::filesystem::path& file, const io::SceneFile& scene, bool quiet) {
-  for (const io::Problem& problem : scene.problems) std::cerr << file.string() << ": " << problem.text() << "\n";
-  if (quiet) return;
-  for (const io::Problem& warning : scene.warnings)
-    std::cerr << file.string() << ": warning: " << warning.text() << "\n";
+  print_problems(file, scene.problems, quiet ? std::vector<io::Problem>{} : scene.warnings);
 }
 
 }  // namespace bough::app

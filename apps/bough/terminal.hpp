@@ -33,6 +33,8 @@ class ProgressBar {
 };
 
 /// All problems and then all warnings, one to a line, on standard error. Warnings are left out when quiet.
+void print_problems(const std::filesystem::path& file, const std::vector<io::Problem>& problems,
+                    const std::vector<io::Problem>& warnings);
 void print_problems(const std::filesystem::path& file, const io::SceneFile& scene, bool quiet);
 
 }  // namespace bough::app

@@ -10,49 +10,29 @@
 #include "bough/io/read_scene.hpp"
 #include "bough/scene/poses.hpp"
 #include "bough/scene/scene.hpp"
+#include "read_values.hpp"
 
 namespace bough::io {
-
-/// Something wrong or doubtful at a place of the document.
-struct PlacedFault {
-  std::string pointer, value, rule, hint;  ///< value: empty = the text at the pointer
-};
 
 /// Applies "/pointer=value" to a document. texts: keeps the value texts, number i + 1 of which is the source of the new values.
 void apply_overrides(JsonValue& root, std::span<const std::string> overrides, std::vector<std::string>& texts,
                      std::vector<PlacedFault>& faults);
 
 /// Turns a checked document into a scene. Items that are not sound, or turn out wrong here, are left out and named in `defective`.
-class Converter {
+class Converter : private ValueConverter {
  public:
   explicit Converter(const JsonValue& root) : root_(root) {}
   void convert();
 
   scene::Scene scene;
   std::vector<std::string> defective;
-  std::vector<PlacedFault> faults, warnings;
+  using ValueConverter::faults;
+  using ValueConverter::warnings;
   std::map<std::string, std::vector<std::string>> pointers;  ///< of the items of each list of the scene
 
  private:
-  using Value = JsonValue;
-
-  // Values (read_scene_values.cpp). All take sound values of the schema's form.
-  scene::Vec3 vector(const Value& v) const;
-  scene::Vec3 vector_or(const Value& object, const char* key, const scene::Vec3& otherwise = scene::Vec3::zero()) const;
-  double number_or(const Value& object, const char* key, double otherwise) const;
-  std::string text_or(const Value& object, const char* key) const;
-  scene::Mat3 matrix3(const Value& v) const;
-  scene::Mat6 matrix6(const Value& v) const;
-  scene::Mat3 rotation(const Value& v, const std::string& at);
-  scene::Mat3 rotation_from_axes(const Value& axes, const std::string& at);
-  scene::Placement placement(const Value& v, const std::string& at);
   scene::LoadAxes axes(const Value& v) const;
-  laws::Law law(const Value& v, const std::string& at);
-  laws::Law law_of_kind(const Value& v, const std::string& at);
-  laws::Law law_table(const Value& v) const;
-  std::vector<laws::Law> law_list(const Value& v, const std::string& at);
   laws::Law load_law(const Value& object, const std::string& at);
-  void warn_of_degrees(const Value& angle, const std::string& at);
 
   // Parts (read_scene_parts.cpp).
   void frame(const Value& v, const std::string& at);
@@ -88,9 +68,6 @@ class Converter {
   void expected(const Value& v, const std::string& at);
   void settings();
 
-  void fault(const std::string& at, std::string rule, std::string hint = {}, std::string value = {}) {
-    faults.push_back({at, std::move(value), std::move(rule), std::move(hint)});
-  }
   std::string own_name(const Value& v, const char* stem);
   /// Converts all items of a list; those that are wrong become defective.
   void each(const char* list, void (Converter::*read)(const Value&, const std::string&));

@@ -10,24 +10,26 @@ using scene::Mat3;
 using scene::Mat6;
 using scene::Vec3;
 
-Vec3 Converter::vector(const Value& v) const { return {{v.items[0].number, v.items[1].number, v.items[2].number}}; }
+Vec3 ValueConverter::vector(const Value& v) const {
+  return {{v.items[0].number, v.items[1].number, v.items[2].number}};
+}
 
-Vec3 Converter::vector_or(const Value& object, const char* key, const Vec3& otherwise) const {
+Vec3 ValueConverter::vector_or(const Value& object, const char* key, const Vec3& otherwise) const {
   const Value* v = object.find(key);
   return v == nullptr ? otherwise : vector(*v);
 }
 
-double Converter::number_or(const Value& object, const char* key, double otherwise) const {
+double ValueConverter::number_or(const Value& object, const char* key, double otherwise) const {
   const Value* v = object.find(key);
   return v == nullptr ? otherwise : v->number;
 }
 
-std::string Converter::text_or(const Value& object, const char* key) const {
+std::string ValueConverter::text_or(const Value& object, const char* key) const {
   const Value* v = object.find(key);
   return v == nullptr ? std::string() : v->text;
 }
 
-Mat3 Converter::matrix3(const Value& v) const {
+Mat3 ValueConverter::matrix3(const Value& v) const {
   Mat3 r = Mat3::zero();
   for (int i = 0; i < 3; ++i) {
     const Value& row = v.items[static_cast<std::size_t>(i)];
@@ -37,7 +39,7 @@ Mat3 Converter::matrix3(const Value& v) const {
   return r;
 }
 
-Mat6 Converter::matrix6(const Value& v) const {
+Mat6 ValueConverter::matrix6(const Value& v) const {
   Mat6 r = Mat6::zero();
   for (int i = 0; i < 6; ++i) {
     const Value& row = v.items[static_cast<std::size_t>(i)];
@@ -47,14 +49,14 @@ Mat6 Converter::matrix6(const Value& v) const {
   return r;
 }
 
-void Converter::warn_of_degrees(const Value& angle, const std::string& at) {
+void ValueConverter::warn_of_degrees(const Value& angle, const std::string& at) {
   const double x = std::abs(angle.number);
   if (x >= 15.0 && std::fmod(x, 5.0) == 0.0)
     warnings.push_back({at, "", "this angle is in radians: it is more than two turns",
                         "for degrees multiply by pi/180 = 0.017453292519943295"});
 }
 
-Mat3 Converter::rotation_from_axes(const Value& axes, const std::string& at) {
+Mat3 ValueConverter::rotation_from_axes(const Value& axes, const std::string& at) {
   std::vector<std::pair<int, Vec3>> given;
   for (std::size_t i = 0; i < axes.keys.size(); ++i)
     if (axes.keys[i] != "comment") given.emplace_back(axes.keys[i][0] - '0', vector(axes.items[i]));
@@ -72,7 +74,7 @@ Mat3 Converter::rotation_from_axes(const Value& axes, const std::string& at) {
   return Mat3::identity();
 }
 
-Mat3 Converter::rotation(const Value& v, const std::string& at) {
+Mat3 ValueConverter::rotation(const Value& v, const std::string& at) {
   if (const Value* axis = v.find("axis")) {
     const Vec3 a = vector(*axis);
     const double length = std::hypot(a[0], a[1], a[2]);
@@ -93,7 +95,7 @@ Mat3 Converter::rotation(const Value& v, const std::string& at) {
   return Mat3::identity();
 }
 
-scene::Placement Converter::placement(const Value& v, const std::string& at) {
+scene::Placement ValueConverter::placement(const Value& v, const std::string& at) {
   scene::Placement p;
   p.pose.x = vector_or(v, "position");
   if (const Value* r = v.find("rotation")) p.pose.R = rotation(*r, at + "/rotation");
@@ -111,7 +113,7 @@ laws::Law Converter::load_law(const Value& object, const std::string& at) {
   return is_static_ ? laws::make_ramp(0.0, 1.0, 0.0, 1.0) : laws::make_constant(1.0);
 }
 
-laws::Law Converter::law(const Value& v, const std::string& at) {
+laws::Law ValueConverter::law(const Value& v, const std::string& at) {
   if (v.is(JsonKind::number)) return laws::make_constant(v.number);
   try {
     if (const Value* formula = v.find("expression")) return laws::make_expression(formula->text);
@@ -127,13 +129,13 @@ laws::Law Converter::law(const Value& v, const std::string& at) {
   }
 }
 
-std::vector<laws::Law> Converter::law_list(const Value& v, const std::string& at) {
+std::vector<laws::Law> ValueConverter::law_list(const Value& v, const std::string& at) {
   std::vector<laws::Law> r;
   for (std::size_t i = 0; i < v.items.size(); ++i) r.push_back(law(v.items[i], at + "/" + std::to_string(i)));
   return r;
 }
 
-laws::Law Converter::law_table(const Value& v) const {
+laws::Law ValueConverter::law_table(const Value& v) const {
   std::vector<double> times, values;
   for (const Value& t : v.find("times")->items) times.push_back(t.number);
   for (const Value& x : v.find("values")->items) values.push_back(x.number);
@@ -142,7 +144,7 @@ laws::Law Converter::law_table(const Value& v) const {
       v.find("interpolation")->text == "cubic" ? laws::Interpolation::cubic : laws::Interpolation::linear);
 }
 
-laws::Law Converter::law_of_kind(const Value& v, const std::string& at) {
+laws::Law ValueConverter::law_of_kind(const Value& v, const std::string& at) {
   const std::string& kind = v.find("kind")->text;
   const auto get = [&](const char* key) { return v.find(key)->number; };
   if (kind == "constant") return laws::make_constant(get("value"));

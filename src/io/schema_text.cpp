@@ -110,11 +110,12 @@ Json to_schema(const Rule& rule) {
 
 }  // namespace
 
-std::string schema_text() {
-  const RuleTable& table = scene_rules();
+std::string schema_text() { return schema_text_of(scene_rules(), "bough scene"); }
+
+std::string schema_text_of(const RuleTable& table, const std::string& title) {
   Json out = Json::object();
   out["$schema"] = "http://json-schema.org/draft-07/schema#";
-  out["title"] = "bough scene";
+  out["title"] = title;
   const Json root = to_schema(*table.root);
   for (const auto& [key, value] : root.items()) out[key] = value;
   Json definitions = Json::object();

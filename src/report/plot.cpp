@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bough/io/columns.hpp"
+#include "curve.hpp"
 #include "svg_text.hpp"
 
 namespace bough::report {
@@ -40,51 +41,10 @@ struct Scale {
   double to_y(double v) const { return bottom - (bottom - top) * (v - y.low) / (y.high - y.low); }
 };
 
-/// Rows to draw of one column: all where they are few; else, per pixel column, the rows of the smallest and largest value in their order.
-std::vector<std::size_t> rows_to_draw(const io::History& history, std::size_t column, const Scale& scale) {
-  std::vector<std::size_t> rows;
-  const std::size_t num_rows = history.rows.size();
-  const auto value = [&](std::size_t k) { return history.rows[k].values[column]; };
-  for (std::size_t begin = 0; begin < num_rows;) {
-    const double pixel_column = std::floor(scale.to_x(history.rows[begin].time));
-    std::size_t low = begin, high = begin, end = begin;
-    bool all_finite = true;
-    for (; end < num_rows && std::floor(scale.to_x(history.rows[end].time)) == pixel_column; ++end) {
-      if (!std::isfinite(value(end))) {
-        all_finite = false;
-        rows.push_back(end);
-        continue;
-      }
-      if (!std::isfinite(value(low)) || value(end) < value(low)) low = end;
-      if (!std::isfinite(value(high)) || value(end) > value(high)) high = end;
-    }
-    if (end == begin) break;  // a time that is not finite
-    rows.push_back(begin);
-    rows.push_back(end - 1);
-    if (all_finite || std::isfinite(value(low))) rows.insert(rows.end(), {low, high});
-    begin = end;
-  }
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  return rows;
-}
-
-std::string curve_path(const io::History& history, std::size_t column, const Scale& scale) {
-  std::string path;
-  bool pen_down = false;
-  for (const std::size_t k : rows_to_draw(history, column, scale)) {
-    const double value = history.rows[k].values[column];
-    if (!std::isfinite(value)) {
-      pen_down = false;
-      continue;
-    }
-    path += pen_down ? 'L' : 'M';
-    append_pixel(path, scale.to_x(history.rows[k].time));
-    path += ' ';
-    append_pixel(path, scale.to_y(value));
-    pen_down = true;
-  }
-  return path;
+std::string column_path(const io::History& history, std::size_t column, const Scale& scale) {
+  return curve_path(
+      history.rows.size(), [&](std::size_t k) { return scale.to_x(history.rows[k].time); },
+      [&](std::size_t k) { return history.rows[k].values[column]; }, [&](double value) { return scale.to_y(value); });
 }
 
 std::string axes(const Scale& scale, std::string_view time_label) {
@@ -133,7 +93,7 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
   double legend_x = right;
   for (std::size_t k = columns.size(); k-- > 0;) {
     const std::string color = "curve s" + std::to_string(k % num_colors);
-    plot.svg += path_element(color, curve_path(history, columns[k], scale));
+    plot.svg += path_element(color, column_path(history, columns[k], scale));
     const std::string component = io::split_column(history.header.columns[columns[k]]).component;
     if (columns.size() < 2 || component.empty()) continue;
     plot.svg += text_element("tiny soft", legend_x, 20.0, "end", component);

@@ -34,7 +34,7 @@ echo '{"schema_version": 1, "bodies": [{"name": "a", "mass": -1}, 7], "nonsense"
 # words
 expect 0 '^bough [0-9]' --version
 expect 0 'bough run' --help
-for verb in run view batch check schema compare doctor; do expect 0 '  bough '$verb $verb --help; done
+for verb in run view batch check schema compare kinematics doctor; do expect 0 '  bough '$verb $verb --help; done
 expect 2 "did you mean 'run'" rnu good.json
 expect 2 "did you mean 'compare'" comapre a b
 expect 2 'Verbs:' xyzzy
@@ -45,7 +45,7 @@ expect 2 . run good.json --threads many
 expect 2 . run good.json --no-such-option
 expect 2 . run good.json more
 expect 2 . view good.out --view sideways
-expect 2 . compare a b --rel nan
+expect 2 'not a number' compare a b --rel nan
 holds test ! -e good.out
 
 # bad input: every problem, also when quiet; no directory
@@ -112,6 +112,48 @@ expect 2 'summary.json' compare good.out unfinished
 # schema
 expect 0 '"\$schema"' schema
 holds python3 -c 'import json, sys; json.load(open("printed"))'
+
+# kinematics razi
+expect 0 '^5 .*45 .*33.0711 ' kinematics razi --csv razi.csv --json razi.json --svg razi.svg
+holds test "$(head -1 razi.csv)" = 'spin,precession,tilt_deg,radius,psi_deg,centripetal,razi,coriolis,tangential,local,total'
+holds test "$(wc -l < razi.csv)" -eq 2167
+holds python3 -c 'import json; assert len(json.load(open("razi.json"))["series"]) == 6'
+holds python3 -c 'import xml.dom.minidom as x; x.parse("razi.svg")'
+expect 0 'one.csv' kinematics razi --spin 1 --precession 1 --tilt 90 --points 5 --csv one.csv
+holds test "$(head -1 one.csv)" = 'psi_deg,centripetal,razi,coriolis,tangential,local,total'
+holds awk -F, 'function near(a, b) { d = a - b; return d * d < 1e-28 }
+  NR == 2 { ok = near($2, sqrt(2)) && near($3, 1) && near($7, sqrt(5)) } NR == 3 { ok = ok && near($2, 2) && near($3, 0) && near($7, 2) }
+  END { exit !(ok && NR == 6) }' one.csv
+expect 2 'precession' kinematics razi --spin 5
+expect 2 . kinematics
+expect 2 . kinematics turn
+for words in '--points 1' '--points 2.5' '--tilt nan' '--radius -1' '--radius 0' '--spin inf --precession 1' '--spin 1e300 --precession 1' '--nonsense'; do
+  expect 2 . kinematics razi $words --csv none.csv
+done
+cat > chain.json <<'JSON'
+{"schema_version": 1, "title": "rotor on a car",
+ "frames": [{"name": "car", "position": [{"expression": "10*t"}, 0, 0], "turns": [{"axis": [0, 0, 1], "angle": {"expression": "t^2"}}]},
+            {"name": "rotor", "turns": [{"axis": [0, 1, 0], "angle": 20, "rate": true}]}],
+ "point": {"position": [0.2, 0, 0]}, "in": "car", "time": {"end": 1, "points": 11}}
+JSON
+expect 0 'rotor on a car' kinematics razi --chain chain.json --csv chain.csv --json chain.out.json --svg chain.svg
+holds test "$(head -1 chain.csv)" = 'time,centripetal,razi,coriolis,tangential,local,origin,total'
+holds test "$(wc -l < chain.csv)" -eq 12
+expect 2 . kinematics razi --chain chain.json --tilt 5
+expect 2 'no such file' kinematics razi --chain missing.json --csv none.csv
+sed 's/"car", "time"/"cat", "time"/; s/10\*t/10*/' chain.json > bad_chain.json
+expect 2 'did you mean "car"' kinematics razi --chain bad_chain.json --csv none.csv
+expect 2 'line 2, column .*expression' kinematics razi --chain bad_chain.json --json none.csv
+sed 's/10\*t/1\/(t-0.5)/' chain.json > pole.json
+expect 2 'not finite at t = 0.5' kinematics razi --chain pole.json --svg none.csv
+holds test ! -e none.csv
+expect 1 'folder' kinematics razi --csv folder/none.csv
+mkdir taken.csv
+expect 1 'taken.csv' kinematics razi --csv taken.csv
+holds test -d taken.csv
+holds test -z "$(find . -name '*.partial')"
+expect 0 'moving_frame' schema --chain
+holds python3 -c 'import json; json.load(open("printed"))'
 
 # batch
 mkdir scenes && cp good.json scenes/a.json && cp good.json scenes/c.json && cp bad.json scenes/b.json

@@ -1,23 +1,41 @@
-// Writes schema.json and the base scene, each broken in one place, into a directory: the cases of scene_bad_test that a schema can see.
+// Writes schema.json and the base scene, each broken in one place, into a directory: the cases of scene_bad_test that a schema can see. The
+// same for chains of frames in a folder of their own.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 
+#include "bough/io/read_frames.hpp"
 #include "bough/io/read_scene.hpp"
+#include "frames_base.hpp"
 #include "scene_base.hpp"
 #include "scene_table_cases.hpp"
 
-int main(int argc, char** argv) {
-  if (argc != 2) return std::fprintf(stderr, "usage: write_schema_cases directory\n"), 2;
-  const std::filesystem::path directory = argv[1];
+namespace {
+
+/// spoil: the base text with one piece replaced.
+template <class Cases, class Spoil>
+void write_cases(const std::filesystem::path& directory, const std::string& schema, const std::string& base,
+                 const Cases& cases, const Spoil& spoil) {
   std::filesystem::create_directories(directory / "bad");
-  std::ofstream(directory / "schema.json") << bough::io::schema_text();
-  std::ofstream(directory / "base.json") << bough::io::test::base_scene();
+  std::ofstream(directory / "schema.json") << schema;
+  std::ofstream(directory / "base.json") << base;
   int n = 0;
-  for (const auto& bad : bough::io::test::table_cases) {
-    std::string text = bough::io::test::spoilt(bad.from, bad.to);
+  for (const auto& bad : cases) {
+    std::string text = spoil(bad);
     if (const std::size_t at = text.find('@'); at != std::string::npos) text.erase(at, 1);
     std::ofstream(directory / "bad" / (std::to_string(n++) + ".json")) << text;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return std::fprintf(stderr, "usage: write_schema_cases directory\n"), 2;
+  namespace io = bough::io;
+  const std::filesystem::path directory = argv[1];
+  write_cases(directory, io::schema_text(), io::test::base_scene(), io::test::table_cases,
+              [](const auto& bad) { return io::test::spoilt(bad.from, bad.to); });
+  write_cases(directory / "chain", io::frames_schema_text(), io::test::base_chain(), io::test::chain_table_cases,
+              io::test::spoilt_chain);
   return 0;
 }

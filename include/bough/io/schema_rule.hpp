@@ -77,6 +77,9 @@ struct CheckFault {
 /// Checks a document, fills in defaults (source_default), clears `sound` of values at fault and of all that hold them.
 void check_rules(const RuleTable& table, JsonValue& root, std::vector<CheckFault>& faults);
 
+/// A table as a JSON Schema (draft-07).
+std::string schema_text_of(const RuleTable& table, const std::string& title);
+
 // Makers of rules, for the table.
 RuleRef number_rule(std::string about, double low = -std::numeric_limits<double>::infinity(), bool low_open = false,
                     double high = std::numeric_limits<double>::infinity());

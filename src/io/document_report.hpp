@@ -1,0 +1,56 @@
+#pragma once
+/// What is wrong with a document, gathered from all checks and placed in its text. Scenes and chains of frames share it.
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bough/io/json_value.hpp"
+#include "bough/io/read_scene.hpp"
+#include "bough/io/schema_rule.hpp"
+#include "read_values.hpp"
+
+namespace bough::io {
+
+/// Collects what is wrong and knows where in the texts it stands. Keeps references to what it is made from.
+class Report {
+ public:
+  Report(std::string_view text, const JsonValue* root, const std::vector<std::string>& overrides)
+      : text_(text), lines_(text), root_(root), overrides_(overrides) {}
+
+  void add(const JsonFault& f);
+  void add(const CheckFault& f);
+  void add_override(const PlacedFault& f);
+  void add(const PlacedFault& f, bool is_warning);
+
+  bool empty() const { return problems_.empty(); }
+
+  /// In the order of the file; those of overrides last.
+  void write(std::vector<Problem>& problems, std::vector<Problem>& warnings);
+
+ private:
+  struct Placed {
+    Problem problem;
+    bool in_file;
+    std::size_t offset;
+  };
+
+  void put(std::vector<Placed>& list, Problem p, int source, std::size_t offset);
+  void finish(std::vector<Placed>& list, std::vector<Problem>& out) const;
+  std::string_view source_text(int source) const;
+  std::string excerpt(int source, std::size_t offset, std::size_t length) const;
+  std::string token(int source, std::size_t offset) const;
+  std::string summary(const JsonValue& v) const;
+  const JsonValue* locate(const std::string& pointer, std::string* reached) const;
+
+  std::string_view text_;
+  LineIndex lines_;
+  const JsonValue* root_;
+  const std::vector<std::string>& overrides_;
+  std::vector<Placed> problems_, warnings_;
+};
+
+/// The bytes of a file; where they can not be had, `problem.rule` says why.
+std::string read_whole_file(const std::filesystem::path& file, Problem& problem);
+
+}  // namespace bough::io

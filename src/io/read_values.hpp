@@ -1,0 +1,44 @@
+#pragma once
+/// Checked JSON values into vectors, rotations, placements and laws.
+#include <string>
+#include <vector>
+
+#include "bough/io/json_value.hpp"
+#include "bough/scene/scene.hpp"
+
+namespace bough::io {
+
+/// Something wrong or doubtful at a place of the document.
+struct PlacedFault {
+  std::string pointer, value, rule, hint;  ///< value: empty = the text at the pointer
+};
+
+/// All members take sound values of the schema's form; what only shows here goes to `faults` and `warnings`.
+class ValueConverter {
+ public:
+  std::vector<PlacedFault> faults, warnings;
+
+ protected:
+  using Value = JsonValue;
+
+  scene::Vec3 vector(const Value& v) const;
+  scene::Vec3 vector_or(const Value& object, const char* key, const scene::Vec3& otherwise = scene::Vec3::zero()) const;
+  double number_or(const Value& object, const char* key, double otherwise) const;
+  std::string text_or(const Value& object, const char* key) const;
+  scene::Mat3 matrix3(const Value& v) const;
+  scene::Mat6 matrix6(const Value& v) const;
+  scene::Mat3 rotation(const Value& v, const std::string& at);
+  scene::Mat3 rotation_from_axes(const Value& axes, const std::string& at);
+  scene::Placement placement(const Value& v, const std::string& at);
+  laws::Law law(const Value& v, const std::string& at);
+  laws::Law law_of_kind(const Value& v, const std::string& at);
+  laws::Law law_table(const Value& v) const;
+  std::vector<laws::Law> law_list(const Value& v, const std::string& at);
+  void warn_of_degrees(const Value& angle, const std::string& at);
+
+  void fault(const std::string& at, std::string rule, std::string hint = {}, std::string value = {}) {
+    faults.push_back({at, std::move(value), std::move(rule), std::move(hint)});
+  }
+};
+
+}  // namespace bough::io
