@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""ratios.py FOLDER   reads FOLDER/solve.json and FOLDER/step.json and prints, for every case,
+"""ratios.py FOLDER   reads FOLDER/solve.json, step.json and scaling.json, those that are there, and prints, for every case,
 
-    case | bough ms | best peer ms (which) | ratio | bar | 2-thread speed-up
+    case | bough ms | best peer ms (which) | ratio | bar | 2-thread speed-up | CPU ratio
 
 bough ms: the better of one and two threads. Ratio: best rival over bough; the rivals are those that the bar names. Steps: bough's step over
 KLU's refactorization and solution of the same chain (smaller is better). A figure that misses its bar is marked with '<' (or '>' for
-steps). Medians over the repetitions, wall time. Exit 0 whatever the figures are, 2 where no file can be read.
+steps). Medians over the repetitions, wall time. CPU ratio: the same ratio in CPU time, bough on one thread: it says more where the machine
+was busy. Exit 0 whatever the figures are, 2 where no file can be read.
 """
 import json
 import os
@@ -35,7 +36,7 @@ def wants_speed_up(case):
 
 
 def read_medians(path):
-    """{case: {(solver, threads): milliseconds}} of the medians in a file of Google Benchmark, cases in order of size."""
+    """{case: {(solver, threads): (wall, CPU) milliseconds}} of the medians in a file of Google Benchmark, in order of size."""
     with open(path, encoding="utf-8") as file:
         data = json.load(file)
     unit = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
@@ -45,7 +46,8 @@ def read_medians(path):
         if not match or row.get("aggregate_name") != "median" or row.get("error_occurred"):
             continue
         solver, case, threads = match.groups()
-        table.setdefault(case, {})[solver, int(threads)] = row["real_time"] * unit[row["time_unit"]]
+        table.setdefault(case, {})[solver, int(threads)] = tuple(
+            row[time] * unit[row["time_unit"]] for time in ("real_time", "cpu_time"))
 
     def order(case):
         parts = re.fullmatch(r"(\D+?\d?)_(\d+)_?([us]?)", case)
@@ -57,7 +59,7 @@ def read_medians(path):
 def speed_up_text(times, case, solver="bough"):
     if (solver, 1) not in times or (solver, 2) not in times:
         return "-"
-    ratio = times[solver, 1] / times[solver, 2]
+    ratio = times[solver, 1][0] / times[solver, 2][0]
     return f"{ratio:.2f}" + (" <" if wants_speed_up(case) and ratio < SPEED_UP_BAR else "")
 
 
@@ -68,36 +70,63 @@ def print_table(head, rows):
     print()
 
 
+def least(times, solvers, kind=0):
+    """((solver, threads), milliseconds) of the fastest among the solvers; kind 0: wall, 1: CPU of one thread."""
+    found = [(key, t[kind]) for key, t in times.items() if key[0] in solvers and (kind == 0 or key[1] == 1)]
+    return min(found, key=lambda item: item[1]) if found else (None, None)
+
+
+def number(value, digits=3):
+    return "-" if value is None else f"{value:.{digits}f}"
+
+
 def solve_rows(table):
     rows = []
     for case, times in table.items():
         bar, rivals = rule(case)
-        own = min((t for (s, _), t in times.items() if s == "bough"), default=None)
-        peers = {key: t for key, t in times.items() if key[0] in rivals}
-        own_text = f"{own:.3f}" if own else "-"
-        if not peers:
-            rows.append((case, own_text, "-", "-", f"{bar:g}", speed_up_text(times, case)))
-            continue
-        (name, threads), best = min(peers.items(), key=lambda item: item[1])
-        ratio = f"{best / own:.2f}" + (" <" if best / own < bar else "") if own else "-"
-        which = name if threads == 1 else f"{name}, {threads} threads"
-        rows.append((case, own_text, f"{best:.3f} ({which})", ratio, f"{bar:g}", speed_up_text(times, case)))
+        own, best = least(times, ("bough",))[1], least(times, rivals)
+        own_cpu, best_cpu = least(times, ("bough",), 1)[1], least(times, rivals, 1)[1]
+        ratio = best[1] / own if own and best[1] else None
+        cpu_ratio = best_cpu / own_cpu if own_cpu and best_cpu else None
+        which = "-" if best[0] is None else f"{best[1]:.3f} ({best[0][0]}" + (", 2 threads)" if best[0][1] == 2 else ")")
+        rows.append((case, number(own), which, number(ratio, 2) + (" <" if ratio and ratio < bar else ""), f"{bar:g}",
+                     speed_up_text(times, case), number(cpu_ratio, 2)))
     return rows
 
 
 def step_rows(table):
     rows = []
     for case, times in table.items():
-        own = min((t for (s, _), t in times.items() if s == "bough"), default=None)
-        same = min((t for (s, _), t in times.items() if s == "bough_klu"), default=None)
-        klu = times.get(("klu", 1))
-        if own is None:
-            continue
+        own, same, klu = (least(times, (solver,))[1] for solver in ("bough", "bough_klu", "klu"))
+        own_cpu, klu_cpu = (least(times, (solver,), 1)[1] for solver in ("bough", "klu"))
         bar = STEP_BARS.get(case)
-        ratio = f"{own / klu:.3f}" + (" >" if bar and own / klu > bar else "") if klu else "-"
-        rows.append((case, f"{own:.3f}", f"{same:.3f}" if same else "-", f"{klu:.3f}" if klu else "-", ratio,
-                     f"{bar:g}" if bar else "-", speed_up_text(times, case)))
+        ratio = own / klu if own and klu else None
+        rows.append((case, number(own), number(same), number(klu),
+                     number(ratio) + (" >" if ratio and bar and ratio > bar else ""), f"{bar:g}" if bar else "-",
+                     speed_up_text(times, case), number(own_cpu / klu_cpu if own_cpu and klu_cpu else None)))
     return rows
+
+
+def split_rows(path):
+    """Where the time of a step goes, and how much work it is: the counters of bench_step on one thread."""
+    names = ("evaluate_ms", "factor_ms", "solve_ms", "update_ms", "output_ms", "iterations_a_step", "factorizations_a_step")
+    with open(path, encoding="utf-8") as file:
+        rows = json.load(file)["benchmarks"]
+    return [(re.sub("/threads:1.*", "", row["run_name"]), *(number(row[name], 2) for name in names)) for row in rows
+            if row.get("aggregate_name") == "median" and "/threads:1" in row["run_name"] and names[0] in row]
+
+
+def print_scaling(path):
+    """CPU time of a step over the number of links: the largest over the smallest tells how far from linear it grows."""
+    table = read_medians(path)
+    rows = []
+    for case, times in table.items():
+        links = int(case.split("_")[1])
+        one, two = times["bough", 1], times.get(("bough", 2), (None, None))
+        rows.append((case, number(one[0]), number(two[0]), number(1e3 * one[1] / links)))
+    print_table(("step of", "1 thread ms", "2 threads ms", "CPU us a link"), rows)
+    costs = [float(row[3]) for row in rows]
+    print(f"most over least: {max(costs) / min(costs):.2f} (bar 1.5)")
 
 
 def main():
@@ -105,18 +134,27 @@ def main():
         print(__doc__, file=sys.stderr)
         return 2
     found = False
-    for name, head, make in (
-            ("solve.json", ("case", "bough ms", "best peer ms (which)", "ratio", "bar", "2-thread speed-up"), solve_rows),
-            ("step.json", ("step of", "bough ms", "bough_klu ms", "klu solve ms", "ratio", "bar", "2-thread speed-up"),
-             step_rows)):
-        path = os.path.join(sys.argv[1], name)
+    paths = {name: os.path.join(sys.argv[1], name + ".json") for name in ("solve", "step", "scaling")}
+    for name, path in paths.items():
         if not os.path.exists(path):
             continue
         found = True
-        print(path)
-        print_table(head, make(read_medians(path)))
+        with open(path, encoding="utf-8") as file:
+            context = json.load(file)["context"]
+        load = context.get("load_avg", [0.0])[0]
+        print(f"{path}: {context.get('commit', 'unknown')}, load at the start {load:.1f} on {context['num_cpus']} processors")
+        if name == "solve":
+            print_table(("case", "bough ms", "best peer ms (which)", "ratio", "bar", "2-thread speed-up", "CPU ratio"),
+                        solve_rows(read_medians(path)))
+        elif name == "step":
+            print_table(("step of", "bough ms", "bough_klu ms", "klu solve ms", "ratio", "bar", "2-thread speed-up",
+                         "CPU ratio"), step_rows(read_medians(path)))
+            print_table(("1 thread, CPU ms a step", "evaluate", "factor", "solve", "update", "output", "iterations",
+                         "factorizations"), split_rows(path))
+        else:
+            print_scaling(path)
     if not found:
-        print(f"ratios.py: neither solve.json nor step.json in {sys.argv[1]}; `make bench` writes them", file=sys.stderr)
+        print(f"ratios.py: no solve.json, step.json or scaling.json in {sys.argv[1]}; `make bench` writes the first two", file=sys.stderr)
         return 2
     return 0
 

@@ -1,100 +1,30 @@
 #include "cases.hpp"
 
-#include <time.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 
 #include "../support/scenes.hpp"
 #include "bough_session.hpp"
+#include "trial.hpp"
 
 namespace bough::bench {
 
 namespace {
 
-constexpr double largest_backward_error = 1e-10, slowest_first = 20.0, longest_trial = 0.3;
+constexpr double slowest_first = 20.0;
 
 const std::vector<std::string> lattice_rivals{"cholmod", "umfpack", "mumps", "superlu"};
-
-/// CPU seconds of the process: trials run on one thread, and what else runs on the machine must not decide who takes part.
-double cpu_now() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-/// A peer with its best ordering, and what it took.
-struct Trial {
-  const Peer* peer = nullptr;
-  std::string ordering, failure;
-  std::unique_ptr<Session> session;
-  double first = 0.0, again = std::numeric_limits<double>::infinity(), backward_error = 0.0;
-};
-
-std::string describe_error(double backward_error, const std::string& ordering) {
-  char text[80];
-  std::snprintf(text, sizeof text, "backward error %.1e (%s)", backward_error, ordering.c_str());
-  return text;
-}
-
-/// One ordering: first factorization, then twice what is timed.
-Trial try_ordering(const Peer& peer, const Problem& p, const std::string& ordering) {
-  Trial t;
-  t.peer = &peer;
-  t.ordering = ordering;
-  t.session = peer.make(p, ordering);
-  const bool analyzed = t.session->analyze();
-  double start = cpu_now();
-  if (!analyzed || !t.session->factor()) {
-    t.failure = "fails to factor the matrix (" + ordering + ")";
-    return t;
-  }
-  t.first = cpu_now() - start;
-  std::vector<double> x;
-  for (int k = 0; k < 2; ++k) {
-    start = cpu_now();
-    if (!t.session->refactor_and_solve(x)) {
-      t.failure = "fails to solve (" + ordering + ")";
-      return t;
-    }
-    t.again = std::min(t.again, cpu_now() - start);
-  }
-  t.backward_error = eval_backward_error(p.matrix, x, p.rhs);
-  if (!(t.backward_error <= largest_backward_error)) {
-    t.failure = describe_error(t.backward_error, ordering);
-  }
-  return t;
-}
-
-bool is_better(const Trial& a, const Trial& b) {
-  if (a.failure.empty() != b.failure.empty()) return a.failure.empty();
-  return a.again < b.again;
-}
-
-/// All orderings, or the one kept from the next smaller case where trials take long.
-Trial try_peer(const Peer& peer, const Problem& p, const std::string& kept) {
-  std::vector<std::string> orderings = peer.orderings(p);
-  const auto at_front = std::find(orderings.begin(), orderings.end(), kept);
-  if (at_front != orderings.end()) std::iter_swap(orderings.begin(), at_front);
-  Trial best = try_ordering(peer, p, orderings.front());
-  for (std::size_t k = 1; k < orderings.size(); ++k) {
-    if (!kept.empty() && best.failure.empty() && best.first > longest_trial) break;
-    if (orderings[k].starts_with("node") && order_nodes(p, orderings[k]).empty()) continue;
-    Trial t = try_ordering(peer, p, orderings[k]);
-    if (is_better(t, best)) best = std::move(t);
-  }
-  return best;
-}
 
 bool contains(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
 void add_bough(Field& field, const std::vector<int>& thread_counts, std::vector<LeftOut>& left_out) {
+  if (thread_counts.empty()) return;
+  const auto storage = std::make_shared<BoughStorage>(*field.problem);
   for (int threads : thread_counts) {
-    Entrant e{"bough", "tree", threads, std::make_unique<BoughSession>(*field.problem, threads)};
+    Entrant e{"bough", "tree", threads, std::make_unique<BoughSession>(*field.problem, storage, threads)};
     std::vector<double> x;
     const bool ok = e.session->analyze() && e.session->factor() && e.session->refactor_and_solve(x);
     e.backward_error = ok ? eval_backward_error(field.problem->matrix, x, field.problem->rhs) : 0.0;

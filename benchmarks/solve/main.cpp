@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/arguments.hpp"
 #include "../support/context.hpp"
 #include "cases.hpp"
 
@@ -25,18 +26,6 @@ void run_row(benchmark::State& state, const Problem& problem, Entrant& entrant) 
   state.counters["unknowns"] = problem.matrix.n;
   state.counters["entries"] = problem.matrix.num_entries();
   state.SetLabel(entrant.ordering);
-}
-
-/// Takes "--NAME=VALUE" out of the arguments.
-std::string take_option(std::vector<char*>& arguments, const std::string& name, const std::string& otherwise) {
-  std::string value = otherwise;
-  const std::string start = "--" + name + "=";
-  std::erase_if(arguments, [&](const char* a) {
-    if (!std::string(a).starts_with(start)) return false;
-    value = std::string(a).substr(start.size());
-    return true;
-  });
-  return value;
 }
 
 }  // namespace

@@ -86,6 +86,13 @@ void add_hinge(scene::Scene& s, int link, const std::string& from, const scene::
   s.joints.push_back(j);
 }
 
+void add_position_sensor(scene::Scene& s, const std::string& of) {
+  scene::Sensor sensor;
+  sensor.name = "tip";
+  sensor.at.to = of;
+  s.sensors.push_back(sensor);
+}
+
 std::string name_at(int i, int j, int k = 0) {
   return std::to_string(i) + "," + std::to_string(j) + "," + std::to_string(k);
 }
@@ -102,6 +109,7 @@ scene::Scene make_chain(int links) {
     add_beam(s, "a" + n, "b" + n, 4);
     add_hinge(s, l, l == 0 ? "" : "b" + std::to_string(l - 1), zero, "a" + n, zero);
   }
+  add_position_sensor(s, "b" + std::to_string(links - 1));
   return s;
 }
 
@@ -119,6 +127,7 @@ scene::Scene make_rigid_chain(int links) {
     add_hinge(s, l, is_first ? "" : "link" + std::to_string(l - 1), {{is_first ? 0.0 : 0.5, 0.0, 0.0}}, b.name,
               {{-0.5, 0.0, 0.0}});
   }
+  add_position_sensor(s, "link" + std::to_string(links - 1));
   return s;
 }
 
@@ -147,6 +156,7 @@ scene::Scene make_lattice_2d(int n, Support support) {
       if (i > 0) add_beam(s, name_at(i - 1, j), name_at(i, j), 1);
       if (j > 0) add_beam(s, name_at(i, j - 1), name_at(i, j), 1);
     }
+  add_position_sensor(s, name_at(n - 1, n - 1));
   return s;
 }
 

@@ -1,0 +1,77 @@
+#include "trial.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace bough::bench {
+
+namespace {
+
+constexpr double longest_trial = 0.3;
+
+/// CPU seconds of the process: trials run on one thread, and what else runs on the machine must not decide who takes part.
+double cpu_now() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// One ordering: first factorization, then twice what is timed.
+Trial try_ordering(const Peer& peer, const Problem& p, const std::string& ordering) {
+  Trial t;
+  t.peer = &peer;
+  t.ordering = ordering;
+  t.session = peer.make(p, ordering);
+  const bool analyzed = t.session->analyze();
+  double start = cpu_now();
+  if (!analyzed || !t.session->factor()) {
+    t.failure = "fails to factor the matrix (" + ordering + ")";
+    return t;
+  }
+  t.first = cpu_now() - start;
+  std::vector<double> x;
+  for (int k = 0; k < 2; ++k) {
+    start = cpu_now();
+    if (!t.session->refactor_and_solve(x)) {
+      t.failure = "fails to solve (" + ordering + ")";
+      return t;
+    }
+    t.again = std::min(t.again, cpu_now() - start);
+  }
+  t.backward_error = eval_backward_error(p.matrix, x, p.rhs);
+  if (!(t.backward_error <= largest_backward_error)) {
+    t.failure = describe_error(t.backward_error, ordering);
+  }
+  return t;
+}
+
+bool is_better(const Trial& a, const Trial& b) {
+  if (a.failure.empty() != b.failure.empty()) return a.failure.empty();
+  return a.again < b.again;
+}
+
+}  // namespace
+
+std::string describe_error(double backward_error, const std::string& ordering) {
+  char text[80];
+  std::snprintf(text, sizeof text, "backward error %.1e (%s)", backward_error, ordering.c_str());
+  return text;
+}
+
+Trial try_peer(const Peer& peer, const Problem& p, const std::string& kept) {
+  std::vector<std::string> orderings = peer.orderings(p);
+  const auto at_front = std::find(orderings.begin(), orderings.end(), kept);
+  if (at_front != orderings.end()) std::iter_swap(orderings.begin(), at_front);
+  Trial best = try_ordering(peer, p, orderings.front());
+  for (std::size_t k = 1; k < orderings.size(); ++k) {
+    if (!kept.empty() && best.failure.empty() && best.first > longest_trial) break;
+    if (orderings[k].starts_with("node") && order_nodes(p, orderings[k]).empty()) continue;
+    Trial t = try_ordering(peer, p, orderings[k]);
+    if (is_better(t, best)) best = std::move(t);
+  }
+  return best;
+}
+
+}  // namespace bough::bench

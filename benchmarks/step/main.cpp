@@ -1,0 +1,176 @@
+/// bench_step [--case=REGEX] [--solver=REGEX] [--scaling=yes] [options of Google Benchmark]
+/// One iteration is one accepted time step of the program, from rest. --scaling=yes: chains of 32 to 32768 links instead of the usual cases.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "../solve/peer.hpp"
+#include "../solve/trial.hpp"
+#include "../support/arguments.hpp"
+#include "../support/context.hpp"
+#include "../support/scenes.hpp"
+#include "bough/study/simulate.hpp"
+
+namespace {
+
+using namespace bough;
+using namespace bough::bench;
+
+constexpr double step_size = 1e-3;
+
+struct StepCase {
+  std::string name;
+  int size;
+  int steps;  ///< timed in a run
+  scene::Scene (*make)(int);
+  bool has_klu_rows;
+};
+
+scene::Scene make_clamped_lattice(int n) { return make_lattice_2d(n, Support::clamp); }
+
+std::vector<StepCase> make_step_cases(bool scaling) {
+  std::vector<StepCase> cases;
+  if (scaling) {
+    for (int links : {32, 128, 512, 2048, 8192, 32768})
+      cases.push_back({"chain_" + std::to_string(links), links, links > 4096 ? 10 : 50, make_chain, false});
+    return cases;
+  }
+  for (int links : {128, 512, 2048}) cases.push_back({"chain_" + std::to_string(links), links, 50, make_chain, true});
+  cases.push_back({"lattice_50", 50, 20, make_clamped_lattice, true});
+  cases.push_back({"lattice_100", 100, 10, make_clamped_lattice, true});
+  cases.push_back({"rigid_chain_2048", 2048, 50, make_rigid_chain, true});
+  return cases;
+}
+
+class NoRecorder final : public results::Recorder {
+ public:
+  void begin(const results::HistoryHeader&) override {}
+  void row(const results::HistoryRow&) override {}
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+};
+
+scene::Scene make_scene(const StepCase& c, scene::SolverKind kind, int steps) {
+  scene::Scene s = c.make(c.size);
+  s.analysis.step_size = step_size;
+  s.analysis.end_time = step_size * steps;
+  s.solver.kind = kind;
+  return s;
+}
+
+results::Summary simulate(const scene::Scene& s, int threads, const study::ProgressCallback& progress = {}) {
+  NoRecorder recorder;
+  study::SimulateOptions options;
+  options.threads = threads;
+  return study::simulate(s, options, recorder, progress);
+}
+
+/// Times the steps after the first one of runs of steps + 1; where a step's time goes comes from the difference to a run of one step.
+void run_steps(benchmark::State& state, const StepCase& c, scene::SolverKind kind, int threads) {
+  const scene::Scene one = make_scene(c, kind, 1), all = make_scene(c, kind, c.steps + 1);
+  results::Summary start, end;
+  while (state.KeepRunningBatch(c.steps)) {
+    state.PauseTiming();
+    start = simulate(one, threads);
+    end = simulate(all, threads, [&](const results::Progress& p) {
+      if (p.step == 1) state.ResumeTiming();
+      if (p.step == c.steps + 1) state.PauseTiming();
+      return true;
+    });
+    state.ResumeTiming();
+    if (start.status != results::RunStatus::ok || end.status != results::RunStatus::ok || end.steps.rejected > 0) {
+      state.SkipWithError(("the run failed or rejected steps: " + end.cause).c_str());
+      return;
+    }
+  }
+  const auto per_step = [&](auto of) { return static_cast<double>(of(end) - of(start)) / c.steps; };
+  using S = results::Summary;
+  state.counters["evaluate_ms"] = 1e3 * per_step([](const S& s) { return s.times.assemble; });
+  state.counters["factor_ms"] = 1e3 * per_step([](const S& s) { return s.times.factor; });
+  state.counters["solve_ms"] = 1e3 * per_step([](const S& s) { return s.times.solve; });
+  state.counters["update_ms"] = 1e3 * per_step([](const S& s) { return s.times.update; });
+  state.counters["output_ms"] = 1e3 * per_step([](const S& s) { return s.times.output; });
+  state.counters["iterations_a_step"] = per_step([](const S& s) { return s.steps.newton_iterations; });
+  state.counters["factorizations_a_step"] = per_step([](const S& s) { return s.steps.factorizations; });
+}
+
+void add_step_row(const std::string& solver, const StepCase& c, scene::SolverKind kind, int threads) {
+  benchmark::RegisterBenchmark((solver + "/" + c.name + "/threads:" + std::to_string(threads)).c_str(),
+                               [&c, kind, threads](benchmark::State& state) { run_steps(state, c, kind, threads); })
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+#ifdef BOUGH_BENCH_HAS_KLU
+struct KluRow {
+  Problem problem;
+  std::unique_ptr<Session> session;
+  std::string ordering;
+};
+
+/// KLU's refactorization and solution of the unsymmetric matrix of a chain, as in bench_solve.
+std::unique_ptr<KluRow> add_klu_row(const StepCase& c) {
+  auto row = std::make_unique<KluRow>();
+  row->problem = make_problem(c.name + "_u", c.make(c.size), Values::unsymmetric);
+  Trial t = try_peer(make_klu_peer(), row->problem, "");
+  if (!t.failure.empty()) {
+    benchmark::AddCustomContext("left out klu/" + c.name, t.failure);
+    return row;
+  }
+  row->session = std::move(t.session);
+  row->ordering = t.ordering;
+  benchmark::RegisterBenchmark(("klu/" + c.name + "/threads:1").c_str(),
+                               [r = row.get()](benchmark::State& state) {
+                                 std::vector<double> x;
+                                 for (auto _ : state)
+                                   if (!r->session->refactor_and_solve(x)) {
+                                     state.SkipWithError("the solver failed");
+                                     return;
+                                   }
+                                 state.counters["backward_error"] =
+                                     eval_backward_error(r->problem.matrix, x, r->problem.rhs);
+                                 state.SetLabel(r->ordering);
+                               })
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+  return row;
+}
+#endif
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  const std::regex wanted_case(take_option(arguments, "case", ".*"));
+  const std::regex wanted_solver(take_option(arguments, "solver", ".*"));
+  const bool scaling = take_option(arguments, "scaling", "no") == "yes";
+  std::vector<std::string> defaults{"--benchmark_repetitions=5", "--benchmark_enable_random_interleaving=true",
+                                    "--benchmark_min_time=0.01"};
+  for (std::string& d : defaults) arguments.insert(arguments.begin() + 1, d.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+  add_context();
+
+  const std::vector<StepCase> cases = make_step_cases(scaling);
+#ifdef BOUGH_BENCH_HAS_KLU
+  std::vector<std::unique_ptr<KluRow>> klu_rows;
+#endif
+  for (const StepCase& c : cases) {
+    if (!std::regex_match(c.name, wanted_case)) continue;
+    if (std::regex_match("bough", wanted_solver))
+      for (int threads : {1, 2}) add_step_row("bough", c, scene::SolverKind::hierarchical, threads);
+#ifdef BOUGH_BENCH_HAS_KLU
+    if (!c.has_klu_rows) continue;
+    if (std::regex_match("bough_klu", wanted_solver)) add_step_row("bough_klu", c, scene::SolverKind::monolithic, 1);
+    if (c.name.starts_with("chain") && std::regex_match("klu", wanted_solver)) klu_rows.push_back(add_klu_row(c));
+#endif
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}
