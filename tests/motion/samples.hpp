@@ -45,8 +45,15 @@ class Random {
     }
   }
   /// A motion vector of rotation angle phi and displacements of order 1 m.
-  Vec6<double> motion(double phi) { return lanes::join(vector<3>(), phi * unit()); }
-  Frame<double> frame(double length = 1.0) { return {exp_so3(3.0 * number() * unit()), length * vector<3>()}; }
+  Vec6<double> motion(double phi) {
+    const Vec3<double> u = vector<3>();  // first, so that samples do not depend on the compiler's order of arguments
+    return lanes::join(u, phi * unit());
+  }
+  Frame<double> frame(double length = 1.0) {
+    const double angle = 3.0 * number();
+    const Mat3<double> R = exp_so3(angle * unit());
+    return {R, length * vector<3>()};
+  }
 
  private:
   std::mt19937 engine_;
