@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""ratios.py FOLDER   reads FOLDER/solve.json, step.json and scaling.json, those that are there, and prints, for every case,
+"""ratios.py FOLDER   reads FOLDER/solve.json, step.json, scaling.json and motion.json, those that are there, and prints, for every case,
 
     case | bough ms | best peer ms (which) | ratio | bar | 2-thread speed-up | CPU ratio
 
 bough ms: the better of one and two threads. Ratio: best rival over bough; the rivals are those that the bar names. Steps: bough's step over
 KLU's refactorization and solution of the same chain (smaller is better). A figure that misses its bar is marked with '<' (or '>' for
 steps). Medians over the repetitions, wall time. CPU ratio: the same ratio in CPU time, bough on one thread: it says more where the machine
-was busy. Exit 0 whatever the figures are, 2 where no file can be read.
+was busy. Motions: CPU nanoseconds of one motion and Eigen's time over bough's. Exit 0 whatever the figures are, 2 where no file can be read.
 """
 import json
 import os
@@ -129,12 +129,25 @@ def print_scaling(path):
     print(f"most over least: {max(costs) / min(costs):.2f} (bar 1.5)")
 
 
+def motion_rows(path):
+    """CPU time of one motion, by bough in double, in a lane of eight, and by Eigen."""
+    with open(path, encoding="utf-8") as file:
+        rows = json.load(file)["benchmarks"]
+    times = {}
+    for row in rows:
+        if row.get("aggregate_name") == "median":
+            who, operator = row["run_name"].split("/")[:2]
+            times.setdefault(operator, {})[who] = 1e9 * row["each"]
+    return [(operator, number(t["bough"], 1), number(t["lanes"], 1), number(t["eigen"], 1), number(t["eigen"] / t["bough"], 2),
+             number(t["eigen"] / t["lanes"], 2)) for operator, t in times.items()]
+
+
 def main():
     if len(sys.argv) != 2:
         print(__doc__, file=sys.stderr)
         return 2
     found = False
-    paths = {name: os.path.join(sys.argv[1], name + ".json") for name in ("solve", "step", "scaling")}
+    paths = {name: os.path.join(sys.argv[1], name + ".json") for name in ("solve", "step", "scaling", "motion")}
     for name, path in paths.items():
         if not os.path.exists(path):
             continue
@@ -151,10 +164,12 @@ def main():
                          "CPU ratio"), step_rows(read_medians(path)))
             print_table(("1 thread, CPU ms a step", "evaluate", "factor", "solve", "update", "output", "iterations",
                          "factorizations"), split_rows(path))
+        elif name == "motion":
+            print_table(("motion", "bough ns", "a lane ns", "eigen ns", "eigen/bough", "eigen/lane"), motion_rows(path))
         else:
             print_scaling(path)
     if not found:
-        print(f"ratios.py: no solve.json, step.json or scaling.json in {sys.argv[1]}; `make bench` writes the first two", file=sys.stderr)
+        print(f"ratios.py: no solve.json, step.json, scaling.json or motion.json in {sys.argv[1]}; `make bench` writes all but scaling.json", file=sys.stderr)
         return 2
     return 0
 

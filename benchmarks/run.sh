@@ -1,6 +1,6 @@
 #!/bin/sh
 # run.sh BUILD_FOLDER   runs all benchmarks: micro (JSON beside the programs), solve (BUILD_FOLDER/solve.json) and
-# step (BUILD_FOLDER/step.json), then prints the table of ratios.
+# step (BUILD_FOLDER/step.json), motion (BUILD_FOLDER/motion.json), then prints the tables of ratios.
 set -eu
 build=$1
 folder=$build/benchmarks
@@ -13,8 +13,13 @@ for name in solve step; do
   found=1
   "$program" --benchmark_out="$build/$name.json" --benchmark_out_format=json --benchmark_display_aggregates_only=true
 done
+if [ -x "$folder/bench_motion" ]; then
+  found=1
+  "$folder/bench_motion" --benchmark_min_time=0.05 --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true \
+    --benchmark_display_aggregates_only=true --benchmark_out="$build/motion.json" --benchmark_out_format=json
+fi
 for program in "$folder"/bench_*; do
-  case "$program" in *.json | */bench_solve | */bench_step) continue ;; esac
+  case "$program" in *.json | */bench_solve | */bench_step | */bench_motion) continue ;; esac
   [ -x "$program" ] || continue
   found=1
   "$program" --benchmark_min_time=0.2 --benchmark_out="$program.json" --benchmark_out_format=json

@@ -32,7 +32,7 @@ void expect_conservative(const Sample<E>& s) {
   SCOPED_TRACE(s.name);
   const std::vector<double> gradient = energy_gradient(s);
   EXPECT_LE(relative_error(residual_of(s, s.field(false)), gradient), exact);
-  EXPECT_GT(largest(gradient), 1e-3);  // not compared with nothing: samples differ with the compiler
+  EXPECT_GT(largest(gradient), 0.5);  // not compared with nothing: all samples are strained
 }
 
 TEST(ElementEnergy, static_residual_of_a_beam_is_the_derivative_of_its_strain_energy) {
