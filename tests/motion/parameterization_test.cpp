@@ -227,16 +227,16 @@ TEST(Parameterization, of_a_half_turn_are_finite_and_return_for_every_law) {
   for (int axis = 0; axis < 3; ++axis) {
     Frame<double> H{-1.0 * Mat3<double>::identity(), {{1.0, -2.0, 3.0}}};
     H.R(axis, axis) = 1.0;
-    const auto check = [&]<class Map>(const Map&, double bound) {
+    const auto check = [&]<class Map>(const Map&) {
       const Vec3<double> p = Map::parameters(H.R);
-      for (int i = 0; i < 3; ++i) EXPECT_TRUE(std::isfinite(p[i])) << Map::name;
-      EXPECT_LE(largest(Map::rotation(p) - H.R), 4 * epsilon) << Map::name;
       const Vec6<double> P = Map::parameters(H);
-      for (int i = 0; i < 6; ++i) EXPECT_TRUE(std::isfinite(P[i])) << Map::name;
-      EXPECT_LE(largest(Map::motion(P).x - H.x), bound) << Map::name;
+      EXPECT_TRUE(std::isfinite(largest(p)) && std::isfinite(largest(P))) << Map::name;
+      EXPECT_LE(largest(Map::rotation(p) - H.R), 4 * epsilon) << Map::name;
+      return largest(Map::motion(P).x - H.x);
     };
-    check(ExponentialMap{}, 16 * epsilon);
-    check(WienerMilenkovicMap{}, 16 * epsilon);
+    EXPECT_LE(check(ExponentialMap{}), 16 * epsilon);
+    EXPECT_LE(check(WienerMilenkovicMap{}), 16 * epsilon);
+    EXPECT_TRUE(std::isfinite(check(CayleyMap{})));  // the part of u across the axis is below the digits of the other
   }
 }
 

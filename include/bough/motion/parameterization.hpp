@@ -56,7 +56,8 @@ struct ExponentialLaw {
 };
 
 /// p = 2 tan(phi/2) n, rational. Infinite at phi = pi: there, and only there, the modulus stops at 2e50, which still
-/// gives the rotation back to round-off, so that no infinity or NaN appears.
+/// gives the rotation back to round-off, so that no infinity or NaN appears. Near pi the two parts of a motion's u, p' d along
+/// the axis and p w across it, differ by the factor p/4: the pose comes back to epsilon |p| |x|, and not at pi itself.
 struct CayleyLaw {
   static constexpr std::string_view name = "cayley";
   static constexpr double smallest_cosine = 1e-50;  ///< of phi/2; a double rotation has 0 or more than 1e-20
