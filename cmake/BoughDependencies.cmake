@@ -13,6 +13,13 @@ if(BOUGH_WITH_KLU)
   set(BOUGH_HAS_KLU ${KLU_FOUND})
 endif()
 
+# GPL: never part of what is passed on. Asked for means needed.
+set(BOUGH_HAS_GPL OFF)
+if(BOUGH_WITH_GPL)
+  find_package(GplSuiteSparse REQUIRED)
+  set(BOUGH_HAS_GPL ON)
+endif()
+
 set(BOUGH_HAS_METIS OFF)
 if(BOUGH_WITH_METIS)
   find_package(METIS)

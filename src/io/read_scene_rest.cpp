@@ -121,6 +121,11 @@ void Converter::settings() {
     scene.solver.kind = kind == "automatic"      ? scene::SolverKind::automatic
                         : kind == "hierarchical" ? scene::SolverKind::hierarchical
                                                  : scene::SolverKind::monolithic;
+    const std::string& library = s->find("library")->text;
+    scene.solver.library = library == "klu"         ? scene::SolverLibrary::klu
+                           : library == "sparse_lu" ? scene::SolverLibrary::sparse_lu
+                           : library == "umfpack"   ? scene::SolverLibrary::umfpack
+                                                    : scene::SolverLibrary::cholmod;
     scene.solver.leaf_size = static_cast<int>(number_or(*s, "leaf_size", 0.0));
     scene.solver.depth = static_cast<int>(number_or(*s, "depth", -1.0));
     scene.solver.penalty_factor = s->find("penalty_factor")->number;

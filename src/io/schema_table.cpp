@@ -241,6 +241,10 @@ void add_settings(RuleTable& t) {
       object_of("Linear solver. What is left out is chosen from the scene.",
                 {may("kind", word_rule("", {"automatic", "hierarchical", "monolithic"}),
                      "Hierarchy of sub-domains, or one factorization.", "\"automatic\""),
+                 may("library", word_rule("", {"klu", "sparse_lu", "umfpack", "cholmod"}),
+                     "Who factors the one matrix of kind \"monolithic\". UMFPACK and CHOLMOD (symmetric only) are in "
+                     "programs built with BOUGH_WITH_GPL.",
+                     "\"klu\""),
                  may("leaf_size", integer_rule("", 1, 1e6), "Elements in a sub-domain at the bottom. Default: chosen."),
                  may("depth", integer_rule("", 0, 40), "Levels of the hierarchy. Default: chosen."),
                  may("penalty_factor", positive(""), "Times the interface's own stiffness [-].", "1"),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "make_solver.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -16,15 +17,6 @@ using motion::Vec6;
 namespace {
 
 constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
-
-std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree::Tree& tree,
-                                              const scene::Solver& given) {
-  solve::SolveOptions options;
-  options.penalty_factor = given.penalty_factor;
-  if (given.kind == scene::SolverKind::monolithic)
-    return std::make_unique<solve::AnySolver>(solve::Monolithic(plan.graph, tree, options));
-  return std::make_unique<solve::AnySolver>(solve::Hierarchical(plan.graph, tree, options));
-}
 
 std::unique_ptr<tree::Tree> make_scene_tree(const plan::Plan& plan, const scene::Solver& given) {
   tree::TreeOptions options;
@@ -260,6 +252,7 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
     return std::nullopt;
   }
   if (status.outcome == solve::FactorOutcome::not_finite) return Trouble{"a tangent is not finite"};
+  if (const char* why = explain_backend(status.outcome)) return Trouble{why};
   std::string text = "the linear system is singular";
   if (status.block >= 0) {
     static const char* const axes[] = {"displacement along axis 1", "displacement along axis 2",

@@ -188,12 +188,13 @@ TEST(SceneRead, damping_by_a_time_is_that_multiple_of_the_stiffness) {
 
 TEST(SceneRead, overrides_change_values_make_keys_and_reach_items_by_name) {
   const scene::Scene s =
-      good(test::base_scene(),
-           {"/analysis/step_size=2e-3", "/beams/upper/elements=7", "/solver/kind=monolithic", "/solver/leaf_size=3",
-            "/gravity=[0, 0, 0]", "/nodes/1/position/0=1.5", "/output/motion=true"});
+      good(test::base_scene(), {"/analysis/step_size=2e-3", "/beams/upper/elements=7", "/solver/kind=monolithic",
+                                "/solver/library=sparse_lu", "/solver/leaf_size=3", "/gravity=[0, 0, 0]",
+                                "/nodes/1/position/0=1.5", "/output/motion=true"});
   EXPECT_EQ(s.analysis.step_size, 2e-3);
   EXPECT_EQ(s.beams[0].elements, 7);
   EXPECT_EQ(s.solver.kind, scene::SolverKind::monolithic);
+  EXPECT_EQ(s.solver.library, scene::SolverLibrary::sparse_lu);
   EXPECT_EQ(s.solver.leaf_size, 3);
   EXPECT_EQ(s.gravity[2], 0.0);
   EXPECT_EQ(s.nodes[1].placement.pose.x[0], 1.5);

@@ -38,8 +38,8 @@ LIBRARIES = {
     "metis": {"tree"},
     "klu": {"solve"},
     "suitesparse/": {"solve"},
-    "cholmod": set(),
-    "umfpack": set(),
+    "cholmod": {"solve"},
+    "umfpack": {"solve"},
     "gtest/": set(),
     "benchmark/": set(),
 }

@@ -223,12 +223,14 @@ struct Analysis {
 };
 
 enum class SolverKind : std::uint8_t { automatic, hierarchical, monolithic };
+enum class SolverLibrary : std::uint8_t { klu, sparse_lu, umfpack, cholmod };
 
 struct Solver {
   SolverKind kind = SolverKind::automatic;
-  int leaf_size = 0;            ///< elements; 0 = chosen
-  int depth = -1;               ///< -1 = chosen
-  double penalty_factor = 1.0;  ///< times the interface's own stiffness
+  SolverLibrary library = SolverLibrary::klu;  ///< of kind monolithic
+  int leaf_size = 0;                           ///< elements; 0 = chosen
+  int depth = -1;                              ///< -1 = chosen
+  double penalty_factor = 1.0;                 ///< times the interface's own stiffness
   bool tasks = true;
 };
 

@@ -1,18 +1,20 @@
 #pragma once
-/// Either solver behind one set of verbs, so that a caller can hold one without a template.
+/// Any solver behind one set of verbs, so that a caller can hold one without a template.
 #include <utility>
 #include <variant>
 
 #include "bough/solve/hierarchical.hpp"
 #include "bough/solve/monolithic.hpp"
+#include "bough/solve/sparse_oracle.hpp"
 
 namespace bough::solve {
 
-/// A Hierarchical or a Monolithic; the verbs are those of Hierarchical.
+/// One of the solvers; the verbs are those of Hierarchical.
 class AnySolver {
  public:
   AnySolver(Hierarchical solver) : solver_(std::move(solver)) {}
   AnySolver(Monolithic solver) : solver_(std::move(solver)) {}
+  AnySolver(SparseOracle solver) : solver_(std::move(solver)) {}
 
   ElementView element(int id) {
     return std::visit([&](auto& s) { return s.element(id); }, solver_);
@@ -38,11 +40,11 @@ class AnySolver {
   std::vector<int> blocks_not_unique() const {
     return std::visit([](auto& s) { return s.blocks_not_unique(); }, solver_);
   }
-  /// The hierarchical solver, or null when the monolithic one is held.
+  /// The hierarchical solver, or null when another one is held.
   const Hierarchical* hierarchical() const { return std::get_if<Hierarchical>(&solver_); }
 
  private:
-  std::variant<Hierarchical, Monolithic> solver_;
+  std::variant<Hierarchical, Monolithic, SparseOracle> solver_;
 };
 
 }  // namespace bough::solve

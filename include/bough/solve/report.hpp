@@ -10,10 +10,11 @@
 namespace bough::solve {
 
 enum class FactorOutcome {
-  ok,          ///< regular, or singular in dependent constraint rows only (see deficiency).
-  singular,    ///< a motion unknown is held by nothing (under-constrained, or no element touches it).
-  not_finite,  ///< an element matrix holds NaN or infinity.
-  backend,     ///< a foreign solver failed otherwise (monolithic only).
+  ok,           ///< regular, or singular in dependent constraint rows only (see deficiency).
+  singular,     ///< a motion unknown is held by nothing (under-constrained, or no element touches it).
+  not_finite,   ///< an element matrix holds NaN or infinity.
+  backend,      ///< a foreign solver failed otherwise, or is not part of this build (monolithic only).
+  unsymmetric,  ///< the chosen library solves symmetric matrices only (CHOLMOD).
 };
 
 /// Outcome of factor(). When several fronts fail the lowest one is told.

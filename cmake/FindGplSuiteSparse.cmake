@@ -1,0 +1,22 @@
+# UMFPACK and CHOLMOD: GPL, and they pull BLAS and LAPACK. Only looked for with BOUGH_WITH_GPL, for comparisons on one's own machine.
+# Result: GplSuiteSparse_FOUND and the imported target SuiteSparse::GPL.
+include(FindPackageHandleStandardArgs)
+
+find_path(GPL_SUITESPARSE_INCLUDE_DIR umfpack.h PATH_SUFFIXES suitesparse)
+set(_gpl_required GPL_SUITESPARSE_INCLUDE_DIR)
+set(_gpl_libraries)
+foreach(part umfpack cholmod)
+  find_library(GPL_SUITESPARSE_${part}_LIBRARY ${part})
+  mark_as_advanced(GPL_SUITESPARSE_${part}_LIBRARY)
+  list(APPEND _gpl_required GPL_SUITESPARSE_${part}_LIBRARY)
+  list(APPEND _gpl_libraries "${GPL_SUITESPARSE_${part}_LIBRARY}")
+endforeach()
+mark_as_advanced(GPL_SUITESPARSE_INCLUDE_DIR)
+find_package_handle_standard_args(GplSuiteSparse REQUIRED_VARS ${_gpl_required})
+if(GplSuiteSparse_FOUND AND NOT TARGET SuiteSparse::GPL)
+  add_library(SuiteSparse::GPL INTERFACE IMPORTED)
+  target_include_directories(SuiteSparse::GPL SYSTEM INTERFACE "${GPL_SUITESPARSE_INCLUDE_DIR}")
+  target_link_libraries(SuiteSparse::GPL INTERFACE ${_gpl_libraries})
+endif()
+unset(_gpl_required)
+unset(_gpl_libraries)

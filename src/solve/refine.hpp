@@ -1,0 +1,92 @@
+#pragma once
+/// Solution with refinement against the element matrices, for the solvers beside the hierarchical one. Internal to solve.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "bough/solve/options.hpp"
+#include "bough/solve/report.hpp"
+#include "bough/tree/walker.hpp"
+#include "element_store.hpp"
+
+namespace bough::solve {
+
+/// Evaluates the elements of all leaves, as the first thing of a factorization.
+inline void run_prepare(const tree::Tree& tree, const tree::Walker& walker, const Prepare& prepare) {
+  if (prepare.run == nullptr) return;
+  auto visit = [&](tree::SubdomainId id) {
+    const tree::Subdomain& sub = tree.subdomains[static_cast<std::size_t>(id)];
+    if (sub.is_leaf() && sub.element_begin < sub.element_end)
+      prepare.run(prepare.context, id, sub.element_begin, sub.element_end);
+  };
+  walker.walk_up(tree, tree::make_visit(visit));
+}
+
+/// The block that holds an unknown.
+inline int block_of_unknown(const tree::Tree& tree, std::int64_t unknown) {
+  return static_cast<int>(std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), unknown) -
+                          tree.unknown_begin.begin()) -
+         1;
+}
+
+/// The first block with an entry that is not finite, or -1.
+inline int find_not_finite_block(const ElementStore& elements) {
+  for (int e = 0; e < elements.graph().num_elements(); ++e) {
+    const ConstElementView a = elements.view(e);
+    for (int i = 0; i < elements.size_of(e) * elements.size_of(e); ++i)
+      if (!std::isfinite(a[i])) return elements.blocks_of(e)[0];
+  }
+  return -1;
+}
+
+/// Scaled x, right-hand side and what refinement needs; sized once.
+struct RefineBuffers {
+  explicit RefineBuffers(std::size_t n) : scaled_rhs(n), scaled(n), rhs(n), x(n), trial(n), residual(n) {}
+  std::vector<double> scaled_rhs, scaled, rhs, x, trial, residual;
+};
+
+/// x = A^-1 rhs by apply(scaled right-hand side, scaled solution), then at most `most` steps of refinement while they help and the normwise
+/// backward error is above refinement_above. Fills the report's backward errors, steps, growth.
+template <class Apply>
+void solve_and_refine(const tree::Walker& walker, ElementStore& elements, const Scales& scales,
+                      const SolveOptions& options, int most, bool check, RefineBuffers& w, const double* rhs, double* x,
+                      SolveReport& report, Apply&& apply) {
+  const std::size_t n = w.x.size();
+  std::copy(rhs, rhs + n, w.rhs.begin());
+  const auto run = [&](const std::vector<double>& b, std::vector<double>& solution) {
+    for (std::size_t i = 0; i < n; ++i) w.scaled_rhs[i] = scales.row[i] * b[i];
+    apply(w.scaled_rhs.data(), w.scaled.data());
+    for (std::size_t i = 0; i < n; ++i) solution[i] = scales.column[i] * w.scaled[i];
+  };
+  run(w.rhs, w.x);
+  double rhs_size = 0.0, size = 0.0;
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    rhs_size = std::max(rhs_size, std::abs(w.scaled_rhs[i]));
+    if (std::abs(w.scaled[i]) <= size) continue;
+    size = std::abs(w.scaled[i]);
+    largest = i;
+  }
+  if (rhs_size > 0.0 && size > 0.0) {
+    report.growth = size / rhs_size;
+    report.growth_block = block_of_unknown(elements.tree(), static_cast<std::int64_t>(largest));
+  }
+  if (check) {
+    auto errors = elements.eval_residual(walker, scales, w.x.data(), w.rhs.data(), w.residual.data());
+    while (errors.finite && errors.normwise > options.refinement_above && report.refinement_steps < most) {
+      run(w.residual, w.trial);
+      for (std::size_t i = 0; i < n; ++i) w.trial[i] += w.x[i];
+      const auto refined = elements.eval_residual(walker, scales, w.trial.data(), w.rhs.data(), w.residual.data());
+      if (!(refined.normwise < errors.normwise)) break;  // as good as it gets: keep the better one
+      errors = refined;
+      std::swap(w.x, w.trial);
+      ++report.refinement_steps;
+    }
+    report.backward_error = errors.normwise;
+    report.componentwise_backward_error = errors.componentwise;
+    report.finite = errors.finite;
+  }
+  std::copy(w.x.begin(), w.x.end(), x);
+}
+
+}  // namespace bough::solve

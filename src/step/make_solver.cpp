@@ -1,0 +1,39 @@
+#include "make_solver.hpp"
+
+namespace bough::step {
+
+namespace {
+
+std::unique_ptr<solve::AnySolver> make_monolithic(const plan::Plan& plan, const tree::Tree& tree,
+                                                  scene::SolverLibrary library, const solve::SolveOptions& options) {
+  using Given = scene::SolverLibrary;
+  if (library == Given::klu) return std::make_unique<solve::AnySolver>(solve::Monolithic(plan.graph, tree, options));
+  const solve::Library other = library == Given::umfpack   ? solve::Library::umfpack
+                               : library == Given::cholmod ? solve::Library::cholmod
+                                                           : solve::Library::sparse_lu;
+  return std::make_unique<solve::AnySolver>(solve::SparseOracle(plan.graph, tree, other, options));
+}
+
+}  // namespace
+
+std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree::Tree& tree,
+                                              const scene::Solver& given) {
+  solve::SolveOptions options;
+  options.penalty_factor = given.penalty_factor;
+  if (given.kind == scene::SolverKind::monolithic) return make_monolithic(plan, tree, given.library, options);
+  return std::make_unique<solve::AnySolver>(solve::Hierarchical(plan.graph, tree, options));
+}
+
+const char* explain_backend(solve::FactorOutcome outcome) {
+  if (outcome == solve::FactorOutcome::backend)
+    return "the library of /solver/library is not part of this program (KLU needs BOUGH_WITH_KLU, UMFPACK and CHOLMOD "
+           "need "
+           "BOUGH_WITH_GPL when it is built), or it failed: choose \"sparse_lu\", or another /solver/kind";
+  if (outcome == solve::FactorOutcome::unsymmetric)
+    return "the tangent is not symmetric, and /solver/library \"cholmod\" solves symmetric systems only: choose "
+           "another "
+           "library";
+  return nullptr;
+}
+
+}  // namespace bough::step
