@@ -4,24 +4,6 @@
 
 namespace bough::elements {
 
-PortMotion<double> eval_port(const Port& port, const NodeMotion* nodes, const motion::Vec3Pair& anchor) {
-  PortMotion<double> p;
-  if (port.node == ground) {
-    p.H.R = port.offset.R;
-    p.H.x = motion::difference(motion::Vec3Pair{port.offset.x, Vec3<double>::zero()}, anchor);
-    p.v = p.a = Vec6<double>::zero();
-    return p;
-  }
-  const NodeMotion& n = nodes[port.node];
-  const Vec3<double> x = motion::difference(n.x, anchor);
-  if (!port.has_offset) return {{n.R, x}, n.v, n.a};
-  p.H.R = n.R * port.offset.R;
-  p.H.x = x + n.R * port.offset.x;
-  p.v = motion::inverse_adjoint_times(port.offset, n.v);
-  p.a = motion::inverse_adjoint_times(port.offset, n.a);
-  return p;
-}
-
 Mat6<double> make_mass_matrix(double mass, const Vec3<double>& center, const Mat3<double>& inertia) {
   const Mat3<double> c = lanes::skew(center);
   const Mat3<double> about_origin = inertia - mass * (c * c);  // Huygens and Steiner

@@ -1,219 +1,119 @@
 #pragma once
 /// Bodies of the drivers in evaluate.hpp; included once per element type, in the file that instantiates it.
 #include "beam_tangent.hpp"
+#include "body_tangent.hpp"
 #include "bough/elements/evaluate.hpp"
-#include "bough/lanes/jet.hpp"
 #include "bough/lanes/taylor.hpp"
 #include "relative_tangent.hpp"
 
 namespace bough::elements {
 
 /// The joint's kernel also wants the angle's last accepted value; all others ignore it.
-template <class E, class S>
+template <class E, class S, class C>
 void eval_kernel(const E& e, const PortMotion<S>* p, const S* multipliers, const Surroundings<S>& around, S* out,
-                 double turns) {
+                 const C& turns) {
   if constexpr (E::num_multipliers > 0)
     eval_residual(e, p, multipliers, around, out, turns);
   else
     eval_residual(e, p, multipliers, around, out);
 }
 
-/// Port motion with derivative directions first .. first + 5 = the port's own increment eta:
-///   R (1 + ~eta_w), x + R eta_u, v + A eta, a + B eta.
-template <int D>
-PortMotion<lanes::Jet<double, D>> seed_port(const PortMotion<double>& p, int first, const PortSlopes& slopes) {
-  using J = lanes::Jet<double, D>;
-  PortMotion<J> r;
-  r.H.R = lanes::cast<J>(p.H.R);
-  r.H.x = lanes::cast<J>(p.H.x);
-  r.v = lanes::cast<J>(p.v);
-  r.a = lanes::cast<J>(p.a);
-  if (slopes.moves)
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) {
-        const int next = (k + 1) % 3, last = (k + 2) % 3;
-        r.H.x[i].d[first + k] = p.H.R(i, k);
-        r.H.R(i, next).d[first + 3 + k] = p.H.R(i, last);   // e_k x e_next = e_last
-        r.H.R(i, last).d[first + 3 + k] = -p.H.R(i, next);  // e_k x e_last = -e_next
-      }
-  for (int i = 0; i < 6; ++i)
-    for (int k = 0; k < 6; ++k) {
-      r.v[i].d[first + k] = slopes.velocity(i, k);
-      r.a[i].d[first + k] = slopes.acceleration(i, k);
-    }
-  return r;
-}
-
-template <class S>
-Surroundings<S> cast_surroundings(const Surroundings<double>& a, const S* laws) {
-  return {lanes::cast<S>(a.gravity), laws, a.has_inertia};
-}
-
-/// Largest number of laws one element looks at.
-constexpr int max_element_laws = 1;
-
-/// The laws an element looks at, as constants of scalar S behind the same indices.
-template <class S>
-struct LawView {
-  S values[max_element_laws];
-  int used = 0;
-  int take(int& index, const double* laws) {
-    if (index < 0) return -1;
-    values[used] = S(laws[index]);
-    return index = used++;
-  }
-};
-
-template <class S>
-void take_laws(PointLoad& e, LawView<S>& view, const double* laws) {
-  view.take(e.law, laws);
-}
-template <class E>
-constexpr bool looks_at_laws = requires(E e, LawView<double> view) {
-  take_laws(e, view, nullptr);
-};
-
 /// Carries wrench rows and increment columns from port axes to node axes, drops ports on the ground: F_node = J^T F, K_node = J^T K J,
-/// J = Ad(offset^-1).
-template <class E>
-void gather(const E& e, const double* in_residual, const double* in_tangent, int in_size, double* residual,
-            double* tangent) {
-  constexpr int P = E::num_ports;
+/// J = Ad(offset^-1). `in_tangent`: rows of forces, then of constraints, of 6 P columns.
+template <class E, class S>
+void gather(const E& e, const S* in_residual, const S* in_tangent, S* residual, S* tangent) {
+  constexpr int P = E::num_ports, D = 6 * P;
   const int m = num_multipliers(e);
   int to[P], n = 0;
-  Mat6<double> J[P];
+  DualMat<S> J[P];
   for (int p = 0; p < P; ++p) {
     to[p] = -1;
     if (e.ports[p].node == ground) continue;
     to[p] = n;
     n += 6;
-    if (e.ports[p].has_offset) J[p] = motion::inverse_adjoint(e.ports[p].offset);
+    if (e.ports[p].has_offset) J[p] = inverse_adjoint_dual(e.ports[p].offset);
   }
   const int size = n + m;
   for (int p = 0; p < P; ++p) {
     if (to[p] < 0) continue;
-    for (int i = 0; i < 6; ++i) {
-      double s = in_residual[6 * p + i];
-      if (e.ports[p].has_offset) {
-        s = 0.0;
-        for (int k = 0; k < 6; ++k) s += J[p](k, i) * in_residual[6 * p + k];
-      }
-      residual[to[p] + i] = s;
-    }
+    Vec6<S> f;
+    for (int i = 0; i < 6; ++i) f[i] = in_residual[6 * p + i];
+    if (e.ports[p].has_offset) f = motion::wrench_vector(transpose_times(J[p], motion::wrench_dual(f)));
+    for (int i = 0; i < 6; ++i) residual[to[p] + i] = f[i];
   }
-  for (int i = 0; i < m; ++i) residual[n + i] = in_residual[6 * P + i];
+  for (int i = 0; i < m; ++i) residual[n + i] = in_residual[D + i];
   if (tangent == nullptr) return;
-  const auto in = [&](int i, int j) { return in_tangent[i * in_size + j]; };
   for (int q = 0; q < P; ++q) {
     if (to[q] < 0) continue;
     for (int p = 0; p <= P; ++p) {  // p == P: the constraint rows
       if (p < P && to[p] < 0) continue;
-      const int rows = p < P ? 6 : m;
-      double block[6][6];
+      const int rows = p < P ? 6 : m, row0 = p < P ? to[p] : n;
+      const bool left = p < P && e.ports[p].has_offset, right = e.ports[q].has_offset;
+      Mat6<S> block = Mat6<S>::zero();
       for (int i = 0; i < rows; ++i)
-        for (int j = 0; j < 6; ++j) block[i][j] = in(6 * p + i, 6 * q + j);
-      if (e.ports[q].has_offset) {
-        for (int i = 0; i < rows; ++i) {
-          double row[6];
-          for (int j = 0; j < 6; ++j) {
-            row[j] = 0.0;
-            for (int k = 0; k < 6; ++k) row[j] += block[i][k] * J[q](k, j);
-          }
-          for (int j = 0; j < 6; ++j) block[i][j] = row[j];
-        }
-      }
-      if (p < P && e.ports[p].has_offset) {
-        for (int j = 0; j < 6; ++j) {
-          double col[6];
-          for (int i = 0; i < 6; ++i) {
-            col[i] = 0.0;
-            for (int k = 0; k < 6; ++k) col[i] += J[p](k, i) * block[k][j];
-          }
-          for (int i = 0; i < 6; ++i) block[i][j] = col[i];
-        }
-      }
-      const int row0 = p < P ? to[p] : n;
+        for (int j = 0; j < 6; ++j) block(i, j) = in_tangent[(6 * p + i) * D + 6 * q + j];
+      if (right) block = motion_product(block, J[q]);
+      if (left) block = transposed_product(J[p], block);
       for (int i = 0; i < rows; ++i)
-        for (int j = 0; j < 6; ++j) tangent[(row0 + i) * size + to[q] + j] = block[i][j];
+        for (int j = 0; j < 6; ++j) tangent[(row0 + i) * size + to[q] + j] = block(i, j);
       if (p == P)  // forces are G^T lambda: the columns of the multipliers
         for (int i = 0; i < rows; ++i)
-          for (int j = 0; j < 6; ++j) tangent[(to[q] + j) * size + row0 + i] = block[i][j];
+          for (int j = 0; j < 6; ++j) tangent[(to[q] + j) * size + row0 + i] = block(i, j);
     }
   }
   for (int i = 0; i < m; ++i)
-    for (int j = 0; j < m; ++j) tangent[(n + i) * size + n + j] = 0.0;
+    for (int j = 0; j < m; ++j) tangent[(n + i) * size + n + j] = S(0.0);
 }
 
 /// How the ports of an element follow the unknowns of their nodes.
-template <class E>
-void eval_port_slopes(const E& e, const Field& field, PortSlopes* ports) {
+template <class E, class S>
+void eval_port_slopes(const E& e, const FieldOf<S>& field, PortSlopes<S>* ports) {
   for (int k = 0; k < E::num_ports; ++k) {
-    const Port& port = e.ports[k];
-    ports[k] = {!field.slopes.mass_only, Mat6<double>::zero(), Mat6<double>::zero()};
+    const PortOf<S>& port = e.ports[k];
+    ports[k] = {!field.slopes.mass_only, DualMat<S>::zero(), DualMat<S>::zero()};
     if (port.node == ground || !field.around.has_inertia) continue;
     if (field.slopes.mass_only) {
-      ports[k].acceleration = Mat6<double>::identity();
+      ports[k].acceleration.a = Mat3<S>::identity();
       continue;
     }
-    Vec6<double> dq = field.nodes[port.node].dq;
+    Vec6<S> dq = field.nodes[port.node].dq;
     if (port.has_offset) dq = motion::inverse_adjoint_times(port.offset, dq);
-    const Mat6<double> inverse = motion::Se3::inverse_tangent(dq);
-    ports[k].velocity = field.slopes.velocity * inverse;
-    ports[k].acceleration = field.slopes.acceleration * inverse;
+    const DualVec<S> d = motion::motion_dual(dq);
+    const S x = lanes::dot(d.a, d.a);
+    const DualMat<S> inverse = matrix(motion::dual_inverse_tangent(d, x, motion::eval_inverse_coefficients(x)));
+    ports[k].velocity = motion::scaled(field.slopes.velocity, inverse);
+    ports[k].acceleration = motion::scaled(field.slopes.acceleration, inverse);
   }
 }
 
-/// Elements without a tangent of their own: the residual on jets.
-template <class E>
-void eval_tangent_by_jets(const E& e, const PortMotion<double>* p, const PortSlopes* ports,
-                          const Surroundings<double>& around, double* residual, double* matrix) {
-  eval_residual(e, p, static_cast<const double*>(nullptr), around, residual);
-  constexpr int P = E::num_ports, D = 6 * P;
-  using J = lanes::Jet<double, D>;
-  PortMotion<J> jets[P];
-  for (int k = 0; k < P; ++k) jets[k] = seed_port<D>(p[k], 6 * k, ports[k]);
-  J out[D];
-  if constexpr (looks_at_laws<E>) {
-    E local = e;
-    LawView<J> view;
-    take_laws(local, view, around.laws);
-    eval_residual(local, jets, static_cast<const J*>(nullptr), cast_surroundings<J>(around, view.values), out);
-  } else {
-    eval_residual(e, jets, static_cast<const J*>(nullptr), cast_surroundings<J>(around, nullptr), out);
+/// The driver of all elements, for doubles and for packs. S: scalar of the element's constants too.
+template <class E, class S>
+void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers, const S& turns, S* residual,
+                      S* tangent) {
+  constexpr int P = E::num_ports, D = 6 * P, rows = D + E::num_multipliers;
+  const motion::PositionPair<S> anchor = anchor_of(e, field.nodes);
+  PortMotion<S> p[P];
+  for (int k = 0; k < P; ++k) p[k] = eval_port(e.ports[k], field.nodes, anchor);
+  S out[rows];
+  if (tangent == nullptr) {
+    eval_kernel<E, S>(e, p, multipliers, field.around, out, turns);
+    gather<E, S>(e, out, nullptr, residual, nullptr);
+    return;
   }
-  for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) matrix[i * D + j] = out[i].d[j];
+  PortSlopes<S> ports[P];
+  eval_port_slopes(e, field, ports);
+  S matrix[rows * D];
+  if constexpr (E::num_multipliers > 0)
+    eval_tangent(e, p, ports, multipliers, field.around, turns, out, matrix);
+  else
+    eval_tangent(e, p, ports, field.around, out, matrix);
+  gather<E, S>(e, out, matrix, residual, tangent);
 }
-
-template <class E>
-constexpr bool has_closed_tangent = requires(const E& e, const PortMotion<double>* p, const PortSlopes* ports,
-                                             const Surroundings<double>& around, double* out) {
-  eval_tangent(e, p, ports, around, out, out);
-};
 
 template <class E>
 void evaluate(const E& e, const Field& field, const double* multipliers, double turns, double* residual,
               double* tangent) {
-  constexpr int P = E::num_ports, D = 6 * P, rows = D + E::num_multipliers;
-  const motion::Vec3Pair anchor = anchor_of(e, field.nodes);
-  PortMotion<double> p[P];
-  for (int k = 0; k < P; ++k) p[k] = eval_port(e.ports[k], field.nodes, anchor);
-  double out[rows];
-  if (tangent == nullptr) {
-    eval_kernel<E, double>(e, p, multipliers, field.around, out, turns);
-    gather(e, out, nullptr, 0, residual, nullptr);
-    return;
-  }
-  PortSlopes ports[P];
-  eval_port_slopes(e, field, ports);
-  double matrix[rows * D];
-  if constexpr (E::num_multipliers > 0)
-    eval_tangent(e, p, ports, multipliers, field.around, turns, out, matrix);
-  else if constexpr (has_closed_tangent<E>)
-    eval_tangent(e, p, ports, field.around, out, matrix);
-  else
-    eval_tangent_by_jets(e, p, ports, field.around, out, matrix);
-  gather(e, out, matrix, D, residual, tangent);
+  evaluate_element<E, double>(e, field, multipliers, turns, residual, tangent);
 }
 
 /// Taylor series of a port's motion from pose, twist, acceleration and jerk of its node.
@@ -260,7 +160,7 @@ void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Tay
   eval_kernel<E, T>(e, p, lambda, around, out, turns);
   double rate[rows];
   for (int i = 0; i < 6 * P + num_multipliers(e); ++i) rate[i] = out[i].c[1];
-  gather(e, rate, nullptr, 0, residual_rate, nullptr);
+  gather<E, double>(e, rate, nullptr, residual_rate, nullptr);
 }
 
 }  // namespace bough::elements

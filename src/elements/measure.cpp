@@ -104,12 +104,13 @@ Measures measure_beam(const Beam<N>& beam, const Field& field) {
   const bool moves = field.around.has_inertia;
   if (moves) eval_shape_rates<double, N>(b, p, rate);
   if (moves && beam.has_damping) {
-    Vec6<double> viscous[N], elastic[N];
-    for (int i = 0; i < N; ++i) viscous[i] = elastic[i] = Vec6<double>::zero();
-    add_internal_forces<double, N>(beam, b, rate, viscous);
-    add_internal_forces<double, N>(beam, b, nullptr, elastic);
+    BeamRates<double, N> rates;
+    eval_beam_rates<double, N>(p, field.around, false, true, rates);
+    DualVec<double> viscous[N], elastic[N];
+    eval_internal_forces<double, N>(beam, rates, true, viscous);
+    eval_internal_forces<double, N>(beam, rates, false, elastic);
     for (int i = 0; i < N; ++i)
-      if (i != Beam<N>::reference) m.dissipation_rate += lanes::dot(viscous[i] - elastic[i], rate[i]);
+      if (i != Beam<N>::reference) m.dissipation_rate += dot(viscous[i] - elastic[i], rates.rate[i]).b;
   }
   add_ground_reaction_if_any(beam, p, anchor, field, m);
   if (!beam.has_mass) return m;

@@ -4,123 +4,204 @@
 ///   zeta = eta_b - Q eta_a,   dxi = dv_b - Q dv_a - ad(Q v_a) zeta,   F_a = -Q^T f,   dF_a = -Q^T (df - ^f zeta).
 #include "bough/elements/body.hpp"
 #include "bough/elements/joint.hpp"
-#include "bough/lanes/jet.hpp"
+#include "bough/motion/dual_series.hpp"
 #include "tangent_blocks.hpp"
 
 namespace bough::elements {
 
-/// The force on the second port and its derivatives by zeta and xi.
+/// The force on the second port and its derivatives by zeta and, if it `has_twist`, by xi.
+template <class S>
 struct RelativeForce {
-  Frame<double> H;
-  Vec6<double> f = Vec6<double>::zero();
-  Mat6<double> by_pose = Mat6<double>::zero(), by_twist = Mat6<double>::zero();
+  Frame<S> H;
+  DualMat<S> Q;  ///< Ad(H)^-1
+  Vec6<S> f = Vec6<S>::zero();
+  Mat6<S> by_pose = Mat6<S>::zero(), by_twist = Mat6<S>::zero();
+  bool has_twist = false;
 };
 
+/// Ad(H)^-1 = [R^T, R^T ~x^T; 0, R^T].
+template <class S>
+DualMat<S> inverse_adjoint_dual(const Frame<S>& H) {
+  DualMat<S> q{lanes::transpose(H.R), {}};
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<S> row = lanes::cross(H.x, lanes::column(H.R, i));  // row i of R^T ~x^T = (~x R)^T
+    for (int j = 0; j < 3; ++j) q.b(i, j) = row[j];
+  }
+  return q;
+}
+
 /// `matrix`: the first 12 rows of 12 columns, row-major.
-inline void carry_to_ports(const RelativeForce& e, const PortMotion<double>* p, const PortSlopes* ports,
-                           bool has_inertia, double* matrix) {
-  const Mat6<double> Q = motion::inverse_adjoint(e.H);
-  Mat6<double> first = Mat6<double>::zero(), second = Mat6<double>::zero(), hat = Mat6<double>::zero();
+template <class S>
+void carry_to_ports(const RelativeForce<S>& e, const PortMotion<S>* p, const PortSlopes<S>* ports, S* matrix) {
+  Mat6<S> first = Mat6<S>::zero(), second = Mat6<S>::zero();
+  const DualVec<S> f = motion::wrench_dual(e.f);
   const bool moves = ports[0].moves;
   if (moves) {
-    hat = motion::hat6(e.f);
     second = e.by_pose;
-    if (has_inertia) add_product(second, e.by_twist, motion::cross6(Q * p[0].v), -1.0);
-    add_product(first, second, Q, -1.0);
+    if (e.has_twist) {
+      const DualVec<S> carried = times(e.Q, motion::motion_dual(p[0].v));
+      add_motion_product(second, e.by_twist, motion::skew(-carried));
+    }
+    add_motion_product(first, second, motion::scaled(-1.0, e.Q));
   }
-  if (has_inertia) {
-    add_product(second, e.by_twist, ports[1].velocity);
-    add_product(first, product(e.by_twist, Q), ports[0].velocity, -1.0);
+  if (e.has_twist) {
+    add_motion_product(second, e.by_twist, ports[1].velocity);
+    add_motion_product(first, e.by_twist, motion::scaled(-1.0, product(e.Q, ports[0].velocity)));
   }
   put_block(first, 6, 0, 12, matrix);
   put_block(second, 6, 6, 12, matrix);
-  add_product(first, hat, Q);
-  put_block(-1.0 * transposed_product(Q, first), 0, 0, 12, matrix);
-  put_block(-1.0 * transposed_product(Q, second - hat), 0, 6, 12, matrix);
+  if (moves) {
+    add_wrench(first, product(motion::skew(f), e.Q));
+    add_wrench(second, motion::skew(-f));
+  }
+  const DualMat<S> minus = motion::scaled(-1.0, e.Q);
+  put_block(transposed_product(minus, first), 0, 0, 12, matrix);
+  put_block(transposed_product(minus, second), 0, 6, 12, matrix);
 }
 
 /// f = U^T n,  n = K (d - d0) + D U xi,  U = T(d)^-1,  dd = U zeta.
-inline void eval_tangent(const Bushing& bushing, const PortMotion<double>* p, const PortSlopes* ports,
-                         const Surroundings<double>& around, double* residual, double* matrix) {
-  eval_residual<double>(bushing, p, nullptr, around, residual);
-  RelativeForce e;
+template <class S, class C>
+void eval_tangent(const BushingOf<C>& bushing, const PortMotion<S>* p, const PortSlopes<S>* ports,
+                  const Surroundings<S>& around, S* residual, S* matrix_out) {
+  eval_residual<S>(bushing, p, static_cast<const S*>(nullptr), around, residual);
+  RelativeForce<S> e;
   e.H = motion::relative(p[0].H, p[1].H);
-  const Vec6<double> d = motion::log_se3(e.H);
-  const auto op = motion::inverse_tangent_operator(d);
-  const Mat6<double> U = op.matrix();
-  Vec6<double> n = bushing.stiffness * (d - bushing.rest);
-  Mat6<double> n_d = bushing.stiffness;
+  e.Q = inverse_adjoint_dual(e.H);
+  const Vec3<S> psi = motion::log_so3(e.H.R);
+  const S x = lanes::dot(psi, psi);
+  const auto k = motion::eval_inverse_coefficients(x);
+  const DualVec<S> d{psi, motion::add_cross(e.H.x, psi, Vec3<S>(k.k * lanes::cross(psi, e.H.x) - 0.5 * e.H.x))};
+  const auto inverse = motion::dual_inverse_tangent(d, x, k);
+  const DualMat<S> U = motion::matrix(inverse);
+  Vec6<S> stretch = motion::motion_vector(d);
+  for (int i = 0; i < 6; ++i) stretch[i] = stretch[i] - bushing.rest[i];
+  Vec6<S> n = bushing.stiffness * stretch;
+  Mat6<S> n_d = lanes::cast<S>(bushing.stiffness);
   if (around.has_inertia && bushing.has_damping) {
-    const Vec6<double> xi = p[1].v - motion::inverse_adjoint_times(e.H, p[0].v);
-    n += bushing.damping * op.times(xi);
-    add_product(n_d, bushing.damping, op.derivative(xi));
-    e.by_twist = transposed_product(U, product(bushing.damping, U));
+    e.has_twist = true;
+    const DualVec<S> xi = motion::motion_dual(p[1].v) - times(e.Q, motion::motion_dual(p[0].v));
+    n += bushing.damping * motion::motion_vector(times(inverse, xi));
+    add_motion_product(n_d, bushing.damping, jacobian(inverse, xi));
+    e.by_twist = transposed_product(U, motion_product(bushing.damping, U));
   }
-  e.f = op.transpose_times(n);
-  Mat6<double> f_d = op.transpose_derivative(n);
-  add_transposed_product(f_d, U, n_d);
-  e.by_pose = product(f_d, U);
-  carry_to_ports(e, p, ports, around.has_inertia, matrix);
+  const DualVec<S> force = motion::wrench_dual(n);
+  e.f = motion::wrench_vector(transpose_times(inverse, force));
+  Mat6<S> f_d = transposed_product(U, n_d);
+  add_wrench(f_d, transpose_jacobian(inverse, force));
+  e.by_pose = motion_product(f_d, U);
+  carry_to_ports(e, p, ports, matrix_out);
 }
 
-/// Gradient of a row or coordinate as jets along the rotation increment; it depends on the relative rotation alone.
-using RotationJet = lanes::Jet<double, 3>;
-inline Frame<RotationJet> seed_rotation(const Frame<double>& H) {
-  Frame<RotationJet> r = motion::cast<RotationJet>(H);
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) {
-      const int next = (k + 1) % 3, last = (k + 2) % 3;
-      r.R(i, next).d[k] = H.R(i, last);   // e_k x e_next = e_last
-      r.R(i, last).d[k] = -H.R(i, next);  // e_k x e_last = -e_next
+/// Gradient of a row or coordinate, linear and angular, and its derivatives by the rotation increment.
+template <class S>
+struct RowSlopes {
+  Vec6<S> gradient;
+  Mat3<S> linear, angular;
+};
+
+/// With rows rho_i = R^T e_i of the relative rotation: d rho_i = ~rho_i theta, d(e_j x rho_i) = ~e_j ~rho_i theta; of the angle, with
+/// s = R_21 - R_12 and c = R_11 + R_22,   g = (c ds - s dc)/(s^2 + c^2),   dg = (c dds - s ddc + ds dc^T - dc ds^T - g (2 s ds + 2 c dc)^T)/(s^2 + c^2).
+template <class S>
+Mat3<S> across_slope(const Mat3<S>& R, int i, int j) {
+  const Vec3<S> row{{R(i, 0), R(i, 1), R(i, 2)}};  // ~e_j ~rho = rho e_j^T - (e_j . rho) I
+  Mat3<S> m = lanes::outer(row, Vec3<S>::unit(j));
+  for (int k = 0; k < 3; ++k) m(k, k) = m(k, k) - row[j];
+  return m;
+}
+template <class S>
+Mat3<S> angle_slope(const Mat3<S>& R, const Vec3<S>& g) {
+  const S s = R(1, 0) - R(0, 1), c = R(0, 0) + R(1, 1), inverse = S(1.0) / (s * s + c * c);
+  const Vec3<S> ds = across_gradient(R, 1, 0) - across_gradient(R, 0, 1);
+  const Vec3<S> dc = across_gradient(R, 0, 0) + across_gradient(R, 1, 1);
+  const Mat3<S> dds = across_slope(R, 1, 0) - across_slope(R, 0, 1);
+  const Mat3<S> ddc = across_slope(R, 0, 0) + across_slope(R, 1, 1);
+  const Vec3<S> half = s * ds + c * dc;
+  const Mat3<S> turned = c * dds - s * ddc + lanes::outer(ds, dc) - lanes::outer(dc, ds);
+  return inverse * (turned - lanes::outer(Vec3<S>(2.0 * g), half));
+}
+template <class S, class C>
+void eval_row_slopes(const ConstraintRowOf<C>& row, const Frame<S>& H, RowSlopes<S>& r) {
+  const auto along = [&](int i) { return Vec3<S>{{H.R(i, 0), H.R(i, 1), H.R(i, 2)}}; };
+  const Vec3<S> none = Vec3<S>::zero();
+  r.linear = r.angular = Mat3<S>::zero();
+  switch (row.kind) {
+    case RowKind::along:
+      r.gradient = lanes::join(along(row.i), none);
+      r.linear = lanes::skew(along(row.i));
+      break;
+    case RowKind::across:
+      r.gradient = lanes::join(none, across_gradient(H.R, row.i, row.j));
+      r.angular = across_slope(H.R, row.i, row.j);
+      break;
+    case RowKind::angle: {
+      const Vec3<S> g = angle_gradient(H.R);
+      r.gradient = lanes::join(none, g);
+      r.angular = angle_slope(H.R, g);
+      break;
     }
-  return r;
+    case RowKind::screw: {
+      const Vec3<S> g = angle_gradient(H.R);
+      r.gradient = lanes::join(along(2), Vec3<S>(-row.pitch * g));
+      r.linear = lanes::skew(along(2));
+      r.angular = -row.pitch * angle_slope(H.R, g);
+      break;
+    }
+  }
 }
 
 /// `matrix`: 12 rows of forces, then the constraint rows, 12 columns, row-major. With poses held (a consistent start) the
 /// forces do not change and the rows keep their gradient.
-inline void eval_tangent(const Joint& joint, const PortMotion<double>* p, const PortSlopes* ports,
-                         const double* multipliers, const Surroundings<double>& around, double turns, double* residual,
-                         double* matrix) {
-  eval_residual<double>(joint, p, multipliers, around, residual, turns);
-  RelativeForce e;
+template <class S, class C>
+void eval_tangent(const JointOf<C>& joint, const PortMotion<S>* p, const PortSlopes<S>* ports, const S* multipliers,
+                  const Surroundings<S>& around, const C& turns, S* residual, S* matrix_out) {
+  using lanes::fma;
+  eval_residual<S>(joint, p, multipliers, around, residual, turns);
+  RelativeForce<S> e;
   e.H = motion::relative(p[0].H, p[1].H);
-  const Frame<RotationJet> H = seed_rotation(e.H);
-  Vec6<RotationJet> gradient;
-  const auto add_gradient = [&](double factor) {
-    for (int i = 0; i < 6; ++i) {
-      e.f[i] += factor * gradient[i].a;
-      for (int k = 0; k < 3; ++k) e.by_pose(i, 3 + k) += factor * gradient[i].d[k];
-    }
+  e.Q = inverse_adjoint_dual(e.H);
+  for (int k = 0; k < 6; ++k) e.f[k] = residual[6 + k];
+  RowSlopes<S> r;
+  const auto add_slopes = [&](const S& factor) {
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        e.by_pose(i, 3 + k) = fma(factor, r.linear(i, k), e.by_pose(i, 3 + k));
+        e.by_pose(3 + i, 3 + k) = fma(factor, r.angular(i, k), e.by_pose(3 + i, 3 + k));
+      }
   };
   for (int row = 0; row < joint.num_rows; ++row) {
-    ConstraintRow free = joint.rows[row];
-    free.law = -1;  // a law moves the row, not its gradient
-    eval_row<RotationJet>(free, H, turns, nullptr, gradient);
-    add_gradient(multipliers[row]);
-    Vec6<double> g;
-    for (int i = 0; i < 6; ++i) g[i] = gradient[i].a;
-    const Vec6<double> first = motion::inverse_adjoint_transpose_times(e.H, g);
+    eval_row_slopes(joint.rows[row], e.H, r);
+    add_slopes(multipliers[row]);
+    const Vec6<S> first = motion::inverse_adjoint_transpose_times(e.H, r.gradient);
     for (int i = 0; i < 6; ++i) {
-      matrix[(12 + row) * 12 + i] = -first[i];
-      matrix[(12 + row) * 12 + 6 + i] = g[i];
+      matrix_out[(12 + row) * 12 + i] = -first[i];
+      matrix_out[(12 + row) * 12 + 6 + i] = r.gradient[i];
     }
   }
-  const bool damped = around.has_inertia;
-  const Vec6<double> xi = damped ? p[1].v - motion::inverse_adjoint_times(e.H, p[0].v) : Vec6<double>::zero();
+  Vec6<S> xi = Vec6<S>::zero();
+  if (around.has_inertia && joint.num_efforts > 0) xi = p[1].v - motion::inverse_adjoint_times(e.H, p[0].v);
   for (int k = 0; k < joint.num_efforts; ++k) {
-    const Effort& effort = joint.efforts[k];
-    const double value = eval_coordinate<RotationJet>(effort.coordinate, H, turns, gradient).a;
-    RotationJet rate(0.0);
-    for (int i = 0; i < 6; ++i) rate = rate + xi[i] * gradient[i];
-    add_gradient(eval_effort(effort, value, rate.a, around.laws));
+    const EffortOf<C>& effort = joint.efforts[k];
+    ConstraintRowOf<C> coordinate;
+    coordinate.kind = effort.coordinate == Coordinate::angle ? RowKind::angle : RowKind::along;
+    coordinate.i = 2;
+    eval_row_slopes(coordinate, e.H, r);
+    Vec6<S> unused;
+    const S value = eval_row<S, C>(coordinate, e.H, turns, nullptr, unused);
+    S rate(0.0);
+    if (around.has_inertia && is_present(effort.damping)) rate = lanes::dot(r.gradient, xi);
+    add_slopes(eval_effort(effort, value, rate, around.laws));
+    const Vec6<S> stiff = effort.stiffness * r.gradient, damp = effort.damping * r.gradient;
+    const Vec3<S> turned = lanes::transpose_times(r.linear, lanes::linear_part(xi)) +
+                           lanes::transpose_times(r.angular, lanes::angular_part(xi));
+    e.has_twist = e.has_twist || (around.has_inertia && is_present(effort.damping));
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j) {
-        const double gg = gradient[i].a * gradient[j].a;
-        e.by_pose(i, j) += effort.stiffness * gg + (j < 3 ? 0.0 : effort.damping * gradient[i].a * rate.d[j % 3]);
-        e.by_twist(i, j) += effort.damping * gg;
+        e.by_pose(i, j) = fma(stiff[i], r.gradient[j], e.by_pose(i, j));
+        if (j >= 3) e.by_pose(i, j) = fma(damp[i], turned[j - 3], e.by_pose(i, j));
+        e.by_twist(i, j) = fma(damp[i], r.gradient[j], e.by_twist(i, j));
       }
   }
-  carry_to_ports(e, p, ports, around.has_inertia, matrix);
+  carry_to_ports(e, p, ports, matrix_out);
 }
 
 }  // namespace bough::elements

@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "bough/elements/beam.hpp"
+#include "bough/elements/beam_forces.hpp"
 #include "bough/elements/body.hpp"
 #include "bough/elements/joint.hpp"
 #include "bough/lanes/taylor.hpp"
@@ -14,11 +14,13 @@ namespace bough::elements {
 
 /// Motion of a node: pose, position as a compensated pair, twist and its derivative in the node's axes, and the increment `dq` since the
 /// last accepted step (H = H_n exp(dq)).
-struct NodeMotion {
-  Mat3<double> R;
-  motion::Vec3Pair x;
-  Vec6<double> v, a, dq;
+template <class S>
+struct NodeMotionOf {
+  Mat3<S> R;
+  motion::PositionPair<S> x;
+  Vec6<S> v, a, dq;
 };
+using NodeMotion = NodeMotionOf<double>;
 
 /// How velocity and acceleration follow a position increment eta of the iteration:  dv = velocity T(dq)^-1 eta, da = acceleration T(dq)^-1 eta.
 /// `mass_only`: the unknown is the acceleration itself (a consistent start): dv = 0, da = eta; constraint rows keep their gradient.
@@ -29,22 +31,41 @@ struct Slopes {
 };
 
 /// Node motions and what surrounds them, as read by all elements of a model.
-struct Field {
-  const NodeMotion* nodes = nullptr;
-  Surroundings<double> around;
+template <class S>
+struct FieldOf {
+  const NodeMotionOf<S>* nodes = nullptr;
+  Surroundings<S> around;
   Slopes slopes;
 };
+using Field = FieldOf<double>;
 
 /// Position of the element's first node off the ground: kernels see positions relative to it.
-template <class E>
-motion::Vec3Pair anchor_of(const E& e, const NodeMotion* nodes) {
-  for (const Port& port : e.ports)
+template <class E, class S>
+motion::PositionPair<S> anchor_of(const E& e, const NodeMotionOf<S>* nodes) {
+  for (const auto& port : e.ports)
     if (port.node != ground) return nodes[port.node].x;
-  return {};
+  return motion::PositionPair<S>::from(Vec3<S>::zero());
 }
 
 /// Motion of one port; `anchor` is subtracted from its position.
-PortMotion<double> eval_port(const Port& port, const NodeMotion* nodes, const motion::Vec3Pair& anchor);
+template <class S>
+PortMotion<S> eval_port(const PortOf<S>& port, const NodeMotionOf<S>* nodes, const motion::PositionPair<S>& anchor) {
+  PortMotion<S> p;
+  if (port.node == ground) {
+    p.H.R = port.offset.R;
+    p.H.x = motion::difference(motion::PositionPair<S>::from(port.offset.x), anchor);
+    p.v = p.a = Vec6<S>::zero();
+    return p;
+  }
+  const NodeMotionOf<S>& n = nodes[port.node];
+  const Vec3<S> x = motion::difference(n.x, anchor);
+  if (!port.has_offset) return {{n.R, x}, n.v, n.a};
+  p.H.R = n.R * port.offset.R;
+  p.H.x = x + n.R * port.offset.x;
+  p.v = motion::inverse_adjoint_times(port.offset, n.v);
+  p.a = motion::inverse_adjoint_times(port.offset, n.a);
+  return p;
+}
 
 /// Unknowns of an element: 6 per port off the ground, then its multipliers.
 template <class E>
@@ -57,7 +78,7 @@ int num_multipliers(const E& e) {
 template <class E>
 int num_unknowns(const E& e) {
   int n = num_multipliers(e);
-  for (const Port& port : e.ports) n += port.node == ground ? 0 : 6;
+  for (const auto& port : e.ports) n += port.node == ground ? 0 : 6;
   return n;
 }
 
@@ -69,20 +90,20 @@ void evaluate(const E& e, const Field& field, const double* multipliers, double 
 
 /// Sum of the magnitudes of the terms behind each entry of a residual, against which its smallness is measured. Elements between nodes push
 /// and pull on several; a body's own terms balance within it and are told apart:  |M a| + |M g| + |ad(v)^T M v|.
-template <class E>
-void eval_magnitude(const E& e, const Field& field, const double* residual, double* magnitude) {
-  for (int i = 0; i < num_unknowns(e); ++i) magnitude[i] = residual[i] < 0.0 ? -residual[i] : residual[i];
-  if constexpr (std::is_same_v<E, RigidBody>) {
-    const NodeMotion& n = field.nodes[e.ports[0].node];
-    Vec6<double> terms[3] = {
-        e.mass * lanes::join(lanes::transpose_times(n.R, field.around.gravity), Vec3<double>::zero()),
-        Vec6<double>::zero(), Vec6<double>::zero()};
+template <class E, class S>
+void eval_magnitude(const E& e, const FieldOf<S>& field, const S* residual, S* magnitude) {
+  using std::abs;
+  for (int i = 0; i < num_unknowns(e); ++i) magnitude[i] = abs(residual[i]);
+  if constexpr (std::is_same_v<E, RigidBodyOf<S>>) {
+    const NodeMotionOf<S>& n = field.nodes[e.ports[0].node];
+    Vec6<S> terms[3] = {e.mass * lanes::join(lanes::transpose_times(n.R, field.around.gravity), Vec3<S>::zero()),
+                        Vec6<S>::zero(), Vec6<S>::zero()};
     if (field.around.has_inertia) {
       terms[1] = e.mass * n.a;
-      terms[2] = motion::cross6_transpose_times(n.v, Vec6<double>(e.mass * n.v));
+      terms[2] = motion::cross6_transpose_times(n.v, Vec6<S>(e.mass * n.v));
     }
     for (int i = 0; i < 6; ++i)
-      for (const Vec6<double>& t : terms) magnitude[i] += t[i] < 0.0 ? -t[i] : t[i];
+      for (const Vec6<S>& t : terms) magnitude[i] = magnitude[i] + abs(t[i]);
   }
 }
 

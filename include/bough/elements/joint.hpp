@@ -14,42 +14,50 @@ enum class RowKind : std::uint8_t {
   screw,   ///< u_3 - pitch theta - law = 0
 };
 
-struct ConstraintRow {
+template <class C>
+struct ConstraintRowOf {
   RowKind kind = RowKind::along;
   int i = 0, j = 0;
-  int law = -1;        ///< -1: zero
-  double pitch = 0.0;  ///< displacement per radian [m/rad] (screw)
+  int law = -1;   ///< -1: zero
+  C pitch = 0.0;  ///< displacement per radian [m/rad] (screw)
 };
+using ConstraintRow = ConstraintRowOf<double>;
 
 enum class Coordinate : std::uint8_t { angle, displacement };
 
-struct Effort {
+template <class C>
+struct EffortOf {
   Coordinate coordinate = Coordinate::angle;
-  double stiffness = 0.0, rest = 0.0, damping = 0.0;
+  C stiffness = 0.0, rest = 0.0, damping = 0.0;
   int law = -1;  ///< effort on the second body along the axis; -1: none
 };
+using Effort = EffortOf<double>;
 
 constexpr int max_rows = 6;
 constexpr int max_efforts = 4;
 
 /// A joint of `num_rows` rows, the first of the array. The angle at the last accepted step, from which the present one is unwrapped, belongs to
 /// the state of a run and is handed to the kernel as `turns`.
-struct Joint {
+template <class C>
+struct JointOf {
   static constexpr int num_ports = 2;
   static constexpr int num_multipliers = max_rows;  ///< at most
-  Port ports[2];
-  ConstraintRow rows[max_rows];
+  PortOf<C> ports[2];
+  ConstraintRowOf<C> rows[max_rows];
   int num_rows = 0;
-  Effort efforts[max_efforts];
+  EffortOf<C> efforts[max_efforts];
   int num_efforts = 0;
 };
+using Joint = JointOf<double>;
 
 /// theta = turns + atan2(s', c'), (c', s') the rotation about axis 3 seen from the last accepted angle: smooth over any number of turns.
-template <class S>
-S eval_angle(const Mat3<S>& R, double turns) {
+template <class S, class C>
+S eval_angle(const Mat3<S>& R, const C& turns) {
   using lanes::atan2;  // of complex numbers, which lie in std
   using std::atan2;
-  const double c0 = std::cos(turns), s0 = std::sin(turns);
+  using std::cos;
+  using std::sin;
+  const C c0 = cos(turns), s0 = sin(turns);
   const S s = R(1, 0) - R(0, 1), c = R(0, 0) + R(1, 1);
   return atan2(S(c0 * s - s0 * c), S(c0 * c + s0 * s)) + turns;
 }
@@ -71,8 +79,8 @@ Vec3<S> angle_gradient(const Mat3<S>& R) {
 }
 
 /// Value and gradient (linear; angular in the second frame) of one row.
-template <class S>
-S eval_row(const ConstraintRow& row, const Frame<S>& H, double turns, const S* laws, Vec6<S>& gradient) {
+template <class S, class C>
+S eval_row(const ConstraintRowOf<C>& row, const Frame<S>& H, const C& turns, const S* laws, Vec6<S>& gradient) {
   const S target = row.law >= 0 ? laws[row.law] : S(0.0);
   const Vec3<S> none = Vec3<S>::zero();
   const auto along = [&H](int i) { return Vec3<S>{{H.R(i, 0), H.R(i, 1), H.R(i, 2)}}; };
@@ -94,25 +102,25 @@ S eval_row(const ConstraintRow& row, const Frame<S>& H, double turns, const S* l
 }
 
 /// Coordinate of an effort and its gradient.
-template <class S>
-S eval_coordinate(Coordinate coordinate, const Frame<S>& H, double turns, Vec6<S>& gradient) {
-  ConstraintRow row;
+template <class S, class C>
+S eval_coordinate(Coordinate coordinate, const Frame<S>& H, const C& turns, Vec6<S>& gradient) {
+  ConstraintRowOf<C> row;
   row.kind = coordinate == Coordinate::angle ? RowKind::angle : RowKind::along;
   row.i = 2;
-  return eval_row<S>(row, H, turns, nullptr, gradient);
+  return eval_row<S, C>(row, H, turns, nullptr, gradient);
 }
 
 /// Effort of the springs, dampers and drives without constraint along one coordinate, on the second body, against the motion.
-template <class S>
-S eval_effort(const Effort& e, const S& coordinate, const S& rate, const S* laws) {
+template <class S, class C>
+S eval_effort(const EffortOf<C>& e, const S& coordinate, const S& rate, const S* laws) {
   S f = e.stiffness * (coordinate - e.rest) + e.damping * rate;
   if (e.law >= 0) f = f - laws[e.law];
   return f;
 }
 
-template <class S>
-void eval_residual(const Joint& joint, const PortMotion<S>* p, const S* multipliers, const Surroundings<S>& around,
-                   S* out, double turns) {
+template <class S, class C>
+void eval_residual(const JointOf<C>& joint, const PortMotion<S>* p, const S* multipliers, const Surroundings<S>& around,
+                   S* out, const C& turns) {
   const Frame<S> H = motion::relative(p[0].H, p[1].H);
   Vec6<S> f = Vec6<S>::zero(), gradient;
   for (int k = 0; k < joint.num_rows; ++k) {
@@ -122,7 +130,7 @@ void eval_residual(const Joint& joint, const PortMotion<S>* p, const S* multipli
   for (int k = 0; k < joint.num_efforts; ++k) {
     const S value = eval_coordinate(joint.efforts[k].coordinate, H, turns, gradient);
     S rate(0.0);
-    if (around.has_inertia && joint.efforts[k].damping != 0.0)
+    if (around.has_inertia && is_present(joint.efforts[k].damping))
       rate = lanes::dot(gradient, p[1].v - motion::inverse_adjoint_times(H, p[0].v));
     f += eval_effort(joint.efforts[k], value, rate, around.laws) * gradient;
   }
@@ -134,8 +142,8 @@ void eval_residual(const Joint& joint, const PortMotion<S>* p, const S* multipli
 }
 
 /// Strain energy of the efforts' springs [J].
-template <class S>
-S eval_strain_energy(const Joint& joint, const PortMotion<S>* p, double turns) {
+template <class S, class C>
+S eval_strain_energy(const JointOf<C>& joint, const PortMotion<S>* p, const C& turns) {
   const Frame<S> H = motion::relative(p[0].H, p[1].H);
   Vec6<S> gradient;
   S sum(0.0);

@@ -18,11 +18,21 @@ using motion::Vec6;
 constexpr int ground = -1;  ///< node index of what is fixed in space
 
 /// A frame fixed to a node, at `offset` in the node's axes; node == ground: `offset` is the pose in the inertial frame.
-struct Port {
+/// Constants of elements are numbers C: double, or a pack that holds those of several elements, one to a lane.
+template <class C>
+struct PortOf {
   int node = ground;
   bool has_offset = false;  ///< false: the offset is the identity and is not applied
-  Frame<double> offset = Frame<double>::identity();
+  Frame<C> offset = Frame<C>::identity();
 };
+using Port = PortOf<double>;
+
+/// Whether a constant is worth its terms: packs do not ask, a zero times something finite adds nothing.
+inline bool is_present(double x) { return x != 0.0; }
+template <class C>
+bool is_present(const C&) {
+  return true;
+}
 
 /// Motion of a port's frame as a kernel sees it.
 ///   H: pose, its position relative to the element's anchor (differences keep their digits far from the origin) [m]

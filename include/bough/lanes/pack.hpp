@@ -67,6 +67,28 @@ struct Register<8> {
 inline Register<8>::Real root(const Register<8>::Real& x) { return Register<8>::Real(_mm512_maskz_sqrt_pd(0xff, x)); }
 #endif
 inline double root(double x) { return std::sqrt(x); }
+
+// a b + c, each lane the bits of lanes::fma on doubles.
+#if BOUGH_REGISTER_DOUBLES >= 8
+inline Register<8>::Real fused(const Register<8>::Real& a, const Register<8>::Real& b, const Register<8>::Real& c) {
+  return Register<8>::Real(_mm512_fmadd_pd(a, b, c));
+}
+#endif
+#if BOUGH_REGISTER_DOUBLES >= 4 && defined(__FMA__)
+inline Register<4>::Real fused(const Register<4>::Real& a, const Register<4>::Real& b, const Register<4>::Real& c) {
+  return Register<4>::Real(_mm256_fmadd_pd(a, b, c));
+}
+inline Register<2>::Real fused(const Register<2>::Real& a, const Register<2>::Real& b, const Register<2>::Real& c) {
+  return Register<2>::Real(_mm_fmadd_pd(a, b, c));
+}
+#endif
+template <class R>
+inline R fused(const R& a, const R& b, const R& c) {
+#if defined(__FMA__)
+  if constexpr (std::same_as<R, double>) return lanes::fma(a, b, c);
+#endif
+  return a * b + c;
+}
 }  // namespace detail
 
 /// One flag per lane.
@@ -149,6 +171,17 @@ Pack<W> operator-(const Pack<W>& a) {
   return c;
 }
 
+template <int W>
+Pack<W> fma(const Pack<W>& a, const Pack<W>& b, const Pack<W>& c) {
+  Pack<W> r;
+  for (int i = 0; i < Pack<W>::chunks; ++i) r.r[i] = detail::fused(a.r[i], b.r[i], c.r[i]);
+  return r;
+}
+template <int W>
+Pack<W> fma(double a, const Pack<W>& b, const Pack<W>& c) {
+  return fma(Pack<W>(a), b, c);
+}
+
 /// f applied to each lane: functions of the standard library, the same bits as for a double.
 template <int W, class F>
 Pack<W> lane_by_lane(const F& f, const Pack<W>& a) {
@@ -164,7 +197,16 @@ Pack<W> sqrt(const Pack<W>& a) {
 }
 template <int W>
 Pack<W> abs(const Pack<W>& a) {
-  return lane_by_lane([](double x) { return std::abs(x); }, a);
+  Pack<W> c;
+  for (int i = 0; i < Pack<W>::chunks; ++i) {
+    if constexpr (Pack<W>::chunk == 1) {
+      c.r[i] = std::abs(a.r[i]);
+    } else {
+      using Flag = typename Mask<W>::Flag;
+      c.r[i] = typename Pack<W>::Real(Flag(a.r[i]) & (Flag{} + 0x7fffffffffffffffLL));  // the sign bit off
+    }
+  }
+  return c;
 }
 template <int W>
 Pack<W> sin(const Pack<W>& a) {

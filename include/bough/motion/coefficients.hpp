@@ -19,9 +19,9 @@ template <class S, class L, std::size_t N>
 S horner(const std::array<L, N>& table, const S& x) {
   const S xx = x * x;
   S even(table[(N - 1) / 2 * 2]), odd(table[N / 2 * 2 - 1]);
-  for (std::size_t k = (N - 1) / 2 * 2; k >= 2; k -= 2) even = even * xx + table[k - 2];
-  for (std::size_t k = N / 2 * 2 - 1; k >= 2; k -= 2) odd = odd * xx + table[k - 2];
-  return even + odd * x;
+  for (std::size_t k = (N - 1) / 2 * 2; k >= 2; k -= 2) even = fma(even, xx, S(table[k - 2]));
+  for (std::size_t k = N / 2 * 2 - 1; k >= 2; k -= 2) odd = fma(odd, xx, S(table[k - 2]));
+  return fma(odd, x, even);
 }
 /// Its derivative by x.
 template <class S, class L, std::size_t N>
@@ -56,6 +56,10 @@ template <class L>
 inline constexpr std::array<L, 14> stumpff_6 = rounded<L>(stumpff_table(6));
 template <class L>
 inline constexpr std::array<L, 14> stumpff_7 = rounded<L>(stumpff_table(7));
+template <class L>
+inline constexpr std::array<L, 14> stumpff_8 = rounded<L>(stumpff_table(8));
+template <class L>
+inline constexpr std::array<L, 14> stumpff_9 = rounded<L>(stumpff_table(9));
 
 /// 2 sum_{m >= 3} (2 pi m)^-(2n+2): k without its first two poles, a series that converges up to phi = 6 pi.
 template <class L>
@@ -113,6 +117,24 @@ lanes::Vec<S, 8> eval_stumpff(const S& x) {
       });
 }
 
+/// c_8 and c_9, which third derivatives ask for beside the others.
+template <class S>
+lanes::Vec<S, 2> eval_last_stumpff(const S& x, const lanes::Vec<S, 8>& c) {
+  using L = Literal<S>;
+  const auto small = less(x, S(detail::switch_x));
+  return choose(
+      small,
+      [&] {
+        const S near = select(small, x, S(0.0));
+        return lanes::Vec<S, 2>{
+            {detail::horner(detail::stumpff_8<L>, near), detail::horner(detail::stumpff_9<L>, near)}};
+      },
+      [&] {
+        const S inv = S(1.0) / select(small, S(detail::switch_x), x);
+        return lanes::Vec<S, 2>{{(L(1) / 720 - c[6]) * inv, (L(1) / 5040 - c[7]) * inv}};
+      });
+}
+
 /// The same for jets: values as for S, slopes c_n' = (n c_{n+2} - c_{n+1}) / 2 in S, instead of series of jets.
 template <class S, int N>
 lanes::Vec<lanes::Jet<S, N>, 8> eval_stumpff(const lanes::Jet<S, N>& x) {
@@ -163,31 +185,33 @@ AngleCoefficients<S> eval_angle_coefficients(const S& x) {
   return r;
 }
 
-/// k = (1 - (phi/2) cot(phi/2))/phi^2 with first and second derivatives by x = phi^2; not at phi = 2 pi, 4 pi, ...
+/// k = (1 - (phi/2) cot(phi/2))/phi^2 with derivatives up to the third by x = phi^2; not at phi = 2 pi, 4 pi, ...
 /// Below phi = 4 from the partial fractions of the cotangent, k = sum_m 2/((2 pi m)^2 - x): two poles and a polynomial,
 /// all terms positive, no trigonometric function. Beyond, with y = (phi/2) cot(phi/2): 2 x y' = y - y^2 - x/4.
 template <class S>
 struct InverseCoefficients {
-  S k, dk, ddk;
+  S k, dk, ddk, dddk;
 };
 template <class S>
 InverseCoefficients<S> eval_inverse_coefficients(const S& x) {
   using L = Literal<S>;
   const auto small = less(x, S(detail::switch_x));
-  const lanes::Vec<S, 3> r = choose(
+  const lanes::Vec<S, 4> r = choose(
       small,
       [&] {
         constexpr L pole1 = static_cast<L>(39.478417604357434475338L),
                     pole2 = static_cast<L>(157.913670417429737901352L);
-        const S near = select(small, x, S(0.0));
-        const S p = S(1.0) / (pole1 - near), q = S(1.0) / (pole2 - near), pp = p * p, qq = q * q;
-        S f(0.0), df(0.0), hf(0.0);  // rest, its first derivative, half its second
+        const S near = select(small, x, S(0.0)), a = pole1 - near, b = pole2 - near, inv = S(1.0) / (a * b);
+        const S p = b * inv, q = a * inv, pp = p * p, qq = q * q;
+        S f(0.0), df(0.0), hf(0.0), tf(0.0);  // rest, its first derivative, half its second, a sixth of its third
         for (std::size_t n = detail::inverse_rest<L>.size(); n-- > 0;) {
-          hf = hf * near + df;
-          df = df * near + f;
-          f = f * near + detail::inverse_rest<L>[n];
+          tf = fma(tf, near, hf);
+          hf = fma(hf, near, df);
+          df = fma(df, near, f);
+          f = fma(f, near, S(detail::inverse_rest<L>[n]));
         }
-        return lanes::Vec<S, 3>{{f + L(2) * (p + q), df + L(2) * (pp + qq), L(2) * hf + L(4) * (p * pp + q * qq)}};
+        return lanes::Vec<S, 4>{{f + L(2) * (p + q), df + L(2) * (pp + qq), L(2) * hf + L(4) * (p * pp + q * qq),
+                                 L(6) * tf + L(12) * (pp * pp + qq * qq)}};
       },
       [&] {
         using std::cos;
@@ -197,10 +221,11 @@ InverseCoefficients<S> eval_inverse_coefficients(const S& x) {
         const S y = half * cos(half) / sin(half);
         const S dy = L(0.5) * inv * (y - y * y) - L(0.125);
         const S ddy = -L(0.5) * inv * (dy + L(2) * y * dy + L(0.25));
-        const S k = (L(1) - y) * inv, dk = -(dy + k) * inv;
-        return lanes::Vec<S, 3>{{k, dk, -(ddy + L(2) * dk) * inv}};
+        const S dddy = -L(0.5) * inv * (L(3) * ddy + L(2) * (dy * dy + y * ddy));
+        const S k = (L(1) - y) * inv, dk = -(dy + k) * inv, ddk = -(ddy + L(2) * dk) * inv;
+        return lanes::Vec<S, 4>{{k, dk, ddk, -(dddy + L(3) * ddk) * inv}};
       });
-  return {r[0], r[1], r[2]};
+  return {r[0], r[1], r[2], r[3]};
 }
 
 }  // namespace bough::motion

@@ -37,13 +37,11 @@ Mat3<S> rotation_of(const Quaternion<S>& q) {
            L(2) * (x * y + w * z), L(1) - L(2) * (x * x + z * z), L(2) * (y * z - w * x),  //
            L(2) * (x * z - w * y), L(2) * (y * z + w * x), L(1) - L(2) * (x * x + y * y)}};
 }
-/// Quaternion of a rotation with w >= 0. The rows of 4 q q^T are linear in R; the row with the largest diagonal (always
-/// >= 1) is taken, so nothing cancels and no square root is taken near zero, at any angle (Shepperd 1978).
-/// The norm is 1 to the accuracy of R^T R = I.
+/// A multiple q' = c q, c >= 1, of the quaternion of a rotation, w >= 0. The rows of 4 q q^T are linear in R; the row with
+/// the largest diagonal (always >= 1) is taken, so nothing cancels and no square root is taken, at any angle (Shepperd 1978).
 template <class S>
-Quaternion<S> quaternion_of(const Mat3<S>& R) {
+Quaternion<S> quaternion_direction(const Mat3<S>& R) {
   using L = Literal<S>;
-  using std::sqrt;
   const S r0 = R(0, 0), r1 = R(1, 1), r2 = R(2, 2);
   const S e0 = R(2, 1) - R(1, 2), e1 = R(0, 2) - R(2, 0), e2 = R(1, 0) - R(0, 1);
   const S f0 = R(2, 1) + R(1, 2), f1 = R(0, 2) + R(2, 0), f2 = R(1, 0) + R(0, 1);
@@ -56,9 +54,14 @@ Quaternion<S> quaternion_of(const Mat3<S>& R) {
     top = select(larger, others[i][i + 1], top);
     for (int j = 0; j < 4; ++j) row[j] = select(larger, others[i][j], row[j]);
   }
-  const S scale = L(0.5) / sqrt(top);
-  const S sign = select(less(row[0], S(0.0)), -scale, scale);
-  return {sign * row[0], {{sign * row[1], sign * row[2], sign * row[3]}}};
+  const auto flipped = less(row[0], S(0.0));
+  for (S& x : row) x = select(flipped, S(-x), x);
+  return {row[0], {{row[1], row[2], row[3]}}};
+}
+/// Quaternion of a rotation with w >= 0.
+template <class S>
+Quaternion<S> quaternion_of(const Mat3<S>& R) {
+  return normalise(quaternion_direction(R));
 }
 /// Quaternion of the rotation vector psi = phi n [rad], any angle.
 template <class S>
@@ -80,16 +83,15 @@ inline constexpr std::array<L, 24> arctangent = rounded<L>(arctangent_table());
 }  // namespace detail
 
 /// Rotation vector of q with w >= 0, |psi| <= pi [rad]. The norm m of q drops out. The angle is halved twice,
-///   tan(phi/4) = |v|/(m + w),  tan(phi/8) = tan(phi/4)/(1 + sqrt(1 + tan(phi/4)^2)),
-/// so that psi = 8 v atan(t)/(t (m + w)(1 + sqrt(...))), t = tan(phi/8), is one formula in v.v, analytic from 0 to pi.
+///   tan(phi/4) = |v|/(m + w),  tan(phi/8) = |v|/(m + w + g),  g = sqrt(2 m (m + w)) = (m + w) sqrt(1 + tan(phi/4)^2),
+/// so that psi = 8 v atan(t)/(t (m + w + g)), t = tan(phi/8), is one formula in v.v, analytic from 0 to pi, with one division.
 template <class S>
 Vec3<S> log_quaternion(const Quaternion<S>& q) {
   using L = Literal<S>;
   using std::sqrt;
-  const S vv = dot(q.v, q.v), sum = sqrt(q.w * q.w + vv) + q.w;
-  const S quarter = vv / (sum * sum), fold = L(1) + sqrt(L(1) + quarter);
-  const S series = detail::horner(detail::arctangent<L>, S(quarter / (fold * fold)));
-  return (L(8) * series / (sum * fold)) * q.v;
+  const S vv = dot(q.v, q.v), m = sqrt(fma(q.w, q.w, vv)), sum = m + q.w;
+  const S inverse = L(1) / (sum + sqrt((m + m) * sum)), tt = vv * inverse * inverse;
+  return (L(8) * inverse * detail::horner(detail::arctangent<L>, tt)) * q.v;
 }
 
 }  // namespace bough::motion

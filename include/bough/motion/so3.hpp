@@ -16,7 +16,7 @@ Mat3<S> exp_so3(const Vec3<S>& psi) {
 /// enlarged. Analytic in R except at phi = pi: derivative types pass through phi = 0.
 template <class S>
 Vec3<S> log_so3(const Mat3<S>& R) {
-  return log_quaternion(quaternion_of(R));
+  return log_quaternion(quaternion_direction(R));
 }
 /// T(psi): exp(psi)^-1 D exp(psi)[delta] = (T(psi) delta)~.
 template <class S>

@@ -19,6 +19,8 @@ using Mat6 = lanes::Mat<S, 6, 6>;
 using lanes::choose;
 using lanes::cross;
 using lanes::dot;
+using lanes::fma;
+using lanes::fnma;
 using lanes::less;
 using lanes::select;
 

@@ -1,0 +1,224 @@
+#pragma once
+/// Dual numbers a + e b (e^2 = 0), 3-vectors and 3x3 matrices of them. By transference they carry SE(3): a motion vector (u; psi) is
+/// the dual vector psi + e u, an operator [A, B; 0, A] on motions is the dual matrix A + e B, and every formula on SO(3) holds as it
+/// stands. A wrench (n; m) is n + e m: transposes of operators act on it as transposed dual matrices. A product of two operators is
+/// 81 multiplications instead of 216.
+#include "bough/motion/types.hpp"
+
+namespace bough::motion {
+
+template <class S>
+struct Dual {
+  S a, b;
+};
+template <class S>
+struct DualVec {
+  Vec3<S> a, b;
+  static DualVec zero() { return {Vec3<S>::zero(), Vec3<S>::zero()}; }
+};
+template <class S>
+struct DualMat {
+  Mat3<S> a, b;
+  static DualMat zero() { return {Mat3<S>::zero(), Mat3<S>::zero()}; }
+};
+
+/// Motion vectors (linear; angular), wrenches (force; moment), and back.
+template <class S>
+DualVec<S> motion_dual(const Vec6<S>& v) {
+  return {angular_part(v), linear_part(v)};
+}
+template <class S>
+DualVec<S> wrench_dual(const Vec6<S>& f) {
+  return {linear_part(f), angular_part(f)};
+}
+template <class S>
+Vec6<S> motion_vector(const DualVec<S>& v) {
+  return join(v.b, v.a);
+}
+template <class S>
+Vec6<S> wrench_vector(const DualVec<S>& f) {
+  return join(f.a, f.b);
+}
+
+template <class S>
+Dual<S> operator+(const Dual<S>& x, const Dual<S>& y) {
+  return {x.a + y.a, x.b + y.b};
+}
+template <class S>
+Dual<S> operator-(const Dual<S>& x, const Dual<S>& y) {
+  return {x.a - y.a, x.b - y.b};
+}
+template <class S>
+Dual<S> operator-(const Dual<S>& x) {
+  return {-x.a, -x.b};
+}
+template <class S>
+Dual<S> operator*(const Dual<S>& x, const Dual<S>& y) {
+  return {x.a * y.a, fma(x.a, y.b, S(x.b * y.a))};
+}
+template <class S>
+Dual<S> twice(const Dual<S>& x) {
+  return x + x;
+}
+
+template <class S>
+DualVec<S> operator+(const DualVec<S>& x, const DualVec<S>& y) {
+  return {x.a + y.a, x.b + y.b};
+}
+template <class S>
+DualVec<S> operator-(const DualVec<S>& x, const DualVec<S>& y) {
+  return {x.a - y.a, x.b - y.b};
+}
+template <class S>
+DualVec<S> operator-(const DualVec<S>& x) {
+  return {-x.a, -x.b};
+}
+template <class S>
+DualVec<S> twice(const DualVec<S>& x) {
+  return x + x;
+}
+/// Scaling by a plain number.
+template <class A, class S>
+DualVec<S> scaled(const A& f, const DualVec<S>& x) {
+  return {f * x.a, f * x.b};
+}
+/// r + f x.
+template <class A, class S>
+DualVec<S> add_scaled(const DualVec<S>& r, const A& f, const DualVec<S>& x) {
+  DualVec<S> s;
+  for (int i = 0; i < 3; ++i) {
+    s.a[i] = fma(f, x.a[i], r.a[i]);
+    s.b[i] = fma(f, x.b[i], r.b[i]);
+  }
+  return s;
+}
+template <class S>
+DualVec<S> add_scaled(const DualVec<S>& r, const Dual<S>& f, const DualVec<S>& x) {
+  DualVec<S> s;
+  for (int i = 0; i < 3; ++i) {
+    s.a[i] = fma(f.a, x.a[i], r.a[i]);
+    s.b[i] = fma(f.a, x.b[i], fma(f.b, x.a[i], r.b[i]));
+  }
+  return s;
+}
+template <class S>
+DualVec<S> operator*(const Dual<S>& f, const DualVec<S>& x) {
+  DualVec<S> s;
+  for (int i = 0; i < 3; ++i) {
+    s.a[i] = f.a * x.a[i];
+    s.b[i] = fma(f.a, x.b[i], S(f.b * x.a[i]));
+  }
+  return s;
+}
+template <class S>
+Dual<S> dot(const DualVec<S>& x, const DualVec<S>& y) {
+  S b = x.b[0] * y.a[0];
+  for (int i = 1; i < 3; ++i) b = fma(x.b[i], y.a[i], b);
+  for (int i = 0; i < 3; ++i) b = fma(x.a[i], y.b[i], b);
+  return {dot(x.a, y.a), b};
+}
+/// r + x cross y.
+template <class S>
+Vec3<S> add_cross(const Vec3<S>& r, const Vec3<S>& x, const Vec3<S>& y) {
+  return {{fma(x[1], y[2], fnma(x[2], y[1], r[0])), fma(x[2], y[0], fnma(x[0], y[2], r[1])),
+           fma(x[0], y[1], fnma(x[1], y[0], r[2]))}};
+}
+template <class S>
+DualVec<S> cross(const DualVec<S>& x, const DualVec<S>& y) {
+  return {cross(x.a, y.a), add_cross(cross(x.a, y.b), x.b, y.a)};
+}
+template <class S>
+DualVec<S> add_cross(const DualVec<S>& r, const DualVec<S>& x, const DualVec<S>& y) {
+  return {add_cross(r.a, x.a, y.a), add_cross(add_cross(r.b, x.a, y.b), x.b, y.a)};
+}
+
+template <class S>
+DualMat<S> operator+(const DualMat<S>& x, const DualMat<S>& y) {
+  return {x.a + y.a, x.b + y.b};
+}
+template <class S>
+DualMat<S> operator-(const DualMat<S>& x, const DualMat<S>& y) {
+  return {x.a - y.a, x.b - y.b};
+}
+template <class A, class S>
+DualMat<S> scaled(const A& f, const DualMat<S>& x) {
+  return {f * x.a, f * x.b};
+}
+/// m += f x.
+template <class A, class S>
+void add_scaled_to(DualMat<S>& m, const A& f, const DualMat<S>& x) {
+  for (int i = 0; i < 9; ++i) {
+    m.a.m[i] = fma(f, x.a.m[i], m.a.m[i]);
+    m.b.m[i] = fma(f, x.b.m[i], m.b.m[i]);
+  }
+}
+template <class S>
+DualMat<S> skew(const DualVec<S>& x) {
+  return {skew(x.a), skew(x.b)};
+}
+template <class S>
+void add_diagonal(DualMat<S>& m, const Dual<S>& x) {
+  for (int i = 0; i < 3; ++i) {
+    m.a(i, i) = m.a(i, i) + x.a;
+    m.b(i, i) = m.b(i, i) + x.b;
+  }
+}
+/// m += x y^T.
+template <class S>
+void add_outer(DualMat<S>& m, const DualVec<S>& x, const DualVec<S>& y) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      m.a(i, j) = fma(x.a[i], y.a[j], m.a(i, j));
+      m.b(i, j) = fma(x.a[i], y.b[j], fma(x.b[i], y.a[j], m.b(i, j)));
+    }
+}
+/// x y and m += x y.
+template <class S>
+DualMat<S> product(const DualMat<S>& x, const DualMat<S>& y) {
+  DualMat<S> r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      r.a(i, j) = fma(x.a(i, 2), y.a(2, j), fma(x.a(i, 1), y.a(1, j), S(x.a(i, 0) * y.a(0, j))));
+      const S b = fma(x.a(i, 2), y.b(2, j), fma(x.a(i, 1), y.b(1, j), S(x.a(i, 0) * y.b(0, j))));
+      r.b(i, j) = fma(x.b(i, 2), y.a(2, j), fma(x.b(i, 1), y.a(1, j), fma(x.b(i, 0), y.a(0, j), b)));
+    }
+  return r;
+}
+template <class S>
+void add_product(DualMat<S>& m, const DualMat<S>& x, const DualMat<S>& y) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      m.a(i, j) = fma(x.a(i, 2), y.a(2, j), fma(x.a(i, 1), y.a(1, j), fma(x.a(i, 0), y.a(0, j), m.a(i, j))));
+      const S b = fma(x.a(i, 2), y.b(2, j), fma(x.a(i, 1), y.b(1, j), fma(x.a(i, 0), y.b(0, j), m.b(i, j))));
+      m.b(i, j) = fma(x.b(i, 2), y.a(2, j), fma(x.b(i, 1), y.a(1, j), fma(x.b(i, 0), y.a(0, j), b)));
+    }
+}
+/// x ~y, the product with a skew matrix.
+template <class S>
+DualMat<S> skew_product(const DualMat<S>& x, const DualVec<S>& y) {
+  DualMat<S> r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int n = (j + 1) % 3, l = (j + 2) % 3;  // column j of ~y: y_l in row n, -y_n in row l
+      r.a(i, j) = fnma(x.a(i, l), y.a[n], S(x.a(i, n) * y.a[l]));
+      r.b(i, j) = fma(x.a(i, n), y.b[l],
+                      fnma(x.a(i, l), y.b[n], fma(x.b(i, n), y.a[l], S(-(x.b(i, l) * y.a[n])))));
+    }
+  return r;
+}
+template <class S>
+DualVec<S> times(const DualMat<S>& m, const DualVec<S>& x) {
+  DualVec<S> r{m.a * x.a, m.a * x.b};
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) r.b[i] = fma(m.b(i, k), x.a[k], r.b[i]);
+  return r;
+}
+template <class S>
+DualVec<S> transpose_times(const DualMat<S>& m, const DualVec<S>& x) {
+  DualVec<S> r{transpose_times(m.a, x.a), transpose_times(m.a, x.b)};
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) r.b[i] = fma(m.b(k, i), x.a[k], r.b[i]);
+  return r;
+}
+
+}  // namespace bough::motion
