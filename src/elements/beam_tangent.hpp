@@ -28,8 +28,7 @@ void eval_beam_columns(const BeamRates<S, N>& b, const PortMotion<S>* p, const P
   if (has_mass)
     for (int i = 0; i < N; ++i) {
       columns.b[i] = around.has_inertia ? ports[i].acceleration : DualMat<S>::zero();
-      if (moves)
-        columns.b[i].b = columns.b[i].b - lanes::skew(lanes::transpose_times(p[i].H.R, around.gravity));
+      if (moves) columns.b[i].b = columns.b[i].b - lanes::skew(lanes::transpose_times(p[i].H.R, around.gravity));
     }
   const DualMat<S> zero = DualMat<S>::zero();
   for (int i = 0; i < N; ++i) {
@@ -176,8 +175,8 @@ void eval_internal_blocks(const Beam<N, C>& beam, const BeamRates<S, N>& b, bool
 
 /// Inertia and gravity at a mass point:  dv = dv_r + T dz + J(z) dd,  db = db_r + T dz' + T' dz + J(z) dd' + (J(z') + J'(z)) dd.
 template <class S, int N, class C>
-void add_mass_point(const Beam<N, C>& beam, const PortSlopes<S>* ports, int point, const MassPoint<S>& m, bool has_rates,
-                    const BeamColumns<S, N>& columns, BeamBlocks<S, N>& out) {
+void add_mass_point(const Beam<N, C>& beam, const PortSlopes<S>* ports, int point, const MassPoint<S>& m,
+                    bool has_rates, const BeamColumns<S, N>& columns, BeamBlocks<S, N>& out) {
   constexpr int r = Beam<N>::reference;
   const bool moves = ports[r].moves;
   const double* shape = mass_rule<N>().shape[point];
@@ -307,7 +306,7 @@ void eval_tangent(const LineLoad<N, C>& load, const PortMotion<S>* p, const Port
     for (int j = 0; j < N; ++j) {
       const DualMat<S> d = blend_column(shape, columns, &RateSlopes<S>::d, j);
       Mat6<S> f_j = Mat6<S>::zero();
-      if (!load.follows) {  // by the rotation theta of the section
+      if (!load.follows) {    // by the rotation theta of the section
         Mat3<S> theta = d.a;  // theta = theta_r + T (dd - ad(d) eta_r), angular parts
         if (j == r) theta = theta - lanes::skew(series.psi.a);
         theta = T.a * theta;

@@ -21,8 +21,7 @@ struct Beam {
   C length = 0.0;                    ///< of the reference axis [m]
   Mat6<C> stiffness, damping, mass;  ///< see scene::Section
   bool has_damping = false, has_mass = false;
-  Vec6<C>
-      reference_strain[N - 1];  ///< (1 + axial, shear; curvature) of the stress-free shape at the strain points
+  Vec6<C> reference_strain[N - 1];  ///< (1 + axial, shear; curvature) of the stress-free shape at the strain points
 };
 
 /// Motions of the nodes relative to the reference node: the only positions that a beam looks at.

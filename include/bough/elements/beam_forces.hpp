@@ -120,9 +120,9 @@ void eval_mass_point(const Beam<N, C>& beam, const BeamRates<S, N>& b, bool move
 template <class S>
 struct StrainPoint {
   DualSeries<S> T;
-  DualVec<S> d1, y1;  ///< rates of d and of its slope
-  DualVec<S> y;       ///< dd/ds
-  DualMat<S> bending; ///< A
+  DualVec<S> d1, y1;   ///< rates of d and of its slope
+  DualVec<S> y;        ///< dd/ds
+  DualMat<S> bending;  ///< A
   DualVec<S> n;
 };
 

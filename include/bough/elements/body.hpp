@@ -18,7 +18,8 @@ using RigidBody = RigidBodyOf<double>;
 Mat6<double> make_mass_matrix(double mass, const Vec3<double>& center, const Mat3<double>& inertia);
 
 template <class S, class C>
-void eval_residual(const RigidBodyOf<C>& body, const PortMotion<S>* p, const S*, const Surroundings<S>& around, S* out) {
+void eval_residual(const RigidBodyOf<C>& body, const PortMotion<S>* p, const S*, const Surroundings<S>& around,
+                   S* out) {
   const Vec3<S> weight = lanes::transpose_times(p[0].H.R, around.gravity);
   Vec6<S> a = lanes::join<S>(-weight, Vec3<S>::zero());
   if (around.has_inertia) a += p[0].a;
@@ -45,7 +46,8 @@ struct PointLoadOf {
 using PointLoad = PointLoadOf<double>;
 
 template <class S, class C>
-void eval_residual(const PointLoadOf<C>& load, const PortMotion<S>* p, const S*, const Surroundings<S>& around, S* out) {
+void eval_residual(const PointLoadOf<C>& load, const PortMotion<S>* p, const S*, const Surroundings<S>& around,
+                   S* out) {
   const S factor = -around.laws[load.law];
   Vec6<S> f;
   for (int k = 0; k < 6; ++k) f[k] = factor * load.wrench[k];
@@ -111,7 +113,8 @@ struct BushingOf {
 using Bushing = BushingOf<double>;
 
 template <class S, class C>
-void eval_residual(const BushingOf<C>& bushing, const PortMotion<S>* p, const S*, const Surroundings<S>& around, S* out) {
+void eval_residual(const BushingOf<C>& bushing, const PortMotion<S>* p, const S*, const Surroundings<S>& around,
+                   S* out) {
   const Frame<S> relative = motion::relative(p[0].H, p[1].H);
   const Vec3<S> psi = motion::log_so3(relative.R);
   motion::MotionOperator<S> inverse{motion::inverse_tangent_series(lanes::dot(psi, psi)), {}};

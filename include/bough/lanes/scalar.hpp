@@ -53,10 +53,7 @@ inline double fma(double a, double b, double c) {
 }
 /// a b + c and c - a b with a plain number beside a derivative type or a complex number.
 template <class A, class S>
-  requires(!std::same_as<A, S>)
-S fma(const A& a, const S& b, const S& c) {
-  return a * b + c;
-}
+requires(!std::same_as<A, S>) S fma(const A& a, const S& b, const S& c) { return a * b + c; }
 template <class A, class S>
 S fnma(const A& a, const S& b, const S& c) {
   return fma(A(-a), b, c);

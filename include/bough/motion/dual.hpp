@@ -201,8 +201,7 @@ DualMat<S> skew_product(const DualMat<S>& x, const DualVec<S>& y) {
     for (int j = 0; j < 3; ++j) {
       const int n = (j + 1) % 3, l = (j + 2) % 3;  // column j of ~y: y_l in row n, -y_n in row l
       r.a(i, j) = fnma(x.a(i, l), y.a[n], S(x.a(i, n) * y.a[l]));
-      r.b(i, j) = fma(x.a(i, n), y.b[l],
-                      fnma(x.a(i, l), y.b[n], fma(x.b(i, n), y.a[l], S(-(x.b(i, l) * y.a[n])))));
+      r.b(i, j) = fma(x.a(i, n), y.b[l], fnma(x.a(i, l), y.b[n], fma(x.b(i, n), y.a[l], S(-(x.b(i, l) * y.a[n])))));
     }
   return r;
 }

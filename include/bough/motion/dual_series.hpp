@@ -32,8 +32,14 @@ DualSeries<S> dual_tangent(const DualVec<S>& d) {
   const S dc = L(0.5) * (L(3) * c[5] - c[4]), ddc = L(0.25) * (c[5] - L(7) * c[6] + L(15) * c[7]);
   const S dddc = L(0.125) * (L(12) * c[7] - c[6] - L(57) * last[0] + L(105) * last[1]);
   using detail::along;
-  return {d, {x, s}, -along(b, db, s), along(S(c[3]), dc, s), -along(db, ddb, s), along(dc, ddc, s),
-          -along(ddb, dddb, s), along(ddc, dddc, s)};
+  return {d,
+          {x, s},
+          -along(b, db, s),
+          along(S(c[3]), dc, s),
+          -along(db, ddb, s),
+          along(dc, ddc, s),
+          -along(ddb, dddb, s),
+          along(ddc, dddc, s)};
 }
 /// T(d)^-1 from the coefficients at x = psi.psi.
 template <class S>
@@ -105,9 +111,8 @@ DualMat<S> second_jacobian(const DualSeries<S>& f, const DualVec<S>& e, const Du
   const Dual<S> s = twice(dot(f.psi, e)), s_dq = s * f.dq;
   const DualVec<S> w1 = cross(f.psi, y), w2 = cross(f.psi, w1), ey = cross(e, y);
   const DualVec<S> first = twice(add_scaled(f.dp * w1, f.dq, w2));
-  const DualVec<S> left =
-      add_scaled(add_scaled(add_scaled(f.dp * ey, f.dq, add_cross(cross(e, w1), f.psi, ey)), s * f.ddp, w1),
-                 s * f.ddq, w2);
+  const DualVec<S> left = add_scaled(
+      add_scaled(add_scaled(f.dp * ey, f.dq, add_cross(cross(e, w1), f.psi, ey)), s * f.ddp, w1), s * f.ddq, w2);
   DualMat<S> m = skew(-add_scaled(add_scaled(f.q * ey, s * f.dp, y), s_dq, w1));
   add_outer(m, add_scaled(twice(left), -s_dq, y), f.psi);
   add_outer(m, add_scaled(first, -f.q, y), e);
@@ -121,8 +126,7 @@ DualMat<S> hessian(const DualSeries<S>& f, const DualVec<S>& n, const DualVec<S>
   const Dual<S> ny = dot(n, y), n_psi = dot(n, f.psi), y_psi = dot(y, f.psi), b = n_psi * y_psi - f.x * ny;
   const DualVec<S> k = cross(y, n), g = add_scaled(add_scaled(y_psi * n, n_psi, y), -twice(ny), f.psi);
   const Dual<S> k_psi = dot(k, f.psi);
-  const DualVec<S> a =
-      twice(add_scaled(add_scaled(f.dp * k, f.dq, g), f.ddp * k_psi + f.ddq * b, f.psi)), qn = f.q * n;
+  const DualVec<S> a = twice(add_scaled(add_scaled(f.dp * k, f.dq, g), f.ddp * k_psi + f.ddq * b, f.psi)), qn = f.q * n;
   DualMat<S> m = DualMat<S>::zero();
   add_outer(m, a, f.psi);
   add_outer(m, f.psi, a);

@@ -1,0 +1,80 @@
+#pragma once
+/// Eight elements of one type and kind in lockstep, one to a lane: the kernels and the driver of evaluate.hpp over packs. A lane holds
+/// the bits of the same element evaluated alone, whoever sits in the other lanes.
+///
+/// A solver that runs up to eight equal sub-domains in lockstep
+///   1. once, for each element position: checks `may_share_lanes` and makes a `LaneElement` (make_lane_element), whose ports and
+///      laws carry the numbers of the sub-domain's own nodes and laws, the same in all lanes;
+///   2. at each evaluation: fills one NodeLanes per node (set_lane, 33 numbers a lane) and one pack per law and multiplier;
+///   3. calls `evaluate_lanes` for each element; entry k of lane l of a result is out[k * num_lanes + l], k as in `evaluate`.
+/// Lanes that are not needed repeat a valid element and its nodes; what they yield is ignored. Nothing allocates. All arrays of packs are
+/// aligned to 64 bytes.
+#include "bough/elements/evaluate.hpp"
+#include "bough/lanes/pack.hpp"
+
+namespace bough::elements {
+
+inline constexpr int num_lanes = 8;
+using LanePack = lanes::Pack<num_lanes>;
+using NodeLanes = NodeMotionOf<LanePack>;
+/// `nodes` are indexed by the ports of lane elements, `around.laws` by their laws; `slopes` are common to all lanes.
+using FieldLanes = FieldOf<LanePack>;
+
+namespace detail {
+template <class E>
+struct OverLanes;
+template <template <class> class E>
+struct OverLanes<E<double>> {
+  using Type = E<LanePack>;
+};
+template <template <int, class> class E, int N>
+struct OverLanes<E<N, double>> {
+  using Type = E<N, LanePack>;
+};
+}  // namespace detail
+/// The element E with constants in lanes: Beam<2> gives Beam<2, LanePack>, Joint gives JointOf<LanePack>.
+template <class E>
+using LaneElement = typename detail::OverLanes<E>::Type;
+
+/// Laws an element looks at, in the order of its rows, then efforts; returns their number.
+constexpr int max_laws = max_rows + max_efforts;
+int list_laws(const Joint& e, int* laws);
+int list_laws(const PointLoad& e, int* laws);
+template <int N>
+int list_laws(const LineLoad<N>& e, int* laws) {
+  laws[0] = e.law;
+  return 1;
+}
+template <class E>
+int list_laws(const E&, int*) {
+  return 0;
+}
+
+/// Whether two elements differ in numbers only: ports on the ground and ports with offsets are the same ones, so are the terms that are
+/// present (mass, damping, rows, efforts, laws, dead or follower loads).
+template <class E>
+bool may_share_lanes(const E& a, const E& b);
+
+/// Constants of `count` elements, 1 <= count <= num_lanes, that may share lanes; the remaining lanes repeat the last one.
+///   nodes: for each port off the ground, the index its node will have in FieldLanes::nodes; first_law: the index of the first of the
+///   element's laws (list_laws) in FieldLanes::around.laws, the others follow.
+template <class E>
+LaneElement<E> make_lane_element(const E* const* elements, int count, const int* nodes, int first_law);
+
+/// Writes one node's motion into a lane.
+inline void set_lane(NodeLanes& to, int lane, const NodeMotion& from) {
+  lanes::set_lane(to.R, lane, from.R);
+  lanes::set_lane(to.x.hi, lane, from.x.hi);
+  lanes::set_lane(to.x.lo, lane, from.x.lo);
+  lanes::set_lane(to.v, lane, from.v);
+  lanes::set_lane(to.a, lane, from.a);
+  lanes::set_lane(to.dq, lane, from.dq);
+}
+
+/// Residual and, where asked for (not nullptr), its magnitude (eval_magnitude) and tangent, of num_unknowns(e) = n entries, n, n x n row-major.
+/// `multipliers` (num_multipliers(e) packs) and `turns` are looked at by joints only.
+template <class E>
+void evaluate_lanes(const E& e, const FieldLanes& field, const LanePack* multipliers, const LanePack& turns,
+                    LanePack* residual, LanePack* magnitude, LanePack* tangent);
+
+}  // namespace bough::elements
