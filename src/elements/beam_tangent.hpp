@@ -2,6 +2,7 @@
 /// Tangents of beams and line loads in closed form. All that moves a section, from the nodes' increments on, is an operator on motions, a
 /// dual matrix, so only masses, stiffnesses and what they multiply are full 6x6 blocks. Derivation: README.md, "Tangent".
 #include "bough/elements/beam_forces.hpp"
+#include "screw_tangent.hpp"
 #include "tangent_blocks.hpp"
 
 namespace bough::elements {
@@ -56,7 +57,7 @@ void eval_beam_columns(const BeamRates<S, N>& b, const PortMotion<S>* p, const P
         add_product(ref.rate, motion::skew(b.d[i]), ports[r].velocity);
       }
     }
-    if (!has_mass) continue;
+    if (!has_mass || N == 2) continue;  // screw_tangent.hpp does without
     own.zz = product(U, columns.b[i]);
     ref.zz = product(U, motion::scaled(-1.0, columns.b[r]));
     if (!moves) continue;
@@ -224,10 +225,18 @@ void add_mass_point(const Beam<N, C>& beam, const PortSlopes<S>* ports, int poin
   }
 }
 
-/// From forces conjugate to d_i to the nodes:  F_i = U_i^T p_i,  F_r = sum - sum_i F_i.  `matrix`: 6N x 6N, row-major.
+/// What acts on the other node of a two-node beam directly, not through d.
+template <class S>
+struct DirectBlocks {
+  DualVec<S> force;
+  DualMat<S> by_d;  ///< its derivative by d, [0, A; A, B]
+  Mat6<S> by[2];    ///< the rest of it, by the nodes' increments
+};
+
+/// From forces conjugate to d_i to the nodes:  F_i = U_i^T p_i (+ direct),  F_r = sum - sum_i F_i.  `matrix`: 6N x 6N, row-major.
 template <class S, int N>
 void carry_to_nodes(const BeamRates<S, N>& b, const PortSlopes<S>* ports, const BeamColumns<S, N>& columns,
-                    BeamBlocks<S, N>& blocks, S* matrix_out) {
+                    BeamBlocks<S, N>& blocks, S* matrix_out, const DirectBlocks<S>* direct = nullptr) {
   constexpr int r = Beam<N>::reference;
   const bool moves = ports[r].moves;
   for (int i = 0; i < N; ++i) {
@@ -235,8 +244,10 @@ void carry_to_nodes(const BeamRates<S, N>& b, const PortSlopes<S>* ports, const 
     const DualMat<S> U = matrix(b.inverse[i]);
     DualMat<S> by_force;
     if (moves) by_force = transpose_jacobian(b.inverse[i], blocks.force[i]);
+    if (moves && direct != nullptr) by_force = by_force + direct->by_d;
     for (int j = 0; j < N; ++j) {
       Mat6<S> f = transposed_product(U, blocks.by[i][j]);
+      if (direct != nullptr) f += direct->by[j];
       if (moves && j == i) add_wrench(f, product(by_force, columns.own[i].d));
       if (moves && j == r) add_wrench(f, product(by_force, columns.reference[i].d));
       put_block(f, 6 * i, 6 * j, 6 * N, matrix_out);
@@ -244,6 +255,35 @@ void carry_to_nodes(const BeamRates<S, N>& b, const PortSlopes<S>* ports, const 
     }
   }
   for (int j = 0; j < N; ++j) put_block(blocks.sum_by[j], 6 * r, 6 * j, 6 * N, matrix_out);
+}
+
+/// Inertia and gravity of a two-node beam; elasticity stands in `blocks`.
+template <class S, class C>
+void eval_screw_tangent(const Beam<2, C>& beam, const BeamRates<S, 2>& b, const PortSlopes<S>* ports, bool has_inertia,
+                        const BeamColumns<S, 2>& columns, BeamBlocks<S, 2>& blocks, S* residual, S* matrix_out) {
+  const bool moves = ports[0].moves;
+  const Mat6<C> mass = point_mass(beam);
+  const ScrewBlend<S> blend = eval_screw_blend(b.d[1]);
+  GaussPair<S> g;
+  eval_gauss_forces(mass, blend, b, has_inertia, g);
+  DirectBlocks<S> direct;
+  direct.force = eval_gauss_wrench(blend, g);
+  if (moves) direct.by_d = gauss_wrench_jacobian(blend, g);
+  blocks.sum = blocks.sum + g.sum;
+  ScrewSlopes<S> slopes;
+  eval_screw_slopes(blend, b, moves, has_inertia, slopes);
+  Mat6<S> f_v[2];
+  if (moves && has_inertia)
+    for (int k = 0; k < 2; ++k)
+      f_v[k] = gyroscopic_matrix(mass, g.v[k], motion::wrench_dual(Vec6<S>(mass * motion::motion_vector(g.v[k]))));
+  for (int j = 0; j < 2; ++j) {
+    const ScrewColumn<S> column{j == 0 ? columns.reference[1].d : columns.own[1].d, ports[j].velocity, columns.b[j],
+                                j == 0};
+    direct.by[j] = Mat6<S>::zero();
+    add_gauss_blocks(mass, f_v, slopes, column, moves, has_inertia, direct.by[j], blocks.sum_by[j]);
+  }
+  eval_nodal_wrenches<S, 2>(b, blocks.force, blocks.sum, residual, &direct.force);
+  carry_to_nodes(b, ports, columns, blocks, matrix_out, &direct);
 }
 
 /// Residual of a beam, and its derivative by the ports' increments, 6N x 6N, row-major.
@@ -256,14 +296,17 @@ void eval_tangent(const Beam<N, C>& beam, const PortMotion<S>* p, const PortSlop
   BeamRates<S, N> b;
   eval_beam_rates<S, N>(p, around, beam.has_mass, beam.has_damping, b);
   BeamColumns<S, N> columns;
-  eval_beam_columns(b, p, ports, around, beam.has_mass, has_rates, columns);
+  eval_beam_columns(b, p, ports, around, beam.has_mass, N == 2 ? viscous : has_rates, columns);
   BeamBlocks<S, N> blocks;
   eval_internal_forces<S, N>(beam, b, viscous, blocks.force);
   eval_internal_blocks(beam, b, viscous, columns, blocks);
   blocks.sum = DualVec<S>::zero();
   for (int i = 0; i < N; ++i)
     if (i != r) blocks.sum = add_cross(blocks.sum, blocks.force[i], b.d[i]);
-  if (beam.has_mass)
+  if constexpr (N == 2) {
+    if (beam.has_mass)
+      return eval_screw_tangent(beam, b, ports, around.has_inertia, columns, blocks, residual, matrix_out);
+  } else if (beam.has_mass)
     for (int g = 0; g < Beam<N>::num_mass_points; ++g) {
       MassPoint<S> m;
       eval_mass_point<S, N>(beam, b, around.has_inertia, g, m);

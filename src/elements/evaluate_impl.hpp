@@ -49,9 +49,14 @@ void gather(const E& e, const S* in_residual, const S* in_tangent, S* residual, 
       if (p < P && to[p] < 0) continue;
       const int rows = p < P ? 6 : m, row0 = p < P ? to[p] : n;
       const bool left = p < P && e.ports[p].has_offset, right = e.ports[q].has_offset;
-      Mat6<S> block = Mat6<S>::zero();
-      for (int i = 0; i < rows; ++i)
-        for (int j = 0; j < 6; ++j) block(i, j) = in_tangent[(6 * p + i) * D + 6 * q + j];
+      if (p < P && !left && !right) {
+        for (int i = 0; i < 6; ++i)
+          for (int j = 0; j < 6; ++j) tangent[(row0 + i) * size + to[q] + j] = in_tangent[(6 * p + i) * D + 6 * q + j];
+        continue;
+      }
+      Mat6<S> block;
+      for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) block(i, j) = i < rows ? in_tangent[(6 * p + i) * D + 6 * q + j] : S(0.0);
       if (right) block = motion_product(block, J[q]);
       if (left) block = transposed_product(J[p], block);
       for (int i = 0; i < rows; ++i)
@@ -102,12 +107,15 @@ void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers,
   }
   PortSlopes<S> ports[P];
   eval_port_slopes(e, field, ports);
-  S matrix[rows * D];
+  bool in_place = E::num_multipliers == 0;  // nothing to carry from ports to nodes: the rows and columns as they are
+  for (const auto& port : e.ports) in_place = in_place && port.node != ground && !port.has_offset;
+  S own[rows * D];
+  S* matrix = in_place ? tangent : own;
   if constexpr (E::num_multipliers > 0)
     eval_tangent(e, p, ports, multipliers, field.around, turns, out, matrix);
   else
     eval_tangent(e, p, ports, field.around, out, matrix);
-  gather<E, S>(e, out, matrix, residual, tangent);
+  gather<E, S>(e, out, in_place ? nullptr : matrix, residual, in_place ? nullptr : tangent);
 }
 
 template <class E>

@@ -16,46 +16,51 @@ struct PortSlopes {
   DualMat<S> velocity, acceleration;
 };
 
-/// (m0 m1 m2) . (b0 b1 b2) + c.
-template <class A, class S>
-S fma3(const A& m0, const A& m1, const A& m2, const S& b0, const S& b1, const S& b2, const S& c) {
-  using lanes::fma;
-  return fma(m2, b2, fma(m1, b1, fma(m0, b0, c)));
-}
-
-/// x = m z and x += m z, z an operator on motions.
+/// x = m z and x += m z, z an operator on motions; row by row, z in registers.
 template <class A, class S>
 Mat6<S> motion_product(const Mat6<A>& m, const DualMat<S>& z) {
   using lanes::fma;
+  const Mat3<S> za = z.a, zb = z.b;
   Mat6<S> x;
-  for (int i = 0; i < 6; ++i)
+  for (int i = 0; i < 6; ++i) {
+    const A m0 = m(i, 0), m1 = m(i, 1), m2 = m(i, 2), m3 = m(i, 3), m4 = m(i, 4), m5 = m(i, 5);
     for (int j = 0; j < 3; ++j) {
-      x(i, j) = fma(m(i, 2), z.a(2, j), fma(m(i, 1), z.a(1, j), S(m(i, 0) * z.a(0, j))));
-      const S b = fma(m(i, 2), z.b(2, j), fma(m(i, 1), z.b(1, j), S(m(i, 0) * z.b(0, j))));
-      x(i, 3 + j) = fma3(m(i, 3), m(i, 4), m(i, 5), z.a(0, j), z.a(1, j), z.a(2, j), b);
+      x(i, j) = fma(m2, za(2, j), fma(m1, za(1, j), S(m0 * za(0, j))));
+      const S b = fma(m2, zb(2, j), fma(m1, zb(1, j), S(m0 * zb(0, j))));
+      x(i, 3 + j) = fma(m5, za(2, j), fma(m4, za(1, j), fma(m3, za(0, j), b)));
     }
+  }
   return x;
 }
 template <class A, class S>
 void add_motion_product(Mat6<S>& x, const Mat6<A>& m, const DualMat<S>& z) {
-  for (int i = 0; i < 6; ++i)
+  using lanes::fma;
+  const Mat3<S> za = z.a, zb = z.b;
+  for (int i = 0; i < 6; ++i) {
+    const A m0 = m(i, 0), m1 = m(i, 1), m2 = m(i, 2), m3 = m(i, 3), m4 = m(i, 4), m5 = m(i, 5);
+    S row[6];
     for (int j = 0; j < 3; ++j) {
-      x(i, j) = fma3(m(i, 0), m(i, 1), m(i, 2), z.a(0, j), z.a(1, j), z.a(2, j), x(i, j));
-      const S b = fma3(m(i, 0), m(i, 1), m(i, 2), z.b(0, j), z.b(1, j), z.b(2, j), x(i, 3 + j));
-      x(i, 3 + j) = fma3(m(i, 3), m(i, 4), m(i, 5), z.a(0, j), z.a(1, j), z.a(2, j), b);
+      row[j] = fma(m2, za(2, j), fma(m1, za(1, j), fma(m0, za(0, j), x(i, j))));
+      const S b = fma(m2, zb(2, j), fma(m1, zb(1, j), fma(m0, zb(0, j), x(i, 3 + j))));
+      row[3 + j] = fma(m5, za(2, j), fma(m4, za(1, j), fma(m3, za(0, j), b)));
     }
+    for (int j = 0; j < 6; ++j) x(i, j) = row[j];
+  }
 }
-/// z^T y and x += z^T y.
+/// z^T y, column by column, z in registers.
 template <class S, class A>
 Mat6<S> transposed_product(const DualMat<S>& z, const Mat6<A>& y) {
   using lanes::fma;
+  const Mat3<S> za = z.a, zb = z.b;
   Mat6<S> x;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 6; ++j) {
-      x(i, j) = fma(z.a(2, i), y(2, j), fma(z.a(1, i), y(1, j), S(z.a(0, i) * y(0, j))));
-      const S b = fma(z.b(2, i), y(2, j), fma(z.b(1, i), y(1, j), S(z.b(0, i) * y(0, j))));
-      x(3 + i, j) = fma(z.a(2, i), y(5, j), fma(z.a(1, i), y(4, j), fma(z.a(0, i), y(3, j), b)));
+  for (int j = 0; j < 6; ++j) {
+    const A y0 = y(0, j), y1 = y(1, j), y2 = y(2, j), y3 = y(3, j), y4 = y(4, j), y5 = y(5, j);
+    for (int i = 0; i < 3; ++i) {
+      x(i, j) = fma(za(2, i), y2, fma(za(1, i), y1, S(za(0, i) * y0)));
+      const S b = fma(zb(2, i), y2, fma(zb(1, i), y1, S(zb(0, i) * y0)));
+      x(3 + i, j) = fma(za(2, i), y5, fma(za(1, i), y4, fma(za(0, i), y3, b)));
     }
+  }
   return x;
 }
 /// x += [0, A; A, B], the derivative of a wrench by a motion given as A + e B.

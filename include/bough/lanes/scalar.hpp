@@ -5,6 +5,13 @@
 #include <complex>
 #include <concepts>
 
+/// For the few-line functions on 3-vectors that kernels are made of: inlined whatever the compiler thinks of its caller's size.
+#if defined(__GNUC__)
+#define BOUGH_INLINE inline __attribute__((always_inline))
+#else
+#define BOUGH_INLINE inline
+#endif
+
 namespace bough::lanes {
 
 /// Value that decides a branch: the scalar itself, the real part of a complex, the value of a derivative type.

@@ -58,42 +58,42 @@ struct Mat {
 };
 
 template <class S, int N>
-Vec<S, N> operator+(const Vec<S, N>& a, const Vec<S, N>& b) {
+BOUGH_INLINE Vec<S, N> operator+(const Vec<S, N>& a, const Vec<S, N>& b) {
   Vec<S, N> r;
   for (int i = 0; i < N; ++i) r.v[i] = a.v[i] + b.v[i];
   return r;
 }
 template <class S, int N>
-Vec<S, N> operator-(const Vec<S, N>& a, const Vec<S, N>& b) {
+BOUGH_INLINE Vec<S, N> operator-(const Vec<S, N>& a, const Vec<S, N>& b) {
   Vec<S, N> r;
   for (int i = 0; i < N; ++i) r.v[i] = a.v[i] - b.v[i];
   return r;
 }
 template <class S, int N>
-Vec<S, N> operator-(const Vec<S, N>& a) {
+BOUGH_INLINE Vec<S, N> operator-(const Vec<S, N>& a) {
   Vec<S, N> r;
   for (int i = 0; i < N; ++i) r.v[i] = -a.v[i];
   return r;
 }
 /// Scaling; A may be a plain double while S is a derivative type (cheaper than a product of two such).
 template <class A, class S, int N>
-Vec<S, N> operator*(const A& a, const Vec<S, N>& b) {
+BOUGH_INLINE Vec<S, N> operator*(const A& a, const Vec<S, N>& b) {
   Vec<S, N> r;
   for (int i = 0; i < N; ++i) r.v[i] = a * b.v[i];
   return r;
 }
 template <class S, int N>
-S dot(const Vec<S, N>& a, const Vec<S, N>& b) {
+BOUGH_INLINE S dot(const Vec<S, N>& a, const Vec<S, N>& b) {
   S r = a.v[0] * b.v[0];
   for (int i = 1; i < N; ++i) r = fma(a.v[i], b.v[i], r);
   return r;
 }
 template <class S>
-Vec<S, 3> cross(const Vec<S, 3>& a, const Vec<S, 3>& b) {
+BOUGH_INLINE Vec<S, 3> cross(const Vec<S, 3>& a, const Vec<S, 3>& b) {
   return {{fnma(a[2], b[1], S(a[1] * b[2])), fnma(a[0], b[2], S(a[2] * b[0])), fnma(a[1], b[0], S(a[0] * b[1]))}};
 }
 template <class S>
-Mat<S, 3, 3> skew(const Vec<S, 3>& a) {
+BOUGH_INLINE Mat<S, 3, 3> skew(const Vec<S, 3>& a) {
   const S o(0.0);
   return {{o, -a[2], a[1], a[2], o, -a[0], -a[1], a[0], o}};
 }
@@ -175,19 +175,19 @@ Mat<S, R, C> outer(const Vec<S, R>& a, const Vec<S, C>& b) {
   return r;
 }
 template <class S>
-Vec<S, 6> join(const Vec<S, 3>& linear, const Vec<S, 3>& angular) {
+BOUGH_INLINE Vec<S, 6> join(const Vec<S, 3>& linear, const Vec<S, 3>& angular) {
   return {{linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]}};
 }
 template <class S>
-Vec<S, 3> linear_part(const Vec<S, 6>& a) {
+BOUGH_INLINE Vec<S, 3> linear_part(const Vec<S, 6>& a) {
   return {{a[0], a[1], a[2]}};
 }
 template <class S>
-Vec<S, 3> angular_part(const Vec<S, 6>& a) {
+BOUGH_INLINE Vec<S, 3> angular_part(const Vec<S, 6>& a) {
   return {{a[3], a[4], a[5]}};
 }
 template <class S>
-Vec<S, 3> column(const Mat<S, 3, 3>& a, int j) {
+BOUGH_INLINE Vec<S, 3> column(const Mat<S, 3, 3>& a, int j) {
   return {{a(0, j), a(1, j), a(2, j)}};
 }
 /// The same numbers in another scalar.

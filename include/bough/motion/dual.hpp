@@ -24,67 +24,67 @@ struct DualMat {
 
 /// Motion vectors (linear; angular), wrenches (force; moment), and back.
 template <class S>
-DualVec<S> motion_dual(const Vec6<S>& v) {
+BOUGH_INLINE DualVec<S> motion_dual(const Vec6<S>& v) {
   return {angular_part(v), linear_part(v)};
 }
 template <class S>
-DualVec<S> wrench_dual(const Vec6<S>& f) {
+BOUGH_INLINE DualVec<S> wrench_dual(const Vec6<S>& f) {
   return {linear_part(f), angular_part(f)};
 }
 template <class S>
-Vec6<S> motion_vector(const DualVec<S>& v) {
+BOUGH_INLINE Vec6<S> motion_vector(const DualVec<S>& v) {
   return join(v.b, v.a);
 }
 template <class S>
-Vec6<S> wrench_vector(const DualVec<S>& f) {
+BOUGH_INLINE Vec6<S> wrench_vector(const DualVec<S>& f) {
   return join(f.a, f.b);
 }
 
 template <class S>
-Dual<S> operator+(const Dual<S>& x, const Dual<S>& y) {
+BOUGH_INLINE Dual<S> operator+(const Dual<S>& x, const Dual<S>& y) {
   return {x.a + y.a, x.b + y.b};
 }
 template <class S>
-Dual<S> operator-(const Dual<S>& x, const Dual<S>& y) {
+BOUGH_INLINE Dual<S> operator-(const Dual<S>& x, const Dual<S>& y) {
   return {x.a - y.a, x.b - y.b};
 }
 template <class S>
-Dual<S> operator-(const Dual<S>& x) {
+BOUGH_INLINE Dual<S> operator-(const Dual<S>& x) {
   return {-x.a, -x.b};
 }
 template <class S>
-Dual<S> operator*(const Dual<S>& x, const Dual<S>& y) {
+BOUGH_INLINE Dual<S> operator*(const Dual<S>& x, const Dual<S>& y) {
   return {x.a * y.a, fma(x.a, y.b, S(x.b * y.a))};
 }
 template <class S>
-Dual<S> twice(const Dual<S>& x) {
+BOUGH_INLINE Dual<S> twice(const Dual<S>& x) {
   return x + x;
 }
 
 template <class S>
-DualVec<S> operator+(const DualVec<S>& x, const DualVec<S>& y) {
+BOUGH_INLINE DualVec<S> operator+(const DualVec<S>& x, const DualVec<S>& y) {
   return {x.a + y.a, x.b + y.b};
 }
 template <class S>
-DualVec<S> operator-(const DualVec<S>& x, const DualVec<S>& y) {
+BOUGH_INLINE DualVec<S> operator-(const DualVec<S>& x, const DualVec<S>& y) {
   return {x.a - y.a, x.b - y.b};
 }
 template <class S>
-DualVec<S> operator-(const DualVec<S>& x) {
+BOUGH_INLINE DualVec<S> operator-(const DualVec<S>& x) {
   return {-x.a, -x.b};
 }
 template <class S>
-DualVec<S> twice(const DualVec<S>& x) {
+BOUGH_INLINE DualVec<S> twice(const DualVec<S>& x) {
   return x + x;
 }
 /// Scaling by a plain number.
 template <class A, class S>
-DualVec<S> scaled(const A& f, const DualVec<S>& x) {
+BOUGH_INLINE DualVec<S> scaled(const A& f, const DualVec<S>& x) {
   return {f * x.a, f * x.b};
 }
 /// r + f x.
 template <class A, class S>
-DualVec<S> add_scaled(const DualVec<S>& r, const A& f, const DualVec<S>& x) {
+BOUGH_INLINE DualVec<S> add_scaled(const DualVec<S>& r, const A& f, const DualVec<S>& x) {
   DualVec<S> s;
   for (int i = 0; i < 3; ++i) {
     s.a[i] = fma(f, x.a[i], r.a[i]);
@@ -93,7 +93,7 @@ DualVec<S> add_scaled(const DualVec<S>& r, const A& f, const DualVec<S>& x) {
   return s;
 }
 template <class S>
-DualVec<S> add_scaled(const DualVec<S>& r, const Dual<S>& f, const DualVec<S>& x) {
+BOUGH_INLINE DualVec<S> add_scaled(const DualVec<S>& r, const Dual<S>& f, const DualVec<S>& x) {
   DualVec<S> s;
   for (int i = 0; i < 3; ++i) {
     s.a[i] = fma(f.a, x.a[i], r.a[i]);
@@ -102,7 +102,7 @@ DualVec<S> add_scaled(const DualVec<S>& r, const Dual<S>& f, const DualVec<S>& x
   return s;
 }
 template <class S>
-DualVec<S> operator*(const Dual<S>& f, const DualVec<S>& x) {
+BOUGH_INLINE DualVec<S> operator*(const Dual<S>& f, const DualVec<S>& x) {
   DualVec<S> s;
   for (int i = 0; i < 3; ++i) {
     s.a[i] = f.a * x.a[i];
@@ -111,7 +111,7 @@ DualVec<S> operator*(const Dual<S>& f, const DualVec<S>& x) {
   return s;
 }
 template <class S>
-Dual<S> dot(const DualVec<S>& x, const DualVec<S>& y) {
+BOUGH_INLINE Dual<S> dot(const DualVec<S>& x, const DualVec<S>& y) {
   S b = x.b[0] * y.a[0];
   for (int i = 1; i < 3; ++i) b = fma(x.b[i], y.a[i], b);
   for (int i = 0; i < 3; ++i) b = fma(x.a[i], y.b[i], b);
@@ -119,16 +119,16 @@ Dual<S> dot(const DualVec<S>& x, const DualVec<S>& y) {
 }
 /// r + x cross y.
 template <class S>
-Vec3<S> add_cross(const Vec3<S>& r, const Vec3<S>& x, const Vec3<S>& y) {
+BOUGH_INLINE Vec3<S> add_cross(const Vec3<S>& r, const Vec3<S>& x, const Vec3<S>& y) {
   return {{fma(x[1], y[2], fnma(x[2], y[1], r[0])), fma(x[2], y[0], fnma(x[0], y[2], r[1])),
            fma(x[0], y[1], fnma(x[1], y[0], r[2]))}};
 }
 template <class S>
-DualVec<S> cross(const DualVec<S>& x, const DualVec<S>& y) {
+BOUGH_INLINE DualVec<S> cross(const DualVec<S>& x, const DualVec<S>& y) {
   return {cross(x.a, y.a), add_cross(cross(x.a, y.b), x.b, y.a)};
 }
 template <class S>
-DualVec<S> add_cross(const DualVec<S>& r, const DualVec<S>& x, const DualVec<S>& y) {
+BOUGH_INLINE DualVec<S> add_cross(const DualVec<S>& r, const DualVec<S>& x, const DualVec<S>& y) {
   return {add_cross(r.a, x.a, y.a), add_cross(add_cross(r.b, x.a, y.b), x.b, y.a)};
 }
 
@@ -153,11 +153,11 @@ void add_scaled_to(DualMat<S>& m, const A& f, const DualMat<S>& x) {
   }
 }
 template <class S>
-DualMat<S> skew(const DualVec<S>& x) {
+BOUGH_INLINE DualMat<S> skew(const DualVec<S>& x) {
   return {skew(x.a), skew(x.b)};
 }
 template <class S>
-void add_diagonal(DualMat<S>& m, const Dual<S>& x) {
+BOUGH_INLINE void add_diagonal(DualMat<S>& m, const Dual<S>& x) {
   for (int i = 0; i < 3; ++i) {
     m.a(i, i) = m.a(i, i) + x.a;
     m.b(i, i) = m.b(i, i) + x.b;
@@ -165,33 +165,44 @@ void add_diagonal(DualMat<S>& m, const Dual<S>& x) {
 }
 /// m += x y^T.
 template <class S>
-void add_outer(DualMat<S>& m, const DualVec<S>& x, const DualVec<S>& y) {
+BOUGH_INLINE void add_outer(DualMat<S>& m, const DualVec<S>& x, const DualVec<S>& y) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       m.a(i, j) = fma(x.a[i], y.a[j], m.a(i, j));
       m.b(i, j) = fma(x.a[i], y.b[j], fma(x.b[i], y.a[j], m.b(i, j)));
     }
 }
-/// x y and m += x y.
+/// x y and m += x y, row by row, y in registers.
 template <class S>
 DualMat<S> product(const DualMat<S>& x, const DualMat<S>& y) {
+  const Mat3<S> ya = y.a, yb = y.b;
   DualMat<S> r;
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < 3; ++i) {
+    const S a0 = x.a(i, 0), a1 = x.a(i, 1), a2 = x.a(i, 2), b0 = x.b(i, 0), b1 = x.b(i, 1), b2 = x.b(i, 2);
     for (int j = 0; j < 3; ++j) {
-      r.a(i, j) = fma(x.a(i, 2), y.a(2, j), fma(x.a(i, 1), y.a(1, j), S(x.a(i, 0) * y.a(0, j))));
-      const S b = fma(x.a(i, 2), y.b(2, j), fma(x.a(i, 1), y.b(1, j), S(x.a(i, 0) * y.b(0, j))));
-      r.b(i, j) = fma(x.b(i, 2), y.a(2, j), fma(x.b(i, 1), y.a(1, j), fma(x.b(i, 0), y.a(0, j), b)));
+      r.a(i, j) = fma(a2, ya(2, j), fma(a1, ya(1, j), S(a0 * ya(0, j))));
+      const S b = fma(a2, yb(2, j), fma(a1, yb(1, j), S(a0 * yb(0, j))));
+      r.b(i, j) = fma(b2, ya(2, j), fma(b1, ya(1, j), fma(b0, ya(0, j), b)));
     }
+  }
   return r;
 }
 template <class S>
 void add_product(DualMat<S>& m, const DualMat<S>& x, const DualMat<S>& y) {
-  for (int i = 0; i < 3; ++i)
+  const Mat3<S> ya = y.a, yb = y.b;
+  for (int i = 0; i < 3; ++i) {
+    const S a0 = x.a(i, 0), a1 = x.a(i, 1), a2 = x.a(i, 2), b0 = x.b(i, 0), b1 = x.b(i, 1), b2 = x.b(i, 2);
+    S ra[3], rb[3];
     for (int j = 0; j < 3; ++j) {
-      m.a(i, j) = fma(x.a(i, 2), y.a(2, j), fma(x.a(i, 1), y.a(1, j), fma(x.a(i, 0), y.a(0, j), m.a(i, j))));
-      const S b = fma(x.a(i, 2), y.b(2, j), fma(x.a(i, 1), y.b(1, j), fma(x.a(i, 0), y.b(0, j), m.b(i, j))));
-      m.b(i, j) = fma(x.b(i, 2), y.a(2, j), fma(x.b(i, 1), y.a(1, j), fma(x.b(i, 0), y.a(0, j), b)));
+      ra[j] = fma(a2, ya(2, j), fma(a1, ya(1, j), fma(a0, ya(0, j), m.a(i, j))));
+      const S b = fma(a2, yb(2, j), fma(a1, yb(1, j), fma(a0, yb(0, j), m.b(i, j))));
+      rb[j] = fma(b2, ya(2, j), fma(b1, ya(1, j), fma(b0, ya(0, j), b)));
     }
+    for (int j = 0; j < 3; ++j) {
+      m.a(i, j) = ra[j];
+      m.b(i, j) = rb[j];
+    }
+  }
 }
 /// x ~y, the product with a skew matrix.
 template <class S>
@@ -206,14 +217,14 @@ DualMat<S> skew_product(const DualMat<S>& x, const DualVec<S>& y) {
   return r;
 }
 template <class S>
-DualVec<S> times(const DualMat<S>& m, const DualVec<S>& x) {
+BOUGH_INLINE DualVec<S> times(const DualMat<S>& m, const DualVec<S>& x) {
   DualVec<S> r{m.a * x.a, m.a * x.b};
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) r.b[i] = fma(m.b(i, k), x.a[k], r.b[i]);
   return r;
 }
 template <class S>
-DualVec<S> transpose_times(const DualMat<S>& m, const DualVec<S>& x) {
+BOUGH_INLINE DualVec<S> transpose_times(const DualMat<S>& m, const DualVec<S>& x) {
   DualVec<S> r{transpose_times(m.a, x.a), transpose_times(m.a, x.b)};
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) r.b[i] = fma(m.b(k, i), x.a[k], r.b[i]);

@@ -1,0 +1,125 @@
+#pragma once
+/// Velocity field of the two-node beam. With one relative motion d all operators on a section are functions of D = ad(d) alone, so
+/// (7) of README.md becomes an interpolation of the nodes' motions themselves,
+///   v(s) = v_r + P (v_1 - v_r),   P(s) = s T(s d) T(d)^-1 = (1 - exp(-s D)) / (1 - exp(-D)).
+/// At the two Gauss points s = 1/2 -+ t, P = 1/2 + p D -+ (t + q D^2): one odd and one even part serve both, with
+///   p = (cos(t phi) - cos(phi/2)) / (2 phi sin(phi/2)),   q = (t - sin(t phi) / (2 sin(phi/2))) / phi^2.
+#include "bough/elements/beam_rates.hpp"
+
+namespace bough::elements {
+
+namespace detail {
+/// p and q as functions of x = phi^2 have poles at (2 pi m)^2; the first two apart, what is left is a power series that
+/// converges up to phi = 6 pi: 12 terms reach beyond round-off up to phi = pi, which holds every logarithm.
+struct ScrewTable {
+  std::array<long double, 2> residues;
+  std::array<long double, 12> rest;
+};
+inline constexpr ScrewTable odd_blend{
+    {1.5187629709611824621806134L, 3.7684109218818922858518997L},
+    {0.0209988769198615526339449L, 0.0000318138957052796984803089L, 7.94628165565046662928443e-8L,
+     2.15616326786947810124638e-10L, 5.97848694235726540281101e-13L, 1.67048229848213980332801e-15L,
+     4.68359931302946668201376e-18L, 1.31543496914222814095686e-20L, 3.69796306293540832626472e-23L,
+     1.04010720874203359870858e-25L, 2.92629124405304659985282e-28L, 8.23429411356230831602841e-31L}};
+inline constexpr ScrewTable even_blend{
+    {-0.30895786729576356028570327L, -0.074340983077791251868352282L},
+    {0.000278010238671019160432184L, 0.000000747089901408131008365072L, 1.98529192772988594796169e-9L,
+     5.34268517407206887045378e-12L, 1.45963831231043842411787e-14L, 4.03376535796645683857112e-17L,
+     1.12311693278435635846513e-19L, 3.14134554605980604756551e-22L, 8.8098175507054453037877e-25L,
+     2.47449645860616223229297e-27L, 6.95645805651753836801536e-30L, 1.95661689049767890641289e-32L}};
+inline constexpr double gauss_offset = 0.288675134594812882254574390251;  ///< t = 1 / (2 sqrt(3))
+
+/// A coefficient and its first three derivatives by x; p, q: 1/(pole - x) of the first two poles.
+template <class S>
+lanes::Vec<S, 4> eval_screw_coefficient(const ScrewTable& table, const S& x, const S& p, const S& q) {
+  using lanes::fma;
+  using L = motion::Literal<S>;
+  S f(0.0), df(0.0), hf(0.0), tf(0.0);
+  for (std::size_t n = table.rest.size(); n-- > 0;) {
+    tf = fma(tf, x, hf);
+    hf = fma(hf, x, df);
+    df = fma(df, x, f);
+    f = fma(f, x, S(static_cast<L>(table.rest[n])));
+  }
+  const L a = static_cast<L>(table.residues[0]), b = static_cast<L>(table.residues[1]);
+  const S p1 = a * p, q1 = b * q, p2 = p1 * p, q2 = q1 * q, p3 = p2 * p, q3 = q2 * q;
+  return {{f + p1 + q1, df + p2 + q2, L(2) * (hf + p3 + q3), L(6) * (tf + p3 * p + q3 * q)}};
+}
+}  // namespace detail
+
+/// Odd part p D and even part t + q D^2 of P, with derivatives, at one d.
+template <class S>
+struct ScrewBlend {
+  DualVec<S> d;
+  Dual<S> x, p, dp, ddp, q, dq, ddq;
+};
+template <class S>
+ScrewBlend<S> eval_screw_blend(const DualVec<S>& d) {
+  using L = motion::Literal<S>;
+  constexpr L pole1 = static_cast<L>(39.478417604357434475338L), pole2 = static_cast<L>(157.913670417429737901352L);
+  const S x = lanes::dot(d.a, d.a), half = lanes::dot(d.a, d.b), s = half + half;
+  const S a = pole1 - x, b = pole2 - x, inverse = S(1.0) / (a * b), first = b * inverse, second = a * inverse;
+  const auto p = detail::eval_screw_coefficient(detail::odd_blend, x, first, second);
+  const auto q = detail::eval_screw_coefficient(detail::even_blend, x, first, second);
+  using motion::detail::along;
+  return {d,
+          {x, s},
+          along(p[0], p[1], s),
+          along(p[1], p[2], s),
+          along(p[2], p[3], s),
+          along(q[0], q[1], s),
+          along(q[1], q[2], s),
+          along(q[2], q[3], s)};
+}
+
+/// Motion and forces at the two Gauss points.
+template <class S>
+struct GaussPair {
+  DualVec<S> v[2];             ///< twists
+  DualVec<S> sum, difference;  ///< of the forces; second point less first
+};
+
+/// Mass per length times the weight L/2 of a point.
+template <class C>
+Mat6<C> point_mass(const Beam<2, C>& beam) {
+  return C(0.5 * beam.length) * beam.mass;
+}
+
+/// Forces m b - ad(v)^T m v at both Gauss points, times their weight: `mass` is that of point_mass.
+template <class S, class C>
+void eval_gauss_forces(const Mat6<C>& mass, const ScrewBlend<S>& f, const BeamRates<S, 2>& b, bool moves,
+                       GaussPair<S>& g) {
+  constexpr double t = detail::gauss_offset;
+  const auto force = [&](const DualVec<S>& a) { return motion::wrench_dual(Vec6<S>(mass * motion::motion_vector(a))); };
+  const DualVec<S>&w = b.w[1], &c = b.c[1], c1 = cross(f.d, c), c2 = cross(f.d, c1);
+  DualVec<S> odd = add_scaled(add_scaled(b.b, 0.5, c), f.p, c1), even = add_scaled(motion::scaled(t, c), f.q, c2);
+  DualVec<S> odd_v, even_v;
+  if (moves) {
+    const DualVec<S>& e = b.rate[1];
+    const DualVec<S> w1 = cross(f.d, w), w2 = cross(f.d, w1), ew = cross(e, w);
+    const Dual<S> sigma = twice(dot(f.d, e));
+    odd_v = add_scaled(add_scaled(b.v, 0.5, w), f.p, w1);
+    even_v = add_scaled(motion::scaled(t, w), f.q, w2);
+    odd = add_scaled(add_scaled(odd, sigma * f.dp, w1), f.p, ew);
+    even = add_scaled(add_scaled(even, sigma * f.dq, w2), f.q, add_cross(cross(e, w1), f.d, ew));
+  }
+  DualVec<S> first = force(odd - even), second = force(odd + even);
+  if (moves) {
+    g.v[0] = odd_v - even_v;
+    g.v[1] = odd_v + even_v;
+    first = add_cross(first, g.v[0], force(g.v[0]));
+    second = add_cross(second, g.v[1], force(g.v[1]));
+  }
+  g.sum = first + second;
+  g.difference = second - first;
+}
+
+/// Their part in the wrench on node 1, sum of P^T f; the rest of `sum` falls to the reference.
+template <class S>
+DualVec<S> eval_gauss_wrench(const ScrewBlend<S>& f, const GaussPair<S>& g) {
+  const DualVec<S> s1 = cross(g.sum, f.d), d1 = cross(f.d, g.difference), d2 = cross(f.d, d1);
+  const DualVec<S> odd = add_scaled(motion::scaled(0.5, g.sum), f.p, s1);
+  return add_scaled(add_scaled(odd, detail::gauss_offset, g.difference), f.q, d2);
+}
+
+}  // namespace bough::elements
