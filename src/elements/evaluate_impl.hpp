@@ -75,10 +75,10 @@ template <class E, class S>
 void eval_port_slopes(const E& e, const FieldOf<S>& field, PortSlopes<S>* ports) {
   for (int k = 0; k < E::num_ports; ++k) {
     const PortOf<S>& port = e.ports[k];
-    ports[k] = {!field.slopes.mass_only, DualMat<S>::zero(), DualMat<S>::zero()};
-    if (port.node == ground || !field.around.has_inertia) continue;
-    if (field.slopes.mass_only) {
-      ports[k].acceleration.a = Mat3<S>::identity();
+    ports[k].moves = !field.slopes.mass_only;
+    if (port.node == ground || !field.around.has_inertia || field.slopes.mass_only) {
+      ports[k].velocity = ports[k].acceleration = DualMat<S>::zero();
+      if (port.node != ground && field.around.has_inertia) ports[k].acceleration.a = Mat3<S>::identity();
       continue;
     }
     Vec6<S> dq = field.nodes[port.node].dq;

@@ -88,26 +88,47 @@ struct ScrewColumn {
   bool is_reference;
 };
 
+/// m = x - m and m = -m.
+template <class S>
+void subtract_from(const DualMat<S>& x, DualMat<S>& m) {
+  for (int i = 0; i < 9; ++i) {
+    m.a.m[i] = x.a.m[i] - m.a.m[i];
+    m.b.m[i] = x.b.m[i] - m.b.m[i];
+  }
+}
+template <class S>
+void negate(DualMat<S>& m) {
+  for (int i = 0; i < 9; ++i) {
+    m.a.m[i] = -m.a.m[i];
+    m.b.m[i] = -m.b.m[i];
+  }
+}
+
 /// Adds the inertia's blocks by one node's increment: to the wrench on node 1 and to the sum over both nodes.
 template <class S, class C>
 void add_gauss_blocks(const Mat6<C>& mass, const Mat6<S>* f_v, const ScrewSlopes<S>& m, const ScrewColumn<S>& column,
                       bool moves, bool has_rates, Mat6<S>& first, Mat6<S>& sum) {
-  const double sign = column.is_reference ? -1.0 : 1.0;
-  const DualMat<S> own_b = motion::scaled(sign, column.b), own_v = motion::scaled(sign, column.velocity);
-  OddEven<S> a{product(m.P.odd, own_b), product(m.P.even, own_b)}, v;
-  if (column.is_reference) a.odd = a.odd + column.b;
+  OddEven<S> a{product(m.P.odd, column.b), product(m.P.even, column.b)}, v;
+  if (moves && has_rates) v = {product(m.P.odd, column.velocity), product(m.P.even, column.velocity)};
+  if (column.is_reference) {
+    subtract_from(column.b, a.odd);
+    negate(a.even);
+    if (moves && has_rates) {
+      subtract_from(column.velocity, v.odd);
+      negate(v.even);
+    }
+  }
   if (moves && has_rates) {
-    v = {product(m.P.odd, own_v), product(m.P.even, own_v)};
-    if (column.is_reference) v.odd = v.odd + column.velocity;
-    const OddEven<S> turned{product(m.by_d.odd, column.d), product(m.by_d.even, column.d)};
-    v.odd = v.odd + turned.odd;
-    v.even = v.even + turned.even;
     // P' dw + d(P w)/dd applied to the part T(d)^-1 dw + ad(d) dv_r of d', which is column.d times dv
-    DualMat<S> odd = turned.odd, even = turned.even;
-    add_scaled_to(odd, sign, m.rate.odd);
-    add_scaled_to(even, sign, m.rate.even);
-    add_product(a.odd, odd, column.velocity);
-    add_product(a.even, even, column.velocity);
+    const double sign = column.is_reference ? -1.0 : 1.0;
+    DualMat<S> turned = product(m.by_d.odd, column.d);
+    add_scaled_to(v.odd, 1.0, turned);
+    add_scaled_to(turned, sign, m.rate.odd);
+    add_product(a.odd, turned, column.velocity);
+    turned = product(m.by_d.even, column.d);
+    add_scaled_to(v.even, 1.0, turned);
+    add_scaled_to(turned, sign, m.rate.even);
+    add_product(a.even, turned, column.velocity);
   }
   if (moves) {
     add_product(a.odd, m.b_by_d.odd, column.d);
