@@ -70,15 +70,48 @@ void gather(const E& e, const S* in_residual, const S* in_tangent, S* residual, 
     for (int j = 0; j < m; ++j) tangent[(n + i) * size + n + j] = S(0.0);
 }
 
+/// Whether an element's forces depend on velocities or accelerations.
+template <int N, class C>
+bool looks_at_rates(const Beam<N, C>& e) {
+  return e.has_mass || e.has_damping;
+}
+template <int N, class C>
+bool looks_at_rates(const LineLoad<N, C>&) {
+  return false;
+}
+template <class C>
+bool looks_at_rates(const RigidBodyOf<C>&) {
+  return true;
+}
+template <class C>
+bool looks_at_rates(const PointLoadOf<C>&) {
+  return false;
+}
+template <class C>
+bool looks_at_rates(const SpringOf<C>& e) {
+  return is_present(e.damping);
+}
+template <class C>
+bool looks_at_rates(const BushingOf<C>& e) {
+  return e.has_damping;
+}
+template <class C>
+bool looks_at_rates(const JointOf<C>& e) {
+  bool damped = false;
+  for (int k = 0; k < e.num_efforts; ++k) damped = damped || is_present(e.efforts[k].damping);
+  return damped;
+}
+
 /// How the ports of an element follow the unknowns of their nodes.
 template <class E, class S>
 void eval_port_slopes(const E& e, const FieldOf<S>& field, PortSlopes<S>* ports) {
+  const bool has_rates = field.around.has_inertia && looks_at_rates(e);
   for (int k = 0; k < E::num_ports; ++k) {
     const PortOf<S>& port = e.ports[k];
     ports[k].moves = !field.slopes.mass_only;
-    if (port.node == ground || !field.around.has_inertia || field.slopes.mass_only) {
+    if (port.node == ground || !has_rates || field.slopes.mass_only) {
       ports[k].velocity = ports[k].acceleration = DualMat<S>::zero();
-      if (port.node != ground && field.around.has_inertia) ports[k].acceleration.a = Mat3<S>::identity();
+      if (port.node != ground && has_rates) ports[k].acceleration.a = Mat3<S>::identity();
       continue;
     }
     Vec6<S> dq = field.nodes[port.node].dq;
