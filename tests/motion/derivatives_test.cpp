@@ -50,7 +50,7 @@ Mat6<double> on_wrenches(const DualMat<double>& m) { return detail::lower_right(
 /// The dual form of an operator against its 6x6 form, and its second derivatives against the complex step of the first.
 template <class Operator>
 void expect_dual_form(const DualSeries<double>& f, const Vec6<double>& d, const Operator& operator_at, double bound,
-                      test::Random& random) {
+                      bool has_pole, test::Random& random) {
   const Vec6<double> x = random.vector<6>(), y = random.vector<6>(), n = random.vector<6>();
   const auto op = operator_at(d);
   const DualVec<double> dx = motion_dual(x), dy = motion_dual(y), dn = wrench_dual(n);
@@ -69,8 +69,11 @@ void expect_dual_form(const DualSeries<double>& f, const Vec6<double>& d, const 
   const auto gradient = [&](const Vec6<Complex>& z) {
     return lanes::transpose_times(operator_at(z).derivative(lanes::cast<Complex>(y)), lanes::cast<Complex>(n));
   };
-  EXPECT_LT(test::largest(on_motions(second_jacobian(f, dx, dy)) - test::complex_step<6>(along_x, d)), bound);
-  EXPECT_LT(test::largest(on_wrenches(hessian(f, dn, dy)) - test::complex_step<6>(gradient, d)), bound);
+  const Mat6<double> second = test::complex_step<6>(along_x, d), hessian_matrix = test::complex_step<6>(gradient, d);
+  EXPECT_LT(test::largest(on_motions(second_jacobian(f, dx, dy)) - second),
+            bound * (has_pole ? 1.0 + test::largest(second) : 1.0));
+  EXPECT_LT(test::largest(on_wrenches(hessian(f, dn, dy)) - hessian_matrix),
+            bound * (has_pole ? 1.0 + test::largest(hessian_matrix) : 1.0));
 }
 
 TEST(Derivatives, of_operators_in_dual_form_up_to_the_second_match_the_complex_step) {
@@ -80,14 +83,14 @@ TEST(Derivatives, of_operators_in_dual_form_up_to_the_second_match_the_complex_s
     const Vec6<double> d = random.motion(phi);
     const DualVec<double> dual = motion_dual(d);
     expect_dual_form(
-        dual_tangent(dual), d, [](const auto& z) { return tangent_operator(z); }, 64 * test::epsilon, random);
+        dual_tangent(dual), d, [](const auto& z) { return tangent_operator(z); }, 64 * test::epsilon, false, random);
     const double x = dot(dual.a, dual.a);
     const auto k = eval_inverse_coefficients(x);
-    // near 2 pi the inverse has a pole: entries grow with k and its derivatives
-    const double size = 1.0 + std::abs(k.k) + std::abs(k.dk) + std::abs(k.ddk) + std::abs(k.dddk);
+    // near 2 pi the inverse has a pole: entries grow with k and its first derivative, which lose digits to the distance from it
+    const double size = (1.0 + std::abs(k.k) + std::abs(k.dk)) / (1.0 - phi / (2.0 * std::numbers::pi));
     expect_dual_form(
         dual_inverse_tangent(dual, x, k), d, [](const auto& z) { return inverse_tangent_operator(z); },
-        256 * test::epsilon * size, random);
+        64 * test::epsilon * size, true, random);
   }
 }
 
