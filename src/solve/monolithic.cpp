@@ -15,8 +15,14 @@ namespace bough::solve {
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// d^2 in scaled variables: refinement contracts by about d^2 a step, null vectors pick up eps / d^2: half the digits each.
-constexpr double regularisation = 1e-7;
+/// d^2 in scaled variables, lowered from the multipliers' diagonal where rows depend on each other. Refinement on the system as it is
+/// contracts by about d^2 a step; what round-off leaves along null vectors is eps / d^2, which a larger d^2 keeps small at the price of some steps more.
+constexpr double regularisation = 1e-4;
+[[maybe_unused]] constexpr int most_refinements = 10;  ///< where regularised
+constexpr double refined_enough =
+    5e-16;  ///< backward error of an oracle: KLU's pivots of 1e-3 of their column may leave more
+[[maybe_unused]] constexpr double least_rcond =
+    1e-11;  ///< of the pivots: below, rows are taken to depend on each other; errors of 1e-5 could hide there
 }  // namespace
 
 struct Monolithic::State {
@@ -161,13 +167,13 @@ bool Monolithic::State::factor_values(bool fresh) {
   bool done = false;
   if (!fresh && numeric != nullptr) {
     done = klu_refactor(column_begin.data(), row_index.data(), values.data(), symbolic, numeric, &common) != 0 &&
-           common.status == KLU_OK && klu_rcond(symbolic, numeric, &common) != 0 && common.rcond > 1e-13;
+           common.status == KLU_OK && klu_rcond(symbolic, numeric, &common) != 0 && common.rcond > least_rcond;
   }
   if (!done) {
     klu_free_numeric(&numeric, &common);
     numeric = klu_factor(column_begin.data(), row_index.data(), values.data(), symbolic, &common);
     done = numeric != nullptr && common.status == KLU_OK && klu_rcond(symbolic, numeric, &common) != 0 &&
-           common.rcond > 1e-13;
+           common.rcond > least_rcond;
   }
   return done;
 }
@@ -268,8 +274,8 @@ SolveReport Monolithic::solve(const tree::Walker& walker, const double* rhs, dou
   std::copy(s.work.begin(), s.work.end(), s.x_scaled.begin());
   if (s.options.check == SolveCheck::backward_error || s.regularised) {
     auto errors = s.elements.eval_residual(walker, s.scales, s.x_scaled.data(), s.rhs.data(), s.residual.data());
-    const int most = s.regularised ? std::max(6, s.options.refinement_steps) : s.options.refinement_steps;
-    while (errors.finite && errors.normwise > s.options.refinement_above && report.refinement_steps < most) {
+    const int most = s.regularised ? most_refinements : s.options.refinement_steps;
+    while (errors.finite && errors.normwise > refined_enough && report.refinement_steps < most) {
       apply(s.residual);
       for (std::size_t i = 0; i < n; ++i) s.work[i] += s.x_scaled[i];
       const auto refined = s.elements.eval_residual(walker, s.scales, s.work.data(), s.rhs.data(), s.residual.data());

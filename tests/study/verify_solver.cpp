@@ -225,11 +225,7 @@ TEST_P(VerifySolver, leaf_sizes_depths_and_the_monolithic_solver_agree) {
   if (solve::Monolithic::available()) {
     scene::Scene v = s;
     v.solver.kind = scene::SolverKind::monolithic;
-    // Where rows depend the oracle itself solves a regularised system, refined once: it is good to 1e-8 only.
-    Bar wide = bar;
-    if (bar.base.says("depend on others"))
-      for (double& x : wide.relative) x *= 10.0;
-    compare(wide, run(v), "monolithic", needed, most);
+    compare(bar, run(v), "monolithic", needed, most);
   }
   print_clauses(GetParam(), bar, needed, most);
 }
