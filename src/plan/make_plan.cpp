@@ -28,7 +28,7 @@ bool is_identity(const Frame<double>& H) {
 
 }  // namespace
 
-Builder::Builder(const scene::Scene& s) : scene(s) {
+Builder::Builder(const scene::Scene& s) : scene(s), poses(s) {
   plan.scene_name = s.name;
   plan.is_dynamic = s.analysis.kind == scene::AnalysisKind::dynamics;
 }
@@ -190,7 +190,9 @@ void Builder::add_motions() {
     if (shift.num_rows > 0) add_joint(shift, m.name, "prescribed motion");
     if (!m.rotation_axis && !m.hold_rotation) continue;
     elements::Joint turn;  // both frames along the axis of rotation, equal at the start
-    const Mat3<double> axes = m.rotation_axis ? axes_with_third(*m.rotation_axis) : Mat3<double>::identity();
+    const Mat3<double> axes =
+        m.rotation_axis ? scene::axes_from(3, *m.rotation_axis, scene::default_axis_2(*m.rotation_axis)).value()
+                        : Mat3<double>::identity();
     turn.ports[0] = port_at("ground", {axes, start.x});
     turn.ports[1] = moving;
     turn.ports[1].offset = motion::compose(turn.ports[1].has_offset ? moving.offset : Frame<double>::identity(),
@@ -233,51 +235,6 @@ void Builder::add_couplings() {
     e.follows = l.axes == scene::LoadAxes::body;
     e.law = add_factor(l.law, l.name);
     add(e, l.name);
-  }
-}
-
-/// A point mass has no rotational inertia: its rotation is held where nothing that meets it feels it.
-void Builder::hold_point_masses() {
-  std::vector<bool> feels(plan.nodes.size(), false);
-  const auto mark = [&feels](const auto& e, bool turns) {
-    for (const Port& p : e.ports) {
-      if (p.node == elements::ground) continue;
-      const bool apart = p.has_offset && (p.offset.x[0] != 0.0 || p.offset.x[1] != 0.0 || p.offset.x[2] != 0.0);
-      if (turns || apart) feels[static_cast<std::size_t>(p.node)] = true;
-    }
-  };
-  for_each_array(plan.elements, [&](const auto& array) {
-    using E = typename std::decay_t<decltype(array)>::value_type;
-    for (const E& e : array) {
-      if constexpr (std::is_same_v<E, elements::RigidBody>)
-        continue;
-      else if constexpr (std::is_same_v<E, elements::Spring>)
-        mark(e, false);
-      else if constexpr (std::is_same_v<E, elements::PointLoad>)
-        mark(e, e.follows || lanes::dot(e.wrench, e.wrench) !=
-                                 lanes::dot(lanes::linear_part(e.wrench), lanes::linear_part(e.wrench)));
-      else if constexpr (std::is_same_v<E, elements::Joint>) {
-        // A row along an axis of the first frame turns with the first body; three of them meet in a point and do not.
-        bool turns = e.num_efforts > 0;
-        int along = 0;
-        for (int k = 0; k < e.num_rows; ++k) {
-          turns |= e.rows[k].kind != elements::RowKind::along;
-          ++along;
-        }
-        mark(e, turns || along != 3);
-      } else
-        mark(e, true);
-    }
-  });
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const int node = plan.body_nodes[b];
-    if (!scene.bodies[b].is_point_mass || feels[static_cast<std::size_t>(node)]) continue;
-    elements::Joint hold;
-    const Frame<double> pose = plan.nodes[static_cast<std::size_t>(node)].pose;
-    hold.ports[0] = port_at("ground", pose);
-    hold.ports[1].node = node;
-    for (int i = 0; i < 3; ++i) add_row(hold, elements::RowKind::across, i, (i + 1) % 3);
-    add_joint(hold, scene.bodies[b].name, "held rotation");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bough/plan/plan.hpp"
+#include "bough/scene/poses.hpp"
 
 namespace bough::plan {
 
@@ -20,14 +21,12 @@ struct OwnersOf<std::tuple<std::vector<E>...>> {
   using tag = Tagged<T>;
 };
 
-/// Rotation matrix whose third column is the given direction (any length > 0), the others chosen.
-motion::Mat3<double> axes_with_third(const motion::Vec3<double>& direction);
-
 struct Builder {
   explicit Builder(const scene::Scene& scene);
 
   const scene::Scene& scene;
   Plan plan;
+  scene::Poses poses;
   std::map<std::string, int> node_of;
   OwnersOf<ElementArrays>::type owner_lists;
   std::map<std::string, int> line_laws;  ///< one law for all elements under a line load
@@ -55,6 +54,7 @@ struct Builder {
   void add_motions();
   void add_couplings();
   void hold_point_masses();
+  void keep_from_spinning(std::size_t body, const std::vector<motion::Vec3<double>>& met);
   void add_initial_velocities();
   void number_elements();
   double size_of_structure() const;

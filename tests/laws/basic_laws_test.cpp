@@ -50,17 +50,23 @@ TEST(BasicLaws, ramp_between_equal_values_is_constant) {
   EXPECT_TRUE(make_cycloidal(0.0, 1.0, 4.0, 4.0).is_constant());
 }
 
-class SmoothRise : public ::testing::TestWithParam<Law (*)(double, double, double, double)> {};
+struct Profile {
+  const char* name;
+  Law (*make)(double, double, double, double);
+};
+void PrintTo(const Profile& profile, std::ostream* out) { *out << profile.name; }
+
+class SmoothRise : public ::testing::TestWithParam<Profile> {};
 
 TEST_P(SmoothRise, has_no_jump_up_to_the_second_derivative) {
   // A rise of 4 within 2 s far from t = 0. Round-off: 4 * 60 / 2^2 units of the second derivative, a few eps of it.
-  const Law law = GetParam()(1000.0, 1002.0, -1.0, 3.0);
+  const Law law = GetParam().make(1000.0, 1002.0, -1.0, 3.0);
   for (double t : {1000.0, 1002.0}) expect_equal(law.at(t, Side::left), law.at(t, Side::right), 1e-13);
   EXPECT_TRUE(law.breakpoints(0.0, 2000.0).empty());
 }
 
 TEST_P(SmoothRise, is_monotone_point_symmetric_and_held_outside) {
-  const Law law = GetParam()(2.0, 4.0, -1.0, 3.0);
+  const Law law = GetParam().make(2.0, 4.0, -1.0, 3.0);
   EXPECT_EQ(law.at(1.9).value, -1.0);
   EXPECT_EQ(law.at(4.1).value, 3.0);
   EXPECT_NEAR(law.at(3.0).value, 1.0, 1e-15);
@@ -71,7 +77,10 @@ TEST_P(SmoothRise, is_monotone_point_symmetric_and_held_outside) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllProfiles, SmoothRise, ::testing::Values(&make_smooth_ramp, &make_cycloidal));
+INSTANTIATE_TEST_SUITE_P(AllProfiles, SmoothRise,
+                         ::testing::Values(Profile{"smooth_ramp", &make_smooth_ramp},
+                                           Profile{"cycloidal", &make_cycloidal}),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(BasicLaws, cycloidal_rate_is_a_full_wave) {
   const Law law = make_cycloidal(1.0, 3.0, 0.0, 10.0);

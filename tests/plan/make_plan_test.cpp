@@ -94,6 +94,43 @@ TEST(MakePlan, holds_the_rotation_of_a_point_mass_only_where_nothing_feels_it) {
   EXPECT_EQ(p.joints[1].name, "free");
 }
 
+/// The plan of a point mass met by ball joints at these points of its own.
+Plan plan_of_held_mass(const std::vector<motion::Vec3<double>>& points) {
+  scene::Scene s;
+  scene::Body b;
+  b.name = "bob";
+  b.mass = 3.0;
+  b.is_point_mass = true;
+  s.bodies.push_back(b);
+  for (const motion::Vec3<double>& x : points) {
+    scene::Joint j;
+    j.name = "ball " + std::to_string(s.joints.size());
+    j.kind = scene::JointKind::spherical;
+    j.first.offset.x = j.second.offset.x = x;
+    j.second.to = "bob";
+    s.joints.push_back(j);
+  }
+  return make_plan(s);
+}
+
+TEST(MakePlan, keeps_a_point_mass_from_spinning_about_the_one_line_it_is_held_at) {
+  for (const std::vector<motion::Vec3<double>>& points :
+       {std::vector<motion::Vec3<double>>{{{0.0, 0.6, -0.8}}},
+        std::vector<motion::Vec3<double>>{{{0.0, 0.6, -0.8}}, {{0.0, -0.3, 0.4}}}}) {
+    const Plan p = plan_of_held_mass(points);
+    ASSERT_EQ(p.notes.size(), 1u);
+    EXPECT_NE(p.notes[0].find("'bob'"), std::string::npos);
+    const motion::Mat6<double>& m = array_of<elements::RigidBody>(p.elements)[0].mass;
+    EXPECT_NEAR(m(4, 4), 3.0 * 0.36, 1e-15);
+    EXPECT_NEAR(m(4, 5), -3.0 * 0.48, 1e-15);
+    EXPECT_EQ(m(3, 3), 0.0);
+    EXPECT_EQ(m(0, 4), 0.0);
+  }
+  const Plan held = plan_of_held_mass({{{0.0, 0.6, -0.8}}, {{1.0, 0.0, 0.0}}});
+  EXPECT_TRUE(held.notes.empty());
+  EXPECT_EQ(array_of<elements::RigidBody>(held.elements)[0].mass(4, 4), 0.0);
+}
+
 TEST(MakePlan, integrates_a_driven_rate_from_the_initial_angle) {
   scene::Scene s;
   scene::Body b;

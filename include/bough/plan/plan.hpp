@@ -66,11 +66,9 @@ struct Plan {
   std::vector<SensorPlan> sensors;
   std::vector<int> body_nodes;  ///< nodes of the scene's bodies, in its order
   std::vector<motion::Vec3<double>> body_centers;
-  std::vector<std::pair<int, int>>
-      links;                  ///< element ids of joints and springs between two points, with their kind, for pictures
-  blocks::BlockGraph graph;   ///< blocks: nodes, then one per joint
-  double length_scale = 1.0;  ///< [m], size of the structure
-  std::vector<std::string> notes;
+  blocks::BlockGraph graph;        ///< blocks: nodes, then one per joint
+  double length_scale = 1.0;       ///< [m], size of the structure
+  std::vector<std::string> notes;  ///< what the plan chose where the scene leaves it open, in words
 };
 
 /// Elements, nodes and graph of a scene. Precondition: problems_in(scene) is empty.

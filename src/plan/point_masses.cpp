@@ -1,0 +1,85 @@
+#include "plan_builder.hpp"
+
+namespace bough::plan {
+
+using elements::Port;
+using motion::Frame;
+using motion::Vec3;
+
+/// A point mass has no rotational inertia: its rotation is held where nothing that meets it feels it. Where it is met in points of one line
+/// through it only, nothing feels the spin about this line: it gets inertia there, m d^2 with the largest distance d, which changes no motion
+/// (no moment acts about the line, so a spin that starts at zero stays zero) and leaves no unknown undetermined.
+void Builder::hold_point_masses() {
+  std::vector<bool> feels(plan.nodes.size(), false);              // more than forces at points
+  std::vector<std::vector<Vec3<double>>> met(plan.nodes.size());  // at points apart from the node
+  const auto mark = [&](const auto& e, bool turns) {
+    for (const Port& p : e.ports) {
+      if (p.node == elements::ground) continue;
+      const auto node = static_cast<std::size_t>(p.node);
+      if (turns) feels[node] = true;
+      if (p.has_offset && lanes::dot(p.offset.x, p.offset.x) > 0.0) met[node].push_back(p.offset.x);
+    }
+  };
+  for_each_array(plan.elements, [&](const auto& array) {
+    using E = typename std::decay_t<decltype(array)>::value_type;
+    for (const E& e : array) {
+      if constexpr (std::is_same_v<E, elements::RigidBody>)
+        continue;
+      else if constexpr (std::is_same_v<E, elements::Spring>)
+        mark(e, false);
+      else if constexpr (std::is_same_v<E, elements::PointLoad>)
+        mark(e, e.follows || lanes::dot(e.wrench, e.wrench) !=
+                                 lanes::dot(lanes::linear_part(e.wrench), lanes::linear_part(e.wrench)));
+      else if constexpr (std::is_same_v<E, elements::Joint>) {
+        // A row along an axis of the first frame turns with the first body; three of them meet in a point and do not.
+        bool turns = e.num_efforts > 0;
+        int along = 0;
+        for (int k = 0; k < e.num_rows; ++k) {
+          turns |= e.rows[k].kind != elements::RowKind::along;
+          ++along;
+        }
+        mark(e, turns || along != 3);
+      } else
+        mark(e, true);
+    }
+  });
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const int node = plan.body_nodes[b];
+    if (!scene.bodies[b].is_point_mass || feels[static_cast<std::size_t>(node)]) continue;
+    if (!met[static_cast<std::size_t>(node)].empty()) {
+      keep_from_spinning(b, met[static_cast<std::size_t>(node)]);
+      continue;
+    }
+    elements::Joint hold;
+    const Frame<double> pose = plan.nodes[static_cast<std::size_t>(node)].pose;
+    hold.ports[0] = port_at("ground", pose);
+    hold.ports[1].node = node;
+    hold.num_rows = 3;
+    for (int i = 0; i < 3; ++i) {
+      hold.rows[i].kind = elements::RowKind::across;
+      hold.rows[i].i = i;
+      hold.rows[i].j = (i + 1) % 3;
+    }
+    add_joint(hold, scene.bodies[b].name, "held rotation");
+  }
+}
+
+void Builder::keep_from_spinning(std::size_t body, const std::vector<Vec3<double>>& met) {
+  Vec3<double> line = met.front();
+  for (const Vec3<double>& x : met)
+    if (lanes::dot(x, x) > lanes::dot(line, line)) line = x;
+  for (const Vec3<double>& x : met) {
+    const Vec3<double> beside = lanes::cross(line, x);
+    if (lanes::dot(beside, beside) > 1e-24 * lanes::dot(line, line) * lanes::dot(x, x)) return;  // held by its points
+  }
+  for (elements::RigidBody& e : array_of<elements::RigidBody>(plan.elements)) {
+    if (e.ports[0].node != plan.body_nodes[body]) continue;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) e.mass(3 + i, 3 + j) += e.mass(0, 0) * line[i] * line[j];
+  }
+  plan.notes.push_back(
+      "point mass '" + scene.bodies[body].name +
+      "' is held at one line through it: nothing feels its spin about that line, which is kept as it starts");
+}
+
+}  // namespace bough::plan
