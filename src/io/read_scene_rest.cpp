@@ -135,6 +135,7 @@ void Converter::settings() {
     scene.output.stride = static_cast<int>(o->find("stride")->number);
     scene.output.motion = o->find("motion")->truth;
     scene.output.motion_stride = static_cast<int>(o->find("motion_stride")->number);
+    scene.output.checks = o->find("checks")->truth;
   }
 }
 

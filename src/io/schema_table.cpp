@@ -249,10 +249,12 @@ void add_settings(RuleTable& t) {
                  may("depth", integer_rule("", 0, 40), "Levels of the hierarchy. Default: chosen."),
                  may("penalty_factor", positive(""), "Times the interface's own stiffness [-].", "1"),
                  may("tasks", boolean_rule(""), "Run as tasks on several threads.", "true")}));
-  t.named["output"] = made(object_of(
-      "What is written.", {may("stride", integer_rule("", 1, 1e9), "History rows: every n-th step.", "1"),
-                           may("motion", boolean_rule(""), "Write the moving structure for pictures.", "false"),
-                           may("motion_stride", integer_rule("", 1, 1e9), "Pictures: every n-th step.", "1")}));
+  t.named["output"] = made(
+      object_of("What is written.",
+                {may("stride", integer_rule("", 1, 1e9), "History rows: every n-th step.", "1"),
+                 may("motion", boolean_rule(""), "Write the moving structure for pictures.", "false"),
+                 may("motion_stride", integer_rule("", 1, 1e9), "Pictures: every n-th step.", "1"),
+                 may("checks", boolean_rule(""), "Balances and constraint violations, at history rows.", "true")}));
   t.named["expected"] = made(object_of(
       "A figure the run has to meet.",
       {need("quantity", reference, "\"<sensor>.<component>\", or \"<sensor>\" for a scalar."),

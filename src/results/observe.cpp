@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
+
+#include "bough/results/balance.hpp"
 
 namespace bough::results {
 
@@ -16,16 +19,6 @@ using motion::Vec3;
 using motion::Vec6;
 
 namespace {
-
-void add(Measures& sum, const Measures& m) {
-  sum.kinetic += m.kinetic;
-  sum.strain += m.strain;
-  sum.potential += m.potential;
-  sum.work_rate += m.work_rate;
-  sum.dissipation_rate += m.dissipation_rate;
-  sum.momentum += m.momentum;
-  sum.load += m.load;
-}
 
 Vec3<double> position_of(const step::State& state, const Port& port) {
   if (port.node == elements::ground) return port.offset.x;
@@ -161,14 +154,43 @@ void eval_point_sensor(const step::System& system, const step::State& state, con
   }
 }
 
-Vec6<double> eval_section_force(const step::System& system, const Field& f, const plan::BeamPlan& beam, int k,
-                                double local) {
-  Vec6<double> first, last;
-  with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)], [&](const auto& e) {
-    eval_end_wrenches(system, e, beam.loads[static_cast<std::size_t>(k)], f, first, last);
-  });
-  return (1.0 - local) * first + local * last;
+/// Curvature of the sectional force over an element, 1/2 d2f/ds2, from its strains at the strain points: elements of four nodes have three and
+/// hence one; those of fewer nodes none. (Strains elsewhere than at these points are less accurate.)
+template <class E>
+Vec6<double> eval_force_curvature(const E& e, const Field& f) {
+  constexpr int N = E::num_ports, P = E::num_strain_points;
+  if constexpr (P < 3) {
+    return Vec6<double>::zero();
+  } else {
+    const motion::Vec3Pair anchor = elements::anchor_of(e, f.nodes);
+    PortMotion<double> p[N];
+    for (int i = 0; i < N; ++i) p[i] = elements::eval_port(e.ports[i], f.nodes, anchor);
+    const auto shape = elements::eval_shape<double, N>(p);
+    Vec6<double> force[P];
+    double at[P];
+    for (int g = 0; g < P; ++g) {
+      at[g] = 0.0;
+      for (int i = 0; i < N; ++i) at[g] += elements::strain_rule<N>().shape[g][i] * i / (N - 1);
+      Vec6<double> strain = elements::eval_strain<double, N>(shape, e.length, g);
+      strain -= e.reference_strain[g];
+      force[g] = e.stiffness * strain;
+    }
+    const Vec6<double> first = (1.0 / (at[1] - at[0])) * (force[1] - force[0]),
+                       second = (1.0 / (at[2] - at[1])) * (force[2] - force[1]);
+    return (1.0 / (at[2] - at[0])) * (second - first);
+  }
 }
+
+/// Sectional force of an element at s in [0, 1]: nodal equilibrium at the ends, between them straight or as curved as the strains are.
+struct ElementForce {
+  Vec6<double> first, last, curvature;
+  template <class E>
+  ElementForce(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f)
+      : curvature(eval_force_curvature(e, f)) {
+    eval_end_wrenches(system, e, loads, f, first, last);
+  }
+  Vec6<double> at(double s) const { return (1.0 - s) * first + s * last + (s * (s - 1.0)) * curvature; }
+};
 
 void eval_joint_sensor(const step::System& system, const step::State& state, const plan::SensorPlan& s,
                        std::vector<double>& values) {
@@ -208,6 +230,11 @@ HistoryHeader make_header(const plan::Plan& plan) {
 
 void eval_sensors(const step::System& system, const step::State& state, std::vector<double>& values) {
   values.clear();
+  std::optional<Measures> measures;  // one sweep over the elements serves all sensors of energies
+  const auto energies = [&]() -> const Measures& {
+    if (!measures) measures = eval_measures(system, state);
+    return *measures;
+  };
   for (const plan::SensorPlan& s : system.plan().sensors) {
     switch (s.sensor.kind) {
       case scene::SensorKind::section_force:
@@ -216,7 +243,10 @@ void eval_sensors(const step::System& system, const step::State& state, std::vec
         const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
         const auto [k, local] = locate(beam, s.sensor.station);
         if (s.sensor.kind == scene::SensorKind::section_force)
-          append(values, eval_section_force(system, f, beam, k, local));
+          with_beam_element(
+              system.plan(), beam.elements[static_cast<std::size_t>(k)], [&, element = k, at = local](const auto& e) {
+                append(values, ElementForce(system, e, beam.loads[static_cast<std::size_t>(element)], f).at(at));
+              });
         else
           with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)],
                             [&, at = local](const auto& e) { append(values, eval_point(e, f, at).strain); });
@@ -229,43 +259,21 @@ void eval_sensors(const step::System& system, const step::State& state, std::vec
         eval_joint_sensor(system, state, s, values);
         break;
       case scene::SensorKind::kinetic_energy:
-        values.push_back(eval_measures(system, state).kinetic);
+        values.push_back(energies().kinetic);
         break;
       case scene::SensorKind::strain_energy:
-        values.push_back(eval_measures(system, state).strain);
+        values.push_back(energies().strain);
         break;
       case scene::SensorKind::potential_energy:
-        values.push_back(eval_measures(system, state).potential);
+        values.push_back(energies().potential);
         break;
-      case scene::SensorKind::total_energy: {
-        const Measures m = eval_measures(system, state);
-        values.push_back(m.kinetic + m.strain + m.potential);
+      case scene::SensorKind::total_energy:
+        values.push_back(energies().kinetic + energies().strain + energies().potential);
         break;
-      }
       default:
         eval_point_sensor(system, state, s, values);
     }
   }
-}
-
-Measures eval_measures(const step::System& system, const step::State& state) {
-  Measures sum;
-  const plan::Plan& plan = system.plan();
-  const Field f = system.field(state);
-  std::size_t joint = 0;
-  plan::for_each_array(plan.elements, [&](const auto& array) {
-    using E = typename std::decay_t<decltype(array)>::value_type;
-    for (const E& e : array) {
-      if constexpr (std::is_same_v<E, elements::Joint>) {
-        add(sum, elements::measure(e, f, state.multipliers.data() + plan.joints[joint].multiplier_begin,
-                                   state.turns[joint]));
-        ++joint;
-      } else {
-        add(sum, elements::measure(e, f, nullptr, 0.0));
-      }
-    }
-  });
-  return sum;
 }
 
 MotionFrame eval_motion(const step::System& system, const step::State& state) {
@@ -279,15 +287,15 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
     constexpr int parts = 4;  // points per element: the axis is curved within it
     for (std::size_t k = 0; k < beam.elements.size(); ++k)
       with_beam_element(plan, beam.elements[k], [&](const auto& e) {
-        Vec6<double> first, last;
-        eval_end_wrenches(system, e, beam.loads[k], f, first, last);
+        const ElementForce along(system, e, beam.loads[k], f);
         for (int i = k == 0 ? 0 : 1; i <= parts; ++i) {
           const double s = static_cast<double>(i) / parts;
           const BeamPoint p = eval_point(e, f, s);
           CurvePoint point;
           for (int c = 0; c < 3; ++c) point.position[c] = p.pose.x[c];
           for (int c = 0; c < 9; ++c) point.axes[c] = p.pose.R.m[c];
-          for (int c = 0; c < 6; ++c) point.force[c] = (1.0 - s) * first[c] + s * last[c];
+          const Vec6<double> force = along.at(s);
+          for (int c = 0; c < 6; ++c) point.force[c] = force[c];
           curve.points.push_back(point);
         }
       });
@@ -341,32 +349,6 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
     with_beam_element(plan, beam.elements.back(), [&](const auto& e) { attach(*std::prev(std::end(e.ports))); });
   }
   return frame;
-}
-
-void Balance::begin(const Measures& start) {
-  last_ = start;
-  start_energy_ = start.kinetic + start.strain + start.potential;
-  expected_ = start.momentum;
-}
-
-void Balance::jump(const Measures& after) {
-  work_ += (after.kinetic + after.strain + after.potential) - (last_.kinetic + last_.strain + last_.potential);
-  expected_ += after.momentum - last_.momentum;
-  last_ = after;
-}
-
-void Balance::add(const Measures& now, double h) {
-  work_ += 0.5 * h * (last_.work_rate + now.work_rate - last_.dissipation_rate - now.dissipation_rate);
-  expected_ += (0.5 * h) * (last_.load + now.load);
-  last_error_ = now.kinetic + now.strain + now.potential - start_energy_ - work_;
-  energy_error_ = std::max(energy_error_, std::abs(last_error_));
-  energy_scale_ =
-      std::max(energy_scale_, now.kinetic + now.strain + std::abs(now.potential - start_energy_) + std::abs(work_));
-  for (int i = 0; i < 3; ++i) {
-    momentum_error_ = std::max(momentum_error_, std::abs(now.momentum[i] - expected_[i]));
-    momentum_scale_ = std::max(momentum_scale_, std::abs(now.momentum[i]));
-  }
-  last_ = now;
 }
 
 }  // namespace bough::results

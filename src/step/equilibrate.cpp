@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "newton.hpp"
 
@@ -34,9 +35,7 @@ void apply_damped(System& system, State& state, double size) {
   }
 }
 
-}  // namespace
-
-StepReport equilibrate(System& system, State& state, const StepOptions& options, double load_factor) {
+StepReport try_load(System& system, State& state, const StepOptions& options, double load_factor) {
   StepReport report;
   const auto fail = [&report](const std::string& cause) {
     report.converged = false;
@@ -77,6 +76,16 @@ StepReport equilibrate(System& system, State& state, const StepOptions& options,
     apply_damped(system, state, report.change);
   }
   if (const auto t = check_shape(system, state)) return fail(t->text);
+  return report;
+}
+
+}  // namespace
+
+StepReport equilibrate(System& system, State& state, const StepOptions& options, double load_factor) {
+  State& start = system.work().start;
+  start = state;
+  StepReport report = try_load(system, state, options, load_factor);
+  if (!report.converged) std::swap(state, start);
   return report;
 }
 

@@ -80,8 +80,6 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   row_series_.resize(static_cast<std::size_t>(plan.num_multipliers));
   work_.rhs.assign(num_unknowns(), 0.0);
   work_.x = work_.rhs;
-  work_.v.assign(plan.nodes.size(), Vec6<double>::zero());
-  work_.a = work_.algorithmic = work_.v;
   chunk_max_.assign((num_elements + element_grain - 1) / element_grain + 1, 0.0);
 }
 

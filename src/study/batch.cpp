@@ -102,7 +102,7 @@ void read_summary_into(CaseResult& result) {
   result.rejected = summary.rejected;
   result.newton_iterations = summary.newton_iterations;
   for (const results::ExpectedResult& figure : summary.expected)
-    ++(figure.holds ? result.expected_holds : result.expected_fails);
+    if (figure.reached) ++(figure.holds ? result.expected_holds : result.expected_fails);
   if (summary.status == "interrupted") result.status = CaseStatus::interrupted;
   if (result.cause.empty()) result.cause = one_line(summary.cause);
 }

@@ -47,6 +47,7 @@ results::EffectiveOptions effective_options(const scene::Scene& scene, const ste
   list.emplace_back("solver/penalty_factor", number(scene.solver.penalty_factor));
   list.emplace_back("solver/tasks", scene.solver.tasks ? "true" : "false");
   list.emplace_back("output/stride", std::to_string(scene.output.stride));
+  list.emplace_back("output/checks", scene.output.checks ? "true" : "false");
   return list;
 }
 

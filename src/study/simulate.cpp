@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bough/results/balance.hpp"
 #include "bough/results/observe.hpp"
 #include "bough/schedule/threads.hpp"
 #include "bough/step/advance.hpp"
@@ -32,13 +33,15 @@ class Run {
         threads_(std::max(1, scene.solver.tasks ? options.threads : 1)),
         plan_(plan::make_plan(scene)),
         system_(plan_, scene.solver, threads_.walker()),
-        state_(step::make_initial_state(plan_)) {
+        state_(step::make_initial_state(plan_)),
+        work_meter_(plan_) {
     summary_.scene = scene.name;
     summary_.title = scene.title;
     summary_.threads = threads_.count();
     summary_.options = effective_options(scene, options_);
     summary_.header = results::make_header(plan_);
     summary_.notes = plan_.notes;
+    summary_.checks.evaluated = scene.output.checks;
     for (const scene::Expected& e : scene.expected) {
       const auto column = std::find(summary_.header.columns.begin(), summary_.header.columns.end(), e.quantity);
       if (column != summary_.header.columns.end())
@@ -92,7 +95,7 @@ class Run {
     if (accepted && report.at_floor) summary_.checks.round_off_floor_reached = true;
     if (accepted) watch_dependent_rows();
     if (!accepted && first_rejection_.empty())
-      first_rejection_ = "the first rejected step was that from " + std::to_string(before_.time) + ": " + report.cause;
+      first_rejection_ = "the first rejected step was that from " + std::to_string(state_.time) + ": " + report.cause;
   }
 
   /// Records the state (as its time's left limit, or right limit at a start).
@@ -100,12 +103,11 @@ class Run {
     const double before = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     const long row = rows_++;
     const bool due = row % std::max(1, scene_.output.stride) == 0 || is_last;
-    bool expected_now = false;
-    for (const scene::Expected& e : scene_.expected) expected_now |= e.time.has_value();
-    if (due || expected_now) {
+    if (due || near_expected()) {
       results::eval_sensors(system_, state_, values_);
       watch_expected();
     }
+    if (due && scene_.output.checks) check();
     if (due) {
       results::HistoryRow out;
       out.time = state_.time;
@@ -118,6 +120,13 @@ class Run {
     if (want_motion_ && (row % std::max(1, scene_.output.motion_stride) == 0 || is_last))
       recorder_.motion(results::eval_motion(system_, state_));
     summary_.times.output += static_cast<double>(std::clock()) / CLOCKS_PER_SEC - before;
+  }
+
+  /// Whether this may be the step next to the time of an expected figure.
+  bool near_expected() const {
+    return std::any_of(scene_.expected.begin(), scene_.expected.end(), [this](const scene::Expected& e) {
+      return e.time && std::abs(*e.time - state_.time) <= scene_.analysis.step_size;
+    });
   }
 
   void watch_expected() {
@@ -145,12 +154,14 @@ class Run {
     return false;
   }
 
-  void check_constraints() {
+  /// Balances and violations of the present state.
+  void check() {
     summary_.checks.constraint_violation_position =
         std::max(summary_.checks.constraint_violation_position, system_.constraint_violation(state_, 0));
-    if (plan_.is_dynamic)
-      summary_.checks.constraint_violation_velocity =
-          std::max(summary_.checks.constraint_violation_velocity, system_.constraint_violation(state_, 1));
+    if (!plan_.is_dynamic) return;
+    summary_.checks.constraint_violation_velocity =
+        std::max(summary_.checks.constraint_violation_velocity, system_.constraint_violation(state_, 1));
+    balance_.compare(results::eval_measures(system_, state_), work_meter_.supply());
   }
 
   bool run_statics();
@@ -167,7 +178,8 @@ class Run {
   schedule::Threads threads_;
   plan::Plan plan_;
   step::System system_;
-  step::State state_, before_;
+  step::State state_;
+  results::WorkMeter work_meter_;
   Summary summary_;
   results::Balance balance_;
   std::vector<double> values_;
@@ -192,19 +204,17 @@ bool Run::run_statics() {
       const double target = part + 1 == (1L << level) && k + 1 == steps
                                 ? 1.0
                                 : from + width * static_cast<double>(part + 1) / static_cast<double>(1L << level);
-      before_ = state_;
+      const double before = state_.time;
       const step::StepReport report = step::equilibrate(system_, state_, options_, target);
       count(report, report.converged);
       if (!report.converged) {
-        state_ = before_;
         if (++level > options_.max_cuts)
           return fail("no equilibrium at load factor " + std::to_string(target) + ": " + report.cause);
         part *= 2;
         continue;
       }
-      last_step_ = target - before_.time;
+      last_step_ = target - before;
       step::accept_turns(system_, state_);
-      check_constraints();
       ++part;
       while (level > 0 && part % 2 == 0) {
         part /= 2;
@@ -219,6 +229,8 @@ bool Run::run_statics() {
 }
 
 bool Run::start_segment(double step_size, bool is_first) {
+  elements::Measures before;
+  if (!is_first && scene_.output.checks) before = results::eval_measures(system_, state_);
   const step::StartReport consistent = step::make_consistent(system_, state_, is_first, step_size);
   if (!consistent.ok) return fail(consistent.cause);
   if (is_first && consistent.position_correction > 1e-9)
@@ -232,13 +244,15 @@ bool Run::start_segment(double step_size, bool is_first) {
         state_.time, consistent.velocity_impulse);
     note(text);
   }
-  const elements::Measures now = results::eval_measures(system_, state_);
-  if (is_first) {
-    balance_.begin(now);
-    record(0, false);
-  } else {
-    balance_.jump(now);
+  if (scene_.output.checks) {
+    const elements::Measures now = results::eval_measures(system_, state_);
+    work_meter_.begin(system_, state_);
+    if (is_first)
+      balance_.begin(now);
+    else
+      balance_.jump(before, now);
   }
+  if (is_first) record(0, false);
   const step::StartReport started = step::start_alpha(system_, state_, options_, step_size);
   if (!started.ok) return fail(started.cause);
   return true;
@@ -254,7 +268,6 @@ bool Run::run_segment(double begin, double end, double& total_end) {
   if (!start_segment(h, begin == 0.0)) return false;
   while (done < (steps << level)) {
     const double size = h / static_cast<double>(1L << level);
-    before_ = state_;
     const step::StartReport changed = step::change_step_size(system_, state_, options_, size);
     if (!changed.ok) return fail(changed.cause);
     const long next = done + 1;
@@ -262,10 +275,9 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     const step::StepReport report = step::advance(system_, state_, options_, target);
     count(report, report.converged);
     if (!report.converged) {
-      state_ = before_;
       easy = 0;
       if (++level > options_.max_cuts)
-        return fail("the step at time " + std::to_string(before_.time) + " fails down to a step size of " +
+        return fail("the step at time " + std::to_string(state_.time) + " fails down to a step size of " +
                     std::to_string(size) + ": " + report.cause);
       done *= 2;
       continue;
@@ -274,9 +286,8 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     last_step_ = size;
     if (options_.single_solution && summary_.steps.accepted == 1)
       note("one linear solution per step: residuals are not driven to the tolerance");
-    balance_.add(results::eval_measures(system_, state_), size);
     step::accept_turns(system_, state_);
-    check_constraints();
+    if (scene_.output.checks) work_meter_.add(system_, state_, size);
     record(report.iterations, target == total_end);
     if (!report_progress(report, total_end)) return false;
     if (level > 0 && done % 2 == 0 && ++easy >= 4 && report.iterations <= options_.max_iterations / 2) {
@@ -333,8 +344,10 @@ void Run::finish() {
     e.value = expected_values_[i];
     e.reference = given.value;
     e.tolerance = given.tolerance;
+    e.reached = !given.time || !plan_.is_dynamic || *given.time <= scene_.analysis.end_time * (1.0 + 1e-12);
     const bool at_time = !given.time || expected_distance_[i] <= 0.5 * scene_.analysis.step_size;
-    e.holds = summary_.status == RunStatus::ok && at_time && std::abs(e.value - e.reference) <= e.tolerance;
+    e.holds =
+        summary_.status == RunStatus::ok && e.reached && at_time && std::abs(e.value - e.reference) <= e.tolerance;
     e.source = given.source;
     summary_.expected.push_back(e);
   }

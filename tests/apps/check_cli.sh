@@ -48,6 +48,12 @@ expect 2 . view good.out --view sideways
 expect 2 'not a number' compare a b --rel nan
 holds test ! -e good.out
 
+# a figure of a time beyond a shortened run is told, and no failure
+sed 's|"sensors"|"expected": [{"quantity": "bob.x", "time": 0.5, "value": 1, "tolerance": 10}], "sensors"|' good.json > figure.json
+expect 0 'not reached' run figure.json --set /analysis/end_time=0.1 --out figure.out --check-expected
+holds grep -q '"reached": false' figure.out/summary.json
+expect 0 'holds' run figure.json --out figure.out --check-expected
+
 # bad input: every problem, also when quiet; no directory
 expect 2 'no such file' run missing.json
 expect 2 'nonsense' run bad.json --out bad.out --quiet

@@ -116,7 +116,6 @@ const Bad scene_cases[] = {
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tip\"", "/expected/0/quantity", "components x, y, z"},
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tip.w\"", "/expected/0/quantity", "components x, y, z"},
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"energy.x\"", "/expected/0/quantity", "one number"},
-    {"\"time\": 1, \"value\"", "\"time\": @2, \"value\"", "/expected/0/time", "ends at 1"},
     {"{ \"name\": \"root\" },", "{ \"name\": \"root\" }, { \"name\": @\"spare\" },", "/nodes/1/name",
      "nothing holds it"},
 };

@@ -51,6 +51,7 @@ TEST(SceneRead, what_is_left_out_takes_the_defaults_of_the_scene) {
   EXPECT_EQ(s.output.stride, d.output.stride);
   EXPECT_EQ(s.output.motion, d.output.motion);
   EXPECT_EQ(s.output.motion_stride, d.output.motion_stride);
+  EXPECT_EQ(s.output.checks, d.output.checks);
 }
 
 TEST(SceneRead, the_name_of_a_scene_is_that_of_its_file) {

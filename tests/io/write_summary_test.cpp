@@ -73,6 +73,27 @@ TEST(Summary, holds_every_promised_field) {
   EXPECT_FALSE(json.find("expected")->find("tip.y")->find("holds")->truth);
 }
 
+TEST(Summary, leaves_out_checks_that_were_not_made_and_values_that_were_not_reached) {
+  const ScratchDirectory scratch;
+  results::Summary summary = sample_summary();
+  summary.checks.evaluated = false;
+  summary.expected = {{"a.x", 1.0, 1.0, 1.0, false, "", false}, {"b.x", 1.0, 1.0, 1.0, true, ""}};
+  const std::string text = summary_text(summary, "1");
+  const JsonValue json = parsed(text);
+  EXPECT_EQ(json.find("checks")->find("energy_balance"), nullptr);
+  EXPECT_EQ(json.find("checks")->find("constraint_violation_position"), nullptr);
+  EXPECT_NE(json.find("checks")->find("linear_backward_error_max"), nullptr);
+  const JsonValue& figure = *json.find("expected")->find("a.x");
+  EXPECT_FALSE(figure.find("reached")->truth);
+  EXPECT_EQ(figure.find("value"), nullptr);
+  EXPECT_EQ(figure.find("holds"), nullptr);
+  EXPECT_TRUE(json.find("expected")->find("b.x")->find("reached")->truth);
+  write_file(scratch / "summary.json", text);
+  const SummaryFile back = read_summary(scratch / "summary.json");
+  EXPECT_STREQ(back.expected[0].verdict(), "not reached");
+  EXPECT_STREQ(back.expected[1].verdict(), "holds");
+}
+
 TEST(Summary, components_apart_are_one_sensor_and_equal_names_stay_distinct) {
   results::Summary summary = sample_summary();
   summary.header.columns = {"a.x", "b.x", "a.y"};

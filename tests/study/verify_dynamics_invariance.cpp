@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "bough/motion/se3.hpp"
-#include "bough/results/observe.hpp"
+#include "bough/results/balance.hpp"
 #include "support/scenes.hpp"
 #include "support/stepper.hpp"
 
@@ -226,6 +226,70 @@ TEST(Balances, shrink_with_h_squared_where_nothing_is_lost) {
   scene::Scene mechanism =
       support::scene_of(mechanism_text, {"/sections/0/damping={\"time\": 0}", "/joints/wrist/forces/0/damping=0"});
   expect_balances_of_second_order("mechanism with beams", mechanism, 1e-3);
+}
+
+/// Gravity is a potential; the same weights as dead loads at the mass centres are work. Where work is summed exactly, both leave the integrator
+/// the same, although its own error is far larger than the difference.
+TEST(Balances, tell_the_work_of_constant_loads_like_a_potential) {
+  scene::Scene heavy = support::gallery("double_pendulum", {"/analysis/end_time=1", "/analysis/step_size=0.004"});
+  heavy.expected.clear();
+  heavy.analysis.tolerance = 1e-12;
+  scene::Scene loaded = heavy;
+  loaded.gravity = scene::Vec3::zero();
+  for (const scene::Body& b : heavy.bodies) {
+    scene::PointLoad weight;
+    weight.name = "weight of " + b.name;
+    weight.at.to = b.name;
+    weight.at.offset.x = b.center_of_mass;
+    weight.force = b.mass * heavy.gravity;
+    loaded.point_loads.push_back(weight);
+  }
+  const support::Outcome a = support::run(heavy), b = support::run(loaded);
+  ASSERT_TRUE(a.ok() && b.ok());
+  const results::Checks &x = a.summary.checks, &y = b.summary.checks;
+  std::printf("energy balance with gravity %.10e J, with dead loads %.10e J\n", x.energy_balance, y.energy_balance);
+  EXPECT_GT(x.energy_balance, 1e-6 * x.energy_scale);
+  EXPECT_NEAR(x.energy_balance, y.energy_balance, 1e-6 * x.energy_balance);
+  EXPECT_NEAR(x.momentum_balance, y.momentum_balance, 1e-6 * x.momentum_balance);
+}
+
+/// A crank held to a steady rate by a drive lifts a weight: all energy comes through the drive, whose work is its torque over its angle.
+TEST(Balances, tell_the_work_of_drives_over_their_way) {
+  double error[2];
+  for (int k = 0; k < 2; ++k) {
+    scene::Scene s = support::gallery("slider_crank", {"/analysis/tolerance=1e-11"});
+    s.expected.clear();
+    s.analysis.step_size /= 1 << k;
+    const support::Outcome r = support::run(s);
+    ASSERT_TRUE(r.ok()) << r.summary.cause;
+    error[k] = r.summary.checks.energy_balance / r.summary.checks.energy_scale;
+  }
+  std::printf("slider crank: energy balance %.2e, %.2e of the energy\n", error[0], error[1]);
+  EXPECT_LT(error[0], 1e-4);
+  EXPECT_GT(support::order_of(error[0], error[1]), 1.8);
+}
+
+TEST(Balances, are_left_out_when_not_asked_for_and_change_no_result) {
+  scene::Scene s = support::gallery("double_pendulum", {"/analysis/end_time=0.1"});
+  const support::Outcome with = support::run(s);
+  s.output.checks = false;
+  const support::Outcome without = support::run(s);
+  ASSERT_TRUE(with.ok() && without.ok());
+  EXPECT_TRUE(with.summary.checks.evaluated);
+  EXPECT_GT(with.summary.checks.energy_balance, 0.0);
+  EXPECT_FALSE(without.summary.checks.evaluated);
+  EXPECT_EQ(without.summary.checks.energy_balance, 0.0);
+  EXPECT_EQ(with.history.rows, without.history.rows);
+}
+
+TEST(Expected, beyond_the_end_of_a_shortened_run_is_not_reached) {
+  const support::Outcome r = support::run(support::gallery("pendulum", {"/analysis/end_time=0.5"}));
+  ASSERT_TRUE(r.ok()) << r.summary.cause;
+  int not_reached = 0;
+  for (const results::ExpectedResult& e : r.summary.expected) not_reached += e.reached ? 0 : 1;
+  EXPECT_EQ(not_reached, 2);  // bob.x and bob.y at 1 s
+  const support::Outcome whole = support::run(support::gallery("pendulum"));
+  for (const results::ExpectedResult& e : whole.summary.expected) EXPECT_TRUE(e.reached && e.holds) << e.name;
 }
 
 }  // namespace

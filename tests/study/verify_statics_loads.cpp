@@ -88,6 +88,32 @@ TEST(VerifyStatics, uniform_line_load_bends_a_cantilever_by_the_closed_form) {
     }
 }
 
+TEST(VerifyStatics, elements_of_four_nodes_carry_the_parabola_of_a_line_load_between_their_nodes) {
+  const double L = 2.0, q = 1e-5;
+  for (int order = 1; order <= 3; ++order) {
+    scene::Scene s = soft_cantilever(2, order);
+    scene::LineLoad line;
+    line.name = "line";
+    line.beam = "beam";
+    line.force = {{0, q, 0}};
+    s.line_loads = {line};
+    for (int k = 0; k <= 4; ++k) s.sensors.push_back(make_section_sensor("at " + std::to_string(k), "beam", 0.125 * k));
+    const Outcome o = run(s);
+    ASSERT_TRUE(o.ok()) << o.text();
+    double worst = 0.0;
+    for (int k = 0; k <= 4; ++k) {
+      const double left = L * (1.0 - 0.125 * k), M = 0.5 * q * left * left;
+      const double difference = std::abs(o.final("at " + std::to_string(k) + ".M3") - M) / (0.5 * q * L * L);
+      if (k % 4 == 0) {
+        EXPECT_LT(difference, 1e-8) << order << ", node " << k;
+      }
+      worst = std::max(worst, difference);
+    }
+    // A straight line from 1 to 1/4 lacks h^2/8 = (L/2)^2/8 of q in the middle: 1/16 of q L^2 / 2.
+    EXPECT_NEAR(worst, order == 3 ? 0.0 : 0.0625, 1e-7) << order;
+  }
+}
+
 TEST(VerifyStatics, own_weight_bends_like_a_line_load_and_is_carried_by_the_clamp) {
   scene::Scene s = soft_cantilever(4, 3);
   set_mass(s.sections[0], 3.0, 0.1, 0.05, 0.05);

@@ -58,11 +58,13 @@ struct StepTimes {
   double total = 0.0;                                                            ///< wall [s]
   double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0, output = 0.0;  ///< CPU seconds summed over threads
 };
+/// Balances and violations: largest values at the times of history rows; not evaluated when the scene asks for no checks.
 struct Checks {
-  double energy_balance = 0.0;                 ///< largest |kinetic + strain + potential - work - start| [J]
-  double energy_scale = 0.0;                   ///< largest sum of the parts' magnitudes [J]
-  double numerical_dissipation = 0.0;          ///< energy taken by the integrator [J]
-  double momentum_balance = 0.0;               ///< largest |momentum - impulse - start| [kg m/s]
+  bool evaluated = true;
+  double energy_balance = 0.0;         ///< largest |kinetic + strain + potential - work + dissipation - start| [J]
+  double energy_scale = 0.0;           ///< largest sum of the parts' magnitudes [J]
+  double numerical_dissipation = 0.0;  ///< energy taken by the integrator up to the end [J]; 0 where it gave some
+  double momentum_balance = 0.0;       ///< largest |momentum - impulse - start| [kg m/s]
   double constraint_violation_position = 0.0;  ///< [m] or [rad]
   double constraint_violation_velocity = 0.0;  ///< [m/s] or [rad/s]
   double linear_backward_error_max = 0.0;
@@ -73,6 +75,9 @@ struct ExpectedResult {
   double value = 0.0, reference = 0.0, tolerance = 0.0;
   bool holds = false;
   std::string source;
+  bool reached = true;  ///< false: the run ends before the time of the figure, which is then no figure of it
+  /// "holds", "fails" or "not reached".
+  const char* verdict() const { return !reached ? "not reached" : holds ? "holds" : "fails"; }
 };
 /// Nested plain options as they were used: JSON pointer (without the leading slash) to text of a JSON value.
 using EffectiveOptions = std::vector<std::pair<std::string, std::string>>;

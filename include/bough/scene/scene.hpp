@@ -238,6 +238,7 @@ struct Output {
   int stride = 1;       ///< history rows: every n-th accepted step
   bool motion = false;  ///< write motion.pvd and VTU
   int motion_stride = 1;
+  bool checks = true;  ///< balances and constraint violations, at the times of history rows
 };
 
 struct Expected {

@@ -56,10 +56,10 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
 StartReport change_step_size(System& system, State& state, const StepOptions& options, double step_size);
 
 /// One step of Lie-group generalized-alpha, index 3 (Bruls, Cardona, Arnold 2012), from `state` over h to `state`.
-/// Not converged: `state` is left as it was tried; the caller restores its copy.
+/// Not converged: `state` is as it was.
 StepReport advance(System& system, State& state, const StepOptions& options, double end_time);
 
-/// Equilibrium at a load factor, by Newton from the present shape.
+/// Equilibrium at a load factor, by Newton from the present shape. Not converged: `state` is as it was.
 StepReport equilibrate(System& system, State& state, const StepOptions& options, double load_factor);
 
 /// Whether joints stayed on their branch (no flipped poses) and relative rotations below pi; else says what happened.

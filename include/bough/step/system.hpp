@@ -31,9 +31,9 @@ struct ResidualSize {
 
 /// Buffers of the verbs in advance.hpp, sized once: a step does not allocate.
 struct Workspace {
-  std::vector<double> rhs, x;                           ///< of the linear system
-  std::vector<motion::Vec6<double>> v, a, algorithmic;  ///< of the nodes at the start of a step
-  State before;                                         ///< statics: where an iteration started
+  std::vector<double> rhs, x;  ///< of the linear system
+  State start;                 ///< of a step
+  State before;                ///< statics: where an iteration started
 };
 
 /// Why a step or a run cannot go on, in words for the user.
@@ -106,6 +106,7 @@ class System {
   std::int64_t block_begin(int block) const { return tree_->unknown_begin[static_cast<std::size_t>(block)]; }
   std::size_t num_unknowns() const { return static_cast<std::size_t>(tree_->num_unknowns()); }
   const std::vector<double>& law_values() const { return law_values_; }
+  const std::vector<double>& law_rates() const { return law_rates_; }
 
  private:
   motion::Vec6<double> node_part(const double* x, int node) const;

@@ -1,0 +1,204 @@
+#include "bough/results/balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bough::results {
+
+using elements::Field;
+using elements::Measures;
+using motion::Vec3;
+
+namespace {
+
+void add(Measures& sum, const Measures& m) {
+  sum.kinetic += m.kinetic;
+  sum.strain += m.strain;
+  sum.potential += m.potential;
+  sum.work_rate += m.work_rate;
+  sum.dissipation_rate += m.dissipation_rate;
+  sum.momentum += m.momentum;
+  sum.load += m.load;
+}
+
+double energy_of(const Measures& m) { return m.kinetic + m.strain + m.potential; }
+
+template <class E>
+bool holds_on_to_ground(const E& e) {
+  return std::any_of(std::begin(e.ports), std::end(e.ports),
+                     [](const elements::Port& p) { return p.node == elements::ground; });
+}
+
+template <class E>
+double mass_of(const E& e) {
+  if constexpr (std::is_same_v<E, elements::RigidBody>)
+    return e.mass(0, 0);
+  else if constexpr (requires { e.reference_strain; })
+    return e.has_mass ? e.length * e.mass(0, 0) : 0.0;
+  else
+    return 0.0;
+}
+
+/// Whether an element does work, takes energy or pulls at the ground in every step.
+template <class E>
+bool is_watched(const E& e) {
+  if (holds_on_to_ground(e)) return true;
+  if constexpr (std::is_same_v<E, elements::Joint>) {
+    for (int k = 0; k < e.num_rows; ++k)
+      if (e.rows[k].law >= 0) return true;
+    return e.num_efforts > 0;
+  } else if constexpr (std::is_same_v<E, elements::Spring>) {
+    return e.damping != 0.0;
+  } else if constexpr (requires { e.has_damping; }) {
+    return e.has_damping;
+  } else {
+    return !std::is_same_v<E, elements::RigidBody>;  // loads
+  }
+}
+
+template <class E>
+constexpr bool is_load = std::is_same_v<E, elements::PointLoad> || std::is_same_v<E, elements::LineLoad<2>> ||
+                         std::is_same_v<E, elements::LineLoad<3>> || std::is_same_v<E, elements::LineLoad<4>>;
+
+/// Work of a load since `last`, which moves on to now.
+template <class E, class P>
+double advance_load(const E& e, const Field& f, P* last) {
+  constexpr auto n = static_cast<std::size_t>(E::num_ports);
+  elements::PortMotion<double> ports[n];
+  const motion::Vec3Pair origin{};
+  for (std::size_t k = 0; k < n; ++k) ports[k] = elements::eval_port(e.ports[k], f.nodes, origin);
+  double out[6 * n];
+  elements::eval_residual(e, ports, static_cast<const double*>(nullptr), f.around, out);
+  double work = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    P now;
+    now.pose = ports[k].H;
+    for (std::size_t i = 0; i < 6; ++i) now.wrench[static_cast<int>(i)] = -out[6 * k + i];
+    const motion::Vec6<double> way = motion::Se3::log(motion::relative(last[k].pose, now.pose));
+    const motion::Vec6<double> mean = 0.5 * (last[k].wrench + now.wrench);
+    if (e.follows) {
+      work += lanes::dot(mean, way);
+    } else {
+      const Vec3<double> force =
+          0.5 * (last[k].pose.R * lanes::linear_part(last[k].wrench) + now.pose.R * lanes::linear_part(now.wrench));
+      work += lanes::dot(force, now.pose.x - last[k].pose.x) +
+              lanes::dot(lanes::angular_part(mean), lanes::angular_part(way));
+    }
+    last[k] = now;
+  }
+  return work;
+}
+
+}  // namespace
+
+Measures eval_measures(const step::System& system, const step::State& state) {
+  Measures sum;
+  const plan::Plan& plan = system.plan();
+  const Field f = system.field(state);
+  std::size_t joint = 0;
+  plan::for_each_array(plan.elements, [&](const auto& array) {
+    using E = typename std::decay_t<decltype(array)>::value_type;
+    for (const E& e : array) {
+      if constexpr (std::is_same_v<E, elements::Joint>) {
+        add(sum, elements::measure(e, f, state.multipliers.data() + plan.joints[joint].multiplier_begin,
+                                   state.turns[joint]));
+        ++joint;
+      } else {
+        add(sum, elements::measure(e, f, nullptr, 0.0));
+      }
+    }
+  });
+  return sum;
+}
+
+WorkMeter::WorkMeter(const plan::Plan& plan) {
+  std::vector<int> joint_of(plan.directory.size(), -1);
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    joint_of[static_cast<std::size_t>(plan.joints[j].element)] = static_cast<int>(j);
+  for (std::size_t id = 0; id < plan.directory.size(); ++id)
+    plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      using E = std::decay_t<decltype(e)>;
+      mass_ += mass_of(e);
+      if (!is_watched(e)) return;
+      watched_.push_back({id, joint_of[id], mass_of(e), ports_.size(), drives_.size()});
+      if constexpr (is_load<E>)
+        ports_.resize(ports_.size() + E::num_ports);
+      else if constexpr (std::is_same_v<E, elements::Joint>)
+        drives_.resize(drives_.size() + static_cast<std::size_t>(e.num_rows + e.num_efforts));
+    });
+}
+
+double WorkMeter::step(const step::System& system, const step::State& state) {
+  const plan::Plan& plan = system.plan();
+  const Field f = system.field(state);
+  double work = 0.0, free_mass = mass_;
+  dissipation_rate_ = 0.0;
+  force_ = Vec3<double>::zero();
+  const auto advance_drive = [&work](Drive& drive, double way, double force) {
+    work += 0.5 * (drive.force + force) * (way - drive.way);
+    drive = {way, force};
+  };
+  for (const Watched& w : watched_) {
+    free_mass -= w.mass;
+    plan::with_element(plan.elements, plan.directory[w.element], [&](const auto& e) {
+      using E = std::decay_t<decltype(e)>;
+      const double* multipliers = nullptr;
+      double turns = 0.0;
+      if constexpr (std::is_same_v<E, elements::Joint>) {
+        const auto j = static_cast<std::size_t>(w.joint);
+        multipliers = state.multipliers.data() + plan.joints[j].multiplier_begin;
+        turns = state.turns[j];
+        Drive* drive = drives_.data() + w.first_drive;
+        for (int k = 0; k < e.num_rows; ++k, ++drive)
+          if (e.rows[k].law >= 0)
+            advance_drive(*drive, system.law_values()[static_cast<std::size_t>(e.rows[k].law)], -multipliers[k]);
+        if (e.num_efforts > 0) {
+          const elements::JointMotion m = elements::eval_joint_motion(e, f, turns);
+          for (int k = 0; k < e.num_efforts; ++k, ++drive)
+            if (e.efforts[k].law >= 0)
+              advance_drive(*drive, e.efforts[k].coordinate == elements::Coordinate::angle ? m.angle : m.relative.x[2],
+                            system.law_values()[static_cast<std::size_t>(e.efforts[k].law)]);
+        }
+      } else if constexpr (is_load<E>) {
+        work += advance_load(e, f, ports_.data() + w.first_port);
+      }
+      const Measures m = elements::measure(e, f, multipliers, turns);
+      dissipation_rate_ += m.dissipation_rate;
+      force_ += lanes::linear_part(m.load);
+    });
+  }
+  force_ += free_mass * f.around.gravity;
+  return work;
+}
+
+void WorkMeter::begin(const step::System& system, const step::State& state) { (void)step(system, state); }
+
+void WorkMeter::add(const step::System& system, const step::State& state, double h) {
+  const double dissipated = dissipation_rate_;
+  const Vec3<double> force = force_;
+  supply_.work += step(system, state);
+  supply_.dissipation += 0.5 * h * (dissipated + dissipation_rate_);
+  supply_.impulse += (0.5 * h) * (force + force_);
+}
+
+void Balance::begin(const Measures& start) {
+  start_energy_ = energy_of(start);
+  start_momentum_ = lanes::linear_part(start.momentum);
+}
+
+void Balance::jump(const Measures& before, const Measures& after) {
+  start_energy_ += energy_of(after) - energy_of(before);
+  start_momentum_ += lanes::linear_part(after.momentum) - lanes::linear_part(before.momentum);
+}
+
+void Balance::compare(const Measures& now, const Supply& supply) {
+  const double supplied = supply.work - supply.dissipation;
+  last_error_ = energy_of(now) - start_energy_ - supplied;
+  energy_error_ = std::max(energy_error_, std::abs(last_error_));
+  energy_scale_ =
+      std::max(energy_scale_, now.kinetic + now.strain + std::abs(now.potential - start_energy_) + std::abs(supplied));
+  const Vec3<double> left = lanes::linear_part(now.momentum) - supply.impulse - start_momentum_;
+  for (int i = 0; i < 3; ++i) momentum_error_ = std::max(momentum_error_, std::abs(left[i]));
+}
+
+}  // namespace bough::results
