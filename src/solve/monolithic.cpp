@@ -18,6 +18,8 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 /// d^2 in scaled variables, lowered from the multipliers' diagonal where rows depend on each other. Refinement on the system as it is
 /// contracts by about d^2 a step; what round-off leaves along null vectors is eps / d^2, which a larger d^2 keeps small at the price of some steps more.
 constexpr double regularisation = 1e-4;
+/// Where a row nearly depends on others, at a distance below the root of the above, refinement stalls; this one then takes over.
+constexpr double weak_regularisation = 1e-7;
 [[maybe_unused]] constexpr int most_refinements = 10;  ///< where regularised
 constexpr double refined_enough =
     5e-16;  ///< backward error of an oracle: KLU's pivots of 1e-3 of their column may leave more
@@ -45,7 +47,7 @@ struct Monolithic::State {
   std::vector<int> offset;  ///< for every pair (p, q) of every element: rows before block p in the columns of block q
   std::vector<std::int64_t> pair_begin;  ///< by element
   std::vector<double> rhs, residual, work, x_scaled;
-  bool regularised = false;
+  bool regularised = false, weak = false;
   FactorStatus status;
   SolverCounters counters;
 #ifdef BOUGH_HAS_KLU
@@ -241,6 +243,7 @@ FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
   const bool was_regularised = std::exchange(s.regularised, false);
   if (s.factor_values(was_regularised)) return s.status;
   s.regularised = true;
+  s.weak = false;
   s.assemble(regularisation);
   s.status.deficiency = -1;
   if (!s.factor_values(true)) {
@@ -270,12 +273,12 @@ SolveReport Monolithic::solve(const tree::Walker& walker, const double* rhs, dou
     s.solve_scaled(s.work.data());
     for (std::size_t i = 0; i < n; ++i) s.work[i] *= s.scales.column[i];
   };
-  apply(s.rhs);
-  std::copy(s.work.begin(), s.work.end(), s.x_scaled.begin());
-  if (s.options.check == SolveCheck::backward_error || s.regularised) {
+  const auto refine = [&] {
+    apply(s.rhs);
+    std::copy(s.work.begin(), s.work.end(), s.x_scaled.begin());
     auto errors = s.elements.eval_residual(walker, s.scales, s.x_scaled.data(), s.rhs.data(), s.residual.data());
     const int most = s.regularised ? most_refinements : s.options.refinement_steps;
-    while (errors.finite && errors.normwise > refined_enough && report.refinement_steps < most) {
+    for (int k = 0; errors.finite && errors.normwise > refined_enough && k < most; ++k) {
       apply(s.residual);
       for (std::size_t i = 0; i < n; ++i) s.work[i] += s.x_scaled[i];
       const auto refined = s.elements.eval_residual(walker, s.scales, s.work.data(), s.rhs.data(), s.residual.data());
@@ -283,6 +286,23 @@ SolveReport Monolithic::solve(const tree::Walker& walker, const double* rhs, dou
       errors = refined;
       std::swap(s.x_scaled, s.work);
       ++report.refinement_steps;
+    }
+    return errors;
+  };
+  if (s.options.check != SolveCheck::backward_error && !s.regularised) {
+    apply(s.rhs);
+    std::copy(s.work.begin(), s.work.end(), s.x_scaled.begin());
+  } else {
+    auto errors = refine();
+    if (s.regularised && !s.weak && errors.finite && errors.normwise > s.options.refinement_above) {
+      s.weak = true;
+      s.assemble(weak_regularisation);
+      if (s.factor_values(true)) {
+        errors = refine();
+      } else {  // take up the stronger one again
+        s.assemble(regularisation);
+        if (s.factor_values(true)) errors = refine();
+      }
     }
     report.backward_error = errors.normwise;
     report.componentwise_backward_error = errors.componentwise;
