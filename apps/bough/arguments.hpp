@@ -52,8 +52,14 @@ struct RaziArguments {
   std::optional<int> points;
   NumberFiles files;
 };
+struct MotionArguments {
+  std::filesystem::path file;    ///< empty: from and to
+  std::vector<double> from, to;  ///< poses in numbers (io::read_pose); from empty: the inertial frame
+  std::string seen_from = "inertial";
+  std::filesystem::path json;  ///< empty: not written
+};
 struct SchemaArguments {
-  bool chain = false;  ///< of chains of frames, not of scenes
+  bool chain = false, motion = false;  ///< of the files of bough kinematics, not of scenes
 };
 struct DoctorArguments {};
 
@@ -64,6 +70,7 @@ int batch(const BatchArguments& arguments);
 int check(const CheckArguments& arguments);
 int compare(const CompareArguments& arguments);
 int kinematics_razi(const RaziArguments& arguments);
+int kinematics_motion(const MotionArguments& arguments);
 int schema(const SchemaArguments& arguments);
 int doctor(const DoctorArguments& arguments);
 

@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 #include "bough/io/read_frames.hpp"
+#include "bough/io/read_motion.hpp"
 #include "bough/io/read_scene.hpp"
 #include "terminal.hpp"
 
@@ -40,7 +41,10 @@ int check(const CheckArguments& arguments) {
 }
 
 int schema(const SchemaArguments& arguments) {
-  std::cout << (arguments.chain ? io::frames_schema_text() : io::schema_text()) << std::flush;
+  std::cout << (arguments.chain    ? io::frames_schema_text()
+                : arguments.motion ? io::motion_schema_text()
+                                   : io::schema_text())
+            << std::flush;
   return std::cout.good() ? exit_done : exit_failed;
 }
 

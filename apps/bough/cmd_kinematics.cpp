@@ -1,11 +1,14 @@
 /// bough kinematics razi: the parts of the acceleration of a point in frames that turn in each other.
+/// bough kinematics motion: everything about one motion.
 #include <algorithm>
 #include <iostream>
 
 #include "arguments.hpp"
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/motion_report.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_frames.hpp"
+#include "bough/io/read_motion.hpp"
 #include "bough/report/split_plot.hpp"
 #include "bough/study/frames.hpp"
 #include "result_text.hpp"
@@ -43,6 +46,19 @@ std::string largest_text(const io::SplitTable& table) {
   return table.title + "\nlargest magnitudes [m/s^2], seen from " + table.seen_from + "\n" + table_text(rows);
 }
 
+/// Poses given as numbers; false, with a message, where one is none.
+bool read_poses(const MotionArguments& arguments, io::MotionInput& input) {
+  const auto good = [](const char* option, const std::vector<double>& numbers, motion::Frame<double>& pose) {
+    const std::string fault = io::read_pose(numbers, pose);
+    if (!fault.empty()) std::cerr << "bough: " << option << ": " << fault << "\n";
+    return fault.empty();
+  };
+  input.seen_from = arguments.seen_from == "first" ? motion::SeenFrom::first : motion::SeenFrom::inertial;
+  bool all_good = good("--to", arguments.to, input.to);
+  if (!arguments.from.empty()) all_good = good("--from", arguments.from, input.from.emplace()) && all_good;
+  return all_good;
+}
+
 void write_to(const std::filesystem::path& path, const std::string& text) {
   if (!path.empty()) io::write_file(path, text);
 }
@@ -65,6 +81,23 @@ int kinematics_razi(const RaziArguments& arguments) {
   std::cout << largest_text(table);
   for (const std::filesystem::path& path : {arguments.files.csv, arguments.files.json, arguments.files.svg})
     if (!path.empty()) std::cout << path.string() << "\n";
+  return exit_done;
+}
+
+int kinematics_motion(const MotionArguments& arguments) {
+  io::MotionInput input;
+  if (arguments.file.empty()) {
+    if (!read_poses(arguments, input)) return exit_bad_input;
+  } else {
+    const io::MotionFile file = io::read_motion(arguments.file);
+    print_problems(arguments.file, file.problems, file.warnings);
+    if (!file.ok()) return exit_bad_input;
+    input = file.input;
+  }
+  const motion::MotionReport report = io::describe(input);
+  write_to(arguments.json, io::motion_json(report));
+  std::cout << table_text(io::motion_rows(report));
+  if (!arguments.json.empty()) std::cout << arguments.json.string() << "\n";
   return exit_done;
 }
 

@@ -120,6 +120,8 @@ void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArgu
   CLI::App& schema_verb = add_verb(app, "schema", "Print the JSON Schema of scenes",
                                    "  bough schema > scene.schema.json\n  bough schema --chain > chain.schema.json");
   schema_verb.add_flag("--chain", schema_arguments.chain, "Of the chains of frames of bough kinematics razi");
+  schema_verb.add_flag("--motion", schema_arguments.motion, "Of the poses of bough kinematics motion")
+      ->excludes("--chain");
   schema_verb.callback([&] { code = schema(schema_arguments); });
   add_verb(app, "doctor", "Say what this program was built with and test itself", "  bough doctor").callback([&] {
     code = doctor({});
@@ -154,6 +156,36 @@ void add_razi(CLI::App& kinematics, RaziArguments& a, int& code) {
   verb.add_option("--json", a.files.json, "Write magnitudes and vectors")->type_name("FILE");
   verb.add_option("--svg", a.files.svg, "Draw the magnitudes")->type_name("FILE");
   verb.callback([&] { code = kinematics_razi(a); });
+}
+
+void add_motion(CLI::App& kinematics, MotionArguments& a, int& code) {
+  CLI::App& verb = add_verb(
+      kinematics, "motion", "Everything about one motion: rotation, screw, parameters, motion tensor",
+      "  bough kinematics motion --to 1 0 0  0 0 1.5707963\n"
+      "  bough kinematics motion --from 0 0 1 --to 1,0,0,0.6,0,0,0.8 --json motion.json\n"
+      "  bough kinematics motion poses.json\n"
+      "A pose is 3 numbers (position [m]), 6 (position, rotation vector [rad]) or 7 (position, quaternion with\n"
+      "the scalar first). Exit status: 0 done, 1 a file cannot be written, 2 bad input.");
+  CLI::Option* file = verb.add_option("FILE", a.file, "Poses (JSON), instead of --from and --to");
+  const auto pose_option = [&](const std::string& name, std::vector<double>& numbers, const std::string& what) {
+    return verb.add_option(name, numbers, what)
+        ->type_name("NUMBERS")
+        ->delimiter(',')
+        ->expected(3, 7)
+        ->check(between(-1e100, 1e100))
+        ->excludes(file);
+  };
+  CLI::Option* to = pose_option("--to", a.to, "Pose after the motion");
+  CLI::Option* from = pose_option("--from", a.from, "Pose before it (default: the inertial frame)")->needs(to);
+  verb.add_option("--seen-from", a.seen_from,
+                  "With --from: inertial, or first for the axes of that pose (default: inertial)")
+      ->check(CLI::IsMember({"inertial", "first"}))
+      ->needs(from);
+  verb.add_option("--json", a.json, "Write all numbers")->type_name("FILE");
+  verb.callback([&a, &code] {
+    if (a.file.empty() && a.to.empty()) throw CLI::RequiredError("FILE or --to");
+    code = kinematics_motion(a);
+  });
 }
 
 /// The first word, where it is neither an option nor a verb.
@@ -192,10 +224,12 @@ int dispatch(int count, char** values) {
   SchemaArguments schema_arguments;
   add_small_verbs(app, check_arguments, compare_arguments, schema_arguments, code);
   RaziArguments razi_arguments;
-  CLI::App& kinematics =
-      add_verb(app, "kinematics", "Kinematics without a simulation: razi", "  bough kinematics razi --help");
+  CLI::App& kinematics = add_verb(app, "kinematics", "Kinematics without a simulation: razi, motion",
+                                  "  bough kinematics razi --help\n  bough kinematics motion --help");
   kinematics.require_subcommand(1);
   add_razi(kinematics, razi_arguments, code);
+  MotionArguments motion_arguments;
+  add_motion(kinematics, motion_arguments, code);
   try {
     app.parse(count, values);
   } catch (const CLI::ParseError& error) {

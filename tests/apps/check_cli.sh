@@ -161,6 +161,30 @@ holds test -z "$(find . -name '*.partial')"
 expect 0 'moving_frame' schema --chain
 holds python3 -c 'import json; json.load(open("printed"))'
 
+# kinematics motion: a quarter turn about z that moves the origin by 1 m along x turns about (0.5, 0.5)
+expect 0 'nearest point \[m\]  *0.5  *0.5  *0$' kinematics motion --to 1 0 0 0 0 1.5707963267948966 --json motion.json
+holds python3 -c 'import json; m = json.load(open("motion.json")); assert m["screw"]["kind"] == "screw" and abs(m["screw"]["axis_point"][1] - 0.5) < 1e-15'
+expect 0 '^kind of motion  *translation$' kinematics motion --to 1,2,3
+expect 0 'none: infinite' kinematics motion --to 1,2,3
+echo '{"schema_version": 1, "from": {"position": [0, 0, 1]}, "to": {"position": [1, 0, 0], "rotation": {"quaternion": [0.6, 0, 0, 0.8]}}}' > poses.json
+"$program" kinematics motion --from 0 0 1 --to 1,0,0,0.6,0,0,0.8 > by_options
+expect 0 'screw' kinematics motion poses.json
+holds cmp printed by_options
+expect 2 'FILE or --to' kinematics motion
+expect 2 'not 4' kinematics motion --to 1 2 3 4 --json none.json
+expect 2 'not 5' kinematics motion --to 1 2 3 --from 1 2 3 4 5 --json none.json
+expect 2 'length 1' kinematics motion --to 1 2 3 1 1 0 0 --json none.json
+for words in '--to 1 2' '--to 1 2 nan' '--to 1 2 3e300' '--to 1 2 3 --from x' '--from 1 2 3' 'poses.json --to 1 2 3' '--to 1 2 3 --seen-from first' 'missing.json'; do
+  expect 2 . kinematics motion $words --json none.json
+done
+sed 's/0.6, 0, 0/0.6, 1, 0/; s/"from"/"form"/' poses.json > bad_poses.json
+expect 2 'did you mean "from"' kinematics motion bad_poses.json --json none.json
+expect 2 '/to/rotation/quaternion.*length 1' kinematics motion bad_poses.json --json none.json
+holds test ! -e none.json
+expect 0 'seen_from' schema --motion
+holds python3 -c 'import json; json.load(open("printed"))'
+expect 2 . schema --motion --chain
+
 # batch
 mkdir scenes && cp good.json scenes/a.json && cp good.json scenes/c.json && cp bad.json scenes/b.json
 expect 1 'b: bad_input' batch scenes --out batch --threads 2 --quiet
