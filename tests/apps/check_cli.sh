@@ -3,6 +3,7 @@
 set -u
 program=$(realpath "$1")
 . "$(dirname "$0")/scenes.sh"
+reference=$(realpath "$(dirname "$0")/../../data/reference/razi_unit_disc.csv")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch" || exit 1
@@ -130,6 +131,15 @@ holds test "$(head -1 one.csv)" = 'psi_deg,centripetal,razi,coriolis,tangential,
 holds awk -F, 'function near(a, b) { d = a - b; return d * d < 1e-28 }
   NR == 2 { ok = near($2, sqrt(2)) && near($3, 1) && near($7, sqrt(5)) } NR == 3 { ok = ok && near($2, 2) && near($3, 0) && near($7, 2) }
   END { exit !(ok && NR == 6) }' one.csv
+# the whole of the reference, to its 12 printed digits
+for lean in 30 45 60 90; do
+  "$program" kinematics razi --spin 1 --precession 1 --tilt $lean --points 25 --csv lean.csv > /dev/null
+  grep "^$lean," "$reference" | cut -d, -f2-5 > wanted.csv
+  holds awk -F, 'function bad(a, b) { d = a - b; return d * d > (5.1e-12 * (b > 1 ? b : 1)) ^ 2 }
+    FNR == NR { psi[FNR] = $1; c[FNR] = $2; r[FNR] = $3; t[FNR] = $4; n = FNR; next }
+    FNR > 1 { k = FNR - 1; if ($1 != psi[k] || bad($2, c[k]) || bad($3, r[k]) || bad($7, t[k])) exit 1; rows = k }
+    END { exit !(rows == 25 && n == 25) }' wanted.csv lean.csv
+done
 expect 2 'precession' kinematics razi --spin 5
 expect 2 . kinematics
 expect 2 . kinematics turn
