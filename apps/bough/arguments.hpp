@@ -34,6 +34,13 @@ struct BatchArguments {
   bool quiet = false;
   bool check_expected = false;
 };
+struct ExportMatrixArguments {
+  std::filesystem::path scene, out, rhs;  ///< out empty: ./<scene>.mtx; rhs empty: not written
+  std::optional<long> step;
+  std::optional<double> time;
+  int threads = 0;
+  std::vector<std::string> overrides;
+};
 struct CheckArguments {
   std::filesystem::path scene;
   std::vector<std::string> overrides;
@@ -67,6 +74,7 @@ struct DoctorArguments {};
 int run(const RunArguments& arguments);
 int view(const ViewArguments& arguments);
 int batch(const BatchArguments& arguments);
+int export_matrix(const ExportMatrixArguments& arguments);
 int check(const CheckArguments& arguments);
 int compare(const CompareArguments& arguments);
 int kinematics_razi(const RaziArguments& arguments);

@@ -10,7 +10,8 @@
 namespace bough::app {
 namespace {
 
-const std::vector<std::string> verbs = {"run", "view", "batch", "check", "schema", "compare", "kinematics", "doctor"};
+const std::vector<std::string> verbs = {"run",     "view",       "batch",         "check", "schema",
+                                        "compare", "kinematics", "export-matrix", "doctor"};
 
 /// A finite number from low to high. (CLI::Range lets NaN pass.)
 CLI::Validator between(double low, double high) {
@@ -89,6 +90,28 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
   verb.callback([&] { code = batch(a); });
+}
+
+void add_export_matrix(CLI::App& app, ExportMatrixArguments& a, int& code) {
+  CLI::App& verb =
+      add_verb(app, "export-matrix", "Write the tangent of one step as a Matrix Market file",
+               "  bough export-matrix four_bar.json --out four_bar.mtx --rhs four_bar_rhs.mtx\n"
+               "  bough export-matrix four_bar.json --time 0.5\n"
+               "It is the matrix of the first Newton iteration of a step; the comments name the unknowns.\n"
+               "Exit status: 0 written, 1 there is no such step or the run fails before it, 2 bad input.");
+  verb.add_option("SCENE", a.scene, "Scene file (JSON)")->required();
+  verb.add_option("--out", a.out, "Matrix to write (default: ./<scene>.mtx)")->type_name("FILE");
+  verb.add_option("--rhs", a.rhs, "Write the right-hand side, too")->type_name("FILE");
+  CLI::Option* step = verb.add_option("--step", a.step, "Number of the step (default: 1)")
+                          ->type_name("N")
+                          ->check(CLI::Range(1L, 1000000000L));
+  verb.add_option("--time", a.time, "Time that the step reaches; statics: load factor")
+      ->type_name("T")
+      ->check(between(0.0, 1e300))
+      ->excludes(step);
+  add_threads(verb, a.threads, "Threads");
+  add_overrides(verb, a.overrides);
+  verb.callback([&] { code = export_matrix(a); });
 }
 
 void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArguments& compare_arguments,
@@ -222,6 +245,8 @@ int dispatch(int count, char** values) {
   add_view(app, view_arguments, code);
   add_batch(app, batch_arguments, code);
   SchemaArguments schema_arguments;
+  ExportMatrixArguments export_arguments;
+  add_export_matrix(app, export_arguments, code);
   add_small_verbs(app, check_arguments, compare_arguments, schema_arguments, code);
   RaziArguments razi_arguments;
   CLI::App& kinematics = add_verb(app, "kinematics", "Kinematics without a simulation: razi, motion",

@@ -32,7 +32,7 @@ Trial try_ordering(const Peer& peer, const Problem& p, const std::string& orderi
   }
   t.first = cpu_now() - start;
   std::vector<double> x;
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < (t.first > longest_trial ? 1 : 2); ++k) {
     start = cpu_now();
     if (!t.session->refactor_and_solve(x)) {
       t.failure = "fails to solve (" + ordering + ")";

@@ -9,7 +9,7 @@ namespace bough::bench {
 /// A normwise backward error above this leaves a solver out.
 constexpr double largest_backward_error = 1e-10;
 
-/// A peer with one ordering, and the CPU seconds it took: first numeric factorization, and the better of two of what is timed.
+/// A peer with one ordering, and the CPU seconds it took: first numeric factorization, and what is timed (the better of two where that is short).
 struct Trial {
   const Peer* peer = nullptr;
   std::string ordering, failure;

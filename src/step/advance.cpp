@@ -20,6 +20,10 @@ struct Integrator {
   double h;
   const State& start;
 
+  elements::Slopes slopes() const {
+    return {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false};
+  }
+
   ///   a_{n+1} = (dq - h v_n) / (beta h^2) - (1/2 - beta)/beta a_n,  v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1}),
   ///   dv/dt_{n+1} = ((1 - alpha_m) a_{n+1} + alpha_m a_n - alpha_f dv/dt_n) / (1 - alpha_f)
   std::optional<Trouble> follow(const System& system, State& state) const {
@@ -58,22 +62,27 @@ struct Integrator {
   }
 };
 
+Integrator make_rule(const StepOptions& options, const State& start) {
+  return {make_alpha_coefficients(options.spectral_radius), start.step_size, start};
+}
+
+/// The predicted state, its laws and velocities.
+std::optional<Trouble> enter(System& system, State& state, const Integrator& rule, double end_time) {
+  if (auto t = system.set_time(end_time, laws::Side::left)) return t;
+  rule.predict(state);
+  state.time = end_time;
+  return rule.follow(system, state);
+}
+
 StepReport try_step(System& system, State& state, const StepOptions& options, const Integrator& rule, double end_time) {
-  const AlphaCoefficients& c = rule.c;
-  const double h = rule.h;
   StepReport report;
   const auto fail = [&report](const Trouble& t) {
     report.converged = false;
     report.cause = t.text;
     return report;
   };
-  if (const auto t = system.set_time(end_time, laws::Side::left)) return fail(*t);
-  rule.predict(state);
-  state.time = end_time;
-  if (const auto t = rule.follow(system, state)) return fail(*t);
-  const elements::Slopes slopes{c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h),
-                                false};
-  report = iterate(system, state, options, slopes, [&](State& s) { return rule.follow(system, s); });
+  if (const auto t = enter(system, state, rule, end_time)) return fail(*t);
+  report = iterate(system, state, options, rule.slopes(), [&](State& s) { return rule.follow(system, s); });
   if (!report.converged) return report;
   if (const auto t = check_shape(system, state)) return fail(*t);
   return report;
@@ -81,11 +90,18 @@ StepReport try_step(System& system, State& state, const StepOptions& options, co
 
 }  // namespace
 
+std::optional<Trouble> predict(System& system, State& state, const StepOptions& options, double end_time,
+                               elements::Slopes& slopes) {
+  const State start = state;
+  const Integrator rule = make_rule(options, start);
+  slopes = rule.slopes();
+  return enter(system, state, rule, end_time);
+}
+
 StepReport advance(System& system, State& state, const StepOptions& options, double end_time) {
   State& start = system.work().start;
   std::swap(state, start);
-  const Integrator rule{make_alpha_coefficients(options.spectral_radius), start.step_size, start};
-  StepReport report = try_step(system, state, options, rule, end_time);
+  StepReport report = try_step(system, state, options, make_rule(options, start), end_time);
   if (!report.converged) std::swap(state, start);
   return report;
 }

@@ -29,6 +29,7 @@ class Run {
         options_(step::make_step_options(scene.analysis)),
         recorder_(recorder),
         progress_(progress),
+        before_step_(options.before_step),
         want_motion_(options.want_motion || scene.output.motion),
         threads_(std::max(1, scene.solver.tasks ? options.threads : 1)),
         plan_(plan::make_plan(scene)),
@@ -154,6 +155,13 @@ class Run {
     return false;
   }
 
+  bool may_try(double target) {
+    if (!before_step_ || before_step_(system_, state_, {options_, summary_.steps.accepted + 1, target})) return true;
+    summary_.status = RunStatus::interrupted;
+    summary_.cause = "stopped before the step to " + std::to_string(target);
+    return false;
+  }
+
   /// Balances and violations of the present state.
   void check() {
     summary_.checks.constraint_violation_position =
@@ -174,6 +182,7 @@ class Run {
   step::StepOptions options_;
   results::Recorder& recorder_;
   const ProgressCallback& progress_;
+  const decltype(SimulateOptions::before_step)& before_step_;
   bool want_motion_;
   schedule::Threads threads_;
   plan::Plan plan_;
@@ -204,6 +213,7 @@ bool Run::run_statics() {
       const double target = part + 1 == (1L << level) && k + 1 == steps
                                 ? 1.0
                                 : from + width * static_cast<double>(part + 1) / static_cast<double>(1L << level);
+      if (!may_try(target)) return false;
       const double before = state_.time;
       const step::StepReport report = step::equilibrate(system_, state_, options_, target);
       count(report, report.converged);
@@ -272,6 +282,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     if (!changed.ok) return fail(changed.cause);
     const long next = done + 1;
     const double target = next == (steps << level) ? end : begin + static_cast<double>(next) * size;
+    if (!may_try(target)) return false;
     const step::StepReport report = step::advance(system_, state_, options_, target);
     count(report, report.converged);
     if (!report.converged) {

@@ -35,7 +35,7 @@ echo '{"schema_version": 1, "bodies": [{"name": "a", "mass": -1}, 7], "nonsense"
 # words
 expect 0 '^bough [0-9]' --version
 expect 0 'bough run' --help
-for verb in run view batch check schema compare kinematics doctor; do expect 0 '  bough '$verb $verb --help; done
+for verb in run view batch check schema compare export-matrix kinematics doctor; do expect 0 '  bough '$verb $verb --help; done
 expect 2 "did you mean 'run'" rnu good.json
 expect 2 "did you mean 'compare'" comapre a b
 expect 2 'Verbs:' xyzzy
@@ -119,6 +119,23 @@ expect 2 'summary.json' compare good.out unfinished
 # schema
 expect 0 '"\$schema"' schema
 holds python3 -c 'import json, sys; json.load(open("printed"))'
+
+# matrices
+expect 0 '^matrix.mtx: 11 unknowns' export-matrix good.json --out matrix.mtx --rhs rhs.mtx --step 3
+holds grep -q '^%%MatrixMarket matrix coordinate real' matrix.mtx
+holds grep -q "^% 1-6 'bob' displacement" matrix.mtx
+holds grep -q '^11 1$' rhs.mtx
+expect 0 'good.mtx' export-matrix good.json --time 0.025
+holds test "$(grep -v '^%' good.mtx | cksum)" = "$(grep -v '^%' matrix.mtx | cksum)"
+expect 1 'no such step' export-matrix good.json --step 100000 --out none.mtx
+expect 2 . export-matrix good.json --step 0 --out none.mtx
+expect 2 . export-matrix good.json --step 1 --time 0.1 --out none.mtx
+expect 2 . export-matrix good.json --time soon --out none.mtx
+expect 2 . export-matrix
+expect 2 'mass' export-matrix bad.json --out none.mtx
+expect 2 'no such file' export-matrix missing.json --out none.mtx
+expect 1 'folder' export-matrix good.json --out folder/none.mtx
+holds test ! -e none.mtx
 
 # kinematics razi
 expect 0 '^5 .*45 .*33.0711 ' kinematics razi --csv razi.csv --json razi.json --svg razi.svg

@@ -55,6 +55,10 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
 /// slowly fading oscillations of earlier changes, which a few changes in a row would amplify.)
 StartReport change_step_size(System& system, State& state, const StepOptions& options, double step_size);
 
+/// Takes `state` to where Newton starts for a step to `end_time`: dv/dt stays, all else follows. `slopes`: those of the iteration.
+[[nodiscard]] std::optional<Trouble> predict(System& system, State& state, const StepOptions& options, double end_time,
+                                             elements::Slopes& slopes);
+
 /// One step of Lie-group generalized-alpha, index 3 (Bruls, Cardona, Arnold 2012), from `state` over h to `state`.
 /// Not converged: `state` is as it was.
 StepReport advance(System& system, State& state, const StepOptions& options, double end_time);

@@ -4,12 +4,22 @@
 
 #include "bough/results/records.hpp"
 #include "bough/scene/scene.hpp"
+#include "bough/step/advance.hpp"
 
 namespace bough::study {
+
+/// A step that is about to be tried.
+struct BeforeStep {
+  const step::StepOptions& options;
+  long number = 1;   ///< of the accepted steps, if it is accepted
+  double end = 0.0;  ///< [s], or load factor
+};
 
 struct SimulateOptions {
   int threads = 1;           ///< of the tree's tasks, >= 1; results do not depend on it
   bool want_motion = false;  ///< hand out the moving structure even if the scene does not ask for it
+  /// Asked before every attempt of a step, with the state it starts from; false: stop here (interrupted), the system is no longer used.
+  std::function<bool(step::System&, const step::State&, const BeforeStep&)> before_step = {};
 };
 
 /// Asked after every accepted step; false: stop here (interrupted).

@@ -1,0 +1,40 @@
+/// bough export-matrix SCENE: the linear system of one step as Matrix Market files.
+#include <iostream>
+
+#include "arguments.hpp"
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/read_scene.hpp"
+#include "bough/study/linear_system.hpp"
+#include "terminal.hpp"
+
+namespace bough::app {
+
+int export_matrix(const ExportMatrixArguments& arguments) {
+  const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
+  print_problems(arguments.scene, file, false);
+  if (!file.ok()) return exit_bad_input;
+  const std::filesystem::path out =
+      arguments.out.empty() ? std::filesystem::path(file.scene.name + ".mtx") : arguments.out;
+  std::string cause;
+  const auto system = study::make_linear_system(file.scene, {arguments.step, arguments.time},
+                                                arguments.threads > 0 ? arguments.threads : default_threads(), cause);
+  if (!system) {
+    std::cerr << "bough: " << file.scene.name << ": " << cause << "\n";
+    return exit_failed;
+  }
+  const std::vector<std::string> comments = system->comments(file.scene.name);
+  try {
+    io::write_file(out, io::matrix_market_text(system->matrix, comments));
+    if (!arguments.rhs.empty()) io::write_file(arguments.rhs, io::matrix_market_text(system->rhs, comments));
+  } catch (const std::exception& error) {
+    std::cerr << "bough: " << error.what() << "\n";
+    return exit_failed;
+  }
+  std::cout << out.string() << ": " << system->matrix.size << " unknowns, " << system->matrix.row.size() << " entries"
+            << (system->matrix.is_symmetric ? " of the lower triangle, symmetric" : ", not symmetric") << ", step "
+            << system->step << "\n";
+  if (!system->trouble.empty()) std::cout << "bough does not solve it: " << system->trouble << "\n";
+  return exit_done;
+}
+
+}  // namespace bough::app

@@ -1,0 +1,48 @@
+#pragma once
+/// The linear system of one step of a run, for use elsewhere.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bough/io/matrix_market.hpp"
+#include "bough/scene/scene.hpp"
+
+namespace bough::study {
+
+/// Which step: the first one unless a number or a time is given. Both count load steps and the load factor in statics.
+struct StepChoice {
+  std::optional<long> number = {};  ///< of accepted steps, from 1
+  std::optional<double> time = {};  ///< [s]: the first step that ends at this time or later
+};
+
+/// Consecutive unknowns of one owner: the increment eta of a node's frame (H <- H exp(eta)), or the multipliers of a joint.
+struct UnknownBlock {
+  std::string owner;  ///< "'bob'", "joint 'hinge'"
+  std::string components;
+  int first = 0, count = 0;
+};
+
+/// A x = b of the first Newton iteration of a step: A the tangent at the predicted state, b minus the residual there. SI units, increments in
+/// the nodes' own axes.
+struct LinearSystem {
+  io::SparseMatrix matrix;  ///< entries that are exactly zero left out
+  std::vector<double> rhs;
+  std::vector<double> solution;  ///< by the scene's solver; empty where the matrix is singular (see trouble)
+  double backward_error = 0.0;   ///< of the solution, in scaled variables [-]
+  std::vector<UnknownBlock> blocks;
+  bool is_dynamic = true;
+  long step = 0;                  ///< number
+  double begin = 0.0, end = 0.0;  ///< of the step [s], or load factors
+  std::string trouble;            ///< why there is no solution
+
+  /// What the unknowns are, and where the system comes from: lines for the head of a file.
+  std::vector<std::string> comments(const std::string& scene_name) const;
+};
+
+/// Runs the scene up to the chosen step and makes its linear system. Precondition: problems_in(scene) is empty.
+/// No such step, or the run fails before it: nothing, and `cause` says why. Symmetric: entries agree with their mirrors within
+/// 1e-14 of the largest entry of their rows; then the mean of both is stored.
+std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const StepChoice& choice, int threads,
+                                               std::string& cause);
+
+}  // namespace bough::study

@@ -1,0 +1,202 @@
+#include "bough/study/linear_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bough/io/number_text.hpp"
+#include "bough/study/simulate.hpp"
+
+namespace bough::study {
+
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+class NoRecorder final : public results::Recorder {
+ public:
+  void begin(const results::HistoryHeader&) override {}
+  void row(const results::HistoryRow&) override {}
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+};
+
+/// One entry of a column: its own contributions and those of its mirror.
+struct Entry {
+  int row;
+  double value, mirror;
+};
+
+/// Columns of the sum of the element matrices; rows ascending, contributions in the order of the elements.
+std::vector<std::vector<Entry>> gather_columns(step::System& system) {
+  const blocks::BlockGraph& g = system.plan().graph;
+  std::vector<std::vector<Entry>> columns(system.num_unknowns());
+  std::vector<int> place;
+  for (int e = 0; e < g.num_elements(); ++e) {
+    place.clear();
+    for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k) {
+      const int block = g.element_blocks[at(k)];
+      for (int i = 0; i < g.block_size[at(block)]; ++i)
+        place.push_back(static_cast<int>(system.block_begin(block)) + i);
+    }
+    const solve::ElementView a = system.solver().element(e);
+    const auto n = static_cast<std::int64_t>(place.size());
+    for (std::int64_t i = 0; i < n; ++i)
+      for (std::int64_t j = 0; j < n; ++j) {
+        columns[at(place[at(j)])].push_back({place[at(i)], a[i * n + j], 0.0});
+        columns[at(place[at(i)])].push_back({place[at(j)], 0.0, a[i * n + j]});
+      }
+  }
+  for (std::vector<Entry>& list : columns) {
+    std::stable_sort(list.begin(), list.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
+    std::size_t count = 0;
+    for (const Entry& e : list) {
+      if (count > 0 && list[count - 1].row == e.row) {
+        list[count - 1].value += e.value;
+        list[count - 1].mirror += e.mirror;
+      } else {
+        list[count++] = e;
+      }
+    }
+    list.resize(count);
+  }
+  return columns;
+}
+
+bool is_symmetric(const std::vector<std::vector<Entry>>& columns) {
+  std::vector<double> largest(columns.size(), 0.0);
+  for (const auto& list : columns)
+    for (const Entry& e : list) largest[at(e.row)] = std::max(largest[at(e.row)], std::abs(e.value));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    for (const Entry& e : columns[j])
+      if (std::abs(e.value - e.mirror) > 1e-14 * std::max(largest[at(e.row)], largest[j])) return false;
+  return true;
+}
+
+io::SparseMatrix make_matrix(step::System& system) {
+  const std::vector<std::vector<Entry>> columns = gather_columns(system);
+  io::SparseMatrix m;
+  m.size = static_cast<int>(columns.size());
+  m.is_symmetric = is_symmetric(columns);
+  m.column_begin.assign(1, 0);
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    for (const Entry& e : columns[j]) {
+      const double value = m.is_symmetric ? 0.5 * (e.value + e.mirror) : e.value;
+      if (value == 0.0 || (m.is_symmetric && at(e.row) < j)) continue;
+      m.row.push_back(e.row);
+      m.value.push_back(value);
+    }
+    m.column_begin.push_back(m.row.size());
+  }
+  return m;
+}
+
+std::string row_text(const elements::ConstraintRow& row) {
+  const std::string i = std::to_string(row.i + 1), j = std::to_string(row.j + 1);
+  switch (row.kind) {
+    case elements::RowKind::along:
+      return "along " + i;
+    case elements::RowKind::across:
+      return "axis " + i + " of the first normal to axis " + j + " of the second";
+    case elements::RowKind::angle:
+      return "angle about 3";
+    case elements::RowKind::screw:
+      break;
+  }
+  return "screw along 3";
+}
+
+std::vector<UnknownBlock> make_blocks(const step::System& system) {
+  const plan::Plan& plan = system.plan();
+  std::vector<UnknownBlock> out;
+  for (int b = 0; b < plan.graph.num_blocks(); ++b) {
+    UnknownBlock block{system.block_name(b), "", static_cast<int>(system.block_begin(b)), plan.graph.block_size[at(b)]};
+    const int joint = system.joint_of_block(b);
+    if (joint < 0) {
+      block.components = "displacement along 1, 2, 3 [m], rotation about 1, 2, 3 [rad], own axes";
+    } else {
+      const plan::ElementPlace place = plan.directory[at(plan.joints[at(joint)].element)];
+      const auto& element = plan::array_of<elements::Joint>(plan.elements)[at(place.index)];
+      block.components = "multipliers";
+      for (int k = 0; k < element.num_rows; ++k) block.components += (k == 0 ? ": " : "; ") + row_text(element.rows[k]);
+    }
+    out.push_back(block);
+  }
+  return out;
+}
+
+/// Fills in the system from the state that a step starts from.
+void fill(step::System& system, step::State state, const BeforeStep& attempt, LinearSystem& out) {
+  out.is_dynamic = system.plan().is_dynamic;
+  out.step = attempt.number;
+  out.begin = state.time;
+  out.end = attempt.end;
+  out.blocks = make_blocks(system);
+  elements::Slopes slopes;
+  std::optional<step::Trouble> trouble;
+  if (out.is_dynamic) {
+    trouble = step::predict(system, state, attempt.options, attempt.end, slopes);
+  } else {
+    trouble = system.set_time(attempt.end);
+    for (elements::NodeMotion& n : state.nodes) n.dq = n.v = n.a = motion::Vec6<double>::zero();
+  }
+  if (!trouble) trouble = system.evaluate(state, slopes, true);
+  if (trouble) {
+    out.trouble = trouble->text;
+    return;
+  }
+  for (double r : system.residual()) out.rhs.push_back(-r);
+  out.matrix = make_matrix(system);
+  out.solution.resize(out.rhs.size());
+  trouble = system.factor(true, slopes);
+  if (!trouble) trouble = system.solve(out.rhs.data(), out.solution.data());
+  out.backward_error = system.last_solution().backward_error;
+  if (trouble) {
+    out.trouble = trouble->text;
+    out.solution.clear();
+  }
+}
+
+}  // namespace
+
+std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const StepChoice& choice, int threads,
+                                               std::string& cause) {
+  std::optional<LinearSystem> out;
+  SimulateOptions options;
+  options.threads = threads;
+  options.before_step = [&](step::System& system, const step::State& state, const BeforeStep& attempt) {
+    const double tolerance = 1e-9 * (attempt.end - state.time);
+    const bool is_it =
+        choice.time ? attempt.end >= *choice.time - tolerance : attempt.number == choice.number.value_or(1);
+    if (!is_it) return true;
+    fill(system, state, attempt, out.emplace());
+    return false;
+  };
+  NoRecorder recorder;
+  const results::Summary summary = simulate(scene, options, recorder);
+  if (!out)
+    cause = summary.status == results::RunStatus::failed
+                ? summary.cause
+                : "there is no such step: the run ends with step " + std::to_string(summary.steps.accepted);
+  if (out && out->matrix.size == 0 && !out->trouble.empty()) {
+    cause = out->trouble;
+    out.reset();
+  }
+  return out;
+}
+
+std::vector<std::string> LinearSystem::comments(const std::string& scene_name) const {
+  std::vector<std::string> lines;
+  const std::string what = is_dynamic ? "time" : "load factor";
+  lines.push_back("bough: tangent of the first Newton iteration of step " + std::to_string(step) + " of '" +
+                  scene_name + "', from " + what + " " + io::rounded_text(begin, 12) + " to " +
+                  io::rounded_text(end, 12));
+  lines.push_back(
+      "A x = b, b minus the residual; SI units; x: increments of nodes (H <- H exp(eta)), then multipliers");
+  if (matrix.is_symmetric) lines.push_back("symmetric within round-off: the means of the entries and their mirrors");
+  for (const UnknownBlock& b : blocks)
+    lines.push_back(std::to_string(b.first + 1) + "-" + std::to_string(b.first + b.count) + " " + b.owner + " " +
+                    b.components);
+  return lines;
+}
+
+}  // namespace bough::study
