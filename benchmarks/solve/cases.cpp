@@ -1,7 +1,6 @@
 #include "cases.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 
 #include "../support/scenes.hpp"
@@ -103,30 +102,22 @@ Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const s
         left_out.push_back({peer.name, bench_case.name, kept.reason});
         continue;
       }
-      Trial t = try_peer(peer, p, kept.ordering);
+      const double limit =
+          rivals_turn ? std::numeric_limits<double>::infinity() : slowest_first * best_rival / bench_case.bar;
+      Trial t = try_peer(peer, p, kept.ordering, limit);
       kept.ordering = t.ordering;
       if (!t.failure.empty()) {
         left_out.push_back({peer.name, bench_case.name, t.failure});
+        kept.is_out = t.is_slow;
+        kept.reason = "left out of " + bench_case.name + " for its time already";
         continue;
       }
       if (rivals_turn) best_rival = std::min(best_rival, t.again);
       trials.push_back(std::move(t));
     }
   }
-  const double limit = slowest_first * best_rival / bench_case.bar;
-  for (Trial& t : trials) {
-    if (t.first > limit && !contains(bench_case.rivals, t.peer->name)) {
-      char text[120];
-      std::snprintf(text, sizeof text, "first numeric factorization %.3g ms, more than 20 times the bar of %.3g ms",
-                    1e3 * t.first, 1e3 * best_rival / bench_case.bar);
-      left_out.push_back({t.peer->name, bench_case.name, text});
-      Memory::Item& kept = memory.of(t.peer->name + "/" + bench_case.family_key());
-      kept.is_out = true;
-      kept.reason = "left out of " + bench_case.name + " for its time already";
-      continue;
-    }
+  for (Trial& t : trials)
     field.entrants.push_back({t.peer->name, t.ordering, 1, std::move(t.session), t.backward_error});
-  }
   add_bough(field, thread_counts, left_out);
   return field;
 }

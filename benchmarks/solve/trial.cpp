@@ -19,7 +19,7 @@ double cpu_now() {
 }
 
 /// One ordering: first factorization, then twice what is timed.
-Trial try_ordering(const Peer& peer, const Problem& p, const std::string& ordering) {
+Trial try_ordering(const Peer& peer, const Problem& p, const std::string& ordering, double limit) {
   Trial t;
   t.peer = &peer;
   t.ordering = ordering;
@@ -31,6 +31,14 @@ Trial try_ordering(const Peer& peer, const Problem& p, const std::string& orderi
     return t;
   }
   t.first = cpu_now() - start;
+  if (t.first > limit) {
+    char text[120];
+    std::snprintf(text, sizeof text, "first numeric factorization %.3g ms, more than %.3g ms (%s)", 1e3 * t.first,
+                  1e3 * limit, ordering.c_str());
+    t.failure = text;
+    t.is_slow = true;
+    return t;
+  }
   std::vector<double> x;
   for (int k = 0; k < (t.first > longest_trial ? 1 : 2); ++k) {
     start = cpu_now();
@@ -49,7 +57,7 @@ Trial try_ordering(const Peer& peer, const Problem& p, const std::string& orderi
 
 bool is_better(const Trial& a, const Trial& b) {
   if (a.failure.empty() != b.failure.empty()) return a.failure.empty();
-  return a.again < b.again;
+  return a.failure.empty() ? a.again < b.again : a.is_slow < b.is_slow;
 }
 
 }  // namespace
@@ -60,15 +68,15 @@ std::string describe_error(double backward_error, const std::string& ordering) {
   return text;
 }
 
-Trial try_peer(const Peer& peer, const Problem& p, const std::string& kept) {
+Trial try_peer(const Peer& peer, const Problem& p, const std::string& kept, double limit) {
   std::vector<std::string> orderings = peer.orderings(p);
   const auto at_front = std::find(orderings.begin(), orderings.end(), kept);
   if (at_front != orderings.end()) std::iter_swap(orderings.begin(), at_front);
-  Trial best = try_ordering(peer, p, orderings.front());
+  Trial best = try_ordering(peer, p, orderings.front(), limit);
   for (std::size_t k = 1; k < orderings.size(); ++k) {
-    if (!kept.empty() && best.failure.empty() && best.first > longest_trial) break;
+    if (!kept.empty() && (best.failure.empty() || best.is_slow) && best.first > longest_trial) break;
     if (orderings[k].starts_with("node") && order_nodes(p, orderings[k]).empty()) continue;
-    Trial t = try_ordering(peer, p, orderings[k]);
+    Trial t = try_ordering(peer, p, orderings[k], limit);
     if (is_better(t, best)) best = std::move(t);
   }
   return best;
