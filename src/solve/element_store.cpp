@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace bough::solve {
 
@@ -10,34 +11,56 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr std::int64_t chunk_blocks = 128;
 }  // namespace
 
-ElementStore::ElementStore(const blocks::BlockGraph& graph, const tree::Tree& tree)
-    : graph_(graph),
-      tree_(tree),
-      begin_(at(graph.num_elements()), 0),
-      stride_(at(graph.num_elements()), 1),
-      size_(at(graph.num_elements()), 0) {
-  for (int e = 0; e < graph.num_elements(); ++e)
-    for (int k = 0; k < num_blocks_of(e); ++k) size_[at(e)] += graph.block_size[at(blocks_of(e)[k])];
-  std::int64_t total = 0;
+namespace {
+
+std::vector<std::int64_t> first_of_leaves(const blocks::BlockGraph& graph, const tree::Tree& tree,
+                                          std::int64_t& total) {
+  std::vector<std::int64_t> first(at(graph.num_elements()), 0);
+  total = 0;
   for (int e : tree.element_order) {
-    begin_[at(e)] = total;
-    total += static_cast<std::int64_t>(size_of(e)) * size_of(e);
+    first[at(e)] = total;
+    std::int64_t n = 0;
+    for (auto k = graph.element_begin[at(e)]; k < graph.element_begin[at(e) + 1]; ++k)
+      n += graph.block_size[at(graph.element_blocks[at(k)])];
+    total += n * n;
   }
+  return first;
+}
+
+}  // namespace
+
+ElementStore::ElementStore(const blocks::BlockGraph& graph, const tree::Tree& tree) : graph_(graph), tree_(tree) {
+  std::int64_t total = 0;
+  begin_ = first_of_leaves(graph, tree, total);
+  stride_.assign(at(graph.num_elements()), 1);
   values_.assign(at(total), 0.0);
-  touch_begin_.assign(at(graph.num_blocks()) + 1, 0);
-  for (int b : graph.element_blocks) ++touch_begin_[at(b) + 1];
+  prepare();
+}
+
+ElementStore::ElementStore(const blocks::BlockGraph& graph, const tree::Tree& tree, std::vector<std::int64_t> first,
+                           std::vector<int> stride, std::int64_t count)
+    : graph_(graph), tree_(tree), begin_(std::move(first)), stride_(std::move(stride)), values_(at(count), 0.0) {
+  prepare();
+}
+
+void ElementStore::prepare() {
+  size_.assign(at(graph_.num_elements()), 0);
+  for (int e = 0; e < graph_.num_elements(); ++e)
+    for (int k = 0; k < num_blocks_of(e); ++k) size_[at(e)] += graph_.block_size[at(blocks_of(e)[k])];
+  touch_begin_.assign(at(graph_.num_blocks()) + 1, 0);
+  for (int b : graph_.element_blocks) ++touch_begin_[at(b) + 1];
   for (std::size_t b = 1; b < touch_begin_.size(); ++b) touch_begin_[b] += touch_begin_[b - 1];
-  touches_.resize(graph.element_blocks.size());
+  touches_.resize(graph_.element_blocks.size());
   std::vector<std::int64_t> next(touch_begin_.begin(), touch_begin_.end() - 1);
-  for (int e = 0; e < graph.num_elements(); ++e) {
+  for (int e = 0; e < graph_.num_elements(); ++e) {
     int offset = 0;
     for (int k = 0; k < num_blocks_of(e); ++k) {
       const int b = blocks_of(e)[k];
       touches_[at(next[at(b)]++)] = {e, offset};
-      offset += graph.block_size[at(b)];
+      offset += graph_.block_size[at(b)];
     }
   }
-  chunk_.assign(at(4 * (graph.num_blocks() / chunk_blocks + 1)), 0.0);
+  chunk_.assign(at(4 * (graph_.num_blocks() / chunk_blocks + 1)), 0.0);
 }
 
 /// Calls row(global row, element, row of the element matrix) for all rows of blocks [begin, end), elements ascending.
@@ -240,6 +263,49 @@ void ElementStore::eval_scales(Scales& s) const {
     s.column[i] = column;
   }
   s.finite = probe == 0.0;
+}
+
+double ElementStore::eval_norm(const Scales& scales) const {
+  double norm = 0.0;
+  for (std::int64_t b = 0; b < graph_.num_blocks(); ++b)
+    for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
+      double sum = 0.0;
+      for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
+        const int e = touches_[at(t)].element;
+        const ConstElementView a = view(e).from(static_cast<std::int64_t>(touches_[at(t)].offset + i) * size_of(e));
+        std::int64_t c = 0;
+        for (int k = 0; k < num_blocks_of(e); ++k) {
+          const int other = blocks_of(e)[k];
+          for (int j = 0; j < graph_.block_size[at(other)]; ++j)
+            sum += std::abs(a[c++]) * scales.column[at(tree_.unknown_begin[at(other)] + j)];
+        }
+      }
+      norm = std::max(norm, sum * scales.row[at(tree_.unknown_begin[at(b)] + i)]);
+    }
+  return norm;
+}
+
+void ElementStore::eval_rows(const Scales& scales, std::span<const int> blocks, const double* x, const double* b,
+                             double* r, double* most) const {
+  for (int block : blocks) {
+    const std::int64_t first = tree_.unknown_begin[at(block)], end = tree_.unknown_begin[at(block) + 1];
+    for (std::int64_t u = first; u < end; ++u) r[u] = b[u];
+    for_rows(block, block + 1, [&](std::int64_t row, int e, const ConstElementView& a) {
+      std::int64_t c = 0;
+      double sum = 0.0;
+      for (int k = 0; k < num_blocks_of(e); ++k) {
+        const int other = blocks_of(e)[k];
+        const double* xb = x + tree_.unknown_begin[at(other)];
+        for (int j = 0; j < graph_.block_size[at(other)]; ++j) sum += a[c++] * xb[j];
+      }
+      r[row] -= sum;
+    });
+    for (std::int64_t u = first; u < end; ++u) {
+      const double size = std::abs(r[u]) * scales.row[at(u)];
+      most[0] = size <= most[0] ? most[0] : size;  // NaN goes through
+      most[1] = std::max(most[1], std::abs(b[u]) * scales.row[at(u)]);
+    }
+  }
 }
 
 std::int64_t ElementStore::memory_bytes() const {

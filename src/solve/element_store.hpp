@@ -1,12 +1,14 @@
 #pragma once
 /// Element matrices, products with them, and the scales taken from them. Internal to solve; shared by both solvers.
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bough/blocks/block_graph.hpp"
 #include "bough/solve/element_view.hpp"
 #include "bough/tree/tree.hpp"
 #include "bough/tree/walker.hpp"
+#include "line_allocator.hpp"
 
 namespace bough::solve {
 
@@ -23,7 +25,11 @@ struct Scales {
 
 class ElementStore {
  public:
+  /// Element matrices one after the other, by leaf.
   ElementStore(const blocks::BlockGraph& graph, const tree::Tree& tree);
+  /// Element e at `first[e]`, entries `stride[e]` apart, in `count` doubles.
+  ElementStore(const blocks::BlockGraph& graph, const tree::Tree& tree, std::vector<std::int64_t> first,
+               std::vector<int> stride, std::int64_t count);
 
   ElementView view(int element) {
     return {values_.data() + begin_[static_cast<std::size_t>(element)], stride_[static_cast<std::size_t>(element)]};
@@ -52,6 +58,12 @@ class ElementStore {
 
   /// Serial, one pass over the element matrices. No allocation.
   void eval_scales(Scales& scales) const;
+  /// Largest row sum of magnitudes of the scaled matrix. Serial.
+  double eval_norm(const Scales& scales) const;
+  /// r = b - A x for the rows of some blocks; most: {|r|, |b|} scaled, raised.
+  void eval_rows(const Scales& scales, std::span<const int> blocks, const double* x, const double* b, double* r,
+                 double* most) const;
+  const double* values() const { return values_.data(); }
 
   std::int64_t memory_bytes() const;
   const blocks::BlockGraph& graph() const { return graph_; }
@@ -62,6 +74,7 @@ class ElementStore {
     int element;
     int offset;  ///< first row of the block in the element
   };
+  void prepare();
   void lift_weak_diagonals(std::vector<double>& diagonal) const;
   template <class Row>
   void for_rows(std::int64_t begin, std::int64_t end, Row&& row) const;
@@ -71,7 +84,7 @@ class ElementStore {
   std::vector<std::int64_t> begin_;  ///< by element, into values_
   std::vector<int> stride_;          ///< by element
   std::vector<int> size_;
-  std::vector<double> values_;
+  std::vector<double, LineAllocator<double>> values_;
   std::vector<std::int64_t> touch_begin_;  ///< by block
   std::vector<Touch> touches_;
   std::vector<double> chunk_;  ///< partial maxima, four per chunk

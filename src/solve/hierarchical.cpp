@@ -31,7 +31,10 @@ std::vector<std::string> problems_in(const SolveOptions& o) {
 }
 
 Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
-    : tree(t), options(o), elements(graph, t) {
+    : tree(t),
+      options(o),
+      lanes(make_lane_plan(graph, t, o.lanes && o.elimination == Elimination::flat)),
+      elements(graph, t, lanes.element_first, lanes.element_stride, lanes.num_values) {
   const std::size_t n = at(tree.num_unknowns()), num_fronts = at(tree.num_fronts());
   scales.row.assign(n, 1.0);
   scales.column.assign(n, 1.0);
@@ -45,27 +48,18 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   matrix_begin.assign(1, 0);
   vector_begin.assign(1, 0);
   index_begin.assign(1, 0);
+  own_begin.assign(1, 0);
   run_begin.assign(1, 0);
-  for (const tree::Front& f : tree.fronts) {
-    const std::int64_t size = f.size();
+  for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
+    const tree::Front& f = front(id);
+    const bool in_lanes = lanes.lane_front[at(id)] >= 0;
+    const std::int64_t size = in_lanes ? 0 : f.size();
     matrix_begin.push_back(matrix_begin.back() + size * size);
     vector_begin.push_back(vector_begin.back() + size);
-    index_begin.push_back(index_begin.back() + 3 * f.num_eliminated);
-    int from = 0;
-    for (std::int64_t k = f.block_begin; k < f.block_end; ++k) {
-      const int b = tree.front_blocks[at(k)], length = graph.block_size[at(b)];
-      if (k < f.block_begin + f.num_eliminated_blocks) {
-        for (int i = 0; i < length; ++i) own_unknowns.push_back(static_cast<int>(tree.unknown_begin[at(b)]) + i);
-        continue;
-      }
-      const int to = tree.parent_row[at(k)];
-      if (from > 0 && runs.back().to + runs.back().length == to) {
-        runs.back().length += length;
-      } else {
-        runs.push_back({from, to, length});
-      }
-      from += length;
-    }
+    index_begin.push_back(index_begin.back() + (in_lanes ? 0 : 3 * f.num_eliminated));
+    own_begin.push_back(own_begin.back() + f.num_eliminated);
+    if (!in_lanes) scalar_fronts.push_back(id);
+    add_runs(graph, f);
     run_begin.push_back(static_cast<std::int64_t>(runs.size()));
     counters.factor_flops += f.flops;
   }
@@ -74,10 +68,37 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   scratch_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));
   if (options.elimination == Elimination::plain) plain.resize(at(tree.num_subdomains()));
-  x_scaled.assign(n, 0.0);
+  for (LaneDoubles* pool : {&lane_vectors, &lane_residuals, &lane_row_scales, &lane_inverse_column_scales})
+    pool->assign(at(lanes.vector_size * lanes_wide), 0.0);
+  lane_scratch.assign(at(lanes.scratch_size * lanes_wide), 0.0);
+  lane_tops.assign(at(lanes.top_size * lanes_wide), 0.0);
+  lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);
+  scalar_lanes.assign(lanes.fronts.size(), 0);
+  sizes.resize(lanes.groups.size());
+  x.assign(n, 0.0);
   rhs.assign(n, 0.0);
   residual.assign(n, 0.0);
   correction.assign(n, 0.0);
+}
+
+/// Own unknowns of a front, and its boundary by runs of adjacent rows of the parent.
+void Hierarchical::State::add_runs(const blocks::BlockGraph& graph, const tree::Front& f) {
+  int from = 0;
+  const std::size_t first = runs.size();
+  for (std::int64_t k = f.block_begin; k < f.block_end; ++k) {
+    const int b = tree.front_blocks[at(k)], length = graph.block_size[at(b)];
+    if (k < f.block_begin + f.num_eliminated_blocks) {
+      for (int i = 0; i < length; ++i) own_unknowns.push_back(static_cast<int>(tree.unknown_begin[at(b)]) + i);
+      continue;
+    }
+    const int to = tree.parent_row[at(k)];
+    if (runs.size() > first && runs.back().to + runs.back().length == to) {
+      runs.back().length += length;
+    } else {
+      runs.push_back({from, to, length});
+    }
+    from += length;
+  }
 }
 
 Hierarchical::Hierarchical(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options) {
@@ -106,23 +127,22 @@ void Hierarchical::multiply(const tree::Walker& walker, const double* x, double*
 FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare) {
   State& s = *state_;
   s.status = {};
-  if (s.scales_wanted) s.elements.eval_scales(s.scales);
-  s.scales_wanted = false;
-  auto visit = [&s, &prepare](tree::SubdomainId id) { s.factor_subdomain(id, prepare); };
-  walker.walk_up(s.tree, tree::make_visit(visit));
-  ++s.counters.factorizations;
-  for (tree::FrontId f = 0; f < s.tree.num_fronts(); ++f) {
-    const FrontData& d = s.data(f);
-    if (d.failed && s.status.outcome != FactorOutcome::not_finite) {
-      const auto blocks = s.tree.blocks(s.front(f));
-      s.status.outcome = FactorOutcome::not_finite;
-      s.status.front = f;
-      s.status.block = blocks.empty() ? -1 : blocks.front();
-    }
-    if (d.delayed_in > 0) ++s.counters.enlarged_fronts;
-    if (d.allocated) ++s.counters.enlarging_allocations;
-    if (f + 1 < s.tree.num_fronts()) s.status.delayed_pivots += d.num_delayed();
+  if (s.scales_wanted) {
+    s.elements.eval_scales(s.scales);
+    s.norm = s.elements.eval_norm(s.scales);
+    s.set_lane_scales();
   }
+  s.scales_wanted = false;
+  auto visit = [&s, &prepare](int group) { s.factor_group(group, prepare); };
+  walker.walk_up(s.lanes.walk, tree::make_visit(visit));
+  ++s.counters.factorizations;
+  for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
+  for (std::size_t i = 0; i < s.scalar_lanes.size(); ++i)
+    for (int l = 0; s.scalar_lanes[i] != 0 && l < lanes_wide; ++l)
+      if ((s.scalar_lanes[i] >> l & 1) != 0) {
+        s.count_front(s.lanes.fronts[i].front[at(l)]);
+        ++s.counters.lanes_left;
+      }
   s.counters.delayed_pivots += s.status.delayed_pivots;
   s.null_space.dimension = 0;
   if (s.status.ok()) s.decide_rank();
@@ -130,33 +150,52 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare) {
   return s.status;
 }
 
+/// What a front on the scalar path adds to status and counters.
+void Hierarchical::State::count_front(tree::FrontId f) {
+  const FrontData& d = data(f);
+  if (d.failed && (status.outcome != FactorOutcome::not_finite || f < status.front)) {
+    const auto blocks = tree.blocks(front(f));
+    status.outcome = FactorOutcome::not_finite;
+    status.front = f;
+    status.block = blocks.empty() ? -1 : blocks.front();
+  }
+  if (d.delayed_in > 0) ++counters.enlarged_fronts;
+  if (d.allocated) ++counters.enlarging_allocations;
+  if (f + 1 < tree.num_fronts()) status.delayed_pivots += d.num_delayed();
+}
+
 SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, double* x) {
   State& s = *state_;
-  const std::size_t n = s.x_scaled.size();
+  const std::size_t n = s.x.size();
   SolveReport report;
   report.deficiency = s.null_space.dimension;
   ++s.counters.solutions;
   std::copy(rhs, rhs + n, s.rhs.begin());
-  s.solve_scaled(walker, s.rhs.data());
-  for (std::size_t i = 0; i < n; ++i) x[i] = s.scales.column[i] * s.x_scaled[i];
+  s.solve_into_x(walker, s.rhs.data());
+  std::copy(s.x.begin(), s.x.end(), x);
   s.eval_inconsistency(s.rhs.data(), report);
   // Dependent rows that disagree have no solution: what was solved, and is checked, is the nearest right-hand side that has one.
   if (s.null_space.dimension > 0)
     for (std::size_t i = 0; i < n; ++i) s.rhs[i] -= s.correction[i] / s.scales.row[i];
-  s.eval_growth(s.rhs.data(), report);
   if (s.options.check == SolveCheck::none) return report;
-  ElementStore::Errors errors = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
+  ElementStore::Errors errors;
+  if (s.null_space.dimension > 0) {  // multipliers were made least after the walk: the lanes do not hold them
+    errors = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
+    s.set_growth(s.largest_x(), s.largest_rhs(), report);
+  } else {
+    errors = s.eval_residual(walker, s.rhs.data(), report);
+    if (s.options.check == SolveCheck::componentwise)
+      errors = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
+  }
   while (errors.finite && errors.normwise > s.options.refinement_above &&
          report.refinement_steps < s.options.refinement_steps) {
-    std::copy(s.x_scaled.begin(), s.x_scaled.end(), s.correction.begin());
-    s.solve_scaled(walker, s.residual.data());
-    for (std::size_t i = 0; i < n; ++i) s.x_scaled[i] += s.correction[i];
-    for (std::size_t i = 0; i < n; ++i) s.correction[i] = x[i];
-    for (std::size_t i = 0; i < n; ++i) x[i] = s.scales.column[i] * s.x_scaled[i];
+    std::copy(x, x + n, s.correction.begin());
+    s.solve_into_x(walker, s.residual.data());
+    for (std::size_t i = 0; i < n; ++i) x[i] = s.x[i] += s.correction[i];
     const ElementStore::Errors refined = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
     if (!(refined.normwise < errors.normwise)) {  // as good as it gets: keep the better one
       std::copy(s.correction.begin(), s.correction.end(), x);
-      for (std::size_t i = 0; i < n; ++i) s.x_scaled[i] = x[i] / s.scales.column[i];
+      std::copy(s.correction.begin(), s.correction.end(), s.x.begin());
       break;
     }
     errors = refined;
@@ -171,17 +210,24 @@ SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, d
 SolverCounters Hierarchical::counters() const {
   const State& s = *state_;
   SolverCounters c = s.counters;
-  std::size_t doubles = s.matrix_pool.size() + 2 * s.vector_pool.size() + 7 * s.x_scaled.size() +
+  std::size_t doubles = s.matrix_pool.size() + 2 * s.vector_pool.size() + 7 * s.x.size() +
                         s.null_space.left.capacity() + s.null_space.right.capacity();
   for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
+  for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors, &s.lane_residuals,
+                                  &s.lane_row_scales, &s.lane_inverse_column_scales})
+    doubles += pool->size();
   c.memory_bytes = static_cast<std::int64_t>(doubles * sizeof(double) + s.index_pool.size() * sizeof(int)) +
                    s.elements.memory_bytes();
+  for (const LaneFront& f : s.lanes.fronts)
+    for (tree::FrontId id : f.front) c.fronts_in_lanes += id != tree::none ? 1 : 0;
   return c;
 }
 
+std::span<const ElementBatch> Hierarchical::batches() const { return state_->lanes.batches; }
+
 std::vector<int> Hierarchical::blocks_not_unique() const {
   const State& s = *state_;
-  const std::size_t n = s.x_scaled.size();
+  const std::size_t n = s.x.size();
   std::vector<int> blocks;
   for (int b = 0; b < s.elements.graph().num_blocks(); ++b) {
     double largest = 0.0;

@@ -7,6 +7,8 @@
 #include "bough/solve/hierarchical.hpp"
 #include "dense.hpp"
 #include "element_store.hpp"
+#include "lane_kernels.hpp"
+#include "lane_plan.hpp"
 
 namespace bough::solve {
 
@@ -53,33 +55,84 @@ struct PlainInterface {
   bool used = false;
 };
 
+/// Doubles on the boundary of a cache line.
+using LaneDoubles = std::vector<double, LineAllocator<double>>;
+
+/// Largest scaled magnitudes that one group found.
+struct SolutionSizes {
+  double residual = 0.0, rhs = 0.0, x = 0.0;
+};
+
 struct Hierarchical::State {
   State(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options);
 
   const tree::Tree& tree;
   SolveOptions options;
+  LanePlan lanes;
   ElementStore elements;
   Scales scales;
   bool scales_wanted = true;
   std::unique_ptr<bool[]> is_constraint;  ///< by unknown
 
   std::vector<FrontData> fronts;
-  std::vector<Enlarged> enlarged;                                                ///< by front
-  std::vector<std::int64_t> matrix_begin, vector_begin, index_begin, run_begin;  ///< by front, into the pools
+  std::vector<Enlarged> enlarged;  ///< by front
+  std::vector<std::int64_t> matrix_begin, vector_begin, index_begin, run_begin,
+      own_begin;  ///< by front, into the pools
   std::vector<double> matrix_pool, vector_pool, scratch_pool;
   std::vector<int> index_pool;
-  std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool, a third of index_begin)
+  std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool)
   std::vector<Run> runs;
-  std::vector<PlainInterface> plain;  ///< by sub-domain; empty unless elimination is plain
+  std::vector<tree::FrontId> scalar_fronts;  ///< that are never in lanes
+  std::vector<PlainInterface> plain;         ///< by sub-domain; empty unless elimination is plain
   NullSpace null_space;
-  std::vector<double> x_scaled, rhs, residual, correction;
+  std::vector<double> x, rhs, residual, correction;
+
+  // Sub-domains in lockstep: packs of eight lanes.
+  LaneDoubles lane_scratch, lane_tops, lane_factors, lane_vectors, lane_residuals, lane_row_scales,
+      lane_inverse_column_scales;
+  std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
+  std::vector<SolutionSizes> sizes;   ///< by group
+  std::unique_ptr<Hierarchical> twin;  ///< the same without lanes, for reports that need every front whole
+  std::int64_t twin_factorization = -1, twin_solution = -1;  ///< what it holds
+  double norm = 0.0;                                         ///< of the scaled matrix, rows, when the scales were taken
 
   FactorStatus status;
   SolverCounters counters;
   const double* visit_rhs = nullptr;  ///< right-hand side of the walk at hand
 
+  // lane_walks.cpp: visits of groups
+  void factor_group(int group, const Prepare& prepare);
+  void forward_group(int group);
+  void backward_group(int group);
+  void residual_group(int group);
+  void set_lane_scales();
+  double* work_of(const LaneFront& f) { return (f.is_top ? lane_tops : lane_scratch).data() + f.work * lanes_wide; }
+  double* vector_of(const LaneFront& f) { return lane_vectors.data() + f.vector * lanes_wide; }
+  void factor_lane_front(int index);
+  void factor_lane_alone(int index, int lane);
+  void forward_lane_front(int index);
+  void backward_lane_front(int index);
+  void backward_left_lane_front(int index, std::vector<double>& left);
+  void residual_lane_front(int index);
+  void add_lane_child(tree::FrontId child, FrontData& parent);
+  void add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent) const;
+  void hand_down(tree::FrontId f);
+  void fill_lane_vector(tree::FrontId f, bool with_own);
+  bool is_scalar(tree::FrontId f) const {
+    const int index = lanes.lane_front[static_cast<std::size_t>(f)];
+    return index < 0 ||
+           (scalar_lanes[static_cast<std::size_t>(index)] >> lanes.lane[static_cast<std::size_t>(f)] & 1) != 0;
+  }
+  template <class Body>
+  void for_boundary(tree::FrontId f, Body&& body) const;  ///< body(row of the boundary, unknown)
+
+  void add_runs(const blocks::BlockGraph& graph, const tree::Front& f);
+  void count_front(tree::FrontId f);
+  double largest_x() const;
+  double largest_rhs() const;
+
   // upward.cpp: factor
-  void factor_subdomain(tree::SubdomainId s, const Prepare& prepare);
+  void factor_subdomain(tree::SubdomainId s);
   void size_front(tree::FrontId f);
   void assemble_front(tree::FrontId f);
   void add_element(const tree::Front& front, int position, double* a, int ld, int shift);
@@ -88,14 +141,16 @@ struct Hierarchical::State {
   // solve_walks.cpp
   void forward_front(tree::FrontId f);
   void backward_front(tree::FrontId f);
-  void solve_scaled(const tree::Walker& walker, const double* b);
+  void solve_into_x(const tree::Walker& walker, const double* b);
+  ElementStore::Errors eval_residual(const tree::Walker& walker, const double* b, SolveReport& report);
+  void set_growth(double x_size, double rhs_size, SolveReport& report) const;
   // null_space.cpp
   void decide_rank();
   void find_null_space();
   void eval_null_candidates();
+  void backward_left_front(tree::FrontId f, std::vector<double>& left);
   void project_multipliers();
   void eval_inconsistency(const double* b, SolveReport& report);
-  void eval_growth(const double* b, SolveReport& report) const;
   // interfaces.cpp
   void condense_through_flexibility(tree::SubdomainId s);
   void correct_forward(tree::SubdomainId s);
@@ -105,5 +160,14 @@ struct Hierarchical::State {
   FrontData& data(tree::FrontId f) { return fronts[static_cast<std::size_t>(f)]; }
   const FrontData& data(tree::FrontId f) const { return fronts[static_cast<std::size_t>(f)]; }
 };
+
+template <class Body>
+void Hierarchical::State::for_boundary(tree::FrontId f, Body&& body) const {
+  int row = 0;
+  for (int b : tree.boundary_blocks(front(f)))
+    for (std::int64_t u = tree.unknown_begin[static_cast<std::size_t>(b)];
+         u < tree.unknown_begin[static_cast<std::size_t>(b) + 1]; ++u)
+      body(row++, static_cast<std::size_t>(u));
+}
 
 }  // namespace bough::solve

@@ -91,8 +91,57 @@ void Hierarchical::State::correct_forward(tree::SubdomainId s) {
   g.noalias() = Eigen::Map<const Matrix>(interface.inverse.data(), n, n) * moved;
 }
 
+namespace {
+
+/// All sub-domains one after the other.
+tree::Walker serial_walker() {
+  return {[](void*, const tree::Tree& tree, tree::Visit visit) {
+            for (tree::SubdomainId s = 0; s < tree.num_subdomains(); ++s) visit.run(visit.context, s);
+          },
+          [](void*, const tree::Tree& tree, tree::Visit visit) {
+            for (tree::SubdomainId s = tree.num_subdomains(); s-- > 0;) visit.run(visit.context, s);
+          },
+          [](void*, std::int64_t count, std::int64_t grain, tree::Chunk chunk) {
+            for (std::int64_t i = 0; i < count; i += grain) chunk.run(chunk.context, i, std::min(i + grain, count));
+          },
+          nullptr};
+}
+
+}  // namespace
+
+/// Lanes keep factors only, not the Schur complements that reports look at: these come from a factorization of the same matrices and
+/// scales without lanes, made when first asked for.
+const Hierarchical::State& Hierarchical::reporting_state() const {
+  State& s = *state_;
+  if (s.lanes.fronts.empty() || s.counters.factorizations == 0) return s;
+  if (s.twin == nullptr) {
+    SolveOptions options = s.options;
+    options.lanes = false;
+    s.twin = std::make_unique<Hierarchical>(s.elements.graph(), s.tree, options);
+  }
+  State& twin = *s.twin->state_;
+  if (s.twin_factorization != s.counters.factorizations) {
+    for (int e = 0; e < s.elements.graph().num_elements(); ++e) {
+      const int n = s.elements.size_of(e);
+      for (int k = 0; k < n * n; ++k) twin.elements.view(e)[k] = s.elements.view(e)[k];
+    }
+    twin.scales = s.scales;
+    twin.norm = s.norm;
+    twin.scales_wanted = false;
+    (void)s.twin->factor(serial_walker());
+    s.twin_factorization = s.counters.factorizations;
+    s.twin_solution = -1;
+  }
+  if (s.twin_solution != s.counters.solutions && s.counters.solutions > 0 && twin.status.ok()) {
+    std::vector<double> solution(s.x.size());
+    (void)s.twin->solve(serial_walker(), s.rhs.data(), solution.data());
+    s.twin_solution = s.counters.solutions;
+  }
+  return twin;
+}
+
 std::vector<InterfaceReport> Hierarchical::interfaces() const {
-  const State& state = *state_;
+  const State& state = reporting_state();
   std::vector<InterfaceReport> reports;
   for (tree::SubdomainId s = 0; s < state.tree.root(); ++s) {
     const tree::Subdomain& sub = state.tree.subdomains[at(s)];
@@ -138,17 +187,19 @@ std::vector<InterfaceReport> Hierarchical::interfaces() const {
 }
 
 std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s) const {
-  const State& state = *state_;
+  const State& state = reporting_state();
   const FrontData& d = state.data(state.tree.subdomains[at(s)].top());
   const tree::Front& top = state.front(state.tree.subdomains[at(s)].top());
   const int n = d.size - d.full;
   Eigen::VectorXd x(d.size - d.pivots);  // unknowns that wait, then the boundary
-  for (int i = d.pivots; i < d.full; ++i) x(i - d.pivots) = state.x_scaled[at(d.columns[i])];
+  for (int i = d.pivots; i < d.full; ++i)
+    x(i - d.pivots) = state.x[at(d.columns[i])] / state.scales.column[at(d.columns[i])];
   std::vector<std::size_t> unknowns;
   for (int b : state.tree.boundary_blocks(top))
     for (std::int64_t u = state.tree.unknown_begin[at(b)]; u < state.tree.unknown_begin[at(b) + 1]; ++u)
       unknowns.push_back(at(u));
-  for (int i = 0; i < n; ++i) x(d.full - d.pivots + i) = state.x_scaled[unknowns[at(i)]];
+  for (int i = 0; i < n; ++i)
+    x(d.full - d.pivots + i) = state.x[unknowns[at(i)]] / state.scales.column[unknowns[at(i)]];
   const ConstMap S(d.a + d.full + static_cast<std::ptrdiff_t>(d.pivots) * d.size, n, d.size - d.pivots,
                    Eigen::OuterStride<>(d.size));
   const Eigen::VectorXd l =

@@ -40,6 +40,7 @@ struct Monolithic::State {
   const tree::Tree& tree;
   SolveOptions options;
   ElementStore elements;
+  std::vector<ElementBatch> batches;
   Scales scales;
   bool scales_wanted = true;
   std::vector<int> column_begin, row_index;
@@ -62,6 +63,12 @@ Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, c
   const std::size_t n = at(tree.num_unknowns());
   for (auto* v : {&scales.row, &scales.column, &scales.weight}) v->assign(n, 1.0);
   for (auto* v : {&rhs, &residual, &work, &x_scaled}) v->assign(n, 0.0);
+  for (int e : tree.element_order) {
+    batches.push_back({.element = {}, .values = 0, .stride = 1});
+    batches.back().element.fill(-1);
+    batches.back().element[0] = e;
+    batches.back().values = elements.view(e).first - elements.values();
+  }
   const auto is_motion = [&](int b) { return graph.block_kind[at(b)] == blocks::BlockKind::motion; };
   std::vector<std::vector<int>> neighbours(at(graph.num_blocks()));
   for (int b = 0; b < graph.num_blocks(); ++b) neighbours[at(b)].push_back(b);
@@ -207,6 +214,7 @@ Monolithic& Monolithic::operator=(Monolithic&&) noexcept = default;
 
 ElementView Monolithic::element(int id) { return state_->elements.view(id); }
 ConstElementView Monolithic::element(int id) const { return std::as_const(state_->elements).view(id); }
+std::span<const ElementBatch> Monolithic::batches() const { return state_->batches; }
 void Monolithic::rescale() { state_->scales_wanted = true; }
 const FactorStatus& Monolithic::last_status() const { return state_->status; }
 void Monolithic::multiply(const tree::Walker& walker, const double* x, double* y) const {

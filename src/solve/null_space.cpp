@@ -48,22 +48,46 @@ void Hierarchical::State::eval_null_candidates() {
   null_space.left.assign(at(k) * n, 0.0);
   for (FrontData& d : fronts) std::fill(d.vector, d.vector + d.pivots, 0.0);
   for (int v = 0; v < k; ++v) {
-    for (int i = 0; i < k; ++i) x_scaled[at(root.columns[root.pivots + i])] = i == v ? 1.0 : 0.0;
-    for (tree::FrontId f = tree.num_fronts(); f-- > 0;) backward_front(f);
-    std::copy(x_scaled.begin(), x_scaled.end(), null_space.right.begin() + static_cast<std::ptrdiff_t>(at(v) * n));
-    double* left = null_space.left.data() + at(v) * n;
-    left[at(root.rows[root.pivots + v])] = 1.0;
-    for (tree::FrontId f = tree.num_fronts(); f-- > 0;) {
-      FrontData& d = data(f);
-      double* z = d.delayed_in > 0 ? d.vector + d.size : scratch_pool.data() + vector_begin[at(f)];
-      for (int i = 0; i < d.full; ++i) z[i] = i < d.pivots ? 0.0 : left[at(d.rows[i])];
-      double* zb = z + d.full;
-      for (int b : tree.boundary_blocks(front(f)))
-        zb = std::copy(left + tree.unknown_begin[at(b)], left + tree.unknown_begin[at(b) + 1], zb);
-      substitute_backward_left(d.a, d.size, d.pivots, z);
-      for (int i = 0; i < d.pivots; ++i) left[at(d.rows[i])] = z[i];
+    for (int i = 0; i < k; ++i) {
+      const std::size_t u = at(root.columns[root.pivots + i]);
+      x[u] = i == v ? scales.column[u] : 0.0;
     }
+    for (const LaneFront& f : lanes.fronts) std::fill(vector_of(f), vector_of(f) + f.eliminated * lanes_wide, 0.0);
+    for (auto g = static_cast<int>(lanes.groups.size()); g-- > 0;) backward_group(g);
+    double* right = null_space.right.data() + at(v) * n;
+    for (std::size_t i = 0; i < n; ++i) right[i] = x[i] / scales.column[i];
+    std::vector<double>& left = residual;  // unscaled: R times the scaled one
+    const std::size_t row = at(root.rows[root.pivots + v]);
+    left[row] = scales.row[row];
+    for (int i = 0; i < k; ++i)
+      if (i != v) left[at(root.rows[root.pivots + i])] = 0.0;
+    for (auto g = static_cast<int>(lanes.groups.size()); g-- > 0;) {
+      const LaneGroup& group = lanes.groups[at(g)];
+      if (group.in_lanes) {
+        for (int f = group.front_end; f-- > group.front_begin;) {
+          backward_left_lane_front(f, left);
+          for (int l = 0; scalar_lanes[at(f)] != 0 && l < lanes_wide; ++l)
+            if ((scalar_lanes[at(f)] >> l & 1) != 0) backward_left_front(lanes.fronts[at(f)].front[at(l)], left);
+        }
+        continue;
+      }
+      const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
+      for (tree::FrontId f = s.front_end; f-- > s.front_begin;) backward_left_front(f, left);
+    }
+    double* scaled = null_space.left.data() + at(v) * n;
+    for (std::size_t i = 0; i < n; ++i) scaled[i] = left[i] / scales.row[i];
   }
+}
+
+/// Left vectors of a front on the scalar path: its boundary from `left`, unscaled, its own part into it.
+void Hierarchical::State::backward_left_front(tree::FrontId f, std::vector<double>& left) {
+  FrontData& d = data(f);
+  const bool is_enlarged = d.delayed_in > 0 || lanes.lane_front[at(f)] >= 0;
+  double* z = is_enlarged ? d.vector + d.size : scratch_pool.data() + vector_begin[at(f)];
+  for (int i = 0; i < d.full; ++i) z[i] = i < d.pivots ? 0.0 : left[at(d.rows[i])] / scales.row[at(d.rows[i])];
+  for_boundary(f, [&](int i, std::size_t u) { z[d.full + i] = left[u] / scales.row[u]; });
+  substitute_backward_left(d.a, d.size, d.pivots, z);
+  for (int i = 0; i < d.pivots; ++i) left[at(d.rows[i])] = z[i] * scales.row[at(d.rows[i])];
 }
 
 /// The left-over block T of the root is small, but small against what? With Z = Q_z R_z and Y = Q_y R_y the smallest singular values of A
@@ -152,9 +176,10 @@ void Hierarchical::State::project_multipliers() {
   const std::size_t n = at(tree.num_unknowns());
   for (int v = 0; v < null_space.dimension; ++v) {
     const double* z = null_space.right.data() + at(v) * n;
-    const double c = dot(x_scaled.data(), z, scales.weight.data(), n);
+    double c = 0.0;
+    for (std::size_t i = 0; i < n; ++i) c += x[i] / scales.column[i] * z[i] * scales.weight[i] * scales.weight[i];
     for (std::size_t i = 0; i < n; ++i)
-      if (is_constraint[i]) x_scaled[i] -= c * z[i];
+      if (is_constraint[i]) x[i] -= c * z[i] * scales.column[i];
   }
 }
 

@@ -13,9 +13,9 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 void Hierarchical::State::forward_front(tree::FrontId f) {
   const tree::Front& shape = front(f);
   FrontData& d = data(f);
-  const bool is_enlarged = d.delayed_in > 0;
+  const bool is_enlarged = d.delayed_in > 0 || lanes.lane_front[at(f)] >= 0;
   double* gathered = is_enlarged ? d.vector + d.size : scratch_pool.data() + vector_begin[at(f)];
-  const int* own = own_unknowns.data() + index_begin[at(f)] / 3;
+  const int* own = own_unknowns.data() + own_begin[at(f)];
   for (int i = 0; i < d.delayed_in; ++i) gathered[i] = 0.0;
   for (int i = 0; i < shape.num_eliminated; ++i) {
     const std::size_t u = at(own[i]);
@@ -24,6 +24,10 @@ void Hierarchical::State::forward_front(tree::FrontId f) {
   std::fill(gathered + d.full, gathered + d.size, 0.0);
   int delayed = 0;
   for (tree::FrontId child : tree.children(shape)) {
+    if (!is_scalar(child)) {
+      add_lane_vector(child, gathered, d);
+      continue;
+    }
     const FrontData& c = data(child);
     for (int i = 0; i < c.num_delayed(); ++i) gathered[delayed + i] += c.vector[c.pivots + i];
     delayed += c.num_delayed();
@@ -40,50 +44,68 @@ void Hierarchical::State::forward_front(tree::FrontId f) {
 }
 
 void Hierarchical::State::backward_front(tree::FrontId f) {
-  const tree::Front& shape = front(f);
   FrontData& d = data(f);
-  double* x = d.delayed_in > 0 ? d.vector + d.size : scratch_pool.data() + vector_begin[at(f)];
-  std::copy(d.vector, d.vector + d.pivots, x);
-  for (int i = d.pivots; i < d.full; ++i) x[i] = x_scaled[at(d.columns[i])];
-  double* xb = x + d.full;
-  for (int b : tree.boundary_blocks(shape)) {
-    const std::int64_t begin = tree.unknown_begin[at(b)], end = tree.unknown_begin[at(b) + 1];
-    xb = std::copy(x_scaled.data() + begin, x_scaled.data() + end, xb);
-  }
-  substitute_backward(d.a, d.size, d.pivots, x);
-  for (int i = 0; i < d.pivots; ++i) x_scaled[at(d.columns[i])] = x[i];
+  const bool is_enlarged = d.delayed_in > 0 || lanes.lane_front[at(f)] >= 0;
+  double* y = is_enlarged ? d.vector + d.size : scratch_pool.data() + vector_begin[at(f)];
+  std::copy(d.vector, d.vector + d.pivots, y);
+  for (int i = d.pivots; i < d.full; ++i) y[i] = x[at(d.columns[i])] / scales.column[at(d.columns[i])];
+  for_boundary(f, [&](int i, std::size_t u) { y[d.full + i] = x[u] / scales.column[u]; });
+  substitute_backward(d.a, d.size, d.pivots, y);
+  for (int i = 0; i < d.pivots; ++i) x[at(d.columns[i])] = scales.column[at(d.columns[i])] * y[i];
 }
 
-/// x_scaled = scaled solution of A x = b; unknowns left over at the root (dependent rows) are zero, then multipliers are made least.
-void Hierarchical::State::solve_scaled(const tree::Walker& walker, const double* b) {
+/// x = solution of A x = b; unknowns left over at the root (dependent rows) are zero, then multipliers are made least.
+void Hierarchical::State::solve_into_x(const tree::Walker& walker, const double* b) {
   visit_rhs = b;
-  auto forward = [this](tree::SubdomainId s) {
-    const tree::Subdomain& sub = tree.subdomains[at(s)];
-    for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) forward_front(f);
-    if (options.elimination == Elimination::plain && s != tree.root()) correct_forward(s);
-  };
-  walker.walk_up(tree, tree::make_visit(forward));
+  auto forward = [this](int group) { forward_group(group); };
+  walker.walk_up(lanes.walk, tree::make_visit(forward));
   const FrontData& root = fronts.back();
-  for (int i = root.pivots; i < root.full; ++i) x_scaled[at(root.columns[i])] = 0.0;
-  auto backward = [this](tree::SubdomainId s) {
-    const tree::Subdomain& sub = tree.subdomains[at(s)];
-    for (tree::FrontId f = sub.front_end; f-- > sub.front_begin;) backward_front(f);
-  };
-  walker.walk_down(tree, tree::make_visit(backward));
+  for (int i = root.pivots; i < root.full; ++i) x[at(root.columns[i])] = 0.0;
+  auto backward = [this](int group) { backward_group(group); };
+  walker.walk_down(lanes.walk, tree::make_visit(backward));
   if (null_space.dimension > 0) project_multipliers();
 }
 
-void Hierarchical::State::eval_growth(const double* b, SolveReport& report) const {
-  double rhs_size = 0.0, size = 0.0;
-  std::size_t largest = 0;
-  for (std::size_t i = 0; i < x_scaled.size(); ++i) {
-    rhs_size = std::max(rhs_size, std::abs(scales.row[i] * b[i]));
-    if (std::abs(x_scaled[i]) <= size) continue;
-    size = std::abs(x_scaled[i]);
-    largest = i;
+/// residual = b - A x of the solution just found, and its size.
+ElementStore::Errors Hierarchical::State::eval_residual(const tree::Walker& walker, const double* b,
+                                                        SolveReport& report) {
+  visit_rhs = b;
+  auto visit = [this](int group) { residual_group(group); };
+  walker.walk_up(lanes.walk, tree::make_visit(visit));
+  SolutionSizes most;
+  for (const SolutionSizes& s : sizes) {
+    most.residual = s.residual <= most.residual ? most.residual : s.residual;  // NaN goes through
+    most.rhs = std::max(most.rhs, s.rhs);
+    most.x = s.x <= most.x ? most.x : s.x;
   }
-  if (rhs_size == 0.0 || size == 0.0) return;
-  report.growth = size / rhs_size;
+  ElementStore::Errors errors;
+  errors.finite = std::isfinite(most.residual) && std::isfinite(most.x);
+  const double whole = norm * most.x + most.rhs;
+  errors.normwise = whole > 0.0 ? most.residual / whole : most.residual;
+  set_growth(most.x, most.rhs, report);
+  return errors;
+}
+
+double Hierarchical::State::largest_x() const {
+  double size = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) size = std::max(size, std::abs(x[i]) / scales.column[i]);
+  return size;
+}
+
+double Hierarchical::State::largest_rhs() const {
+  double size = 0.0;
+  for (std::size_t i = 0; i < rhs.size(); ++i) size = std::max(size, std::abs(rhs[i]) * scales.row[i]);
+  return size;
+}
+
+void Hierarchical::State::set_growth(double x_size, double rhs_size, SolveReport& report) const {
+  if (rhs_size == 0.0 || x_size == 0.0) return;
+  report.growth = x_size / rhs_size;
+  constexpr double suspicious = 1e10;  // below it nobody asks which unknown is the largest
+  if (report.growth < suspicious) return;
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (std::abs(x[i]) / scales.column[i] > std::abs(x[largest]) / scales.column[largest]) largest = i;
   const auto next =
       std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), static_cast<std::int64_t>(largest));
   report.growth_block = static_cast<int>(next - tree.unknown_begin.begin()) - 1;

@@ -10,10 +10,8 @@ namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
-void Hierarchical::State::factor_subdomain(tree::SubdomainId s, const Prepare& prepare) {
+void Hierarchical::State::factor_subdomain(tree::SubdomainId s) {
   const tree::Subdomain& sub = tree.subdomains[at(s)];
-  if (prepare.run != nullptr && sub.is_leaf() && sub.element_begin < sub.element_end)
-    prepare.run(prepare.context, s, sub.element_begin, sub.element_end);
   for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) {
     size_front(f);
     assemble_front(f);
@@ -29,6 +27,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   d.delayed_in = 0;
   d.failed = d.allocated = false;
   for (tree::FrontId c : tree.children(shape)) {
+    if (!is_scalar(c)) continue;
     d.delayed_in += data(c).num_delayed();
     d.failed = d.failed || data(c).failed;
   }
@@ -36,7 +35,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   d.full = d.delayed_in + shape.num_eliminated;
   d.size = d.delayed_in + shape.size();
   d.pivots = 0;
-  if (d.delayed_in == 0) {
+  if (d.delayed_in == 0 && lanes.lane_front[at(f)] < 0) {
     d.a = matrix_pool.data() + matrix_begin[at(f)];
     d.vector = vector_pool.data() + vector_begin[at(f)];
     d.rows = index_pool.data() + index_begin[at(f)];
@@ -65,14 +64,20 @@ void Hierarchical::State::assemble_front(tree::FrontId f) {
   FrontData& d = data(f);
   if (d.failed) return;
   if (d.size > 0) std::memset(d.a, 0, sizeof(double) * at(d.size) * at(d.size));
-  const int* own = own_unknowns.data() + index_begin[at(f)] / 3;
+  const int* own = own_unknowns.data() + own_begin[at(f)];
   for (int i = 0; i < d.full; ++i) {
     d.row_from[i] = i;
     if (i >= d.delayed_in) d.rows[i] = d.columns[i] = own[i - d.delayed_in];
   }
   for (int p = shape.element_begin; p < shape.element_end; ++p) add_element(shape, p, d.a, d.size, d.delayed_in);
   int delayed = 0;
-  for (tree::FrontId c : tree.children(shape)) add_child(c, d, delayed);
+  for (tree::FrontId c : tree.children(shape)) {
+    if (is_scalar(c)) {
+      add_child(c, d, delayed);
+    } else {
+      add_lane_child(c, d);
+    }
+  }
 }
 
 /// a += D_r A_e D_c, the element's blocks at their rows of the front.
@@ -82,12 +87,12 @@ void Hierarchical::State::add_element(const tree::Front&, int position, double* 
   const int* blocks = elements.blocks_of(e);
   const int count = elements.num_blocks_of(e), n = elements.size_of(e);
   const ConstElementView matrix = elements.view(e);
-  const auto& sizes = elements.graph().block_size;
+  const auto& block_size = elements.graph().block_size;
   for (int p = 0, i0 = 0; p < count; ++p) {
-    const int bi = blocks[p], ni = sizes[at(bi)];
+    const int bi = blocks[p], ni = block_size[at(bi)];
     const double* row_scale = scales.row.data() + tree.unknown_begin[at(bi)];
     for (int q = 0, j0 = 0; q < count; ++q) {
-      const int bj = blocks[q], nj = sizes[at(bj)];
+      const int bj = blocks[q], nj = block_size[at(bj)];
       const double* column_scale = scales.column.data() + tree.unknown_begin[at(bj)];
       double* target = a + (rows[p] + shift) + static_cast<std::int64_t>(rows[q] + shift) * ld;
       for (int j = 0; j < nj; ++j)

@@ -19,6 +19,9 @@ class AnySolver {
   ElementView element(int id) {
     return std::visit([&](auto& s) { return s.element(id); }, solver_);
   }
+  std::span<const ElementBatch> batches() const {
+    return std::visit([](auto& s) { return s.batches(); }, solver_);
+  }
   void rescale() {
     std::visit([](auto& s) { s.rescale(); }, solver_);
   }

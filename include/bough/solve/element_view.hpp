@@ -1,5 +1,6 @@
 #pragma once
 /// Where the assembler writes an element matrix.
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
@@ -17,5 +18,14 @@ struct BasicElementView {
 };
 using ElementView = BasicElementView<double>;
 using ConstElementView = BasicElementView<const double>;
+
+constexpr int lanes_wide = 8;  ///< sub-domains in lockstep; no result depends on how wide the registers are
+
+/// Equal elements evaluated together: one to a lane, or a single one.
+struct ElementBatch {
+  std::array<int, lanes_wide> element;  ///< ids, -1 where a lane has none
+  std::int64_t values = 0;              ///< first entry of lane 0, in doubles from the start of the store
+  int stride = 1;                       ///< lanes_wide: interleaved; 1: element[0] alone
+};
 
 }  // namespace bough::solve

@@ -32,6 +32,9 @@ class Hierarchical {
   ElementView element(int id);
   ConstElementView element(int id) const;
 
+  /// All elements in the order in which factor() takes them, equal ones of sub-domains in lockstep together.
+  std::span<const ElementBatch> batches() const;
+
   /// Take the scales anew from the element matrices at the next factor(). The first one always does. With a Prepare the scales are
   /// those of the matrices present before it runs, so call rescale() after the element matrices have been evaluated once.
   void rescale();
@@ -62,6 +65,7 @@ class Hierarchical {
 
  private:
   struct State;
+  const State& reporting_state() const;
   std::unique_ptr<State> state_;
 };
 

@@ -27,6 +27,7 @@ class Monolithic {
 
   ElementView element(int id);
   ConstElementView element(int id) const;
+  std::span<const ElementBatch> batches() const;
   void rescale();
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {});
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x);

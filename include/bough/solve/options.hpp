@@ -13,12 +13,15 @@ enum class Elimination {
 
 /// What solve() checks afterwards.
 enum class SolveCheck {
-  none,  ///< backward errors are not computed (NaN in the report).
-  backward_error,  ///< computed from the element matrices: one more product with the matrix. These must still be the factored ones.
+  none,            ///< backward errors are not computed (NaN in the report).
+  backward_error,  ///< normwise, from the element matrices: one more product with the matrix. These must still be the factored ones. |A| is
+                   ///< that of the matrix from which the scales were taken.
+  componentwise,   ///< both, at the price of a second product.
 };
 
 struct SolveOptions {
   Elimination elimination = Elimination::flat;
+  bool lanes = true;  ///< equal sub-domains are factored in lockstep, eight to a pack (flat elimination only).
   double penalty_factor =
       1.0;  ///< P = factor x the interface's own stiffness diagonal [-], > 0. Flat: only in what is reported.
   double multiplier_scale = 1.0;  ///< s of the local multipliers [-], > 0, in scaled variables.

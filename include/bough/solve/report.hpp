@@ -68,21 +68,21 @@ struct SolverCounters {
   std::int64_t delayed_pivots = 0;         ///< over all factorizations.
   std::int64_t enlarged_fronts = 0;        ///< fronts that took delayed pivots, over all factorizations.
   std::int64_t enlarging_allocations = 0;  ///< heap allocations these needed.
+  std::int64_t fronts_in_lanes = 0;        ///< fronts of the tree that are factored in lockstep.
+  std::int64_t lanes_left = 0;  ///< fronts that left their lane for the pivoted path, over all factorizations.
 };
 
-/// Called at the start of a leaf's visit, before its elements are assembled, so that one task evaluates and eliminates them.
-/// begin, end: positions in Tree::element_order. Must not throw. May run concurrently for different leaves.
+/// Called at the start of a visit, before the elements are assembled, so that one task evaluates and eliminates them.
+/// begin, end: positions in Hierarchical::batches(). Must not throw. May run concurrently for different visits.
 struct Prepare {
-  void (*run)(void* context, tree::SubdomainId leaf, int begin, int end) = nullptr;
+  void (*run)(void* context, int visit, int begin, int end) = nullptr;
   void* context = nullptr;
 };
 
-/// A Prepare that calls `body(leaf, begin, end)`; body must outlive the factorization.
+/// A Prepare that calls `body(visit, begin, end)`; body must outlive the factorization.
 template <class Body>
 Prepare make_prepare(Body& body) {
-  return {[](void* context, tree::SubdomainId leaf, int begin, int end) {
-            (*static_cast<Body*>(context))(leaf, begin, end);
-          },
+  return {[](void* context, int visit, int begin, int end) { (*static_cast<Body*>(context))(visit, begin, end); },
           &body};
 }
 

@@ -1,0 +1,47 @@
+#pragma once
+/// Dense kernels over eight fronts in lockstep: entry k of lane l at [8 k + l], columns one after the other. No row is exchanged; what grows
+/// too much is told lane by lane. Lanes never mix, so a lane's numbers do not depend on its neighbours or on the width of the registers.
+/// Internal to solve.
+#include <cstdint>
+
+namespace bough::solve {
+
+/// Bit l: lane l.
+using LaneSet = std::uint8_t;
+
+/// Which pivots may stand where they are.
+struct LanePivotRule {
+  double threshold = 1e-3;  ///< at least this share of the column's largest entry, rows scaled
+  double least = 1e-10;     ///< at least this, rows and columns scaled
+};
+
+/// Eliminates the first e of n unknowns: L (unit) below the diagonal, the inverse pivots on it, U above, the Schur complement behind.
+/// row_scale: n packs, inverse_column_scale: e packs. Lanes with a pivot against the rule are answered; they hold an identity from there on.
+LaneSet eliminate_lanes(double* a, int n, int e, const double* row_scale, const double* inverse_column_scale,
+                        const LanePivotRule& rule);
+
+/// a <- identity in the eliminated part and 0 elsewhere, for the lanes of the set.
+void neutralise_lanes(double* a, int n, int e, LaneSet lanes);
+
+/// Stored factor: e columns of n entries, then n - e columns of e entries.
+void store_factor(const double* a, int n, int e, double* factor);
+
+/// v: n packs. Forward: v_E = L11^-1 v_E, v_B -= L21 v_E. Backward: v_E = U11^-1 (v_E - U12 v_B). Left: v_E^T = -v_B^T L21 L11^-1.
+void forward_lanes(const double* factor, int n, int e, double* v);
+void backward_lanes(const double* factor, int n, int e, double* v);
+void backward_left_lanes(const double* factor, int n, int e, double* v);
+
+/// a(rows, columns) += element, a block of p x q entries of a row-major element with `stride` entries a row.
+void add_block_lanes(const double* element, int stride, int p, int q, double* a, int n);
+
+/// y_i += sum_j element_ij x_j for a block as above.
+void multiply_block_lanes(const double* element, int stride, int p, int q, const double* x, double* y);
+
+/// Largest of |v_i| scale_i over `count` packs and all lanes; not a number comes out as infinity or NaN.
+double largest_scaled(const double* v, const double* scale, int count);
+
+/// to += from, `count` packs; with `from_lane` lane l of `to` takes lane from_lane[l], or nothing where that is negative.
+void add_packs(const double* from, int count, double* to);
+void add_packs(const double* from, int count, double* to, const std::int8_t* from_lane);
+
+}  // namespace bough::solve

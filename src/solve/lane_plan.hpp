@@ -1,0 +1,90 @@
+#pragma once
+/// Which sub-domains are factored in lockstep, one to a SIMD lane, and how their fronts fit together. Symbolic, made once. Internal to solve.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bough/blocks/block_graph.hpp"
+#include "bough/solve/element_view.hpp"
+#include "bough/tree/tree.hpp"
+
+namespace bough::solve {
+
+/// Up to eight equal elements of eight equal fronts: one pack an entry.
+struct LaneElement {
+  std::array<int, lanes_wide> element;  ///< ids, -1 where a lane has none
+  int size = 0;                         ///< unknowns
+  std::int64_t place_begin = 0;         ///< LanePlan::places of its blocks [place_begin, place_end)
+  std::int64_t place_end = 0;
+  std::int64_t values = 0;  ///< first entry of the first lane, in doubles, in the element store
+};
+
+/// A block of an element in its front.
+struct Place {
+  int row;     ///< first row in the front
+  int length;  ///< unknowns
+};
+
+/// Rows of a child's boundary that go to adjacent rows of the parent.
+struct LaneRun {
+  int from;  ///< row of the child front
+  int to;    ///< row of the parent front
+  int length;
+};
+
+/// A child of a front in lockstep: lane l of the parent takes lane from[l] of the child front, or nothing (-1).
+struct LaneChild {
+  int front;  ///< index in LanePlan::fronts
+  bool is_identity;
+  std::array<std::int8_t, lanes_wide> from;
+  std::int64_t run_begin = 0, run_end = 0;  ///< LanePlan::runs
+};
+
+/// Up to eight fronts of the tree in lockstep. A lane with fewer unknowns is filled up with rows of the identity.
+struct LaneFront {
+  std::array<tree::FrontId, lanes_wide> front;  ///< tree::none where the lane is empty
+  int eliminated = 0, boundary = 0;             ///< unknowns, the most of all lanes
+  bool has_padding = false;                     ///< some lane has fewer unknowns to eliminate
+  int element_begin = 0, element_end = 0;       ///< LanePlan::elements
+  int child_begin = 0, child_end = 0;           ///< LanePlan::children
+  std::int64_t work = 0;    ///< first pack of the assembled front: in the group's scratch, or lasting where it is a top
+  std::int64_t factor = 0;  ///< first pack of the stored factor
+  std::int64_t vector = 0;  ///< first pack of the right-hand side and solution
+  std::int64_t unknown = 0;  ///< first of 8 x eliminated unknowns (-1: padding), lanes innermost
+  bool is_top = false;       ///< its Schur complement lasts until the parent group is visited
+  int size() const { return eliminated + boundary; }
+  std::int64_t factor_size() const { return static_cast<std::int64_t>(eliminated) * (size() + boundary); }
+};
+
+/// Sub-domains visited together: several in lockstep, or a single one on the scalar path.
+struct LaneGroup {
+  std::vector<tree::SubdomainId> subdomains;
+  bool in_lanes = false;
+  int front_begin = 0, front_end = 0;      ///< LanePlan::fronts, children first; in lanes only
+  int element_begin = 0, element_end = 0;  ///< positions in LanePlan::batches
+  std::int64_t scratch = 0;                ///< first pack of the group's scratch
+};
+
+struct LanePlan {
+  std::vector<LaneGroup> groups;  ///< children before parents
+  std::vector<LaneFront> fronts;
+  std::vector<LaneElement> elements;
+  std::vector<LaneChild> children;
+  std::vector<Place> places;
+  std::vector<LaneRun> runs;
+  std::vector<int> unknowns;
+  std::vector<ElementBatch> batches;  ///< every element once, by group
+  std::vector<int> lane_front;        ///< by front of the tree: index in fronts, -1 on the scalar path
+  std::vector<std::int8_t> lane;      ///< by front of the tree
+  std::vector<int> group_of_subdomain;
+  tree::Tree walk;  ///< the groups as sub-domains, for walkers
+  std::int64_t scratch_size = 0, top_size = 0, factor_size = 0, vector_size = 0;  ///< packs
+  std::int64_t num_values = 0;                                                    ///< doubles of the element store
+  std::vector<std::int64_t> element_first;                                        ///< by element
+  std::vector<int> element_stride;                                                ///< by element
+};
+
+/// Groups the sub-domains of a tree. A function of graph and tree alone. `use_lanes` false: every sub-domain alone, on the scalar path.
+LanePlan make_lane_plan(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes);
+
+}  // namespace bough::solve

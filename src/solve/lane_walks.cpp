@@ -1,0 +1,356 @@
+/// Visits of groups: eight sub-domains in lockstep, and the hand-over between lanes and the scalar path.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "hierarchical_state.hpp"
+
+namespace bough::solve {
+
+namespace {
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr int wide = lanes_wide;
+}  // namespace
+
+void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
+  const LaneGroup& group = lanes.groups[at(index)];
+  if (prepare.run != nullptr && group.element_begin < group.element_end)
+    prepare.run(prepare.context, index, group.element_begin, group.element_end);
+  if (group.in_lanes) {
+    for (int f = group.front_begin; f < group.front_end; ++f) factor_lane_front(f);
+  } else {
+    factor_subdomain(group.subdomains.front());
+  }
+}
+
+void Hierarchical::State::forward_group(int index) {
+  const LaneGroup& group = lanes.groups[at(index)];
+  if (group.in_lanes) {
+    for (int f = group.front_begin; f < group.front_end; ++f) forward_lane_front(f);
+    return;
+  }
+  const tree::SubdomainId s = group.subdomains.front();
+  for (tree::FrontId f = tree.subdomains[at(s)].front_begin; f < tree.subdomains[at(s)].front_end; ++f)
+    forward_front(f);
+  if (options.elimination == Elimination::plain && s != tree.root()) correct_forward(s);
+}
+
+void Hierarchical::State::backward_group(int index) {
+  const LaneGroup& group = lanes.groups[at(index)];
+  if (group.in_lanes) {
+    for (int f = group.front_end; f-- > group.front_begin;) backward_lane_front(f);
+    return;
+  }
+  const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
+  for (tree::FrontId f = s.front_end; f-- > s.front_begin;) {
+    backward_front(f);
+    hand_down(f);
+  }
+}
+
+void Hierarchical::State::residual_group(int index) {
+  const LaneGroup& group = lanes.groups[at(index)];
+  SolutionSizes& size = sizes[at(index)];
+  size = {};
+  if (group.in_lanes) {
+    for (int f = group.front_begin; f < group.front_end; ++f) residual_lane_front(f);
+    for (int i = group.front_begin; i < group.front_end; ++i) {
+      const LaneFront& f = lanes.fronts[at(i)];
+      const double* scale = lane_row_scales.data() + f.vector * wide;
+      size.residual =
+          std::max(size.residual, largest_scaled(lane_residuals.data() + f.vector * wide, scale, f.eliminated));
+      size.x = std::max(
+          size.x, largest_scaled(vector_of(f), lane_inverse_column_scales.data() + f.vector * wide, f.eliminated));
+      for (int k = 0; k < f.eliminated * wide; ++k) {
+        const int u = lanes.unknowns[at(f.unknown + k)];
+        if (u >= 0) size.rhs = std::max(size.rhs, std::abs(visit_rhs[u]) * scale[k]);
+      }
+    }
+    return;
+  }
+  const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
+  double most[2] = {0.0, 0.0};
+  for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) {
+    const auto own = tree.blocks(front(f)).first(at(front(f).num_eliminated_blocks));
+    elements.eval_rows(scales, own, x.data(), visit_rhs, residual.data(), most);
+    for (int b : own)
+      for (std::size_t u = at(tree.unknown_begin[at(b)]); u < at(tree.unknown_begin[at(b) + 1]); ++u) {
+        const double value = std::abs(x[u]) / scales.column[u];
+        size.x = value <= size.x ? size.x : value;
+      }
+  }
+  size.residual = most[0];
+  size.rhs = most[1];
+}
+
+/// Row and inverse column scales of every front, in lanes; 1 for padding.
+void Hierarchical::State::set_lane_scales() {
+  std::fill(lane_row_scales.begin(), lane_row_scales.end(), 1.0);
+  std::fill(lane_inverse_column_scales.begin(), lane_inverse_column_scales.end(), 1.0);
+  for (const LaneFront& f : lanes.fronts) {
+    double* row = lane_row_scales.data() + f.vector * wide;
+    double* column = lane_inverse_column_scales.data() + f.vector * wide;
+    for (int k = 0; k < f.eliminated * wide; ++k) {
+      const int u = lanes.unknowns[at(f.unknown + k)];
+      if (u < 0) continue;
+      row[k] = scales.row[at(u)];
+      column[k] = 1.0 / scales.column[at(u)];
+    }
+    for (int l = 0; l < wide; ++l)
+      if (f.front[at(l)] != tree::none)
+        for_boundary(f.front[at(l)], [&](int i, std::size_t u) {
+          row[(f.eliminated + i) * wide + l] = scales.row[u];
+          column[(f.eliminated + i) * wide + l] = 1.0 / scales.column[u];
+        });
+  }
+}
+
+void Hierarchical::State::factor_lane_front(int index) {
+  const LaneFront& f = lanes.fronts[at(index)];
+  const int n = f.size(), e = f.eliminated;
+  double* a = work_of(f);
+  std::memset(a, 0, sizeof(double) * wide * at(n) * at(n));
+  LaneSet alone = 0;
+  for (int c = f.child_begin; c < f.child_end; ++c) {
+    const LaneChild& child = lanes.children[at(c)];
+    const LaneFront& from = lanes.fronts[at(child.front)];
+    const double* s = work_of(from);
+    const std::int64_t m = from.size();
+    for (auto q = child.run_begin; q < child.run_end; ++q) {
+      const LaneRun& columns = lanes.runs[at(q)];
+      for (int j = 0; j < columns.length; ++j)
+        for (auto p = child.run_begin; p < child.run_end; ++p) {
+          const LaneRun& rows = lanes.runs[at(p)];
+          const double* source = s + ((columns.from + j) * m + rows.from) * wide;
+          double* target = a + (static_cast<std::int64_t>(columns.to + j) * n + rows.to) * wide;
+          if (child.is_identity) {
+            add_packs(source, rows.length, target);
+          } else {
+            add_packs(source, rows.length, target, child.from.data());
+          }
+        }
+    }
+    if (scalar_lanes[at(child.front)] == 0) continue;
+    for (int l = 0; l < wide; ++l) {  // unknowns that wait, or a failure below, can only be taken over there
+      const int lane = child.from[at(l)];
+      if (lane < 0 || (scalar_lanes[at(child.front)] >> lane & 1) == 0) continue;
+      const FrontData& d = data(from.front[at(lane)]);
+      if (d.num_delayed() > 0 || d.failed) alone = static_cast<LaneSet>(alone | 1 << l);
+    }
+  }
+  for (int i = f.element_begin; i < f.element_end; ++i) {
+    const LaneElement& element = lanes.elements[at(i)];
+    const double* values = elements.values() + element.values;
+    const Place* places = lanes.places.data() + element.place_begin;
+    const auto count = static_cast<int>(element.place_end - element.place_begin);
+    for (int p = 0, i0 = 0; p < count; i0 += places[p++].length)
+      for (int q = 0, j0 = 0; q < count; j0 += places[q++].length)
+        add_block_lanes(values + static_cast<std::int64_t>(i0 * element.size + j0) * wide, element.size,
+                        places[p].length, places[q].length,
+                        a + (static_cast<std::int64_t>(places[q].row) * n + places[p].row) * wide, n);
+  }
+  if (f.has_padding)
+    for (int k = 0; k < e * wide; ++k)
+      if (lanes.unknowns[at(f.unknown + k)] < 0)
+        a[static_cast<std::int64_t>(k / wide) * (n + 1) * wide + k % wide] = 1.0;
+  if (alone != 0) neutralise_lanes(a, n, e, alone);
+  const LanePivotRule rule{options.pivot_threshold, options.tiny_pivot};
+  const LaneSet refused = eliminate_lanes(a, n, e, lane_row_scales.data() + f.vector * wide,
+                                          lane_inverse_column_scales.data() + f.vector * wide, rule);
+  store_factor(a, n, e, lane_factors.data() + f.factor * wide);
+  alone = static_cast<LaneSet>(alone | refused);
+  scalar_lanes[at(index)] = alone;
+  for (int l = 0; alone != 0 && l < wide; ++l)
+    if ((alone >> l & 1) != 0) factor_lane_alone(index, l);
+}
+
+/// The pivoted scalar path for one lane; its Schur complement goes back into the lane where no unknown waits.
+void Hierarchical::State::factor_lane_alone(int index, int lane) {
+  const LaneFront& f = lanes.fronts[at(index)];
+  const tree::FrontId id = f.front[at(lane)];
+  size_front(id);
+  assemble_front(id);
+  eliminate_front(id);
+  const FrontData& d = data(id);
+  if (d.failed || d.num_delayed() > 0) return;
+  double* a = work_of(f);
+  const std::int64_t n = f.size();
+  for_boundary(id, [&](int j, std::size_t column) {
+    for_boundary(id, [&](int i, std::size_t row) {
+      a[((f.eliminated + j) * n + f.eliminated + i) * wide + lane] =
+          d.a[static_cast<std::int64_t>(d.full + j) * d.size + d.full + i] / (scales.row[row] * scales.column[column]);
+    });
+  });
+}
+
+/// Adds the Schur complement that a lane holds to a front on the scalar path, scaled.
+void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent) {
+  const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
+  const int lane = lanes.lane[at(child)];
+  const double* a = work_of(f);
+  const std::int64_t n = f.size();
+  std::array<int, 2 * lanes_wide * lanes_wide> to;  // no front in lanes has more rows
+  for (std::int64_t r = run_begin[at(child)]; r < run_begin[at(child) + 1]; ++r)
+    for (int i = 0; i < runs[at(r)].length; ++i) to[at(runs[at(r)].from + i)] = parent.delayed_in + runs[at(r)].to + i;
+  for_boundary(child, [&](int j, std::size_t column) {
+    for_boundary(child, [&](int i, std::size_t row) {
+      parent.a[static_cast<std::int64_t>(to[at(j)]) * parent.size + to[at(i)]] +=
+          scales.row[row] * a[((f.eliminated + j) * n + f.eliminated + i) * wide + lane] * scales.column[column];
+    });
+  });
+}
+
+void Hierarchical::State::forward_lane_front(int index) {
+  const LaneFront& f = lanes.fronts[at(index)];
+  double* v = vector_of(f);
+  const int* unknown = lanes.unknowns.data() + f.unknown;
+  if (f.has_padding) {
+    for (int k = 0; k < f.eliminated * wide; ++k) v[k] = unknown[k] < 0 ? 0.0 : visit_rhs[unknown[k]];
+  } else {
+    for (int k = 0; k < f.eliminated * wide; ++k) v[k] = visit_rhs[unknown[k]];
+  }
+  std::memset(v + f.eliminated * wide, 0, sizeof(double) * at(f.boundary) * wide);
+  for (int c = f.child_begin; c < f.child_end; ++c) {
+    const LaneChild& child = lanes.children[at(c)];
+    const double* g = vector_of(lanes.fronts[at(child.front)]);
+    for (auto p = child.run_begin; p < child.run_end; ++p) {
+      const LaneRun& rows = lanes.runs[at(p)];
+      if (child.is_identity) {
+        add_packs(g + rows.from * wide, rows.length, v + rows.to * wide);
+      } else {
+        add_packs(g + rows.from * wide, rows.length, v + rows.to * wide, child.from.data());
+      }
+    }
+  }
+  forward_lanes(lane_factors.data() + f.factor * wide, f.size(), f.eliminated, v);
+  const LaneSet alone = scalar_lanes[at(index)];
+  for (int l = 0; alone != 0 && l < wide; ++l) {
+    if ((alone >> l & 1) == 0) continue;
+    const tree::FrontId id = f.front[at(l)];
+    forward_front(id);
+    const FrontData& d = data(id);
+    for_boundary(
+        id, [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + l] = d.vector[d.full + i] / scales.row[u]; });
+  }
+}
+
+/// Adds the condensed right-hand side that a lane holds to a front on the scalar path, scaled.
+void Hierarchical::State::add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent) const {
+  const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
+  const double* g = lane_vectors.data() + (f.vector + f.eliminated) * wide + lanes.lane[at(child)];
+  std::int64_t r = run_begin[at(child)];
+  for_boundary(child, [&](int i, std::size_t u) {
+    while (i >= runs[at(r)].from + runs[at(r)].length) ++r;
+    gathered[parent.delayed_in + runs[at(r)].to + i - runs[at(r)].from] += scales.row[u] * g[i * wide];
+  });
+}
+
+/// The solution at a front's boundary (and its own unknowns) into its lane.
+void Hierarchical::State::fill_lane_vector(tree::FrontId id, bool with_own) {
+  const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(id)])];
+  const int lane = lanes.lane[at(id)];
+  double* v = vector_of(f);
+  for_boundary(id, [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + lane] = x[u]; });
+  if (!with_own) return;
+  for (int k = 0; k < f.eliminated; ++k) {
+    const int u = lanes.unknowns[at(f.unknown + k * wide + lane)];
+    if (u >= 0) v[k * wide + lane] = x[at(u)];
+  }
+}
+
+/// From a front on the scalar path to its children in lanes.
+void Hierarchical::State::hand_down(tree::FrontId f) {
+  for (tree::FrontId c : tree.children(front(f)))
+    if (lanes.lane_front[at(c)] >= 0) fill_lane_vector(c, false);
+}
+
+void Hierarchical::State::backward_lane_front(int index) {
+  const LaneFront& f = lanes.fronts[at(index)];
+  double* v = vector_of(f);
+  backward_lanes(lane_factors.data() + f.factor * wide, f.size(), f.eliminated, v);
+  const int* unknown = lanes.unknowns.data() + f.unknown;
+  const LaneSet alone = scalar_lanes[at(index)];
+  if (alone == 0 && !f.has_padding) {
+    for (int k = 0; k < f.eliminated * wide; ++k) x[at(unknown[k])] = v[k];
+  } else {
+    for (int k = 0; k < f.eliminated * wide; ++k)
+      if (unknown[k] >= 0 && (alone >> (k % wide) & 1) == 0) x[at(unknown[k])] = v[k];
+    for (int l = 0; l < wide; ++l)
+      if ((alone >> l & 1) != 0) {
+        backward_front(f.front[at(l)]);
+        fill_lane_vector(f.front[at(l)], true);
+      }
+  }
+  for (int c = f.child_begin; c < f.child_end; ++c) {
+    const LaneChild& child = lanes.children[at(c)];
+    double* to = vector_of(lanes.fronts[at(child.front)]);
+    for (auto p = child.run_begin; p < child.run_end; ++p) {
+      const LaneRun& rows = lanes.runs[at(p)];
+      if (child.is_identity) {
+        std::memcpy(to + rows.from * wide, v + rows.to * wide, sizeof(double) * wide * at(rows.length));
+      } else {
+        for (int i = 0; i < rows.length; ++i)
+          for (int l = 0; l < wide; ++l)
+            if (child.from[at(l)] >= 0) to[(rows.from + i) * wide + child.from[at(l)]] = v[(rows.to + i) * wide + l];
+      }
+    }
+  }
+}
+
+/// Left vectors, for null spaces: gathers its boundary from `left`, unscaled, and puts its own part there.
+void Hierarchical::State::backward_left_lane_front(int index, std::vector<double>& left) {
+  const LaneFront& f = lanes.fronts[at(index)];
+  double* v = vector_of(f);
+  std::memset(v, 0, sizeof(double) * wide * at(f.size()));
+  for (int l = 0; l < wide; ++l)
+    if (f.front[at(l)] != tree::none)
+      for_boundary(f.front[at(l)], [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + l] = left[u]; });
+  backward_left_lanes(lane_factors.data() + f.factor * wide, f.size(), f.eliminated, v);
+  for (int k = 0; k < f.eliminated * wide; ++k) {
+    const int u = lanes.unknowns[at(f.unknown + k)];
+    if (u >= 0 && (scalar_lanes[at(index)] >> (k % wide) & 1) == 0) left[at(u)] = v[k];
+  }
+}
+
+/// b - A x in the rows eliminated here; the elements' part in the boundary goes to the parent, like a condensed right-hand side.
+void Hierarchical::State::residual_lane_front(int index) {
+  const LaneFront& f = lanes.fronts[at(index)];
+  const double* v = vector_of(f);
+  double* r = lane_residuals.data() + f.vector * wide;
+  std::memset(r, 0, sizeof(double) * wide * at(f.size()));
+  for (int c = f.child_begin; c < f.child_end; ++c) {
+    const LaneChild& child = lanes.children[at(c)];
+    const double* g = lane_residuals.data() + lanes.fronts[at(child.front)].vector * wide;
+    for (auto p = child.run_begin; p < child.run_end; ++p) {
+      const LaneRun& rows = lanes.runs[at(p)];
+      if (child.is_identity) {
+        add_packs(g + rows.from * wide, rows.length, r + rows.to * wide);
+      } else {
+        add_packs(g + rows.from * wide, rows.length, r + rows.to * wide, child.from.data());
+      }
+    }
+  }
+  for (int i = f.element_begin; i < f.element_end; ++i) {
+    const LaneElement& element = lanes.elements[at(i)];
+    const double* values = elements.values() + element.values;
+    const Place* places = lanes.places.data() + element.place_begin;
+    const auto count = static_cast<int>(element.place_end - element.place_begin);
+    for (int p = 0, i0 = 0; p < count; i0 += places[p++].length)
+      for (int q = 0, j0 = 0; q < count; j0 += places[q++].length)
+        multiply_block_lanes(values + static_cast<std::int64_t>(i0 * element.size + j0) * wide, element.size,
+                             places[p].length, places[q].length, v + places[q].row * wide, r + places[p].row * wide);
+  }
+  const int* unknown = lanes.unknowns.data() + f.unknown;
+  for (int k = 0; k < f.eliminated * wide; ++k) {
+    const int u = unknown[k];
+    if (u < 0) {
+      r[k] = 0.0;
+      continue;
+    }
+    r[k] = visit_rhs[u] - r[k];
+    residual[at(u)] = r[k];
+  }
+}
+
+}  // namespace bough::solve
