@@ -106,7 +106,9 @@ struct Hierarchical::State {
   void backward_group(int group);
   void residual_group(int group);
   void set_lane_scales();
-  double* work_of(const LaneFront& f) { return (f.is_top ? lane_tops : lane_scratch).data() + f.work * lanes_wide; }
+  double* schur_of(const LaneFront& f) { return (f.is_top ? lane_tops : lane_scratch).data() + f.schur * lanes_wide; }
+  double* factor_of(const LaneFront& f) { return lane_factors.data() + f.factor * lanes_wide; }
+  LaneSet lanes_to_leave(const LaneFront& f) const;
   double* vector_of(const LaneFront& f) { return lane_vectors.data() + f.vector * lanes_wide; }
   void factor_lane_front(int index);
   void factor_lane_alone(int index, int lane);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 #include "bough/lanes/pack.hpp"
 #include "lane_plan.hpp"
@@ -108,120 +109,293 @@ inline void subtract_columns(int m, int k, const double* a, std::ptrdiff_t la, c
   for (; i < m; ++i) subtract_tile<1, C>(k, a + i * wide, la, b, lb, c + i * wide, lc);
 }
 
-/// U12 of C columns by pivots [k0, k1), then their rows below.
+/// C columns catch up with pivots [k0, k1): `head` holds their rows [0, rows of the panel), `tail` those from row `first` on.
 template <int C>
-inline void update_columns(double* a, int n, int k0, int k1, double* columns) {
-  const std::ptrdiff_t ld = static_cast<std::ptrdiff_t>(n) * wide;
+inline void update_head(const double* l, std::ptrdiff_t ld, int k0, int k1, double* head, std::ptrdiff_t step) {
   for (int p = k0; p + 1 < k1; ++p) {
     Real u[C];
-    for (int j = 0; j < C; ++j) u[j] = load(columns + j * ld + p * wide);
+    for (int j = 0; j < C; ++j) u[j] = load(head + j * step + p * wide);
     for (int i = p + 1; i < k1; ++i) {
-      const Real l = load(a + p * ld + i * wide);
+      const Real factor = load(l + p * ld + i * wide);
       for (int j = 0; j < C; ++j) {
-        double* c = columns + j * ld + i * wide;
-        store(c, minus_product(load(c), l, u[j]));
+        double* c = head + j * step + i * wide;
+        store(c, minus_product(load(c), factor, u[j]));
       }
     }
   }
-  subtract_columns<C>(n - k1, k1 - k0, a + k0 * ld + k1 * wide, ld, columns + k0 * wide, ld, columns + k1 * wide, ld);
+}
+
+/// Columns [begin, end) of the front catch up with pivots [k0, k1).
+struct Front {
+  double *left, *upper, *schur;  ///< n x e; e x b; b x b
+  int n, e;
+  std::ptrdiff_t ld() const { return static_cast<std::ptrdiff_t>(n) * wide; }
+};
+
+template <int C>
+inline void update_left(const Front& f, int k0, int k1, int column) {
+  const std::ptrdiff_t ld = f.ld();
+  double* head = f.left + column * ld;
+  update_head<C>(f.left, ld, k0, k1, head, ld);
+  subtract_columns<C>(f.n - k1, k1 - k0, f.left + k0 * ld + k1 * wide, ld, head + k0 * wide, ld, head + k1 * wide, ld);
+}
+
+template <int C>
+inline void update_right(const Front& f, int k0, int k1, int column) {
+  const int b = f.n - f.e;
+  const std::ptrdiff_t ld = f.ld(), step = static_cast<std::ptrdiff_t>(f.e) * wide;
+  double* head = f.upper + column * step;
+  update_head<C>(f.left, ld, k0, k1, head, step);
+  subtract_columns<C>(f.e - k1, k1 - k0, f.left + k0 * ld + k1 * wide, ld, head + k0 * wide, step, head + k1 * wide,
+                      step);
+  const std::ptrdiff_t tail = static_cast<std::ptrdiff_t>(b) * wide;
+  subtract_columns<C>(b, k1 - k0, f.left + k0 * ld + f.e * wide, ld, head + k0 * wide, step, f.schur + column * tail,
+                      tail);
+}
+
+template <class Update>
+inline void for_columns(int begin, int end, const Update& update) {
+  int j = begin;
+  for (; j + 4 <= end; j += 4) update(j, std::integral_constant<int, 4>{});
+  for (; j + 2 <= end; j += 2) update(j, std::integral_constant<int, 2>{});
+  for (; j < end; ++j) update(j, std::integral_constant<int, 1>{});
+}
+
+void neutralise(const Front& f, unsigned lanes) {
+  const int b = f.n - f.e;
+  for (int l = 0; l < width; ++l) {
+    if ((lanes >> l & 1u) == 0) continue;
+    for (int i = 0; i < f.n * f.e; ++i) f.left[i * wide + l] = i / f.n == i % f.n ? 1.0 : 0.0;
+    for (int i = 0; i < f.e * b; ++i) f.upper[i * wide + l] = 0.0;
+    for (int i = 0; i < b * b; ++i) f.schur[i * wide + l] = 0.0;
+  }
+}
+
+/// LU of the K x K block at (k0, k0), in place; the inverse pivots on the diagonal. `refused`: lanes whose pivot is tiny, not finite, or small
+/// against the block's part of its column.
+template <int K>
+inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
+                                const LanePivotRule& rule) {
+  const std::ptrdiff_t ld = f.ld();
+  double* block = f.left + k0 * ld + k0 * wide;
+  Flag good = ~Flag{};
+  Real a[K][K];
+  for (int j = 0; j < K; ++j)
+    for (int i = 0; i < K; ++i) a[j][i] = load(block + j * ld + i * wide);
+  for (int k = 0; k < K; ++k) {
+    Real largest = {};
+    for (int i = k + 1; i < K; ++i)
+      largest = greater_of(largest, magnitude(a[k][i] * load(row_scale + (k0 + i) * wide)));
+    const Real size = magnitude(a[k][k] * load(row_scale + (k0 + k) * wide));
+    // Compared as bits: a NaN or infinity on either side refuses, and traps nothing.
+    const Real least = greater_of(rule.threshold * largest, rule.least * load(inverse_column_scale + (k0 + k) * wide));
+    const Flag taken = (bits_of(size) >= bits_of(least)) & (bits_of(size) < Flag{} + infinite_bits);
+    good &= taken;
+    const Real inverse = 1.0 / (taken ? a[k][k] : Real{} + 1.0);
+    for (int i = k + 1; i < K; ++i) a[k][i] *= inverse;
+    for (int j = k + 1; j < K; ++j)
+      for (int i = k + 1; i < K; ++i) a[j][i] = minus_product(a[j][i], a[k][i], a[j][k]);
+    a[k][k] = inverse;
+  }
+  for (int j = 0; j < K; ++j)
+    for (int i = 0; i < K; ++i) store(block + j * ld + i * wide, a[j][i]);
+  unsigned refused = 0;
+  for (int l = 0; l < width; ++l) refused |= good[l] == 0 ? 1u << l : 0u;
+  return refused;
+}
+
+/// L of R rows below the block, and the largest of each column, rows scaled.
+template <int K, int R>
+inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld, const double* row_scale,
+                           Real* largest) {
+  Real l[K][R];
+  for (int k = 0; k < K; ++k)
+    for (int i = 0; i < R; ++i) l[k][i] = load(rows + k * ld + i * wide);
+  for (int k = 0; k < K; ++k) {
+    for (int p = 0; p < k; ++p) {
+      const Real u = load(block + k * ld + p * wide);
+      for (int i = 0; i < R; ++i) l[k][i] = minus_product(l[k][i], l[p][i], u);
+    }
+    const Real inverse = load(block + k * ld + k * wide);
+    for (int i = 0; i < R; ++i) {
+      l[k][i] *= inverse;
+      store(rows + k * ld + i * wide, l[k][i]);
+      largest[k] = greater_of(largest[k], magnitude(l[k][i] * load(row_scale + i * wide)));
+    }
+  }
+}
+
+template <int K>
+inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
+                                const LanePivotRule& rule) {
+  const std::ptrdiff_t ld = f.ld();
+  unsigned refused = eliminate_block<K>(f, k0, row_scale, inverse_column_scale, rule);
+  if (refused != 0) neutralise(f, refused);
+  const double* block = f.left + k0 * ld + k0 * wide;
+  Real largest[K];
+  for (int k = 0; k < K; ++k) largest[k] = Real{};
+  int i = k0 + K;
+  double* left = f.left + k0 * ld;
+  for (; i + 4 <= f.n; i += 4) eliminate_rows<K, 4>(block, left + i * wide, ld, row_scale + i * wide, largest);
+  for (; i + 2 <= f.n; i += 2) eliminate_rows<K, 2>(block, left + i * wide, ld, row_scale + i * wide, largest);
+  for (; i < f.n; ++i) eliminate_rows<K, 1>(block, left + i * wide, ld, row_scale + i * wide, largest);
+  // A pivot is small against its column where an entry of L, rows scaled, is above 1 / threshold.
+  Flag good = ~Flag{};
+  for (int k = 0; k < K; ++k)
+    good &= bits_of(rule.threshold * largest[k]) <= bits_of(load(row_scale + (k0 + k) * wide));
+  unsigned grown = 0;
+  for (int l = 0; l < width; ++l) grown |= good[l] == 0 ? 1u << l : 0u;
+  if (grown != 0) neutralise(f, grown);
+  return refused | grown;
 }
 
 /// One register of lanes.
-unsigned eliminate_register(double* a, int n, int e, const double* row_scale, const double* inverse_column_scale,
+unsigned eliminate_register(const Front& f, const double* row_scale, const double* inverse_column_scale,
                             const LanePivotRule& rule) {
-  const std::ptrdiff_t ld = static_cast<std::ptrdiff_t>(n) * wide;
-  constexpr int panel = 12;
   unsigned failed = 0;
-  for (int k0 = 0; k0 < e; k0 += panel) {
-    const int k1 = std::min(e, k0 + panel);
-    for (int k = k0; k < k1; ++k) {
-      double* column = a + k * ld;
-      Real largest = {};
-      for (int i = k + 1; i < n; ++i)
-        largest = greater_of(largest, magnitude(load(column + i * wide) * load(row_scale + i * wide)));
-      Real pivot = load(column + k * wide);
-      const Real size = magnitude(pivot * load(row_scale + k * wide));
-      // Compared as bits: a NaN or infinity on either side refuses, and traps nothing.
-      unsigned refused = 0;
-      const Real least = greater_of(rule.threshold * largest, rule.least * load(inverse_column_scale + k * wide));
-      const Flag bad = ~((bits_of(size) >= bits_of(least)) & (bits_of(size) < Flag{} + infinite_bits));
-      for (int l = 0; l < width; ++l) refused |= bad[l] != 0 ? 1u << l : 0u;
-      if (refused != 0) {
-        failed |= refused;
-        for (int j = 0; j < n; ++j)
-          for (int i = 0; i < n; ++i)
-            for (int l = 0; l < width; ++l)
-              if ((refused >> l & 1u) != 0) a[j * ld + i * wide + l] = i == j && i < e ? 1.0 : 0.0;
-        pivot = load(column + k * wide);
-      }
-      const Real inverse = 1.0 / pivot;
-      store(column + k * wide, inverse);
-      for (int i = k + 1; i < n; ++i) store(column + i * wide, load(column + i * wide) * inverse);
-      for (int j = k + 1; j < k1; ++j) {
-        double* c = a + j * ld;
-        const Real u = load(c + k * wide);
-        for (int i = k + 1; i < n; ++i)
-          store(c + i * wide, minus_product(load(c + i * wide), load(column + i * wide), u));
-      }
+  for (int k0 = 0; k0 < f.e;) {
+    const int k = std::min(6, f.e - k0);
+    switch (k) {
+      case 6:
+        failed |= eliminate_panel<6>(f, k0, row_scale, inverse_column_scale, rule);
+        break;
+      case 5:
+        failed |= eliminate_panel<5>(f, k0, row_scale, inverse_column_scale, rule);
+        break;
+      case 4:
+        failed |= eliminate_panel<4>(f, k0, row_scale, inverse_column_scale, rule);
+        break;
+      case 3:
+        failed |= eliminate_panel<3>(f, k0, row_scale, inverse_column_scale, rule);
+        break;
+      case 2:
+        failed |= eliminate_panel<2>(f, k0, row_scale, inverse_column_scale, rule);
+        break;
+      default:
+        failed |= eliminate_panel<1>(f, k0, row_scale, inverse_column_scale, rule);
     }
-    int j = k1;
-    for (; j + 4 <= n; j += 4) update_columns<4>(a, n, k0, k1, a + j * ld);
-    for (; j + 2 <= n; j += 2) update_columns<2>(a, n, k0, k1, a + j * ld);
-    for (; j < n; ++j) update_columns<1>(a, n, k0, k1, a + j * ld);
+    for_columns(k0 + k, f.e, [&](int j, auto c) { update_left<decltype(c)::value>(f, k0, k0 + k, j); });
+    for_columns(0, f.n - f.e, [&](int j, auto c) { update_right<decltype(c)::value>(f, k0, k0 + k, j); });
+    k0 += k;
   }
   return failed;
 }
 
+Front register_of(double* factor, double* schur, int n, int e, int lane) {
+  return {factor + lane, factor + static_cast<std::ptrdiff_t>(n) * e * wide + lane, schur + lane, n, e};
+}
+
+/// sum_i (+)= a_ij x_j for R rows i, steps in doubles.
+template <int R, bool add>
+inline void accumulate(const double* a, std::ptrdiff_t row_step, std::ptrdiff_t column_step, int columns,
+                       const double* x, double* y) {
+  Real sum[R];
+  for (int i = 0; i < R; ++i) sum[i] = load(y + i * wide);
+  for (int j = 0; j < columns; ++j) {
+    const Real xj = load(x + j * wide);
+    for (int i = 0; i < R; ++i) {
+      const Real entry = load(a + i * row_step + j * column_step);
+      sum[i] = add ? plus_product(sum[i], entry, xj) : minus_product(sum[i], entry, xj);
+    }
+  }
+  for (int i = 0; i < R; ++i) store(y + i * wide, sum[i]);
+}
+
+template <bool add>
+inline void accumulate_rows(int rows, const double* a, std::ptrdiff_t row_step, std::ptrdiff_t column_step, int columns,
+                            const double* x, double* y) {
+  int i = 0;
+  for (; i + 6 <= rows; i += 6) accumulate<6, add>(a + i * row_step, row_step, column_step, columns, x, y + i * wide);
+  for (; i + 2 <= rows; i += 2) accumulate<2, add>(a + i * row_step, row_step, column_step, columns, x, y + i * wide);
+  for (; i < rows; ++i) accumulate<1, add>(a + i * row_step, row_step, column_step, columns, x, y + i * wide);
+}
+
 }  // namespace
 
-LaneSet eliminate_lanes(double* a, int n, int e, const double* row_scale, const double* inverse_column_scale,
-                        const LanePivotRule& rule) {
+LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const double* row_scale,
+                        const double* inverse_column_scale, const LanePivotRule& rule) {
   unsigned failed = 0;
   for (int l = 0; l < wide; l += width)
-    failed |= eliminate_register(a + l, n, e, row_scale + l, inverse_column_scale + l, rule) << l;
+    failed |= eliminate_register(register_of(factor, schur, n, e, l), row_scale + l, inverse_column_scale + l, rule)
+              << l;
   return static_cast<LaneSet>(failed);
 }
 
-void neutralise_lanes(double* a, int n, int e, LaneSet lanes) {
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i)
-      for (int l = 0; l < wide; ++l)
-        if ((lanes >> l & 1) != 0) a[(static_cast<std::ptrdiff_t>(j) * n + i) * wide + l] = i == j && i < e ? 1.0 : 0.0;
+void neutralise_lanes(double* factor, double* schur, int n, int e, LaneSet lanes) {
+  for (int l = 0; l < wide; l += width)
+    neutralise(register_of(factor, schur, n, e, l), static_cast<unsigned>(lanes) >> l);
 }
 
-void store_factor(const double* a, int n, int e, double* factor) {
-  const std::size_t whole = static_cast<std::size_t>(n) * wide, part = static_cast<std::size_t>(e) * wide;
-  std::memcpy(factor, a, sizeof(double) * whole * static_cast<std::size_t>(e));
-  factor += whole * static_cast<std::size_t>(e);
-  for (int j = e; j < n; ++j, factor += part)
-    std::memcpy(factor, a + static_cast<std::size_t>(j) * whole, sizeof(double) * part);
+namespace {
+
+/// y_k -= sum_{p<k} l_kp y_p for K rows.
+template <int K>
+inline void forward_triangle(const double* l, std::ptrdiff_t ld, double* v) {
+  Real y[K];
+  for (int k = 0; k < K; ++k) y[k] = load(v + k * wide);
+  for (int k = 0; k < K; ++k)
+    for (int i = k + 1; i < K; ++i) y[i] = minus_product(y[i], load(l + k * ld + i * wide), y[k]);
+  for (int k = 1; k < K; ++k) store(v + k * wide, y[k]);
 }
+
+template <int K>
+inline void backward_triangle(const double* u, std::ptrdiff_t ld, double* v) {
+  Real x[K];
+  for (int k = 0; k < K; ++k) x[k] = load(v + k * wide);
+  for (int k = K - 1; k >= 0; --k) {
+    x[k] *= load(u + k * ld + k * wide);
+    for (int i = 0; i < k; ++i) x[i] = minus_product(x[i], load(u + k * ld + i * wide), x[k]);
+  }
+  for (int k = 0; k < K; ++k) store(v + k * wide, x[k]);
+}
+
+template <class Triangle>
+inline void with_size(int k, const Triangle& triangle) {
+  switch (k) {
+    case 6:
+      triangle(std::integral_constant<int, 6>{});
+      break;
+    case 5:
+      triangle(std::integral_constant<int, 5>{});
+      break;
+    case 4:
+      triangle(std::integral_constant<int, 4>{});
+      break;
+    case 3:
+      triangle(std::integral_constant<int, 3>{});
+      break;
+    case 2:
+      triangle(std::integral_constant<int, 2>{});
+      break;
+    default:
+      triangle(std::integral_constant<int, 1>{});
+  }
+}
+
+}  // namespace
 
 void forward_lanes(const double* factor, int n, int e, double* v) {
   const std::ptrdiff_t ld = static_cast<std::ptrdiff_t>(n) * wide;
   for (int l = 0; l < wide; l += width)
-    for (int k = 0; k < e; ++k) {
-      const Real y = load(v + k * wide + l);
-      const double* column = factor + k * ld + l;
-      for (int i = k + 1; i < n; ++i)
-        store(v + i * wide + l, minus_product(load(v + i * wide + l), load(column + i * wide), y));
+    for (int k0 = 0; k0 < e;) {
+      const int k = std::min(6, e - k0);
+      const double* block = factor + k0 * ld + k0 * wide + l;
+      with_size(k, [&](auto size) { forward_triangle<decltype(size)::value>(block, ld, v + k0 * wide + l); });
+      k0 += k;
+      accumulate_rows<false>(n - k0, block + k * wide, wide, ld, k, v + (k0 - k) * wide + l, v + k0 * wide + l);
     }
 }
 
 void backward_lanes(const double* factor, int n, int e, double* v) {
   const std::ptrdiff_t ld = static_cast<std::ptrdiff_t>(n) * wide;
   for (int l = 0; l < wide; l += width) {
-    const double* u = factor + e * ld + l;
-    for (int j = e; j < n; ++j) {
-      const Real x = load(v + j * wide + l);
-      for (int i = 0; i < e; ++i, u += wide) store(v + i * wide + l, minus_product(load(v + i * wide + l), load(u), x));
-    }
-    for (int k = e - 1; k >= 0; --k) {
-      const double* column = factor + k * ld + l;
-      const Real x = load(v + k * wide + l) * load(column + k * wide);
-      store(v + k * wide + l, x);
-      for (int i = 0; i < k; ++i)
-        store(v + i * wide + l, minus_product(load(v + i * wide + l), load(column + i * wide), x));
+    accumulate_rows<false>(e, factor + e * ld + l, wide, static_cast<std::ptrdiff_t>(e) * wide, n - e, v + e * wide + l,
+                           v + l);
+    for (int k0 = (e + 5) / 6 * 6 - 6, k = e - k0; k0 >= 0; k0 -= 6, k = 6) {
+      with_size(k, [&](auto size) {
+        backward_triangle<decltype(size)::value>(factor + k0 * ld + k0 * wide + l, ld, v + k0 * wide + l);
+      });
+      accumulate_rows<false>(k0, factor + k0 * ld + l, wide, ld, k, v + k0 * wide + l, v + l);
     }
   }
 }
@@ -237,23 +411,31 @@ void backward_left_lanes(const double* factor, int n, int e, double* v) {
     }
 }
 
-void add_block_lanes(const double* element, int stride, int p, int q, double* a, int n) {
-  for (int j = 0; j < q; ++j)
-    for (int i = 0; i < p; ++i) {
-      const double* from = element + (static_cast<std::ptrdiff_t>(i) * stride + j) * wide;
-      double* to = a + (static_cast<std::ptrdiff_t>(j) * n + i) * wide;
-      for (int l = 0; l < wide; l += width) store(to + l, load(to + l) + load(from + l));
+void move_block(const double* source, int row_step, int column_step, int rows, int columns, double* target,
+                int target_step, bool is_first) {
+  // The source is read in the order in which it lies; the target's few lines stay in the nearest cache.
+  const bool by_row = column_step == 1;
+  const int outer = by_row ? rows : columns, inner = by_row ? columns : rows;
+  const std::ptrdiff_t from_step = static_cast<std::ptrdiff_t>(by_row ? row_step : column_step) * wide;
+  const std::ptrdiff_t to_step = by_row ? wide : static_cast<std::ptrdiff_t>(target_step) * wide;
+  const std::ptrdiff_t to_inner = by_row ? static_cast<std::ptrdiff_t>(target_step) * wide : wide;
+  for (int j = 0; j < outer; ++j) {
+    const double* from = source + j * from_step;
+    double* to = target + j * to_step;
+    if (is_first) {
+      for (int i = 0; i < inner; ++i)
+        for (int l = 0; l < wide; l += width) store(to + i * to_inner + l, load(from + i * wide + l));
+    } else {
+      for (int i = 0; i < inner; ++i)
+        for (int l = 0; l < wide; l += width)
+          store(to + i * to_inner + l, load(to + i * to_inner + l) + load(from + i * wide + l));
     }
+  }
 }
 
 void multiply_block_lanes(const double* element, int stride, int p, int q, const double* x, double* y) {
   for (int l = 0; l < wide; l += width)
-    for (int i = 0; i < p; ++i) {
-      const double* from = element + static_cast<std::ptrdiff_t>(i) * stride * wide + l;
-      Real sum = load(y + i * wide + l);
-      for (int j = 0; j < q; ++j) sum = plus_product(sum, load(from + j * wide), load(x + j * wide + l));
-      store(y + i * wide + l, sum);
-    }
+    accumulate_rows<true>(p, element + l, static_cast<std::ptrdiff_t>(stride) * wide, wide, q, x + l, y + l);
 }
 
 double largest_scaled(const double* v, const double* scale, int count) {

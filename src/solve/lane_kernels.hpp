@@ -15,24 +15,23 @@ struct LanePivotRule {
   double least = 1e-10;     ///< at least this, rows and columns scaled
 };
 
-/// Eliminates the first e of n unknowns: L (unit) below the diagonal, the inverse pivots on it, U above, the Schur complement behind.
+/// Eliminates the first e of n unknowns. factor: e columns of n entries, then n - e columns of e entries; schur: the other columns' rows below.
+/// After: L (unit) below the diagonal, the inverse pivots on it, U above and in the further columns, the Schur complement.
 /// row_scale: n packs, inverse_column_scale: e packs. Lanes with a pivot against the rule are answered; they hold an identity from there on.
-LaneSet eliminate_lanes(double* a, int n, int e, const double* row_scale, const double* inverse_column_scale,
-                        const LanePivotRule& rule);
+LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const double* row_scale,
+                        const double* inverse_column_scale, const LanePivotRule& rule);
 
-/// a <- identity in the eliminated part and 0 elsewhere, for the lanes of the set.
-void neutralise_lanes(double* a, int n, int e, LaneSet lanes);
-
-/// Stored factor: e columns of n entries, then n - e columns of e entries.
-void store_factor(const double* a, int n, int e, double* factor);
+/// Identity in the eliminated part and 0 elsewhere, for the lanes of the set.
+void neutralise_lanes(double* factor, double* schur, int n, int e, LaneSet lanes);
 
 /// v: n packs. Forward: v_E = L11^-1 v_E, v_B -= L21 v_E. Backward: v_E = U11^-1 (v_E - U12 v_B). Left: v_E^T = -v_B^T L21 L11^-1.
 void forward_lanes(const double* factor, int n, int e, double* v);
 void backward_lanes(const double* factor, int n, int e, double* v);
 void backward_left_lanes(const double* factor, int n, int e, double* v);
 
-/// a(rows, columns) += element, a block of p x q entries of a row-major element with `stride` entries a row.
-void add_block_lanes(const double* element, int stride, int p, int q, double* a, int n);
+/// target (+)= a block of rows x columns packs; steps in packs.
+void move_block(const double* source, int row_step, int column_step, int rows, int columns, double* target,
+                int target_step, bool is_first);
 
 /// y_i += sum_j element_ij x_j for a block as above.
 void multiply_block_lanes(const double* element, int stride, int p, int q, const double* x, double* y);

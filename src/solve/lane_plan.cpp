@@ -200,6 +200,7 @@ class Planner {
       add_elements(f);
       add_children(f);
       f.is_top = k + 1 == count;
+      add_moves(f);
       f.factor = plan_.factor_size;
       f.vector = plan_.vector_size;
       plan_.factor_size += f.factor_size();
@@ -327,8 +328,8 @@ class Planner {
       for (std::size_t i = 0; i < d.to.size(); ++i) {
         if (d.to[i] < 0) continue;
         const int from = first + static_cast<int>(i);
-        if (static_cast<std::int64_t>(plan_.runs.size()) > d.child.run_begin) {
-          LaneRun& last = plan_.runs.back();
+        if (static_cast<std::int64_t>(plan_.runs.size()) > d.child.run_begin && d.to[i] != f.eliminated) {
+          LaneRun& last = plan_.runs.back();  // runs end where the boundary begins
           if (last.from + last.length == from && last.to + last.length == d.to[i]) {
             ++last.length;
             continue;
@@ -344,7 +345,93 @@ class Planner {
 
   static bool is_empty_lane(const LaneFront& f, int lane) { return f.front[at(lane)] == tree::none; }
 
-  /// Assembled fronts live until their parent is assembled: first fit in the group's scratch. The top lasts.
+  /// Every block of every contributor with its place, in fixed order: what comes first is written, what follows is added, what is left is
+  /// a gap. So no front is cleared as a whole.
+  void add_moves(LaneFront& f) {
+    const int n = f.size(), e = f.eliminated, b = f.boundary;
+    std::vector<char> reached(at(static_cast<std::int64_t>(n) * n), 0);
+    f.move_begin = static_cast<int>(plan_.moves.size());
+    f.gap_begin = static_cast<int>(plan_.gaps.size());
+    const auto place = [&](LaneMove& move, int row, int column) {
+      move.to_schur = row >= e && column >= e;
+      if (column < e) {
+        move.target = static_cast<std::int64_t>(column) * n + row;
+        move.target_step = n;
+      } else if (row < e) {
+        move.target = static_cast<std::int64_t>(e) * n + static_cast<std::int64_t>(column - e) * e + row;
+        move.target_step = e;
+      } else {
+        move.target = static_cast<std::int64_t>(column - e) * b + row - e;
+        move.target_step = b;
+      }
+    };
+    const auto fill_gaps = [&](int row, int column, int rows, int columns) {
+      for (int j = column; j < column + columns; ++j)
+        for (int i = row; i < row + rows;) {
+          if (reached[at(static_cast<std::int64_t>(j) * n + i)] != 0) {
+            ++i;
+            continue;
+          }
+          LaneMove where;
+          place(where, i, j);
+          const bool above = i < e && j >= e;  // U12 and the Schur complement do not lie next to each other
+          int count = 0;
+          for (; i < row + rows && reached[at(static_cast<std::int64_t>(j) * n + i)] == 0 && !(above && i == e);
+               ++i, ++count)
+            reached[at(static_cast<std::int64_t>(j) * n + i)] = 1;
+          plan_.gaps.push_back({where.target, count, where.to_schur});
+        }
+    };
+    const auto add = [&](LaneMove move, int row, int column) {
+      place(move, row, column);
+      int already = 0;
+      for (int j = column; j < column + move.columns; ++j)
+        for (int i = row; i < row + move.rows; ++i) already += reached[at(static_cast<std::int64_t>(j) * n + i)];
+      move.is_first = already == 0;
+      if (already > 0 && already < move.rows * move.columns) fill_gaps(row, column, move.rows, move.columns);
+      for (int j = column; j < column + move.columns; ++j)
+        for (int i = row; i < row + move.rows; ++i) reached[at(static_cast<std::int64_t>(j) * n + i)] = 1;
+      plan_.moves.push_back(move);
+    };
+    for (int c = f.child_begin; c < f.child_end; ++c) {
+      const LaneChild& child = plan_.children[at(c)];
+      const LaneFront& from = plan_.fronts[at(child.front)];
+      for (auto q = child.run_begin; q < child.run_end; ++q)
+        for (auto p = child.run_begin; p < child.run_end; ++p) {
+          const LaneRun &rows = plan_.runs[at(p)], &columns = plan_.runs[at(q)];
+          add({.source = static_cast<std::int64_t>(columns.from - from.eliminated) * from.boundary + rows.from -
+                         from.eliminated,
+               .rows = rows.length,
+               .columns = columns.length,
+               .row_step = 1,
+               .column_step = from.boundary,
+               .child = c},
+              rows.to, columns.to);
+        }
+    }
+    for (int i = f.element_begin; i < f.element_end; ++i) {
+      const LaneElement& element = plan_.elements[at(i)];
+      int row = 0;
+      for (auto p = element.place_begin; p < element.place_end; ++p) {
+        int column = 0;
+        for (auto q = element.place_begin; q < element.place_end; ++q) {
+          add({.source = element.values / lanes_wide + static_cast<std::int64_t>(row) * element.size + column,
+               .rows = plan_.places[at(p)].length,
+               .columns = plan_.places[at(q)].length,
+               .row_step = element.size,
+               .column_step = 1},
+              plan_.places[at(p)].row, plan_.places[at(q)].row);
+          column += plan_.places[at(q)].length;
+        }
+        row += plan_.places[at(p)].length;
+      }
+    }
+    fill_gaps(0, 0, n, n);
+    f.move_end = static_cast<int>(plan_.moves.size());
+    f.gap_end = static_cast<int>(plan_.gaps.size());
+  }
+
+  /// Schur complements live until their parent is assembled: first fit in the group's scratch. The top lasts.
   void place_work(LaneGroup& group) {
     struct Live {
       std::int64_t begin, end;
@@ -359,9 +446,9 @@ class Planner {
     std::int64_t most = 0;
     for (int i = begin; i < end; ++i) {
       LaneFront& f = plan_.fronts[at(i)];
-      const std::int64_t size = static_cast<std::int64_t>(f.size()) * f.size();
+      const std::int64_t size = static_cast<std::int64_t>(f.boundary) * f.boundary;
       if (f.is_top) {
-        f.work = plan_.top_size;
+        f.schur = plan_.top_size;
         plan_.top_size += size;
         continue;
       }
@@ -371,7 +458,7 @@ class Planner {
       for (; it != live.end() && it->begin < place + size; ++it) place = it->end;
       live.insert(it, {place, place + size, reader[at(i - begin)]});
       most = std::max(most, place + size);
-      f.work = group.scratch + place;
+      f.schur = group.scratch + place;
     }
     plan_.scratch_size += most;
   }

@@ -25,6 +25,25 @@ struct Place {
   int length;  ///< unknowns
 };
 
+/// One block of an element or of a child's Schur complement on its way into a front; offsets and steps in packs.
+struct LaneMove {
+  std::int64_t source = 0;  ///< from the element store, or from the child's Schur complement
+  std::int64_t target = 0;  ///< from the factor, or from the Schur complement of the front
+  int rows = 0, columns = 0;
+  int row_step = 0, column_step = 0;  ///< of the source
+  int target_step = 0;                ///< between columns of the target
+  int child = -1;                     ///< index in LanePlan::children; -1: an element
+  bool to_schur = false;
+  bool is_first = false;  ///< nothing is there yet: written, not added
+};
+
+/// A run of packs that no element and no child reaches.
+struct LaneGap {
+  std::int64_t target;
+  int count;
+  bool in_schur;
+};
+
 /// Rows of a child's boundary that go to adjacent rows of the parent.
 struct LaneRun {
   int from;  ///< row of the child front
@@ -47,9 +66,11 @@ struct LaneFront {
   bool has_padding = false;                     ///< some lane has fewer unknowns to eliminate
   int element_begin = 0, element_end = 0;       ///< LanePlan::elements
   int child_begin = 0, child_end = 0;           ///< LanePlan::children
-  std::int64_t work = 0;    ///< first pack of the assembled front: in the group's scratch, or lasting where it is a top
-  std::int64_t factor = 0;  ///< first pack of the stored factor
-  std::int64_t vector = 0;  ///< first pack of the right-hand side and solution
+  int move_begin = 0, move_end = 0;             ///< LanePlan::moves
+  int gap_begin = 0, gap_end = 0;               ///< LanePlan::gaps
+  std::int64_t schur = 0;  ///< first pack of the Schur complement: in the group's scratch, or lasting where it is a top
+  std::int64_t factor = 0;   ///< first pack of the factor: e columns of all n rows, then the b columns of U12
+  std::int64_t vector = 0;   ///< first pack of the right-hand side and solution
   std::int64_t unknown = 0;  ///< first of 8 x eliminated unknowns (-1: padding), lanes innermost
   bool is_top = false;       ///< its Schur complement lasts until the parent group is visited
   int size() const { return eliminated + boundary; }
@@ -72,6 +93,8 @@ struct LanePlan {
   std::vector<LaneChild> children;
   std::vector<Place> places;
   std::vector<LaneRun> runs;
+  std::vector<LaneMove> moves;
+  std::vector<LaneGap> gaps;
   std::vector<int> unknowns;
   std::vector<ElementBatch> batches;  ///< every element once, by group
   std::vector<int> lane_front;        ///< by front of the tree: index in fronts, -1 on the scalar path

@@ -109,60 +109,61 @@ void Hierarchical::State::set_lane_scales() {
 void Hierarchical::State::factor_lane_front(int index) {
   const LaneFront& f = lanes.fronts[at(index)];
   const int n = f.size(), e = f.eliminated;
-  double* a = work_of(f);
-  std::memset(a, 0, sizeof(double) * wide * at(n) * at(n));
-  LaneSet alone = 0;
-  for (int c = f.child_begin; c < f.child_end; ++c) {
-    const LaneChild& child = lanes.children[at(c)];
-    const LaneFront& from = lanes.fronts[at(child.front)];
-    const double* s = work_of(from);
-    const std::int64_t m = from.size();
-    for (auto q = child.run_begin; q < child.run_end; ++q) {
-      const LaneRun& columns = lanes.runs[at(q)];
-      for (int j = 0; j < columns.length; ++j)
-        for (auto p = child.run_begin; p < child.run_end; ++p) {
-          const LaneRun& rows = lanes.runs[at(p)];
-          const double* source = s + ((columns.from + j) * m + rows.from) * wide;
-          double* target = a + (static_cast<std::int64_t>(columns.to + j) * n + rows.to) * wide;
-          if (child.is_identity) {
-            add_packs(source, rows.length, target);
-          } else {
-            add_packs(source, rows.length, target, child.from.data());
-          }
-        }
+  double *factor = factor_of(f), *schur = schur_of(f);
+  for (int i = f.gap_begin; i < f.gap_end; ++i) {
+    const LaneGap& gap = lanes.gaps[at(i)];
+    std::memset((gap.in_schur ? schur : factor) + gap.target * wide, 0, sizeof(double) * wide * at(gap.count));
+  }
+  for (int i = f.move_begin; i < f.move_end; ++i) {
+    const LaneMove& move = lanes.moves[at(i)];
+    double* target = (move.to_schur ? schur : factor) + move.target * wide;
+    if (move.child < 0) {
+      move_block(elements.values() + move.source * wide, move.row_step, move.column_step, move.rows, move.columns,
+                 target, move.target_step, move.is_first);
+      continue;
     }
-    if (scalar_lanes[at(child.front)] == 0) continue;
-    for (int l = 0; l < wide; ++l) {  // unknowns that wait, or a failure below, can only be taken over there
-      const int lane = child.from[at(l)];
-      if (lane < 0 || (scalar_lanes[at(child.front)] >> lane & 1) == 0) continue;
-      const FrontData& d = data(from.front[at(lane)]);
-      if (d.num_delayed() > 0 || d.failed) alone = static_cast<LaneSet>(alone | 1 << l);
+    const LaneChild& child = lanes.children[at(move.child)];
+    const double* source = schur_of(lanes.fronts[at(child.front)]) + move.source * wide;
+    if (child.is_identity) {
+      move_block(source, move.row_step, move.column_step, move.rows, move.columns, target, move.target_step,
+                 move.is_first);
+      continue;
+    }
+    for (int j = 0; j < move.columns; ++j) {
+      double* to = target + static_cast<std::int64_t>(j) * move.target_step * wide;
+      if (move.is_first) std::memset(to, 0, sizeof(double) * wide * at(move.rows));
+      add_packs(source + static_cast<std::int64_t>(j) * move.column_step * wide, move.rows, to, child.from.data());
     }
   }
-  for (int i = f.element_begin; i < f.element_end; ++i) {
-    const LaneElement& element = lanes.elements[at(i)];
-    const double* values = elements.values() + element.values;
-    const Place* places = lanes.places.data() + element.place_begin;
-    const auto count = static_cast<int>(element.place_end - element.place_begin);
-    for (int p = 0, i0 = 0; p < count; i0 += places[p++].length)
-      for (int q = 0, j0 = 0; q < count; j0 += places[q++].length)
-        add_block_lanes(values + static_cast<std::int64_t>(i0 * element.size + j0) * wide, element.size,
-                        places[p].length, places[q].length,
-                        a + (static_cast<std::int64_t>(places[q].row) * n + places[p].row) * wide, n);
-  }
+  LaneSet alone = lanes_to_leave(f);
   if (f.has_padding)
     for (int k = 0; k < e * wide; ++k)
       if (lanes.unknowns[at(f.unknown + k)] < 0)
-        a[static_cast<std::int64_t>(k / wide) * (n + 1) * wide + k % wide] = 1.0;
-  if (alone != 0) neutralise_lanes(a, n, e, alone);
+        factor[static_cast<std::int64_t>(k / wide) * (n + 1) * wide + k % wide] = 1.0;
+  if (alone != 0) neutralise_lanes(factor, schur, n, e, alone);
   const LanePivotRule rule{options.pivot_threshold, options.tiny_pivot};
-  const LaneSet refused = eliminate_lanes(a, n, e, lane_row_scales.data() + f.vector * wide,
+  const LaneSet refused = eliminate_lanes(factor, schur, n, e, lane_row_scales.data() + f.vector * wide,
                                           lane_inverse_column_scales.data() + f.vector * wide, rule);
-  store_factor(a, n, e, lane_factors.data() + f.factor * wide);
   alone = static_cast<LaneSet>(alone | refused);
   scalar_lanes[at(index)] = alone;
   for (int l = 0; alone != 0 && l < wide; ++l)
     if ((alone >> l & 1) != 0) factor_lane_alone(index, l);
+}
+
+/// Lanes with unknowns that wait, or a failure below: these can only be taken over on the scalar path.
+LaneSet Hierarchical::State::lanes_to_leave(const LaneFront& f) const {
+  unsigned leave = 0;
+  for (int c = f.child_begin; c < f.child_end; ++c) {
+    const LaneChild& child = lanes.children[at(c)];
+    if (scalar_lanes[at(child.front)] == 0) continue;
+    for (int l = 0; l < wide; ++l) {
+      const int lane = child.from[at(l)];
+      if (lane < 0 || (scalar_lanes[at(child.front)] >> lane & 1) == 0) continue;
+      const FrontData& d = data(lanes.fronts[at(child.front)].front[at(lane)]);
+      if (d.num_delayed() > 0 || d.failed) leave |= 1u << l;
+    }
+  }
+  return static_cast<LaneSet>(leave);
 }
 
 /// The pivoted scalar path for one lane; its Schur complement goes back into the lane where no unknown waits.
@@ -174,11 +175,10 @@ void Hierarchical::State::factor_lane_alone(int index, int lane) {
   eliminate_front(id);
   const FrontData& d = data(id);
   if (d.failed || d.num_delayed() > 0) return;
-  double* a = work_of(f);
-  const std::int64_t n = f.size();
+  double* schur = schur_of(f);
   for_boundary(id, [&](int j, std::size_t column) {
     for_boundary(id, [&](int i, std::size_t row) {
-      a[((f.eliminated + j) * n + f.eliminated + i) * wide + lane] =
+      schur[(static_cast<std::int64_t>(j) * f.boundary + i) * wide + lane] =
           d.a[static_cast<std::int64_t>(d.full + j) * d.size + d.full + i] / (scales.row[row] * scales.column[column]);
     });
   });
@@ -188,15 +188,15 @@ void Hierarchical::State::factor_lane_alone(int index, int lane) {
 void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent) {
   const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
   const int lane = lanes.lane[at(child)];
-  const double* a = work_of(f);
-  const std::int64_t n = f.size();
+  const double* schur = schur_of(f);
   std::array<int, 2 * lanes_wide * lanes_wide> to;  // no front in lanes has more rows
   for (std::int64_t r = run_begin[at(child)]; r < run_begin[at(child) + 1]; ++r)
     for (int i = 0; i < runs[at(r)].length; ++i) to[at(runs[at(r)].from + i)] = parent.delayed_in + runs[at(r)].to + i;
   for_boundary(child, [&](int j, std::size_t column) {
     for_boundary(child, [&](int i, std::size_t row) {
       parent.a[static_cast<std::int64_t>(to[at(j)]) * parent.size + to[at(i)]] +=
-          scales.row[row] * a[((f.eliminated + j) * n + f.eliminated + i) * wide + lane] * scales.column[column];
+          scales.row[row] * schur[(static_cast<std::int64_t>(j) * f.boundary + i) * wide + lane] *
+          scales.column[column];
     });
   });
 }
