@@ -265,6 +265,18 @@ void ElementStore::eval_scales(Scales& s) const {
   s.finite = probe == 0.0;
 }
 
+std::vector<ElementBatch> ElementStore::single_batches() const {
+  std::vector<ElementBatch> batches;
+  for (int e : tree_.element_order) {
+    ElementBatch batch;
+    batch.element.fill(-1);
+    batch.element[0] = e;
+    batch.values = view(e).first - values_.data();
+    batches.push_back(batch);
+  }
+  return batches;
+}
+
 double ElementStore::eval_norm(const Scales& scales) const {
   double norm = 0.0;
   for (std::int64_t b = 0; b < graph_.num_blocks(); ++b)

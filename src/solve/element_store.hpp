@@ -64,6 +64,8 @@ class ElementStore {
   void eval_rows(const Scales& scales, std::span<const int> blocks, const double* x, const double* b, double* r,
                  double* most) const;
   const double* values() const { return values_.data(); }
+  /// Every element alone, by leaf.
+  std::vector<ElementBatch> single_batches() const;
 
   std::int64_t memory_bytes() const;
   const blocks::BlockGraph& graph() const { return graph_; }

@@ -59,16 +59,10 @@ struct Monolithic::State {
 };
 
 Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
-    : tree(t), options(o), elements(graph, t) {
+    : tree(t), options(o), elements(graph, t), batches(elements.single_batches()) {
   const std::size_t n = at(tree.num_unknowns());
   for (auto* v : {&scales.row, &scales.column, &scales.weight}) v->assign(n, 1.0);
   for (auto* v : {&rhs, &residual, &work, &x_scaled}) v->assign(n, 0.0);
-  for (int e : tree.element_order) {
-    batches.push_back({.element = {}, .values = 0, .stride = 1});
-    batches.back().element.fill(-1);
-    batches.back().element[0] = e;
-    batches.back().values = elements.view(e).first - elements.values();
-  }
   const auto is_motion = [&](int b) { return graph.block_kind[at(b)] == blocks::BlockKind::motion; };
   std::vector<std::vector<int>> neighbours(at(graph.num_blocks()));
   for (int b = 0; b < graph.num_blocks(); ++b) neighbours[at(b)].push_back(b);

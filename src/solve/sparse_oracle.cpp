@@ -31,6 +31,7 @@ struct SparseOracle::State {
         library(l),
         options(o),
         elements(graph, t),
+        batches(elements.single_batches()),
         sparse(elements),
         buffers(at(t.num_unknowns())),
         probe(at(t.num_unknowns())),
@@ -50,6 +51,7 @@ struct SparseOracle::State {
   Library library;
   SolveOptions options;
   ElementStore elements;
+  std::vector<ElementBatch> batches;
   SparseAssembly sparse;
   Scales scales;
   bool scales_wanted = true;
@@ -141,6 +143,7 @@ SparseOracle& SparseOracle::operator=(SparseOracle&&) noexcept = default;
 
 ElementView SparseOracle::element(int id) { return state_->elements.view(id); }
 ConstElementView SparseOracle::element(int id) const { return std::as_const(state_->elements).view(id); }
+std::span<const ElementBatch> SparseOracle::batches() const { return state_->batches; }
 void SparseOracle::rescale() { state_->scales_wanted = true; }
 const FactorStatus& SparseOracle::last_status() const { return state_->status; }
 void SparseOracle::multiply(const tree::Walker& walker, const double* x, double* y) const {

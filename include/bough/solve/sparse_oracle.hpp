@@ -1,6 +1,7 @@
 #pragma once
 /// The monolithic oracles beside KLU: the same matrix, assembled to one sparse matrix and factored by another library.
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +40,7 @@ class SparseOracle {
 
   ElementView element(int id);
   ConstElementView element(int id) const;
+  std::span<const ElementBatch> batches() const;
   void rescale();
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {});
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x);
