@@ -154,7 +154,7 @@ void eval_row_slopes(const ConstraintRowOf<C>& row, const Frame<S>& H, RowSlopes
 template <class S, class C>
 void eval_tangent(const JointOf<C>& joint, const PortMotion<S>* p, const PortSlopes<S>* ports, const S* multipliers,
                   const Surroundings<S>& around, const C& turns, S* residual, S* matrix_out) {
-  using lanes::fma;
+  using lanes::multiply_add;
   eval_residual<S>(joint, p, multipliers, around, residual, turns);
   RelativeForce<S> e;
   e.H = motion::relative(p[0].H, p[1].H);
@@ -164,8 +164,8 @@ void eval_tangent(const JointOf<C>& joint, const PortMotion<S>* p, const PortSlo
   const auto add_slopes = [&](const S& factor) {
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) {
-        e.by_pose(i, 3 + k) = fma(factor, r.linear(i, k), e.by_pose(i, 3 + k));
-        e.by_pose(3 + i, 3 + k) = fma(factor, r.angular(i, k), e.by_pose(3 + i, 3 + k));
+        e.by_pose(i, 3 + k) = multiply_add(factor, r.linear(i, k), e.by_pose(i, 3 + k));
+        e.by_pose(3 + i, 3 + k) = multiply_add(factor, r.angular(i, k), e.by_pose(3 + i, 3 + k));
       }
   };
   for (int row = 0; row < joint.num_rows; ++row) {
@@ -196,9 +196,9 @@ void eval_tangent(const JointOf<C>& joint, const PortMotion<S>* p, const PortSlo
     e.has_twist = e.has_twist || (around.has_inertia && is_present(effort.damping));
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j) {
-        e.by_pose(i, j) = fma(stiff[i], r.gradient[j], e.by_pose(i, j));
-        if (j >= 3) e.by_pose(i, j) = fma(damp[i], turned[j - 3], e.by_pose(i, j));
-        e.by_twist(i, j) = fma(damp[i], r.gradient[j], e.by_twist(i, j));
+        e.by_pose(i, j) = multiply_add(stiff[i], r.gradient[j], e.by_pose(i, j));
+        if (j >= 3) e.by_pose(i, j) = multiply_add(damp[i], turned[j - 3], e.by_pose(i, j));
+        e.by_twist(i, j) = multiply_add(damp[i], r.gradient[j], e.by_twist(i, j));
       }
   }
   carry_to_ports(e, p, ports, matrix_out);

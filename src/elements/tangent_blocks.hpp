@@ -19,30 +19,30 @@ struct PortSlopes {
 /// x = m z and x += m z, z an operator on motions; row by row, z in registers.
 template <class A, class S>
 Mat6<S> motion_product(const Mat6<A>& m, const DualMat<S>& z) {
-  using lanes::fma;
+  using lanes::multiply_add;
   const Mat3<S> za = z.a, zb = z.b;
   Mat6<S> x;
   for (int i = 0; i < 6; ++i) {
     const A m0 = m(i, 0), m1 = m(i, 1), m2 = m(i, 2), m3 = m(i, 3), m4 = m(i, 4), m5 = m(i, 5);
     for (int j = 0; j < 3; ++j) {
-      x(i, j) = fma(m2, za(2, j), fma(m1, za(1, j), S(m0 * za(0, j))));
-      const S b = fma(m2, zb(2, j), fma(m1, zb(1, j), S(m0 * zb(0, j))));
-      x(i, 3 + j) = fma(m5, za(2, j), fma(m4, za(1, j), fma(m3, za(0, j), b)));
+      x(i, j) = multiply_add(m2, za(2, j), multiply_add(m1, za(1, j), S(m0 * za(0, j))));
+      const S b = multiply_add(m2, zb(2, j), multiply_add(m1, zb(1, j), S(m0 * zb(0, j))));
+      x(i, 3 + j) = multiply_add(m5, za(2, j), multiply_add(m4, za(1, j), multiply_add(m3, za(0, j), b)));
     }
   }
   return x;
 }
 template <class A, class S>
 void add_motion_product(Mat6<S>& x, const Mat6<A>& m, const DualMat<S>& z) {
-  using lanes::fma;
+  using lanes::multiply_add;
   const Mat3<S> za = z.a, zb = z.b;
   for (int i = 0; i < 6; ++i) {
     const A m0 = m(i, 0), m1 = m(i, 1), m2 = m(i, 2), m3 = m(i, 3), m4 = m(i, 4), m5 = m(i, 5);
     S row[6];
     for (int j = 0; j < 3; ++j) {
-      row[j] = fma(m2, za(2, j), fma(m1, za(1, j), fma(m0, za(0, j), x(i, j))));
-      const S b = fma(m2, zb(2, j), fma(m1, zb(1, j), fma(m0, zb(0, j), x(i, 3 + j))));
-      row[3 + j] = fma(m5, za(2, j), fma(m4, za(1, j), fma(m3, za(0, j), b)));
+      row[j] = multiply_add(m2, za(2, j), multiply_add(m1, za(1, j), multiply_add(m0, za(0, j), x(i, j))));
+      const S b = multiply_add(m2, zb(2, j), multiply_add(m1, zb(1, j), multiply_add(m0, zb(0, j), x(i, 3 + j))));
+      row[3 + j] = multiply_add(m5, za(2, j), multiply_add(m4, za(1, j), multiply_add(m3, za(0, j), b)));
     }
     for (int j = 0; j < 6; ++j) x(i, j) = row[j];
   }
@@ -50,15 +50,15 @@ void add_motion_product(Mat6<S>& x, const Mat6<A>& m, const DualMat<S>& z) {
 /// z^T y, column by column, z in registers.
 template <class S, class A>
 Mat6<S> transposed_product(const DualMat<S>& z, const Mat6<A>& y) {
-  using lanes::fma;
+  using lanes::multiply_add;
   const Mat3<S> za = z.a, zb = z.b;
   Mat6<S> x;
   for (int j = 0; j < 6; ++j) {
     const A y0 = y(0, j), y1 = y(1, j), y2 = y(2, j), y3 = y(3, j), y4 = y(4, j), y5 = y(5, j);
     for (int i = 0; i < 3; ++i) {
-      x(i, j) = fma(za(2, i), y2, fma(za(1, i), y1, S(za(0, i) * y0)));
-      const S b = fma(zb(2, i), y2, fma(zb(1, i), y1, S(zb(0, i) * y0)));
-      x(3 + i, j) = fma(za(2, i), y5, fma(za(1, i), y4, fma(za(0, i), y3, b)));
+      x(i, j) = multiply_add(za(2, i), y2, multiply_add(za(1, i), y1, S(za(0, i) * y0)));
+      const S b = multiply_add(zb(2, i), y2, multiply_add(zb(1, i), y1, S(zb(0, i) * y0)));
+      x(3 + i, j) = multiply_add(za(2, i), y5, multiply_add(za(1, i), y4, multiply_add(za(0, i), y3, b)));
     }
   }
   return x;
@@ -76,22 +76,22 @@ void add_wrench(Mat6<S>& x, const DualMat<S>& z) {
 /// x += ad(d)^T y.
 template <class S>
 void add_cross_transposed(Mat6<S>& x, const DualVec<S>& d, const Mat6<S>& y) {
-  using lanes::fma;
-  using lanes::fnma;
+  using lanes::multiply_add;
+  using lanes::negative_multiply_add;
   for (int i = 0; i < 3; ++i) {
     const int n = (i + 1) % 3, l = (i + 2) % 3;
     for (int j = 0; j < 6; ++j) {
-      x(i, j) = fma(y(n, j), d.a[l], fnma(y(l, j), d.a[n], x(i, j)));
-      const S b = fma(y(n, j), d.b[l], fnma(y(l, j), d.b[n], x(3 + i, j)));
-      x(3 + i, j) = fma(y(3 + n, j), d.a[l], fnma(y(3 + l, j), d.a[n], b));
+      x(i, j) = multiply_add(y(n, j), d.a[l], negative_multiply_add(y(l, j), d.a[n], x(i, j)));
+      const S b = multiply_add(y(n, j), d.b[l], negative_multiply_add(y(l, j), d.b[n], x(3 + i, j)));
+      x(3 + i, j) = multiply_add(y(3 + n, j), d.a[l], negative_multiply_add(y(3 + l, j), d.a[n], b));
     }
   }
 }
 /// x += f y.
 template <class A, class S>
 void add_scaled_to(Mat6<S>& x, const A& f, const Mat6<S>& y) {
-  using lanes::fma;
-  for (int i = 0; i < 36; ++i) x.m[i] = fma(f, y.m[i], x.m[i]);
+  using lanes::multiply_add;
+  for (int i = 0; i < 36; ++i) x.m[i] = multiply_add(f, y.m[i], x.m[i]);
 }
 /// d(m a - ad(v)^T m v)/dv = -(ad(v)^T m + ^(m v)).
 template <class A, class S>

@@ -32,14 +32,14 @@ inline constexpr double gauss_offset = 0.288675134594812882254574390251;  ///< t
 /// A coefficient and its first three derivatives by x; p, q: 1/(pole - x) of the first two poles.
 template <class S>
 lanes::Vec<S, 4> eval_screw_coefficient(const ScrewTable& table, const S& x, const S& p, const S& q) {
-  using lanes::fma;
+  using lanes::multiply_add;
   using L = motion::Literal<S>;
   S f(0.0), df(0.0), hf(0.0), tf(0.0);
   for (std::size_t n = table.rest.size(); n-- > 0;) {
-    tf = fma(tf, x, hf);
-    hf = fma(hf, x, df);
-    df = fma(df, x, f);
-    f = fma(f, x, S(static_cast<L>(table.rest[n])));
+    tf = multiply_add(tf, x, hf);
+    hf = multiply_add(hf, x, df);
+    df = multiply_add(df, x, f);
+    f = multiply_add(f, x, S(static_cast<L>(table.rest[n])));
   }
   const L a = static_cast<L>(table.residues[0]), b = static_cast<L>(table.residues[1]);
   const S p1 = a * p, q1 = b * q, p2 = p1 * p, q2 = q1 * q, p3 = p2 * p, q3 = q2 * q;

@@ -68,7 +68,7 @@ inline Register<8>::Real root(const Register<8>::Real& x) { return Register<8>::
 #endif
 inline double root(double x) { return std::sqrt(x); }
 
-// a b + c, each lane the bits of lanes::fma on doubles.
+// a b + c, each lane the bits of lanes::multiply_add on doubles.
 #if BOUGH_REGISTER_DOUBLES >= 8
 inline Register<8>::Real fused(const Register<8>::Real& a, const Register<8>::Real& b, const Register<8>::Real& c) {
   return Register<8>::Real(_mm512_fmadd_pd(a, b, c));
@@ -85,7 +85,7 @@ inline Register<2>::Real fused(const Register<2>::Real& a, const Register<2>::Re
 template <class R>
 inline R fused(const R& a, const R& b, const R& c) {
 #if defined(__FMA__)
-  if constexpr (std::same_as<R, double>) return lanes::fma(a, b, c);
+  if constexpr (std::same_as<R, double>) return lanes::multiply_add(a, b, c);
 #endif
   return a * b + c;
 }
@@ -172,14 +172,14 @@ Pack<W> operator-(const Pack<W>& a) {
 }
 
 template <int W>
-Pack<W> fma(const Pack<W>& a, const Pack<W>& b, const Pack<W>& c) {
+Pack<W> multiply_add(const Pack<W>& a, const Pack<W>& b, const Pack<W>& c) {
   Pack<W> r;
   for (int i = 0; i < Pack<W>::chunks; ++i) r.r[i] = detail::fused(a.r[i], b.r[i], c.r[i]);
   return r;
 }
 template <int W>
-Pack<W> fma(double a, const Pack<W>& b, const Pack<W>& c) {
-  return fma(Pack<W>(a), b, c);
+Pack<W> multiply_add(double a, const Pack<W>& b, const Pack<W>& c) {
+  return multiply_add(Pack<W>(a), b, c);
 }
 
 /// f applied to each lane: functions of the standard library, the same bits as for a double.

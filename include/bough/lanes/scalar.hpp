@@ -48,10 +48,10 @@ auto choose(bool take_first, const First& first, const Second& second) {
 /// a b + c. Rounded once for doubles and packs where the instruction set has it (every lane as a double), as two operations
 /// elsewhere and for all other scalars. The compiler itself never fuses (-ffp-contract=off): only what is written so is.
 template <class S>
-S fma(const S& a, const S& b, const S& c) {
+S multiply_add(const S& a, const S& b, const S& c) {
   return a * b + c;
 }
-inline double fma(double a, double b, double c) {
+inline double multiply_add(double a, double b, double c) {
 #if defined(__FMA__)
   return __builtin_fma(a, b, c);
 #else
@@ -60,10 +60,10 @@ inline double fma(double a, double b, double c) {
 }
 /// a b + c and c - a b with a plain number beside a derivative type or a complex number.
 template <class A, class S>
-requires(!std::same_as<A, S>) S fma(const A& a, const S& b, const S& c) { return a * b + c; }
+requires(!std::same_as<A, S>) S multiply_add(const A& a, const S& b, const S& c) { return a * b + c; }
 template <class A, class S>
-S fnma(const A& a, const S& b, const S& c) {
-  return fma(A(-a), b, c);
+S negative_multiply_add(const A& a, const S& b, const S& c) {
+  return multiply_add(A(-a), b, c);
 }
 
 /// A scalar made from a plain number.

@@ -1,7 +1,7 @@
 #pragma once
 /// Small fixed vectors and matrices of any kernel scalar. Plain aggregates, row-major, value semantics, no allocation:
 /// over lanes and derivative types they keep a kernel close to hand-written loops, which general libraries do not.
-/// Sums of products are chains of lanes::fma.
+/// Sums of products are chains of lanes::multiply_add.
 #include "bough/lanes/scalar.hpp"
 
 namespace bough::lanes {
@@ -85,12 +85,13 @@ BOUGH_INLINE Vec<S, N> operator*(const A& a, const Vec<S, N>& b) {
 template <class S, int N>
 BOUGH_INLINE S dot(const Vec<S, N>& a, const Vec<S, N>& b) {
   S r = a.v[0] * b.v[0];
-  for (int i = 1; i < N; ++i) r = fma(a.v[i], b.v[i], r);
+  for (int i = 1; i < N; ++i) r = multiply_add(a.v[i], b.v[i], r);
   return r;
 }
 template <class S>
 BOUGH_INLINE Vec<S, 3> cross(const Vec<S, 3>& a, const Vec<S, 3>& b) {
-  return {{fnma(a[2], b[1], S(a[1] * b[2])), fnma(a[0], b[2], S(a[2] * b[0])), fnma(a[1], b[0], S(a[0] * b[1]))}};
+  return {{negative_multiply_add(a[2], b[1], S(a[1] * b[2])), negative_multiply_add(a[0], b[2], S(a[2] * b[0])),
+           negative_multiply_add(a[1], b[0], S(a[0] * b[1]))}};
 }
 template <class S>
 BOUGH_INLINE Mat<S, 3, 3> skew(const Vec<S, 3>& a) {
@@ -121,7 +122,7 @@ Mat<S, R, C> operator*(const Mat<S, R, K>& a, const Mat<S, K, C>& b) {
   for (int i = 0; i < R; ++i)
     for (int j = 0; j < C; ++j) {
       S s = a(i, 0) * b(0, j);
-      for (int k = 1; k < K; ++k) s = fma(a(i, k), b(k, j), s);
+      for (int k = 1; k < K; ++k) s = multiply_add(a(i, k), b(k, j), s);
       r(i, j) = s;
     }
   return r;
@@ -132,7 +133,7 @@ Vec<S, R> operator*(const Mat<A, R, C>& a, const Vec<S, C>& b) {
   Vec<S, R> r;
   for (int i = 0; i < R; ++i) {
     S s = a(i, 0) * b[0];
-    for (int k = 1; k < C; ++k) s = fma(a(i, k), b[k], s);
+    for (int k = 1; k < C; ++k) s = multiply_add(a(i, k), b[k], s);
     r[i] = s;
   }
   return r;
@@ -143,7 +144,7 @@ Vec<S, C> transpose_times(const Mat<A, R, C>& a, const Vec<S, R>& b) {
   Vec<S, C> r;
   for (int j = 0; j < C; ++j) {
     S s = a(0, j) * b[0];
-    for (int k = 1; k < R; ++k) s = fma(a(k, j), b[k], s);
+    for (int k = 1; k < R; ++k) s = multiply_add(a(k, j), b[k], s);
     r[j] = s;
   }
   return r;
@@ -155,7 +156,7 @@ Mat<S, R, C> transpose_times(const Mat<S, K, R>& a, const Mat<S, K, C>& b) {
   for (int i = 0; i < R; ++i)
     for (int j = 0; j < C; ++j) {
       S s = a(0, i) * b(0, j);
-      for (int k = 1; k < K; ++k) s = fma(a(k, i), b(k, j), s);
+      for (int k = 1; k < K; ++k) s = multiply_add(a(k, i), b(k, j), s);
       r(i, j) = s;
     }
   return r;

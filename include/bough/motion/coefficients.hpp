@@ -19,9 +19,9 @@ template <class S, class L, std::size_t N>
 S horner(const std::array<L, N>& table, const S& x) {
   const S xx = x * x;
   S even(table[(N - 1) / 2 * 2]), odd(table[N / 2 * 2 - 1]);
-  for (std::size_t k = (N - 1) / 2 * 2; k >= 2; k -= 2) even = fma(even, xx, S(table[k - 2]));
-  for (std::size_t k = N / 2 * 2 - 1; k >= 2; k -= 2) odd = fma(odd, xx, S(table[k - 2]));
-  return fma(odd, x, even);
+  for (std::size_t k = (N - 1) / 2 * 2; k >= 2; k -= 2) even = multiply_add(even, xx, S(table[k - 2]));
+  for (std::size_t k = N / 2 * 2 - 1; k >= 2; k -= 2) odd = multiply_add(odd, xx, S(table[k - 2]));
+  return multiply_add(odd, x, even);
 }
 /// Its derivative by x.
 template <class S, class L, std::size_t N>
@@ -205,10 +205,10 @@ InverseCoefficients<S> eval_inverse_coefficients(const S& x) {
         const S p = b * inv, q = a * inv, pp = p * p, qq = q * q;
         S f(0.0), df(0.0), hf(0.0), tf(0.0);  // rest, its first derivative, half its second, a sixth of its third
         for (std::size_t n = detail::inverse_rest<L>.size(); n-- > 0;) {
-          tf = fma(tf, near, hf);
-          hf = fma(hf, near, df);
-          df = fma(df, near, f);
-          f = fma(f, near, S(detail::inverse_rest<L>[n]));
+          tf = multiply_add(tf, near, hf);
+          hf = multiply_add(hf, near, df);
+          df = multiply_add(df, near, f);
+          f = multiply_add(f, near, S(detail::inverse_rest<L>[n]));
         }
         return lanes::Vec<S, 4>{{f + L(2) * (p + q), df + L(2) * (pp + qq), L(2) * hf + L(4) * (p * pp + q * qq),
                                  L(6) * tf + L(12) * (pp * pp + qq * qq)}};

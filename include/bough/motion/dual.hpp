@@ -54,7 +54,7 @@ BOUGH_INLINE Dual<S> operator-(const Dual<S>& x) {
 }
 template <class S>
 BOUGH_INLINE Dual<S> operator*(const Dual<S>& x, const Dual<S>& y) {
-  return {x.a * y.a, fma(x.a, y.b, S(x.b * y.a))};
+  return {x.a * y.a, multiply_add(x.a, y.b, S(x.b * y.a))};
 }
 template <class S>
 BOUGH_INLINE Dual<S> twice(const Dual<S>& x) {
@@ -87,8 +87,8 @@ template <class A, class S>
 BOUGH_INLINE DualVec<S> add_scaled(const DualVec<S>& r, const A& f, const DualVec<S>& x) {
   DualVec<S> s;
   for (int i = 0; i < 3; ++i) {
-    s.a[i] = fma(f, x.a[i], r.a[i]);
-    s.b[i] = fma(f, x.b[i], r.b[i]);
+    s.a[i] = multiply_add(f, x.a[i], r.a[i]);
+    s.b[i] = multiply_add(f, x.b[i], r.b[i]);
   }
   return s;
 }
@@ -96,8 +96,8 @@ template <class S>
 BOUGH_INLINE DualVec<S> add_scaled(const DualVec<S>& r, const Dual<S>& f, const DualVec<S>& x) {
   DualVec<S> s;
   for (int i = 0; i < 3; ++i) {
-    s.a[i] = fma(f.a, x.a[i], r.a[i]);
-    s.b[i] = fma(f.a, x.b[i], fma(f.b, x.a[i], r.b[i]));
+    s.a[i] = multiply_add(f.a, x.a[i], r.a[i]);
+    s.b[i] = multiply_add(f.a, x.b[i], multiply_add(f.b, x.a[i], r.b[i]));
   }
   return s;
 }
@@ -106,22 +106,23 @@ BOUGH_INLINE DualVec<S> operator*(const Dual<S>& f, const DualVec<S>& x) {
   DualVec<S> s;
   for (int i = 0; i < 3; ++i) {
     s.a[i] = f.a * x.a[i];
-    s.b[i] = fma(f.a, x.b[i], S(f.b * x.a[i]));
+    s.b[i] = multiply_add(f.a, x.b[i], S(f.b * x.a[i]));
   }
   return s;
 }
 template <class S>
 BOUGH_INLINE Dual<S> dot(const DualVec<S>& x, const DualVec<S>& y) {
   S b = x.b[0] * y.a[0];
-  for (int i = 1; i < 3; ++i) b = fma(x.b[i], y.a[i], b);
-  for (int i = 0; i < 3; ++i) b = fma(x.a[i], y.b[i], b);
+  for (int i = 1; i < 3; ++i) b = multiply_add(x.b[i], y.a[i], b);
+  for (int i = 0; i < 3; ++i) b = multiply_add(x.a[i], y.b[i], b);
   return {dot(x.a, y.a), b};
 }
 /// r + x cross y.
 template <class S>
 BOUGH_INLINE Vec3<S> add_cross(const Vec3<S>& r, const Vec3<S>& x, const Vec3<S>& y) {
-  return {{fma(x[1], y[2], fnma(x[2], y[1], r[0])), fma(x[2], y[0], fnma(x[0], y[2], r[1])),
-           fma(x[0], y[1], fnma(x[1], y[0], r[2]))}};
+  return {{multiply_add(x[1], y[2], negative_multiply_add(x[2], y[1], r[0])),
+           multiply_add(x[2], y[0], negative_multiply_add(x[0], y[2], r[1])),
+           multiply_add(x[0], y[1], negative_multiply_add(x[1], y[0], r[2]))}};
 }
 template <class S>
 BOUGH_INLINE DualVec<S> cross(const DualVec<S>& x, const DualVec<S>& y) {
@@ -148,8 +149,8 @@ DualMat<S> scaled(const A& f, const DualMat<S>& x) {
 template <class A, class S>
 void add_scaled_to(DualMat<S>& m, const A& f, const DualMat<S>& x) {
   for (int i = 0; i < 9; ++i) {
-    m.a.m[i] = fma(f, x.a.m[i], m.a.m[i]);
-    m.b.m[i] = fma(f, x.b.m[i], m.b.m[i]);
+    m.a.m[i] = multiply_add(f, x.a.m[i], m.a.m[i]);
+    m.b.m[i] = multiply_add(f, x.b.m[i], m.b.m[i]);
   }
 }
 template <class S>
@@ -168,8 +169,8 @@ template <class S>
 BOUGH_INLINE void add_outer(DualMat<S>& m, const DualVec<S>& x, const DualVec<S>& y) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      m.a(i, j) = fma(x.a[i], y.a[j], m.a(i, j));
-      m.b(i, j) = fma(x.a[i], y.b[j], fma(x.b[i], y.a[j], m.b(i, j)));
+      m.a(i, j) = multiply_add(x.a[i], y.a[j], m.a(i, j));
+      m.b(i, j) = multiply_add(x.a[i], y.b[j], multiply_add(x.b[i], y.a[j], m.b(i, j)));
     }
 }
 /// x y and m += x y, row by row, y in registers.
@@ -180,9 +181,9 @@ DualMat<S> product(const DualMat<S>& x, const DualMat<S>& y) {
   for (int i = 0; i < 3; ++i) {
     const S a0 = x.a(i, 0), a1 = x.a(i, 1), a2 = x.a(i, 2), b0 = x.b(i, 0), b1 = x.b(i, 1), b2 = x.b(i, 2);
     for (int j = 0; j < 3; ++j) {
-      r.a(i, j) = fma(a2, ya(2, j), fma(a1, ya(1, j), S(a0 * ya(0, j))));
-      const S b = fma(a2, yb(2, j), fma(a1, yb(1, j), S(a0 * yb(0, j))));
-      r.b(i, j) = fma(b2, ya(2, j), fma(b1, ya(1, j), fma(b0, ya(0, j), b)));
+      r.a(i, j) = multiply_add(a2, ya(2, j), multiply_add(a1, ya(1, j), S(a0 * ya(0, j))));
+      const S b = multiply_add(a2, yb(2, j), multiply_add(a1, yb(1, j), S(a0 * yb(0, j))));
+      r.b(i, j) = multiply_add(b2, ya(2, j), multiply_add(b1, ya(1, j), multiply_add(b0, ya(0, j), b)));
     }
   }
   return r;
@@ -194,9 +195,9 @@ void add_product(DualMat<S>& m, const DualMat<S>& x, const DualMat<S>& y) {
     const S a0 = x.a(i, 0), a1 = x.a(i, 1), a2 = x.a(i, 2), b0 = x.b(i, 0), b1 = x.b(i, 1), b2 = x.b(i, 2);
     S ra[3], rb[3];
     for (int j = 0; j < 3; ++j) {
-      ra[j] = fma(a2, ya(2, j), fma(a1, ya(1, j), fma(a0, ya(0, j), m.a(i, j))));
-      const S b = fma(a2, yb(2, j), fma(a1, yb(1, j), fma(a0, yb(0, j), m.b(i, j))));
-      rb[j] = fma(b2, ya(2, j), fma(b1, ya(1, j), fma(b0, ya(0, j), b)));
+      ra[j] = multiply_add(a2, ya(2, j), multiply_add(a1, ya(1, j), multiply_add(a0, ya(0, j), m.a(i, j))));
+      const S b = multiply_add(a2, yb(2, j), multiply_add(a1, yb(1, j), multiply_add(a0, yb(0, j), m.b(i, j))));
+      rb[j] = multiply_add(b2, ya(2, j), multiply_add(b1, ya(1, j), multiply_add(b0, ya(0, j), b)));
     }
     for (int j = 0; j < 3; ++j) {
       m.a(i, j) = ra[j];
@@ -211,8 +212,10 @@ DualMat<S> skew_product(const DualMat<S>& x, const DualVec<S>& y) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const int n = (j + 1) % 3, l = (j + 2) % 3;  // column j of ~y: y_l in row n, -y_n in row l
-      r.a(i, j) = fnma(x.a(i, l), y.a[n], S(x.a(i, n) * y.a[l]));
-      r.b(i, j) = fma(x.a(i, n), y.b[l], fnma(x.a(i, l), y.b[n], fma(x.b(i, n), y.a[l], S(-(x.b(i, l) * y.a[n])))));
+      r.a(i, j) = negative_multiply_add(x.a(i, l), y.a[n], S(x.a(i, n) * y.a[l]));
+      r.b(i, j) = multiply_add(
+          x.a(i, n), y.b[l],
+          negative_multiply_add(x.a(i, l), y.b[n], multiply_add(x.b(i, n), y.a[l], S(-(x.b(i, l) * y.a[n])))));
     }
   return r;
 }
@@ -220,14 +223,14 @@ template <class S>
 BOUGH_INLINE DualVec<S> times(const DualMat<S>& m, const DualVec<S>& x) {
   DualVec<S> r{m.a * x.a, m.a * x.b};
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) r.b[i] = fma(m.b(i, k), x.a[k], r.b[i]);
+    for (int k = 0; k < 3; ++k) r.b[i] = multiply_add(m.b(i, k), x.a[k], r.b[i]);
   return r;
 }
 template <class S>
 BOUGH_INLINE DualVec<S> transpose_times(const DualMat<S>& m, const DualVec<S>& x) {
   DualVec<S> r{transpose_times(m.a, x.a), transpose_times(m.a, x.b)};
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) r.b[i] = fma(m.b(k, i), x.a[k], r.b[i]);
+    for (int k = 0; k < 3; ++k) r.b[i] = multiply_add(m.b(k, i), x.a[k], r.b[i]);
   return r;
 }
 

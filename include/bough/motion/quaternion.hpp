@@ -89,7 +89,7 @@ template <class S>
 Vec3<S> log_quaternion(const Quaternion<S>& q) {
   using L = Literal<S>;
   using std::sqrt;
-  const S vv = dot(q.v, q.v), m = sqrt(fma(q.w, q.w, vv)), sum = m + q.w;
+  const S vv = dot(q.v, q.v), m = sqrt(multiply_add(q.w, q.w, vv)), sum = m + q.w;
   const S inverse = L(1) / (sum + sqrt((m + m) * sum)), tt = vv * inverse * inverse;
   return (L(8) * inverse * detail::horner(detail::arctangent<L>, tt)) * q.v;
 }

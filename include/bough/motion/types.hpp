@@ -19,9 +19,9 @@ using Mat6 = lanes::Mat<S, 6, 6>;
 using lanes::choose;
 using lanes::cross;
 using lanes::dot;
-using lanes::fma;
-using lanes::fnma;
 using lanes::less;
+using lanes::multiply_add;
+using lanes::negative_multiply_add;
 using lanes::select;
 
 /// Precision of the literals that go with a scalar: long double keeps its own, all others are built from doubles.
