@@ -120,12 +120,15 @@ void Converter::settings() {
     const std::string& kind = s->find("kind")->text;
     scene.solver.kind = kind == "automatic"      ? scene::SolverKind::automatic
                         : kind == "hierarchical" ? scene::SolverKind::hierarchical
+                        : kind == "global"       ? scene::SolverKind::global
+                        : kind == "hybrid"       ? scene::SolverKind::hybrid
                                                  : scene::SolverKind::monolithic;
     const std::string& library = s->find("library")->text;
     scene.solver.library = library == "klu"         ? scene::SolverLibrary::klu
                            : library == "sparse_lu" ? scene::SolverLibrary::sparse_lu
                            : library == "umfpack"   ? scene::SolverLibrary::umfpack
                                                     : scene::SolverLibrary::cholmod;
+    scene.solver.iterate_interface = s->find("interface_solution")->text == "iterative";
     scene.solver.leaf_size = static_cast<int>(number_or(*s, "leaf_size", 0.0));
     scene.solver.depth = static_cast<int>(number_or(*s, "depth", -1.0));
     scene.solver.penalty_factor = s->find("penalty_factor")->number;

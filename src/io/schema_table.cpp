@@ -237,18 +237,22 @@ void add_settings(RuleTable& t) {
       "What is computed.",
       {made(object_of_kind({"static"}, "Equilibrium at load factors up to 1, or under prescribed motions.", statics)),
        made(object_of_kind({"dynamic"}, "Motion in time.", dynamics))});
-  t.named["solver"] = made(
-      object_of("Linear solver. What is left out is chosen from the scene.",
-                {may("kind", word_rule("", {"automatic", "hierarchical", "monolithic"}),
-                     "Hierarchy of sub-domains, or one factorization.", "\"automatic\""),
-                 may("library", word_rule("", {"klu", "sparse_lu", "umfpack", "cholmod"}),
-                     "Who factors the one matrix of kind \"monolithic\". UMFPACK and CHOLMOD (symmetric only) are in "
-                     "programs built with BOUGH_WITH_GPL.",
-                     "\"klu\""),
-                 may("leaf_size", integer_rule("", 1, 1e6), "Elements in a sub-domain at the bottom. Default: chosen."),
-                 may("depth", integer_rule("", 0, 40), "Levels of the hierarchy. Default: chosen."),
-                 may("penalty_factor", positive(""), "Times the interface's own stiffness [-].", "1"),
-                 may("tasks", boolean_rule(""), "Run as tasks on several threads.", "true")}));
+  t.named["solver"] = made(object_of(
+      "Linear solver. What is left out is chosen from the scene.",
+      {may("kind", word_rule("", {"automatic", "hierarchical", "global", "hybrid", "monolithic"}),
+           "Hierarchy of sub-domains; sub-domains torn apart and tied to each other (global), or some of "
+           "their nodes kept on an interface mesh (hybrid), for comparison; or one factorization.",
+           "\"automatic\""),
+       may("library", word_rule("", {"klu", "sparse_lu", "umfpack", "cholmod"}),
+           "Who factors the one matrix of kind \"monolithic\". UMFPACK and CHOLMOD (symmetric only) are in "
+           "programs built with BOUGH_WITH_GPL.",
+           "\"klu\""),
+       may("interface_solution", word_rule("", {"direct", "iterative"}),
+           "Of the interface problem of kinds \"global\" and \"hybrid\"; iterative for comparison only.", "\"direct\""),
+       may("leaf_size", integer_rule("", 1, 1e6), "Elements in a sub-domain at the bottom. Default: chosen."),
+       may("depth", integer_rule("", 0, 40), "Levels of the hierarchy. Default: chosen."),
+       may("penalty_factor", positive(""), "Times the interface's own stiffness [-].", "1"),
+       may("tasks", boolean_rule(""), "Run as tasks on several threads.", "true")}));
   t.named["output"] = made(
       object_of("What is written.",
                 {may("stride", integer_rule("", 1, 1e9), "History rows: every n-th step.", "1"),

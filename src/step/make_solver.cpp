@@ -21,6 +21,12 @@ std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree
   solve::SolveOptions options;
   options.penalty_factor = given.penalty_factor;
   if (given.kind == scene::SolverKind::monolithic) return make_monolithic(plan, tree, given.library, options);
+  if (given.kind == scene::SolverKind::global || given.kind == scene::SolverKind::hybrid) {
+    const solve::DualOptions form{
+        .form = given.kind == scene::SolverKind::global ? solve::DualForm::global : solve::DualForm::hybrid,
+        .solution = given.iterate_interface ? solve::InterfaceSolution::iterative : solve::InterfaceSolution::direct};
+    return std::make_unique<solve::AnySolver>(solve::Dual(plan.graph, tree, form, options));
+  }
   return std::make_unique<solve::AnySolver>(solve::Hierarchical(plan.graph, tree, options));
 }
 

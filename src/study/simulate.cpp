@@ -377,6 +377,16 @@ void Run::finish() {
                      {"flops_per_factorization", counters.factor_flops},
                      {"delayed_pivots", static_cast<double>(counters.delayed_pivots)},
                      {"dependent_rows", static_cast<double>(dependent_rows_)}};
+  if (const solve::Dual* dual = system_.solver().dual(); dual != nullptr && work.factorizations > 0) {
+    const solve::InterfaceReport i = dual->interfaces().front();
+    summary_.solver.emplace_back("interface_unknowns", i.num_unknowns);
+    summary_.solver.emplace_back("interface_coarse_unknowns", i.num_coarse);
+    summary_.solver.emplace_back("interface_floating_directions", i.num_floating);
+    if (std::isfinite(i.condition)) summary_.solver.emplace_back("interface_condition", i.condition);
+    summary_.solver.emplace_back("interface_flops", i.flops);
+    summary_.solver.emplace_back("interface_seconds", i.seconds);
+    summary_.solver.emplace_back("interface_iterations", i.iterations);
+  }
   if (const solve::Hierarchical* hierarchical = system_.solver().hierarchical();
       hierarchical != nullptr && work.factorizations > 0) {
     constexpr int widest_for_condition =

@@ -222,12 +222,13 @@ struct Analysis {
   int max_cuts = 10;  ///< halvings of a step before the run fails
 };
 
-enum class SolverKind : std::uint8_t { automatic, hierarchical, monolithic };
+enum class SolverKind : std::uint8_t { automatic, hierarchical, global, hybrid, monolithic };
 enum class SolverLibrary : std::uint8_t { klu, sparse_lu, umfpack, cholmod };
 
 struct Solver {
   SolverKind kind = SolverKind::automatic;
   SolverLibrary library = SolverLibrary::klu;  ///< of kind monolithic
+  bool iterate_interface = false;              ///< of kinds global and hybrid
   int leaf_size = 0;                           ///< elements; 0 = chosen
   int depth = -1;                              ///< -1 = chosen
   double penalty_factor = 1.0;                 ///< times the interface's own stiffness

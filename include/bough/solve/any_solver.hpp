@@ -3,6 +3,7 @@
 #include <utility>
 #include <variant>
 
+#include "bough/solve/dual.hpp"
 #include "bough/solve/hierarchical.hpp"
 #include "bough/solve/monolithic.hpp"
 #include "bough/solve/sparse_oracle.hpp"
@@ -15,6 +16,7 @@ class AnySolver {
   AnySolver(Hierarchical solver) : solver_(std::move(solver)) {}
   AnySolver(Monolithic solver) : solver_(std::move(solver)) {}
   AnySolver(SparseOracle solver) : solver_(std::move(solver)) {}
+  AnySolver(Dual solver) : solver_(std::move(solver)) {}
 
   ElementView element(int id) {
     return std::visit([&](auto& s) { return s.element(id); }, solver_);
@@ -45,9 +47,11 @@ class AnySolver {
   }
   /// The hierarchical solver, or null when another one is held.
   const Hierarchical* hierarchical() const { return std::get_if<Hierarchical>(&solver_); }
+  /// The form with global multipliers, or null when another solver is held.
+  const Dual* dual() const { return std::get_if<Dual>(&solver_); }
 
  private:
-  std::variant<Hierarchical, Monolithic, SparseOracle> solver_;
+  std::variant<Hierarchical, Monolithic, SparseOracle, Dual> solver_;
 };
 
 }  // namespace bough::solve

@@ -43,11 +43,13 @@ struct SolveReport {
   double inconsistent_amount = 0.0;  ///< that part, in the units of the block's right-hand side.
   double growth =
       0.0;  ///< |x| / |b|, maximum norms, scaled: a lower bound of |A^-1|. Near 1/eps: singular for this load.
-  int growth_block = -1;  ///< block with the largest scaled unknown.
-  bool finite = true;     ///< false: the solution holds NaN or infinity.
+  int growth_block = -1;            ///< block with the largest scaled unknown.
+  bool finite = true;               ///< false: the solution holds NaN or infinity.
+  int interface_iterations = 0;     ///< of the interface problem, refinement included (forms with global multipliers).
+  bool interface_converged = true;  ///< false: the iteration on the interface problem gave up.
 };
 
-/// Interface of one sub-domain, after factor(). Scaled variables.
+/// Interface of one sub-domain, or the one interface problem of a form with global multipliers, after factor(). Scaled variables.
 struct InterfaceReport {
   tree::SubdomainId subdomain = tree::none;
   int level = 0;
@@ -57,6 +59,12 @@ struct InterfaceReport {
       1.0;  ///< of P^1/2 F P^1/2 on the motion unknowns that joints leave free, F = s^2 (S + P)^-1 (2-norm).
   double penalty_least = 0.0;  ///< smallest and largest P used [-].
   double penalty_most = 0.0;
+  int num_coarse = 0;  ///< global multipliers: unknowns of the coarse problem (interface mesh and floating directions).
+  int num_floating = 0;  ///< global multipliers: of these, directions in which sub-domains float or nearly do.
+  double flops = 0.0;    ///< of the interface problem, one factorization (iterative: the last solution) [flop].
+  double seconds =
+      std::numeric_limits<double>::quiet_NaN();  ///< CPU time of the same [s]; NaN where it is not measured apart.
+  int iterations = 0;                            ///< of the last solution; 0 when solved directly.
 };
 
 /// Running totals of one solver object.
