@@ -1,4 +1,5 @@
-/// One system, many ways to solve it: every gallery scene over threads, leaf sizes, depths, penalties and against the monolithic solver.
+/// One system, many ways to solve it: every gallery scene over threads, leaf sizes, depths, penalties, against the
+/// monolithic solver and the forms with global multipliers.
 ///
 /// Per quantity the difference has to be at most the largest of
 ///   1e-9 of the quantity's maximum,
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <utility>
 
 #include "bough/solve/monolithic.hpp"
 #include "verify_scenes.hpp"
@@ -226,6 +228,26 @@ TEST_P(VerifySolver, leaf_sizes_depths_and_the_monolithic_solver_agree) {
     scene::Scene v = s;
     v.solver.kind = scene::SolverKind::monolithic;
     compare(bar, run(v), "monolithic", needed, most);
+  }
+  print_clauses(GetParam(), bar, needed, most);
+}
+
+/// The forms with global multipliers, sub-domains small enough that several are torn apart in most scenes. They are for comparison and
+/// allocate in every factorization, so a tenth of the time is run.
+TEST_P(VerifySolver, global_and_hybrid_forms_agree) {
+  scene::Scene s = sharp_gallery(GetParam());
+  s.solver.leaf_size = 4;
+  if (s.analysis.kind == scene::AnalysisKind::dynamics)
+    s.analysis.end_time = std::max(10.0 * s.analysis.step_size, 0.1 * s.analysis.end_time);
+  const Bar bar(s);
+  ASSERT_TRUE(bar.base.ok()) << bar.base.text();
+  std::vector<int> needed(bar.base.header.columns.size(), 0);
+  std::vector<double> most(needed.size(), 0.0);
+  for (const auto& [kind, what] :
+       {std::pair{scene::SolverKind::global, "global"}, std::pair{scene::SolverKind::hybrid, "hybrid"}}) {
+    scene::Scene v = s;
+    v.solver.kind = kind;
+    compare(bar, run(v), what, needed, most);
   }
   print_clauses(GetParam(), bar, needed, most);
 }
