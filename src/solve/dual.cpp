@@ -12,6 +12,7 @@ namespace bough::solve {
 
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr double contradiction = 1e-10;  ///< share of the right-hand side above which dependent rows disagree
 }  // namespace
 
 Dual::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const DualOptions& f, const SolveOptions& o)
@@ -152,7 +153,8 @@ SolveReport Dual::solve(const tree::Walker& walker, const double* rhs, double* x
       report.inconsistent_amount =
           part.segment(first, size).cwiseQuotient(row.segment(first, size)).cwiseAbs().maxCoeff();
     }
-    b -= part.cwiseQuotient(row);
+    // Less is round-off of the null vectors. Taken out, it would move what the load leaves at rest (a planar mechanism out of its plane).
+    if (report.inconsistency > contradiction) b -= part.cwiseQuotient(row);
   }
   solve_and_refine(walker, s.elements, s.scales, s.options, s.options.refinement_steps,
                    s.options.check == SolveCheck::backward_error, s.buffers, b.data(), x, report,

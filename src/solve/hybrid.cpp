@@ -14,6 +14,9 @@ using Vector = Eigen::VectorXd;
 
 constexpr double coarse_pivot =
     1e-6;  ///< unknowns of the coarse problem below this, scaled, go along with the multipliers
+/// Flexibility of a tie, against the largest of its leaf, below which it is round-off: joints hold that direction. Scaled to one, the
+/// round-off of a direction held on both sides (a dependent row) would pass for stiffness.
+constexpr double held = 1e-6;
 constexpr double suspect_pivot =
     1e-6;  ///< pivots of the interface problem below this are looked at before they are used
 }  // namespace
@@ -77,9 +80,12 @@ void Dual::State::assemble_interface() {
   const int n = num_coarse + num_ties();
   coarse.reset(n, form.form == DualForm::hybrid ? num_coarse : 0);
   tie_scale.assign(ties.size(), 0.0);
-  for (const LeafInterface& leaf : leaves)
+  for (const LeafInterface& leaf : leaves) {
+    const auto flexibility = leaf.flexibility.diagonal().cwiseAbs();
+    const double least = flexibility.size() > 0 ? held * flexibility.maxCoeff() : 0.0;
     for (std::size_t t = 0; t < leaf.ties.size(); ++t)
-      tie_scale[at(leaf.ties[t].first)] += std::abs(leaf.flexibility(static_cast<int>(t), static_cast<int>(t)));
+      tie_scale[at(leaf.ties[t].first)] += std::max(flexibility(static_cast<int>(t)), least);
+  }
   for (double& s : tie_scale) s = s > 0.0 ? std::exp2(std::round(-0.5 * std::log2(s))) : 1.0;
   for (const LeafInterface& leaf : leaves) {
     const int kept = leaf.num_kept(), count = static_cast<int>(leaf.ties.size());
