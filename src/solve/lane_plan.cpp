@@ -14,6 +14,7 @@ constexpr int largest_in_lanes = 64;
 constexpr int largest_alone = 24;
 /// Lanes go together while the fronts that fit all of them cost at most this much more than those of the larger one.
 constexpr double most_padding = 1.35;
+constexpr double most_inner_padding = 3.0;
 
 double flops_of(int eliminated, int boundary) {
   const double e = eliminated, n = e + boundary;
@@ -88,7 +89,8 @@ class Planner {
           front(fa).parent - subdomain(a).front_begin != front(fb).parent - subdomain(b).front_begin)
         return false;
     }
-    return common <= most_padding * std::max(own_a, own_b);
+    // Inner sub-domains are one front each: a poor fit there costs less than to part all that lies below.
+    return common <= (subdomain(a).is_leaf() ? most_padding : most_inner_padding) * std::max(own_a, own_b);
   }
 
   /// Makes the group of these sub-domains and, before it, the groups below. `in_lanes`: the parent's group is.

@@ -20,7 +20,9 @@ std::size_t choose_leaf_size(const Adjacency& adjacency, const TreeOptions& opti
   double flops = 0.0;
   for (int e = 0; e < count; ++e) flops += 1.6 * std::pow(adjacency.unknowns_of(e), 3.0);
   const double mean = count > 0 ? std::max(1.0, flops / count) : 1.0;
-  return static_cast<std::size_t>(std::clamp(options.target_leaf_flops / mean, 4.0, 4096.0));
+  // Two groups of eight leaves in lockstep at least, where there is enough to cut.
+  const double most = std::max(5.0, count / 12.0);
+  return static_cast<std::size_t>(std::clamp(options.target_leaf_flops / mean, 4.0, std::min(most, 4096.0)));
 }
 
 class Recursion {
