@@ -38,9 +38,10 @@ class BoughSession final : public Session {
   bool analyze() override { return true; }  // the tree was made with the storage
   bool factor() override { return storage_->solver.factor(threads_.walker()).ok(); }
   bool refactor_and_solve(std::vector<double>& x) override {
-    if (!factor()) return false;
+    const tree::Walker walker = threads_.walker();
+    if (!storage_->solver.factor(walker, {}, problem_.rhs.data()).ok()) return false;
     x.resize(problem_.rhs.size());
-    return storage_->solver.solve(threads_.walker(), problem_.rhs.data(), x.data()).finite;
+    return storage_->solver.finish(walker, x.data()).finite;
   }
 
  private:

@@ -124,9 +124,11 @@ void Hierarchical::multiply(const tree::Walker& walker, const double* x, double*
   state_->elements.multiply(walker, x, y);
 }
 
-FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare) {
+FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, const double* rhs) {
   State& s = *state_;
   s.status = {};
+  if (rhs != nullptr) std::copy(rhs, rhs + s.rhs.size(), s.rhs.begin());
+  s.visit_rhs = rhs != nullptr ? s.rhs.data() : nullptr;
   if (s.scales_wanted) {
     s.elements.eval_scales(s.scales);
     s.norm = s.elements.eval_norm(s.scales);
@@ -164,38 +166,55 @@ void Hierarchical::State::count_front(tree::FrontId f) {
   if (f + 1 < tree.num_fronts()) status.delayed_pivots += d.num_delayed();
 }
 
+SolveReport Hierarchical::finish(const tree::Walker& walker, double* x) {
+  State& s = *state_;
+  s.visit_rhs = s.rhs.data();
+  if (s.null_space.dimension > 0) {  // its vectors were found with the storage of the condensed right-hand side
+    s.solve_into_x(walker, s.rhs.data());
+  } else {
+    s.forward_group(static_cast<int>(s.lanes.groups.size()) - 1);
+    s.back_substitute(walker);
+  }
+  return s.check_solution(walker, x);
+}
+
 SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, double* x) {
   State& s = *state_;
-  const std::size_t n = s.x.size();
-  SolveReport report;
-  report.deficiency = s.null_space.dimension;
-  ++s.counters.solutions;
-  std::copy(rhs, rhs + n, s.rhs.begin());
+  std::copy(rhs, rhs + s.rhs.size(), s.rhs.begin());
   s.solve_into_x(walker, s.rhs.data());
-  std::copy(s.x.begin(), s.x.end(), x);
-  s.eval_inconsistency(s.rhs.data(), report);
+  return s.check_solution(walker, x);
+}
+
+/// The solution in x with its backward error, refined where asked for.
+SolveReport Hierarchical::State::check_solution(const tree::Walker& walker, double* x_out) {
+  const std::size_t n = x.size();
+  SolveReport report;
+  report.deficiency = null_space.dimension;
+  ++counters.solutions;
+  std::copy(x.begin(), x.end(), x_out);
+  eval_inconsistency(rhs.data(), report);
   // Dependent rows that disagree have no solution: what was solved, and is checked, is the nearest right-hand side that has one.
-  if (s.null_space.dimension > 0)
-    for (std::size_t i = 0; i < n; ++i) s.rhs[i] -= s.correction[i] / s.scales.row[i];
-  if (s.options.check == SolveCheck::none) return report;
+  if (null_space.dimension > 0)
+    for (std::size_t i = 0; i < n; ++i) rhs[i] -= correction[i] / scales.row[i];
+  if (options.check == SolveCheck::none) return report;
   ElementStore::Errors errors;
-  if (s.null_space.dimension > 0) {  // multipliers were made least after the walk: the lanes do not hold them
-    errors = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
-    s.set_growth(s.largest_x(), s.largest_rhs(), report);
+  if (null_space.dimension > 0) {  // multipliers were made least after the walk: the lanes do not hold them
+    errors = elements.eval_residual(walker, scales, x_out, rhs.data(), residual.data());
+    set_growth(largest_x(), largest_rhs(), report);
   } else {
-    errors = s.eval_residual(walker, s.rhs.data(), report);
-    if (s.options.check == SolveCheck::componentwise)
-      errors = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
+    errors = eval_residual(walker, rhs.data(), report);
+    if (options.check == SolveCheck::componentwise)
+      errors = elements.eval_residual(walker, scales, x_out, rhs.data(), residual.data());
   }
-  while (errors.finite && errors.normwise > s.options.refinement_above &&
-         report.refinement_steps < s.options.refinement_steps) {
-    std::copy(x, x + n, s.correction.begin());
-    s.solve_into_x(walker, s.residual.data());
-    for (std::size_t i = 0; i < n; ++i) x[i] = s.x[i] += s.correction[i];
-    const ElementStore::Errors refined = s.elements.eval_residual(walker, s.scales, x, s.rhs.data(), s.residual.data());
+  while (errors.finite && errors.normwise > options.refinement_above &&
+         report.refinement_steps < options.refinement_steps) {
+    std::copy(x_out, x_out + n, correction.begin());
+    solve_into_x(walker, residual.data());
+    for (std::size_t i = 0; i < n; ++i) x_out[i] = x[i] += correction[i];
+    const ElementStore::Errors refined = elements.eval_residual(walker, scales, x_out, rhs.data(), residual.data());
     if (!(refined.normwise < errors.normwise)) {  // as good as it gets: keep the better one
-      std::copy(s.correction.begin(), s.correction.end(), x);
-      std::copy(s.correction.begin(), s.correction.end(), s.x.begin());
+      std::copy(correction.begin(), correction.end(), x_out);
+      std::copy(correction.begin(), correction.end(), x.begin());
       break;
     }
     errors = refined;

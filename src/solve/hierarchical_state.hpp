@@ -143,6 +143,8 @@ struct Hierarchical::State {
   // solve_walks.cpp
   void forward_front(tree::FrontId f);
   void backward_front(tree::FrontId f);
+  SolveReport check_solution(const tree::Walker& walker, double* x_out);
+  void back_substitute(const tree::Walker& walker);
   void solve_into_x(const tree::Walker& walker, const double* b);
   ElementStore::Errors eval_residual(const tree::Walker& walker, const double* b, SolveReport& report);
   void set_growth(double x_size, double rhs_size, SolveReport& report) const;

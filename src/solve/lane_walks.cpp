@@ -18,10 +18,14 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   if (prepare.run != nullptr && group.element_begin < group.element_end)
     prepare.run(prepare.context, index, group.element_begin, group.element_end);
   if (group.in_lanes) {
-    for (int f = group.front_begin; f < group.front_end; ++f) factor_lane_front(f);
-  } else {
-    factor_subdomain(group.subdomains.front());
+    for (int f = group.front_begin; f < group.front_end; ++f) {
+      factor_lane_front(f);
+      if (visit_rhs != nullptr) forward_lane_front(f);
+    }
+    return;
   }
+  factor_subdomain(group.subdomains.front());
+  if (visit_rhs != nullptr && group.subdomains.front() != tree.root()) forward_group(index);
 }
 
 void Hierarchical::State::forward_group(int index) {

@@ -59,6 +59,10 @@ void Hierarchical::State::solve_into_x(const tree::Walker& walker, const double*
   visit_rhs = b;
   auto forward = [this](int group) { forward_group(group); };
   walker.walk_up(lanes.walk, tree::make_visit(forward));
+  back_substitute(walker);
+}
+
+void Hierarchical::State::back_substitute(const tree::Walker& walker) {
   const FrontData& root = fronts.back();
   for (int i = root.pivots; i < root.full; ++i) x[at(root.columns[i])] = 0.0;
   auto backward = [this](int group) { backward_group(group); };

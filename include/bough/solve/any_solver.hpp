@@ -30,6 +30,24 @@ class AnySolver {
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}) {
     return std::visit([&](auto& s) { return s.factor(walker, prepare); }, solver_);
   }
+  /// factor() and, where that went well, solve(): in one sweep where the solver can.
+  [[nodiscard]] FactorStatus factor_and_solve(const tree::Walker& walker, Prepare prepare, const double* rhs, double* x,
+                                              SolveReport& report) {
+    return std::visit(
+        [&](auto& s) {
+          constexpr bool in_one_sweep = requires { s.finish(walker, x); };
+          FactorStatus status;
+          if constexpr (in_one_sweep) {
+            status = s.factor(walker, prepare, rhs);
+            if (status.ok()) report = s.finish(walker, x);
+          } else {
+            status = s.factor(walker, prepare);
+            if (status.ok()) report = s.solve(walker, rhs, x);
+          }
+          return status;
+        },
+        solver_);
+  }
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x) {
     return std::visit([&](auto& s) { return s.solve(walker, rhs, x); }, solver_);
   }

@@ -40,7 +40,11 @@ class Hierarchical {
   void rescale();
 
   /// Assemble, factor and condense all sub-domains. Allocates only where delayed pivots enlarge a front, or rows are dependent.
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {});
+  /// With `rhs` (num_unknowns) the right-hand side is condensed in the same visits, while a front is in the cache; finish() then solves.
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, const double* rhs = nullptr);
+
+  /// Solve for the right-hand side that factor() took along: what is left of solve(). Precondition: factor(.., rhs) ok, nothing solved since.
+  [[nodiscard]] SolveReport finish(const tree::Walker& walker, double* x);
 
   /// Solve with the last factorization. rhs, x: num_unknowns, in the order of the blocks; may be the same array. Precondition: factor() ok.
   /// Dependent constraint rows: the multipliers are those of least norm (each measured against its constraint row, free of units).
