@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lane_batches.hpp"
 #include "make_solver.hpp"
 #include "system_parts.hpp"
 
@@ -74,6 +75,8 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
     if (plan.joints[j].block >= 0)
       joint_of_block_[static_cast<std::size_t>(plan.joints[j].block)] = static_cast<int>(j);
   }
+  lane_batches_ = std::make_unique<LaneBatches>();
+  lane_batches_->make(plan, solver_->batches(), joint_of_element_);
   law_values_.assign(plan.laws.size(), 0.0);
   law_rates_ = law_accelerations_ = law_values_;
   law_series_.resize(plan.laws.size());
@@ -82,6 +85,8 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   work_.x = work_.rhs;
   chunk_max_.assign((num_elements + element_grain - 1) / element_grain + 1, 0.0);
 }
+
+System::~System() = default;
 
 std::optional<Trouble> System::set_time(double time, laws::Side side) {
   time_ = time;
@@ -107,39 +112,51 @@ elements::Field System::field(const State& state, const elements::Slopes& slopes
   return f;
 }
 
+void System::evaluate_alone(std::size_t id, const State& state, const elements::Field& f, bool tangent) {
+  const int j = joint_of_element_[id];
+  const double* multipliers = nullptr;
+  double turns = 0.0;
+  if (j >= 0) {
+    multipliers = state.multipliers.data() + plan_.joints[static_cast<std::size_t>(j)].multiplier_begin;
+    turns = state.turns[static_cast<std::size_t>(j)];
+  }
+  plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
+    double* residual = element_residual_.data() + element_begin_[id];
+    std::array<double, most_unknowns * most_unknowns> tangent_entries;
+    const solve::ElementView view = solver_->element(static_cast<int>(id));
+    const bool is_direct = view.stride == 1;
+    elements::evaluate(e, f, multipliers, turns, residual,
+                       !tangent    ? nullptr
+                       : is_direct ? view.first
+                                   : tangent_entries.data());
+    if (tangent && !is_direct) {
+      const int n = elements::num_unknowns(e);
+      for (int i = 0; i < n * n; ++i) view[i] = tangent_entries[static_cast<std::size_t>(i)];
+    }
+    elements::eval_magnitude(e, f, residual, element_magnitude_.data() + element_begin_[id]);
+  });
+}
+
 std::optional<Trouble> System::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
   PhaseTimer timer{counts_.assemble};
   ++counts_.evaluations;
   const elements::Field f = field(state, slopes);
-  auto by_element = [&](std::int64_t begin, std::int64_t end) {
+  const std::span<const solve::ElementBatch> batches = solver_->batches();
+  const auto result = [&](int id) {
+    const auto begin = static_cast<std::size_t>(element_begin_[static_cast<std::size_t>(id)]);
+    return ElementResult{element_residual_.data() + begin, element_magnitude_.data() + begin, solver_->element(id)};
+  };
+  auto by_batch = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
-      const auto id = static_cast<std::size_t>(tree_->element_order[static_cast<std::size_t>(k)]);
-      const int j = joint_of_element_[id];
-      const double* multipliers = nullptr;
-      double turns = 0.0;
-      if (j >= 0) {
-        multipliers = state.multipliers.data() + plan_.joints[static_cast<std::size_t>(j)].multiplier_begin;
-        turns = state.turns[static_cast<std::size_t>(j)];
+      if (lane_batches_->holds(static_cast<std::size_t>(k))) {
+        lane_batches_->evaluate(static_cast<std::size_t>(k), state, f, tangent, result);
+        continue;
       }
-      plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
-        double* residual = element_residual_.data() + element_begin_[id];
-        std::array<double, most_unknowns * most_unknowns> tangent_entries;
-        const solve::ElementView view = solver_->element(static_cast<int>(id));
-        const bool is_direct = view.stride == 1;
-        elements::evaluate(e, f, multipliers, turns, residual,
-                           !tangent    ? nullptr
-                           : is_direct ? view.first
-                                       : tangent_entries.data());
-        if (tangent && !is_direct) {
-          const int n = elements::num_unknowns(e);
-          for (int i = 0; i < n * n; ++i) view[i] = tangent_entries[static_cast<std::size_t>(i)];
-        }
-        elements::eval_magnitude(e, f, residual, element_magnitude_.data() + element_begin_[id]);
-      });
+      for (int id : batches[static_cast<std::size_t>(k)].element)
+        if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, f, tangent);
     }
   };
-  walker_.for_each_chunk(static_cast<std::int64_t>(tree_->element_order.size()), element_grain,
-                         tree::make_chunk(by_element));
+  walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain, tree::make_chunk(by_batch));
   auto by_block = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t b = begin; b < end; ++b) {
       const auto block = static_cast<std::size_t>(b);

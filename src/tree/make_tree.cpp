@@ -353,7 +353,7 @@ class Builder {
   Dissection dissection_;
   Quotient quotient_;
   std::vector<std::vector<int>> motion_of_part_;
-  std::vector<char> is_swept_;  ///< by part: a leaf eliminated from its first block to its last
+  std::vector<char> is_swept_;                ///< by part: a leaf eliminated from its first block to its last
   std::vector<int> group_begin_, group_end_;  ///< by sub-domain
   std::vector<int> subdomain_of_part_;
   Tree tree_;

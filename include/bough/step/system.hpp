@@ -41,9 +41,12 @@ struct Trouble {
   std::string text;
 };
 
+class LaneBatches;
+
 class System {
  public:
   System(const plan::Plan& plan, const scene::Solver& solver, const tree::Walker& walker);
+  ~System();
 
   const plan::Plan& plan() const { return plan_; }
   const tree::Tree& tree() const { return *tree_; }
@@ -113,7 +116,10 @@ class System {
   double largest_violation(const State& state, int order, double length, int* joint) const;
   void add_multipliers(State& state, const double* x, double factor) const;
 
+  void evaluate_alone(std::size_t id, const State& state, const elements::Field& field, bool tangent);
+
   const plan::Plan& plan_;
+  std::unique_ptr<LaneBatches> lane_batches_;
   std::unique_ptr<tree::Tree> tree_;
   std::unique_ptr<solve::AnySolver> solver_;
   tree::Walker walker_;

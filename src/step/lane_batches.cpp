@@ -1,0 +1,51 @@
+#include "lane_batches.hpp"
+
+namespace bough::step {
+
+template <std::size_t I>
+void LaneBatches::add(const solve::ElementBatch& batch, Slot& slot) {
+  using E = typename std::tuple_element_t<I, plan::ElementArrays>::value_type;
+  const auto& array = std::get<I>(plan_->elements);
+  const E* list[elements::num_lanes];
+  int count = 0;
+  for (int l = 0, filler = -1; l < elements::num_lanes; ++l) {  // a lane that is missing repeats one that is there
+    int id = batch.element[static_cast<std::size_t>(l)];
+    for (int k = 0; id < 0 && filler < 0 && k < elements::num_lanes; ++k)
+      filler = batch.element[static_cast<std::size_t>(k)];
+    if (id < 0) id = filler;
+    const plan::ElementPlace place = plan_->directory[static_cast<std::size_t>(id)];
+    if (place.array != I) return;
+    list[count++] = &array[static_cast<std::size_t>(place.index)];
+    if (!elements::may_share_lanes(*list[0], *list[count - 1])) return;
+  }
+  int nodes[E::num_ports];
+  for (int p = 0; p < E::num_ports; ++p) nodes[p] = p;
+  auto& lanes = std::get<I>(lanes_);
+  slot.array = static_cast<int>(I);
+  slot.index = static_cast<int>(lanes.size());
+  lanes.push_back(elements::make_lane_element<E>(list, count, nodes, 0));
+}
+
+void LaneBatches::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
+                       const std::vector<int>& joint_of_element) {
+  plan_ = &plan;
+  batches_ = batches;
+  joint_of_element_ = joint_of_element;
+  slots_.assign(batches.size(), {});
+  for (std::size_t b = 0; b < batches.size(); ++b) {
+    int present = 0, first = -1;
+    for (int id : batches[b].element) {
+      if (id < 0) continue;
+      ++present;
+      first = first < 0 ? id : first;
+    }
+    if (batches[b].stride != solve::lanes_wide || present < least_lanes) continue;
+    const int array = plan.directory[static_cast<std::size_t>(first)].array;
+    const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
+      static_cast<void>(((array == static_cast<int>(I) ? (add<I>(batches[b], slots_[b]), true) : false) || ...));
+    };
+    pick(std::make_index_sequence<std::tuple_size_v<plan::ElementArrays>>{});
+  }
+}
+
+}  // namespace bough::step

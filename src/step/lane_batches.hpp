@@ -1,0 +1,138 @@
+#pragma once
+/// Elements that the solver factors in lockstep, evaluated in lockstep as well: eight of one kind in the lanes of a pack, their tangents
+/// written where the solver takes them. Internal to step.
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "bough/elements/evaluate_lanes.hpp"
+#include "bough/plan/elements_of.hpp"
+#include "bough/plan/plan.hpp"
+#include "bough/solve/element_view.hpp"
+#include "bough/step/state.hpp"
+
+namespace bough::step {
+
+namespace detail {
+template <class Arrays>
+struct LaneArraysOf;
+template <class... E>
+struct LaneArraysOf<std::tuple<std::vector<E>...>> {
+  using Type = std::tuple<std::vector<elements::LaneElement<E>>...>;
+};
+}  // namespace detail
+
+/// Where results of one element go.
+struct ElementResult {
+  double* residual;
+  double* magnitude;
+  solve::ElementView tangent;  ///< first == nullptr: not wanted
+};
+
+class LaneBatches {
+ public:
+  /// A batch goes in lanes if it holds at least `least_lanes` elements and they differ in numbers only.
+  void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
+            const std::vector<int>& joint_of_element);
+
+  bool holds(std::size_t batch) const { return !slots_.empty() && slots_[batch].index >= 0; }
+
+  /// Residuals, magnitudes and (where wanted) tangents of all elements of a batch. `result(id)` tells where they go. No allocation.
+  template <class Result>
+  void evaluate(std::size_t batch, const State& state, const elements::Field& field, bool tangent,
+                Result&& result) const;
+
+ private:
+  struct Slot {
+    int array = -1;  ///< of plan.elements
+    int index = -1;  ///< in that array's lane elements; -1: not in lanes
+  };
+  template <std::size_t I>
+  void add(const solve::ElementBatch& batch, Slot& slot);
+  template <std::size_t I, class Result>
+  void evaluate_as(const solve::ElementBatch& batch, int index, const State& state, const elements::Field& field,
+                   bool tangent, Result& result) const;
+
+  static constexpr int least_lanes = 3;
+  const plan::Plan* plan_ = nullptr;
+  std::span<const solve::ElementBatch> batches_;
+  std::span<const int> joint_of_element_;
+  std::vector<Slot> slots_;
+  detail::LaneArraysOf<plan::ElementArrays>::Type lanes_;
+};
+
+template <class Result>
+void LaneBatches::evaluate(std::size_t batch, const State& state, const elements::Field& field, bool tangent,
+                           Result&& result) const {
+  const Slot slot = slots_[batch];
+  const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    static_cast<void>(((slot.array == static_cast<int>(I)
+                            ? (evaluate_as<I>(batches_[batch], slot.index, state, field, tangent, result), true)
+                            : false) ||
+                       ...));
+  };
+  pick(std::make_index_sequence<std::tuple_size_v<plan::ElementArrays>>{});
+}
+
+template <std::size_t I, class Result>
+void LaneBatches::evaluate_as(const solve::ElementBatch& batch, int index, const State& state,
+                              const elements::Field& field, bool tangent, Result& result) const {
+  using Pack = elements::LanePack;
+  using E = typename std::tuple_element_t<I, plan::ElementArrays>::value_type;
+  constexpr int wide = elements::num_lanes, most = 6 * E::num_ports + E::num_multipliers;
+  const auto& array = std::get<I>(plan_->elements);
+  const auto& lane_element = std::get<I>(lanes_)[static_cast<std::size_t>(index)];
+  int ids[wide], filler = -1, present = 0;
+  for (int l = 0; l < wide; ++l) {
+    ids[l] = batch.element[static_cast<std::size_t>(l)];
+    if (ids[l] >= 0) filler = ids[l];
+    present += ids[l] >= 0 ? 1 : 0;
+  }
+  elements::NodeLanes nodes[E::num_ports];
+  Pack laws[elements::max_laws], multipliers[E::num_multipliers > 0 ? E::num_multipliers : 1], turns(0.0);
+  for (int l = 0; l < wide; ++l) {
+    const auto id = static_cast<std::size_t>(ids[l] >= 0 ? ids[l] : filler);
+    const E& e = array[static_cast<std::size_t>(plan_->directory[id].index)];
+    for (int p = 0; p < E::num_ports; ++p)
+      if (e.ports[p].node != elements::ground)
+        elements::set_lane(nodes[p], l, field.nodes[static_cast<std::size_t>(e.ports[p].node)]);
+    int law_ids[elements::max_laws];
+    const int num_laws = elements::list_laws(e, law_ids);
+    for (int k = 0; k < num_laws; ++k) laws[k].set(l, field.around.laws[law_ids[k]]);
+    if constexpr (E::num_multipliers > 0) {
+      const int j = joint_of_element_[id];
+      if (j < 0) continue;
+      const auto first = static_cast<std::size_t>(plan_->joints[static_cast<std::size_t>(j)].multiplier_begin);
+      for (int r = 0; r < elements::num_multipliers(e); ++r)
+        multipliers[r].set(l, state.multipliers[first + static_cast<std::size_t>(r)]);
+      turns.set(l, state.turns[static_cast<std::size_t>(j)]);
+    }
+  }
+  elements::FieldLanes around;
+  around.nodes = nodes;
+  around.slopes = field.slopes;
+  for (int i = 0; i < 3; ++i) around.around.gravity[i] = Pack(field.around.gravity[i]);
+  around.around.laws = laws;
+  around.around.has_inertia = field.around.has_inertia;
+  Pack residual[most], magnitude[most], spare[most * most];
+  const bool is_direct = tangent && present == wide;  // else the empty lanes must stay empty
+  Pack* matrix = nullptr;
+  if (is_direct) matrix = reinterpret_cast<Pack*>(result(ids[0]).tangent.first);
+  if (tangent && !is_direct) matrix = spare;
+  elements::evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
+  for (int l = 0; l < wide; ++l) {
+    if (ids[l] < 0) continue;
+    const ElementResult to = result(ids[l]);
+    const int n = elements::num_unknowns(
+        array[static_cast<std::size_t>(plan_->directory[static_cast<std::size_t>(ids[l])].index)]);
+    for (int i = 0; i < n; ++i) {
+      to.residual[i] = residual[i][l];
+      to.magnitude[i] = magnitude[i][l];
+    }
+    if (tangent && !is_direct)
+      for (int i = 0; i < n * n; ++i) to.tangent[i] = spare[i][l];
+  }
+}
+
+}  // namespace bough::step
