@@ -1,5 +1,6 @@
 #include "bough/step/advance.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -49,15 +50,20 @@ struct Integrator {
     state.nodes.resize(start.nodes.size());
     state.rotation.resize(start.nodes.size());
     state.algorithmic.resize(start.nodes.size());
-    for (std::size_t n = 0; n < start.nodes.size(); ++n) {
-      const elements::NodeMotion& from = start.nodes[n];
-      const Vec6<double> next = (1.0 / (1.0 - c.alpha_m)) * (from.a - c.alpha_m * start.algorithmic[n]);
-      const Vec6<double> dq = h * from.v + (h * h) * ((0.5 - c.beta) * start.algorithmic[n] + c.beta * next);
-      state.nodes[n] = from;
-      state.rotation[n] = start.rotation[n];
-      state.nodes[n].dq = Vec6<double>::zero();
-      move_node(state, n, dq);
-      state.nodes[n].dq = dq;
+    const std::size_t count = start.nodes.size();
+    Vec6<double> eta[nodes_in_lanes];
+    for (std::size_t n = 0; n < count; n += nodes_in_lanes) {
+      const std::size_t some = std::min(nodes_in_lanes, count - n);
+      for (std::size_t i = 0; i < some; ++i) {
+        const elements::NodeMotion& from = start.nodes[n + i];
+        const Vec6<double>& algorithmic = start.algorithmic[n + i];
+        const Vec6<double> next = (1.0 / (1.0 - c.alpha_m)) * (from.a - c.alpha_m * algorithmic);
+        eta[i] = h * from.v + (h * h) * ((0.5 - c.beta) * algorithmic + c.beta * next);
+        state.nodes[n + i] = from;
+        state.nodes[n + i].dq = eta[i];
+        state.rotation[n + i] = start.rotation[n + i];
+      }
+      move_nodes(state, n, some, eta, false);
     }
   }
 };

@@ -1,5 +1,9 @@
 #include "bough/step/state.hpp"
 
+#include <algorithm>
+
+#include "bough/lanes/pack.hpp"
+
 namespace bough::step {
 
 State make_initial_state(const plan::Plan& plan) {
@@ -27,14 +31,64 @@ State make_initial_state(const plan::Plan& plan) {
   return s;
 }
 
+namespace {
+
+/// What an increment changes of a node.
+template <class S>
+struct Mover {
+  motion::Mat3<S> R;
+  motion::PositionPair<S> x;
+  motion::Quaternion<S> q;
+  motion::Vec6<S> dq;
+
+  void move(const motion::Vec6<S>& eta, bool follow_dq) {
+    const motion::Frame<S> step = motion::Se3::exp(eta);
+    x.add(R * step.x);
+    q = motion::normalise(motion::multiply(q, motion::exp_quaternion(lanes::angular_part(eta))));
+    R = motion::rotation_of(q);
+    if (follow_dq) dq = motion::Se3::log(motion::compose(motion::Se3::exp(dq), step));
+  }
+};
+
+}  // namespace
+
 void move_node(State& state, std::size_t node, const motion::Vec6<double>& eta) {
   elements::NodeMotion& n = state.nodes[node];
-  const motion::Frame<double> step = motion::Se3::exp(eta);
-  n.x.add(n.R * step.x);
-  motion::Quaternion<double>& q = state.rotation[node];
-  q = motion::normalise(motion::multiply(q, motion::exp_quaternion(lanes::angular_part(eta))));
-  n.R = motion::rotation_of(q);
-  n.dq = motion::Se3::log(motion::compose(motion::Se3::exp(n.dq), step));
+  Mover<double> m{n.R, n.x, state.rotation[node], n.dq};
+  m.move(eta, true);
+  n.R = m.R;
+  n.x = m.x;
+  n.dq = m.dq;
+  state.rotation[node] = m.q;
+}
+
+void move_nodes(State& state, std::size_t begin, std::size_t count, const motion::Vec6<double>* eta, bool follow_dq) {
+  using Pack = lanes::Pack<nodes_in_lanes>;
+  Mover<Pack> m;
+  motion::Vec6<Pack> step;
+  for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
+    const std::size_t k = std::min(l, count - 1);  // spare lanes repeat the last node
+    const elements::NodeMotion& n = state.nodes[begin + k];
+    const int lane = static_cast<int>(l);
+    lanes::set_lane(m.R, lane, n.R);
+    lanes::set_lane(m.x.hi, lane, n.x.hi);
+    lanes::set_lane(m.x.lo, lane, n.x.lo);
+    lanes::set_lane(m.dq, lane, n.dq);
+    lanes::set_lane(step, lane, eta[k]);
+    m.q.w.set(lane, state.rotation[begin + k].w);
+    lanes::set_lane(m.q.v, lane, state.rotation[begin + k].v);
+  }
+  m.move(step, follow_dq);
+  for (std::size_t l = 0; l < count; ++l) {
+    elements::NodeMotion& n = state.nodes[begin + l];
+    const int lane = static_cast<int>(l);
+    n.R = lanes::get_lane(m.R, lane);
+    n.x.hi = lanes::get_lane(m.x.hi, lane);
+    n.x.lo = lanes::get_lane(m.x.lo, lane);
+    if (follow_dq) n.dq = lanes::get_lane(m.dq, lane);
+    state.rotation[begin + l].w = m.q.w[lane];
+    state.rotation[begin + l].v = lanes::get_lane(m.q.v, lane);
+  }
 }
 
 }  // namespace bough::step

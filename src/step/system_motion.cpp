@@ -63,8 +63,12 @@ double System::apply(State& state, const double* x) {
   PhaseTimer timer{counts_.update};
   const double change = relative_size(state, x);
   auto by_node = [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t n = begin; n < end; ++n)
-      move_node(state, static_cast<std::size_t>(n), node_part(x, static_cast<int>(n)));
+    Vec6<double> eta[nodes_in_lanes];
+    for (std::int64_t n = begin; n < end; n += nodes_in_lanes) {
+      const auto count = std::min<std::int64_t>(nodes_in_lanes, end - n);
+      for (std::int64_t i = 0; i < count; ++i) eta[i] = node_part(x, static_cast<int>(n + i));
+      move_nodes(state, static_cast<std::size_t>(n), static_cast<std::size_t>(count), eta, true);
+    }
   };
   walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
   add_multipliers(state, x, 1.0);

@@ -24,4 +24,9 @@ State make_initial_state(const plan::Plan& plan);
 /// H <- H exp(eta) of one node, and dq <- log(exp(dq) exp(eta)).
 void move_node(State& state, std::size_t node, const motion::Vec6<double>& eta);
 
+/// The same for nodes [begin, begin + count), 1 <= count <= nodes_in_lanes, one to a lane: the bits of move_node. eta: `count` increments.
+/// Without `follow_dq` dq is left as it is.
+inline constexpr std::size_t nodes_in_lanes = 8;
+void move_nodes(State& state, std::size_t begin, std::size_t count, const motion::Vec6<double>* eta, bool follow_dq);
+
 }  // namespace bough::step
