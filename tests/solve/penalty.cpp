@@ -28,7 +28,7 @@ TEST(Penalty, FlatEliminationDoesNotDependOnThePenalty) {
   const double error = run(scene, 1.0, solve::Elimination::flat).error;
   for (double factor = 1e-6; factor < 2e12; factor *= 1e3) {
     const Outcome o = run(scene, factor, solve::Elimination::flat);
-    EXPECT_EQ(o.error, error) << factor;  // bitwise: P is never added
+    EXPECT_EQ(o.error, error) << factor;     // bitwise: P is never added
     EXPECT_LE(o.backward, 2e-15) << factor;  // a few roundings an entry, 1.3e-15 measured
   }
 }
