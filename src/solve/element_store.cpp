@@ -148,8 +148,12 @@ ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, con
 /// An unknown with little or nothing on the diagonal may still resist through a constraint to one that does (the turning of a massless bar
 /// that carries a mass): a row g then lends it g_u^2 / sum_{v != u} g_v^2 / a_v. Taken where the own diagonal is weaker by `weak`;
 /// scaled by noise instead, such an unknown would dwarf the others in its rows and make them look dependent.
-void ElementStore::lift_weak_diagonals(std::vector<double>& diagonal) const {
+/// strict: rows all of whose other unknowns have a diagonal. bare: a node between joints, to which no such row leads, takes the sum over
+/// what has one in the row's other blocks, and the most of its rows; what its own block could give way to is held by its other joints, or
+/// by nothing at all. What was lent in a bare sweep stands negative until its end and does not lend on. Answers whether something was lent.
+bool ElementStore::lend_diagonals(Lending lending, std::vector<double>& diagonal) const {
   constexpr double weak = 1e-6;
+  bool has_lent = false;
   for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
     if (graph_.block_kind[at(b)] == blocks::BlockKind::motion) continue;
     for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
@@ -160,28 +164,49 @@ void ElementStore::lift_weak_diagonals(std::vector<double>& diagonal) const {
         for (int p = 0; p < num_blocks_of(touch.element); ++p) {
           const int other = blocks_of(touch.element)[p];
           for (std::int64_t u = tree_.unknown_begin[at(other)]; u < tree_.unknown_begin[at(other) + 1]; ++u, ++j)
-            if (graph_.block_kind[at(other)] == blocks::BlockKind::motion) visit(at(u), j);
+            if (graph_.block_kind[at(other)] == blocks::BlockKind::motion) visit(at(u), j, other);
         }
       };
       for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
         const ConstElementView g = view(touch.element).from((touch.offset + i) * ne);
         double largest = 0.0;
-        for_motion([&](std::size_t, std::int64_t j) { largest = std::max(largest, std::abs(g[j])); });
+        for_motion([&](std::size_t, std::int64_t j, int) { largest = std::max(largest, std::abs(g[j])); });
         // Entries that are round-off couple nothing: the mobility behind them would be lent a thousand times over.
         const auto couples = [&](std::int64_t j) { return std::abs(g[j]) > 1e-8 * largest; };
-        for_motion([&](std::size_t u, std::int64_t j) {
+        for_motion([&](std::size_t u, std::int64_t j, int own) {
           if (!couples(j)) return;
           double others = 0.0;  // mobility of the row's other unknowns; one without any diagonal gives way freely
           bool held = true;
-          for_motion([&](std::size_t v, std::int64_t k) {
+          for_motion([&](std::size_t v, std::int64_t k, int other) {
             if (v == u || !couples(k)) return;
+            if (lending == Lending::bare && (other == own || !(diagonal[v] > 0.0))) return;
             held = held && diagonal[v] > 0.0;
             if (held) others += g[k] * g[k] / diagonal[v];
           });
-          if (held && others > 0.0 && diagonal[u] < weak * (g[j] * g[j] / others)) diagonal[u] = g[j] * g[j] / others;
+          if (!held || others == 0.0) return;
+          const double lent = g[j] * g[j] / others;
+          if (lending == Lending::strict) {
+            if (!(diagonal[u] < weak * lent)) return;
+            diagonal[u] = lent;
+          } else {
+            if (!(diagonal[u] <= 0.0 && lent > -diagonal[u])) return;
+            diagonal[u] = -lent;
+          }
+          has_lent = true;
         });
       }
     }
+  }
+  if (lending == Lending::bare && has_lent)
+    for (double& d : diagonal) d = std::abs(d);
+  return has_lent;
+}
+
+/// Strictly once: rows that couple in other ratios would raise each other without end. Bare nodes borrow from nothing, so only once each;
+/// what has borrowed lends on.
+void ElementStore::lift_weak_diagonals(std::vector<double>& diagonal) const {
+  lend_diagonals(Lending::strict, diagonal);
+  while (lend_diagonals(Lending::bare, diagonal)) {
   }
 }
 

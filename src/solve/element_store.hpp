@@ -77,6 +77,8 @@ class ElementStore {
     int offset;  ///< first row of the block in the element
   };
   void prepare();
+  enum class Lending { strict, bare };
+  bool lend_diagonals(Lending lending, std::vector<double>& diagonal) const;
   void lift_weak_diagonals(std::vector<double>& diagonal) const;
   template <class Row>
   void for_rows(std::int64_t begin, std::int64_t end, Row&& row) const;

@@ -1,6 +1,8 @@
 /// Scaled variables: the condition number does not grow as the time step falls, and units do not matter.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "solving.hpp"
 
 namespace bough::test {
@@ -22,6 +24,49 @@ TEST(Scaling, ConditionIsConstantBelowTheSmallestPeriod) {
     EXPECT_LE(s.report.backward_error, 1e-15) << step;
   }
   EXPECT_LE(reference, 1e4);
+}
+
+/// All families, nodes between joints alone among them (the root of the tree of seed 42). At 1e-2 s stiffness rules, below 1e-5 s inertia.
+TEST(Scaling, ConditionDoesNotGrowAsTheStepFallsInAnyFamily) {
+  for (unsigned seed : {2u, 41u, 60u}) {
+    std::vector<double> most;  // at longer steps
+    for (double step = 1e-2; step > 0.9e-9; step *= 0.1) {
+      const std::vector<Scene> scenes = make_all_families(seed, step);
+      most.resize(scenes.size(), 0.0);
+      for (std::size_t f = 0; f < scenes.size(); ++f) {
+        Solved s(scenes[f], {}, {});
+        ASSERT_TRUE(s.factor().ok()) << scenes[f].name << ", step " << step;
+        const double condition = condition_of(s.scaled_dense());
+        if (most[f] > 0.0)  // 2: scales are rounded to powers of two
+          EXPECT_LE(condition, 2.0 * most[f]) << scenes[f].name << ", seed " << seed << ", step " << step;
+        EXPECT_LE(condition, 1e5) << scenes[f].name << ", seed " << seed << ", step " << step;
+        most[f] = std::max(most[f], condition);
+      }
+    }
+  }
+}
+
+/// Several nodes in a row without anything of their own: lending goes on through those that have borrowed.
+TEST(Scaling, ARowOfNodesBetweenJointsBorrowsFromItsEnds) {
+  double longest = 0.0;
+  for (double step = 1e-2; step > 0.9e-9; step *= 0.1) {
+    SceneMaker m(7, step);
+    int end = m.add_node();
+    m.add_joint({end}, 5);
+    for (int k = 0; k < 4; ++k) {
+      const int next = m.add_node();
+      m.add_joint({end, next}, k % 2 == 0 ? 5 : 6);
+      end = next;
+    }
+    const int tip = m.add_node();
+    m.add_beam({end, tip});
+    const Scene scene = m.finish("row of joints");
+    Solved s(scene, {}, {});
+    ASSERT_TRUE(s.factor().ok()) << step;
+    const double condition = condition_of(s.scaled_dense());
+    if (longest > 0.0) EXPECT_LE(condition, 2.0 * longest) << step;
+    longest = std::max(longest, condition);
+  }
 }
 
 TEST(Scaling, TheSameMatrixWithoutItIsHopeless) {
