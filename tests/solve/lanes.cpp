@@ -1,0 +1,127 @@
+/// Sub-domains in lockstep: the kernels of eight fronts against one front at a time, and whole solutions with and without lanes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "../../src/solve/dense.hpp"
+#include "../../src/solve/lane_kernels.hpp"
+#include "solving.hpp"
+
+namespace bough::test {
+namespace {
+
+using solve::lanes_wide;
+
+/// Eight fronts of n unknowns, e of them to eliminate, in the layout of the kernels, and the same column-major.
+struct Fronts {
+  int n, e;
+  std::vector<double> factor, schur, ones;
+  std::vector<std::vector<double>> alone;
+
+  Fronts(int n_, int e_, unsigned seed) : n(n_), e(e_), alone(lanes_wide) {
+    const int b = n - e;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> entry(-1.0, 1.0);
+    factor.assign(static_cast<std::size_t>(lanes_wide * e * (n + b)), 0.0);
+    schur.assign(static_cast<std::size_t>(lanes_wide * b * b), 0.0);
+    ones.assign(static_cast<std::size_t>(lanes_wide * n), 1.0);
+    for (int l = 0; l < lanes_wide; ++l) {
+      alone[static_cast<std::size_t>(l)].resize(static_cast<std::size_t>(n * n));
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) set(l, i, j, entry(random) + (i == j ? 4.0 : 0.0));
+    }
+  }
+  double& at(int lane, int i, int j) {
+    const int b = n - e;
+    if (j < e) return factor[static_cast<std::size_t>((j * n + i) * lanes_wide + lane)];
+    if (i < e) return factor[static_cast<std::size_t>((e * n + (j - e) * e + i) * lanes_wide + lane)];
+    return schur[static_cast<std::size_t>(((j - e) * b + i - e) * lanes_wide + lane)];
+  }
+  void set(int lane, int i, int j, double value) {
+    at(lane, i, j) = value;
+    alone[static_cast<std::size_t>(lane)][static_cast<std::size_t>(j * n + i)] = value;
+  }
+  solve::LaneSet eliminate() {
+    return solve::eliminate_lanes(factor.data(), schur.data(), n, e, ones.data(), ones.data(), {});
+  }
+  /// One lane's front by the scalar kernel, without exchanges (the diagonal dominates).
+  std::vector<double> eliminated_alone(int lane) const {
+    std::vector<double> a = alone[static_cast<std::size_t>(lane)];
+    std::vector<int> rows(static_cast<std::size_t>(e)), columns = rows, from = rows;
+    solve::FrontMatrix front{a.data(), n, e, rows.data(), columns.data(), from.data()};
+    EXPECT_EQ(solve::eliminate_with_threshold(front, {.threshold = 1e-3, .least = 1e-10}), e);
+    return a;
+  }
+};
+
+TEST(Lanes, kernels_give_the_factor_of_one_front_at_a_time) {
+  for (int e : {1, 2, 5, 6, 7, 11, 12, 18, 23})
+    for (int b : {0, 1, 3, 6, 12, 17}) {
+      Fronts f(e + b, e, static_cast<unsigned>(100 * e + b));
+      ASSERT_EQ(f.eliminate(), 0);
+      for (int l = 0; l < lanes_wide; ++l) {
+        const std::vector<double> a = f.eliminated_alone(l);
+        for (int j = 0; j < f.n; ++j)
+          for (int i = 0; i < f.n; ++i) {
+            const double value = a[static_cast<std::size_t>(j * f.n + i)];
+            const double expected = i == j && j < e ? 1.0 / value : value;  // lanes keep inverse pivots
+            EXPECT_NEAR(f.at(l, i, j), expected, 1e-13)
+                << e << "+" << b << " lane " << l << " (" << i << ", " << j << ")";
+          }
+      }
+    }
+}
+
+TEST(Lanes, a_lane_without_a_pivot_is_told_and_changes_no_other) {
+  for (int e : {6, 11, 17}) {
+    Fronts good(e + 12, e, 7), bad = good;
+    const int k = e - 2;  // a zero row in the eliminated part of lane 3, and a not-a-number in lane 5
+    for (int j = 0; j < e; ++j) bad.set(3, k, j, 0.0);
+    bad.set(5, 0, 0, std::nan(""));
+    const auto failed = bad.eliminate();
+    ASSERT_EQ(good.eliminate(), 0);
+    EXPECT_EQ(failed, (1 << 3) | (1 << 5));
+    for (int l : {0, 1, 2, 4, 6, 7})
+      for (int j = 0; j < good.n; ++j)
+        for (int i = 0; i < good.n; ++i) EXPECT_EQ(bad.at(l, i, j), good.at(l, i, j));
+    for (double x : bad.schur) EXPECT_TRUE(std::isfinite(x));
+    for (double x : bad.factor) EXPECT_TRUE(std::isfinite(x));
+  }
+}
+
+TEST(Lanes, a_pivot_that_is_small_against_rows_of_the_boundary_is_refused) {
+  Fronts f(18, 6, 11);
+  f.set(2, 9, 4, 1e9);  // column 4, a boundary row
+  EXPECT_EQ(f.eliminate(), 1 << 2);
+}
+
+TEST(Lanes, long_chains_go_in_lanes_and_give_the_solution_of_the_scalar_path) {
+  for (int links : {24, 40, 67}) {
+    const Scene scene = make_chain(3, links, 4);
+    Solved with(scene, {.leaf_size = 5}, {.refinement_steps = 0});
+    Solved without(scene, {.leaf_size = 5}, {.lanes = false, .refinement_steps = 0});
+    ASSERT_TRUE(with.factor().ok());
+    ASSERT_TRUE(without.factor().ok());
+    EXPECT_GT(with.solver.counters().fronts_in_lanes, links);
+    EXPECT_EQ(without.solver.counters().fronts_in_lanes, 0);
+    const Eigen::VectorXd b = with.random_rhs(5), x = with.solve(b), y = without.solve(b);
+    EXPECT_LE(with.report.backward_error, 1e-14);
+    EXPECT_LE(with.scaled_difference(x, y), 1e-9);
+  }
+}
+
+TEST(Lanes, a_right_hand_side_condensed_with_the_factor_gives_the_same_bits) {
+  const Scene scene = make_chain(5, 40, 4);
+  Solved s(scene, {.leaf_size = 5}, {});
+  ASSERT_TRUE(s.factor().ok());
+  const Eigen::VectorXd b = s.random_rhs(9), x = s.solve(b);
+  Eigen::VectorXd y(b.size());
+  ASSERT_TRUE(s.solver.factor(schedule::make_serial_walker(), {}, b.data()).ok());
+  (void)s.solver.finish(schedule::make_serial_walker(), y.data());
+  EXPECT_EQ(x, y);
+}
+
+}  // namespace
+}  // namespace bough::test
