@@ -12,6 +12,7 @@ for name in solve step; do
   [ -x "$program" ] || continue
   found=1
   "$program" --benchmark_out="$build/$name.json" --benchmark_out_format=json --benchmark_display_aggregates_only=true
+  sed -i 's|/real_time||g' "$build/$name.json"   # the rows are SOLVER/CASE/threads:N
 done
 if [ -x "$folder/bench_motion" ]; then
   found=1
