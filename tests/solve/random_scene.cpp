@@ -117,20 +117,21 @@ int SceneMaker::add_joint(const std::vector<int>& nodes, int rows, double row_sc
   return multiplier;
 }
 
-int SceneMaker::add_joint_again(int element) {
+int SceneMaker::add_joint_again(int element, int copied) {
   const auto e = static_cast<std::size_t>(element);
   auto& g = scene_.graph;
   std::vector<int> blocks(g.element_blocks.begin() + g.element_begin[e],
                           g.element_blocks.begin() + g.element_begin[e + 1]);
   const int rows = g.block_size[static_cast<std::size_t>(blocks.back())];
-  g.block_size.push_back(rows);
+  if (copied == 0) copied = rows;
+  g.block_size.push_back(copied);
   g.block_kind.push_back(blocks::BlockKind::multiplier);
   blocks.back() = g.num_blocks() - 1;
-  MatrixXd A = scene_.elements[e];
-  const int n = static_cast<int>(A.rows()) - rows;
-  const MatrixXd mix = uniform_matrix(rows, rows) + 2.0 * MatrixXd::Identity(rows, rows);
-  A.bottomLeftCorner(rows, n) = mix * A.bottomLeftCorner(rows, n);
-  A.topRightCorner(n, rows) = A.bottomLeftCorner(rows, n).transpose();
+  const int n = static_cast<int>(scene_.elements[e].rows()) - rows;
+  const MatrixXd mix = uniform_matrix(copied, rows) + 2.0 * MatrixXd::Identity(copied, rows);
+  MatrixXd A = MatrixXd::Zero(n + copied, n + copied);
+  A.bottomLeftCorner(copied, n) = mix * scene_.elements[e].bottomLeftCorner(rows, n);
+  A.topRightCorner(n, copied) = A.bottomLeftCorner(copied, n).transpose();
   add_element(blocks, A);
   return blocks.back();
 }

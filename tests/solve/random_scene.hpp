@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bough/blocks/block_graph.hpp"
@@ -23,6 +24,8 @@ struct Scene {
 class SceneMaker {
  public:
   explicit SceneMaker(unsigned seed, double step = 1e-3) : random_(seed), step_(step) {}
+  /// Goes on with a scene.
+  SceneMaker(unsigned seed, double step, Scene scene) : random_(seed), step_(step), scene_(std::move(scene)) {}
 
   int add_node(int size = 6);
   /// K + M / h^2 of a beam between nodes: K = B^T C B with B = [-Ad, I] (rigid motions are its null space), M positive definite;
@@ -33,8 +36,8 @@ class SceneMaker {
   /// rows multipliers between one or two nodes: [0 G^T; G 0] with G = W [-Ad, I] (or W on one node), W of full row rank.
   /// Returns the multiplier block.
   int add_joint(const std::vector<int>& nodes, int rows, double row_scale = 1.0);
-  /// The same constraint once more (rows of W combined anew), consistent with the first: dependent rows.
-  int add_joint_again(int joint_element);
+  /// The same constraint once more (rows of W combined anew), consistent with the first: dependent rows; as many as it has, or `rows`.
+  int add_joint_again(int joint_element, int rows = 0);
 
   Scene finish(std::string name);
   std::mt19937& random() { return random_; }
