@@ -29,7 +29,9 @@ void evaluate_constraint_series(const Joint& joint, const Field& field, const Ve
     Vec6<double> j = Vec6<double>::zero();
     if (port.node != ground && jerk != nullptr)
       j = port.has_offset ? motion::inverse_adjoint_times(port.offset, jerk[port.node]) : jerk[port.node];
-    p[k] = series_of<3>(eval_port(port, field.nodes, anchor), j);
+    if (port.node == ground && port.carrier >= 0)
+      j = motion::inverse_adjoint_times(port.offset, field.carriers[port.carrier].twist_second);
+    p[k] = series_of<3>(eval_port(port, field.nodes, anchor, field.carriers), j);
   }
   const Frame<T> H = motion::relative(p[0].H, p[1].H);
   Vec6<T> gradient;
@@ -38,8 +40,8 @@ void evaluate_constraint_series(const Joint& joint, const Field& field, const Ve
 
 JointMotion eval_joint_motion(const Joint& joint, const Field& field, double turns) {
   const motion::Vec3Pair anchor = anchor_of(joint, field.nodes);
-  const PortMotion<double> a = eval_port(joint.ports[0], field.nodes, anchor);
-  const PortMotion<double> b = eval_port(joint.ports[1], field.nodes, anchor);
+  const PortMotion<double> a = eval_port(joint.ports[0], field.nodes, anchor, field.carriers);
+  const PortMotion<double> b = eval_port(joint.ports[1], field.nodes, anchor, field.carriers);
   JointMotion m;
   m.relative = motion::relative(a.H, b.H);
   m.twist = b.v - motion::inverse_adjoint_times(m.relative, a.v);

@@ -124,6 +124,34 @@ void eval_port_slopes(const E& e, const FieldOf<S>& field, PortSlopes<S>* ports)
   }
 }
 
+/// Motions of an element with mass as seen from the inertial frame, where nodes are described in a frame that moves; and with
+/// slopes how they follow the port's increment eta, since Ad((H exp(eta))^-1) V = c + ad(c) eta:
+///   dv_s = dv + ad(c) eta,   da_s = da + ad(c) dv + (ad(Ad(H^-1) V') - ad(v) ad(c)) eta
+/// All of these are operators on motions, as the kernels take them.
+template <class E, class S>
+void see_from_inertial(const E&, const FieldOf<S>& field, const motion::PositionPair<S>& anchor, PortMotion<S>* p,
+                       PortSlopes<S>* slopes) {
+  if constexpr (has_mass_matrix<E>) {
+    if (field.observer == nullptr || !field.around.has_inertia) return;
+    const CarrierMotionOf<S>& o = *field.observer;
+    const Vec3<S> from = anchor.hi + anchor.lo;
+    for (int k = 0; k < E::num_ports; ++k) {
+      if (slopes != nullptr && slopes[k].moves) {
+        const Frame<S> H{p[k].H.R, p[k].H.x + from};
+        const DualVec<S> carried = motion::motion_dual(motion::inverse_adjoint_times(H, o.twist));
+        const DualVec<S> rate = motion::motion_dual(motion::inverse_adjoint_times(H, o.twist_rate));
+        const DualMat<S> by_twist = motion::skew(carried);
+        DualMat<S>& acceleration = slopes[k].acceleration;
+        add_product(acceleration, by_twist, slopes[k].velocity);
+        acceleration = acceleration + motion::skew(rate) -
+                       motion::skew_product(motion::skew(motion::motion_dual(p[k].v)), carried);
+        slopes[k].velocity = slopes[k].velocity + by_twist;
+      }
+      add_observer_motion(p[k], from, o.twist, o.twist_rate);
+    }
+  }
+}
+
 /// The driver of all elements, for doubles and for packs. S: scalar of the element's constants too.
 template <class E, class S>
 void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers, const S& turns, S* residual,
@@ -131,15 +159,17 @@ void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers,
   constexpr int P = E::num_ports, D = 6 * P, rows = D + E::num_multipliers;
   const motion::PositionPair<S> anchor = anchor_of(e, field.nodes);
   PortMotion<S> p[P];
-  for (int k = 0; k < P; ++k) p[k] = eval_port(e.ports[k], field.nodes, anchor);
+  for (int k = 0; k < P; ++k) p[k] = eval_port(e.ports[k], field.nodes, anchor, field.carriers);
   S out[rows];
   if (tangent == nullptr) {
+    see_from_inertial<E, S>(e, field, anchor, p, nullptr);
     eval_kernel<E, S>(e, p, multipliers, field.around, out, turns);
     gather<E, S>(e, out, nullptr, residual, nullptr);
     return;
   }
   PortSlopes<S> ports[P];
   eval_port_slopes(e, field, ports);
+  see_from_inertial<E, S>(e, field, anchor, p, ports);
   bool in_place = E::num_multipliers == 0;  // nothing to carry from ports to nodes: the rows and columns as they are
   for (const auto& port : e.ports) in_place = in_place && port.node != ground && !port.has_offset;
   S own[rows * D];
@@ -195,7 +225,19 @@ void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Tay
   constexpr int P = E::num_ports, rows = 6 * P + E::num_multipliers;
   const motion::Vec3Pair anchor = anchor_of(e, field.nodes);
   PortMotion<T> p[P];
-  for (int k = 0; k < P; ++k) p[k] = series_of<1>(eval_port(e.ports[k], field.nodes, anchor), Vec6<double>::zero());
+  for (int k = 0; k < P; ++k)
+    p[k] = series_of<1>(eval_port(e.ports[k], field.nodes, anchor, field.carriers), Vec6<double>::zero());
+  if constexpr (has_mass_matrix<E>) {
+    if (field.observer != nullptr && around.has_inertia) {
+      Vec6<T> twist = lanes::cast<T>(field.observer->twist), twist_rate = lanes::cast<T>(field.observer->twist_rate);
+      for (int i = 0; i < 6; ++i) {
+        twist[i].c[1] = field.observer->twist_rate[i];
+        twist_rate[i].c[1] = field.observer->twist_second[i];
+      }
+      for (int k = 0; k < P; ++k)
+        add_observer_motion(p[k], lanes::cast<T>(Vec3<double>(anchor.hi + anchor.lo)), twist, twist_rate);
+    }
+  }
   T lambda[E::num_multipliers + 1] = {}, out[rows];
   for (int k = 0; k < num_multipliers(e); ++k) lambda[k] = T(multipliers[k]);
   eval_kernel<E, T>(e, p, lambda, around, out, turns);

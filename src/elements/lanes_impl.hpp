@@ -124,7 +124,8 @@ inline void set_kind(const Joint& a, JointOf<LanePack>& b, int law) {
 template <class E>
 bool may_share_lanes(const E& a, const E& b) {
   for (int k = 0; k < E::num_ports; ++k)
-    if ((a.ports[k].node == ground) != (b.ports[k].node == ground) || a.ports[k].has_offset != b.ports[k].has_offset)
+    if ((a.ports[k].node == ground) != (b.ports[k].node == ground) ||
+        a.ports[k].has_offset != b.ports[k].has_offset || a.ports[k].carrier != b.ports[k].carrier)
       return false;
   return is_same_kind(a, b);
 }
@@ -136,6 +137,7 @@ LaneElement<E> make_lane_element(const E* const* elements, int count, const int*
   for (int k = 0; k < E::num_ports; ++k) {
     r.ports[k].node = elements[0]->ports[k].node == ground ? ground : nodes[k];
     r.ports[k].has_offset = elements[0]->ports[k].has_offset;
+    r.ports[k].carrier = elements[0]->ports[k].carrier;
   }
   for (int lane = 0; lane < num_lanes; ++lane) {
     const E& e = *elements[lane < count ? lane : count - 1];

@@ -23,11 +23,17 @@ void add_gravity(const Mat6<double>& mass, double factor, const PortMotion<doubl
   m.load += lanes::join(force, lanes::cross(factor * x, gravity));
 }
 
+/// Motions of the ports as seen from the inertial frame, in the axes of the frame in which nodes are described. `anchor` is what
+/// positions are relative to, counted from the inertial origin.
 template <class E>
 void eval_ports(const E& e, const Field& field, PortMotion<double>* p, Vec3<double>& anchor) {
   const motion::Vec3Pair a = anchor_of(e, field.nodes);
-  for (int k = 0; k < E::num_ports; ++k) p[k] = eval_port(e.ports[k], field.nodes, a);
+  for (int k = 0; k < E::num_ports; ++k) p[k] = eval_port(e.ports[k], field.nodes, a, field.carriers);
   anchor = a.hi + a.lo;
+  if (field.observer == nullptr) return;
+  const CarrierMotion& o = *field.observer;
+  for (int k = 0; k < E::num_ports; ++k) add_observer_motion(p[k], anchor, o.twist, o.twist_rate);
+  anchor += lanes::transpose_times(o.pose.R, o.pose.x);
 }
 
 /// Reactions of the ground on the structure through an element, from its residual at the ports.
@@ -39,6 +45,7 @@ void add_ground_reaction(const E& e, const PortMotion<double>* p, const Vec3<dou
     Vec6<double> f;
     for (int i = 0; i < 6; ++i) f[i] = out[6 * k + i];
     m.load += to_inertial(p[k], anchor, f);  // what the element asks of the ground, the ground gives
+    m.work_rate += power(f, p[k].v);         // 0 where the ground stands still
   }
 }
 

@@ -69,19 +69,23 @@ void add_elements(Builder& b, const scene::Beam& beam, BeamPlan& plan, const std
       elements::LineLoad<N> load;
       for (int i = 0; i < N; ++i) load.ports[i] = e.ports[i];
       load.length = e.length;
-      load.wrench = lanes::join(l.force, l.moment);
-      load.follows = l.axes == scene::LoadAxes::body;
-      load.law = b.line_load_law(l);
-      plan.loads.back().push_back(b.add(load, l.name));
+      for (const SpaceLoad& part : b.line_load(l)) {
+        load.wrench = part.wrench;
+        load.follows = part.follows;
+        load.law = part.law;
+        plan.loads.back().push_back(b.add(load, l.name));
+      }
     }
   }
 }
 
 }  // namespace
 
-int Builder::line_load_law(const scene::LineLoad& load) {
-  const auto [at, is_new] = line_laws.try_emplace(load.name, 0);
-  if (is_new) at->second = add_factor(load.law, load.name);
+const std::vector<SpaceLoad>& Builder::line_load(const scene::LineLoad& load) {
+  const auto [at, is_new] = line_loads.try_emplace(load.name);
+  if (is_new)
+    at->second = space_loads(load.force, load.moment, load.frame, load.axes == scene::LoadAxes::body,
+                             add_factor(load.law, load.name), load.name);
   return at->second;
 }
 
@@ -127,6 +131,8 @@ void Builder::add_sensors() {
       if (!s.joint.empty() && plan.joints[i].name == s.joint && plan.joints[i].what != "held rotation" && p.joint < 0)
         p.joint = static_cast<int>(i);
     if (p.beam < 0 && !s.at.to.empty()) p.port = port_at(s.at);
+    p.frame = port_at(s.frame, Frame<double>::identity());
+    for (const std::string& name : s.chain) p.chain.push_back(port_at(name, Frame<double>::identity()));
     plan.sensors.push_back(p);
   }
 }

@@ -17,17 +17,6 @@ using motion::Mat6;
 using motion::Vec3;
 using motion::Vec6;
 
-namespace {
-
-bool is_identity(const Frame<double>& H) {
-  const Frame<double> one = Frame<double>::identity();
-  for (int i = 0; i < 9; ++i)
-    if (H.R.m[i] != one.R.m[i]) return false;
-  return H.x[0] == 0.0 && H.x[1] == 0.0 && H.x[2] == 0.0;
-}
-
-}  // namespace
-
 Builder::Builder(const scene::Scene& s) : scene(s), poses(s) {
   plan.scene_name = s.name;
   plan.is_dynamic = s.analysis.kind == scene::AnalysisKind::dynamics;
@@ -49,26 +38,6 @@ int Builder::add_node(const std::string& name, const Frame<double>& pose) {
   const int id = static_cast<int>(plan.nodes.size()) - 1;
   node_of[name] = id;
   return id;
-}
-
-Port Builder::port_at(const std::string& to, const Frame<double>& offset) const {
-  Port port;
-  if (to.empty() || to == "ground") {
-    port.offset = offset;
-    port.has_offset = true;
-    return port;
-  }
-  port.node = node_of.at(to);
-  port.offset = offset;
-  port.has_offset = !is_identity(offset);
-  return port;
-}
-Port Builder::port_at(const scene::Attachment& a) const { return port_at(a.to, a.offset); }
-
-Frame<double> Builder::initial_pose(const Port& port) const {
-  if (port.node == elements::ground) return port.offset;
-  const Frame<double>& node = plan.nodes[static_cast<std::size_t>(port.node)].pose;
-  return port.has_offset ? motion::compose(node, port.offset) : node;
 }
 
 /// Elements are numbered array after array once all are known; until then an owner travels with each.
@@ -231,10 +200,13 @@ void Builder::add_couplings() {
   for (const scene::PointLoad& l : scene.point_loads) {
     elements::PointLoad e;
     e.ports[0] = port_at(l.at);
-    e.wrench = lanes::join(l.force, l.moment);
-    e.follows = l.axes == scene::LoadAxes::body;
-    e.law = add_factor(l.law, l.name);
-    add(e, l.name);
+    for (const SpaceLoad& part :
+         space_loads(l.force, l.moment, l.frame, l.axes == scene::LoadAxes::body, add_factor(l.law, l.name), l.name)) {
+      e.wrench = part.wrench;
+      e.follows = part.follows;
+      e.law = part.law;
+      add(e, l.name);
+    }
   }
 }
 
@@ -252,6 +224,14 @@ void Builder::add_initial_velocities() {
     if (v.axes == scene::LoadAxes::body) {
       linear = origin.R * linear;
       angular = origin.R * angular;
+    } else if (!v.frame.empty() && v.frame != "ground") {
+      linear = frame_start.at(v.frame).R * linear;
+      angular = frame_start.at(v.frame).R * angular;
+    }
+    if (!v.frame.empty()) {
+      const Vec6<double> carried = frame_velocity(v.frame, origin.x);
+      linear += lanes::linear_part(carried);
+      angular += lanes::angular_part(carried);
     }
     for (int id : targets) {
       NodePlan& n = plan.nodes[static_cast<std::size_t>(id)];
@@ -340,6 +320,7 @@ Plan make_plan(const scene::Scene& scene) {
   Builder b(scene);
   b.plan.gravity = scene.gravity;
   b.plan.gravity_law = b.add_factor(scene.gravity_law, "gravity");
+  b.add_frames();
   b.add_bodies();
   b.add_beams();
   b.add_joints();

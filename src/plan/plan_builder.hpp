@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "bough/plan/frames.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/scene/poses.hpp"
 
@@ -21,6 +22,13 @@ struct OwnersOf<std::tuple<std::vector<E>...>> {
   using tag = Tagged<T>;
 };
 
+/// A load in the ground's axes or following: its wrench and law.
+struct SpaceLoad {
+  motion::Vec6<double> wrench;
+  bool follows = false;
+  int law = 0;
+};
+
 struct Builder {
   explicit Builder(const scene::Scene& scene);
 
@@ -29,7 +37,10 @@ struct Builder {
   scene::Poses poses;
   std::map<std::string, int> node_of;
   OwnersOf<ElementArrays>::type owner_lists;
-  std::map<std::string, int> line_laws;  ///< one law for all elements under a line load
+  std::map<std::string, std::vector<SpaceLoad>> line_loads;  ///< by name: one law for all elements under a line load
+  std::map<std::string, int> carrier_of;                     ///< frames that move in the ground, in Plan::frames
+  std::map<std::string, motion::Frame<double>> frame_start;  ///< pose of every frame in the ground
+  FrameMotions start_motions;
 
   template <class E>
   std::vector<std::string>& owners() {
@@ -40,7 +51,10 @@ struct Builder {
 
   int add_law(const laws::Law& law, const std::string& user);
   int add_factor(const laws::Law& law, const std::string& user);
-  int line_load_law(const scene::LineLoad& load);
+  const std::vector<SpaceLoad>& line_load(const scene::LineLoad& load);
+  std::vector<SpaceLoad> space_loads(const motion::Vec3<double>& force, const motion::Vec3<double>& moment,
+                                     const std::string& frame, bool follows, int law, const std::string& user);
+  motion::Vec6<double> frame_velocity(const std::string& frame, const motion::Vec3<double>& at) const;
   int add_drive(const laws::Law& law, bool is_rate, double initial, const std::string& user);
   int add_node(const std::string& name, const motion::Frame<double>& pose);
   int add_joint(elements::Joint& joint, const std::string& name, const std::string& what);
@@ -48,6 +62,7 @@ struct Builder {
   elements::Port port_at(const scene::Attachment& a) const;
   motion::Frame<double> initial_pose(const elements::Port& port) const;
 
+  void add_frames();
   void add_bodies();
   void add_beams();
   void add_joints();

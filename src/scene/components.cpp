@@ -8,6 +8,11 @@ const std::vector<std::string>& components_of(SensorKind kind) {
                     velocity = {"vx", "vy", "vz", "wx", "wy", "wz"},
                     acceleration = {"ax", "ay", "az", "alx", "aly", "alz"}, force = {"N", "Q2", "Q3", "T", "M2", "M3"},
                     strain = {"e1", "g2", "g3", "k1", "k2", "k3"}, reaction = {"fx", "fy", "fz", "mx", "my", "mz"},
+                    split = {"local_x",       "local_y",       "local_z",       "tangential_x", "tangential_y",
+                             "tangential_z",  "coriolis_x",    "coriolis_y",    "coriolis_z",   "centripetal_x",
+                             "centripetal_y", "centripetal_z", "razi_x",        "razi_y",       "razi_z",
+                             "translation_x", "translation_y", "translation_z", "total_x",      "total_y",
+                             "total_z"},
                     none = {};
   switch (kind) {
     case SensorKind::position:
@@ -26,6 +31,8 @@ const std::vector<std::string>& components_of(SensorKind kind) {
       return strain;
     case SensorKind::joint_reaction:
       return reaction;
+    case SensorKind::acceleration_split:
+      return split;
     default:
       return none;
   }
@@ -66,7 +73,7 @@ std::string to_string(SensorKind kind) {
   static const char* const names[] = {"position",      "rotation",           "quaternion",     "velocity",
                                       "acceleration",  "section_force",      "section_strain", "joint_reaction",
                                       "joint_angle",   "joint_displacement", "joint_rate",     "kinetic_energy",
-                                      "strain_energy", "potential_energy",   "total_energy"};
+                                      "strain_energy", "potential_energy",   "total_energy",   "acceleration_split"};
   return names[static_cast<int>(kind)];
 }
 

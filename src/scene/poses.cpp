@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "bough/scene/frames.hpp"
+
 namespace bough::scene {
 namespace {
 
@@ -14,20 +16,18 @@ void add_all(std::unordered_map<std::string, Thing>& things, const List& list, T
     if (!list[i].name.empty()) things.try_emplace(list[i].name, Thing{kind, i});
 }
 
+std::optional<std::size_t> frame_named(const Scene& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.frames.size(); ++i)
+    if (scene.frames[i].name == name) return i;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Frame resolve(const Scene& scene, const Placement& placement) {
-  Frame pose = placement.pose;
-  std::string parent = placement.frame;
-  for (std::size_t depth = 0; !parent.empty() && parent != "ground" && depth <= scene.frames.size(); ++depth) {
-    const FrameDef* found = nullptr;
-    for (const FrameDef& f : scene.frames)
-      if (found == nullptr && f.name == parent) found = &f;
-    if (found == nullptr) break;
-    pose = motion::compose(found->placement.pose, pose);
-    parent = found->placement.frame;
-  }
-  return pose;
+  if (placement.frame.empty()) return placement.pose;
+  return pose_in_ground(scene, placement, [&scene](const std::string& name) { return frame_named(scene, name); })
+      .value_or(placement.pose);
 }
 
 std::optional<Frame> initial_pose(const Scene& scene, const std::string& name) {
@@ -78,17 +78,18 @@ std::optional<Thing> Poses::find(std::string_view name) const {
 }
 
 std::optional<Frame> Poses::chain(const Placement& placement) const {
-  Frame pose = placement.pose;
-  const std::string* parent = &placement.frame;
-  for (std::size_t depth = 0; depth <= scene_.frames.size(); ++depth) {
-    if (parent->empty() || *parent == "ground") return pose;
-    const auto thing = find(*parent);
-    if (!thing || thing->kind != ThingKind::frame) return std::nullopt;
-    const Placement& next = scene_.frames[thing->index].placement;
-    pose = motion::compose(next.pose, pose);
-    parent = &next.frame;
-  }
-  return std::nullopt;  // a frame stands in itself
+  if (placement.frame.empty() || placement.frame == "ground") return placement.pose;
+  return pose_in_ground(scene_, placement, [this](const std::string& name) { return frame(name); });
+}
+
+std::optional<std::size_t> Poses::frame(const std::string& name) const {
+  const auto thing = find(name);
+  if (!thing || thing->kind != ThingKind::frame) return std::nullopt;
+  return thing->index;
+}
+
+bool Poses::is_moving(const std::string& frame_name) const {
+  return scene::is_moving(scene_, frame_name, [this](const std::string& name) { return frame(name); });
 }
 
 std::optional<Frame> Poses::of(const Placement& placement) const { return chain(placement); }
@@ -104,7 +105,7 @@ std::optional<Frame> Poses::of(std::string_view name) const {
   if (const auto thing = find(name)) {
     switch (thing->kind) {
       case ThingKind::frame:
-        return chain(scene_.frames[thing->index].placement);
+        return chain(Placement{Frame::identity(), scene_.frames[thing->index].name});
       case ThingKind::node:
         return chain(scene_.nodes[thing->index].placement);
       case ThingKind::body:

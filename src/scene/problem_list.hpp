@@ -36,6 +36,8 @@ struct ProblemList {
   /// A reference into a list of names. True where it is there.
   bool check_reference(const char* section, std::size_t index, const std::string& key, const std::string& name,
                        const std::vector<std::string>& known, const char* what);
+  /// A frame by name, or the ground.
+  bool check_frame(const char* section, std::size_t index, const std::string& frame);
   /// A law that is finite over the analysis; with derivatives where it prescribes a motion.
   void check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law,
                  bool with_derivatives);
@@ -53,6 +55,7 @@ enum class Definite { positive, semi };
 std::string definite_fault(const Mat6& a, Definite wanted);
 
 void check_names(ProblemList& list);
+void check_frames(ProblemList& list);
 void check_sections(ProblemList& list);
 void check_bodies(ProblemList& list);
 void check_beams(ProblemList& list);

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "bough/motion/se3.hpp"
+#include "bough/scene/frames.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "problem_list.hpp"
 
@@ -56,12 +57,19 @@ void check_one_set(ProblemList& list, const char* section, const List& things,
   }
 }
 
+/// Whether the way up from a frame never ends.
+bool stands_in_itself(const ProblemList& list, const std::string& frame) {
+  const auto find = [&list](const std::string& name) { return list.poses.frame(name); };
+  const std::vector<std::size_t> way = frames_above(list.scene, frame, find);
+  return !way.empty() && find(list.scene.frames[way.back()].placement.frame).has_value();
+}
+
 template <class List>
 void check_placements(ProblemList& list, const char* section, const List& things) {
   for (std::size_t i = 0; i < things.size(); ++i) {
     const std::string& frame = things[i].placement.frame;
     if (frame.empty() || frame == "ground" || list.is_defective(frame)) continue;
-    if (list.check_reference(section, i, "frame", frame, list.frames, "frame") && !list.poses.of(things[i].placement))
+    if (list.check_reference(section, i, "frame", frame, list.frames, "frame") && stands_in_itself(list, frame))
       list.add(section, i, "frame", frame, "this frame stands in itself, directly or through others");
   }
 }
@@ -133,7 +141,8 @@ bool ProblemList::check_place(const char* section, std::size_t index, const std:
     return ground_allowed;
   }
   if (const auto thing = poses.find(name)) {
-    if (thing->kind == ThingKind::node || thing->kind == ThingKind::body)
+    if (thing->kind == ThingKind::node || thing->kind == ThingKind::body ||
+        (thing->kind == ThingKind::frame && ground_allowed))  // what may hold on to the ground may hold on to a frame
       return poses.of(std::string_view(name)).has_value();
     std::string hint;
     if (thing->kind == ThingKind::beam)
@@ -194,6 +203,11 @@ bool is_zero(const Mat6& a) {
   return std::all_of(std::begin(a.m), std::end(a.m), [](double x) { return x == 0.0; });
 }
 
+bool ProblemList::check_frame(const char* section, std::size_t index, const std::string& frame) {
+  if (frame.empty() || frame == "ground" || is_defective(frame)) return true;
+  return check_reference(section, index, "frame", frame, frames, "frame");
+}
+
 void check_names(ProblemList& list) {
   const Scene& s = list.scene;
   std::unordered_map<std::string, std::string> things, sections, sensors;
@@ -217,6 +231,7 @@ void check_names(ProblemList& list) {
 std::vector<SceneProblem> problems_in(const Scene& scene, std::span<const std::string> defective) {
   ProblemList list(scene, defective);
   check_names(list);
+  check_frames(list);
   check_sections(list);
   check_bodies(list);
   check_beams(list);

@@ -87,6 +87,16 @@ bool check_pair(ProblemList& list, const char* section, std::size_t i, const Pai
   bool sound = list.check_place(section, i, "first", p.first.to, true);
   sound = list.check_place(section, i, "second", p.second.to, true) && sound;
   const auto plain = [](const std::string& name) { return name == "ground" ? std::string() : name; };
+  const auto stands = [&list](const std::string& name) {
+    const auto thing = list.poses.find(name);
+    return name.empty() || name == "ground" || (thing && thing->kind == ThingKind::frame);
+  };
+  if (sound && plain(p.first.to) != plain(p.second.to) && stands(p.first.to) && stands(p.second.to)) {
+    list.add(section, i, "second", p.second.to.empty() ? "ground" : p.second.to,
+             "first and second are both prescribed: one of them has to be a node or body",
+             "a frame moves by its own laws alone");
+    return false;
+  }
   if (!sound || plain(p.first.to) != plain(p.second.to)) return sound;
   list.add(section, i, "second", p.second.to.empty() ? "ground" : p.second.to, "first and second are the same thing");
   return false;
@@ -138,12 +148,25 @@ void check_couplings(ProblemList& list) {
   }
 }
 
+namespace {
+
+template <class Load>
+void check_load_frame(ProblemList& list, const char* section, std::size_t i, const Load& load) {
+  list.check_frame(section, i, load.frame);
+  if (!load.frame.empty() && load.axes == LoadAxes::body)
+    list.add(section, i, "frame", load.frame, "a follower turns with what it acts on, not with a frame",
+             "leave one of \"axes\" and \"frame\" out");
+}
+
+}  // namespace
+
 void check_loads(ProblemList& list) {
   const Scene& s = list.scene;
   for (std::size_t i = 0; i < s.point_loads.size(); ++i) {
     const PointLoad& l = s.point_loads[i];
     list.check_place("point_loads", i, "at", l.at.to, false);
     list.check_law("point_loads", i, "law", l.law, false);
+    check_load_frame(list, "point_loads", i, l);
     if (is_zero(l.force) && is_zero(l.moment))
       list.warn("point_loads", i, "", "", "the load has neither force nor moment");
     const auto body = list.body_of(l.at.to);
@@ -154,6 +177,7 @@ void check_loads(ProblemList& list) {
     const LineLoad& l = s.line_loads[i];
     list.check_reference("line_loads", i, "beam", l.beam, list.beams, "beam");
     list.check_law("line_loads", i, "law", l.law, false);
+    check_load_frame(list, "line_loads", i, l);
     if (is_zero(l.force) && is_zero(l.moment))
       list.warn("line_loads", i, "", "", "the load has neither force nor moment");
   }
@@ -204,6 +228,7 @@ void check_motions(ProblemList& list) {
   for (std::size_t i = 0; i < s.motions.size(); ++i) check_motion(list, i, taken);
   for (std::size_t i = 0; i < s.initial_velocities.size(); ++i) {
     const InitialVelocity& v = s.initial_velocities[i];
+    list.check_frame("initial_velocities", i, v.frame);
     const auto thing = list.poses.find(v.of);
     if (!thing || thing->kind != ThingKind::beam) list.check_place("initial_velocities", i, "of", v.of, false);
     if (!started.insert(v.of).second)

@@ -14,9 +14,34 @@ std::string list_of(const std::vector<std::string>& words) {
   return r;
 }
 
+/// Frames of a split: each moves in the one before, so none stands there twice, and the ground has no place in it.
+void check_chain(ProblemList& list, std::size_t i) {
+  const Sensor& s = list.scene.sensors[i];
+  if (!s.frame.empty()) list.check_place("sensors", i, "frame", s.frame, true);
+  for (std::size_t k = 0; k < s.chain.size(); ++k) {
+    const std::string key = "frames/" + std::to_string(k);
+    if (std::find(s.chain.begin(), s.chain.begin() + static_cast<std::ptrdiff_t>(k), s.chain[k]) !=
+        s.chain.begin() + static_cast<std::ptrdiff_t>(k))
+      list.add("sensors", i, key, s.chain[k], "this frame stands in the chain already");
+    else if (s.chain[k].empty() || s.chain[k] == "ground")
+      list.add("sensors", i, key, "ground", "has to be a frame, a node or a body, not the ground",
+               "the chain starts in the inertial frame by itself");
+    else
+      list.check_place("sensors", i, key, s.chain[k], true);
+  }
+}
+
 void check_sensor(ProblemList& list, std::size_t i) {
   const Sensor& s = list.scene.sensors[i];
+  if (s.kind != SensorKind::acceleration_split) list.check_frame("sensors", i, s.frame);
   switch (s.kind) {
+    case SensorKind::acceleration_split:
+      check_chain(list, i);
+      if (s.beam.empty()) {
+        list.check_place("sensors", i, "at", s.at.to, true);
+        return;
+      }
+      break;
     case SensorKind::position:
     case SensorKind::rotation:
     case SensorKind::quaternion:
@@ -31,6 +56,10 @@ void check_sensor(ProblemList& list, std::size_t i) {
     case SensorKind::section_strain:
       break;
     case SensorKind::joint_reaction:
+      if (!s.frame.empty() && s.axes == LoadAxes::body)
+        list.add("sensors", i, "frame", s.frame,
+                 "a reaction is given in the axes of the body or of a frame, not of both",
+                 "leave one of \"axes\" and \"frame\" out");
       list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint");
       return;
     case SensorKind::joint_angle:

@@ -58,6 +58,7 @@ std::string describe(System& system, const ResidualSize& r, double tolerance) {
 std::optional<Trouble> check_shape(const System& system, const State& state) {
   const plan::Plan& plan = system.plan();
   const elements::Field f = system.field(state);
+  // Of beams, which do not end at the ground.
   const auto turned = [&state](const elements::Port& a, const elements::Port& b) {
     const auto R = [&state](const elements::Port& p) {
       const motion::Mat3<double>& node =

@@ -182,7 +182,7 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   const elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false};
   std::vector<double> rate, rhs(system.num_unknowns()), x(system.num_unknowns());
   std::vector<Taylor<double, 3>> series;
-  system.evaluate_rate(state, rate);
+  system.evaluate_rate(state, rate, h);
   system.constraint_series(state, nullptr, h, series);
   if (const auto t = system.evaluate(state, slopes, true)) return failed(t->text);
   if (const auto t = system.factor(true, slopes)) return failed(t->text);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bough/lanes/pack.hpp"
+#include "bough/plan/frames.hpp"
 
 namespace bough::step {
 
@@ -23,6 +24,9 @@ State make_initial_state(const plan::Plan& plan) {
   }
   elements::Field field;
   field.nodes = s.nodes.data();
+  plan::FrameMotions frames;
+  if (!plan.frames.empty()) frames = plan::frames_at_start(plan);
+  field.carriers = frames.in_ground.data();
   for (const plan::JointPlan& j : plan.joints)
     plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(j.element)], [&](const auto& e) {
       if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)

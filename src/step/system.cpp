@@ -91,7 +91,7 @@ System::~System() = default;
 std::optional<Trouble> System::set_time(double time, laws::Side side) {
   time_ = time;
   for (std::size_t i = 0; i < plan_.laws.size(); ++i) {
-    const laws::LawValue v = plan_.laws[i].law.at(time, side);
+    const laws::LawValue v = plan_.laws[i].law.at(plan_.laws[i].at_start ? 0.0 : time, side);
     if (const auto which = laws::non_finite(v))
       return Trouble{"the time function of '" + plan_.laws[i].user + "' is not finite at time " + std::to_string(time) +
                      ": " + *which};
@@ -99,6 +99,7 @@ std::optional<Trouble> System::set_time(double time, laws::Side side) {
     law_rates_[i] = v.rate;
     law_accelerations_[i] = v.acceleration;
   }
+  if (!plan_.frames.empty()) set_frames();
   return std::nullopt;
 }
 
@@ -109,6 +110,12 @@ elements::Field System::field(const State& state, const elements::Slopes& slopes
   f.around.gravity = law_values_[static_cast<std::size_t>(plan_.gravity_law)] * plan_.gravity;
   f.around.laws = law_values_.data();
   f.around.has_inertia = plan_.is_dynamic && with_inertia;
+  if (plan_.frames.empty()) return f;
+  f.carriers = frames_.in_ground.data();
+  f.observer = observer();
+  if (f.observer == nullptr) return f;
+  f.around.gravity = lanes::transpose_times(f.observer->pose.R, f.around.gravity);
+  f.around.has_inertia = with_inertia;  // statics, too: at rest in a frame that moves steadily
   return f;
 }
 

@@ -75,8 +75,8 @@ double System::apply(State& state, const double* x) {
   return change;
 }
 
-void System::evaluate_rate(const State& state, std::vector<double>& rate) {
-  const elements::Field f = field(state);
+void System::evaluate_rate(const State& state, std::vector<double>& rate, double step_size) {
+  elements::Field f = field(state);
   using T = lanes::Taylor<double, 1>;
   std::vector<T> laws(plan_.laws.size());
   for (std::size_t i = 0; i < laws.size(); ++i) {
@@ -87,6 +87,17 @@ void System::evaluate_rate(const State& state, std::vector<double>& rate) {
   for (int k = 0; k < 3; ++k) around.gravity[k] = plan_.gravity[k] * laws[static_cast<std::size_t>(plan_.gravity_law)];
   around.laws = laws.data();
   around.has_inertia = plan_.is_dynamic;
+  if (!plan_.frames.empty()) {
+    set_frame_series(step_size, series_frames_);
+    f.carriers = series_frames_.in_ground.data();
+    if (f.observer != nullptr) {
+      f.observer = &series_frames_.observer;
+      motion::Vec3<T> turning = lanes::cast<T>(lanes::angular_part(f.observer->twist));
+      motion::Vec3<T> gravity = lanes::cast<T>(lanes::transpose_times(f.observer->pose.R, plan_.gravity));
+      for (int k = 0; k < 3; ++k) gravity[k].c[1] = -lanes::cross(turning, gravity)[k].c[0];  // (R^T g)' = -w x R^T g
+      around.gravity = laws[static_cast<std::size_t>(plan_.gravity_law)] * gravity;
+    }
+  }
   rate.assign(num_unknowns(), 0.0);
   std::vector<double> part;
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
@@ -109,7 +120,11 @@ void System::evaluate_rate(const State& state, std::vector<double>& rate) {
 
 void System::constraint_series(const State& state, const Vec6<double>* jerk, double step_size,
                                std::vector<lanes::Taylor<double, 3>>& out) const {
-  const elements::Field f = field(state);
+  elements::Field f = field(state);
+  if (step_size > 0.0 && !plan_.frames.empty()) {
+    set_frame_series(step_size, series_frames_);
+    f.carriers = series_frames_.in_ground.data();
+  }
   std::vector<lanes::Taylor<double, 3>>& laws = law_series_;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     laws[i].c[0] = law_values_[i];

@@ -26,6 +26,30 @@ std::vector<NodeState<S>> states_of(const std::vector<NodeMotion>& nodes, const 
   return r;
 }
 
+/// Twist of the frame in which nodes are described, and its rate.
+template <class S>
+struct ObserverTwist {
+  Vec6<S> twist, twist_rate;
+};
+template <class S>
+ObserverTwist<S> twist_of(const CarrierMotion& m) {
+  return {lanes::cast<S>(m.twist), lanes::cast<S>(m.twist_rate)};
+}
+
+/// Ports seen from the inertial frame where the nodes are described in another, by 6x6 matrices:
+///   v + Q V,  a + Q V' - ad(v) Q V,  Q = Ad(H)^-1.
+template <class S, class E>
+void carry_along(const E&, const ObserverTwist<S>* observer, const Vec3<double>& anchor,
+                 std::vector<PortMotion<S>>& ports) {
+  if (observer == nullptr || !has_mass_matrix<E>) return;
+  for (PortMotion<S>& p : ports) {
+    const Mat6<S> Q = motion::inverse_adjoint(Frame<S>{p.H.R, p.H.x + lanes::cast<S>(anchor)});
+    const Vec6<S> carried = Q * observer->twist;
+    p.a += Q * observer->twist_rate - motion::cross6(p.v) * carried;
+    p.v += carried;
+  }
+}
+
 template <class S, class E>
 std::vector<PortMotion<S>> ports_of(const E& e, const std::vector<NodeState<S>>& nodes, const Vec3<double>& anchor) {
   std::vector<PortMotion<S>> r;
@@ -62,9 +86,11 @@ S energy_of(const E& e, const PortMotion<S>* p, double turns) {
 /// Residual in the unknowns of the nodes, then the constraint rows.
 template <class S, class E>
 std::vector<S> node_residual(const E& e, const std::vector<NodeState<S>>& nodes, const Vec3<double>& anchor,
-                             const std::vector<S>& multipliers, const Surroundings<S>& around, double turns) {
+                             const std::vector<S>& multipliers, const Surroundings<S>& around, double turns,
+                             const ObserverTwist<S>* observer = nullptr) {
   constexpr int P = E::num_ports;
-  const std::vector<PortMotion<S>> p = ports_of(e, nodes, anchor);
+  std::vector<PortMotion<S>> p = ports_of(e, nodes, anchor);
+  carry_along(e, observer, anchor, p);
   S out[6 * P + E::num_multipliers];
   eval_kernel_of(e, p.data(), multipliers.data(), around, out, turns);
   std::vector<S> r;
@@ -101,6 +127,9 @@ std::vector<double> complex_tangent(const Sample<E>& s, const Field& field) {
   const motion::Vec3Pair anchor = anchor_of(e, s.nodes.data());
   const std::vector<Complex> laws = complex_of(s.laws);
   const Surroundings<Complex> around{lanes::cast<Complex>(field.around.gravity), laws.data(), field.around.has_inertia};
+  const ObserverTwist<Complex> moving =
+      twist_of<Complex>(field.observer != nullptr ? *field.observer : CarrierMotion{});
+  const ObserverTwist<Complex>* observer = field.observer != nullptr ? &moving : nullptr;
   std::vector<double> tangent(static_cast<std::size_t>(n * n));
   int column = 0;
   const auto fill = [&](const std::vector<Complex>& r) {
@@ -118,12 +147,13 @@ std::vector<double> complex_tangent(const Sample<E>& s, const Field& field) {
       NodeState<Complex>& node = states[static_cast<std::size_t>(port.node)];
       const Vec6<Complex> eta = Complex(0.0, complex_step) * Vec6<Complex>::unit(k);
       node = stepped(node, s.nodes[static_cast<std::size_t>(port.node)].dq, slopes, !slopes.mass_only, eta);
-      std::vector<Complex> r = node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns);
+      std::vector<Complex> r =
+          node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns, observer);
       if (slopes.mass_only && m > 0) {  // rows keep the gradient of positions: G a, as in the constraint's second rate
         states = states_of<Complex>(s.nodes, anchor);
         NodeState<Complex>& moved = states[static_cast<std::size_t>(port.node)];
         moved = stepped(moved, Vec6<double>::zero(), Slopes{}, true, eta);
-        const auto rows = node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns);
+        const auto rows = node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns, observer);
         for (int i = n - m; i < n; ++i) r[static_cast<std::size_t>(i)] = rows[static_cast<std::size_t>(i)];
       }
       fill(r);
@@ -132,7 +162,7 @@ std::vector<double> complex_tangent(const Sample<E>& s, const Field& field) {
   for (int k = 0; k < m; ++k) {
     std::vector<Complex> multipliers = complex_of(s.multipliers);
     multipliers[static_cast<std::size_t>(k)] += Complex(0.0, complex_step);
-    fill(node_residual(e, states_of<Complex>(s.nodes, anchor), anchor.hi, multipliers, around, s.turns));
+    fill(node_residual(e, states_of<Complex>(s.nodes, anchor), anchor.hi, multipliers, around, s.turns, observer));
   }
   return tangent;
 }

@@ -218,10 +218,11 @@ TEST(JointMotion, reaction_of_a_hinge_carries_the_weight_of_the_second_body) {
 
 /// Residual rates of all elements along the motion, accelerations held.
 template <class E>
-void expect_rate(const Sample<E>& s) {
+void expect_rate(const Sample<E>& s, const CarrierMotion* observer = nullptr) {
   SCOPED_TRACE(s.name);
   const E& e = s.element;
-  const Field field = s.field(true);
+  Field field = s.field(true);
+  field.observer = observer;
   std::vector<Taylor1> laws;
   std::vector<Complex> complex_laws;
   for (std::size_t k = 0; k < s.laws.size(); ++k) {
@@ -240,13 +241,28 @@ void expect_rate(const Sample<E>& s) {
     node.v += Complex(0.0, complex_step) * node.a;
   }
   const Surroundings<Complex> around{lanes::cast<Complex>(field.around.gravity), complex_laws.data(), true};
-  for (const Complex& r : node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns))
+  ObserverTwist<Complex> moving = twist_of<Complex>(observer == nullptr ? CarrierMotion{} : *observer);
+  if (observer != nullptr)
+    for (int i = 0; i < 6; ++i) {
+      moving.twist[i] += Complex(0.0, complex_step * observer->twist_rate[i]);
+      moving.twist_rate[i] += Complex(0.0, complex_step * observer->twist_second[i]);
+    }
+  for (const Complex& r : node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns,
+                                        observer == nullptr ? nullptr : &moving))
     expected.push_back(r.imag() / complex_step);
   EXPECT_LE(relative_error(got, expected), exact * 10.0);
 }
 
 TEST(ElementRate, is_the_derivative_of_the_residual_in_time_with_accelerations_held) {
   for_all_elements([](const auto& s) { expect_rate(s); });
+}
+
+TEST(ElementRate, in_a_moving_frame_goes_with_its_motion) {
+  CarrierMotion frame;
+  frame.twist = Vec6<double>{{0.7, -1.1, 0.4, 1.3, -0.6, 0.9}};
+  frame.twist_rate = Vec6<double>{{-0.3, 0.8, 0.5, -1.2, 0.2, 0.6}};
+  frame.twist_second = Vec6<double>{{0.9, 0.1, -0.7, 0.4, 1.1, -0.5}};
+  for_all_elements([&](const auto& s) { expect_rate(s, &frame); });
 }
 
 }  // namespace

@@ -10,16 +10,22 @@ namespace {
 constexpr double exact = 1e-13;
 
 template <class E>
-void expect_tangent(const Sample<E>& s, bool has_inertia, const Slopes& slopes) {
+void expect_tangent(const Sample<E>& s, bool has_inertia, const Slopes& slopes,
+                    const CarrierMotion* observer = nullptr) {
   SCOPED_TRACE(s.name);
-  const Field field = s.field(has_inertia, slopes);
+  Field field = s.field(has_inertia, slopes);
+  field.observer = observer;
   const Evaluation got = evaluation_of(s, field);
   EXPECT_LE(relative_error(got.tangent, complex_tangent(s, field)), exact);
-  EXPECT_EQ(got.residual, residual_of(s, field)) << "the same bits with and without a tangent";
+  std::vector<double> alone(got.residual.size());
+  evaluate(s.element, field, s.multipliers.data(), s.turns, alone.data(), nullptr);
+  EXPECT_EQ(got.residual, alone) << "the same bits with and without a tangent";
   const auto around = field.around;
+  const ObserverTwist<double> moving = twist_of<double>(observer == nullptr ? CarrierMotion{} : *observer);
   const motion::Vec3Pair anchor = anchor_of(s.element, s.nodes.data());
-  EXPECT_LE(relative_error(got.residual, node_residual(s.element, states_of<double>(s.nodes, anchor), anchor.hi,
-                                                       s.multipliers, around, s.turns)),
+  EXPECT_LE(relative_error(got.residual,
+                           node_residual(s.element, states_of<double>(s.nodes, anchor), anchor.hi, s.multipliers,
+                                         around, s.turns, observer == nullptr ? nullptr : &moving)),
             exact);
 }
 
@@ -33,6 +39,32 @@ TEST(ElementTangent, follows_velocity_and_acceleration_of_the_time_step) {
 
 TEST(ElementTangent, of_a_consistent_start_is_the_mass_and_the_rows_gradient) {
   for_all_elements([](const auto& s) { expect_tangent(s, true, Slopes{0.0, 0.0, true}); });
+}
+
+/// A frame that turns and moves every way it can.
+CarrierMotion turning_frame() {
+  CarrierMotion m;
+  m.twist = Vec6<double>{{0.7, -1.1, 0.4, 1.3, -0.6, 0.9}};
+  m.twist_rate = Vec6<double>{{-0.3, 0.8, 0.5, -1.2, 0.2, 0.6}};
+  return m;
+}
+
+TEST(ElementTangent, in_a_moving_frame_follows_the_nodes_place_in_it) {
+  const CarrierMotion frame = turning_frame();
+  for_all_elements([&](const auto& s) { expect_tangent(s, true, Slopes{3.1, 7.3, false}, &frame); });
+}
+
+TEST(ElementTangent, at_rest_in_a_moving_frame_is_that_of_its_inertial_loads) {
+  const CarrierMotion frame = turning_frame();
+  for_all_elements([&](auto s) {
+    for (NodeMotion& n : s.nodes) n.v = n.a = n.dq = Vec6<double>::zero();
+    expect_tangent(s, true, Slopes{}, &frame);
+  });
+}
+
+TEST(ElementTangent, of_a_consistent_start_in_a_moving_frame_is_the_same_mass) {
+  const CarrierMotion frame = turning_frame();
+  for_all_elements([&](const auto& s) { expect_tangent(s, true, Slopes{0.0, 0.0, true}, &frame); });
 }
 
 TEST(ElementTangent, of_statics_ignores_motion) {

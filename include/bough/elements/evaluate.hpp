@@ -31,13 +31,23 @@ struct Slopes {
 };
 
 /// Node motions and what surrounds them, as read by all elements of a model.
+/// observer: the frame in which nodes, ground, carriers and gravity are described, where that moves (its motion in the inertial frame); null:
+/// they are described in the inertial frame. Only elements with mass look at it: all others see relative motions.
 template <class S>
 struct FieldOf {
   const NodeMotionOf<S>* nodes = nullptr;
   Surroundings<S> around;
   Slopes slopes;
+  const CarrierMotionOf<S>* carriers = nullptr;
+  const CarrierMotionOf<S>* observer = nullptr;
 };
 using Field = FieldOf<double>;
+
+/// Elements whose forces depend on motions in the inertial frame.
+template <class E>
+constexpr bool has_mass_matrix = requires(const E& e) {
+  e.mass;
+};
 
 /// Position of the element's first node off the ground: kernels see positions relative to it.
 template <class E, class S>
@@ -47,10 +57,19 @@ motion::PositionPair<S> anchor_of(const E& e, const NodeMotionOf<S>* nodes) {
   return motion::PositionPair<S>::from(Vec3<S>::zero());
 }
 
-/// Motion of one port; `anchor` is subtracted from its position.
+/// Motion of one port; `anchor` is subtracted from its position. carriers: looked at by ports that name one.
 template <class S>
-PortMotion<S> eval_port(const PortOf<S>& port, const NodeMotionOf<S>* nodes, const motion::PositionPair<S>& anchor) {
+PortMotion<S> eval_port(const PortOf<S>& port, const NodeMotionOf<S>* nodes, const motion::PositionPair<S>& anchor,
+                        const CarrierMotionOf<S>* carriers = nullptr) {
   PortMotion<S> p;
+  if (port.node == ground && port.carrier >= 0) {
+    const CarrierMotionOf<S>& c = carriers[port.carrier];
+    p.H.R = c.pose.R * port.offset.R;
+    p.H.x = motion::difference(motion::PositionPair<S>{c.pose.x, c.pose.R * port.offset.x}, anchor);
+    p.v = motion::inverse_adjoint_times(port.offset, c.twist);
+    p.a = motion::inverse_adjoint_times(port.offset, c.twist_rate);
+    return p;
+  }
   if (port.node == ground) {
     p.H.R = port.offset.R;
     p.H.x = motion::difference(motion::PositionPair<S>::from(port.offset.x), anchor);
@@ -99,15 +118,19 @@ void eval_magnitude(const E& e, const FieldOf<S>& field, const S* residual, S* m
     Vec6<S> terms[3] = {e.mass * lanes::join(lanes::transpose_times(n.R, field.around.gravity), Vec3<S>::zero()),
                         Vec6<S>::zero(), Vec6<S>::zero()};
     if (field.around.has_inertia) {
-      terms[1] = e.mass * n.a;
-      terms[2] = motion::cross6_transpose_times(n.v, Vec6<S>(e.mass * n.v));
+      PortMotion<S> p{{n.R, n.x.hi + n.x.lo}, n.v, n.a};
+      if (field.observer != nullptr)
+        add_observer_motion(p, Vec3<S>::zero(), field.observer->twist, field.observer->twist_rate);
+      terms[1] = e.mass * p.a;
+      terms[2] = motion::cross6_transpose_times(p.v, Vec6<S>(e.mass * p.v));
     }
     for (int i = 0; i < 6; ++i)
       for (const Vec6<S>& t : terms) magnitude[i] = magnitude[i] + abs(t[i]);
   }
 }
 
-/// Energies, powers and momentum of one element.
+/// Energies, powers and momentum of one element, all of them those of the inertial frame, momentum and load in the axes of the frame in which
+/// nodes are described.
 template <class E>
 Measures measure(const E& e, const Field& field, const double* multipliers, double turns);
 

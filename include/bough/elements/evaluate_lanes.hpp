@@ -5,7 +5,8 @@
 /// A solver that runs up to eight equal sub-domains in lockstep
 ///   1. once, for each element position: checks `may_share_lanes` and makes a `LaneElement` (make_lane_element), whose ports and
 ///      laws carry the numbers of the sub-domain's own nodes and laws, the same in all lanes;
-///   2. at each evaluation: fills one NodeLanes per node (set_lane, 33 numbers a lane) and one pack per law and multiplier;
+///   2. at each evaluation: fills one NodeLanes per node (set_lane, 33 numbers a lane) and one pack per law and multiplier; where frames
+///      move, one CarrierLanes for each of them and for the observer (set_all_lanes), which are common to all lanes;
 ///   3. calls `evaluate_lanes` for each element; entry k of lane l of a result is out[k * num_lanes + l], k as in `evaluate`.
 /// Lanes that are not needed repeat a valid element and its nodes; what they yield is ignored. Nothing allocates. All arrays of packs are
 /// aligned to 64 bytes.
@@ -17,7 +18,9 @@ namespace bough::elements {
 inline constexpr int num_lanes = 8;
 using LanePack = lanes::Pack<num_lanes>;
 using NodeLanes = NodeMotionOf<LanePack>;
-/// `nodes` are indexed by the ports of lane elements, `around.laws` by their laws; `slopes` are common to all lanes.
+using CarrierLanes = CarrierMotionOf<LanePack>;
+/// `nodes` are indexed by the ports of lane elements, `around.laws` by their laws; `slopes` are common to all lanes. `carriers` have
+/// the indices of Field::carriers; they and the `observer` hold the same motion in all lanes.
 using FieldLanes = FieldOf<LanePack>;
 
 namespace detail {
@@ -50,8 +53,8 @@ int list_laws(const E&, int*) {
   return 0;
 }
 
-/// Whether two elements differ in numbers only: ports on the ground and ports with offsets are the same ones, so are the terms that are
-/// present (mass, damping, rows, efforts, laws, dead or follower loads).
+/// Whether two elements differ in numbers only: ports on the ground and ports with offsets are the same ones, so are the frames of
+/// prescribed motion that ports stand in, and the terms that are present (mass, damping, rows, efforts, laws, dead or follower loads).
 template <class E>
 bool may_share_lanes(const E& a, const E& b);
 
@@ -69,6 +72,14 @@ inline void set_lane(NodeLanes& to, int lane, const NodeMotion& from) {
   lanes::set_lane(to.v, lane, from.v);
   lanes::set_lane(to.a, lane, from.a);
   lanes::set_lane(to.dq, lane, from.dq);
+}
+
+/// A frame of prescribed motion as all lanes see it.
+inline void set_all_lanes(CarrierLanes& to, const CarrierMotion& from) {
+  to.pose = {lanes::cast<LanePack>(from.pose.R), lanes::cast<LanePack>(from.pose.x)};
+  to.twist = lanes::cast<LanePack>(from.twist);
+  to.twist_rate = lanes::cast<LanePack>(from.twist_rate);
+  to.twist_second = lanes::cast<LanePack>(from.twist_second);
 }
 
 /// Residual and, where asked for (not nullptr), its magnitude (eval_magnitude) and tangent, of num_unknowns(e) = n entries, n, n x n row-major.

@@ -17,13 +17,15 @@ using motion::Vec6;
 
 constexpr int ground = -1;  ///< node index of what is fixed in space
 
-/// A frame fixed to a node, at `offset` in the node's axes; node == ground: `offset` is the pose in the inertial frame.
+/// A frame fixed to a node, at `offset` in the node's axes; node == ground: `offset` is the pose in the ground, or in the frame of prescribed
+/// motion that stands for it there.
 /// Constants of elements are numbers C: double, or a pack that holds those of several elements, one to a lane.
 template <class C>
 struct PortOf {
   int node = ground;
   bool has_offset = false;  ///< false: the offset is the identity and is not applied
   Frame<C> offset = Frame<C>::identity();
+  int carrier = -1;  ///< node == ground: index of a frame in Field::carriers, the same in all lanes; -1: the ground itself
 };
 using Port = PortOf<double>;
 
@@ -34,6 +36,16 @@ bool is_present(const C&) {
   return true;
 }
 
+/// Prescribed motion of a frame at one instant: pose, twist in its own axes and the twist's first two derivatives, component by component.
+template <class S>
+struct CarrierMotionOf {
+  Frame<S> pose = Frame<S>::identity();
+  Vec6<S> twist = Vec6<S>::zero();
+  Vec6<S> twist_rate = Vec6<S>::zero();
+  Vec6<S> twist_second = Vec6<S>::zero();  ///< looked at by constraint series and rates only
+};
+using CarrierMotion = CarrierMotionOf<double>;
+
 /// Motion of a port's frame as a kernel sees it.
 ///   H: pose, its position relative to the element's anchor (differences keep their digits far from the origin) [m]
 ///   v: twist (linear; angular) in the port's own axes [m/s, rad/s];  a: its time derivative, component by component.
@@ -43,6 +55,18 @@ struct PortMotion {
   Vec6<S> v;
   Vec6<S> a;
 };
+
+/// Motion seen from the inertial frame, of a port whose motion p is known in a frame that moves with twist V (own axes) itself:
+///   v + c,  a + Ad(H^-1) V' - ad(v) c,  c = Ad(H^-1) V                    (the middle of ad(v) c is the Coriolis term)
+/// The pose stays that in the frame: elements look at relative poses, and at the direction of gravity, which is turned into the frame.
+/// anchor: what p.H.x is relative to [m].
+template <class S>
+void add_observer_motion(PortMotion<S>& p, const Vec3<S>& anchor, const Vec6<S>& twist, const Vec6<S>& twist_rate) {
+  const Frame<S> H{p.H.R, p.H.x + anchor};
+  const Vec6<S> carried = motion::inverse_adjoint_times(H, twist);
+  p.a += motion::inverse_adjoint_times(H, twist_rate) - motion::cross6_times(p.v, carried);
+  p.v += carried;
+}
 
 /// What all elements share at one instant.
 template <class S>
@@ -57,7 +81,7 @@ struct Measures {
   double kinetic = 0.0;
   double strain = 0.0;
   double potential = 0.0;                        ///< of gravity, about the inertial origin
-  double work_rate = 0.0;                        ///< of loads, drives and efforts
+  double work_rate = 0.0;                        ///< of loads, drives, efforts and of a ground that moves
   double dissipation_rate = 0.0;                 ///< taken by dampers, >= 0
   Vec6<double> momentum = Vec6<double>::zero();  ///< (linear; angular about the inertial origin), inertial axes
   Vec6<double> load =

@@ -40,6 +40,30 @@ struct BeamPlan {
 struct LawPlan {
   laws::Law law;
   std::string user;  ///< "/loads/2" style owner in words, for messages
+  bool at_start =
+      false;  ///< taken at time 0 whatever the load factor: motion of the frame in which statics is described
+};
+
+/// A frame of prescribed motion, or a fixed one that such a motion passes through. Parents stand before their children.
+///   pose in the parent:  x_i = laws[position_i] or constant,  R = R_0 exp(laws[angle_1] ~axis_1) exp(laws[angle_2] ~axis_2) ...
+struct FramePlan {
+  struct Turn {
+    motion::Vec3<double> axis;  ///< unit, in the axes reached before it
+    int angle = 0;              ///< law
+  };
+  std::string name;
+  int parent = -1;           ///< in Plan::frames; -1: the inertial frame
+  bool in_observer = false;  ///< stands in Plan::observer, directly or through others
+  motion::Frame<double> pose = motion::Frame<double>::identity();  ///< (R_0, constant x)
+  int position[3] = {-1, -1, -1};                                  ///< laws; -1: constant
+  std::vector<Turn> turns;
+};
+
+/// A law made from another: one component, in the ground's axes, of a vector fixed in a frame times a factor.
+///   laws[law] = laws[factor] (R vector)_row
+struct TurnedLawPlan {
+  int law = 0, factor = 0, frame = 0, row = 0;
+  motion::Vec3<double> vector;
 };
 
 struct SensorPlan {
@@ -47,6 +71,8 @@ struct SensorPlan {
   elements::Port port;                  ///< of point sensors
   int beam = -1;                        ///< index in Plan::beams
   int joint = -1;                       ///< index in Plan::joints (reaction, angle)
+  elements::Port frame;                 ///< of the frame it is seen from or resolved in
+  std::vector<elements::Port> chain;    ///< acceleration_split
   std::vector<std::string> components;  ///< "" for a scalar
 };
 
@@ -63,6 +89,9 @@ struct Plan {
   int num_multipliers = 0;
   std::vector<BeamPlan> beams;
   std::vector<LawPlan> laws;
+  std::vector<FramePlan> frames;
+  int observer = -1;  ///< in frames: where nodes, ground and results are described; -1: the inertial frame
+  std::vector<TurnedLawPlan> turned_laws;
   std::vector<SensorPlan> sensors;
   std::vector<int> body_nodes;  ///< nodes of the scene's bodies, in its order
   std::vector<motion::Vec3<double>> body_centers;

@@ -1,5 +1,5 @@
 #pragma once
-/// Poses at the start, through any depth of fixed frames.
+/// Poses at the start in the ground, through any depth of frames. The ground is the inertial frame, or the frame the analysis is described in.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace bough::scene {
 
-/// Pose of a placement in the inertial frame. A frame that is not there, or a circle of frames, ends the chain: `problems_in` tells of those.
+/// Pose of a placement in the ground. A frame that is not there, or a circle of frames, ends the chain: `problems_in` tells of those.
 Frame resolve(const Scene& scene, const Placement& placement);
 
 /// Pose at the start of a node or body, of the ground ("" or "ground"), of a fixed frame or of an inner node of a beam; nothing when
@@ -32,11 +32,16 @@ class Poses {
   /// Nothing where no thing has the name; the first one where several have.
   std::optional<Thing> find(std::string_view name) const;
 
-  /// Initial pose of a fixed frame, node, body or inner node of a beam ("<beam>.<k>", k = 0 .. elements * order) in the inertial frame.
-  /// "" and "ground" are the inertial frame itself. Nothing where there is no such thing, or a frame stands in itself.
+  /// Initial pose of a frame, node, body or inner node of a beam ("<beam>.<k>", k = 0 .. elements * order) in the ground.
+  /// "" and "ground" are the ground itself. Nothing where there is no such thing, or a frame stands in itself.
   std::optional<Frame> of(std::string_view name) const;
   std::optional<Frame> of(const Placement& placement) const;
   std::optional<Frame> of(const Attachment& attachment) const;
+
+  /// Index of a frame in the scene's list.
+  std::optional<std::size_t> frame(const std::string& name) const;
+  /// Whether a frame moves in the ground.
+  bool is_moving(const std::string& frame_name) const;
 
   /// Pose of the section axes of the undeformed beam at a fraction of its length [0, 1]: origin on the axis, axis 1 along it.
   /// Straight: from start to end, turned about axis 1 by fraction * twist. Curved: H(0) exp(s (1, 0, 0; k)), s = fraction * length.

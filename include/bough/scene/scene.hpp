@@ -9,6 +9,7 @@
 
 #include "bough/laws/law.hpp"
 #include "bough/motion/se3.hpp"
+#include "bough/scene/moving_frame.hpp"
 
 namespace bough::scene {
 
@@ -18,16 +19,17 @@ using Mat3 = motion::Mat3<double>;
 using Mat6 = motion::Mat6<double>;
 using Frame = motion::Frame<double>;
 
-/// Pose in a named frame (empty: the inertial frame).
+/// Pose in a named frame (empty: the ground). In a frame that moves: at the start.
 struct Placement {
   Frame pose = Frame::identity();
   std::string frame;
 };
 
-/// Fixed frame, posed in another one.
+/// Frame posed in another one; fixed there, or moving by laws of time. The placement is the pose at time 0 in either case.
 struct FrameDef {
   std::string name;
   Placement placement;
+  std::optional<MovingFrame> motion = {};
 };
 
 struct Material {
@@ -60,8 +62,8 @@ struct Body {
   bool is_point_mass = false;          ///< three unknowns would do; rotation is held where nothing else holds it
 };
 
-/// Something fixed to a node, a body or the ground: the pose `offset` in the frame of `to`; `to` empty = ground (then in the inertial
-/// frame). Named "ground" in files.
+/// Something fixed to a node, a body, a frame or the ground: the pose `offset` in the frame of `to`; `to` empty = ground. Named "ground" in
+/// files. The ground is the frame in which the scene is described: the inertial one, or Analysis::frame.
 struct Attachment {
   std::string to;
   Frame offset = Frame::identity();
@@ -81,7 +83,7 @@ struct Beam {
   std::optional<Vec3> end_offset;
   BeamCurve curve = BeamCurve::straight;
   Vec3 axis_2 = Vec3::
-      zero();  ///< a vector (inertial or in `frame`) that section axis 2 at the start lies nearest to; zero: chosen
+      zero();  ///< a vector (of the ground or in `frame`) that section axis 2 at the start lies nearest to; zero: chosen
   std::string frame;              ///< frame in which axis_2 and curvature start are given
   double twist = 0.0;             ///< rotation of the section about axis 1 from start to end [rad] (straight)
   Vec3 curvature = Vec3::zero();  ///< body components (k1, k2, k3) [1/m] (curvature)
@@ -143,6 +145,7 @@ struct PointLoad {
   std::string name;
   Attachment at;
   LoadAxes axes = LoadAxes::space;
+  std::string frame;  ///< with axes space: components in this frame's axes, turning with it; empty: the ground's
   Vec3 force = Vec3::zero();   ///< [N], times the law
   Vec3 moment = Vec3::zero();  ///< [N m], times the law
   laws::Law law;               ///< factor over time (statics: over the load factor)
@@ -152,16 +155,17 @@ struct LineLoad {
   std::string name;
   std::string beam;
   LoadAxes axes = LoadAxes::space;
+  std::string frame;           ///< as of a point load
   Vec3 force = Vec3::zero();   ///< per reference length [N/m]
   Vec3 moment = Vec3::zero();  ///< [N]
   laws::Law law;
 };
 
-/// Prescribed motion of a node or body along and about inertial axes from its initial pose: a joint to the ground for the components chosen.
+/// Prescribed motion of a node or body along and about the ground's axes from its initial pose: a joint to the ground for the components chosen.
 struct PrescribedMotion {
   std::string name;
   Attachment at;
-  /// x y z [m] translations along inertial axes; rotations only as one axis with an angle that counts turns.
+  /// x y z [m] translations along the ground's axes; rotations only as one axis with an angle that counts turns.
   std::optional<laws::Law> displacement[3];
   std::optional<Vec3> rotation_axis;  ///< given: orientation is exp(angle(t) axis) times the initial one
   laws::Law angle;
@@ -172,6 +176,7 @@ struct PrescribedMotion {
 struct InitialVelocity {
   std::string of;  ///< node, body, or beam (then all its nodes, as a rigid motion about its start)
   LoadAxes axes = LoadAxes::space;
+  std::string frame;  ///< velocities are relative to this frame, whose own is added; axes space: components in its axes
   Vec3 velocity = Vec3::zero();  ///< of the frame's origin [m/s]
   Vec3 angular_velocity = Vec3::zero();
 };
@@ -192,6 +197,7 @@ enum class SensorKind : std::uint8_t {
   strain_energy,
   potential_energy,
   total_energy,
+  acceleration_split,
 };
 
 struct Sensor {
@@ -201,7 +207,11 @@ struct Sensor {
   std::string beam;      ///< section sensors, or a point on a beam's axis
   double station = 0.0;  ///< fraction of the beam's length, 0 to 1
   std::string joint;
-  LoadAxes axes = LoadAxes::space;  ///< resolved in inertial axes or in the body's own
+  LoadAxes axes = LoadAxes::space;  ///< resolved in the ground's axes, or those of `frame`, or in the body's own
+  /// The frame from which a point's motion is seen, and in whose axes it and reactions are resolved; empty: the ground.
+  /// acceleration_split: its axes only.
+  std::string frame;
+  std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the one before
 };
 
 enum class AnalysisKind : std::uint8_t { statics, dynamics };
@@ -209,6 +219,9 @@ enum class Newton : std::uint8_t { full, single };
 
 struct Analysis {
   AnalysisKind kind = AnalysisKind::dynamics;
+  /// The frame in which the scene is described: what is "ground" to everything that names no frame. Empty: the inertial frame. Gravity stays
+  /// inertial. Statics: the frame moves steadily, its laws are taken at time 0 and its inertial loads grow with the load factor.
+  std::string frame;
   // statics
   int load_steps = 1;
   // dynamics

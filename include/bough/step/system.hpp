@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bough/plan/frames.hpp"
 #include "bough/solve/any_solver.hpp"
 #include "bough/step/motion_tree.hpp"
 #include "bough/step/state.hpp"
@@ -91,8 +92,9 @@ class System {
   /// Power of the present residual at the end of the path that apply_along_tree took last with `x`:  sum of residual . d(increment)/d(factor).
   double power_along_tree(const double* x);
 
-  /// d(residual)/dt with accelerations and multipliers held.
-  void evaluate_rate(const State& state, std::vector<double>& rate);
+  /// d(residual)/dt with accelerations and multipliers held. step_size: over which third derivatives of prescribed frames are differenced, 0: they
+  /// are left out.
+  void evaluate_rate(const State& state, std::vector<double>& rate, double step_size = 0.0);
   /// Constraint rows and their first three time derivatives (jerk may be null: then 0), by multiplier.
   void constraint_series(const State& state, const motion::Vec6<double>* jerk, double step_size,
                          std::vector<lanes::Taylor<double, 3>>& out) const;
@@ -110,11 +112,16 @@ class System {
   std::size_t num_unknowns() const { return static_cast<std::size_t>(tree_->num_unknowns()); }
   const std::vector<double>& law_values() const { return law_values_; }
   const std::vector<double>& law_rates() const { return law_rates_; }
+  /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame itself.
+  const elements::CarrierMotion* observer() const { return plan_.observer < 0 ? nullptr : &frames_.observer; }
 
  private:
   motion::Vec6<double> node_part(const double* x, int node) const;
   double largest_violation(const State& state, int order, double length, int* joint) const;
   void add_multipliers(State& state, const double* x, double factor) const;
+  void set_frames();
+  void set_turned_laws();
+  void set_frame_series(double step_size, plan::FrameMotions& motions) const;
 
   void evaluate_alone(std::size_t id, const State& state, const elements::Field& field, bool tangent);
 
@@ -141,7 +148,9 @@ class System {
   std::vector<double> element_length_;  ///< size of each element, for relative changes [m]
   double moment_arm_ = 0.0;
   double time_ = 0.0;
-  MotionTree motion_tree_;  ///< empty in dynamics
+  MotionTree motion_tree_;                    ///< empty in dynamics
+  plan::FrameMotions frames_;                 ///< at time_
+  mutable plan::FrameMotions series_frames_;  ///< the same with third derivatives of the laws, for starts
   elements::Slopes factored_;
   bool is_factored_ = false;
   double contraction_ = 1.0;

@@ -1,0 +1,24 @@
+#pragma once
+/// Motion of a plan's frames at one instant.
+#include "bough/lanes/taylor.hpp"
+#include "bough/plan/plan.hpp"
+
+namespace bough::plan {
+
+/// What eval_frames fills; sized by it, so that only the first call allocates.
+struct FrameMotions {
+  std::vector<elements::CarrierMotion>
+      in_ground;                     ///< of each frame in the ground: the inertial frame, or the observer's
+  elements::CarrierMotion observer;  ///< of the observer's frame in the inertial one
+};
+
+/// Poses, twists and their first two derivatives from the laws' series in time (value, rate, half the acceleration, a sixth of the third
+/// derivative; by index of Plan::laws), frame by frame in series arithmetic:
+///   X = X_parent Q,  V = Ad(Q^-1) V_parent + V_Q,  Q = (R_0 exp(angle_1 ~axis_1) ..., x)
+/// and for frames that the observer's frame stands in  H = X_o^-1 X,  V - Ad(H^-1) V_o.
+void eval_frames(const Plan& plan, const lanes::Taylor<double, 3>* laws, FrameMotions& motions);
+
+/// The same at time 0, third derivatives left out.
+FrameMotions frames_at_start(const Plan& plan);
+
+}  // namespace bough::plan
