@@ -17,13 +17,7 @@ RuleTable make_table() {
   RuleTable t;
   add_part_rules(t);
   add_law_rules(t);
-  const RuleRef three_laws = array_rule("Three laws; a number is constant.", named_rule("law"), 3, 3);
-  t.named["turn"] =
-      made(object_of("A rotation about an axis that is fixed in the axes reached before it.",
-                     {need("axis", named_rule("vector"), "Axis; its length does not matter, but is not 0."),
-                      need("angle", named_rule("law"), "[rad]; counts turns. With rate: [rad/s]."),
-                      may("rate", boolean_rule(""),
-                          "The law is the rate; it is integrated exactly from angle 0 at time 0.", "false")}));
+  const RuleRef three_laws = named_rule("three_laws");
   t.named["moving_frame"] = made(object_of(
       "A frame that moves in the one before it, the first in the inertial frame.",
       {need("name", name_rule(""), "Its name."),

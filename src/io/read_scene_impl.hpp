@@ -32,6 +32,7 @@ class Converter : private ValueConverter {
 
  private:
   scene::LoadAxes axes(const Value& v) const;
+  std::string frame_name(const Value& v) const;
   laws::Law load_law(const Value& object, const std::string& at);
 
   // Parts (read_scene_parts.cpp).

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "bough/scene/nearest_name.hpp"
 #include "bough/scene/shapes.hpp"
@@ -18,7 +19,34 @@ scene::Mat3 diagonal3(double a, double b, double c) {
 }  // namespace
 
 void Converter::frame(const Value& v, const std::string& at) {
-  scene::FrameDef f{v.find("name")->text, placement(v, at)};
+  scene::MovingFrame m;
+  m.name = v.find("name")->text;
+  bool moves = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    m.position[k] = law(v.find("position")->items[k], at + "/position/" + std::to_string(k));
+    moves |= !m.position[k].is_constant();
+  }
+  if (const Value* r = v.find("rotation")) m.rotation = rotation(*r, at + "/rotation");
+  const Value& turns = *v.find("turns");
+  for (std::size_t k = 0; k < turns.items.size(); ++k) {
+    const Value& turn = turns.items[k];
+    const std::string here = at + "/turns/" + std::to_string(k);
+    const scene::Vec3 axis = vector(*turn.find("axis"));
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    if (!(length > 0.0)) {
+      fault(here + "/axis", "an axis has a length other than 0");
+      continue;
+    }
+    const laws::Law given = law(*turn.find("angle"), here + "/angle");
+    m.turns.push_back({(1.0 / length) * axis, turn.find("rate")->truth ? given.integral(0.0) : given});
+    moves |= !m.turns.back().angle.is_constant();
+  }
+  if (const auto what = scene::non_finite_law(m, 0.0)) return fault(at, "a law is not finite at t = 0 s: " + *what);
+  scene::FrameDef f;
+  f.name = m.name;
+  f.placement = {scene::motion_at(m, 0.0).pose, text_or(v, "frame")};
+  if (f.placement.frame == "ground") f.placement.frame.clear();
+  if (moves) f.motion = std::move(m);
   add(scene.frames, "frames", std::move(f), at);
 }
 

@@ -15,6 +15,13 @@ std::string Converter::own_name(const Value& v, const char* stem) {
   return name;
 }
 
+/// A frame by its name; the ground is no name.
+std::string Converter::frame_name(const Value& v) const {
+  std::string name = text_or(v, "frame");
+  if (name == "ground") name.clear();
+  return name;
+}
+
 void Converter::load(const Value& v, const std::string& at) {
   const laws::Law factor = load_law(v, at);
   if (const Value* where = v.find("at")) {
@@ -22,6 +29,7 @@ void Converter::load(const Value& v, const std::string& at) {
     l.name = own_name(v, "load");
     l.at = attachment(*where, at + "/at");
     l.axes = axes(v);
+    l.frame = frame_name(v);
     l.force = vector(*v.find("force"));
     l.moment = vector(*v.find("moment"));
     l.law = factor;
@@ -31,6 +39,7 @@ void Converter::load(const Value& v, const std::string& at) {
     l.name = own_name(v, "load");
     l.beam = v.find("beam")->text;
     l.axes = axes(v);
+    l.frame = frame_name(v);
     l.force = vector(*v.find("force"));
     l.moment = vector(*v.find("moment"));
     l.law = factor;
@@ -60,6 +69,7 @@ void Converter::initial_velocity(const Value& v, const std::string& at) {
   scene::InitialVelocity i;
   i.of = v.find("of")->text;
   i.axes = axes(v);
+  i.frame = frame_name(v);
   i.velocity = vector(*v.find("velocity"));
   i.angular_velocity = vector(*v.find("angular_velocity"));
   add(scene.initial_velocities, "initial_velocities", std::move(i), at);
@@ -69,12 +79,15 @@ void Converter::sensor(const Value& v, const std::string& at) {
   scene::Sensor s;
   s.name = v.find("name")->text;
   const std::string& kind = v.find("kind")->text;
-  for (int k = 0; k <= static_cast<int>(scene::SensorKind::total_energy); ++k)
+  for (int k = 0; k <= static_cast<int>(scene::SensorKind::acceleration_split); ++k)
     if (scene::to_string(static_cast<scene::SensorKind>(k)) == kind) s.kind = static_cast<scene::SensorKind>(k);
   if (const Value* where = v.find("at")) s.at = attachment(*where, at + "/at");
   s.beam = text_or(v, "beam");
   s.joint = text_or(v, "joint");
   s.axes = axes(v);
+  s.frame = frame_name(v);
+  if (const Value* chain = v.find("frames"))
+    for (const Value& name : chain->items) s.chain.push_back(name.text);
   s.station = number_or(v, "station", 0.0);
   if (v.find("beam") != nullptr && v.find("station") == nullptr)
     fault(at, "needs the key \"station\"", "0 is the start of the beam, 1 its end");
@@ -105,6 +118,7 @@ void Converter::settings() {
   if (const Value* a = sound("analysis")) {
     scene::Analysis& r = scene.analysis;
     r.kind = is_static_ ? scene::AnalysisKind::statics : scene::AnalysisKind::dynamics;
+    r.frame = frame_name(*a);
     r.load_steps = static_cast<int>(number_or(*a, "load_steps", 1.0));
     r.end_time = number_or(*a, "end_time", 0.0);
     r.step_size = number_or(*a, "step_size", 1e-3);

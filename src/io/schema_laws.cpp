@@ -42,6 +42,13 @@ void add_law_rules(RuleTable& t) {
        made(object_of_kind({"product"}, "Product of laws.", {need("factors", array_rule("", law, 1), "The factors.")})),
        made(object_of_kind({"scaled"}, "A multiple of a law.",
                            {need("factor", any, "The factor."), need("law", law, "The law.")}))});
+  t.named["three_laws"] = array_rule("Three laws; a number is constant.", law, 3, 3);
+  t.named["turn"] =
+      made(object_of("A rotation about an axis that is fixed in the axes reached before it.",
+                     {need("axis", named_rule("vector"), "Axis; its length does not matter, but is not 0."),
+                      need("angle", law, "[rad]; counts turns. With rate: [rad/s]."),
+                      may("rate", boolean_rule(""),
+                          "The law is the rate; it is integrated exactly from angle 0 at time 0.", "false")}));
 }
 
 }  // namespace bough::io

@@ -54,14 +54,13 @@ void add_vectors(RuleTable& t) {
 void add_attachments(RuleTable& t) {
   t.named["attachment"] = choice_rule(
       "What something is fixed to: a name, or a name with a place on it.",
-      {text_rule("A node, a body, an inner node of a beam (\"<beam>.<k>\"), or \"ground\"."),
-       made(object_of(
-           "A place on a named thing.",
-           {need("to", text_rule(""), "A node, a body, an inner node of a beam (\"<beam>.<k>\"), or \"ground\"."),
-            may("position", named_rule("vector"),
-                "In the frame of that thing; for the ground inertial [m]. Default: its origin."),
-            may("rotation", named_rule("rotation"),
-                "Of the attached axes in the frame of that thing. Default: none.")}))});
+      {text_rule("A node, a body, an inner node of a beam (\"<beam>.<k>\"), a frame, or \"ground\"."),
+       made(object_of("A place on a named thing.",
+                      {need("to", text_rule(""),
+                            "A node, a body, an inner node of a beam (\"<beam>.<k>\"), a frame, or \"ground\"."),
+                       may("position", named_rule("vector"), "In the frame of that thing [m]. Default: its origin."),
+                       may("rotation", named_rule("rotation"),
+                           "Of the attached axes in the frame of that thing. Default: none.")}))});
   t.named["beam_end"] = choice_rule(
       "The node or body a beam ends at, with the place on it where the beam's axis ends.",
       {text_rule("A node or a body."),
@@ -70,7 +69,7 @@ void add_attachments(RuleTable& t) {
            {need("to", text_rule(""), "A node or a body."),
             need("position", named_rule("vector"), "End of the beam's axis in the frame of that thing [m].")}))});
   t.named["axes"] = word_rule(
-      "space: components in inertial axes, fixed in space (a dead load). body: in the axes of the thing itself, "
+      "space: components in the ground's axes, fixed there (a dead load). body: in the axes of the thing itself, "
       "turning "
       "with it (a follower).",
       {"space", "body"});

@@ -16,13 +16,19 @@ Field frame_field(std::string about) { return may("frame", reference, std::move(
 void add_placement(std::vector<Field>& fields, const std::string& what) {
   fields.push_back(may("position", named_rule("vector"), "Origin of the " + what + " in `frame` [m].", "[0, 0, 0]"));
   fields.push_back(may("rotation", named_rule("rotation"), "Rotation of the " + what + " in `frame`. Default: none."));
-  fields.push_back(frame_field("Frame in which position and rotation are given. Default: the inertial frame."));
+  fields.push_back(frame_field("Frame in which position and rotation are given, at the start. Default: the ground."));
 }
 
 void add_properties(RuleTable& t) {
-  Rule frame = object_of("A fixed frame, posed in the inertial frame or in another fixed frame.", {name_field()});
-  add_placement(frame.fields, "frame");
-  t.named["frame"] = made(std::move(frame));
+  t.named["frame"] = made(object_of(
+      "A frame, posed in the ground or in another frame; fixed there, or moving by laws of time:  x = position(t), "
+      "R = rotation exp(angle_1(t) axis_1) exp(angle_2(t) axis_2) ... What names a moving frame as its `frame` is "
+      "placed in it "
+      "at the start and then goes its own way; what a joint, spring or bushing fixes to it is carried along.",
+      {name_field(), may("position", named_rule("three_laws"), "Of the origin in `frame` [m].", "[0, 0, 0]"),
+       may("rotation", named_rule("rotation"), "Of the axes in `frame` where all turns are zero. Default: none."),
+       may("turns", array_rule("", named_rule("turn")), "Rotations that follow, one after the other.", "[]"),
+       frame_field("The frame it stands in. Default: the ground.")}));
 
   Rule material =
       object_of("An isotropic elastic material.",
@@ -74,15 +80,15 @@ void add_parts(RuleTable& t) {
       {need("curvature", named_rule("vector"),
             "Body components (k1, k2, k3) of the curvature vector: twist rate, bending about axes 2 and 3 [1/m]."),
        need("length", positive(""), "Length of the axis [m]."),
-       need("tangent", named_rule("vector"), "Axis 1 at the start, inertial or in `frame`.")}));
+       need("tangent", named_rule("vector"), "Axis 1 at the start, in `frame`.")}));
   t.named["beam"] = made(object_of(
       "A beam between two nodes or bodies. Its inner nodes are named \"<beam>.<k>\", k = 0 at the start.",
       {name_field(), need("section", reference, "Name of its section."),
        need("start", named_rule("beam_end"), "Where it starts."), need("end", named_rule("beam_end"), "Where it ends."),
        may("axis_2", named_rule("vector"),
-           "Vector, inertial or in `frame`, to which section axis 2 at the start lies nearest. Default: chosen; any "
+           "Vector in `frame`, to which section axis 2 at the start lies nearest. Default: chosen; any "
            "section with equal properties in both directions may leave it out."),
-       frame_field("Frame of axis_2 and of the curve's tangent. Default: the inertial frame."),
+       frame_field("Frame of axis_2 and of the curve's tangent, at the start. Default: the ground."),
        may("twist", any_number, "Rotation of the section about axis 1 from start to end of a straight beam [rad].",
            "0"),
        may("curve", named_rule("curve"), "Default: straight."),
@@ -126,7 +132,7 @@ void add_joints(RuleTable& t) {
                       may("second_axis", named_rule("vector"),
                           "Universal: the axis fixed in the second. Others: direction from which the angle is counted "
                           "(axis 1 of the joint)."),
-                      frame_field("Frame of position and axes. Default: the inertial frame."),
+                      frame_field("Frame of position and axes, at the start. Default: the ground."),
                       may("pitch", any_number, "Screw: displacement per turn [m]."),
                       may("forces", array_rule("", force), "Springs, dampers and efforts along its coordinates.", "[]"),
                       may("drives", array_rule("", drive), "Prescribed coordinates.", "[]")}));
@@ -143,7 +149,7 @@ void add_joints(RuleTable& t) {
                      "rest at the start.",
                      {name_field(), need("first", named_rule("attachment"), "One side."),
                       need("second", named_rule("attachment"), "The other side."),
-                      may("position", named_rule("vector"), "Place at the start, inertial [m], as of a joint."),
+                      may("position", named_rule("vector"), "Place at the start, in the ground [m], as of a joint."),
                       may("stiffness", six, "[N/m, N, N m/rad], order (linear; angular). Default: none."),
                       may("damping", six, "The same for rates. Default: none.")}));
 }
@@ -151,7 +157,9 @@ void add_joints(RuleTable& t) {
 void add_loads(RuleTable& t) {
   const RuleRef free_name = name_rule("");
   const std::vector<Field> common = {may("name", free_name, "Its name. Default: numbered."),
-                                     may("axes", named_rule("axes"), "Dead or follower.", "\"space\"")};
+                                     may("axes", named_rule("axes"), "Dead or follower.", "\"space\""),
+                                     frame_field("Frame in whose axes a dead load is given, and with which it turns. "
+                                                 "Default: the ground.")};
   std::vector<Field> point = common, line = common;
   point.push_back(need("at", named_rule("attachment"), "Where it acts."));
   point.push_back(may("force", named_rule("vector"), "[N].", "[0, 0, 0]"));
@@ -169,13 +177,13 @@ void add_loads(RuleTable& t) {
 
   const RuleRef turning = choice_rule(
       "", {word_rule("The orientation is held.", {"hold"}),
-           made(object_of("Rotation about a fixed inertial axis from the initial orientation.",
-                          {need("axis", named_rule("vector"), "Inertial."),
+           made(object_of("Rotation about a fixed axis of the ground from the initial orientation.",
+                          {need("axis", named_rule("vector"), "In the ground."),
                            need("angle", named_rule("law"), "[rad]; counts turns. With rate: [rad/s].")}))});
   t.named["motion"] = made(object_of(
       "Prescribed motion of a node or body from its initial pose. What is not given stays free.",
       {may("name", free_name, "Its name. Default: numbered."), need("at", named_rule("attachment"), "What moves."),
-       may("x", named_rule("law"), "Displacement along inertial x [m]; with rate: velocity [m/s]."),
+       may("x", named_rule("law"), "Displacement along the ground's x [m]; with rate: velocity [m/s]."),
        may("y", named_rule("law"), "The same along y."), may("z", named_rule("law"), "The same along z."),
        may("rotation", turning, "Prescribed rotation. Default: free."),
        may("rate", boolean_rule(""), "The laws are rates, integrated exactly from the initial pose.", "false")}));
@@ -183,6 +191,8 @@ void add_loads(RuleTable& t) {
       "Velocity at the start. What is not given starts at rest, or as the joints demand.",
       {need("of", reference, "A node, a body, or a beam: then all its nodes, as a rigid motion about its start."),
        may("axes", named_rule("axes"), "Axes of the components.", "\"space\""),
+       frame_field("Frame that it is relative to, whose own motion is added, and in whose axes space components are. "
+                   "Default: the ground."),
        may("velocity", named_rule("vector"), "Of the frame's origin [m/s].", "[0, 0, 0]"),
        may("angular_velocity", named_rule("vector"), "[rad/s].", "[0, 0, 0]")}));
 }
@@ -191,13 +201,29 @@ void add_sensors(RuleTable& t) {
   const Field axes = may("axes", named_rule("axes"), "Axes of the components.", "\"space\"");
   Rule motion = object_of_kind(
       {"position", "rotation", "quaternion", "velocity", "acceleration"},
-      "Motion of a point. Components: position x y z [m]; rotation rx ry rz, rotation vector from inertial axes [rad]; "
+      "Motion of a point. Components: position x y z [m]; rotation rx ry rz, rotation vector from the ground's axes "
+      "[rad]; "
       "quaternion q0 q1 q2 q3; velocity vx vy vz [m/s] wx wy wz "
       "[rad/s]; acceleration ax ay az [m/s^2] alx aly alz [rad/s^2].",
       {name_field(), may("at", named_rule("attachment"), "The point."),
        may("beam", reference, "A point of this beam's axis."),
-       may("station", number_rule("", 0.0, false, 1.0), "Fraction of the beam's length from its start [-]."), axes});
+       may("station", number_rule("", 0.0, false, 1.0), "Fraction of the beam's length from its start [-]."), axes,
+       frame_field("Frame from which the motion is seen and in whose axes it is given. Default: the ground.")});
   motion.exactly_one = {{"at", "beam"}};
+  Rule split = object_of_kind(
+      {"acceleration_split"},
+      "Inertial acceleration of a point, split along a chain of frames that move in each other, the first in the "
+      "inertial frame "
+      "(Harithuddin, Trivailo, Jazar 2015). Components, each with _x _y _z [m/s^2]: local, tangential, coriolis, "
+      "centripetal, "
+      "razi, translation (of the origin of the last frame), total (their sum).",
+      {name_field(), may("at", named_rule("attachment"), "The point."),
+       may("beam", reference, "A point of this beam's axis."),
+       may("station", number_rule("", 0.0, false, 1.0), "Fraction of the beam's length from its start [-]."),
+       need("frames", array_rule("", text_rule(""), 1, 100),
+            "The chain: frames, nodes or bodies; the point is seen from the last."),
+       frame_field("Frame, node or body in whose axes components are given. Default: the ground.")});
+  split.exactly_one = {{"at", "beam"}};
   t.named["sensor"] = choice_rule(
       "A measured quantity, written over time. Its columns are \"<name>.<component>\", or \"<name>\" for scalars.",
       {made(std::move(motion)),
@@ -209,12 +235,14 @@ void add_sensors(RuleTable& t) {
        made(object_of_kind({"joint_reaction"},
                            "Wrench of the first on the second at the second's joint frame: fx fy fz [N] mx my mz [N "
                            "m]. Axes body: those of the second's joint frame.",
-                           {name_field(), need("joint", reference, "The joint."), axes})),
+                           {name_field(), need("joint", reference, "The joint."), axes,
+                            frame_field("Frame in whose axes it is given. Default: the ground.")})),
+       made(std::move(split)),
        made(object_of_kind({"joint_angle", "joint_displacement", "joint_rate"},
                            "Coordinate of a joint, counting turns [rad] or [m], or its rate; one number.",
                            {name_field(), need("joint", reference, "The joint.")})),
        made(object_of_kind({"kinetic_energy", "strain_energy", "potential_energy", "total_energy"},
-                           "Energy of the whole [J]; one number.", {name_field()}))});
+                           "Energy of the whole in the inertial frame [J]; one number.", {name_field()}))});
 }
 
 void add_settings(RuleTable& t) {
@@ -231,6 +259,14 @@ void add_settings(RuleTable& t) {
       need("end_time", positive(""), "[s]."), may("step_size", positive(""), "h [s].", "1e-3"),
       may("spectral_radius", number_rule("", 0.0, false, 1.0),
           "Of the time integrator at high frequency: 0 damps most, 1 not at all [-].", "0.8")};
+  const Field frame = frame_field(
+      "Frame in which everything is described: the ground, poses, velocities, dead loads and results are relative to "
+      "it, and its inertial "
+      "loads act. Static: it moves steadily, its laws are taken at time 0, its inertial loads grow with the load "
+      "factor. Default: "
+      "the inertial frame.");
+  statics.push_back(frame);
+  dynamics.push_back(frame);
   statics.insert(statics.end(), newton.begin(), newton.end());
   dynamics.insert(dynamics.end(), newton.begin(), newton.end());
   t.named["analysis"] = choice_rule(
@@ -296,7 +332,7 @@ RuleTable make_table() {
                     made(object_of("Gravity that changes.", {need("vector", named_rule("vector"), "[m/s^2], inertial."),
                                                              law_field("Factor over time.")}))}),
            "Acceleration of gravity [m/s^2], inertial.", "[0, 0, 0]"),
-       list("frames", "frame", "Fixed frames."),
+       list("frames", "frame", "Frames, fixed or moving."),
        list("materials", "material", "Materials."),
        list("sections", "section", "Beam sections."),
        list("nodes", "node", "Nodes."),

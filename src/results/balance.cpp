@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "observe_parts.hpp"
+
 namespace bough::results {
 
 using elements::Field;
 using elements::Measures;
 using motion::Vec3;
+using motion::Vec6;
 
 namespace {
 
@@ -56,26 +59,70 @@ bool is_watched(const E& e) {
   }
 }
 
+/// Whether a port is fixed to something that moves as prescribed, which does work through it.
+bool is_moved(const plan::Plan& plan, const elements::Port& port) {
+  return port.node == elements::ground && (port.carrier >= 0 || plan.observer >= 0);
+}
+
 template <class E>
 constexpr bool is_load = std::is_same_v<E, elements::PointLoad> || std::is_same_v<E, elements::LineLoad<2>> ||
                          std::is_same_v<E, elements::LineLoad<3>> || std::is_same_v<E, elements::LineLoad<4>>;
+
+template <class E>
+constexpr bool is_coupling = std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> ||
+                             std::is_same_v<E, elements::Bushing>;
+
+/// Ports as described, in the ground.
+template <class E>
+void eval_ports(const E& e, const Field& f, elements::PortMotion<double>* ports) {
+  const motion::Vec3Pair origin = motion::Vec3Pair::from(Vec3<double>::zero());
+  for (int k = 0; k < E::num_ports; ++k) ports[k] = elements::eval_port(e.ports[k], f.nodes, origin, f.carriers);
+}
+/// The same place in the inertial frame.
+motion::Frame<double> inertial_pose(const Field& f, const motion::Frame<double>& pose) {
+  return f.observer == nullptr ? pose : motion::compose(f.observer->pose, pose);
+}
+
+/// Work of what moves as prescribed through the ports fixed to it since `last`, one of each, which move on to now.
+template <class E, class P>
+double advance_grounds(const plan::Plan& plan, const E& e, const Field& f, const double* multipliers, double turns,
+                       P* last) {
+  if (std::none_of(std::begin(e.ports), std::end(e.ports), [&](const auto& p) { return is_moved(plan, p); })) return 0.0;
+  elements::PortMotion<double> ports[E::num_ports];
+  eval_ports(e, f, ports);
+  double out[6 * E::num_ports + E::num_multipliers];
+  if constexpr (E::num_multipliers > 0)
+    elements::eval_residual(e, ports, multipliers, f.around, out, turns);
+  else
+    elements::eval_residual(e, ports, static_cast<const double*>(nullptr), f.around, out);
+  double work = 0.0;
+  for (int k = 0; k < E::num_ports; ++k) {
+    if (!is_moved(plan, e.ports[k])) continue;
+    P now;
+    now.pose = inertial_pose(f, ports[k].H);
+    for (int i = 0; i < 6; ++i) now.wrench[i] = out[6 * k + i];  // what the element asks of the ground, the ground gives
+    work += lanes::dot(Vec6<double>(0.5 * (last->wrench + now.wrench)),
+                       motion::Se3::log(motion::relative(last->pose, now.pose)));
+    *last++ = now;
+  }
+  return work;
+}
 
 /// Work of a load since `last`, which moves on to now.
 template <class E, class P>
 double advance_load(const E& e, const Field& f, P* last) {
   constexpr auto n = static_cast<std::size_t>(E::num_ports);
   elements::PortMotion<double> ports[n];
-  const motion::Vec3Pair origin{};
-  for (std::size_t k = 0; k < n; ++k) ports[k] = elements::eval_port(e.ports[k], f.nodes, origin);
+  eval_ports(e, f, ports);
   double out[6 * n];
   elements::eval_residual(e, ports, static_cast<const double*>(nullptr), f.around, out);
   double work = 0.0;
   for (std::size_t k = 0; k < n; ++k) {
     P now;
-    now.pose = ports[k].H;
+    now.pose = inertial_pose(f, ports[k].H);
     for (std::size_t i = 0; i < 6; ++i) now.wrench[static_cast<int>(i)] = -out[6 * k + i];
-    const motion::Vec6<double> way = motion::Se3::log(motion::relative(last[k].pose, now.pose));
-    const motion::Vec6<double> mean = 0.5 * (last[k].wrench + now.wrench);
+    const Vec6<double> way = motion::Se3::log(motion::relative(last[k].pose, now.pose));
+    const Vec6<double> mean = 0.5 * (last[k].wrench + now.wrench);
     if (e.follows) {
       work += lanes::dot(mean, way);
     } else {
@@ -108,6 +155,10 @@ Measures eval_measures(const step::System& system, const step::State& state) {
       }
     }
   });
+  if (f.observer != nullptr) {  // elements tell them in the ground's axes
+    sum.momentum = turned(f.observer->pose.R, sum.momentum);
+    sum.load = turned(f.observer->pose.R, sum.load);
+  }
   return sum;
 }
 
@@ -125,6 +176,9 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
         ports_.resize(ports_.size() + E::num_ports);
       else if constexpr (std::is_same_v<E, elements::Joint>)
         drives_.resize(drives_.size() + static_cast<std::size_t>(e.num_rows + e.num_efforts));
+      if constexpr (is_coupling<E>)
+        for (const elements::Port& p : e.ports)
+          if (is_moved(plan, p)) ports_.emplace_back();
     });
 }
 
@@ -162,12 +216,16 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
       } else if constexpr (is_load<E>) {
         work += advance_load(e, f, ports_.data() + w.first_port);
       }
+      if constexpr (is_coupling<E>)
+        if (f.carriers != nullptr)
+          work += advance_grounds(plan, e, f, multipliers, turns, ports_.data() + w.first_port);
       const Measures m = elements::measure(e, f, multipliers, turns);
       dissipation_rate_ += m.dissipation_rate;
       force_ += lanes::linear_part(m.load);
     });
   }
   force_ += free_mass * f.around.gravity;
+  if (f.observer != nullptr) force_ = f.observer->pose.R * force_;  // elements tell forces in the ground's axes
   return work;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bough/results/balance.hpp"
+#include "observe_parts.hpp"
 
 namespace bough::results {
 
@@ -20,7 +21,8 @@ using motion::Vec6;
 
 namespace {
 
-Vec3<double> position_of(const step::State& state, const Port& port) {
+Vec3<double> position_of(const Field& f, const step::State& state, const Port& port) {
+  if (port.carrier >= 0) return motion::transform(f.carriers[port.carrier].pose, port.offset.x);
   if (port.node == elements::ground) return port.offset.x;
   const elements::NodeMotion& n = state.nodes[static_cast<std::size_t>(port.node)];
   return n.x.hi + n.x.lo + (port.has_offset ? n.R * port.offset.x : Vec3<double>::zero());
@@ -40,7 +42,12 @@ void eval_end_wrenches(const step::System& system, const E& e, const std::vector
   constexpr int N = E::num_ports;
   const motion::Vec3Pair anchor = elements::anchor_of(e, f.nodes);
   PortMotion<double> p[N];
-  for (int i = 0; i < N; ++i) p[i] = elements::eval_port(e.ports[i], f.nodes, anchor);
+  for (int i = 0; i < N; ++i) {
+    p[i] = elements::eval_port(e.ports[i], f.nodes, anchor);
+    if (f.observer != nullptr)
+      elements::add_observer_motion(p[i], Vec3<double>(anchor.hi + anchor.lo), f.observer->twist,
+                                    f.observer->twist_rate);
+  }
   double out[6 * N];
   elements::eval_residual(e, p, static_cast<const double*>(nullptr), f.around, out);
   for (int k = 0; k < 6; ++k) {
@@ -100,58 +107,18 @@ void with_beam_element(const plan::Plan& plan, int id, F&& f) {
   });
 }
 
-void append(std::vector<double>& to, const Vec3<double>& v) { to.insert(to.end(), v.v, v.v + 3); }
-void append(std::vector<double>& to, const Vec6<double>& v) { to.insert(to.end(), v.v, v.v + 6); }
-
-/// Twist (own axes) as velocity of the origin and angular velocity in inertial or own axes.
-Vec6<double> resolve(const Mat3<double>& R, const Vec6<double>& v, scene::LoadAxes axes) {
-  if (axes == scene::LoadAxes::body) return v;
-  return lanes::join(R * lanes::linear_part(v), R * lanes::angular_part(v));
-}
-
-void eval_point_sensor(const step::System& system, const step::State& state, const plan::SensorPlan& s,
-                       std::vector<double>& values) {
+/// Where a sensor's point is.
+PointMotion eval_sensor_point(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
   const Field f = system.field(state);
-  Frame<double> pose;
-  Vec6<double> v, a;
-  if (s.beam >= 0) {
-    const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
-    const auto [k, local] = locate(beam, s.sensor.station);
-    with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)], [&, local = local](const auto& e) {
-      const BeamPoint p = eval_point(e, f, local);
-      pose = p.pose;
-      v = p.v;
-      a = p.a;
-    });
-  } else {
-    const PortMotion<double> p = elements::eval_port(s.port, f.nodes, motion::Vec3Pair::from(Vec3<double>::zero()));
-    pose = p.H;
-    v = p.v;
-    a = p.a;
-  }
-  switch (s.sensor.kind) {
-    case scene::SensorKind::position:
-      append(values, pose.x);
-      break;
-    case scene::SensorKind::rotation:
-      append(values, motion::log_so3(pose.R));
-      break;
-    case scene::SensorKind::quaternion: {
-      const auto q = motion::quaternion_of(pose.R);
-      values.push_back(q.w);
-      append(values, q.v);
-      break;
-    }
-    case scene::SensorKind::velocity:
-      append(values, resolve(pose.R, v, s.sensor.axes));
-      break;
-    default: {  // acceleration of the origin: R (a + w x v)
-      const Vec3<double> w = lanes::angular_part(v);
-      const Vec6<double> full =
-          lanes::join(lanes::linear_part(a) + lanes::cross(w, lanes::linear_part(v)), lanes::angular_part(a));
-      append(values, resolve(pose.R, full, s.sensor.axes));
-    }
-  }
+  if (s.beam < 0) return motion_of_port(s.port, f);
+  PointMotion point;
+  const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
+  const auto [k, local] = locate(beam, s.sensor.station);
+  with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)], [&, local = local](const auto& e) {
+    const BeamPoint p = eval_point(e, f, local);
+    point = {p.pose, p.v, p.a};
+  });
+  return point;
 }
 
 /// Curvature of the sectional force over an element, 1/2 d2f/ds2, from its strains at the strain points: elements of four nodes have three and
@@ -211,8 +178,10 @@ void eval_joint_sensor(const step::System& system, const step::State& state, con
           } else {
             const Vec6<double> wrench =
                 elements::eval_reaction(e, f, state.multipliers.data() + joint.multiplier_begin, turns);
-            const PortMotion<double> p = elements::eval_port(e.ports[1], f.nodes, elements::anchor_of(e, f.nodes));
-            append(values, resolve(p.H.R, wrench, s.sensor.axes));
+            const Mat3<double> R = motion_of_port(e.ports[1], f).pose.R;
+            append(values, s.sensor.frame.empty()
+                               ? resolve(R, wrench, s.sensor.axes)
+                               : turned(lanes::transpose_times(motion_of_port(s.frame, f).pose.R, R), wrench));
           }
         }
       });
@@ -270,8 +239,11 @@ void eval_sensors(const step::System& system, const step::State& state, std::vec
       case scene::SensorKind::total_energy:
         values.push_back(energies().kinetic + energies().strain + energies().potential);
         break;
+      case scene::SensorKind::acceleration_split:
+        append_split(s, system.field(state), eval_sensor_point(system, state, s), values);
+        break;
       default:
-        eval_point_sensor(system, state, s, values);
+        append_point(s, system.field(state), eval_sensor_point(system, state, s), values);
     }
   }
 }
@@ -317,7 +289,7 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
   const auto add_link = [&](const std::string& name, const Port& first, const Port& second) {
     Link link;
     link.name = name;
-    const Vec3<double> a = position_of(state, first), b = position_of(state, second);
+    const Vec3<double> a = position_of(f, state, first), b = position_of(f, state, second);
     for (int i = 0; i < 3; ++i) {
       link.first[i] = a[i];
       link.second[i] = b[i];
@@ -330,7 +302,7 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
   const auto attach = [&](const Port& port) {
     const int body = port.node == elements::ground ? -1 : body_of[static_cast<std::size_t>(port.node)];
     if (body < 0) return;
-    const Vec3<double> x = position_of(state, port);
+    const Vec3<double> x = position_of(f, state, port);
     frame.bodies[static_cast<std::size_t>(body)].attachments.push_back({x[0], x[1], x[2]});
   };
   for (std::size_t id = 0; id < plan.directory.size(); ++id)

@@ -12,7 +12,15 @@ std::string number(double x) {
   return {text, end};
 }
 
-std::string quoted(const std::string& text) { return '"' + text + '"'; }
+/// A JSON string; names hold no control characters.
+std::string quoted(const std::string& text) {
+  std::string r = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') r += '\\';
+    r += c;
+  }
+  return r + '"';
+}
 
 }  // namespace
 
@@ -20,6 +28,7 @@ results::EffectiveOptions effective_options(const scene::Scene& scene, const ste
   results::EffectiveOptions list;
   const bool dynamic = scene.analysis.kind == scene::AnalysisKind::dynamics;
   list.emplace_back("analysis/kind", quoted(dynamic ? "dynamic" : "static"));
+  if (!scene.analysis.frame.empty()) list.emplace_back("analysis/frame", quoted(scene.analysis.frame));
   if (dynamic) {
     const step::AlphaCoefficients c = step::make_alpha_coefficients(o.spectral_radius);
     list.emplace_back("analysis/end_time", number(scene.analysis.end_time));

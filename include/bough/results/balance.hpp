@@ -8,7 +8,7 @@ namespace bough::results {
 
 /// What changed energy and momentum up to now, since the run began.
 struct Supply {
-  double work = 0.0;         ///< of loads, drives and efforts [J]
+  double work = 0.0;         ///< of loads, drives, efforts and of a ground that moves [J]
   double dissipation = 0.0;  ///< taken by dampers [J]
   motion::Vec3<double> impulse =
       motion::Vec3<double>::zero();  ///< of gravity, loads and the ground, inertial axes [N s]
@@ -22,7 +22,9 @@ elements::Measures eval_measures(const step::System& system, const step::State& 
 ///   loads    W = sum of 1/2 (F_n + F_{n+1}) . (the way from n to n+1), forces that keep their direction in inertial axes, others in
 ///            those of the body with log(H_n^-1 H_{n+1}): exact where they are constant
 ///   drives   W = -1/2 (lambda_n + lambda_{n+1}) (law_{n+1} - law_n),   efforts alike over their coordinate
+///   grounds  that move as prescribed: of their wrenches on the structure, as of loads that follow
 ///   dampers and impulses by the trapezoidal rule
+/// Ways, work and impulse are those in the inertial frame, whatever frame the analysis is described in.
 class WorkMeter {
  public:
   explicit WorkMeter(const plan::Plan& plan);

@@ -1,0 +1,36 @@
+#pragma once
+/// Shared by the files of observe.hpp.
+#include "bough/results/observe.hpp"
+
+namespace bough::results {
+
+/// Motion of a material point with its axes, in the ground: pose, twist and its derivative in its own axes.
+struct PointMotion {
+  motion::Frame<double> pose;
+  motion::Vec6<double> v, a;
+};
+
+PointMotion motion_of_port(const elements::Port& port, const elements::Field& field);
+
+/// Position, rotation, velocity or acceleration as the sensor's frame sees it.
+void append_point(const plan::SensorPlan& s, const elements::Field& field, const PointMotion& point,
+                  std::vector<double>& values);
+
+/// Parts of the inertial acceleration along the sensor's chain of frames, then their sum; 3 components each.
+void append_split(const plan::SensorPlan& s, const elements::Field& field, const PointMotion& point,
+                  std::vector<double>& values);
+
+inline void append(std::vector<double>& to, const motion::Vec3<double>& v) { to.insert(to.end(), v.v, v.v + 3); }
+inline void append(std::vector<double>& to, const motion::Vec6<double>& v) { to.insert(to.end(), v.v, v.v + 6); }
+
+/// Both halves of a 6-vector in other axes.
+inline motion::Vec6<double> turned(const motion::Mat3<double>& R, const motion::Vec6<double>& v) {
+  return lanes::join(R * lanes::linear_part(v), R * lanes::angular_part(v));
+}
+/// Twist or wrench (own axes) in space or own axes.
+inline motion::Vec6<double> resolve(const motion::Mat3<double>& R, const motion::Vec6<double>& v,
+                                    scene::LoadAxes axes) {
+  return axes == scene::LoadAxes::body ? v : turned(R, v);
+}
+
+}  // namespace bough::results
