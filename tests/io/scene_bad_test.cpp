@@ -120,6 +120,57 @@ const Bad scene_cases[] = {
      "nothing holds it"},
 };
 
+// Frames that move, what is given in them, scenes that are described in them.
+const Bad frame_cases[] = {
+    {"\"position\": [0, 0, 1], \"rotation\"", "\"position\": @[0, 0], \"rotation\"", "/frames/0/position", "3"},
+    {"\"position\": [0, 0, 1], \"rotation\"", "\"position\": [0, { \"expression\": @\"sin(\" }, 1], \"rotation\"",
+     "/frames/0/position/1/expression", "character"},
+    {"\"position\": [0, 0, 1], \"rotation\"",
+     "\"position\": [0, @{ \"expression\": \"1/(t - 0.5)\" }, 1], \"rotation\"", "/frames/0/position/1",
+     "not finite at t = 0.5"},
+    {"\"name\": \"bench\", ", "\"name\": \"bench\", \"turns\": [ { \"axis\": @[0, 0, 0], \"angle\": 1 } ], ",
+     "/frames/0/turns/0/axis", "length other than 0"},
+    {"\"name\": \"bench\", ",
+     "\"name\": \"bench\", \"turns\": [ { \"axis\": [0, 0, 1], @\"rat\": true, \"angle\": 1 } ], ",
+     "/frames/0/turns/0/rat", "did you mean \"rate\"?"},
+    {"\"analysis\": { \"kind\": \"dynamic\",", "\"analysis\": { \"kind\": \"dynamic\", \"frame\": @\"bank\",",
+     "/analysis/frame", "no frame has this name"},
+    {"\"analysis\": { \"kind\": \"dynamic\",", "\"analysis\": { \"kind\": \"dynamic\", \"frame\": @\"cart\",",
+     "/analysis/frame", "this is not a frame"},
+    {"\"name\": \"coil\", \"first\": \"tip\", \"second\": \"cart\"",
+     "\"name\": \"coil\", \"first\": \"ground\", \"second\": @\"bench\"", "/springs/0/second",
+     "one of them has to be a node or body"},
+    {"\"at\": \"tip\", \"force\"", "\"at\": @\"bench\", \"force\"", "/loads/0/at", "not a node or body"},
+    {"\"at\": \"tip\", \"force\"", "\"frame\": @\"knee\", \"at\": \"tip\", \"force\"", "/loads/0/frame",
+     "this is not a frame"},
+    {"\"at\": \"tip\", \"force\"", "\"frame\": @\"bench\", \"axes\": \"body\", \"at\": \"tip\", \"force\"",
+     "/loads/0/frame", "a follower turns with what it acts on"},
+    {"\"of\": \"cart\"", "\"frame\": @\"bnch\", \"of\": \"cart\"", "/initial_velocities/0/frame",
+     "did you mean \"bench\"?"},
+    {"\"kind\": \"position\", \"at\": \"tip\"", "\"kind\": \"position\", \"at\": \"tip\", \"frame\": @\"bnch\"",
+     "/sensors/0/frame", "did you mean \"bench\"?"},
+    {"\"kind\": \"total_energy\"", "\"kind\": \"total_energy\", @\"frame\": \"bench\"", "/sensors/3/frame", "frame"},
+    {"\"kind\": \"joint_angle\", \"joint\"",
+     "\"kind\": \"joint_reaction\", \"axes\": \"body\", \"frame\": @\"bench\", \"joint\"", "/sensors/2/frame",
+     "not of both"},
+    {"\"kind\": \"total_energy\"", "\"kind\": \"acceleration_split\", \"at\": \"tip\", \"frames\": @[ ]",
+     "/sensors/3/frames", "1"},
+    {"\"kind\": \"total_energy\"",
+     "\"kind\": \"acceleration_split\", \"at\": \"tip\", \"frames\": [ \"bench\", @\"cat\" ]", "/sensors/3/frames/1",
+     "did you mean \"cart\"?"},
+    {"\"kind\": \"total_energy\"",
+     "\"kind\": \"acceleration_split\", \"at\": \"tip\", \"frames\": [ \"bench\", @\"bench\" ]", "/sensors/3/frames/1",
+     "in the chain already"},
+    {"\"kind\": \"total_energy\"", "\"kind\": \"acceleration_split\", \"at\": \"tip\", \"frames\": [ @\"ground\" ]",
+     "/sensors/3/frames/0", "starts in the inertial frame by itself"},
+    {"\"kind\": \"total_energy\"",
+     "\"kind\": \"acceleration_split\", \"beam\": \"upper\", \"station\": @2, \"frames\": [ \"bench\" ]",
+     "/sensors/3/station", "1"},
+    {"\"kind\": \"total_energy\"",
+     "\"kind\": \"acceleration_split\", \"at\": \"tip\", \"frames\": [ \"bench\" ], \"frame\": @\"cat\"",
+     "/sensors/3/frame", "did you mean \"cart\"?"},
+};
+
 struct Expectation {
   std::string text;
   int line = 0, column = 0;
@@ -170,6 +221,59 @@ TEST(SceneBad, each_broken_rule_is_reported_once_at_its_place) {
 TEST(SceneBad, each_impossible_scene_is_reported_once_at_its_place) {
   const ::bough::test::Untrapped untrapped;  // the law 1/t
   for (const Bad& bad : scene_cases) check(bad);
+}
+
+TEST(SceneBad, each_fault_of_a_moving_frame_is_reported_once_at_its_place) {
+  const ::bough::test::Untrapped untrapped;  // the law 1/(t - 0.5)
+  for (const Bad& bad : frame_cases) check(bad);
+}
+
+TEST(SceneBad, frames_that_stand_in_each_other_in_a_circle_are_all_named) {
+  const SceneFile file = read_scene_text(
+      test::spoilt(
+          "\"frames\": [ { \"name\": \"bench\", ",
+          "\"frames\": [ { \"name\": \"desk\", \"frame\": \"bench\", \"turns\": [ { \"axis\": [0, 0, 1], \"angle\": "
+          "{ \"expression\": \"t\" } } ] }, { \"frame\": \"desk\", \"name\": \"bench\", "),
+      "circle", std::vector<std::string>{"/analysis/frame=desk"});
+  ASSERT_EQ(file.problems.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(file.problems[i].pointer, "/frames/" + std::to_string(i) + "/frame");
+    EXPECT_NE(file.problems[i].text().find("stands in itself"), std::string::npos);
+  }
+}
+
+/// A static scene in a frame with one law replaced.
+SceneFile turning_arm(const std::string& turns, const std::string& position, const std::string& gravity) {
+  return read_scene_text(R"({"schema_version": 1, "gravity": )" + gravity + R"(,
+    "frames": [{"name": "hub", "position": )" +
+                             position + R"(, "turns": )" + turns + R"(}],
+    "sections": [{"name": "s", "stiffness": [1, 1, 1, 1, 1, 1], "mass": [1, 1, 1, 1, 1, 1]}],
+    "nodes": [{"name": "a"}, {"name": "b", "position": [1, 0, 0]}],
+    "beams": [{"name": "arm", "section": "s", "start": "a", "end": "b"}],
+    "joints": [{"name": "clamp", "kind": "fixed", "first": "ground", "second": "a"}],
+    "analysis": {"kind": "static", "frame": "hub"}})",
+                         "arm");
+}
+
+TEST(SceneBad, statics_in_a_frame_that_does_not_move_steadily_is_refused) {
+  const std::string steady = R"([{"axis": [0, 0, 1], "angle": 5, "rate": true}])";
+  const std::string at_rest = "[0, 0, 0]", down = "[0, 0, -9.81]";
+  EXPECT_TRUE(turning_arm(steady, at_rest, down).ok());
+  EXPECT_TRUE(turning_arm("[]", R"([{"expression": "t + 2*t^2"}, 0, 0])", down).ok())
+      << "a constant acceleration is steady";
+  const auto expect_refused = [](const SceneFile& file, const std::string& what) {
+    ASSERT_EQ(file.problems.size(), 1u) << what;
+    EXPECT_EQ(file.problems[0].pointer, "/analysis/frame");
+    EXPECT_NE(file.problems[0].text().find("its " + what), std::string::npos) << file.problems[0].text();
+  };
+  expect_refused(turning_arm(R"([{"axis": [0, 0, 1], "angle": {"expression": "t^2"}}])", at_rest, down),
+                 "angular velocity");
+  expect_refused(
+      turning_arm(R"([{"axis": [0, 0, 1], "angle": 5, "rate": true}, {"axis": [1, 0, 0], "angle": 1, "rate": true}])",
+                  at_rest, "[0, 0, 0]"),
+      "angular velocity");
+  expect_refused(turning_arm("[]", R"([{"expression": "t^3"}, 0, 0])", down), "acceleration");
+  expect_refused(turning_arm(steady, at_rest, "[0, -9.81, 0]"), "gravity");
 }
 
 TEST(SceneBad, all_faults_of_a_file_are_reported_together_in_the_order_of_the_file) {
