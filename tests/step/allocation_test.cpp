@@ -59,6 +59,29 @@ TEST(Advance, allocates_nothing_after_the_first_step_with_elements_of_higher_ord
   EXPECT_EQ(allocations_of_steps(test::make_chain(2, 3), 5), 0);
 }
 
+/// Described in a frame that turns, with its last link tied to another one.
+TEST(Advance, allocates_nothing_after_the_first_step_in_moving_frames) {
+  scene::Scene scene = test::make_chain(4);
+  for (const char* name : {"table", "hook"}) {
+    scene::FrameDef frame;
+    frame.name = name;
+    frame.motion = scene::MovingFrame{};
+    frame.motion->turns.push_back({{{0.0, 0.0, 1.0}}, laws::make_harmonic(0.3, 2.0, 0.0, 0.0)});
+    scene.frames.push_back(frame);
+  }
+  scene.frames[1].placement.frame = "table";
+  scene::Spring spring;
+  spring.name = "rope";
+  spring.first.to = "hook";
+  spring.first.offset.x = {{3.0, 1.0, 0.0}};
+  spring.second.to = "b3";
+  spring.stiffness = 50.0;
+  spring.rest_length = 1.0;
+  scene.springs.push_back(spring);
+  scene.analysis.frame = "table";
+  EXPECT_EQ(allocations_of_steps(scene, 20), 0);
+}
+
 TEST(Equilibrate, allocates_nothing_after_the_first_load_step) {
   scene::Scene scene = test::make_chain(1, 3);
   scene.analysis.kind = scene::AnalysisKind::statics;
