@@ -124,8 +124,8 @@ inline void set_kind(const Joint& a, JointOf<LanePack>& b, int law) {
 template <class E>
 bool may_share_lanes(const E& a, const E& b) {
   for (int k = 0; k < E::num_ports; ++k)
-    if ((a.ports[k].node == ground) != (b.ports[k].node == ground) ||
-        a.ports[k].has_offset != b.ports[k].has_offset || a.ports[k].carrier != b.ports[k].carrier)
+    if ((a.ports[k].node == ground) != (b.ports[k].node == ground) || a.ports[k].has_offset != b.ports[k].has_offset ||
+        a.ports[k].carrier != b.ports[k].carrier)
       return false;
   return is_same_kind(a, b);
 }

@@ -69,8 +69,8 @@ constexpr bool is_load = std::is_same_v<E, elements::PointLoad> || std::is_same_
                          std::is_same_v<E, elements::LineLoad<3>> || std::is_same_v<E, elements::LineLoad<4>>;
 
 template <class E>
-constexpr bool is_coupling = std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> ||
-                             std::is_same_v<E, elements::Bushing>;
+constexpr bool is_coupling =
+    std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> || std::is_same_v<E, elements::Bushing>;
 
 /// Ports as described, in the ground.
 template <class E>
@@ -87,7 +87,8 @@ motion::Frame<double> inertial_pose(const Field& f, const motion::Frame<double>&
 template <class E, class P>
 double advance_grounds(const plan::Plan& plan, const E& e, const Field& f, const double* multipliers, double turns,
                        P* last) {
-  if (std::none_of(std::begin(e.ports), std::end(e.ports), [&](const auto& p) { return is_moved(plan, p); })) return 0.0;
+  if (std::none_of(std::begin(e.ports), std::end(e.ports), [&](const auto& p) { return is_moved(plan, p); }))
+    return 0.0;
   elements::PortMotion<double> ports[E::num_ports];
   eval_ports(e, f, ports);
   double out[6 * E::num_ports + E::num_multipliers];
@@ -100,7 +101,8 @@ double advance_grounds(const plan::Plan& plan, const E& e, const Field& f, const
     if (!is_moved(plan, e.ports[k])) continue;
     P now;
     now.pose = inertial_pose(f, ports[k].H);
-    for (int i = 0; i < 6; ++i) now.wrench[i] = out[6 * k + i];  // what the element asks of the ground, the ground gives
+    for (int i = 0; i < 6; ++i)
+      now.wrench[i] = out[6 * k + i];  // what the element asks of the ground, the ground gives
     work += lanes::dot(Vec6<double>(0.5 * (last->wrench + now.wrench)),
                        motion::Se3::log(motion::relative(last->pose, now.pose)));
     *last++ = now;

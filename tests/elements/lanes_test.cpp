@@ -76,7 +76,8 @@ struct LaneResult {
 };
 
 template <class E>
-LaneResult lane_results(const std::vector<Sample<E>>& samples, bool has_inertia, const Slopes& slopes) {
+LaneResult lane_results(const std::vector<Sample<E>>& samples, bool has_inertia, const Slopes& slopes,
+                        const CarrierMotion* frame = nullptr) {
   const int count = static_cast<int>(samples.size());
   std::vector<const E*> elements;
   for (const Sample<E>& s : samples) elements.push_back(&s.element);
@@ -98,10 +99,13 @@ LaneResult lane_results(const std::vector<Sample<E>>& samples, bool has_inertia,
     for (std::size_t k = 0; k < s.multipliers.size(); ++k) multipliers[k].set(lane, s.multipliers[k]);
     turns.set(lane, s.turns);
   }
-  const FieldLanes field{
+  CarrierLanes frame_lanes;
+  if (frame != nullptr) set_all_lanes(frame_lanes, *frame);
+  FieldLanes field{
       motions.data(),
       {lanes::cast<LanePack>(samples[0].field(has_inertia).around.gravity), law_values.data(), has_inertia},
       slopes};
+  if (frame != nullptr) field.carriers = field.observer = &frame_lanes;
   const auto n = static_cast<std::size_t>(num_unknowns(samples[0].element));
   std::vector<LanePack> residual(n), magnitude(n), tangent(n * n), alone(n);
   evaluate_lanes(e, field, multipliers.data(), turns, residual.data(), magnitude.data(), tangent.data());
@@ -142,6 +146,34 @@ TEST(ElementLanes, hold_the_bits_of_each_element_alone) {
   });
 }
 
+/// All ports on the ground stand in the frame, and everything is described in it: more than one scene asks for.
+TEST(ElementLanes, hold_the_same_bits_in_a_moving_frame) {
+  CarrierMotion frame;
+  frame.pose = motion::exp_se3(Vec6<double>{{0.4, -0.2, 0.3, 0.5, -0.7, 0.2}});
+  frame.twist = Vec6<double>{{0.7, -1.1, 0.4, 1.3, -0.6, 0.9}};
+  frame.twist_rate = Vec6<double>{{-0.3, 0.8, 0.5, -1.2, 0.2, 0.6}};
+  for_all_elements([&](auto s) {
+    SCOPED_TRACE(s.name);
+    for (auto& port : s.element.ports)
+      if (port.node == ground) port.carrier = 0;
+    std::vector<std::decay_t<decltype(s)>> samples;
+    for (unsigned k = 0; k < num_lanes; ++k) samples.push_back(varied(s, k));
+    for (const auto& [has_inertia, slopes] : settings) {
+      const LaneResult got = lane_results(samples, has_inertia, slopes, &frame);
+      for (std::size_t lane = 0; lane < num_lanes; ++lane) {
+        Field field = samples[lane].field(has_inertia, slopes);
+        field.carriers = field.observer = &frame;
+        const Evaluation alone = evaluation_of(samples[lane], field);
+        std::vector<double> magnitude(alone.residual.size());
+        eval_magnitude(samples[lane].element, field, alone.residual.data(), magnitude.data());
+        EXPECT_EQ(lane_of(got.residual, lane), alone.residual) << "lane " << lane;
+        EXPECT_EQ(lane_of(got.magnitude, lane), magnitude) << "lane " << lane;
+        EXPECT_EQ(lane_of(got.tangent, lane), alone.tangent) << "lane " << lane;
+      }
+    }
+  });
+}
+
 TEST(ElementLanes, do_not_depend_on_their_neighbours_and_may_be_partly_filled) {
   for_all_elements([](const auto& s) {
     SCOPED_TRACE(s.name);
@@ -164,6 +196,10 @@ TEST(ElementLanes, are_shared_by_elements_that_differ_in_numbers_only) {
   EXPECT_FALSE(may_share_lanes(plain, beam_sample<2>(Ends::grounded).element));
   EXPECT_FALSE(may_share_lanes(plain, beam_sample<2>(Ends::plain, false).element));
   EXPECT_FALSE(may_share_lanes(point_load_sample(true).element, point_load_sample(false).element));
+  auto carried = beam_sample<2>(Ends::grounded).element;
+  for (auto& port : carried.ports)
+    if (port.node == ground) port.carrier = 2;
+  EXPECT_FALSE(may_share_lanes(carried, beam_sample<2>(Ends::grounded).element)) << "one stands in another frame";
   const std::vector<Sample<Joint>> joints = joint_samples();
   EXPECT_TRUE(may_share_lanes(joints[0].element, varied(joints[0], 5).element));
   for (std::size_t k = 1; k < joints.size(); ++k)

@@ -25,7 +25,8 @@ struct PortOf {
   int node = ground;
   bool has_offset = false;  ///< false: the offset is the identity and is not applied
   Frame<C> offset = Frame<C>::identity();
-  int carrier = -1;  ///< node == ground: index of a frame in Field::carriers, the same in all lanes; -1: the ground itself
+  int carrier =
+      -1;  ///< node == ground: index of a frame in Field::carriers, the same in all lanes; -1: the ground itself
 };
 using Port = PortOf<double>;
 
