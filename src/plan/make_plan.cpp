@@ -328,6 +328,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.add_couplings();
   b.hold_point_masses();
   b.add_initial_velocities();
+  b.stop_spins();
   b.number_elements();
   b.make_graph();
   b.add_sensors();

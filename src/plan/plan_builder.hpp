@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bough/plan/frames.hpp"
@@ -41,6 +42,7 @@ struct Builder {
   std::map<std::string, int> carrier_of;                     ///< frames that move in the ground, in Plan::frames
   std::map<std::string, motion::Frame<double>> frame_start;  ///< pose of every frame in the ground
   FrameMotions start_motions;
+  std::vector<std::pair<int, motion::Vec3<double>>> spinless;  ///< nodes and the line they do not spin about, own axes
 
   template <class E>
   std::vector<std::string>& owners() {
@@ -71,6 +73,7 @@ struct Builder {
   void hold_point_masses();
   void keep_from_spinning(std::size_t body, const std::vector<motion::Vec3<double>>& met);
   void add_initial_velocities();
+  void stop_spins();
   void number_elements();
   double size_of_structure() const;
   void make_graph();

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -8,7 +10,8 @@ using motion::Vec3;
 
 /// A point mass has no rotational inertia: its rotation is held where nothing that meets it feels it. Where it is met in points of one line
 /// through it only, nothing feels the spin about this line: it gets inertia there, m d^2 with the largest distance d, which changes no motion
-/// (no moment acts about the line, so a spin that starts at zero stays zero) and leaves no unknown undetermined.
+/// (no moment acts about the line, so a spin that starts at zero in the inertial frame stays zero: see stop_spins) and leaves no unknown
+/// undetermined. Not in statics, where inertia holds nothing and would be felt in a frame that turns.
 void Builder::hold_point_masses() {
   std::vector<bool> feels(plan.nodes.size(), false);              // more than forces at points
   std::vector<std::vector<Vec3<double>>> met(plan.nodes.size());  // at points apart from the node
@@ -72,6 +75,8 @@ void Builder::keep_from_spinning(std::size_t body, const std::vector<Vec3<double
     const Vec3<double> beside = lanes::cross(line, x);
     if (lanes::dot(beside, beside) > 1e-24 * lanes::dot(line, line) * lanes::dot(x, x)) return;  // held by its points
   }
+  if (!plan.is_dynamic) return;
+  spinless.emplace_back(plan.body_nodes[body], (1.0 / std::sqrt(lanes::dot(line, line))) * line);
   for (elements::RigidBody& e : array_of<elements::RigidBody>(plan.elements)) {
     if (e.ports[0].node != plan.body_nodes[body]) continue;
     for (int i = 0; i < 3; ++i)
@@ -79,7 +84,20 @@ void Builder::keep_from_spinning(std::size_t body, const std::vector<Vec3<double
   }
   plan.notes.push_back(
       "point mass '" + scene.bodies[body].name +
-      "' is held at one line through it: nothing feels its spin about that line, which is kept as it starts");
+      "' is held at one line through it: nothing feels its spin about that line, which is none from start to end");
+}
+
+/// A point that spins is the same as one that does not, but the inertia which its node was given would turn with it: the spin in the inertial
+/// frame, of initial velocities and of the frame the analysis is described in, is taken away.
+void Builder::stop_spins() {
+  for (const auto& [node, line] : spinless) {
+    NodePlan& n = plan.nodes[static_cast<std::size_t>(node)];
+    Vec3<double> turning = lanes::angular_part(n.twist);
+    if (plan.observer >= 0)
+      turning += lanes::transpose_times(n.pose.R, lanes::angular_part(start_motions.observer.twist));
+    const double spin = lanes::dot(line, turning);
+    for (int i = 0; i < 3; ++i) n.twist[3 + i] -= spin * line[i];
+  }
 }
 
 }  // namespace bough::plan

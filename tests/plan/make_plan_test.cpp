@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "../step/small_scenes.hpp"
+#include "bough/laws/make_law.hpp"
 #include "bough/plan/plan.hpp"
 
 namespace bough::plan {
@@ -94,8 +95,8 @@ TEST(MakePlan, holds_the_rotation_of_a_point_mass_only_where_nothing_feels_it) {
   EXPECT_EQ(p.joints[1].name, "free");
 }
 
-/// The plan of a point mass met by ball joints at these points of its own.
-Plan plan_of_held_mass(const std::vector<motion::Vec3<double>>& points) {
+/// A point mass met by ball joints at these points of its own.
+scene::Scene scene_of_held_mass(const std::vector<motion::Vec3<double>>& points) {
   scene::Scene s;
   scene::Body b;
   b.name = "bob";
@@ -110,7 +111,10 @@ Plan plan_of_held_mass(const std::vector<motion::Vec3<double>>& points) {
     j.second.to = "bob";
     s.joints.push_back(j);
   }
-  return make_plan(s);
+  return s;
+}
+Plan plan_of_held_mass(const std::vector<motion::Vec3<double>>& points) {
+  return make_plan(scene_of_held_mass(points));
 }
 
 TEST(MakePlan, keeps_a_point_mass_from_spinning_about_the_one_line_it_is_held_at) {
@@ -129,6 +133,27 @@ TEST(MakePlan, keeps_a_point_mass_from_spinning_about_the_one_line_it_is_held_at
   const Plan held = plan_of_held_mass({{{0.0, 0.6, -0.8}}, {{1.0, 0.0, 0.0}}});
   EXPECT_TRUE(held.notes.empty());
   EXPECT_EQ(array_of<elements::RigidBody>(held.elements)[0].mass(4, 4), 0.0);
+}
+
+TEST(MakePlan, starts_a_point_mass_without_a_spin_about_the_line_it_is_held_at) {
+  scene::Scene s = scene_of_held_mass({{{0.0, 0.6, -0.8}}});
+  s.initial_velocities.push_back({});
+  s.initial_velocities[0].of = "bob";
+  s.initial_velocities[0].velocity = {{1.0, 2.0, 3.0}};
+  s.initial_velocities[0].angular_velocity = {{0.5, 0.0, 1.0}};
+  const motion::Vec6<double> twist = make_plan(s).nodes[0].twist;
+  const double expected[] = {1.0, 2.0, 3.0, 0.5, 0.48, 0.36};  // less -0.8 about the line (0, 0.6, -0.8)
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(twist[i], expected[i], 1e-15);
+  s.initial_velocities.clear();
+  scene::FrameDef table;  // the same turning as that of the ground
+  table.name = "table";
+  table.motion.emplace();
+  table.motion->turns.push_back({{{0.0, 0.0, 1.0}}, laws::make_expression("2*t")});
+  s.frames.push_back(table);
+  s.analysis.frame = "table";
+  const motion::Vec6<double> inside = make_plan(s).nodes[0].twist;
+  const double left[] = {0.0, 0.0, 0.0, 0.0, 0.96, -1.28};
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(inside[i], left[i], 1e-15);
 }
 
 TEST(MakePlan, integrates_a_driven_rate_from_the_initial_angle) {

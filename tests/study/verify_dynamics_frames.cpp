@@ -23,12 +23,15 @@ struct Agreement {
   double coarse = 0.0, fine = 0.0, extrapolated = 0.0;
 };
 
-Agreement agreement(const std::string& stem, const std::string& column, const std::string& ground, double end,
-                    double h) {
+/// make_scene(overrides): the scene, whose analysis is described in the frame that the overrides name.
+template <class MakeScene>
+Agreement agreement_of(const MakeScene& make_scene, const std::string& stem, const std::string& column,
+                       const std::string& ground, double end, double h) {
   const auto at = [&](const std::string& frame, double step, int stride) {
-    return run_of(gallery(stem, {"/analysis/frame=" + frame, "/analysis/end_time=" + support::text(end),
-                                 "/analysis/step_size=" + support::text(step), "/analysis/tolerance=1e-12",
-                                 "/output/stride=" + std::to_string(stride)}))
+    return run_of(make_scene(std::vector<std::string>{
+                      "/analysis/frame=" + frame, "/analysis/end_time=" + support::text(end),
+                      "/analysis/step_size=" + support::text(step), "/analysis/tolerance=1e-12",
+                      "/output/stride=" + std::to_string(stride)}))
         .history.of(column);
   };
   const std::vector<double> a1 = at("ground", h, 4), b1 = at(ground, h, 4);
@@ -50,6 +53,12 @@ Agreement agreement(const std::string& stem, const std::string& column, const st
   return r;
 }
 
+Agreement agreement(const std::string& stem, const std::string& column, const std::string& ground, double end,
+                    double h) {
+  return agreement_of([&](const std::vector<std::string>& overrides) { return gallery(stem, overrides); }, stem, column,
+                      ground, end, h);
+}
+
 /// Second order: halving the step takes the difference to a quarter, and extrapolation takes away what is of second order.
 void expect_same_motion(const Agreement& a, double size) {
   EXPECT_GT(a.coarse, 0.0) << "two descriptions, two discretizations";
@@ -67,6 +76,27 @@ TEST(MovingFrame, carries_a_gyroscope_as_it_is_described_in_it) {
 TEST(MovingFrame, carries_a_rotor_with_a_flexible_shaft_as_it_is_described_in_it) {
   for (const char* column : {"disc.y", "on the road.x", "disc.z", "speed.vz", "motor.fy"})
     expect_same_motion(agreement("rotor_on_vehicle", column, "vehicle", 0.1, 4e-4), 1e-2);
+}
+
+/// Its only ball joint leaves a point mass free to spin, which the frame's rotation must not make felt.
+TEST(MovingFrame, carries_a_point_mass_on_a_ball_joint_as_it_is_described_in_it) {
+  const auto scene = [](const std::vector<std::string>& overrides) {
+    return support::scene_of(R"({
+      "gravity": [0, 0, -9.81],
+      "frames": [{"name": "table", "position": [0.2, 0, 0], "turns": [{"axis": [0, 0.6, 0.8], "angle": {"expression": "2*t + 0.3*t^2"}}]}],
+      "bodies": [{"name": "bob", "mass": 0.4, "kind": "point_mass", "position": [0.5, 0.1, -0.8], "frame": "table"}],
+      "joints": [{"name": "ball", "kind": "spherical", "first": "table", "second": "bob", "position": [0.2, 0, 0], "frame": "table"}],
+      "initial_velocities": [{"of": "bob", "frame": "table", "velocity": [0, 0.3, 0.0375]}],
+      "sensors": [{"name": "bob", "kind": "position", "at": "bob", "frame": "table"}],
+      "analysis": {"kind": "dynamic", "frame": "table", "end_time": 1, "step_size": 2e-3, "tolerance": 1e-12}})",
+                             overrides);
+  };
+  for (const char* column : {"bob.x", "bob.y", "bob.z"})
+    expect_same_motion(agreement_of(scene, "bob on a table", column, "table", 0.8, 2e-3), 1e-2);
+  const Outcome plain = run_of(scene({}));  // with and without a spin about the line from the ball joint to the bob
+  const Outcome spun = run_of(scene({"/initial_velocities/0/angular_velocity=[2.7, 0.9, -7.2]"}));
+  for (const char* column : {"bob.x", "bob.y", "bob.z"})
+    EXPECT_LT(support::largest_difference(spun.history, column, plain.history, column), 1e-10) << column;
 }
 
 /// The same scene with and without a frame around it that does not move.
