@@ -48,4 +48,10 @@ void LaneBatches::make(const plan::Plan& plan, std::span<const solve::ElementBat
   }
 }
 
+void LaneBatches::set_frames(const plan::FrameMotions& frames) {
+  carriers_.resize(frames.in_ground.size());
+  for (std::size_t i = 0; i < carriers_.size(); ++i) elements::set_all_lanes(carriers_[i], frames.in_ground[i]);
+  elements::set_all_lanes(observer_, frames.observer);
+}
+
 }  // namespace bough::step

@@ -8,6 +8,7 @@
 
 #include "bough/elements/evaluate_lanes.hpp"
 #include "bough/plan/elements_of.hpp"
+#include "bough/plan/frames.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/solve/element_view.hpp"
 #include "bough/step/state.hpp"
@@ -36,6 +37,9 @@ class LaneBatches {
   void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
             const std::vector<int>& joint_of_element);
 
+  /// Frames of prescribed motion as they are now, the same for all lanes; needed only where there are some.
+  void set_frames(const plan::FrameMotions& frames);
+
   bool holds(std::size_t batch) const { return !slots_.empty() && slots_[batch].index >= 0; }
 
   /// Residuals, magnitudes and (where wanted) tangents of all elements of a batch. `result(id)` tells where they go. No allocation.
@@ -60,6 +64,8 @@ class LaneBatches {
   std::span<const int> joint_of_element_;
   std::vector<Slot> slots_;
   detail::LaneArraysOf<plan::ElementArrays>::Type lanes_;
+  std::vector<elements::CarrierLanes> carriers_;
+  elements::CarrierLanes observer_;
 };
 
 template <class Result>
@@ -112,6 +118,8 @@ void LaneBatches::evaluate_as(const solve::ElementBatch& batch, int index, const
   elements::FieldLanes around;
   around.nodes = nodes;
   around.slopes = field.slopes;
+  if (field.carriers != nullptr) around.carriers = carriers_.data();
+  if (field.observer != nullptr) around.observer = &observer_;
   for (int i = 0; i < 3; ++i) around.around.gravity[i] = Pack(field.around.gravity[i]);
   around.around.laws = laws;
   around.around.has_inertia = field.around.has_inertia;

@@ -145,6 +145,19 @@ TEST(MovingFrame, at_rest_in_the_inertial_frame_gives_the_same_bits) {
   EXPECT_EQ(plain.history.rows, run_of(scene).history.rows);
 }
 
+/// Equal sub-domains run in lockstep, their elements with them; a monolithic solution takes elements one by one.
+TEST(MovingFrame, is_the_same_for_elements_in_lockstep) {
+  const std::vector<std::string> many = {"/beams/0/elements=64", "/solver/leaf_size=2"};
+  std::vector<std::string> alone = many;
+  alone.push_back("/solver/kind=monolithic");
+  const Outcome lockstep = run_of(gallery("rotating_cantilever", many)),
+                plain = run_of(gallery("rotating_cantilever", alone));
+  for (const std::string& c : plain.history.columns)
+    EXPECT_LT(support::largest_difference(lockstep.history, c, plain.history, c),
+              1e-9 * std::max(1.0, plain.history.largest(c)))
+        << c;
+}
+
 TEST(MovingFrame, holds_a_turning_beam_in_its_steady_state) {
   const Outcome r = run_of(gallery("rotating_cantilever"));
   for (const results::ExpectedResult& e : r.summary.expected) {
