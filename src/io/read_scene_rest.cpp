@@ -122,7 +122,11 @@ void Converter::settings() {
     r.load_steps = static_cast<int>(number_or(*a, "load_steps", 1.0));
     r.end_time = number_or(*a, "end_time", 0.0);
     r.step_size = number_or(*a, "step_size", 1e-3);
+    if (const Value* integrator = a->find("integrator"))
+      r.integrator =
+          integrator->text == "variational" ? scene::Integrator::variational : scene::Integrator::generalized_alpha;
     r.spectral_radius = number_or(*a, "spectral_radius", 0.8);
+    r.newmark_beta = number_or(*a, "newmark_beta", 0.3);
     r.newton = a->find("newton")->text == "single" ? scene::Newton::single : scene::Newton::full;
     r.tolerance = a->find("tolerance")->number;
     r.max_iterations = static_cast<int>(a->find("max_iterations")->number);

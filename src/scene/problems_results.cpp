@@ -169,7 +169,12 @@ void check_analysis(ProblemList& list) {
   if (a.step_size > 0.0 && a.end_time / a.step_size > 1e8)
     list.warn("analysis", 0, "step_size", text_of(a.step_size),
               "this makes " + text_of(a.end_time / a.step_size) + " steps");
-  if (a.spectral_radius == 1.0 && (!s.joints.empty() || !s.motions.empty()))
+  const bool is_variational = a.integrator == Integrator::variational;
+  if (is_variational && a.newton == Newton::single)
+    list.add("analysis", 0, "newton", "single",
+             "the variational integrator keeps momentum and energy of solved steps only",
+             "leave out newton, or take the generalized_alpha integrator");
+  if (!is_variational && a.spectral_radius == 1.0 && (!s.joints.empty() || !s.motions.empty()))
     list.add("analysis", 0, "spectral_radius", "1",
              "with joints or prescribed motions the spectral radius has to be below 1",
              "the constraint forces would oscillate undamped; 0.9 is nearly free of damping");

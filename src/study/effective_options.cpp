@@ -30,14 +30,20 @@ results::EffectiveOptions effective_options(const scene::Scene& scene, const ste
   list.emplace_back("analysis/kind", quoted(dynamic ? "dynamic" : "static"));
   if (!scene.analysis.frame.empty()) list.emplace_back("analysis/frame", quoted(scene.analysis.frame));
   if (dynamic) {
-    const step::AlphaCoefficients c = step::make_alpha_coefficients(o.spectral_radius);
     list.emplace_back("analysis/end_time", number(scene.analysis.end_time));
     list.emplace_back("analysis/step_size", number(scene.analysis.step_size));
-    list.emplace_back("analysis/spectral_radius", number(o.spectral_radius));
-    list.emplace_back("analysis/alpha_m", number(c.alpha_m));
-    list.emplace_back("analysis/alpha_f", number(c.alpha_f));
-    list.emplace_back("analysis/beta", number(c.beta));
-    list.emplace_back("analysis/gamma", number(c.gamma));
+    if (o.integrator == scene::Integrator::variational) {
+      list.emplace_back("analysis/integrator", quoted("variational"));
+      list.emplace_back("analysis/newmark_beta", number(o.newmark_beta));
+    } else {
+      const step::AlphaCoefficients c = step::make_alpha_coefficients(o.spectral_radius);
+      list.emplace_back("analysis/integrator", quoted("generalized_alpha"));
+      list.emplace_back("analysis/spectral_radius", number(o.spectral_radius));
+      list.emplace_back("analysis/alpha_m", number(c.alpha_m));
+      list.emplace_back("analysis/alpha_f", number(c.alpha_f));
+      list.emplace_back("analysis/beta", number(c.beta));
+      list.emplace_back("analysis/gamma", number(c.gamma));
+    }
   } else {
     list.emplace_back("analysis/load_steps", std::to_string(scene.analysis.load_steps));
   }

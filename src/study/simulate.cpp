@@ -11,6 +11,7 @@
 #include "bough/results/observe.hpp"
 #include "bough/schedule/threads.hpp"
 #include "bough/step/advance.hpp"
+#include "bough/step/variational.hpp"
 #include "effective_options.hpp"
 
 namespace bough::study {
@@ -36,6 +37,8 @@ class Run {
         system_(plan_, scene.solver, threads_.walker()),
         state_(step::make_initial_state(plan_)),
         work_meter_(plan_) {
+    if (plan_.is_dynamic && options_.integrator == scene::Integrator::variational)
+      variational_.emplace(system_, scene.solver, options_.newmark_beta);
     summary_.scene = scene.name;
     summary_.title = scene.title;
     summary_.threads = threads_.count();
@@ -97,6 +100,18 @@ class Run {
     if (accepted) watch_dependent_rows();
     if (!accepted && first_rejection_.empty())
       first_rejection_ = "the first rejected step was that from " + std::to_string(state_.time) + ": " + report.cause;
+  }
+
+  /// The variational integrator damps nothing: tells when vibrations faster than the step first make up a good part of the accelerations.
+  void watch_vibrations() {
+    constexpr double noticeable = 0.5;
+    if (!variational_ || vibrates_ || !(variational_->unresolved() > noticeable)) return;
+    vibrates_ = true;
+    note("from time " + std::to_string(state_.time) +
+         " on, vibrations faster than the step make up much of the accelerations; the variational integrator does not "
+         "damp "
+         "them, and forces and reactions show them: take smaller steps, a larger newmark_beta or the generalized_alpha "
+         "integrator");
   }
 
   /// Records the state (as its time's left limit, or right limit at a start).
@@ -187,6 +202,7 @@ class Run {
   schedule::Threads threads_;
   plan::Plan plan_;
   step::System system_;
+  std::optional<step::Variational> variational_;  ///< when chosen
   step::State state_;
   results::WorkMeter work_meter_;
   Summary summary_;
@@ -196,6 +212,7 @@ class Run {
   std::vector<double> expected_values_, expected_distance_;
   std::string first_rejection_, not_unique_;
   int dependent_rows_ = 0;
+  bool vibrates_ = false;
   long rows_ = 0;
   double last_step_ = 0.0;
 };
@@ -263,6 +280,10 @@ bool Run::start_segment(double step_size, bool is_first) {
       balance_.jump(before, now);
   }
   if (is_first) record(0, false);
+  if (variational_) {
+    const auto t = variational_->start(state_);
+    return t ? fail(t->text) : true;
+  }
   const step::StartReport started = step::start_alpha(system_, state_, options_, step_size);
   if (!started.ok) return fail(started.cause);
   return true;
@@ -278,12 +299,16 @@ bool Run::run_segment(double begin, double end, double& total_end) {
   if (!start_segment(h, begin == 0.0)) return false;
   while (done < (steps << level)) {
     const double size = h / static_cast<double>(1L << level);
-    const step::StartReport changed = step::change_step_size(system_, state_, options_, size);
-    if (!changed.ok) return fail(changed.cause);
+    if (variational_) {
+      state_.step_size = size;
+    } else if (const auto changed = step::change_step_size(system_, state_, options_, size); !changed.ok) {
+      return fail(changed.cause);
+    }
     const long next = done + 1;
     const double target = next == (steps << level) ? end : begin + static_cast<double>(next) * size;
     if (!may_try(target)) return false;
-    const step::StepReport report = step::advance(system_, state_, options_, target);
+    const step::StepReport report = variational_ ? variational_->advance(state_, options_, target)
+                                                 : step::advance(system_, state_, options_, target);
     count(report, report.converged);
     if (!report.converged) {
       easy = 0;
@@ -295,6 +320,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     }
     done = next;
     last_step_ = size;
+    watch_vibrations();
     if (options_.single_solution && summary_.steps.accepted == 1)
       note("one linear solution per step: residuals are not driven to the tolerance");
     step::accept_turns(system_, state_);

@@ -111,6 +111,8 @@ const Bad scene_cases[] = {
     {"\"joint\": \"hinge\"", "\"joint\": @\"rail\"", "/sensors/2/joint", "no angle"},
     {"\"joint\": \"hinge\"", "\"joint\": @\"hing\"", "/sensors/2/joint", "did you mean \"hinge\"?"},
     {"\"spectral_radius\": 0.9", "\"spectral_radius\": @1", "/analysis/spectral_radius", "below 1"},
+    {"\"spectral_radius\": 0.9", "\"integrator\": \"variational\", \"newton\": @\"single\"", "/analysis/newton",
+     "solved steps"},
     {"\"step_size\": 1e-3", "\"step_size\": @2", "/analysis/step_size", "longer than the whole"},
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tp.x\"", "/expected/0/quantity", "did you mean \"tip\"?"},
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tip\"", "/expected/0/quantity", "components x, y, z"},

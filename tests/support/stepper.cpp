@@ -28,23 +28,36 @@ Stepper::Stepper(const scene::Scene& scene)
     : plan_(plan::make_plan(scene)),
       system_(plan_, scene.solver, schedule::make_serial_walker()),
       state_(step::make_initial_state(plan_)),
-      options_(step::make_step_options(scene.analysis)) {}
+      options_(step::make_step_options(scene.analysis)) {
+  if (options_.integrator == scene::Integrator::variational)
+    variational_.emplace(system_, scene.solver, options_.newmark_beta);
+}
 
 step::StartReport Stepper::start(double step_size) {
   const step::StartReport consistent = step::make_consistent(system_, state_, state_.time == 0.0, step_size);
   if (!consistent.ok) throw std::runtime_error(consistent.cause);
+  if (variational_) {
+    state_.step_size = step_size;
+    if (const auto t = variational_->start(state_)) throw std::runtime_error(t->text);
+    return consistent;
+  }
   const step::StartReport started = step::start_alpha(system_, state_, options_, step_size);
   if (!started.ok) throw std::runtime_error(started.cause);
   return consistent;
 }
 
 void Stepper::change(double step_size) {
+  if (variational_) {
+    state_.step_size = step_size;
+    return;
+  }
   const step::StartReport changed = step::change_step_size(system_, state_, options_, step_size);
   if (!changed.ok) throw std::runtime_error(changed.cause);
 }
 
 void Stepper::step(double end_time) {
-  const step::StepReport report = step::advance(system_, state_, options_, end_time);
+  const step::StepReport report = variational_ ? variational_->advance(state_, options_, end_time)
+                                               : step::advance(system_, state_, options_, end_time);
   if (!report.converged) throw std::runtime_error(report.cause);
   step::accept_turns(system_, state_);
 }

@@ -1,10 +1,11 @@
 #pragma once
 /// A scene under the test's own step sizes: the verbs of step without the run around them.
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bough/plan/plan.hpp"
-#include "bough/step/advance.hpp"
+#include "bough/step/variational.hpp"
 
 namespace bough::support {
 
@@ -16,7 +17,7 @@ struct Sample {
 
 class Stepper {
  public:
-  explicit Stepper(const scene::Scene& scene);  ///< spectral radius, tolerance: the scene's
+  explicit Stepper(const scene::Scene& scene);  ///< integrator, spectral radius, tolerance: the scene's
   step::StepOptions& options() { return options_; }
   step::System& system() { return system_; }
   step::State& state() { return state_; }
@@ -32,6 +33,7 @@ class Stepper {
   step::System system_;
   step::State state_;
   step::StepOptions options_;
+  std::optional<step::Variational> variational_;  ///< when the scene chooses it
 };
 
 /// Largest |a - b| relative to the largest |b|, of each part.

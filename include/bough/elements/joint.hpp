@@ -118,6 +118,21 @@ S eval_effort(const EffortOf<C>& e, const S& coordinate, const S& rate, const S*
   return f;
 }
 
+/// Efforts along all free coordinates, as a wrench on the second port that resists the motion.
+template <class S, class C>
+Vec6<S> eval_efforts(const JointOf<C>& joint, const Frame<S>& H, const PortMotion<S>* p, const Surroundings<S>& around,
+                     const C& turns) {
+  Vec6<S> f = Vec6<S>::zero(), gradient;
+  for (int k = 0; k < joint.num_efforts; ++k) {
+    const S value = eval_coordinate(joint.efforts[k].coordinate, H, turns, gradient);
+    S rate(0.0);
+    if (around.has_inertia && is_present(joint.efforts[k].damping))
+      rate = lanes::dot(gradient, p[1].v - motion::inverse_adjoint_times(H, p[0].v));
+    f += eval_effort(joint.efforts[k], value, rate, around.laws) * gradient;
+  }
+  return f;
+}
+
 template <class S, class C>
 void eval_residual(const JointOf<C>& joint, const PortMotion<S>* p, const S* multipliers, const Surroundings<S>& around,
                    S* out, const C& turns) {

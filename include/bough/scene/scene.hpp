@@ -216,6 +216,7 @@ struct Sensor {
 
 enum class AnalysisKind : std::uint8_t { statics, dynamics };
 enum class Newton : std::uint8_t { full, single };
+enum class Integrator : std::uint8_t { generalized_alpha, variational };
 
 struct Analysis {
   AnalysisKind kind = AnalysisKind::dynamics;
@@ -227,7 +228,9 @@ struct Analysis {
   // dynamics
   double end_time = 0.0;    ///< [s]
   double step_size = 1e-3;  ///< h [s]
-  double spectral_radius = 0.8;
+  Integrator integrator = Integrator::generalized_alpha;
+  double spectral_radius = 0.8;  ///< of generalized-alpha
+  double newmark_beta = 0.3;     ///< of the variational integrator, for vibrations
   // both
   Newton newton = Newton::full;
   double tolerance = 1e-8;  ///< of relative motions and of residuals relative to their contributions [-]

@@ -8,10 +8,13 @@
 namespace bough::step {
 
 struct StepOptions {
-  double spectral_radius = 0.8;  ///< rho_inf [-] at infinite frequency, 0 (most damping) to 1 (none)
-  double tolerance = 1e-8;       ///< [-] of changes of relative motions, and of residuals relative to what makes them
-  int max_iterations = 20;       ///< Newton limit, >= 1
-  int max_cuts = 10;             ///< halvings of a step before the run fails
+  scene::Integrator integrator = scene::Integrator::generalized_alpha;
+  double spectral_radius =
+      0.8;                    ///< of generalized-alpha: rho_inf [-] at infinite frequency, 0 (most damping) to 1 (none)
+  double newmark_beta = 0.3;  ///< of the variational integrator, for vibrations [-], 1/4 to 1
+  double tolerance = 1e-8;    ///< [-] of changes of relative motions, and of residuals relative to what makes them
+  int max_iterations = 20;    ///< Newton limit, >= 1
+  int max_cuts = 10;          ///< halvings of a step before the run fails
   bool single_solution = false;  ///< one linear solution per step, no convergence asked for (linearly implicit)
 };
 

@@ -14,6 +14,8 @@ struct State {
   std::vector<elements::NodeMotion> nodes;           ///< R, x, v, dv/dt, and dq since the last accepted step
   std::vector<motion::Quaternion<double>> rotation;  ///< of nodes; R is made from it
   std::vector<motion::Vec6<double>> algorithmic;     ///< a_n, the acceleration-like variable of generalized-alpha
+  double last_step = 0.0;                      ///< h that dq spans, of the variational integrator [s]; 0 at a start
+  std::vector<motion::Vec6<double>> momentum;  ///< p_n of the variational integrator, own axes; else empty
   std::vector<double> multipliers;
   std::vector<double> turns;  ///< angle of each joint at the last accepted step [rad]
 };

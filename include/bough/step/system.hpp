@@ -106,6 +106,8 @@ class System {
   /// Arm that turns the scale of forces into one of moments [m]: the longest element, or the whole where none has a length.
   double moment_arm() const { return moment_arm_; }
   int joint_of_block(int block) const;
+  /// Index in plan().joints, or -1.
+  int joint_of_element(int element) const { return joint_of_element_[static_cast<std::size_t>(element)]; }
   /// "node 'a'" or "joint 'b'": the owner of a block, for messages.
   std::string block_name(int block) const;
   std::int64_t block_begin(int block) const { return tree_->unknown_begin[static_cast<std::size_t>(block)]; }

@@ -1,0 +1,213 @@
+// The variational integrator: order in positions, velocities and multipliers against another integrator, momentum to round-off, energy
+// within a bound, the gallery's figures.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "bough/results/observe.hpp"
+#include "support/scenes.hpp"
+#include "support/stepper.hpp"
+
+namespace bough::study {
+namespace {
+
+using support::Difference;
+using support::Sample;
+using support::Stepper;
+
+/// Ball joint, then a hinge askew, a spring with a damper.
+constexpr const char* spatial_pendulum = R"json({
+  "gravity": [0.3, -1.0, -9.81],
+  "bodies": [
+    {"name": "a", "mass": 2, "inertia": [0.3, 0.5, 0.4], "center_of_mass": [0.5, 0.1, 0]},
+    {"name": "b", "mass": 1, "inertia": [0.05, 0.1, 0.12], "position": [1, 0.2, 0.1], "center_of_mass": [0.3, 0, -0.2]}],
+  "joints": [
+    {"name": "ball", "kind": "spherical", "first": "ground", "second": "a", "position": [0, 0, 0]},
+    {"name": "hinge", "kind": "revolute", "first": "a", "second": "b", "position": [1, 0.2, 0.1], "axis": [1, 2, -1]}],
+  "springs": [{"name": "spring", "first": {"to": "ground", "position": [0, 0, 2]}, "second": {"to": "b", "position": [0.5, 0, 0]},
+               "stiffness": 20, "rest_length": 1.5, "damping": 0.5}],
+  "initial_velocities": [{"of": "a", "angular_velocity": [1, 2, 3]}, {"of": "b", "angular_velocity": [4, 1, 2]}],
+  "analysis": {"kind": "dynamic", "end_time": 1, "tolerance": 1e-12}})json";
+
+/// A hinge driven in time carries a body on a universal joint.
+constexpr const char* driven_pendulum = R"json({
+  "gravity": [0.3, -1.0, -9.81],
+  "bodies": [
+    {"name": "a", "mass": 2, "inertia": [0.3, 0.5, 0.4], "center_of_mass": [0.5, 0.1, 0]},
+    {"name": "b", "mass": 1, "inertia": [0.05, 0.1, 0.12], "position": [1, 0.2, 0.1], "center_of_mass": [0.3, 0, -0.2]}],
+  "joints": [
+    {"name": "motor", "kind": "revolute", "first": "ground", "second": "a", "position": [0, 0, 0], "axis": [1, 0.3, 2],
+     "drives": [{"law": {"expression": "0.4*sin(3*t) + 0.6*t^2 + 0.5*t^3"}}]},
+    {"name": "cross", "kind": "universal", "first": "a", "second": "b", "position": [1, 0.2, 0.1], "axis": [0, 1, 0], "second_axis": [0, 0, 1]}],
+  "initial_velocities": [{"of": "b", "angular_velocity": [1, 2, 2]}],
+  "analysis": {"kind": "dynamic", "end_time": 1, "tolerance": 1e-12}})json";
+
+/// A soft, damped beam on a driven hinge with a body at its tip, a follower force on it.
+constexpr const char* driven_beam = R"json({
+  "gravity": [0, 0, -9.81],
+  "sections": [{"name": "soft", "stiffness": {"EA": 400, "GA2": 200, "GA3": 200, "GJ": 5, "EI2": 10, "EI3": 8},
+                "mass": {"mass_per_length": 1, "rotary": [0.02, 0.01, 0.01]}, "damping": {"time": 0.002}}],
+  "nodes": [{"name": "root"}],
+  "bodies": [{"name": "tip", "mass": 0.5, "inertia": [0.02, 0.03, 0.04], "position": [1, 0, 0], "center_of_mass": [0.1, 0.1, 0.2]}],
+  "beams": [{"name": "beam", "section": "soft", "start": "root", "end": "tip", "elements": 2, "order": 2}],
+  "joints": [{"name": "motor", "kind": "revolute", "first": "ground", "second": "root", "position": [0, 0, 0], "axis": [0, 1, 3],
+              "drives": [{"law": {"expression": "2*t^2"}}]}],
+  "loads": [{"at": "tip", "axes": "body", "force": [0, 3, 0], "law": {"expression": "sin(20*t)"}}],
+  "analysis": {"kind": "dynamic", "end_time": 1, "tolerance": 1e-12}})json";
+
+std::vector<Sample> march(const char* text, const char* integrator, double h, double sampling, int samples) {
+  Stepper s(support::scene_of(text, {std::string("/analysis/integrator=") + integrator}));
+  s.start(h);
+  std::vector<Sample> run{s.sample()};
+  const auto every = static_cast<int>(std::lround(sampling / h));
+  for (int k = 1; k <= samples * every; ++k) {
+    s.step(k * h);
+    if (k % every == 0) run.push_back(s.sample());
+  }
+  return run;
+}
+
+Difference compare(const std::vector<Sample>& run, const std::vector<Sample>& reference) {
+  Difference d;
+  const Sample scale = support::scale_of(reference);
+  for (std::size_t k = 1; k < run.size(); ++k) d.include(run[k], reference[k], scale);
+  return d;
+}
+
+/// Largest errors over 20 h of steps of h and h / 2, against generalized-alpha in much finer ones.
+void check_orders(const char* name, const char* text, double h, double fineness) {
+  const std::vector<Sample> reference = march(text, "generalized_alpha", h / fineness, h, 20);
+  const Difference coarse = compare(march(text, "variational", h, h, 20), reference),
+                   fine = compare(march(text, "variational", h / 2.0, h, 20), reference);
+  const double p = support::order_of(coarse.positions, fine.positions),
+               v = support::order_of(coarse.velocities, fine.velocities),
+               m = support::order_of(coarse.multipliers, fine.multipliers);
+  std::printf("| %s | %.2f (%.1e) | %.2f (%.1e) | %.2f (%.1e) |\n", name, p, fine.positions, v, fine.velocities, m,
+              fine.multipliers);
+  for (const double order : {p, v, m}) {
+    EXPECT_GT(order, 1.8) << name;
+    EXPECT_LT(order, 2.5) << name;
+  }
+}
+
+TEST(Variational, is_of_second_order_with_ball_hinge_and_damper) {
+  check_orders("ball and hinge", spatial_pendulum, 0.008, 32.0);
+}
+TEST(Variational, is_of_second_order_with_a_driven_joint) {
+  check_orders("driven hinge", driven_pendulum, 0.008, 32.0);
+}
+TEST(Variational, is_of_second_order_with_a_driven_beam_and_a_follower_force) {
+  check_orders("driven beam", driven_beam, 0.0008, 16.0);
+}
+
+struct Drift {
+  double momentum = 0.0;           ///< largest change of linear and angular momentum over their size
+  double early = 0.0, late = 0.0;  ///< largest change of energy over the energy, in both halves of the run
+};
+
+Drift drift_of(const char* text, double h, int steps) {
+  Stepper s(support::scene_of(text, {"/analysis/integrator=variational"}));
+  s.start(h);
+  const auto measure = [&s] { return results::eval_measures(s.system(), s.state()); };
+  const auto energy_of = [](const elements::Measures& m) { return m.kinetic + m.strain + m.potential; };
+  const elements::Measures start = measure();
+  Drift d;
+  double linear = 0.0, angular = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    linear = std::max(linear, std::abs(start.momentum[i]));
+    angular = std::max(angular, std::abs(start.momentum[3 + i]));
+  }
+  for (int k = 1; k <= steps; ++k) {
+    s.step(k * h);
+    if (k % 10 != 0) continue;
+    const elements::Measures now = measure();
+    for (int i = 0; i < 6; ++i)
+      d.momentum = std::max(d.momentum, std::abs(now.momentum[i] - start.momentum[i]) / (i < 3 ? linear : angular));
+    double& part = k <= steps / 2 ? d.early : d.late;
+    part = std::max(part, std::abs(energy_of(now) - energy_of(start)) / start.kinetic);
+  }
+  std::printf("| %d steps of %g | momentum %.1e | energy %.2e, then %.2e |\n", steps, h, d.momentum, d.early, d.late);
+  return d;
+}
+
+/// Velocities such that the centre moves slowly: positions stay of order one, and so does the round-off of angular momentum.
+constexpr const char* tumbling_body = R"json({
+  "bodies": [{"name": "body", "mass": 2, "center_of_mass": [0.3, -0.2, 0.1], "inertia": [1, 2, 3]}],
+  "initial_velocities": [{"of": "body", "axes": "body", "velocity": [-0.7, -0.45, 1.1], "angular_velocity": [1, 3, 2]}],
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.01}})json";
+
+/// A free soft beam thrown and spun about no principal axis, with a lump at one end.
+constexpr const char* thrown_beam = R"json({
+  "sections": [{"name": "soft", "stiffness": {"EA": 1e4, "GA2": 1e4, "GA3": 1e4, "GJ": 50, "EI2": 50, "EI3": 50},
+                "mass": {"mass_per_length": 1, "rotary": [0.2, 0.1, 0.1]}}],
+  "nodes": [{"name": "end", "position": [2, 0, 0]}],
+  "bodies": [{"name": "lump", "mass": 0.5, "inertia": [0.02, 0.03, 0.04], "center_of_mass": [0, 0.1, 0.2]}],
+  "beams": [{"name": "beam", "section": "soft", "start": "lump", "end": "end", "elements": 2, "order": 2}],
+  "initial_velocities": [{"of": "lump", "velocity": [0, -1, 2], "angular_velocity": [2, 3, 1]}],
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.005}})json";
+
+constexpr const char* heavy_top = R"json({
+  "gravity": [0, 0, -9.81],
+  "bodies": [{"name": "top", "mass": 15, "center_of_mass": [0, 1, 0], "inertia": [0.234375, 0.46875, 0.234375]}],
+  "joints": [{"name": "pivot", "kind": "spherical", "first": "ground", "second": "top", "position": [0, 0, 0]}],
+  "initial_velocities": [{"of": "top", "angular_velocity": [0, 15, -0.46]}],
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.002}})json";
+
+constexpr const char* double_pendulum = R"json({
+  "gravity": [0, -9.81, 0],
+  "bodies": [{"name": "a", "mass": 1, "inertia": [0.1, 0.1, 0.1], "center_of_mass": [0.5, 0, 0]},
+             {"name": "b", "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [1, 0, 0], "center_of_mass": [0.5, 0, 0]}],
+  "joints": [{"name": "p", "kind": "revolute", "first": "ground", "second": "a", "position": [0, 0, 0], "axis": [0, 0, 1]},
+             {"name": "q", "kind": "revolute", "first": "a", "second": "b", "position": [1, 0, 0], "axis": [0, 0, 1]}],
+  "initial_velocities": [{"of": "a", "angular_velocity": [0, 0, 3]}],
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.005}})json";
+
+TEST(Variational, keeps_momentum_of_a_tumbling_body_to_round_off_and_energy_within_a_bound) {
+  const Drift d = drift_of(tumbling_body, 0.01, 100000), half = drift_of(tumbling_body, 0.005, 20000);
+  EXPECT_LT(d.momentum, 1e-11);  // roundings of 1e5 steps, were they all of one sign
+  EXPECT_LT(d.late, 1.1 * d.early);
+  EXPECT_NEAR(d.early / half.early, 4.0, 0.4);
+}
+
+TEST(Variational, keeps_momentum_of_a_thrown_beam_to_round_off_and_energy_within_a_bound) {
+  const Drift d = drift_of(thrown_beam, 0.005, 20000);
+  EXPECT_LT(d.momentum, 1e-11);
+  EXPECT_LT(d.late, 1.5 * d.early);
+  EXPECT_LT(d.early, 0.02);
+}
+
+TEST(Variational, keeps_energy_of_a_heavy_top_and_a_double_pendulum_within_a_bound) {
+  const Drift top = drift_of(heavy_top, 0.002, 20000), pendulum = drift_of(double_pendulum, 0.002, 20000);
+  EXPECT_LT(top.late, 1.1 * top.early);
+  EXPECT_LT(top.early, 1e-3);
+  EXPECT_LT(pendulum.late, 1.5 * pendulum.early);
+  EXPECT_LT(pendulum.early, 0.01);
+}
+
+/// The scenes' own figures, from closed forms and other programs, hold under this integrator too.
+class Gallery : public testing::TestWithParam<const char*> {};
+TEST_P(Gallery, figures_hold_under_the_variational_integrator) {
+  const support::Outcome run = support::run(support::gallery(GetParam(), {"/analysis/integrator=variational"}));
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  EXPECT_FALSE(run.summary.expected.empty());
+  for (const results::ExpectedResult& e : run.summary.expected)
+    EXPECT_TRUE(e.holds) << e.name << ": " << e.value << " for " << e.reference;
+}
+INSTANTIATE_TEST_SUITE_P(Variational, Gallery,
+                         testing::Values("pendulum", "double_pendulum", "slider_crank", "four_bar_planar", "bricard",
+                                         "free_body", "tumbling_body", "flying_spaghetti", "right_angle_cantilever"));
+
+TEST(Variational, says_that_it_does_not_damp_vibrations_faster_than_the_step) {
+  const support::Outcome run = support::run(
+      support::scene_of(std::string(thrown_beam), {"/analysis/integrator=variational", "/analysis/end_time=2",
+                                                   "/analysis/step_size=0.02", "/sections/soft/stiffness/EA=1e9"}));
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  bool told = false;
+  for (const std::string& note : run.summary.notes)
+    told |= note.find("vibrations faster than the step") != std::string::npos;
+  EXPECT_TRUE(told);
+}
+
+}  // namespace
+}  // namespace bough::study
