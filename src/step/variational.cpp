@@ -1,6 +1,7 @@
 #include "bough/step/variational.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,7 +15,8 @@ using motion::Vec6;
 
 namespace {
 
-constexpr double largest_turn = 2.8;  ///< rotation of a node in one step [rad], below pi: the logarithm is unique
+constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
+constexpr double largest_turn = 2.8;       ///< rotation of a node in one step [rad], below pi: the logarithm is unique
 
 /// Node n of `to` at H exp(d) of `from`.
 void place(const State& from, std::size_t n, const Vec6<double>& d, State& to) {
@@ -197,17 +199,21 @@ void Variational::evaluate_tangent(const elements::Slopes& slopes, double h) {
       plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
         using E = std::decay_t<decltype(e)>;
         double residual[6 * E::num_ports + E::num_multipliers];
+        std::array<double, most_unknowns * most_unknowns> matrix;
         elements::evaluate(e, field, no_multipliers, joint < 0 ? 0.0 : base_.turns[static_cast<std::size_t>(joint)],
-                           residual, system_.solver().element_matrix(id));
-        elements::add_gyroscopic(e, field, 1.0 / h, system_.solver().element_matrix(id));
-        add_elastic_tangent(e, field, h, system_.solver().element_matrix(id));
+                           residual, matrix.data());
+        elements::add_gyroscopic(e, field, 1.0 / h, matrix.data());
+        add_elastic_tangent(e, field, h, matrix.data());
+        const solve::ElementView view = system_.solver().element(id);
+        const int n = elements::num_unknowns(e);
+        for (int i = 0; i < n * n; ++i) view[i] = matrix[static_cast<std::size_t>(i)];
       });
     }
   };
   system_.walker().for_each_chunk(static_cast<std::int64_t>(plan.directory.size()), element_grain,
                                   tree::make_chunk(by_element));
   for (const ConstraintRows::Place& p : after_.places()) {
-    double* matrix = system_.solver().element_matrix(p.element);
+    const solve::ElementView matrix = system_.solver().element(p.element);
     const int motion = 6 * p.num_nodes, size = motion + p.joint->num_rows;
     for (int node = 0; node < p.num_nodes; ++node) {
       const auto half = motion::Se3::exp(0.5 * D_[static_cast<std::size_t>(p.nodes[node])]);
@@ -245,7 +251,7 @@ StepReport Variational::iterate(State& next, const StepOptions& options, double 
       if (k > 1) rate = previous > 0.0 ? report.change / previous : 0.0;
       const bool still = report.change<tolerance, stalled = k> 1 && rate > 0.3;
       if (still && (stalled || report.change * rate <= 1e-6 * tolerance)) {
-        report.converged = is_small(report.residual, tolerance, length, system_.moment_arm());
+        report.converged = is_small(system_, report.residual, tolerance);
         if (report.converged && k > 1) system_.set_last_contraction(rate);
         if (!report.converged && (stalled || report.change == 0.0)) {
           const ResidualSize floor = round_off_floor(h), &r = report.residual;

@@ -42,8 +42,12 @@ std::optional<Trouble> Variational::factor_mass(const State& state, double h) {
     for (std::int64_t k = begin; k < end; ++k)
       plan::with_element(mass_.plan().elements, mass_.plan().directory[static_cast<std::size_t>(k)],
                          [&](const auto& e) {
-                           elements::add_elastic_mass(e, field, elastic_inertia(h),
-                                                      mass_.solver().element_matrix(static_cast<int>(k)));
+                           constexpr int most = 6 * std::decay_t<decltype(e)>::num_ports + elements::max_rows;
+                           double elastic[most * most] = {};
+                           elements::add_elastic_mass(e, field, elastic_inertia(h), elastic);
+                           const solve::ElementView view = mass_.solver().element(static_cast<int>(k));
+                           const int n = elements::num_unknowns(e);
+                           for (int i = 0; i < n * n; ++i) view[i] += elastic[i];
                          });
   };
   mass_.walker().for_each_chunk(static_cast<std::int64_t>(mass_.plan().directory.size()), element_grain,
