@@ -39,12 +39,18 @@ void evaluate_momentum(const E& e, const Field& field, double turns, double elas
 
 namespace {
 
-/// B_i^T k B_j into the rows and columns of ports i, j, r, for d_i' = B_i v = U_i (v_i - Q_i v_r); ports on the ground are left out.
+/// d_i' = U_i v_i + (ad(d_i) - U_i) v_r.
 struct RelativeRates {
-  Mat6<double> U, Q;  ///< T(d)^-1, Ad(H_ri)^-1
+  DualMat<double> own, reference;
   int port = 0;
 };
+template <int N>
+RelativeRates relative_rates(const BeamRates<double, N>& b, int i) {
+  const DualMat<double> U = matrix(b.inverse[i]);
+  return {U, motion::skew(b.d[i]) - U, i};
+}
 
+/// Adds factor times a block in the rows and columns of ports p, q; ports on the ground are left out.
 template <class E>
 void add_block(const E& e, const Mat6<double>& block, int p, int q, double factor, int size, double* matrix) {
   if (e.ports[p].node == ground || e.ports[q].node == ground) return;
@@ -54,20 +60,21 @@ void add_block(const E& e, const Mat6<double>& block, int p, int q, double facto
     return at;
   };
   Mat6<double> b = block;
-  if (e.ports[p].has_offset) b = transposed_product(motion::inverse_adjoint(e.ports[p].offset), b);
-  if (e.ports[q].has_offset) b = product(b, motion::inverse_adjoint(e.ports[q].offset));
+  if (e.ports[p].has_offset) b = lanes::transpose_times(motion::inverse_adjoint(e.ports[p].offset), b);
+  if (e.ports[q].has_offset) b = b * motion::inverse_adjoint(e.ports[q].offset);
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j) matrix[(place(p) + i) * size + place(q) + j] += factor * b(i, j);
 }
 
+/// Adds factor times that of d_a'^T k d_b'.
 template <class E>
 void add_pair(const E& e, const RelativeRates& a, const RelativeRates& b, const Mat6<double>& k, int r, double factor,
               int size, double* matrix) {
-  const Mat6<double> m = transposed_product(a.U, product(k, b.U)), mQ = product(m, b.Q);
-  add_block(e, m, a.port, b.port, factor, size, matrix);
-  add_block(e, mQ, a.port, r, -factor, size, matrix);
-  add_block(e, transposed_product(a.Q, m), r, b.port, -factor, size, matrix);
-  add_block(e, transposed_product(a.Q, mQ), r, r, factor, size, matrix);
+  const Mat6<double> own = motion_product(k, b.own), reference = motion_product(k, b.reference);
+  add_block(e, transposed_product(a.own, own), a.port, b.port, factor, size, matrix);
+  add_block(e, transposed_product(a.own, reference), a.port, r, factor, size, matrix);
+  add_block(e, transposed_product(a.reference, own), r, b.port, factor, size, matrix);
+  add_block(e, transposed_product(a.reference, reference), r, r, factor, size, matrix);
 }
 
 }  // namespace
@@ -80,26 +87,29 @@ void add_elastic_mass(const E& e, const Field& field, double factor, double* mat
   PortMotion<double> p[P];
   for (int k = 0; k < P; ++k) p[k] = eval_port(e.ports[k], field.nodes, anchor);
   if constexpr (std::is_same_v<E, Bushing>) {
-    const Frame<double> relative = motion::relative(p[0].H, p[1].H);
-    const RelativeRates rates{motion::inverse_tangent_operator(motion::log_se3(relative)).matrix(),
-                              motion::inverse_adjoint(relative), 1};
+    BeamRates<double, 2> b;
+    eval_relative_motions<double, 2>(p, b);
+    const RelativeRates rates = relative_rates<2>(b, 1);
     add_pair(e, rates, rates, e.stiffness, 0, factor, size, matrix);
   } else if constexpr (requires { e.reference_strain; }) {
     constexpr int r = Beam<P>::reference;
-    const BeamShape<double, P> b = eval_shape<double, P>(p);
+    BeamRates<double, P> b;
+    eval_relative_motions<double, P>(p, b);
     RelativeRates rates[P];
     for (int i = 0; i < P; ++i)
-      if (i != r) rates[i] = {b.inverse[i].matrix(), motion::inverse_adjoint(b.relative[i]), i};
+      if (i != r) rates[i] = relative_rates<P>(b, i);
     for (int j = 0; j < P; ++j) {
       if (j == r) continue;
       Mat6<double> column[P];  // K_ij, from unit rates
       for (int k = 0; k < 6; ++k) {
-        Vec6<double> unit[P], q[P];
-        for (int i = 0; i < P; ++i) unit[i] = q[i] = Vec6<double>::zero();
-        unit[j][k] = 1.0;
-        add_elastic_momentum<double, P>(e, b, unit, 1.0, q, nullptr);
-        for (int i = 0; i < P; ++i)
-          for (int l = 0; l < 6; ++l) column[i](l, k) = q[i][l];
+        DualVec<double> q[P];
+        for (int i = 0; i < P; ++i) b.rate[i] = q[i] = DualVec<double>::zero();
+        b.rate[j] = motion::motion_dual(Vec6<double>::unit(k));
+        add_elastic_momentum<double, P>(e, b, 1.0, q, nullptr);
+        for (int i = 0; i < P; ++i) {
+          const Vec6<double> entries = motion::wrench_vector(q[i]);
+          for (int l = 0; l < 6; ++l) column[i](l, k) = entries[l];
+        }
       }
       for (int i = 0; i < P; ++i)
         if (i != r) add_pair(e, rates[i], rates[j], column[i], r, factor, size, matrix);
@@ -119,7 +129,7 @@ void add_gyroscopic(const E& e, const Field& field, double factor, double* matri
         for (int g = 0; g < E::num_mass_points; ++g) share += rule.weight[g] * e.length * rule.shape[g][k];
       }
       const PortMotion<double> p = eval_port(e.ports[k], field.nodes, anchor);
-      add_block(e, transposed_product(motion::cross6(p.v), e.mass), k, k, factor * share, num_unknowns(e), matrix);
+      add_block(e, lanes::transpose_times(motion::cross6(p.v), e.mass), k, k, factor * share, num_unknowns(e), matrix);
     }
   }
 }

@@ -249,7 +249,8 @@ StepReport Variational::iterate(State& next, const StepOptions& options, double 
     if (const auto t = evaluate_step(next, h, report.residual)) return fail(*t);
     if (k > 0) {
       if (k > 1) rate = previous > 0.0 ? report.change / previous : 0.0;
-      const bool still = report.change<tolerance, stalled = k> 1 && rate > 0.3;
+      const bool still = report.change < tolerance;
+      const bool stalled = k > 1 && rate > 0.3;
       if (still && (stalled || report.change * rate <= 1e-6 * tolerance)) {
         report.converged = is_small(system_, report.residual, tolerance);
         if (report.converged && k > 1) system_.set_last_contraction(rate);
@@ -289,6 +290,13 @@ StepReport Variational::iterate(State& next, const StepOptions& options, double 
 }
 
 StepReport Variational::advance(State& state, const StepOptions& options, double end_time) {
+  base_ = state;
+  StepReport report = try_step(state, options, end_time);
+  if (!report.converged) state = base_;
+  return report;
+}
+
+StepReport Variational::try_step(State& state, const StepOptions& options, double end_time) {
   const double h = state.step_size;
   StepReport report;
   const auto failed = [&report](const std::optional<Trouble>& t) {
@@ -299,8 +307,7 @@ StepReport Variational::advance(State& state, const StepOptions& options, double
     return t.has_value();
   };
   if (state.last_step > 0.0 && state.last_step != h)
-    if (failed(set_momenta(state, h))) return report;
-  base_ = state;
+    if (failed(set_momenta(base_, h))) return report;
   if (failed(system_.set_time(end_time, laws::Side::left))) return report;
   end_laws_ = system_.law_values();
   if (failed(system_.set_time(end_time - 0.5 * h, laws::Side::left))) return report;

@@ -11,8 +11,9 @@
 #include "bough/results/observe.hpp"
 #include "bough/schedule/threads.hpp"
 #include "bough/step/advance.hpp"
-#include "bough/step/variational.hpp"
 #include "effective_options.hpp"
+#include "solver_figures.hpp"
+#include "vibration_watch.hpp"
 
 namespace bough::study {
 
@@ -102,16 +103,14 @@ class Run {
       first_rejection_ = "the first rejected step was that from " + std::to_string(state_.time) + ": " + report.cause;
   }
 
-  /// The variational integrator damps nothing: tells when vibrations faster than the step first make up a good part of the accelerations.
-  void watch_vibrations() {
-    constexpr double noticeable = 0.5;
-    if (!variational_ || vibrates_ || !(variational_->unresolved() > noticeable)) return;
-    vibrates_ = true;
-    note("from time " + std::to_string(state_.time) +
-         " on, vibrations faster than the step make up much of the accelerations; the variational integrator does not "
-         "damp "
-         "them, and forces and reactions show them: take smaller steps, a larger newmark_beta or the generalized_alpha "
-         "integrator");
+  /// The variational integrator damps nothing: ends a run whose unresolved vibrations make energy out of nothing.
+  bool watch_vibrations() {
+    if (!variational_) return true;
+    if (const auto text = vibrations_.look(*variational_, state_.time)) note(*text);
+    if (!vibrations_.seen()) return true;
+    balance_.compare(results::eval_measures(system_, state_), work_meter_.supply());
+    const auto cause = vibrations_.judge(balance_, state_.time);
+    return cause ? fail(*cause) : true;
   }
 
   /// Records the state (as its time's left limit, or right limit at a start).
@@ -187,6 +186,9 @@ class Run {
     balance_.compare(results::eval_measures(system_, state_), work_meter_.supply());
   }
 
+  /// Work and energies are looked at in every step.
+  bool has_balance() const { return scene_.output.checks || variational_.has_value(); }
+
   bool run_statics();
   bool run_dynamics();
   bool start_segment(double step_size, bool is_first);
@@ -212,7 +214,7 @@ class Run {
   std::vector<double> expected_values_, expected_distance_;
   std::string first_rejection_, not_unique_;
   int dependent_rows_ = 0;
-  bool vibrates_ = false;
+  VibrationWatch vibrations_;
   long rows_ = 0;
   double last_step_ = 0.0;
 };
@@ -257,7 +259,7 @@ bool Run::run_statics() {
 
 bool Run::start_segment(double step_size, bool is_first) {
   elements::Measures before;
-  if (!is_first && scene_.output.checks) before = results::eval_measures(system_, state_);
+  if (!is_first && has_balance()) before = results::eval_measures(system_, state_);
   const step::StartReport consistent = step::make_consistent(system_, state_, is_first, step_size);
   if (!consistent.ok) return fail(consistent.cause);
   if (is_first && consistent.position_correction > 1e-9)
@@ -271,7 +273,7 @@ bool Run::start_segment(double step_size, bool is_first) {
         state_.time, consistent.velocity_impulse);
     note(text);
   }
-  if (scene_.output.checks) {
+  if (has_balance()) {
     const elements::Measures now = results::eval_measures(system_, state_);
     work_meter_.begin(system_, state_);
     if (is_first)
@@ -314,18 +316,20 @@ bool Run::run_segment(double begin, double end, double& total_end) {
       easy = 0;
       if (++level > options_.max_cuts)
         return fail("the step at time " + std::to_string(state_.time) + " fails down to a step size of " +
-                    std::to_string(size) + ": " + report.cause);
+                    std::to_string(size) + ": " + report.cause +
+                    (vibrations_.seen() ? "; " + std::string(undamped) : ""));
       done *= 2;
       continue;
     }
     done = next;
     last_step_ = size;
-    watch_vibrations();
     if (options_.single_solution && summary_.steps.accepted == 1)
       note("one linear solution per step: residuals are not driven to the tolerance");
     step::accept_turns(system_, state_);
-    if (scene_.output.checks) work_meter_.add(system_, state_, size);
-    record(report.iterations, target == total_end);
+    if (has_balance()) work_meter_.add(system_, state_, size);
+    const bool goes_on = watch_vibrations();
+    record(report.iterations, target == total_end || !goes_on);
+    if (!goes_on) return false;
     if (!report_progress(report, total_end)) return false;
     if (level > 0 && done % 2 == 0 && ++easy >= 4 && report.iterations <= options_.max_iterations / 2) {
       done /= 2;
@@ -388,45 +392,7 @@ void Run::finish() {
     e.source = given.source;
     summary_.expected.push_back(e);
   }
-  const tree::Tree& tree = system_.tree();
-  int levels = 0, leaves = 0;
-  for (const tree::Subdomain& s : tree.subdomains) {
-    levels = std::max(levels, s.level + 1);
-    leaves += s.is_leaf() ? 1 : 0;
-  }
-  const solve::SolverCounters counters = system_.solver().counters();
-  summary_.solver = {{"unknowns", static_cast<double>(tree.num_unknowns())},
-                     {"sub_domains", static_cast<double>(tree.num_subdomains())},
-                     {"leaves", static_cast<double>(leaves)},
-                     {"levels", static_cast<double>(levels)},
-                     {"factor_bytes", static_cast<double>(counters.memory_bytes)},
-                     {"flops_per_factorization", counters.factor_flops},
-                     {"delayed_pivots", static_cast<double>(counters.delayed_pivots)},
-                     {"dependent_rows", static_cast<double>(dependent_rows_)}};
-  if (const solve::Dual* dual = system_.solver().dual(); dual != nullptr && work.factorizations > 0) {
-    const solve::InterfaceReport i = dual->interfaces().front();
-    summary_.solver.emplace_back("interface_unknowns", i.num_unknowns);
-    summary_.solver.emplace_back("interface_coarse_unknowns", i.num_coarse);
-    summary_.solver.emplace_back("interface_floating_directions", i.num_floating);
-    if (std::isfinite(i.condition)) summary_.solver.emplace_back("interface_condition", i.condition);
-    summary_.solver.emplace_back("interface_flops", i.flops);
-    summary_.solver.emplace_back("interface_seconds", i.seconds);
-    summary_.solver.emplace_back("interface_iterations", i.iterations);
-  }
-  if (const solve::Hierarchical* hierarchical = system_.solver().hierarchical();
-      hierarchical != nullptr && work.factorizations > 0) {
-    constexpr int widest_for_condition =
-        60;  // dense singular values of wider interfaces would take longer than short runs
-    int widest = 0;
-    for (const tree::Subdomain& s : tree.subdomains)
-      widest = std::max(widest, tree.fronts[static_cast<std::size_t>(s.top())].num_boundary);
-    summary_.solver.emplace_back("interface_unknowns_max", static_cast<double>(widest));
-    if (widest <= widest_for_condition && tree.num_subdomains() <= 10000) {
-      double condition = 1.0;
-      for (const solve::InterfaceReport& i : hierarchical->interfaces()) condition = std::max(condition, i.condition);
-      summary_.solver.emplace_back("interface_condition_max", condition);
-    }
-  }
+  summary_.solver = solver_figures(system_, dependent_rows_);
 }
 
 }  // namespace

@@ -25,12 +25,16 @@ S lagrangian_of(const RigidBody& e, const PortMotion<S>* p, const Surroundings<S
 template <class S, int N>
 S lagrangian_of(const Beam<N>& e, const PortMotion<S>* p, const Surroundings<S>& around) {
   const BeamShape<S, N> b = eval_shape<S, N>(p);
-  Vec6<S> rate[N], q[N];
-  for (Vec6<S>& x : q) x = Vec6<S>::zero();
+  Vec6<S> rate[N];
   eval_shape_rates<S, N>(b, p, rate);
-  add_elastic_momentum<S, N>(e, b, rate, elastic, q, nullptr);
   S sum = eval_kinetic_energy(e, p) - eval_strain_energy(e, p);
-  for (int i = 0; i < N; ++i) sum = sum + 0.5 * lanes::dot(rate[i], q[i]);
+  const auto& rule = strain_rule<N>();
+  for (int g = 0; g < Beam<N>::num_strain_points; ++g) {  // rates of strain, L e' = T y' + (T along d') y
+    const auto T = motion::tangent_operator(blend<S, N>(rule.shape[g], b.d));
+    const Vec6<S> stretched = T.times(blend<S, N>(rule.slope[g], rate)) +
+                              T.slope_times(blend<S, N>(rule.shape[g], rate), blend<S, N>(rule.slope[g], b.d));
+    sum = sum + S(0.5 * elastic * rule.weight[g] / e.length) * lanes::dot(stretched, Vec6<S>(e.stiffness * stretched));
+  }
   const PortMotion<S>& r = p[Beam<N>::reference];
   for (int g = 0; g < N; ++g) {
     const auto m = eval_section<S, N>(mass_rule<N>().shape[g], b, nullptr, nullptr, r);

@@ -3,7 +3,6 @@
 ///   L(q, v) = kinetic energy - strain energy - potential of gravity,
 /// at a pose q and a twist v of its ports. Sources: Marsden, West 2001; Bou-Rabee, Marsden 2009 (Lie groups).
 #include "bough/elements/evaluate.hpp"
-#include "bough/motion/second_slopes.hpp"
 
 namespace bough::elements {
 
@@ -11,7 +10,7 @@ namespace bough::elements {
 /// forces resist the motion, as residuals do. d/dt P - ad(v)^T P + F is the residual of the equations of motion. force == nullptr: P only.
 /// `elastic_inertia` tau [s^2] adds tau/2 times the strain energy with rates of strain for strains, of beams and bushings, to L: no rigid
 /// motion has any of it. For linear elasticity tau = (beta - 1/4) h^2 makes the midpoint rule that of Newmark
-/// with beta (Kane, Marsden, Ortiz, West 2000).
+/// with beta (Kane, Marsden, Ortiz, West 2000). Surroundings of dynamics; accelerations are not looked at.
 /// Here: elements without inertia, whose force is their residual.
 template <class E, class S>
 void eval_momentum(const E& e, const PortMotion<S>* p, const Surroundings<S>& around, double /*elastic_inertia*/,
@@ -21,13 +20,13 @@ void eval_momentum(const E& e, const PortMotion<S>* p, const Surroundings<S>& ar
 }
 
 /// The efforts of a joint; its constraints are the integrator's (evaluate_rows).
-template <class S>
-void eval_momentum(const Joint& joint, const PortMotion<S>* p, const Surroundings<S>& around, double turns, S* momentum,
-                   S* force) {
+template <class S, class C>
+void eval_momentum(const JointOf<C>& joint, const PortMotion<S>* p, const Surroundings<S>& around, double turns,
+                   S* momentum, S* force) {
   for (int k = 0; k < 12; ++k) momentum[k] = S(0.0);
   if (force == nullptr) return;
   const Frame<S> H = motion::relative(p[0].H, p[1].H);
-  const Vec6<S> f = eval_efforts(joint, H, p, around, turns);
+  const Vec6<S> f = eval_efforts(joint, H, p, around, C(turns));
   const Vec6<S> first = motion::inverse_adjoint_transpose_times(H, f);
   for (int k = 0; k < 6; ++k) {
     force[k] = -first[k];
@@ -36,8 +35,8 @@ void eval_momentum(const Joint& joint, const PortMotion<S>* p, const Surrounding
 }
 
 /// P = M v, F = -M (R^T g; 0).
-template <class S>
-void eval_momentum(const RigidBody& body, const PortMotion<S>* p, const Surroundings<S>& around,
+template <class S, class C>
+void eval_momentum(const RigidBodyOf<C>& body, const PortMotion<S>* p, const Surroundings<S>& around,
                    double /*elastic_inertia*/, S* momentum, S* force) {
   const Vec6<S> P = body.mass * p[0].v;
   for (int k = 0; k < 6; ++k) momentum[k] = P[k];
@@ -47,122 +46,140 @@ void eval_momentum(const RigidBody& body, const PortMotion<S>* p, const Surround
   for (int k = 0; k < 6; ++k) force[k] = F[k];
 }
 
-/// Carries momenta q conjugate to the rate of a relative motion d = log(H_r^-1 H_i) to both ports,
-///   P_i = T(d)^-T q,   P_r = -Ad(H_ri)^-T P_i,
-/// and what their kinetic energy does at fixed twists to the forces (if any), from d d' = -T(d)^-1 (ad(c) + A(d') T(d)^-1) zeta,
-/// c = Ad(H_ri)^-1 v_r, A(y) = d(T(d) y)/dd.
-template <class S>
-void carry_momentum(const Frame<S>& relative, const Vec6<S>& d, const motion::MotionOperator<S>& inverse,
-                    const Vec6<S>& rate, const Vec6<S>& v_r, const Vec6<S>& q, Vec6<S>& P_i, Vec6<S>& P_r, Vec6<S>* F_i,
-                    Vec6<S>* F_r) {
-  const Vec6<S> P = inverse.transpose_times(q);
-  P_i += P;
-  P_r -= motion::inverse_adjoint_transpose_times(relative, P);
-  if (F_i == nullptr) return;
-  const Vec6<S> carried = motion::inverse_adjoint_times(relative, v_r);
-  const Mat6<S> A = motion::tangent_operator(d).derivative(rate);
-  const Vec6<S> x =
-      motion::cross6_transpose_times(carried, P) + inverse.transpose_times(Vec6<S>(lanes::transpose_times(A, P)));
-  *F_i += x;
-  *F_r -= motion::inverse_adjoint_transpose_times(relative, x);
-}
-
-/// With the elastic inertia's q = tau K d'.
-template <class S>
-void eval_momentum(const Bushing& bushing, const PortMotion<S>* p, const Surroundings<S>& around,
-                   double elastic_inertia, S* momentum, S* force) {
-  if (force != nullptr) eval_residual(bushing, p, static_cast<const S*>(nullptr), around, force);
-  Vec6<S> P[2] = {Vec6<S>::zero(), Vec6<S>::zero()}, F[2] = {P[0], P[0]};
-  const Frame<S> relative = motion::relative(p[0].H, p[1].H);
-  const Vec6<S> d = motion::Se3::log(relative);
-  const auto inverse = motion::inverse_tangent_operator(d);
-  const Vec6<S> rate = inverse.times(Vec6<S>(p[1].v - motion::inverse_adjoint_times(relative, p[0].v)));
-  carry_momentum(relative, d, inverse, rate, p[0].v, Vec6<S>(elastic_inertia * (bushing.stiffness * rate)), P[1], P[0],
-                 force != nullptr ? &F[1] : nullptr, &F[0]);
-  for (int k = 0; k < 6; ++k) {
-    momentum[k] = P[0][k];
-    momentum[6 + k] = P[1][k];
-    if (force == nullptr) continue;
-    force[k] = force[k] + F[0][k];
-    force[6 + k] = force[6 + k] + F[1][k];
-  }
-}
-
-/// The elastic inertia tau/2 e.^T C e. of the strain rates e. = (T y. + A(y) d.)/L, y = d' along the axis: momenta q_i conjugate to d_i., and
-/// what it does to the forces p_i (if any), with m = tau w C e.:
-///   q_i += N_i' T^T m + N_i A^T m,   p_i -= (N_i (A(y.) + d(A(y) d.)/dd) + N_i' (A(d.) - ad(T d.) T))^T m.
+/// Momenta of relative motions d_i = log(H_r^-1 H_i) and of the twists that they blend (see BeamRates).
 template <class S, int N>
-void add_elastic_momentum(const Beam<N>& beam, const BeamShape<S, N>& b, const Vec6<S>* rate, double elastic_inertia,
-                          Vec6<S>* q, Vec6<S>* p) {
+struct RateMomenta {
+  DualVec<S> by_rate[N];  ///< dL/d(d_i')
+  DualVec<S> by_z[N];     ///< dL/dz_i at fixed d_i', v_r
+  DualVec<S> by_r;        ///< dL/dv_r at fixed d_i', z_i
+  RateMomenta() : by_r(DualVec<S>::zero()) {
+    for (int i = 0; i < N; ++i) by_rate[i] = by_z[i] = DualVec<S>::zero();
+  }
+};
+
+/// Momenta of the ports,  P_i = U_i^T (by_z_i + by_rate_i),  P_r = by_r + sum_i ad(d_i)^T by_rate_i - sum_i P_i,  and what z_i = U_i(d_i) (v_i - v_r),
+/// d_i' = z_i + ad(d_i) v_r do at fixed twists to the forces p_i conjugate to d_i (if any):
+///   p_i -= J_i^T (by_z_i + by_rate_i) - ad(v_r)^T by_rate_i,   J_i = d(U_i (v_i - v_r))/dd_i.
+template <class S, int N>
+void eval_port_momenta(const BeamRates<S, N>& b, const RateMomenta<S, N>& m, S* momentum, DualVec<S>* p) {
+  DualVec<S> q[N], sum = m.by_r;
+  for (int i = 0; i < N; ++i) {
+    if (i == Beam<N>::reference) continue;
+    q[i] = m.by_z[i] + m.by_rate[i];
+    sum = add_cross(sum, m.by_rate[i], b.d[i]);
+    if (p != nullptr) p[i] = add_cross(p[i], m.by_rate[i], b.v) - transpose_times(jacobian(b.inverse[i], b.w[i]), q[i]);
+  }
+  eval_nodal_wrenches<S, N>(b, q, sum, momentum);
+}
+
+/// Forces on the ports from those conjugate to d_i alone: together they bear sum_i ad(d_i)^T p_i.
+template <class S, int N>
+DualVec<S> sum_relative_forces(const BeamRates<S, N>& b, const DualVec<S>* p) {
+  DualVec<S> sum = DualVec<S>::zero();
+  for (int i = 0; i < N; ++i)
+    if (i != Beam<N>::reference) sum = add_cross(sum, p[i], b.d[i]);
+  return sum;
+}
+
+/// With the elastic inertia's momentum tau K d', d = log(H_a^-1 H_b).
+template <class S, class C>
+void eval_momentum(const BushingOf<C>& bushing, const PortMotion<S>* ports, const Surroundings<S>& around,
+                   double elastic_inertia, S* momentum, S* force) {
+  BeamRates<S, 2> b;
+  eval_beam_rates<S, 2>(ports, around, false, true, b);
+  RateMomenta<S, 2> m;
+  m.by_rate[1] = motion::wrench_dual(Vec6<S>(elastic_inertia * (bushing.stiffness * motion::motion_vector(b.rate[1]))));
+  DualVec<S> p[2] = {DualVec<S>::zero(), DualVec<S>::zero()};
+  eval_port_momenta<S, 2>(b, m, momentum, p);
+  if (force == nullptr) return;
+  S inertial[12];
+  eval_nodal_wrenches<S, 2>(b, p, sum_relative_forces<S, 2>(b, p), inertial);
+  eval_residual(bushing, ports, static_cast<const S*>(nullptr), around, force);
+  for (int k = 0; k < 12; ++k) force[k] = force[k] + inertial[k];
+}
+
+/// The elastic inertia tau/2 e'^T C e' of the strain rates e' = (T y' + A d')/L, y = dd/ds, A = d(T y)/dd: momenta by d_i', and, with
+/// m = tau w C e', what it does to the forces p_i (if any):
+///   by_rate_i += N_i' T^T m + N_i A^T m,   p_i -= (N_i d(T y' + T' y)/dd + N_i' T')^T m,   T' the derivative of T along d'.
+template <class S, int N, class C>
+void add_elastic_momentum(const Beam<N, C>& beam, const BeamRates<S, N>& b, double elastic_inertia, DualVec<S>* by_rate,
+                          DualVec<S>* p) {
+  constexpr int r = Beam<N>::reference;
+  const C inverse = 1.0 / beam.length;
   if constexpr (N == 2) {
-    q[1] += (elastic_inertia / beam.length) * (beam.stiffness * rate[1]);
+    const Vec6<S> m = beam.stiffness * motion::motion_vector(b.rate[1]);
+    by_rate[1] = add_scaled(by_rate[1], elastic_inertia * inverse, motion::wrench_dual(m));
   } else {
     const auto& rule = strain_rule<N>();
     for (int g = 0; g < Beam<N>::num_strain_points; ++g) {
       const double *shape = rule.shape[g], *slope = rule.slope[g];
-      const Vec6<S> y = blend<S, N>(slope, b.d), d1 = blend<S, N>(shape, rate), y1 = blend<S, N>(slope, rate);
-      const motion::TangentSlopes<S> slopes(blend<S, N>(shape, b.d));
-      const auto& op = slopes.T();
-      const Mat6<S> A = op.derivative(y);
-      const Vec6<S> m = (elastic_inertia * rule.weight[g] / beam.length) * (beam.stiffness * (op.times(y1) + A * d1));
-      const Vec6<S> by_slope = op.transpose_times(m), by_shape = lanes::transpose_times(A, m);
+      const DualVec<S> y = blend<S, N>(slope, b.d), d1 = blend<S, N>(shape, b.rate), y1 = blend<S, N>(slope, b.rate);
+      const DualSeries<S> T = motion::dual_tangent(blend<S, N>(shape, b.d));
+      const DualMat<S> A = jacobian(T, y);
+      const Vec6<S> strain_rate = inverse * motion::motion_vector(times(T, y1) + times(A, d1));
+      const DualVec<S> m =
+          motion::wrench_dual(Vec6<S>((elastic_inertia * rule.weight[g]) * (beam.stiffness * strain_rate)));
+      const DualVec<S> by_slope = transpose_times(T, m), by_shape = transpose_times(A, m);
       for (int i = 0; i < N; ++i)
-        if (i != Beam<N>::reference) q[i] += slope[i] * by_slope + shape[i] * by_shape;
+        if (i != r) by_rate[i] = add_scaled(add_scaled(by_rate[i], slope[i], by_slope), shape[i], by_shape);
       if (p == nullptr) continue;
-      const Vec6<S> from_d = lanes::transpose_times(op.derivative(y1) + slopes.second(d1, y), m);
-      const Vec6<S> from_y = lanes::transpose_times(op.derivative(d1), m) -
-                             op.transpose_times(motion::cross6_transpose_times(op.times(d1), m));
+      const DualVec<S> from_d = transpose_times(jacobian(T, y1) + second_jacobian(T, d1, y), m),
+                       from_y = transpose_times(slope_matrix(T, d1), m);
       for (int i = 0; i < N; ++i)
-        if (i != Beam<N>::reference) p[i] -= shape[i] * from_d + slope[i] * from_y;
+        if (i != r) p[i] = add_scaled(add_scaled(p[i], -shape[i], from_d), -slope[i], from_y);
     }
   }
 }
 
-/// With pi = w L m v at a mass point, c = Ad(exp d)^-1 v_r, q_i conjugate to d_i':
-///   q_i = sum N_i T^T pi,   P_r = sum Ad(exp d)^-T pi - ...,   dK/dd_i = sum N_i (ad(c) T + A(d'))^T pi.
-template <class S, int N>
-void eval_momentum(const Beam<N>& beam, const PortMotion<S>* ports, const Surroundings<S>& around,
+/// With pi = w L m v at a mass point, v = v_r + T z:  by_z_i = sum N_i T^T pi,  by_r = sum pi,  dK/dd_i = sum N_i (d(T z)/dd)^T pi. The weight
+/// acts on the section's own virtual motions, as in the residual.
+template <class S, int N, class C>
+void eval_momentum(const Beam<N, C>& beam, const PortMotion<S>* ports, const Surroundings<S>& around,
                    double elastic_inertia, S* momentum, S* force) {
   constexpr int r = Beam<N>::reference;
-  const BeamShape<S, N> b = eval_shape<S, N>(ports);
-  Vec6<S> rate[N], p[N], q[N], F[N], P[N];
-  for (int i = 0; i < N; ++i) p[i] = q[i] = F[i] = P[i] = Vec6<S>::zero();
-  eval_shape_rates<S, N>(b, ports, rate);
-  if (force != nullptr) add_internal_forces<S, N>(beam, b, rate, p);
+  BeamRates<S, N> b;
+  eval_beam_rates<S, N>(ports, around, false, true, b);
+  RateMomenta<S, N> m;
+  DualVec<S> p[N], pull[N], pulls = DualVec<S>::zero();
+  for (int i = 0; i < N; ++i) p[i] = pull[i] = DualVec<S>::zero();
+  if (force != nullptr) eval_internal_forces<S, N>(beam, b, beam.has_damping, p);
   if (elastic_inertia != 0.0)
-    add_elastic_momentum<S, N>(beam, b, rate, elastic_inertia, q, force != nullptr ? p : nullptr);
+    add_elastic_momentum<S, N>(beam, b, elastic_inertia, m.by_rate, force != nullptr ? p : nullptr);
   if (beam.has_mass) {
     const auto& rule = mass_rule<N>();
-    const Vec6<S> weight = lanes::join<S>(lanes::transpose_times(ports[r].H.R, around.gravity), Vec3<S>::zero());
+    Surroundings<S> at_rest = around;
+    at_rest.has_inertia = false;
+    DualVec<S> z[N], weight = eval_weighed_acceleration(ports[r], at_rest);
+    for (int i = 0; i < N && force != nullptr; ++i)
+      if (i != r) z[i] = times(b.inverse[i], eval_weighed_acceleration(ports[i], at_rest) - weight);
     for (int g = 0; g < Beam<N>::num_mass_points; ++g) {
       const double* shape = rule.shape[g];
-      const double w = rule.weight[g] * beam.length;
-      const SectionMotion<S> m = eval_section<S, N>(shape, b, rate, nullptr, ports[r]);
-      const Vec6<S> pi = w * (beam.mass * m.v);
-      const Vec6<S> by_rate = m.T.transpose_times(pi);
+      const C w = rule.weight[g] * beam.length;
+      const DualSeries<S> T = motion::dual_tangent(blend<S, N>(shape, b.d));
+      const DualVec<S> z_g = blend<S, N>(shape, b.z), v = b.v + times(T, z_g);
+      const DualVec<S> pi = motion::wrench_dual(Vec6<S>(w * (beam.mass * motion::motion_vector(v))));
+      const DualVec<S> by_z = transpose_times(T, pi);
       for (int i = 0; i < N; ++i)
-        if (i != r) q[i] += shape[i] * by_rate;
-      P[r] += motion::inverse_adjoint_transpose_times(m.relative, pi);
+        if (i != r) m.by_z[i] = add_scaled(m.by_z[i], shape[i], by_z);
+      m.by_r = m.by_r + pi;
       if (force == nullptr) continue;
-      const Vec6<S> carried = motion::inverse_adjoint_times(m.relative, ports[r].v);
-      const Vec6<S> by_shape = m.T.transpose_times(motion::cross6_transpose_times(carried, pi)) +
-                               lanes::transpose_times(m.T.derivative(blend<S, N>(shape, rate)), pi);
-      for (int i = 0; i < N; ++i)
-        if (i != r) p[i] -= shape[i] * by_shape;
-      const Vec6<S> pull = (-w) * (beam.mass * motion::inverse_adjoint_times(m.relative, weight));
-      add_section_wrench<S, N>(shape, m, pull, p, F);
+      const DualVec<S> by_d = transpose_times(jacobian(T, z_g), pi);
+      const DualVec<S> fall = weight + times(T, blend<S, N>(shape, z));
+      const DualVec<S> f = motion::wrench_dual(Vec6<S>(w * (beam.mass * motion::motion_vector(fall))));
+      const DualVec<S> q = transpose_times(T, f);
+      for (int i = 0; i < N; ++i) {
+        if (i == r) continue;
+        p[i] = add_scaled(p[i], -shape[i], by_d);
+        pull[i] = add_scaled(pull[i], shape[i], q);
+      }
+      pulls = pulls + f;
     }
   }
-  if (force != nullptr) add_nodal_wrenches<S, N>(b, p, F);
-  for (int i = 0; i < N; ++i)
-    if (i != r)
-      carry_momentum(b.relative[i], b.d[i], b.inverse[i], rate[i], ports[r].v, q[i], P[i], P[r],
-                     force != nullptr ? &F[i] : nullptr, &F[r]);
-  for (int i = 0; i < N; ++i)
-    for (int k = 0; k < 6; ++k) {
-      momentum[6 * i + k] = P[i][k];
-      if (force != nullptr) force[6 * i + k] = F[i][k];
-    }
+  eval_port_momenta<S, N>(b, m, momentum, force != nullptr ? p : nullptr);
+  if (force == nullptr) return;
+  const DualVec<S> sum = pulls + sum_relative_forces<S, N>(b, p);
+  for (int i = 0; i < N; ++i) p[i] = p[i] + pull[i];
+  eval_nodal_wrenches<S, N>(b, p, sum, force);
 }
 
 /// The step of the midpoint rule on the group, H_{n+1} = H_n exp(D), with P and F at the pose H_n exp(D/2) and the twist D/h: momenta at

@@ -4,7 +4,8 @@
 ///   p_n - (h/2) G_n^T lambda = -D_1 L_d,   Phi(q_{n+1}, t_{n+1}) = 0
 ///   p_{n+1} = D_2 L_d - G_{n+1}^T mu,      d/dt Phi(q_{n+1}, v_{n+1}, t_{n+1}) = 0,   p = dL/dv
 /// Elements see relative motions only, so linear and angular momentum of what floats freely are kept to round-off, whatever the step and
-/// the tolerance; the flow is symplectic, so energy keeps within a bound that falls with h^2. Second order in positions, velocities, multipliers.
+/// the tolerance. Where h is constant and resolves the fastest vibration, energy keeps within a bound that falls with h^2. Nothing is damped: not for stiff
+/// scenes with vibrations that the step does not resolve, which ring or grow. Second order in positions, velocities, multipliers.
 /// Sources: Marsden, West 2001; Leyendecker, Marsden, Ortiz 2008 (constraints); Andersen 1983 (RATTLE).
 #include <vector>
 
@@ -68,7 +69,8 @@ class Variational {
   [[nodiscard]] std::optional<Trouble> start(State& state);
 
   /// One step of size `state.step_size` to `end_time`. Velocities afterwards are those of the momenta and satisfy the constraints; accelerations
-  /// and multipliers are those of the equations of motion there (left limit). Not converged: the caller restores its copy.
+  /// and multipliers are those of the equations of motion there (left limit). Not converged: `state` is as it was, its momenta those of this
+  /// step size.
   StepReport advance(State& state, const StepOptions& options, double end_time);
 
   /// Largest |v_{n+1} - v_n - h (a_n + a_{n+1})/2| over |h a| of the last step, lengths by the scene's size: small where the step resolves the
@@ -84,6 +86,7 @@ class Variational {
   void evaluate_tangent(const elements::Slopes& slopes, double h);
   template <class E>
   void add_elastic_tangent(const E& e, const elements::Field& field, double h, double* matrix) const;
+  StepReport try_step(State& state, const StepOptions& options, double end_time);
   StepReport iterate(State& next, const StepOptions& options, double h);
   double elastic_inertia(double h) const;
   std::optional<Trouble> set_momenta(State& state, double h);
