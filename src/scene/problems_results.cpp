@@ -174,6 +174,10 @@ void check_analysis(ProblemList& list) {
     list.add("analysis", 0, "newton", "single",
              "the variational integrator keeps momentum and energy of solved steps only",
              "leave out newton, or take the generalized_alpha integrator");
+  const auto frame_moves = [](const FrameDef& f) { return f.motion.has_value(); };
+  if (is_variational && std::any_of(s.frames.begin(), s.frames.end(), frame_moves))
+    list.add("analysis", 0, "integrator", "variational", "the variational integrator does not know frames that move",
+             "take the generalized_alpha integrator");
   if (!is_variational && a.spectral_radius == 1.0 && (!s.joints.empty() || !s.motions.empty()))
     list.add("analysis", 0, "spectral_radius", "1",
              "with joints or prescribed motions the spectral radius has to be below 1",
