@@ -282,7 +282,7 @@ unsigned eliminate_register(const Front& f, const double* row_scale, const doubl
 }
 
 Front register_of(double* factor, double* schur, int n, int e, int lane) {
-  return {factor + lane, factor + static_cast<std::ptrdiff_t>(n) * e * wide + lane, schur + lane, n, e};
+  return {factor + lane, factor + static_cast<std::ptrdiff_t>(n) * e * wide + lane, n > e ? schur + lane : schur, n, e};
 }
 
 /// sum_i (+)= a_ij x_j for R rows i, steps in doubles.
