@@ -109,7 +109,7 @@ inline void subtract_columns(int m, int k, const double* a, std::ptrdiff_t la, c
   for (; i < m; ++i) subtract_tile<1, C>(k, a + i * wide, la, b, lb, c + i * wide, lc);
 }
 
-/// C columns catch up with pivots [k0, k1): `head` holds their rows [0, rows of the panel), `tail` those from row `first` on.
+/// U of C columns for pivots [k0, k1): rows [k0, k1) of `head`, whose columns are `step` doubles apart.
 template <int C>
 inline void update_head(const double* l, std::ptrdiff_t ld, int k0, int k1, double* head, std::ptrdiff_t step) {
   for (int p = k0; p + 1 < k1; ++p) {
@@ -125,7 +125,7 @@ inline void update_head(const double* l, std::ptrdiff_t ld, int k0, int k1, doub
   }
 }
 
-/// Columns [begin, end) of the front catch up with pivots [k0, k1).
+/// Where one register of lanes of a front lies.
 struct Front {
   double *left, *upper, *schur;  ///< n x e; e x b; b x b
   int n, e;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "element_store.hpp"
+#include "refine.hpp"
 #ifdef BOUGH_HAS_KLU
 #include <klu.h>
 #endif
@@ -225,14 +226,7 @@ FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
   }
   if (s.scales_wanted) s.elements.eval_scales(s.scales);
   s.scales_wanted = false;
-  if (prepare.run != nullptr) {
-    auto visit = [&](tree::SubdomainId id) {
-      const tree::Subdomain& sub = s.tree.subdomains[at(id)];
-      if (sub.is_leaf() && sub.element_begin < sub.element_end)
-        prepare.run(prepare.context, id, sub.element_begin, sub.element_end);
-    };
-    walker.walk_up(s.tree, tree::make_visit(visit));
-  }
+  run_prepare(s.tree, walker, prepare);
   s.assemble(0.0);
   ++s.counters.factorizations;
   for (std::size_t k = 0; k < s.values.size(); ++k) {
