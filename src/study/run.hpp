@@ -1,0 +1,71 @@
+#pragma once
+/// One simulation as it goes: state, observers, summary. simulate.cpp sets up, records and sums up; run_statics.cpp and run_dynamics.cpp step.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bough/results/balance.hpp"
+#include "bough/schedule/threads.hpp"
+#include "bough/step/advance.hpp"
+#include "bough/step/variational.hpp"
+#include "bough/study/simulate.hpp"
+#include "vibration_watch.hpp"
+
+namespace bough::study {
+
+class Run {
+ public:
+  Run(const scene::Scene& scene, const SimulateOptions& options, results::Recorder& recorder,
+      const ProgressCallback& progress);
+  results::Summary run();
+
+ private:
+  bool fail(const std::string& cause);
+  /// Keeps the largest deficiency of an accepted step, with the reactions that were not unique then.
+  void watch_dependent_rows();
+  void note(const std::string& text);
+  void count(const step::StepReport& report, bool accepted);
+  /// The variational integrator damps nothing: ends a run whose unresolved vibrations make energy out of nothing.
+  bool watch_vibrations();
+  /// Records the state (as its time's left limit, or right limit at a start).
+  void record(int iterations, bool is_last);
+  /// Whether this may be the step next to the time of an expected figure.
+  bool near_expected() const;
+  void watch_expected();
+  bool report_progress(const step::StepReport& report, double end);
+  bool may_try(double target);
+  /// Balances and violations of the present state.
+  void check();
+  /// Work and energies are looked at in every step.
+  bool has_balance() const { return scene_.output.checks || variational_.has_value(); }
+  bool run_statics();
+  bool run_dynamics();
+  bool start_segment(double step_size, bool is_first);
+  bool run_segment(double begin, double end, double& sum_of_cuts);
+  void finish();
+
+  const scene::Scene& scene_;
+  step::StepOptions options_;
+  results::Recorder& recorder_;
+  const ProgressCallback& progress_;
+  const decltype(SimulateOptions::before_step)& before_step_;
+  bool want_motion_;
+  schedule::Threads threads_;
+  plan::Plan plan_;
+  step::System system_;
+  std::optional<step::Variational> variational_;  ///< when chosen
+  step::State state_;
+  results::WorkMeter work_meter_;
+  results::Summary summary_;
+  results::Balance balance_;
+  std::vector<double> values_;
+  std::vector<std::size_t> expected_columns_;
+  std::vector<double> expected_values_, expected_distance_;
+  std::string first_rejection_, not_unique_;
+  int dependent_rows_ = 0;
+  VibrationWatch vibrations_;
+  long rows_ = 0;
+  double last_step_ = 0.0;
+};
+
+}  // namespace bough::study

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "bough/results/observe.hpp"
+#include "run.hpp"
+
+namespace bough::study {
+
+using results::RunStatus;
+
+bool Run::start_segment(double step_size, bool is_first) {
+  elements::Measures before;
+  if (!is_first && has_balance()) before = results::eval_measures(system_, state_);
+  const step::StartReport consistent = step::make_consistent(system_, state_, is_first, step_size);
+  if (!consistent.ok) return fail(consistent.cause);
+  if (is_first && consistent.position_correction > 1e-9)
+    note("the start was moved by up to " + std::to_string(consistent.position_correction) +
+         " (relative) to close the joints");
+  if (consistent.velocity_change > 1e-9) {
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "velocities were made consistent with joints and drives at time %.6g by impulses of up to %.3g N s (N m s)",
+        state_.time, consistent.velocity_impulse);
+    note(text);
+  }
+  if (has_balance()) {
+    const elements::Measures now = results::eval_measures(system_, state_);
+    work_meter_.begin(system_, state_);
+    if (is_first)
+      balance_.begin(now);
+    else
+      balance_.jump(before, now);
+  }
+  if (is_first) record(0, false);
+  if (variational_) {
+    const auto t = variational_->start(state_);
+    return t ? fail(t->text) : true;
+  }
+  const step::StartReport started = step::start_alpha(system_, state_, options_, step_size);
+  if (!started.ok) return fail(started.cause);
+  return true;
+}
+
+/// Steps of equal size from one breakpoint to the next; a step that fails is halved, and the size grows back after four easy steps.
+bool Run::run_segment(double begin, double end, double& total_end) {
+  const double wanted = scene_.analysis.step_size;
+  const long steps = std::max(1L, static_cast<long>(std::ceil((end - begin) / wanted - 1e-9)));
+  const double h = (end - begin) / static_cast<double>(steps);
+  int level = 0, easy = 0;
+  long done = 0;  // in units of h / 2^level
+  if (!start_segment(h, begin == 0.0)) return false;
+  while (done < (steps << level)) {
+    const double size = h / static_cast<double>(1L << level);
+    if (variational_) {
+      state_.step_size = size;
+    } else if (const auto changed = step::change_step_size(system_, state_, options_, size); !changed.ok) {
+      return fail(changed.cause);
+    }
+    const long next = done + 1;
+    const double target = next == (steps << level) ? end : begin + static_cast<double>(next) * size;
+    if (!may_try(target)) return false;
+    const step::StepReport report = variational_ ? variational_->advance(state_, options_, target)
+                                                 : step::advance(system_, state_, options_, target);
+    count(report, report.converged);
+    if (!report.converged) {
+      easy = 0;
+      if (++level > options_.max_cuts)
+        return fail("the step at time " + std::to_string(state_.time) + " fails down to a step size of " +
+                    std::to_string(size) + ": " + report.cause +
+                    (vibrations_.seen() ? "; " + std::string(undamped) : ""));
+      done *= 2;
+      continue;
+    }
+    done = next;
+    last_step_ = size;
+    if (options_.single_solution && summary_.steps.accepted == 1)
+      note("one linear solution per step: residuals are not driven to the tolerance");
+    step::accept_turns(system_, state_);
+    if (has_balance()) work_meter_.add(system_, state_, size);
+    const bool goes_on = watch_vibrations();
+    record(report.iterations, target == total_end || !goes_on);
+    if (!goes_on) return false;
+    if (!report_progress(report, total_end)) return false;
+    if (level > 0 && done % 2 == 0 && ++easy >= 4 && report.iterations <= options_.max_iterations / 2) {
+      done /= 2;
+      --level;
+      easy = 0;
+    }
+  }
+  return true;
+}
+
+bool Run::run_dynamics() {
+  double end = scene_.analysis.end_time;
+  std::vector<double> cuts{0.0, end};
+  for (const plan::LawPlan& law : plan_.laws)
+    for (double t : law.law.breakpoints(0.0, end)) cuts.push_back(t);
+  std::sort(cuts.begin(), cuts.end());
+  const double least = 1e-9 * scene_.analysis.step_size;
+  std::vector<double> times{0.0};
+  for (double t : cuts)
+    if (t > times.back() + least && t < end - least) times.push_back(t);
+  times.push_back(end);
+  for (std::size_t k = 0; k + 1 < times.size(); ++k)
+    if (!run_segment(times[k], times[k + 1], end)) return false;
+  summary_.status = RunStatus::ok;
+  return true;
+}
+
+}  // namespace bough::study
