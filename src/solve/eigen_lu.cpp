@@ -35,7 +35,8 @@ double EigenLu::flops() const {
 }
 
 std::int64_t EigenLu::memory_bytes() const {
-  return static_cast<std::int64_t>((impl_->lu.nnzL() + impl_->lu.nnzU()) * (sizeof(double) + sizeof(int)));
+  return static_cast<std::int64_t>(impl_->lu.nnzL() + impl_->lu.nnzU()) *
+         static_cast<std::int64_t>(sizeof(double) + sizeof(int));
 }
 
 }  // namespace bough::solve

@@ -81,7 +81,8 @@ TEST(SplitFrames, the_total_is_the_second_derivative_of_the_position) {
     return motion::transform(H, r);
   };
   const double h = 0.02, weights[5] = {-205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560};
-  for (const io::SplitRow& row : split_frames(study).series[0].rows) {
+  const io::SplitTable split = split_frames(study);
+  for (const io::SplitRow& row : split.series[0].rows) {
     motion::Vec3<double> second = (weights[0] / (h * h)) * position(row.at);
     for (int k = 1; k <= 4; ++k)
       second += (weights[k] / (h * h)) * (position(row.at + k * h) + position(row.at - k * h));
