@@ -7,6 +7,7 @@
 #include "bough/io/motion_frames.hpp"
 #include "bough/report/plot.hpp"
 #include "page_script.hpp"
+#include "page_style.hpp"
 #include "svg_text.hpp"
 
 namespace bough::report {

@@ -72,19 +72,4 @@ inline constexpr std::string_view page_script = R"js(
 })();
 )js";
 
-inline constexpr std::string_view page_style = R"css(
-:root{color-scheme:light dark}
-body{margin:0 auto;max-width:1000px;padding:20px;font:15px/1.5 system-ui,sans-serif;background:#f4f3f0;color:#0b0b0b}
-h1{font-size:22px;margin:0 0 4px}h2{font-size:16px;margin:28px 0 8px}p{margin:4px 0}
-.lead{color:#52514e}.status{font-weight:600}
-figure{margin:0}svg{display:block;width:100%;height:auto;border-radius:6px}
-.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,420px),1fr));gap:12px}
-.reading{min-height:1.5em;font-size:12px;color:#52514e;font-variant-numeric:tabular-nums;overflow-wrap:anywhere}
-#player{display:flex;gap:12px;align-items:center;margin:8px 0}#player[hidden]{display:none}#player input{flex:1}
-button{font:inherit;min-width:5em;padding:2px 10px}output{min-width:8em;font-variant-numeric:tabular-nums}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:3px 14px 3px 0;text-align:left;border-bottom:1px solid #d9d8d1}
-.wide{overflow-x:auto}ul{margin:4px 0;padding-left:20px}
-@media (prefers-color-scheme:dark){body{background:#0d0d0d;color:#fff}.lead,.reading{color:#c3c2b7}td,th{border-color:#383835}}
-)css";
-
 }  // namespace bough::report

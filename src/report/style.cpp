@@ -15,6 +15,9 @@ std::string_view style_text() {
 .t0{stroke:#9ec5f4}.t1{stroke:#86b6ef}.t2{stroke:#6da7ec}.t3{stroke:#5598e7}.t4{stroke:#3987e5}
 .t5{stroke:#2a78d6}.t6{stroke:#1c5cab}.t7{stroke:#184f95}.t8{stroke:#0d366b}
 .s0{stroke:#2a78d6}.s1{stroke:#eb6834}.s2{stroke:#1baf7a}.s3{stroke:#4a3aa7}.s4{stroke:#e87ba4}.s5{stroke:#c98500}
+.point{stroke-width:1.5}.hollow{fill:none}.fail{stroke:#d03b3b;stroke-width:2;fill:none}.guide{stroke:#898781;stroke-width:1.2;stroke-dasharray:5 4;fill:none}
+.s0.solid{fill:#2a78d6}.s1.solid{fill:#eb6834}.s2.solid{fill:#1baf7a}.s3.solid{fill:#4a3aa7}.s4.solid{fill:#e87ba4}.s5.solid{fill:#c98500}
+.d1{stroke-dasharray:7 3}.d2{stroke-dasharray:2 3}
 .now{stroke:#eb6834}.cursor{stroke:#eb6834;stroke-width:1}
 @media (prefers-color-scheme:dark){
 .paper{fill:#1a1a19}
@@ -23,6 +26,8 @@ std::string_view style_text() {
 .t0{stroke:#184f95}.t1{stroke:#1c5cab}.t2{stroke:#256abf}.t3{stroke:#2a78d6}.t4{stroke:#3987e5}
 .t5{stroke:#5598e7}.t6{stroke:#6da7ec}.t7{stroke:#9ec5f4}.t8{stroke:#cde2fb}
 .s0{stroke:#3987e5}.s1{stroke:#d95926}.s2{stroke:#199e70}.s3{stroke:#9085e9}.s4{stroke:#d55181}.s5{stroke:#c98500}
+.fail{stroke:#ff6f6f}
+.s0.solid{fill:#3987e5}.s1.solid{fill:#d95926}.s2.solid{fill:#199e70}.s3.solid{fill:#9085e9}.s4.solid{fill:#d55181}.s5.solid{fill:#c98500}
 .now{stroke:#f08a5d}.cursor{stroke:#f08a5d}
 }
 )";

@@ -1,0 +1,51 @@
+#pragma once
+/// Self-contained pages of text, tables and charts: one file, no network, no scripts; light, dark and printed.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bough/report/chart.hpp"
+
+namespace bough::report {
+
+enum class Tone { plain, good, bad, soft };
+
+/// One cell of a table. All text is escaped by the page.
+struct Cell {
+  std::string text;
+  Tone tone = Tone::plain;
+  bool is_number = false;   ///< aligned to the right
+  std::string source = {};  ///< JSON pointer to the value in the file that goes with the page: checks compare the two
+  std::string link = {};    ///< relative address; empty: none
+};
+
+/// A number with at most `digits` significant digits; "-" where it is NaN.
+Cell number_cell(double value, int digits = 4, std::string source = {}, Tone tone = Tone::plain);
+
+struct Table {
+  std::vector<std::string> head;
+  std::vector<std::vector<Cell>> rows;  ///< each as long as the head
+  std::string caption = {};
+};
+
+/// A page in the order of the calls.
+class Document {
+ public:
+  /// lead: one or two sentences under the title. data: name of the JSON file beside the page to which `source` pointers refer; may be empty.
+  explicit Document(std::string title, std::string_view lead = {}, std::string_view data = {});
+
+  void section(std::string_view heading, std::string_view anchor = {});
+  void subsection(std::string_view heading);
+  void paragraph(std::string_view text, Tone tone = Tone::plain);
+  void list(const std::vector<std::string>& items);
+  void table(const Table& table);  ///< precondition: every row is as long as the head
+  void charts(const std::vector<Chart>& charts);
+  void figure(std::string_view svg, std::string_view caption = {});  ///< a drawing of one's own; svg is taken as it is
+
+  std::string html() const;  ///< the whole page
+
+ private:
+  std::string title_, body_;
+};
+
+}  // namespace bough::report
