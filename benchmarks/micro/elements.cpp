@@ -2,6 +2,8 @@
 /// CPU time of one element: with lanes, of one lane.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+
 #include "bough/elements/evaluate_lanes.hpp"
 
 namespace {
@@ -115,8 +117,11 @@ void lanes(benchmark::State& state, const E& element) {
   for (int k = 0; k < E::num_ports; ++k) ports[k] = k;
   const LaneElement<E> e = make_lane_element(elements, 1, ports, 0);
   NodeLanes nodes[E::num_ports];
-  for (int k = 0; k < E::num_ports; ++k)
-    for (int lane = 0; lane < num_lanes; ++lane) set_lane(nodes[k], lane, c.nodes[k]);
+  for (int k = 0; k < E::num_ports; ++k) {
+    const double* from[num_lanes];
+    std::fill_n(from, num_lanes, numbers_of(c.nodes[k]));
+    set_lanes(nodes[k], from);
+  }
   LanePack multipliers[max_rows];
   for (int k = 0; k < max_rows; ++k) multipliers[k] = LanePack(c.multipliers[k]);
   const FieldLanes field{nodes, {{{0.0, 0.0, -9.81}}, nullptr, state.range(0) != 0}, slopes};

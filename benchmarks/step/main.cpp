@@ -61,6 +61,7 @@ scene::Scene make_scene(const StepCase& c, scene::SolverKind kind, int steps) {
   s.analysis.step_size = step_size;
   s.analysis.end_time = step_size * steps;
   s.solver.kind = kind;
+  s.output.stride = steps;  // what is timed is steps, not rows: only the first and the last are observed
   return s;
 }
 

@@ -97,12 +97,13 @@ void LaneBatches::evaluate_as(const solve::ElementBatch& batch, int index, const
   }
   elements::NodeLanes nodes[E::num_ports];
   Pack laws[elements::max_laws], multipliers[E::num_multipliers > 0 ? E::num_multipliers : 1], turns(0.0);
+  const double* from[E::num_ports][wide] = {};
   for (int l = 0; l < wide; ++l) {
     const auto id = static_cast<std::size_t>(ids[l] >= 0 ? ids[l] : filler);
     const E& e = array[static_cast<std::size_t>(plan_->directory[id].index)];
     for (int p = 0; p < E::num_ports; ++p)
       if (e.ports[p].node != elements::ground)
-        elements::set_lane(nodes[p], l, field.nodes[static_cast<std::size_t>(e.ports[p].node)]);
+        from[p][l] = elements::numbers_of(field.nodes[static_cast<std::size_t>(e.ports[p].node)]);
     int law_ids[elements::max_laws];
     const int num_laws = elements::list_laws(e, law_ids);
     for (int k = 0; k < num_laws; ++k) laws[k].set(l, field.around.laws[law_ids[k]]);
@@ -115,6 +116,8 @@ void LaneBatches::evaluate_as(const solve::ElementBatch& batch, int index, const
       turns.set(l, state.turns[static_cast<std::size_t>(j)]);
     }
   }
+  for (int p = 0; p < E::num_ports; ++p)
+    if (from[p][0] != nullptr) elements::set_lanes(nodes[p], from[p]);
   elements::FieldLanes around;
   around.nodes = nodes;
   around.slopes = field.slopes;
@@ -129,18 +132,20 @@ void LaneBatches::evaluate_as(const solve::ElementBatch& batch, int index, const
   if (is_direct) matrix = reinterpret_cast<Pack*>(result(ids[0]).tangent.first);
   if (tangent && !is_direct) matrix = spare;
   elements::evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
+  const int n =
+      elements::num_unknowns(array[static_cast<std::size_t>(plan_->directory[static_cast<std::size_t>(filler)].index)]);
+  double nowhere[most], *to_residual[wide], *to_magnitude[wide];
   for (int l = 0; l < wide; ++l) {
+    to_residual[l] = to_magnitude[l] = nowhere;
     if (ids[l] < 0) continue;
     const ElementResult to = result(ids[l]);
-    const int n = elements::num_unknowns(
-        array[static_cast<std::size_t>(plan_->directory[static_cast<std::size_t>(ids[l])].index)]);
-    for (int i = 0; i < n; ++i) {
-      to.residual[i] = residual[i][l];
-      to.magnitude[i] = magnitude[i][l];
-    }
+    to_residual[l] = to.residual;
+    to_magnitude[l] = to.magnitude;
     if (tangent && !is_direct)
       for (int i = 0; i < n * n; ++i) to.tangent[i] = spare[i][l];
   }
+  lanes::scatter_lanes(residual, n, to_residual);
+  lanes::scatter_lanes(magnitude, n, to_magnitude);
 }
 
 }  // namespace bough::step

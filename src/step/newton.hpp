@@ -7,6 +7,13 @@ namespace bough::step {
 /// A factor that contracts the changes less than this is made anew: four more solutions cost about as much as a tangent and its factor.
 constexpr double slowest_contraction = 0.03;
 
+/// The change that an iteration may leave, were its contraction to go on, relative to the tolerance: an old factor must come as near as a new
+/// one, short steps turn small changes of positions into large ones of multipliers, and later contractions can be slower than early ones.
+constexpr double left_open = 1e-6;
+
+/// Changes whose ratio is above this no longer shrink: what is left may be round-off.
+constexpr double shrinks = 0.3;
+
 /// Repeats: evaluate, stop when converged, factor, solve, apply. `follow` brings velocities and accelerations along with the positions.
 template <class Follow>
 StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes,

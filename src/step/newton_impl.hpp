@@ -26,9 +26,8 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       }
       if (k > 1) rate = previous > 0.0 ? report.change / previous : 0.0;
       const bool still = report.change < options.tolerance;
-      // What is left after the last change, were the contraction to go on: an old factor must come as near as a new one.
-      const bool stalled = k > 1 && rate > 0.3;
-      const bool near = !may_reuse || stalled || report.change * rate <= 1e-6 * options.tolerance;
+      const bool stalled = k > 1 && rate > shrinks;
+      const bool near = !may_reuse || stalled || report.change * rate <= left_open * options.tolerance;
       if (still && near && is_small(system, report.residual, options.tolerance)) {
         report.converged = true;
         if (k > 1) system.set_last_contraction(rate);
@@ -65,6 +64,14 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     ++report.iterations;
     if (!std::isfinite(report.change)) return fail({"the iteration left finite numbers"});
     if (const auto t = follow(state)) return fail(*t);
+    if (k == 0 || !may_reuse || !is_small(system, report.residual, options.tolerance)) continue;
+    // The residual was small before this change answered it: where changes shrink on to nothing, it need not be looked at again.
+    rate = previous > 0.0 ? report.change / previous : 0.0;
+    if (rate <= shrinks && report.change < options.tolerance && report.change * rate <= left_open * options.tolerance) {
+      report.converged = true;
+      system.set_last_contraction(rate);
+      return report;
+    }
   }
 }
 

@@ -195,6 +195,9 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
     state.algorithmic[n] = state.nodes[n].a + (c.shift() * h) * jerk[n];
   }
   state.step_size = h;
+  state.acceleration_trend.resize(jerk.size());
+  for (std::size_t n = 0; n < jerk.size(); ++n) state.acceleration_trend[n] = h * jerk[n];
+  state.follows_trend = true;
   StartReport report;
   report.ok = true;
   if (system.plan().num_multipliers == 0) return report;

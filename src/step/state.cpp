@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bough/lanes/pack.hpp"
+#include "bough/lanes/transpose.hpp"
 #include "bough/plan/frames.hpp"
 
 namespace bough::step {
@@ -68,31 +68,51 @@ void move_node(State& state, std::size_t node, const motion::Vec6<double>& eta) 
 
 void move_nodes(State& state, std::size_t begin, std::size_t count, const motion::Vec6<double>* eta, bool follow_dq) {
   using Pack = lanes::Pack<nodes_in_lanes>;
-  Mover<Pack> m;
-  motion::Vec6<Pack> step;
+  static_assert(std::is_standard_layout_v<elements::NodeMotion> && sizeof(Mover<double>::R) == 9 * sizeof(double));
+  constexpr int num_pose = 15;  // of R and the position, which come first
+  const double *pose[nodes_in_lanes], *turn[nodes_in_lanes], *increment[nodes_in_lanes], *dq[nodes_in_lanes];
   for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
     const std::size_t k = std::min(l, count - 1);  // spare lanes repeat the last node
     const elements::NodeMotion& n = state.nodes[begin + k];
-    const int lane = static_cast<int>(l);
-    lanes::set_lane(m.R, lane, n.R);
-    lanes::set_lane(m.x.hi, lane, n.x.hi);
-    lanes::set_lane(m.x.lo, lane, n.x.lo);
-    lanes::set_lane(m.dq, lane, n.dq);
-    lanes::set_lane(step, lane, eta[k]);
-    m.q.w.set(lane, state.rotation[begin + k].w);
-    lanes::set_lane(m.q.v, lane, state.rotation[begin + k].v);
+    pose[l] = n.R.m;
+    dq[l] = &n.dq[0];
+    turn[l] = &state.rotation[begin + k].w;
+    increment[l] = &eta[k][0];
   }
+  Mover<Pack> m;
+  motion::Vec6<Pack> step;
+  Pack placed[num_pose], turned[4];
+  lanes::gather_lanes(pose, num_pose, placed);
+  lanes::gather_lanes(turn, 4, turned);
+  lanes::gather_lanes(increment, 6, &step[0]);
+  if (follow_dq) lanes::gather_lanes(dq, 6, &m.dq[0]);
+  for (int i = 0; i < 9; ++i) m.R.m[i] = placed[i];
+  for (int i = 0; i < 3; ++i) {
+    m.x.hi[i] = placed[9 + i];
+    m.x.lo[i] = placed[12 + i];
+    m.q.v[i] = turned[1 + i];
+  }
+  m.q.w = turned[0];
   m.move(step, follow_dq);
-  for (std::size_t l = 0; l < count; ++l) {
-    elements::NodeMotion& n = state.nodes[begin + l];
-    const int lane = static_cast<int>(l);
-    n.R = lanes::get_lane(m.R, lane);
-    n.x.hi = lanes::get_lane(m.x.hi, lane);
-    n.x.lo = lanes::get_lane(m.x.lo, lane);
-    if (follow_dq) n.dq = lanes::get_lane(m.dq, lane);
-    state.rotation[begin + l].w = m.q.w[lane];
-    state.rotation[begin + l].v = lanes::get_lane(m.q.v, lane);
+  for (int i = 0; i < 9; ++i) placed[i] = m.R.m[i];
+  for (int i = 0; i < 3; ++i) {
+    placed[9 + i] = m.x.hi[i];
+    placed[12 + i] = m.x.lo[i];
+    turned[1 + i] = m.q.v[i];
   }
+  turned[0] = m.q.w;
+  double nowhere[num_pose], *to_pose[nodes_in_lanes], *to_turn[nodes_in_lanes], *to_dq[nodes_in_lanes];
+  for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
+    to_pose[l] = to_turn[l] = to_dq[l] = nowhere;
+    if (l >= count) continue;
+    elements::NodeMotion& n = state.nodes[begin + l];
+    to_pose[l] = n.R.m;
+    to_turn[l] = &state.rotation[begin + l].w;
+    to_dq[l] = &n.dq[0];
+  }
+  lanes::scatter_lanes(placed, num_pose, to_pose);
+  lanes::scatter_lanes(turned, 4, to_turn);
+  if (follow_dq) lanes::scatter_lanes(&m.dq[0], 6, to_dq);
 }
 
 }  // namespace bough::step

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -18,6 +19,16 @@ using motion::Vec6;
 namespace {
 
 constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
+
+/// By exponents, which no trap minds and compilers vectorise.
+bool all_finite(const double* a, int count) {
+  constexpr std::uint64_t exponent = 0x7ff0000000000000u;
+  bool finite = true;
+  for (int i = 0; i < count; ++i) finite &= (std::bit_cast<std::uint64_t>(a[i]) & exponent) != exponent;
+  return finite;
+}
+
+double largest_of_three(const double* a) { return std::max(std::max(std::abs(a[0]), std::abs(a[1])), std::abs(a[2])); }
 
 std::unique_ptr<tree::Tree> make_scene_tree(const plan::Plan& plan, const scene::Solver& given) {
   tree::TreeOptions options;
@@ -83,7 +94,14 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   row_series_.resize(static_cast<std::size_t>(plan.num_multipliers));
   work_.rhs.assign(num_unknowns(), 0.0);
   work_.x = work_.rhs;
-  chunk_max_.assign((num_elements + element_grain - 1) / element_grain + 1, 0.0);
+  is_length_.assign(num_unknowns(), 0);
+  for_each_multiplier(*this, [&](int joint, std::size_t, std::size_t unknown, std::size_t row) {
+    const auto& e = plan::array_of<elements::Joint>(plan.elements)[static_cast<std::size_t>(
+        plan.directory[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(joint)].element)].index)];
+    is_length_[unknown] = e.rows[row].kind == elements::RowKind::along || e.rows[row].kind == elements::RowKind::screw;
+  });
+  chunk_sizes_.resize((static_cast<std::size_t>(g.num_blocks()) + block_grain - 1) / block_grain, {{}, true});
+  find_pairs();
 }
 
 System::~System() = default;
@@ -151,7 +169,8 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   const std::span<const solve::ElementBatch> batches = solver_->batches();
   const auto result = [&](int id) {
     const auto begin = static_cast<std::size_t>(element_begin_[static_cast<std::size_t>(id)]);
-    return ElementResult{element_residual_.data() + begin, element_magnitude_.data() + begin, solver_->element(id)};
+    return ElementResult{element_residual_.data() + begin, element_magnitude_.data() + begin,
+                         tangent ? solver_->element(id) : solve::ElementView{}};
   };
   auto by_batch = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
@@ -164,62 +183,74 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
     }
   };
   walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain, tree::make_chunk(by_batch));
-  auto by_block = [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t b = begin; b < end; ++b) {
-      const auto block = static_cast<std::size_t>(b);
-      const int size = plan_.graph.block_size[block];
-      double* r = residual_.data() + tree_->unknown_begin[block];
-      double* m = magnitude_.data() + tree_->unknown_begin[block];
-      for (int i = 0; i < size; ++i) r[i] = m[i] = 0.0;
-      for (std::int64_t u = use_begin_[block]; u < use_begin_[block + 1]; ++u) {
-        const double* part = element_residual_.data() + uses_[static_cast<std::size_t>(u)];
-        const double* terms = element_magnitude_.data() + uses_[static_cast<std::size_t>(u)];
-        for (int i = 0; i < size; ++i) {
-          r[i] += part[i];
-          m[i] += terms[i];
-        }
+  auto by_block = [&](std::int64_t begin, std::int64_t end) { sum_blocks(begin, end); };
+  walker_.for_each_chunk(plan_.graph.num_blocks(), block_grain, tree::make_chunk(by_block));
+  if (std::all_of(chunk_sizes_.begin(), chunk_sizes_.end(), [](const ChunkSize& c) { return c.is_finite; }))
+    return std::nullopt;
+  for (std::size_t e = 0; e < plan_.directory.size(); ++e)
+    for (std::int64_t i = element_begin_[e]; i < element_begin_[e + 1]; ++i)
+      if (!std::isfinite(element_residual_[static_cast<std::size_t>(i)]))
+        return Trouble{"the forces of '" + plan_.element_owner[e] + "' are not finite at time " +
+                       std::to_string(time_)};
+  return Trouble{"a sum of forces is not finite at time " + std::to_string(time_)};
+}
+
+/// Adds the parts of blocks [begin, end), a chunk, in a fixed order, and sizes up the sums.
+void System::sum_blocks(std::int64_t begin, std::int64_t end) {
+  ChunkSize chunk{{}, true};
+  ResidualSize& s = chunk.size;
+  for (std::int64_t b = begin; b < end; ++b) {
+    const auto block = static_cast<std::size_t>(b);
+    const int size = plan_.graph.block_size[block];
+    const auto first = static_cast<std::size_t>(tree_->unknown_begin[block]);
+    double *r = residual_.data() + first, *m = magnitude_.data() + first;
+    for (int i = 0; i < size; ++i) r[i] = m[i] = 0.0;
+    for (std::int64_t u = use_begin_[block]; u < use_begin_[block + 1]; ++u) {
+      const double* part = element_residual_.data() + uses_[static_cast<std::size_t>(u)];
+      const double* terms = element_magnitude_.data() + uses_[static_cast<std::size_t>(u)];
+      for (int i = 0; i < size; ++i) {
+        r[i] += part[i];
+        m[i] += terms[i];
       }
     }
-  };
-  walker_.for_each_chunk(plan_.graph.num_blocks(), block_grain, tree::make_chunk(by_block));
-  for (double r : residual_)
-    if (!std::isfinite(r)) {
-      for (std::size_t e = 0; e < plan_.directory.size(); ++e)
-        for (std::int64_t i = element_begin_[e]; i < element_begin_[e + 1]; ++i)
-          if (!std::isfinite(element_residual_[static_cast<std::size_t>(i)]))
-            return Trouble{"the forces of '" + plan_.element_owner[e] + "' are not finite at time " +
-                           std::to_string(time_)};
-      return Trouble{"a sum of forces is not finite at time " + std::to_string(time_)};
+    if (!all_finite(r, size)) {
+      chunk.is_finite = false;
+      continue;
     }
-  return std::nullopt;
+    const int joint = joint_of_block_[block];
+    if (joint < 0) {
+      const double force = largest_of_three(r), moment = largest_of_three(r + 3);
+      if (force > s.force) s.worst_force_node = static_cast<int>(b);
+      if (moment > s.moment) s.worst_moment_node = static_cast<int>(b);
+      s.force = std::max(s.force, force);
+      s.moment = std::max(s.moment, moment);
+      s.force_scale = std::max(s.force_scale, largest_of_three(m));
+      s.moment_scale = std::max(s.moment_scale, largest_of_three(m + 3));
+      continue;
+    }
+    for (int i = 0; i < size; ++i) {
+      const double value = std::abs(r[i]);
+      if (value > std::max(s.length, s.angle)) s.worst_joint = joint;
+      double& most = is_length_[first + static_cast<std::size_t>(i)] != 0 ? s.length : s.angle;
+      most = std::max(most, value);
+    }
+  }
+  chunk_sizes_[static_cast<std::size_t>(begin / block_grain)] = chunk;
 }
 
 ResidualSize System::residual_size() const {
   ResidualSize s;
-  for (int b = 0; b < plan_.graph.num_blocks(); ++b) {
-    const auto begin = static_cast<std::size_t>(block_begin(b));
-    const int joint = joint_of_block_[static_cast<std::size_t>(b)];
-    if (joint < 0) {
-      for (std::size_t i = 0; i < 6; ++i) {
-        double& size = i < 3 ? s.force : s.moment;
-        double& scale = i < 3 ? s.force_scale : s.moment_scale;
-        if (std::abs(residual_[begin + i]) > size) {
-          size = std::abs(residual_[begin + i]);
-          (i < 3 ? s.worst_force_node : s.worst_moment_node) = b;
-        }
-        scale = std::max(scale, magnitude_[begin + i]);
-      }
-    } else {
-      const auto& e = plan::array_of<elements::Joint>(plan_.elements)[static_cast<std::size_t>(
-          plan_.directory[static_cast<std::size_t>(plan_.joints[static_cast<std::size_t>(joint)].element)].index)];
-      for (int k = 0; k < e.num_rows; ++k) {
-        const bool is_length = e.rows[k].kind == elements::RowKind::along || e.rows[k].kind == elements::RowKind::screw;
-        double& size = is_length ? s.length : s.angle;
-        const double value = std::abs(residual_[begin + static_cast<std::size_t>(k)]);
-        if (value > std::max(s.length, s.angle)) s.worst_joint = joint;
-        size = std::max(size, value);
-      }
-    }
+  for (const ChunkSize& chunk : chunk_sizes_) {
+    const ResidualSize& c = chunk.size;
+    if (c.force > s.force) s.worst_force_node = c.worst_force_node;
+    if (c.moment > s.moment) s.worst_moment_node = c.worst_moment_node;
+    if (std::max(c.length, c.angle) > std::max(s.length, s.angle)) s.worst_joint = c.worst_joint;
+    s.force = std::max(s.force, c.force);
+    s.moment = std::max(s.moment, c.moment);
+    s.force_scale = std::max(s.force_scale, c.force_scale);
+    s.moment_scale = std::max(s.moment_scale, c.moment_scale);
+    s.length = std::max(s.length, c.length);
+    s.angle = std::max(s.angle, c.angle);
   }
   return s;
 }

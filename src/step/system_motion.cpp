@@ -1,6 +1,7 @@
 /// System: moving the nodes, and time derivatives along a motion.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bough/step/system.hpp"
 #include "system_parts.hpp"
@@ -10,40 +11,62 @@ namespace bough::step {
 using elements::NodeMotion;
 using motion::Vec6;
 
+void System::find_pairs() {
+  for (std::size_t id = 0; id < plan_.directory.size(); ++id)
+    plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
+      const double per_length = 1.0 / element_length_[id];
+      const int first = e.ports[0].node == elements::ground ? -1 : e.ports[0].node;
+      constexpr int num_ports = std::decay_t<decltype(e)>::num_ports;
+      if (num_ports == 1 && first >= 0) pairs_.push_back({-1, first, per_length});
+      for (int p = 1; p < num_ports; ++p)
+        if (e.ports[p].node != elements::ground) pairs_.push_back({first, e.ports[p].node, per_length});
+    });
+  turned_.resize(plan_.nodes.size());
+  chunk_max_.resize((pairs_.size() + pair_grain - 1) / pair_grain);
+}
+
+namespace {
+constexpr double too_far = 1e100;  ///< a change whose square may not be finite: the iteration is lost
+}
+
 double System::relative_size(const State& state, const double* x) {
-  auto by_element = [&](std::int64_t begin, std::int64_t end) {
+  auto by_node = [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const auto n = static_cast<std::size_t>(k);
+      const Vec6<double> eta = node_part(x, static_cast<int>(k));
+      turned_[n] = lanes::join(state.nodes[n].R * lanes::linear_part(eta), state.nodes[n].R * lanes::angular_part(eta));
+    }
+  };
+  walker_.for_each_chunk(static_cast<std::int64_t>(turned_.size()), block_grain, tree::make_chunk(by_node));
+  auto by_pair = [&](std::int64_t begin, std::int64_t end) {
     double most = 0.0;
     for (std::int64_t k = begin; k < end; ++k) {
-      const auto id = static_cast<std::size_t>(k);
-      plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
-        const elements::Port* first = nullptr;
-        for (const elements::Port& p : e.ports) {
-          if (p.node == elements::ground) continue;
-          Vec6<double> change = node_part(x, p.node);
-          constexpr int num_ports = std::decay_t<decltype(e)>::num_ports;
-          if (first != nullptr) {
-            const NodeMotion& a = state.nodes[static_cast<std::size_t>(first->node)];
-            const NodeMotion& b = state.nodes[static_cast<std::size_t>(p.node)];
-            const motion::Frame<double> H{lanes::transpose_times(a.R, b.R),
-                                          lanes::transpose_times(a.R, motion::difference(b.x, a.x))};
-            change -= motion::inverse_adjoint_times(H, node_part(x, first->node));
-          } else if (num_ports > 1 && e.ports[0].node != elements::ground) {
-            first = &p;
-            continue;
-          }
-          for (int i = 0; i < 3; ++i) {
-            most = std::max(most, std::abs(change[i]) / element_length_[id]);
-            most = std::max(most, std::abs(change[3 + i]));
-          }
-        }
-      });
+      const NodePair& p = pairs_[static_cast<std::size_t>(k)];
+      const auto b = static_cast<std::size_t>(p.b);
+      Vec6<double> change = turned_[b];
+      if (p.a >= 0) {
+        const auto a = static_cast<std::size_t>(p.a);
+        change -= turned_[a];
+        const motion::Vec3<double> arm = state.nodes[b].x.hi - state.nodes[a].x.hi;
+        const motion::Vec3<double> swing = lanes::cross(lanes::angular_part(turned_[a]), arm);
+        for (int i = 0; i < 3; ++i) change[i] -= swing[i];
+      }
+      for (int i = 0; i < 3; ++i) change[i] *= p.per_length;
+      double largest = 0.0;
+      for (int i = 0; i < 6; ++i) largest = std::max(largest, std::abs(change[i]));
+      if (!(largest < too_far)) {
+        most = std::numeric_limits<double>::infinity();
+        break;
+      }
+      const motion::Vec3<double> shift = lanes::linear_part(change), turn = lanes::angular_part(change);
+      most = std::max({most, lanes::dot(shift, shift), lanes::dot(turn, turn)});
     }
-    chunk_max_[static_cast<std::size_t>(begin / element_grain)] = most;
+    chunk_max_[static_cast<std::size_t>(begin / pair_grain)] = most;
   };
-  std::fill(chunk_max_.begin(), chunk_max_.end(), 0.0);
-  walker_.for_each_chunk(static_cast<std::int64_t>(plan_.directory.size()), element_grain,
-                         tree::make_chunk(by_element));
-  return *std::max_element(chunk_max_.begin(), chunk_max_.end());
+  walker_.for_each_chunk(static_cast<std::int64_t>(pairs_.size()), pair_grain, tree::make_chunk(by_pair));
+  double most = 0.0;
+  for (double size : chunk_max_) most = std::max(most, size);
+  return std::sqrt(most);
 }
 
 Vec6<double> System::node_part(const double* x, int node) const {

@@ -21,7 +21,7 @@ struct PhaseTimer {
 };
 
 /// Items a task takes at once; chunks do not depend on the number of threads.
-inline constexpr std::int64_t element_grain = 32, block_grain = 128, batch_grain = 8;
+inline constexpr std::int64_t element_grain = 32, block_grain = 128, pair_grain = 512, batch_grain = 8;
 
 /// Calls f(joint, multiplier, unknown, row) for every multiplier that is an unknown: its place in State::multipliers and in the solver's
 /// vectors, and its number among the rows of the joint.

@@ -87,18 +87,20 @@ LaneResult lane_results(const std::vector<Sample<E>>& samples, bool has_inertia,
   std::vector<NodeLanes> motions(E::num_ports);
   std::vector<LanePack> law_values(max_laws + 1, LanePack(0.0)), multipliers(max_rows, LanePack(0.0));
   LanePack turns(0.0);
+  const double* from[E::num_ports][num_lanes] = {};
   for (int lane = 0; lane < num_lanes; ++lane) {
     const Sample<E>& s = samples[static_cast<std::size_t>(std::min(lane, count - 1))];
     for (int k = 0; k < E::num_ports; ++k)
       if (s.element.ports[k].node != ground)
-        set_lane(motions[static_cast<std::size_t>(k)], lane,
-                 s.nodes[static_cast<std::size_t>(s.element.ports[k].node)]);
+        from[k][lane] = numbers_of(s.nodes[static_cast<std::size_t>(s.element.ports[k].node)]);
     const int n = list_laws(s.element, laws);
     for (int k = 0; k < n; ++k)
       law_values[static_cast<std::size_t>(k + 1)].set(lane, s.laws[static_cast<std::size_t>(laws[k])]);
     for (std::size_t k = 0; k < s.multipliers.size(); ++k) multipliers[k].set(lane, s.multipliers[k]);
     turns.set(lane, s.turns);
   }
+  for (int k = 0; k < E::num_ports; ++k)
+    if (from[k][0] != nullptr) set_lanes(motions[static_cast<std::size_t>(k)], from[k]);
   CarrierLanes frame_lanes;
   if (frame != nullptr) set_all_lanes(frame_lanes, *frame);
   FieldLanes field{

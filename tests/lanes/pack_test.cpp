@@ -1,7 +1,9 @@
 // A pack against doubles, lane by lane and bit by bit.
-#include "bough/lanes/pack.hpp"
-
 #include <gtest/gtest.h>
+
+#include <vector>
+
+#include "bough/lanes/transpose.hpp"
 
 namespace bough::lanes {
 namespace {
@@ -129,6 +131,28 @@ TYPED_TEST(PackOf, derivative_types_and_vectors_of_packs_select_and_move_by_lane
     EXPECT_EQ(series.c[1][i], i < 1.5 ? 3.0 : 4.0);
     EXPECT_EQ(get_lane(v, i)[2], i == P::width - 1 ? 6.0 : 3.0);
     EXPECT_EQ(get_lane(m, i)(1, 0), i == 0 ? 3.0 : 0.0);
+  }
+}
+
+TYPED_TEST(PackOf, arrays_turn_into_packs_and_back) {
+  using P = TypeParam;
+  constexpr int most = 21;
+  for (int count = 0; count <= most; ++count) {
+    std::vector<std::vector<double>> rows(P::width, std::vector<double>(most + 1, -1.0)), back = rows;
+    const double* from[P::width];
+    double* to[P::width];
+    for (int l = 0; l < P::width; ++l) {
+      for (int i = 0; i < count; ++i) rows[static_cast<std::size_t>(l)][static_cast<std::size_t>(i)] = 100.0 * l + i;
+      from[l] = rows[static_cast<std::size_t>(l)].data();
+      to[l] = back[static_cast<std::size_t>(l)].data();
+    }
+    std::vector<P> packs(most + 1, P(-2.0));
+    gather_lanes(from, count, packs.data());
+    for (int i = 0; i <= most; ++i)
+      for (int l = 0; l < P::width; ++l)
+        EXPECT_EQ(packs[static_cast<std::size_t>(i)][l], i < count ? 100.0 * l + i : -2.0) << count;
+    scatter_lanes(packs.data(), count, to);
+    EXPECT_EQ(back, rows) << count;
   }
 }
 

@@ -5,13 +5,13 @@
 /// A solver that runs up to eight equal sub-domains in lockstep
 ///   1. once, for each element position: checks `may_share_lanes` and makes a `LaneElement` (make_lane_element), whose ports and
 ///      laws carry the numbers of the sub-domain's own nodes and laws, the same in all lanes;
-///   2. at each evaluation: fills one NodeLanes per node (set_lane, 33 numbers a lane) and one pack per law and multiplier; where frames
+///   2. at each evaluation: fills one NodeLanes per node (set_lanes) and one pack per law and multiplier; where frames
 ///      move, one CarrierLanes for each of them and for the observer (set_all_lanes), which are common to all lanes;
 ///   3. calls `evaluate_lanes` for each element; entry k of lane l of a result is out[k * num_lanes + l], k as in `evaluate`.
 /// Lanes that are not needed repeat a valid element and its nodes; what they yield is ignored. Nothing allocates. All arrays of packs are
 /// aligned to 64 bytes.
 #include "bough/elements/evaluate.hpp"
-#include "bough/lanes/pack.hpp"
+#include "bough/lanes/transpose.hpp"
 
 namespace bough::elements {
 
@@ -64,14 +64,15 @@ bool may_share_lanes(const E& a, const E& b);
 template <class E>
 LaneElement<E> make_lane_element(const E* const* elements, int count, const int* nodes, int first_law);
 
-/// Writes one node's motion into a lane.
-inline void set_lane(NodeLanes& to, int lane, const NodeMotion& from) {
-  lanes::set_lane(to.R, lane, from.R);
-  lanes::set_lane(to.x.hi, lane, from.x.hi);
-  lanes::set_lane(to.x.lo, lane, from.x.lo);
-  lanes::set_lane(to.v, lane, from.v);
-  lanes::set_lane(to.a, lane, from.a);
-  lanes::set_lane(to.dq, lane, from.dq);
+/// A node's motion as plain numbers, in the order of its members.
+inline constexpr int numbers_of_node = 33;
+static_assert(sizeof(NodeMotion) == numbers_of_node * sizeof(double));
+static_assert(sizeof(NodeLanes) == numbers_of_node * sizeof(LanePack));
+inline const double* numbers_of(const NodeMotion& node) { return reinterpret_cast<const double*>(&node); }
+
+/// The motions of eight nodes, one to a lane.
+inline void set_lanes(NodeLanes& to, const double* const (&from)[num_lanes]) {
+  lanes::gather_lanes(from, numbers_of_node, reinterpret_cast<LanePack*>(&to));
 }
 
 /// A frame of prescribed motion as all lanes see it.

@@ -329,6 +329,3 @@ void set_lane(Mat<Pack<W>, R, C>& a, int lane, const Mat<double, R, C>& value) {
 
 }  // namespace BOUGH_REGISTER_NAMESPACE
 }  // namespace bough::lanes
-
-#undef BOUGH_REGISTER_NAMESPACE
-#undef BOUGH_REGISTER_DOUBLES

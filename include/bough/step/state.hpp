@@ -9,11 +9,13 @@
 namespace bough::step {
 
 struct State {
-  double time = 0.0;                                 ///< [s], or the load factor in statics
-  double step_size = 0.0;                            ///< h that `algorithmic` belongs to [s]; 0 before the start
-  std::vector<elements::NodeMotion> nodes;           ///< R, x, v, dv/dt, and dq since the last accepted step
-  std::vector<motion::Quaternion<double>> rotation;  ///< of nodes; R is made from it
-  std::vector<motion::Vec6<double>> algorithmic;     ///< a_n, the acceleration-like variable of generalized-alpha
+  double time = 0.0;                                     ///< [s], or the load factor in statics
+  double step_size = 0.0;                                ///< h that `algorithmic` belongs to [s]; 0 before the start
+  std::vector<elements::NodeMotion> nodes;               ///< R, x, v, dv/dt, and dq since the last accepted step
+  std::vector<motion::Quaternion<double>> rotation;      ///< of nodes; R is made from it
+  std::vector<motion::Vec6<double>> algorithmic;         ///< a_n, the acceleration-like variable of generalized-alpha
+  std::vector<motion::Vec6<double>> acceleration_trend;  ///< change of dv/dt over the last step, of generalized-alpha
+  bool follows_trend = false;                  ///< whether the last step was nearer to its trend than to its start
   double last_step = 0.0;                      ///< h that dq spans, of the variational integrator [s]; 0 at a start
   std::vector<motion::Vec6<double>> momentum;  ///< p_n of the variational integrator, own axes; else empty
   std::vector<double> multipliers;

@@ -64,6 +64,7 @@ class System {
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
   /// By block, unknowns in the order of the solver.
   const std::vector<double>& residual() const { return residual_; }
+  /// Of the residual last evaluated.
   ResidualSize residual_size() const;
   /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment.
   ResidualSize round_off_floor(const State& state) const;
@@ -80,7 +81,8 @@ class System {
   const solve::SolveReport& last_solution() const { return last_solution_; }
 
   /// Size of an increment: the largest change of relative motions, of elements' nodes with respect to each other, lengths relative to the
-  /// element [-] and angles [rad].
+  /// element [-] and angles [rad], which no rigid motion of the whole changes:
+  ///   |R_b w_b - R_a w_a|,  |R_b u_b - R_a u_a - (R_a w_a) x (x_b - x_a)| / length          for increments (u; w) of nodes a and b
   double relative_size(const State& state, const double* x);
   /// Applies a solution: each node moves by its own increment, H <- H exp(eta), multipliers grow by theirs. Returns relative_size.
   double apply(State& state, const double* x);
@@ -118,6 +120,18 @@ class System {
   const elements::CarrierMotion* observer() const { return plan_.observer < 0 ? nullptr : &frames_.observer; }
 
  private:
+  /// Two nodes of an element, a < 0: b alone, against what does not move.
+  struct NodePair {
+    int a, b;
+    double per_length;  ///< 1 / length of the element [1/m]
+  };
+  struct ChunkSize {
+    ResidualSize size;
+    bool is_finite;
+  };
+
+  void find_pairs();
+  void sum_blocks(std::int64_t begin, std::int64_t end);
   motion::Vec6<double> node_part(const double* x, int node) const;
   double largest_violation(const State& state, int order, double length, int* joint) const;
   void add_multipliers(State& state, const double* x, double factor) const;
@@ -146,6 +160,11 @@ class System {
   std::vector<std::int64_t> use_begin_;  ///< by block: range in uses_
   std::vector<std::int64_t> uses_;       ///< places in element_residual_ that add up to the block, fixed order
   std::vector<double> residual_, magnitude_;
+  std::vector<ChunkSize> chunk_sizes_;  ///< of residual_, by chunk of blocks
+  std::vector<char> is_length_;         ///< by unknown: whether it is the multiplier of a length, in blocks of joints
+  std::vector<NodePair> pairs_;         ///< whose relative motions relative_size looks at
+  std::vector<motion::Vec6<double>>
+      turned_;  ///< scratch of relative_size: increments of the nodes in the axes of the ground
   std::vector<double> chunk_max_;
   std::vector<double> element_length_;  ///< size of each element, for relative changes [m]
   double moment_arm_ = 0.0;

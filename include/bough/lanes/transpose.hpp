@@ -1,0 +1,92 @@
+#pragma once
+/// Between W plain arrays and one array of packs, entry by entry: to[i] lane l = from[l][i] and back. Registers of eight or four doubles are
+/// turned as square blocks, since single lanes that are written and then read as a whole stall the processor.
+#include "bough/lanes/pack.hpp"
+
+namespace bough::lanes {
+inline namespace BOUGH_REGISTER_NAMESPACE {
+
+namespace detail {
+#if BOUGH_REGISTER_DOUBLES >= 4
+using Real4 = Register<4>::Real;
+/// rows[i][j] <-> rows[j][i] of four registers of four.
+inline void transpose_square(Real4 (&r)[4]) {
+  const Real4 a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6), b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
+  const Real4 c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6), d = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
+  r[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  r[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  r[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  r[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+#endif
+#if BOUGH_REGISTER_DOUBLES >= 8
+using Real8 = Register<8>::Real;
+/// The same of eight by eight: pairs of rows interleaved, then the 4 x 4 blocks of pairs.
+inline void transpose_square(Real8 (&r)[8]) {
+  Real8 even[4], odd[4];
+  for (int k = 0; k < 4; ++k) {
+    even[k] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    odd[k] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  const auto spread = [&r](const Real8(&p)[4], int first) {
+    const Real8 a = __builtin_shufflevector(p[0], p[1], 0, 1, 4, 5, 8, 9, 12, 13);
+    const Real8 b = __builtin_shufflevector(p[2], p[3], 0, 1, 4, 5, 8, 9, 12, 13);
+    const Real8 c = __builtin_shufflevector(p[0], p[1], 2, 3, 6, 7, 10, 11, 14, 15);
+    const Real8 d = __builtin_shufflevector(p[2], p[3], 2, 3, 6, 7, 10, 11, 14, 15);
+    r[first] = __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13);
+    r[first + 4] = __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15);
+    r[first + 2] = __builtin_shufflevector(c, d, 0, 1, 4, 5, 8, 9, 12, 13);
+    r[first + 6] = __builtin_shufflevector(c, d, 2, 3, 6, 7, 10, 11, 14, 15);
+  };
+  spread(even, 0);
+  spread(odd, 1);
+}
+#endif
+}  // namespace detail
+
+/// to[i] lane l <- from[l][i] for i < count. The last block of a count that is no multiple overlaps the one before.
+template <int W>
+void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
+  constexpr int side = Pack<W>::chunk;
+  if constexpr (side >= 4) {
+    if (count >= side) {
+      for (int at = 0; at < count; at += side) {
+        const int i = at + side <= count ? at : count - side;
+        for (int c = 0; c < Pack<W>::chunks; ++c) {
+          typename Pack<W>::Real square[side];
+          for (int l = 0; l < side; ++l) __builtin_memcpy(&square[l], from[c * side + l] + i, sizeof square[l]);
+          detail::transpose_square(square);
+          for (int k = 0; k < side; ++k) to[i + k].r[c] = square[k];
+        }
+      }
+      return;
+    }
+  }
+  for (int i = 0; i < count; ++i)
+    for (int l = 0; l < W; ++l) to[i].set(l, from[l][i]);
+}
+
+/// to[l][i] <- from[i] lane l for i < count; the arrays must not overlap.
+template <int W>
+void scatter_lanes(const Pack<W>* from, int count, double* const (&to)[W]) {
+  constexpr int side = Pack<W>::chunk;
+  if constexpr (side >= 4) {
+    if (count >= side) {
+      for (int at = 0; at < count; at += side) {
+        const int i = at + side <= count ? at : count - side;
+        for (int c = 0; c < Pack<W>::chunks; ++c) {
+          typename Pack<W>::Real square[side];
+          for (int k = 0; k < side; ++k) square[k] = from[i + k].r[c];
+          detail::transpose_square(square);
+          for (int l = 0; l < side; ++l) __builtin_memcpy(to[c * side + l] + i, &square[l], sizeof square[l]);
+        }
+      }
+      return;
+    }
+  }
+  for (int i = 0; i < count; ++i)
+    for (int l = 0; l < W; ++l) to[l][i] = from[i][l];
+}
+
+}  // namespace BOUGH_REGISTER_NAMESPACE
+}  // namespace bough::lanes
