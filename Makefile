@@ -5,16 +5,18 @@ JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 SCENARIO ?= data/scenarios/four_bar_misaligned.json
 RESULTS ?= build/results
+STUDY ?= build/study
 CTEST := ctest --test-dir build/release --output-on-failure --no-tests=error -j $(JOBS)
 NEED := sh cmake/install_dependencies.sh
 
-.PHONY: help run build test bench check-all install lint format clean
+.PHONY: help run build test bench study check-all install lint format clean
 
 help:
 	@echo "make run        install what is missing, build, simulate $(SCENARIO), write and draw $(RESULTS)"
 	@echo "make build      install what is missing, build the library and the program in build/release"
 	@echo "make test       build and run the unit and verification tests"
 	@echo "make bench      build and run the benchmarks"
+	@echo "make study      errors against run times of the standing set, one report with an index ($(STUDY)); about ten minutes"
 	@echo "make lint       format, include arrows, file lengths;  make format repairs the first"
 	@echo "make check-all  everything: both compilers, slow tests, sanitizers, coverage, browser (an hour or more)"
 	@echo "make install    install into PREFIX ($(PREFIX)), with sudo only if the folder needs it"
@@ -46,6 +48,9 @@ bench:
 	cmake --preset bench
 	cmake --build build/bench --parallel $(JOBS)
 	sh benchmarks/run.sh build/bench
+
+study: build
+	build/release/bough study data/studies --out $(STUDY) --threads 2
 
 lint:
 	@$(NEED) lint

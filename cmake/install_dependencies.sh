@@ -4,7 +4,8 @@
 #   test   GoogleTest, Boost headers (Multiprecision), the Python of the checks, strace
 #   lint   clang-format and Python
 #   asan   clang with its sanitizers                    tsan   asan, and what rebuilding TBB from source needs
-#   all    everything, with coverage, clang-tidy and a browser for `make check-all`
+#   browser  a browser without a screen, for the pages of reports
+#   all    everything, with coverage and clang-tidy for `make check-all`
 # dpkg is asked first: when nothing is missing, neither the network nor root is needed. With --list the packages are
 # printed and nothing is done.
 set -eu
@@ -20,9 +21,10 @@ packages_of() {
     lint) echo clang-format-14 python3 ;;
     asan) echo clang-14 libclang-rt-14-dev llvm-14 ;;
     tsan) echo clang-14 libclang-rt-14-dev llvm-14 dpkg-dev util-linux ;;
+    browser) echo chromium python3 ;;
     all)
-      for group in build test bench lint asan tsan; do packages_of $group; done
-      echo ccache gcovr clang-tidy-14 chromium ;;
+      for group in build test bench lint asan tsan browser; do packages_of $group; done
+      echo ccache gcovr clang-tidy-14 ;;
     *)
       echo "install_dependencies.sh: no group '$1'" >&2
       return 1 ;;

@@ -67,6 +67,13 @@ struct MotionArguments {
 };
 struct SchemaArguments {
   bool chain = false, motion = false;  ///< of the files of bough kinematics, not of scenes
+  bool study = false;                  ///< of the files of bough study
+};
+struct StudyArguments {
+  std::filesystem::path spec, out, cache;  ///< spec: a file or a folder of them; cache empty: out/references
+  int threads = 0;                         ///< 0: as many as the machine has
+  int repetitions = 0;                     ///< 0: as the study says
+  bool quiet = false;
 };
 struct DoctorArguments {};
 
@@ -79,6 +86,7 @@ int check(const CheckArguments& arguments);
 int compare(const CompareArguments& arguments);
 int kinematics_razi(const RaziArguments& arguments);
 int kinematics_motion(const MotionArguments& arguments);
+int study_scene(const StudyArguments& arguments);
 int schema(const SchemaArguments& arguments);
 int doctor(const DoctorArguments& arguments);
 

@@ -5,6 +5,7 @@
 #include "bough/io/read_frames.hpp"
 #include "bough/io/read_motion.hpp"
 #include "bough/io/read_scene.hpp"
+#include "bough/io/read_study.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
@@ -43,6 +44,7 @@ int check(const CheckArguments& arguments) {
 int schema(const SchemaArguments& arguments) {
   std::cout << (arguments.chain    ? io::frames_schema_text()
                 : arguments.motion ? io::motion_schema_text()
+                : arguments.study  ? io::study_schema_text()
                                    : io::schema_text())
             << std::flush;
   return std::cout.good() ? exit_done : exit_failed;

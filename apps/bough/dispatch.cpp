@@ -11,7 +11,7 @@ namespace bough::app {
 namespace {
 
 const std::vector<std::string> verbs = {"run",     "view",       "batch",         "check", "schema",
-                                        "compare", "kinematics", "export-matrix", "doctor"};
+                                        "compare", "kinematics", "export-matrix", "study", "doctor"};
 
 /// A finite number from low to high. (CLI::Range lets NaN pass.)
 CLI::Validator between(double low, double high) {
@@ -114,6 +114,27 @@ void add_export_matrix(CLI::App& app, ExportMatrixArguments& a, int& code) {
   verb.callback([&] { code = export_matrix(a); });
 }
 
+void add_study(CLI::App& app, StudyArguments& a, int& code) {
+  CLI::App& verb = add_verb(
+      app, "study", "Measure errors and run times of a scene over grids of choices",
+      "  bough study data/studies/heavy_top.json --out results/heavy_top\n"
+      "  bough study data/studies --out results --threads 2\n"
+      "  bough schema --study > study.schema.json\n"
+      "Writes study.csv, study.json and study.html; of a folder, one directory a study and index.html.\n"
+      "Computed references are kept in DIR/references under a hash of all that they depend on.\n"
+      "Exit status: 0 done; 1 an order of convergence is not that of theory, a reference could not be computed,\n"
+      "or it was stopped; 2 bad input. Runs that fail are results: they are listed with their cause.");
+  verb.add_option("SPEC", a.spec, "Study (JSON), or a folder of them")->required();
+  verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR")->required();
+  add_threads(verb, a.threads, "Runs at a time while errors are measured; timed runs go one at a time");
+  verb.add_option("--repetitions", a.repetitions, "Timed runs of every choice (default: as the study says)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  verb.add_option("--cache", a.cache, "Folder of computed references (default: DIR/references)")->type_name("DIR");
+  verb.add_flag("--quiet", a.quiet, "Print problems only");
+  verb.callback([&] { code = study_scene(a); });
+}
+
 void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArguments& compare_arguments,
                      SchemaArguments& schema_arguments, int& code) {
   CLI::App& check_verb =
@@ -146,6 +167,9 @@ void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArgu
   schema_verb.add_flag("--motion", schema_arguments.motion, "Of the poses of bough kinematics motion")
       ->excludes("--chain");
   schema_verb.callback([&] { code = schema(schema_arguments); });
+  schema_verb.add_flag("--study", schema_arguments.study, "Of the studies of bough study")
+      ->excludes("--chain")
+      ->excludes("--motion");
   add_verb(app, "doctor", "Say what this program was built with and test itself", "  bough doctor").callback([&] {
     code = doctor({});
   });
@@ -248,6 +272,8 @@ int dispatch(int count, char** values) {
   ExportMatrixArguments export_arguments;
   add_export_matrix(app, export_arguments, code);
   add_small_verbs(app, check_arguments, compare_arguments, schema_arguments, code);
+  StudyArguments study_arguments;
+  add_study(app, study_arguments, code);
   RaziArguments razi_arguments;
   CLI::App& kinematics = add_verb(app, "kinematics", "Kinematics without a simulation: razi, motion",
                                   "  bough kinematics razi --help\n  bough kinematics motion --help");

@@ -35,7 +35,7 @@ echo '{"schema_version": 1, "bodies": [{"name": "a", "mass": -1}, 7], "nonsense"
 # words
 expect 0 '^bough [0-9]' --version
 expect 0 'bough run' --help
-for verb in run view batch check schema compare export-matrix kinematics doctor; do expect 0 '  bough '$verb $verb --help; done
+for verb in run view batch check schema compare export-matrix kinematics study doctor; do expect 0 '  bough '$verb $verb --help; done
 expect 2 "did you mean 'run'" rnu good.json
 expect 2 "did you mean 'compare'" comapre a b
 expect 2 'Verbs:' xyzzy
@@ -136,6 +136,34 @@ expect 2 'mass' export-matrix bad.json --out none.mtx
 expect 2 'no such file' export-matrix missing.json --out none.mtx
 expect 1 'folder' export-matrix good.json --out folder/none.mtx
 holds test ! -e none.mtx
+
+# study
+cat > study.json <<'EOF'
+{"schema_version": 1, "scene": "good.json", "set": [{"pointer": "/analysis/end_time", "value": 0.2}],
+ "quantities": [{"name": "place", "sensor": "bob"}], "repetitions": 1,
+ "reference": {"set": [{"pointer": "/analysis/step_size", "value": 2.5e-4}],
+               "check": [{"pointer": "/analysis/step_size", "value": 5e-4}], "order": 2},
+ "grids": [{"name": "steps", "axes": [{"name": "step size", "values": [0.02, 0.01, 0.005]}],
+   "orders": [{"quantity": "place", "order": 2, "theory": "second order"}]}]}
+EOF
+expect 0 '3 runs, 0 failed; orders: 1 as in theory, 0 not' study study.json --out study.out
+holds test "$(head -c 15 study.out/study.csv)" = 'grid,step size,'
+holds test "$(wc -l < study.out/study.csv)" -eq 4
+holds python3 -c 'import json; assert len(json.load(open("study.out/study.json"))["runs"]) == 3'
+holds grep -q '</html>' study.out/study.html
+sed 's/"order": 2, "theory"/"order": 3, "theory"/' study.json > high.json
+expect 1 'theory 3' study high.json --out high.out
+sed 's/step size/step sise/; s/"bob"/"bab"/' study.json > bad_study.json
+expect 2 'line 2, column .*/quantities/0/sensor: .*did you mean "bob"' study bad_study.json --out bad_study.out
+holds test ! -e bad_study.out
+mkdir studies empty && cp study.json good.json studies
+expect 2 '/quantities' study studies --out studies.out
+holds test ! -e studies.out
+sed -i 's|"good.json"|"../good.json"|' studies/study.json && rm studies/good.json
+expect 0 'index.html' study studies --out studies.out
+holds grep -q 'study/study.html' studies.out/index.html
+expect 2 'no study' study empty --out studies.out
+expect 0 '"grids"' schema --study
 
 # kinematics razi
 expect 0 '^5 .*45 .*33.0711 ' kinematics razi --csv razi.csv --json razi.json --svg razi.svg

@@ -1,7 +1,7 @@
-"""Asks an independent validator whether the published schemas, of scenes and of chains of frames, agree with the readers.
+"""Asks an independent validator whether the published schemas, of scenes, chains of frames and studies, agree with the readers.
 
 usage: check_schema.py cases-directory scenarios-directory
-The base scene and every scene of the gallery have to be valid, every broken one invalid. Exit status 77: the validator is not there.
+The base scene, every scene of the gallery and every standing study have to be valid, every broken one invalid. Exit status 77: the validator is not there.
 """
 import json
 import pathlib
@@ -36,4 +36,6 @@ def failures_in(cases, good):
 cases, scenarios = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 scenes = [cases / "base.json", *sorted(scenarios.glob("*.json"))]
 failures = failures_in(cases, scenes) + failures_in(cases / "chain", [cases / "chain" / "base.json"])
+studies = [cases / "study" / "base.json", *sorted((scenarios.parent / "studies").glob("*.json"))]
+failures += failures_in(cases / "study", studies)
 sys.exit(1 if failures or len(scenes) < 2 else 0)

@@ -1,11 +1,12 @@
 // Writes schema.json and the base scene, each broken in one place, into a directory: the cases of scene_bad_test that a schema can see. The
-// same for chains of frames in a folder of their own.
+// same for chains of frames and for studies, in folders of their own.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 
 #include "bough/io/read_frames.hpp"
 #include "bough/io/read_scene.hpp"
+#include "bough/io/read_study.hpp"
 #include "frames_base.hpp"
 #include "scene_base.hpp"
 #include "scene_table_cases.hpp"
@@ -37,5 +38,11 @@ int main(int argc, char** argv) {
               [](const auto& bad) { return io::test::spoilt(bad.from, bad.to); });
   write_cases(directory / "chain", io::frames_schema_text(), io::test::base_chain(), io::test::chain_table_cases,
               io::test::spoilt_chain);
+  write_cases(directory / "study", io::study_schema_text(), R"({
+      "schema_version": 1, "scene": "a.json", "quantities": [{"name": "tip", "sensor": "tip", "formula": [0]}],
+      "grids": [{"name": "all", "axes": [{"name": "step size", "values": [1e-3]}]}]})",
+              std::vector<std::string>{R"({"schema_version": 1, "scene": "a.json", "quantities": [], "grids": []})",
+                                       R"({"schema_version": 1, "scene": 7})", R"([])"},
+              [](const std::string& text) { return text; });
   return 0;
 }

@@ -1,0 +1,330 @@
+#include "bough/report/study_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bough/io/number_text.hpp"
+#include "bough/report/document.hpp"
+#include "bough/study/errors.hpp"
+#include "bough/version.hpp"
+
+namespace bough::report {
+namespace {
+
+using study::SweepResult;
+using study::SweepRun;
+using study::SweepSeries;
+using study::Verdict;
+
+std::string count_text(std::size_t n, const std::string& one, const std::string& many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+std::string run_pointer(std::size_t k) { return "/runs/" + std::to_string(k); }
+std::string error_pointer(std::size_t k, std::size_t q, const char* norm) {
+  return run_pointer(k) + "/errors/" + std::to_string(q) + "/" + norm;
+}
+
+bool is_ok(const SweepRun& run) { return run.status == results::RunStatus::ok; }
+
+Tone tone_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::holds:
+    case Verdict::explained:
+      return Tone::good;
+    case Verdict::below:
+    case Verdict::above:
+      return Tone::bad;
+    case Verdict::not_stated:
+    case Verdict::not_measured:
+      break;
+  }
+  return Tone::soft;
+}
+
+std::string axis_unit(const std::string& name) { return name == "step size" ? " [s]" : ""; }
+
+std::string error_label(const io::StudyQuantity& q) {
+  return q.kind == io::QuantityKind::vector ? "largest error, relative" : "largest error [rad]";
+}
+
+class StudyPage {
+ public:
+  explicit StudyPage(const SweepResult& result)
+      : r_(result),
+        page_(result.spec.title.empty() ? result.spec.name : result.spec.title, lead(result), "study.json") {}
+
+  std::string html() {
+    verdict();
+    advice();
+    work_and_precision();
+    for (std::size_t g = 0; g < r_.spec.grids.size(); ++g) grid(g);
+    failures();
+    appendix();
+    return page_.html();
+  }
+
+ private:
+  static std::string lead(const SweepResult& r) {
+    return "Scene " + r.spec.scene_name + ": " + count_text(r.runs.size(), "run", "runs") + ", " +
+           std::to_string(r.num_failed()) +
+           " failed. Errors are the largest over the sample times, relative to the largest value of the reference; of "
+           "rotations, the angle between the two in rad. Run times are medians of " +
+           std::to_string(r.repetitions) + " repetitions taken in turns.";
+  }
+
+  /// The grid's name where there are several, and the choices that are not on the abscissa.
+  std::string series_name(const SweepSeries& s) const {
+    const std::string& grid = r_.spec.grids[s.grid].name;
+    return s.label == grid || r_.spec.grids.size() == 1 ? s.label : grid + ": " + s.label;
+  }
+
+  void verdict() {
+    if (r_.was_stopped) page_.paragraph("The study was stopped before its end.", Tone::bad);
+    for (const study::SweepReference& reference : r_.references)
+      if (!reference.trouble.empty()) page_.paragraph("No errors: " + reference.trouble + ".", Tone::bad);
+    const std::size_t held = r_.num_orders(Verdict::holds) + r_.num_orders(Verdict::explained),
+                      failed = r_.num_orders(Verdict::below) + r_.num_orders(Verdict::above);
+    if (held + failed == 0) return;
+    page_.paragraph(count_text(held, "order", "orders") + " of convergence as theory states" +
+                        (failed == 0 ? "." : ", " + std::to_string(failed) + " not: see the tables of orders."),
+                    failed == 0 ? Tone::good : Tone::bad);
+  }
+
+  void advice() {
+    page_.section("What to choose", "choose");
+    Table table{{"quantity", "wanted error", "run time [s]", "error", "choice"}, {}};
+    for (const study::SweepAdvice& a : r_.advice) {
+      std::vector<Cell> row{{r_.spec.quantities[a.quantity].name}, number_cell(a.wanted)};
+      if (a.run) {
+        const SweepRun& run = r_.runs[*a.run];
+        row.push_back(number_cell(study::spread_of(run.wall).median, 3, run_pointer(*a.run) + "/seconds/median"));
+        row.push_back(number_cell(run.errors[a.quantity].max, 3, error_pointer(*a.run, a.quantity, "max")));
+        row.push_back({full_label(run)});
+      } else {
+        row.push_back({"-", Tone::soft, true});
+        row.push_back({"-", Tone::soft, true});
+        row.push_back({"none of these runs", Tone::soft});
+      }
+      table.rows.push_back(std::move(row));
+    }
+    page_.table(table);
+  }
+
+  std::string full_label(const SweepRun& run) const {
+    return r_.spec.grids.size() == 1 ? run.label : r_.spec.grids[run.grid].name + ": " + run.label;
+  }
+
+  std::string point_note(const SweepRun& run, std::size_t q) const {
+    return full_label(run) + ": error " + io::rounded_text(run.errors[q].max, 3) + " in " +
+           io::rounded_text(study::spread_of(run.wall).median, 3) + " s";
+  }
+
+  ChartSeries chart_series(std::size_t s, std::size_t q, bool over_time) const {
+    const SweepSeries& series = r_.series[s];
+    ChartSeries out{series_name(series), {}, {}, static_cast<int>(s)};
+    for (const std::size_t k : series.runs) {
+      const SweepRun& run = r_.runs[k];
+      const double x = over_time ? study::spread_of(run.wall).median : run.abscissa;
+      if (is_ok(run))
+        out.points.push_back({x, run.errors[q].max, point_note(run, q), error_pointer(k, q, "max")});
+      else
+        out.failures.push_back({x, 0.0, full_label(run) + ": " + run.cause});
+    }
+    return out;
+  }
+
+  void work_and_precision() {
+    page_.section("Work and precision", "work");
+    std::vector<Chart> charts;
+    for (std::size_t q = 0; q < r_.spec.quantities.size(); ++q) {
+      const io::StudyQuantity& quantity = r_.spec.quantities[q];
+      Chart chart{quantity.name, {"run time [s]", Scale::log}, {error_label(quantity), Scale::log}, {}};
+      for (std::size_t s = 0; s < r_.series.size(); ++s) chart.series.push_back(chart_series(s, q, true));
+      charts.push_back(std::move(chart));
+    }
+    page_.charts(charts);
+  }
+
+  void grid(std::size_t g) {
+    const io::StudyGrid& grid = r_.spec.grids[g];
+    const io::StudyAxis& axis = grid.axes[grid.abscissa];
+    page_.section("Convergence: " + grid.name, "grid-" + std::to_string(g));
+    references(g);
+    std::vector<Chart> charts;
+    for (std::size_t q = 0; q < r_.spec.quantities.size(); ++q) {
+      const io::StudyQuantity& quantity = r_.spec.quantities[q];
+      Chart chart{
+          quantity.name, {axis.name + axis_unit(axis.name), Scale::log}, {error_label(quantity), Scale::log}, {}};
+      for (std::size_t s = 0; s < r_.series.size(); ++s)
+        if (r_.series[s].grid == g) {
+          chart.series.push_back(chart_series(s, q, false));
+          chart.series.back().name = r_.series[s].label;
+          if (chart.slopes.empty()) add_slope(chart, r_.series[s], q, axis.larger_is_finer);
+        }
+      charts.push_back(std::move(chart));
+    }
+    page_.charts(charts);
+    orders(g);
+    runs(g);
+  }
+
+  /// Theory's slope through the finest error that the order was fitted to.
+  void add_slope(Chart& chart, const SweepSeries& series, std::size_t q, bool larger_is_finer) const {
+    const study::OrderFit& f = series.fits[q];
+    if (std::isnan(f.expected) || f.runs.empty()) return;
+    const SweepRun& finest = r_.runs[f.runs.back()];
+    chart.slopes.push_back({finest.abscissa, finest.errors[q].max, larger_is_finer ? -f.expected : f.expected,
+                            "order " + io::rounded_text(f.expected, 3)});
+  }
+
+  void references(std::size_t g) {
+    const study::SweepReference& reference = r_.references[g];
+    Table table{{"quantity", "compared with", "its own error", "largest value", "unit"}, {}};
+    for (std::size_t q = 0; q < r_.spec.quantities.size(); ++q) {
+      const std::string at = "/grids/" + std::to_string(g) + "/references/" + std::to_string(q);
+      const std::string& source = reference.sources[q];
+      table.rows.push_back({{r_.spec.quantities[q].name},
+                            {reference.kinds[q] + (source.empty() ? "" : ": " + source)},
+                            number_cell(reference.uncertainties[q], 2, at + "/uncertainty"),
+                            number_cell(reference.scales[q], 4, at + "/scale"),
+                            {r_.spec.quantities[q].unit}});
+    }
+    page_.table(table);
+  }
+
+  void orders(std::size_t g) {
+    Table table{{"runs", "quantity", "order found", "theory", "verdict", "from"}, {}};
+    std::vector<std::string> theories;
+    for (std::size_t s = 0; s < r_.series.size(); ++s) {
+      if (r_.series[s].grid != g) continue;
+      for (std::size_t q = 0; q < r_.spec.quantities.size(); ++q) {
+        const study::OrderFit& f = r_.series[s].fits[q];
+        const std::string at = "/series/" + std::to_string(s) + "/orders/" + std::to_string(q);
+        const std::string why = f.verdict == Verdict::explained ? ": " + f.explanation : "";
+        table.rows.push_back({{r_.series[s].label},
+                              {r_.spec.quantities[q].name},
+                              number_cell(f.order, 3, std::isnan(f.order) ? "" : at + "/found"),
+                              number_cell(f.expected, 3, std::isnan(f.expected) ? "" : at + "/theory"),
+                              {text_of(f.verdict) + why, tone_of(f.verdict)},
+                              {count_text(f.runs.size(), "run", "runs"), Tone::soft}});
+        if (!f.theory.empty() && std::find(theories.begin(), theories.end(), f.theory) == theories.end())
+          theories.push_back(f.theory);
+      }
+    }
+    page_.subsection("Orders");
+    page_.table(table);
+    for (const std::string& theory : theories) page_.paragraph("Theory: " + theory + ".", Tone::soft);
+  }
+
+  void runs(std::size_t g) {
+    page_.subsection("Runs");
+    Table table{{"choices"}, {}};
+    for (const io::StudyQuantity& q : r_.spec.quantities) table.head.push_back("error of " + q.name);
+    for (const char* name : {"time [s]", "from", "to", "steps", "rejected", "Newton", "factorizations"})
+      table.head.emplace_back(name);
+    for (std::size_t k = 0; k < r_.runs.size(); ++k) {
+      const SweepRun& run = r_.runs[k];
+      if (run.grid != g) continue;
+      const std::string at = run_pointer(k);
+      std::vector<Cell> row{{run.label + (is_ok(run) ? "" : " (failed)"), is_ok(run) ? Tone::plain : Tone::bad}};
+      for (std::size_t q = 0; q < run.errors.size(); ++q)
+        row.push_back(measured(run.errors[q].max, 3, error_pointer(k, q, "max")));
+      const study::Spread wall = study::spread_of(run.wall);
+      row.push_back(measured(wall.median, 3, at + "/seconds/median"));
+      row.push_back(measured(wall.low, 3, at + "/seconds/low"));
+      row.push_back(measured(wall.high, 3, at + "/seconds/high"));
+      row.push_back(count(run.steps.accepted, at + "/steps"));
+      row.push_back(count(run.steps.rejected, at + "/rejected"));
+      row.push_back(count(run.steps.newton_iterations, at + "/newton_iterations"));
+      row.push_back(count(run.steps.factorizations, at + "/factorizations"));
+      table.rows.push_back(std::move(row));
+    }
+    page_.table(table);
+  }
+
+  static Cell measured(double value, int digits, const std::string& at) {
+    return std::isnan(value) ? Cell{"-", Tone::soft, true} : number_cell(value, digits, at);
+  }
+  static Cell count(long value, const std::string& at) { return {std::to_string(value), Tone::plain, true, at}; }
+
+  void failures() {
+    Table table{{"run", "cause"}, {}};
+    for (const SweepRun& run : r_.runs) {
+      if (!is_ok(run)) table.rows.push_back({{full_label(run)}, {run.cause, Tone::bad}});
+      if (!run.is_repeatable) table.rows.push_back({{full_label(run)}, {"repetitions differ", Tone::bad}});
+    }
+    if (table.rows.empty()) return;
+    page_.section("Failures", "failures");
+    page_.table(table);
+  }
+
+  void appendix() {
+    page_.section("How it was measured", "appendix");
+    const study::SweepMachine& machine = r_.machine;
+    page_.table(
+        {{"what", ""},
+         {{{"program"}, {"bough " + std::string(version) + ", commit " + std::string(commit)}},
+          {{"compiler"}, {std::string(compiler) + ", " + std::string(compiler_flags)}},
+          {{"processor"},
+           {machine.processor + ", " + count_text(static_cast<std::size_t>(machine.cores), "core", "cores")}},
+          {{"system"}, {machine.system}},
+          {{"date"}, {r_.date}},
+          {{"repetitions"},
+           {std::to_string(r_.repetitions) + ", in rounds over all runs, forwards and backwards in turn"}},
+          {{"errors"},
+           {r_.spec.sample_interval > 0.0
+                ? "at every " + io::rounded_text(r_.spec.sample_interval, 6) +
+                      (r_.spec.is_dynamic ? " s, at the ends of steps, without interpolation" : " of the load factor")
+                : "at the end"}},
+          {{"run time"}, {"of the steps: without reading the scene, its plan and tree, and output"}},
+          {{"orders"},
+           {"slope of log error over log step, least squares over the " + std::to_string(study::fitted_points) +
+            " finest errors that are " + io::rounded_text(study::clear_of_reference, 3) +
+            " times the reference's own; it holds within " + io::rounded_text(study::order_tolerance, 2)}}}});
+    page_.paragraph(
+        "study.json and study.csv beside this page hold all figures, root mean squares and values at the end among "
+        "them.",
+        Tone::soft);
+  }
+
+  const SweepResult& r_;
+  Document page_;
+};
+
+}  // namespace
+
+std::string study_html(const SweepResult& result) { return StudyPage(result).html(); }
+
+StudyEntry entry_of(const SweepResult& r) {
+  StudyEntry entry{r.spec.name,
+                   r.spec.title,
+                   r.runs.size(),
+                   r.num_failed(),
+                   r.num_orders(Verdict::holds) + r.num_orders(Verdict::explained),
+                   r.num_orders(Verdict::below) + r.num_orders(Verdict::above),
+                   {}};
+  for (const study::SweepReference& reference : r.references)
+    if (entry.trouble.empty()) entry.trouble = reference.trouble;
+  if (r.was_stopped) entry.trouble = "stopped before its end";
+  return entry;
+}
+
+std::string study_index_html(const std::vector<StudyEntry>& entries) {
+  Document page("Studies", "Error against run time, one page a scene. bough " + std::string(version) + ", commit " +
+                               std::string(commit) + ".");
+  Table table{{"study", "runs", "failed", "orders as in theory", "not", ""}, {}};
+  for (const StudyEntry& e : entries) {
+    const auto count = [](std::size_t n, Tone tone = Tone::plain) { return Cell{std::to_string(n), tone, true}; };
+    table.rows.push_back({{e.title.empty() ? e.name : e.title, Tone::plain, false, "", e.name + "/study.html"},
+                          count(e.num_runs),
+                          count(e.num_failed, e.num_failed == 0 ? Tone::plain : Tone::bad),
+                          count(e.num_orders_held),
+                          count(e.num_orders_failed, e.num_orders_failed == 0 ? Tone::plain : Tone::bad),
+                          {e.trouble, Tone::bad}});
+  }
+  page.table(table);
+  return page.html();
+}
+
+}  // namespace bough::report

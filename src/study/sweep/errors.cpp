@@ -1,0 +1,137 @@
+#include "bough/study/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bough/motion/quaternion.hpp"
+
+namespace bough::study {
+namespace {
+
+using Quaternion = motion::Quaternion<double>;
+
+constexpr double round_off = 1e-13;  // relative errors at and below it are no measure of a method
+
+Quaternion quaternion_of(const std::vector<double>& r) {
+  if (r.size() == 4) return motion::normalise(Quaternion{r[0], {{r[1], r[2], r[3]}}});
+  const double angle = std::hypot(r[0], r[1], r[2]);
+  const double f = angle > 0.0 ? std::sin(0.5 * angle) / angle : 0.5;
+  return {std::cos(0.5 * angle), {{f * r[0], f * r[1], f * r[2]}}};
+}
+
+double norm(const std::vector<double>& v) {
+  double largest = 0.0;
+  for (const double x : v) largest = std::max(largest, std::abs(x));
+  if (largest == 0.0) return 0.0;
+  double sum = 0.0;
+  for (const double x : v) sum += (x / largest) * (x / largest);
+  return largest * std::sqrt(sum);
+}
+
+}  // namespace
+
+double distance(io::QuantityKind kind, const std::vector<double>& value, const std::vector<double>& reference) {
+  if (kind != io::QuantityKind::vector) {
+    const Quaternion q = motion::multiply(motion::conjugate(quaternion_of(reference)), quaternion_of(value));
+    return 2.0 * std::atan2(std::hypot(q.v[0], q.v[1], q.v[2]), std::abs(q.w));
+  }
+  std::vector<double> difference = value;
+  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= reference[i];
+  return norm(difference);
+}
+
+double error_scale(io::QuantityKind kind, const Samples& reference) {
+  if (kind != io::QuantityKind::vector) return 1.0;
+  double scale = 0.0;
+  for (const std::vector<double>& r : reference) scale = std::max(scale, norm(r));
+  return scale > 0.0 ? scale : 1.0;
+}
+
+ErrorNorms eval_errors(io::QuantityKind kind, const Samples& values, const Samples& reference, double scale) {
+  ErrorNorms e;
+  double sum = 0.0, largest = 0.0;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < std::min(values.size(), reference.size()); ++k) {
+    if (values[k].empty() || reference[k].empty()) continue;
+    const double d = distance(kind, values[k], reference[k]) / scale;
+    largest = std::max(largest, d);
+    sum += d * d;
+    ++count;
+    if (k + 1 == reference.size()) e.end = d;
+  }
+  if (count == 0) return e;
+  e.max = largest;
+  e.rms = std::sqrt(sum / static_cast<double>(count));
+  return e;
+}
+
+double log_slope(const std::vector<double>& x, const std::vector<double>& y) {
+  const double n = static_cast<double>(x.size());
+  if (x.size() < 2) return unmeasured;
+  double mean_x = 0.0, mean_y = 0.0, sxx = 0.0, sxy = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    mean_x += std::log(x[k]) / n;
+    mean_y += std::log(y[k]) / n;
+  }
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double dx = std::log(x[k]) - mean_x;
+    sxx += dx * dx;
+    sxy += dx * (std::log(y[k]) - mean_y);
+  }
+  return sxx > 0.0 ? sxy / sxx : unmeasured;
+}
+
+OrderFit fit_order(const std::vector<double>& h, const std::vector<double>& error, double uncertainty) {
+  OrderFit fit;
+  std::vector<double> x, y;
+  for (std::size_t k = h.size(); k-- > 0 && x.size() < fitted_points;) {
+    if (!std::isfinite(error[k]) || error[k] <= std::max(round_off, clear_of_reference * uncertainty)) continue;
+    x.push_back(h[k]);
+    y.push_back(error[k]);
+    fit.runs.push_back(k);
+  }
+  std::reverse(fit.runs.begin(), fit.runs.end());
+  fit.order = log_slope(x, y);
+  return fit;
+}
+
+void judge(OrderFit& fit) {
+  if (std::isnan(fit.expected))
+    fit.verdict = Verdict::not_stated;
+  else if (std::isnan(fit.order))
+    fit.verdict = Verdict::not_measured;
+  else if (fit.order < fit.expected - order_tolerance)
+    fit.verdict = Verdict::below;
+  else if (fit.order <= fit.expected + order_tolerance)
+    fit.verdict = Verdict::holds;
+  else
+    fit.verdict = fit.explanation.empty() ? Verdict::above : Verdict::explained;
+}
+
+const char* text_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::not_stated:
+      return "not stated";
+    case Verdict::not_measured:
+      return "not measured";
+    case Verdict::holds:
+      return "holds";
+    case Verdict::explained:
+      return "above, explained";
+    case Verdict::above:
+      return "above";
+    case Verdict::below:
+      return "below";
+  }
+  return "";
+}
+
+Spread spread_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  const double median = n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+  return {median, values.front(), values.back()};
+}
+
+}  // namespace bough::study

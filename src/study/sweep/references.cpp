@@ -1,0 +1,141 @@
+#include "references.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/io/read_study.hpp"
+#include "bough/version.hpp"
+
+namespace bough::study {
+namespace {
+
+const io::StudyReference* computed_reference(const io::StudySpec& spec, const io::StudyGrid& grid) {
+  return grid.has_reference ? &grid.reference : spec.has_reference ? &spec.reference : nullptr;
+}
+
+bool is_computed(const io::StudyGrid& grid, const io::StudyQuantity& quantity) {
+  return grid.has_reference || !quantity.is_compared();
+}
+
+/// Formula or table at the sample times.
+Samples given_values(const io::StudyQuantity& q, const std::vector<double>& times) {
+  Samples values(times.size());
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (!q.formula.empty()) {
+      for (const laws::Law& law : q.formula) values[k].push_back(law.at(times[k], laws::Side::left).value);
+      continue;
+    }
+    const auto found = std::find(q.table_times.begin(), q.table_times.end(), times[k]);
+    if (found != q.table_times.end()) values[k] = q.table_rows[static_cast<std::size_t>(found - q.table_times.begin())];
+  }
+  return values;
+}
+
+}  // namespace
+
+std::string made_from(const io::StudySpec& spec, const std::vector<std::string>& overrides) {
+  std::string text = "bough " + std::string(version) + " " + std::string(commit) + ", " + std::string(compiler) + " " +
+                     std::string(compiler_flags) + "\nsample interval ";
+  io::append_number(text, spec.sample_interval);
+  return text + "\n" + io::canonical_scene(spec.scene_text, overrides) + "\n";
+}
+
+std::string hash_of(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  std::string digits(16, '0');
+  for (std::size_t k = 16; k-- > 0; hash >>= 4u) digits[k] = "0123456789abcdef"[hash & 15u];
+  return digits;
+}
+
+std::optional<io::History> ReferenceCache::find(const std::string& from) const {
+  if (folder_.empty()) return std::nullopt;
+  const std::string name = hash_of(from);
+  std::ifstream in(folder_ / (name + ".txt"), std::ios::binary);
+  if (!in) return std::nullopt;
+  const std::string there((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (there != from) return std::nullopt;  // another reference of the same hash
+  try {
+    return io::read_history(folder_ / (name + ".csv"));
+  } catch (const std::runtime_error&) {
+    return std::nullopt;  // damaged: it is computed anew
+  }
+}
+
+void ReferenceCache::keep(const std::string& from, const io::History& history) const {
+  if (folder_.empty()) return;
+  std::filesystem::create_directories(folder_);
+  const std::string name = hash_of(from);
+  io::HistoryWriter writer(folder_ / (name + ".csv"), history.header);
+  for (const results::HistoryRow& row : history.rows) writer.row(row);
+  writer.commit();
+  io::write_file(folder_ / (name + ".txt"), from);
+}
+
+ReferenceRuns plan_references(const io::StudySpec& spec) {
+  ReferenceRuns plan;
+  for (const io::StudyGrid& grid : spec.grids) {
+    plan.which.emplace_back();
+    const io::StudyReference* reference = computed_reference(spec, grid);
+    const bool is_needed = std::any_of(spec.quantities.begin(), spec.quantities.end(),
+                                       [&](const io::StudyQuantity& q) { return is_computed(grid, q); });
+    if (reference == nullptr || !is_needed) continue;
+    for (const std::vector<std::string>* settings : {&reference->overrides, &reference->check_overrides}) {
+      ReferenceRun run;
+      run.overrides = io::overrides_of(spec, grid, *settings);
+      run.from = made_from(spec, run.overrides);
+      const auto same = std::find_if(plan.runs.begin(), plan.runs.end(),
+                                     [&](const ReferenceRun& other) { return other.from == run.from; });
+      plan.which.back().push_back(static_cast<std::size_t>(same - plan.runs.begin()));
+      if (same == plan.runs.end()) plan.runs.push_back(std::move(run));
+    }
+  }
+  return plan;
+}
+
+GridReference make_reference(const io::StudySpec& spec, const ReferenceRuns& references, std::size_t grid_index) {
+  const io::StudyGrid& grid = spec.grids[grid_index];
+  const std::vector<double> times = io::sample_times(spec);
+  GridReference r;
+  const ReferenceRun* main = nullptr;
+  const ReferenceRun* check = nullptr;
+  double errors_in_difference = 1.0;
+  std::string about;
+  if (const std::vector<std::size_t>& two = references.which[grid_index]; !two.empty()) {
+    main = &references.runs[two[0]];
+    check = &references.runs[two[1]];
+    const io::StudyReference& asked = *computed_reference(spec, grid);
+    about = asked.about;
+    if (asked.order > 0.0) errors_in_difference = std::pow(2.0, asked.order) - 1.0;
+    r.told.is_cached = main->is_cached && check->is_cached;
+    for (const ReferenceRun* run : {main, check})
+      if (!run->run.ok() && r.told.trouble.empty())
+        r.told.trouble = std::string(run == main ? "the reference" : "the check of the reference") +
+                         " could not be computed: " + run->run.summary.cause;
+  }
+  for (const io::StudyQuantity& q : spec.quantities) {
+    const bool computed = is_computed(grid, q);
+    Samples values;
+    double uncertainty = q.uncertainty;
+    if (!computed)
+      values = given_values(q, times);
+    else if (r.told.trouble.empty())
+      values = main->run.of(q.columns);
+    const double scale = error_scale(q.kind, values);
+    if (computed && r.told.trouble.empty())
+      uncertainty = eval_errors(q.kind, check->run.of(q.columns), values, scale).max / errors_in_difference;
+    r.told.kinds.emplace_back(computed ? "computed" : q.formula.empty() ? "table" : "formula");
+    r.told.sources.push_back(computed ? about : q.source);
+    r.told.uncertainties.push_back(computed && !r.told.trouble.empty() ? unmeasured : uncertainty);
+    r.told.scales.push_back(scale);
+    r.values.push_back(std::move(values));
+  }
+  return r;
+}
+
+}  // namespace bough::study

@@ -1,0 +1,136 @@
+#include "sampled_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+
+#include "bough/io/number_text.hpp"
+#include "bough/io/read_scene.hpp"
+#include "bough/study/simulate.hpp"
+#include "instruction_counter.hpp"
+
+namespace bough::study {
+namespace {
+
+constexpr double same_time = 1e-9;   // of the end: times agree within it
+constexpr int no_rows = 1000000000;  // stride beyond any run
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double process_cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// Keeps rows at the sample times.
+class Sampler final : public results::Recorder {
+ public:
+  explicit Sampler(SampledRun& run) : run_(run), slack_(same_time * run.sample_times.back()) {}
+  void begin(const results::HistoryHeader& header) override { run_.samples.header = header; }
+  void row(const results::HistoryRow& row) override {
+    while (next_ < run_.sample_times.size() && run_.sample_times[next_] < row.time - slack_) ++next_;
+    if (next_ == run_.sample_times.size() || run_.sample_times[next_] > row.time + slack_) return;
+    run_.samples.rows.push_back(row);
+    ++next_;
+  }
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+
+ private:
+  SampledRun& run_;
+  double slack_;
+  std::size_t next_ = 0;
+};
+
+/// Looks at the clocks when the steps begin and when they end.
+class Stopwatch final : public results::Recorder {
+ public:
+  explicit Stopwatch(TimedRun& run, bool count_instructions) : run_(run) {
+    if (count_instructions) counter_.emplace();
+  }
+  void begin(const results::HistoryHeader&) override {
+    if (counter_) counter_->start();
+    cpu_ = process_cpu_seconds();
+    wall_ = Clock::now();
+  }
+  void row(const results::HistoryRow&) override {}
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {
+    run_.wall = seconds_since(wall_);
+    run_.cpu = process_cpu_seconds() - cpu_;
+    if (counter_) run_.instructions = counter_->stop();
+  }
+
+ private:
+  TimedRun& run_;
+  std::optional<InstructionCounter> counter_;
+  double cpu_ = 0.0;
+  Clock::time_point wall_;
+};
+
+/// Runs within the limits; a run that was cut short is a failed one.
+results::Summary run_limited(const scene::Scene& scene, int threads, const RunLimits& limits,
+                             results::Recorder& recorder, bool& was_stopped) {
+  const Clock::time_point start = Clock::now();
+  bool is_late = false;
+  SimulateOptions options;
+  options.threads = threads;
+  options.before_step = [&](step::System&, const step::State&, const BeforeStep&) {
+    was_stopped = limits.stop != nullptr && *limits.stop && (*limits.stop)();
+    is_late = limits.time_limit > 0.0 && seconds_since(start) > limits.time_limit;
+    return !was_stopped && !is_late;
+  };
+  results::Summary summary = simulate(scene, options, recorder);
+  if (is_late) {
+    summary.status = results::RunStatus::failed;
+    summary.cause = "it takes longer than the time_limit of " + io::rounded_text(limits.time_limit, 6) + " s";
+  }
+  return summary;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> SampledRun::of(const std::vector<std::size_t>& columns) const {
+  std::vector<std::vector<double>> values(sample_times.size());
+  std::size_t k = 0;
+  for (const results::HistoryRow& row : samples.rows) {
+    while (k < sample_times.size() && std::abs(sample_times[k] - row.time) > same_time * sample_times.back()) ++k;
+    if (k == sample_times.size()) break;
+    for (const std::size_t c : columns) values[k].push_back(row.values[c]);
+  }
+  return values;
+}
+
+scene::Scene study_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {
+  io::SceneFile file = io::read_scene_text(text, name, overrides);
+  if (!file.ok()) throw std::logic_error("a study runs sound scenes only: " + file.problems.front().text());
+  return std::move(file.scene);
+}
+
+SampledRun run_sampled(scene::Scene scene, const std::vector<double>& sample_times, int threads,
+                       const RunLimits& limits) {
+  scene.output = {};
+  scene.output.checks = false;
+  SampledRun run;
+  run.sample_times = sample_times;
+  Sampler sampler(run);
+  run.summary = run_limited(scene, threads, limits, sampler, run.was_stopped);
+  return run;
+}
+
+TimedRun run_timed(scene::Scene scene, int threads, const RunLimits& limits, bool count_instructions) {
+  scene.output = {};
+  scene.output.checks = false;
+  scene.output.stride = no_rows;
+  TimedRun run;
+  Stopwatch watch(run, count_instructions);
+  run.summary = run_limited(scene, threads, limits, watch, run.was_stopped);
+  return run;
+}
+
+}  // namespace bough::study

@@ -1,0 +1,47 @@
+#pragma once
+/// One run of a study: sampled for its errors, or timed.
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bough/io/history.hpp"
+#include "bough/results/records.hpp"
+#include "bough/scene/scene.hpp"
+
+namespace bough::study {
+
+struct RunLimits {
+  double time_limit = 0.0;  ///< wall time [s]; 0: none
+  const std::function<bool()>* stop = nullptr;
+};
+
+/// A run with the rows of its history at the sample times.
+struct SampledRun {
+  results::Summary summary;
+  io::History samples;               ///< rows at those sample times that were ends of steps
+  std::vector<double> sample_times;  ///< all of them
+  bool was_stopped = false;          ///< by RunLimits::stop
+  bool ok() const { return summary.status == results::RunStatus::ok; }
+
+  /// Columns at every sample time, empty where there is no row.
+  std::vector<std::vector<double>> of(const std::vector<std::size_t>& columns) const;
+};
+
+/// Overrides must lead to a sound scene.
+scene::Scene study_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides);
+
+SampledRun run_sampled(scene::Scene scene, const std::vector<double>& sample_times, int threads,
+                       const RunLimits& limits);
+
+struct TimedRun {
+  double wall = 0.0, cpu = 0.0;  ///< of the steps, without plan and tree [s]
+  std::optional<double> instructions;
+  results::Summary summary;
+  bool was_stopped = false;
+};
+
+/// Without rows, checks and pictures.
+TimedRun run_timed(scene::Scene scene, int threads, const RunLimits& limits, bool count_instructions);
+
+}  // namespace bough::study

@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "../../src/study/sweep/references.hpp"
+#include "bough/study/errors.hpp"
+
+namespace bough::study {
+namespace {
+
+using io::QuantityKind;
+
+TEST(Distance, of_rotations_is_the_angle_between_them) {
+  // about z by 0.3, and then by 0.3 + d about the same axis
+  for (const double d : {0.0, 1e-12, 1e-6, 1e-2, 1.0, 3.0}) {
+    const double got = distance(QuantityKind::rotation, {0.0, 0.0, 0.1 + d}, {0.0, 0.0, 0.1});
+    EXPECT_NEAR(got, d, 1e-15) << d;
+  }
+  EXPECT_NEAR(distance(QuantityKind::rotation, {0.0, 0.0, 2.0}, {0.0, 0.0, -2.0}), 2.0 * M_PI - 4.0, 1e-15)
+      << "the short way round";
+}
+
+TEST(Distance, of_rotations_takes_vectors_and_quaternions_of_either_sign_and_any_length) {
+  const double angle = 1.2, d = 1e-3, h = 0.5 * angle;
+  const std::vector<double> vector{0.0, angle + d, 0.0};
+  for (const double f : {1.0, -1.0, 7.0})
+    EXPECT_NEAR(distance(QuantityKind::quaternion, vector, {f * std::cos(h), 0.0, f * std::sin(h), 0.0}), d, 1e-15);
+}
+
+TEST(Distance, of_rotations_about_two_axes_is_that_of_the_relative_rotation) {
+  // 90 degrees about x against 90 degrees about y: R_y^T R_x turns by 120 degrees
+  EXPECT_NEAR(distance(QuantityKind::rotation, {M_PI / 2, 0.0, 0.0}, {0.0, M_PI / 2, 0.0}), 2.0 * M_PI / 3.0, 1e-15);
+}
+
+TEST(Errors, are_relative_to_the_largest_reference_and_have_three_norms) {
+  const Samples reference{{3.0, 4.0}, {0.0, 0.0}, {0.0, 1.0}}, values{{3.0, 4.0}, {0.0, 1.0}, {2.0, 1.0}};
+  const double scale = error_scale(QuantityKind::vector, reference);
+  EXPECT_EQ(scale, 5.0);
+  const ErrorNorms e = eval_errors(QuantityKind::vector, values, reference, scale);
+  EXPECT_NEAR(e.max, 2.0 / 5.0, 1e-16);
+  EXPECT_NEAR(e.end, 2.0 / 5.0, 1e-16);
+  EXPECT_NEAR(e.rms, std::sqrt((0.0 + 1.0 + 4.0) / 3.0) / 5.0, 1e-16);
+}
+
+TEST(Errors, a_sample_that_is_missing_counts_for_nothing_and_none_at_all_is_told) {
+  const Samples reference{{1.0}, {1.0}, {1.0}};
+  const ErrorNorms e = eval_errors(QuantityKind::vector, {{1.5}, {}, {}}, reference, 1.0);
+  EXPECT_EQ(e.max, 0.5);
+  EXPECT_TRUE(std::isnan(e.end));
+  EXPECT_TRUE(std::isnan(eval_errors(QuantityKind::vector, {{}, {}, {}}, reference, 1.0).max));
+  EXPECT_EQ(error_scale(QuantityKind::vector, {{0.0}, {0.0}}), 1.0) << "nothing moves: absolute";
+}
+
+TEST(Slope, of_a_power_law_is_its_exponent) {
+  const std::vector<double> h{0.1, 0.05, 0.02, 0.01};
+  for (const double p : {1.0, 2.0, 5.0}) {
+    std::vector<double> e;
+    for (const double x : h) e.push_back(3.0 * std::pow(x, p));
+    EXPECT_NEAR(log_slope(h, e), p, 1e-12);
+  }
+  EXPECT_TRUE(std::isnan(log_slope({0.1}, {1.0})));
+  EXPECT_TRUE(std::isnan(log_slope({0.1, 0.1}, {1.0, 2.0})));
+}
+
+TEST(Order, is_fitted_to_the_finest_errors_that_are_clear_of_the_references_own) {
+  const std::vector<double> h{8.0, 4.0, 2.0, 1.0, 0.5};
+  // 64 16 4 1 are of second order; 0.9 is the reference's own error
+  const OrderFit clear = fit_order(h, {64e-6, 16e-6, 4e-6, 1e-6, 0.9e-6}, 0.05e-6);
+  EXPECT_EQ(clear.runs, (std::vector<std::size_t>{1, 2})) << "those of 20 times the uncertainty and above, the finest";
+  const OrderFit all = fit_order(h, {64e-6, 16e-6, 4e-6, 1e-6, 0.25e-6}, 0.0);
+  EXPECT_EQ(all.runs, (std::vector<std::size_t>{2, 3, 4}));
+  EXPECT_NEAR(all.order, 2.0, 1e-12);
+}
+
+TEST(Order, skips_runs_that_failed_and_errors_of_round_off) {
+  const double failed = std::numeric_limits<double>::quiet_NaN();
+  const OrderFit f = fit_order({8.0, 4.0, 2.0, 1.0}, {64e-6, 16e-6, failed, 1e-14}, 0.0);
+  EXPECT_EQ(f.runs, (std::vector<std::size_t>{0, 1}));
+  EXPECT_NEAR(f.order, 2.0, 1e-12);
+  EXPECT_TRUE(std::isnan(fit_order({2.0, 1.0}, {failed, 1e-3}, 0.0).order));
+}
+
+TEST(Order, is_judged_against_theory) {
+  const auto verdict = [](double found, double expected, const char* explanation) {
+    OrderFit f;
+    f.order = found;
+    f.expected = expected;
+    f.explanation = explanation;
+    judge(f);
+    return f.verdict;
+  };
+  EXPECT_EQ(verdict(2.05, 2.0, ""), Verdict::holds);
+  EXPECT_EQ(verdict(1.91, 2.0, ""), Verdict::holds);
+  EXPECT_EQ(verdict(1.89, 2.0, "an explanation does not help here"), Verdict::below);
+  EXPECT_EQ(verdict(2.2, 2.0, ""), Verdict::above);
+  EXPECT_EQ(verdict(2.2, 2.0, "a leading term vanishes"), Verdict::explained);
+  EXPECT_EQ(verdict(unmeasured, 2.0, ""), Verdict::not_measured);
+  EXPECT_EQ(verdict(2.0, unmeasured, ""), Verdict::not_stated);
+}
+
+TEST(Spread, is_median_and_range) {
+  const Spread odd = spread_of({3.0, 1.0, 2.0}), even = spread_of({4.0, 1.0, 2.0, 3.0});
+  EXPECT_EQ(odd.median, 2.0);
+  EXPECT_EQ(odd.low, 1.0);
+  EXPECT_EQ(odd.high, 3.0);
+  EXPECT_EQ(even.median, 2.5);
+  EXPECT_TRUE(std::isnan(spread_of({}).median));
+}
+
+class Cache : public testing::Test {
+ protected:
+  Cache() : folder_(std::filesystem::path(testing::TempDir()) / "bough_reference_cache") {
+    std::filesystem::remove_all(folder_);
+    history_.header.columns = {"tip.x"};
+    results::HistoryRow row;
+    row.time = 1.0;
+    row.values = {1.0 / 3.0};
+    history_.rows = {row};
+  }
+  std::filesystem::path folder_;
+  io::History history_;
+};
+
+TEST_F(Cache, gives_back_what_was_kept_bit_for_bit) {
+  const ReferenceCache cache(folder_);
+  EXPECT_FALSE(cache.find("scene and settings"));
+  cache.keep("scene and settings", history_);
+  const auto found = cache.find("scene and settings");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->rows[0].values[0], 1.0 / 3.0);
+  EXPECT_FALSE(cache.find("scene and other settings"));
+}
+
+TEST_F(Cache, does_not_take_another_reference_of_the_same_hash) {
+  const ReferenceCache cache(folder_);
+  cache.keep("one", history_);
+  std::filesystem::rename(folder_ / (hash_of("one") + ".csv"), folder_ / (hash_of("two") + ".csv"));
+  std::filesystem::rename(folder_ / (hash_of("one") + ".txt"), folder_ / (hash_of("two") + ".txt"));
+  EXPECT_FALSE(cache.find("two")) << "the text tells them apart";
+}
+
+TEST_F(Cache, computes_anew_what_is_damaged) {
+  const ReferenceCache cache(folder_);
+  cache.keep("one", history_);
+  std::ofstream(folder_ / (hash_of("one") + ".csv")) << "time,step_size,iterations,tip.x\n1,0,";
+  EXPECT_FALSE(cache.find("one"));
+}
+
+TEST_F(Cache, without_a_folder_keeps_nothing) {
+  const ReferenceCache cache({});
+  cache.keep("one", history_);
+  EXPECT_FALSE(cache.find("one"));
+}
+
+TEST(Hash, is_that_of_fowler_noll_vo) {
+  EXPECT_EQ(hash_of(""), "cbf29ce484222325");
+  EXPECT_EQ(hash_of("a"), "af63dc4c8601ec8c");
+  EXPECT_EQ(hash_of("foobar"), "85944171f73967e8");
+}
+
+}  // namespace
+}  // namespace bough::study
