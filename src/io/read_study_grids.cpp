@@ -29,6 +29,7 @@ StudyReference StudyConverter::read_reference(const Value& v, const std::string&
   r.overrides = read_settings(*v.find("set"), at + "/set");
   r.check_overrides = read_settings(*v.find("check"), at + "/check");
   r.order = v.find("order")->number;
+  r.ratio = v.find("ratio")->number;
   r.about = v.find("about")->text;
   return r;
 }

@@ -15,9 +15,11 @@ void add_reference(RuleTable& t) {
        need("check", settings_rule(""),
             "Changes of a second, independent run; the reference's own error is estimated from their difference."),
        may("order", number_rule("", 0.0, false, 12.0),
-           "Where the check takes twice the step of a method of this order, the difference is (2^order - 1) errors. 0: "
-           "the whole difference is taken for the error.",
+           "Where the check takes `ratio` times the step of a method of this order, the difference is (ratio^order - "
+           "1) "
+           "errors. 0: the whole difference is taken for the error.",
            "0"),
+       may("ratio", number_rule("", 1.0, true, 1e6), "Of the step of the check to that of the reference.", "2"),
        may("about", text_rule(""), "What it is, in words.", "\"\"")}));
 }
 

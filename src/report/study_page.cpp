@@ -279,9 +279,10 @@ class StudyPage {
                 : "at the end"}},
           {{"run time"}, {"of the steps: without reading the scene, its plan and tree, and output"}},
           {{"orders"},
-           {"slope of log error over log step, least squares over the " + std::to_string(study::fitted_points) +
-            " finest errors that are " + io::rounded_text(study::clear_of_reference, 3) +
-            " times the reference's own; it holds within " + io::rounded_text(study::order_tolerance, 2)}}}});
+           {"slope of log error over log step, least squares over " + std::to_string(study::fitted_points) +
+            " errors in a row, the finest that the reference's own error leaves certain to " +
+            io::rounded_text(study::largest_doubt, 2) + "; an order holds within " +
+            io::rounded_text(study::order_tolerance, 2)}}}});
     page_.paragraph(
         "study.json and study.csv beside this page hold all figures, root mean squares and values at the end among "
         "them.",

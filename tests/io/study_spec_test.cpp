@@ -80,7 +80,7 @@ TEST_F(Studies, a_sound_one_is_read_whole) {
   EXPECT_EQ(s.grids[0].abscissa, 1u) << "the first axis of numbers";
   EXPECT_EQ(s.grids[0].axes[0].choices[1].label, "variational");
   EXPECT_EQ(combinations_of(s.grids[0]).size(), 4u);
-  EXPECT_EQ(overrides_of(s, s.grids[0], {1, 0}),
+  EXPECT_EQ(overrides_of(s, s.grids[0], std::vector<std::size_t>{1, 0}),
             (std::vector<std::string>{"/expected=[]", "/analysis/tolerance=1e-10",
                                       "/analysis/integrator=\"variational\"", "/analysis/step_size=0.1"}));
   EXPECT_EQ(sample_times(s), (std::vector<double>{0.0, 0.5, 1.0}));
@@ -132,7 +132,7 @@ TEST_F(Studies, each_mistake_is_told_at_its_place) {
   EXPECT_EQ(problem(R"("quantity": "place")", R"("quantity": "plaice")").pointer, "/grids/0/orders/0/quantity");
   EXPECT_EQ(problem(R"("sample_interval": 0.5)", R"("sample_interval": 0.3)").pointer, "/sample_interval");
   EXPECT_EQ(problem(R"([0, 0, {"expression": "-4*t^2"}])", R"([0, 0])").pointer, "/quantities/0/formula");
-  EXPECT_EQ(problem(R"("-4*t^2")", R"("-4/(t - 0.5)")").pointer, "/quantities/0/formula/2");
+  EXPECT_EQ(problem(R"x("-4*t^2")x", R"x("-4/(t - 0.5)")x").pointer, "/quantities/0/formula/2");
   EXPECT_EQ(problem(R"("name": "height")", R"("name": "place")").pointer, "/quantities/1/name");
 }
 

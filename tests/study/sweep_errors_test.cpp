@@ -64,14 +64,24 @@ TEST(Slope, of_a_power_law_is_its_exponent) {
   EXPECT_TRUE(std::isnan(log_slope({0.1, 0.1}, {1.0, 2.0})));
 }
 
-TEST(Order, is_fitted_to_the_finest_errors_that_are_clear_of_the_references_own) {
+TEST(Order, is_fitted_to_the_finest_errors_that_the_reference_is_accurate_enough_for) {
   const std::vector<double> h{8.0, 4.0, 2.0, 1.0, 0.5};
-  // 64 16 4 1 are of second order; 0.9 is the reference's own error
-  const OrderFit clear = fit_order(h, {64e-6, 16e-6, 4e-6, 1e-6, 0.9e-6}, 0.05e-6);
-  EXPECT_EQ(clear.runs, (std::vector<std::size_t>{1, 2})) << "those of 20 times the uncertainty and above, the finest";
+  // errors are of second order; the last holds the reference's own
+  const OrderFit clear = fit_order(h, {64e-6, 16e-6, 4e-6, 1e-6, 0.9e-6}, 0.07e-6);
+  EXPECT_EQ(clear.runs, (std::vector<std::size_t>{0, 1, 2}))
+      << "0.07 / 4 over log 4 is 0.013; 0.07 / 1 would be 0.0505";
+  EXPECT_NEAR(clear.order, 2.0, 1e-12);
   const OrderFit all = fit_order(h, {64e-6, 16e-6, 4e-6, 1e-6, 0.25e-6}, 0.0);
   EXPECT_EQ(all.runs, (std::vector<std::size_t>{2, 3, 4}));
   EXPECT_NEAR(all.order, 2.0, 1e-12);
+  EXPECT_TRUE(fit_order(h, {64e-6, 16e-6, 4e-6, 1e-6, 0.25e-6}, 1e-4).runs.empty()) << "the reference tells nothing";
+  EXPECT_TRUE(fit_order(h, {64e-6, 16e-6, 4e-6, 1e-6, 0.25e-6}, unmeasured).runs.empty());
+}
+
+TEST(Order, needs_a_better_reference_where_steps_differ_by_less) {
+  const double uncertainty = 0.02e-6;
+  EXPECT_EQ(fit_order({4.0, 2.0}, {4e-6, 1e-6}, uncertainty).runs.size(), 2u);
+  EXPECT_TRUE(fit_order({2.2, 2.0}, {1.21e-6, 1e-6}, uncertainty).runs.empty());
 }
 
 TEST(Order, skips_runs_that_failed_and_errors_of_round_off) {

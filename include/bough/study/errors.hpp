@@ -23,8 +23,8 @@ ErrorNorms eval_errors(io::QuantityKind kind, const Samples& values, const Sampl
 /// Slope of log y over log x by least squares. x, y: positive. Fewer than two different x: NaN.
 double log_slope(const std::vector<double>& x, const std::vector<double>& y);
 
-/// h, error: from coarse to fine, NaN where a run failed. Fits the finest `fitted_points` errors that are above clear_of_reference times the
-/// uncertainty and above round-off (1e-13). `runs` gets their positions in h.
+/// h, error: from coarse to fine, NaN where a run failed. Fits up to `fitted_points` errors in a row above round-off (1e-13): the finest for
+/// which  uncertainty / e_fine <= largest_doubt log(h_coarse / h_fine).  `runs` gets their positions in h.
 OrderFit fit_order(const std::vector<double>& h, const std::vector<double>& error, double uncertainty);
 
 /// Sets the verdict of a fit from its order and what is expected of it.

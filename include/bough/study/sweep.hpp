@@ -47,7 +47,7 @@ struct SweepRun {
 
 enum class Verdict {
   not_stated,    ///< theory says nothing
-  not_measured,  ///< fewer than two errors that are well above the reference's own
+  not_measured,  ///< fewer than two errors, or the reference is not accurate enough
   holds,         ///< within 0.1
   explained,     ///< above, and the study says why
   above,         ///< above, and it does not
@@ -57,13 +57,13 @@ const char* text_of(Verdict verdict);
 
 /// The largest difference of an order found from that of theory.
 inline constexpr double order_tolerance = 0.1;
-/// Errors count for orders where they are this many times the reference's own: two of them, two apart by a factor of 2, then leave 0.07 of doubt.
-inline constexpr double clear_of_reference = 20.0;
-/// Orders are fitted to this many of the finest errors that count.
+/// The reference's own error may change an order found by this much.
+inline constexpr double largest_doubt = 0.05;
+/// Orders are fitted to this many errors in a row, the finest that the reference is accurate enough for.
 inline constexpr std::size_t fitted_points = 3;
 
 struct OrderFit {
-  double order = unmeasured;    ///< slope of log error over log step, least squares
+  double order = unmeasured;      ///< slope of log error over log step, least squares
   std::vector<std::size_t> runs;  ///< that it is fitted to
   double expected = unmeasured;
   std::string theory, explanation;

@@ -82,16 +82,24 @@ double log_slope(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 OrderFit fit_order(const std::vector<double>& h, const std::vector<double>& error, double uncertainty) {
+  std::vector<std::size_t> usable;
+  for (std::size_t k = 0; k < h.size(); ++k)
+    if (std::isfinite(error[k]) && error[k] > round_off) usable.push_back(k);
   OrderFit fit;
-  std::vector<double> x, y;
-  for (std::size_t k = h.size(); k-- > 0 && x.size() < fitted_points;) {
-    if (!std::isfinite(error[k]) || error[k] <= std::max(round_off, clear_of_reference * uncertainty)) continue;
-    x.push_back(h[k]);
-    y.push_back(error[k]);
-    fit.runs.push_back(k);
+  for (std::size_t end = usable.size(); end >= 2; --end) {
+    const std::size_t begin = end > fitted_points ? end - fitted_points : 0;
+    const std::size_t first = usable[begin], last = usable[end - 1];
+    // what the reference's own error can change in the slope between the ends
+    if (!(uncertainty / error[last] <= largest_doubt * std::log(h[first] / h[last]))) continue;
+    std::vector<double> x, y;
+    for (std::size_t k = begin; k < end; ++k) {
+      fit.runs.push_back(usable[k]);
+      x.push_back(h[usable[k]]);
+      y.push_back(error[usable[k]]);
+    }
+    fit.order = log_slope(x, y);
+    break;
   }
-  std::reverse(fit.runs.begin(), fit.runs.end());
-  fit.order = log_slope(x, y);
   return fit;
 }
 

@@ -111,7 +111,7 @@ GridReference make_reference(const io::StudySpec& spec, const ReferenceRuns& ref
     check = &references.runs[two[1]];
     const io::StudyReference& asked = *computed_reference(spec, grid);
     about = asked.about;
-    if (asked.order > 0.0) errors_in_difference = std::pow(2.0, asked.order) - 1.0;
+    if (asked.order > 0.0) errors_in_difference = std::pow(asked.ratio, asked.order) - 1.0;
     r.told.is_cached = main->is_cached && check->is_cached;
     for (const ReferenceRun* run : {main, check})
       if (!run->run.ok() && r.told.trouble.empty())

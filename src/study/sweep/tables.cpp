@@ -224,8 +224,8 @@ std::string sweep_csv(const SweepResult& r) {
            {run.steps.accepted, run.steps.rejected, run.steps.newton_iterations, run.steps.factorizations})
         csv += "," + std::to_string(n);
       const Spread wall = spread_of(run.wall);
-      for (const double x : {run.flops_per_factorization, run.instructions.value_or(unmeasured), wall.median,
-                             wall.low, wall.high, spread_of(run.cpu).median})
+      for (const double x : {run.flops_per_factorization, run.instructions.value_or(unmeasured), wall.median, wall.low,
+                             wall.high, spread_of(run.cpu).median})
         number(x);
       csv += '\n';
     }
