@@ -169,12 +169,12 @@ class StudyPage {
     runs(g);
   }
 
-  /// Theory's slope through the finest error that the order was fitted to.
+  /// Theory's slope, a little below the finest error that the order was fitted to.
   void add_slope(Chart& chart, const SweepSeries& series, std::size_t q, bool larger_is_finer) const {
     const study::OrderFit& f = series.fits[q];
     if (std::isnan(f.expected) || f.runs.empty()) return;
     const SweepRun& finest = r_.runs[f.runs.back()];
-    chart.slopes.push_back({finest.abscissa, finest.errors[q].max, larger_is_finer ? -f.expected : f.expected,
+    chart.slopes.push_back({finest.abscissa, 0.5 * finest.errors[q].max, larger_is_finer ? -f.expected : f.expected,
                             "order " + io::rounded_text(f.expected, 3)});
   }
 
