@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "bough/io/read_study.hpp"
+#include "support/untrapped.hpp"
 
 namespace bough::io {
 namespace {
@@ -132,8 +133,12 @@ TEST_F(Studies, each_mistake_is_told_at_its_place) {
   EXPECT_EQ(problem(R"("quantity": "place")", R"("quantity": "plaice")").pointer, "/grids/0/orders/0/quantity");
   EXPECT_EQ(problem(R"("sample_interval": 0.5)", R"("sample_interval": 0.3)").pointer, "/sample_interval");
   EXPECT_EQ(problem(R"([0, 0, {"expression": "-4*t^2"}])", R"([0, 0])").pointer, "/quantities/0/formula");
-  EXPECT_EQ(problem(R"x("-4*t^2")x", R"x("-4/(t - 0.5)")x").pointer, "/quantities/0/formula/2");
   EXPECT_EQ(problem(R"("name": "height")", R"("name": "place")").pointer, "/quantities/1/name");
+}
+
+TEST_F(Studies, a_formula_that_is_not_finite_at_a_sample_time_is_told) {
+  const test::Untrapped division_by_zero;
+  EXPECT_EQ(problem(R"x("-4*t^2")x", R"x("-4/(t - 0.5)")x").pointer, "/quantities/0/formula/2");
 }
 
 TEST_F(Studies, a_misspelt_key_is_told_with_the_one_that_was_meant) {

@@ -41,7 +41,10 @@ io::StudySpec pendulum_study(const std::string& steps = "[0.02, 0.01, 0.005]", c
                              std::filesystem::copy_options::overwrite_existing);
   std::ifstream in(data / "reference/A01_pendulum.csv");
   std::ofstream out(folder / "reference/A01_pendulum.csv");
-  for (std::string line; std::getline(in, line);) out << line << (line[0] == 't' ? ",zero\n" : ",0\n");
+  for (std::string line; std::getline(in, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    out << line << (line[0] == 't' ? ",zero\n" : ",0\n");
+  }
   out.close();
   io::StudyFile file = io::read_study_text(text, "pendulum", folder / "scenarios");
   for (const io::Problem& p : file.problems) ADD_FAILURE() << p.text();
