@@ -161,10 +161,12 @@ bool StudyConverter::check_samples(const scene::Scene& scene, const std::string&
   const double interval = spec.sample_interval > 0.0 ? spec.sample_interval : spec.end;
   const double step = spec.is_dynamic ? scene.analysis.step_size : 1.0 / scene.analysis.load_steps;
   if (is_multiple(interval, step)) return true;
-  fault(at,
-        "the step size " + rounded_text(step, 9) + " does not divide " +
-            (spec.sample_interval > 0.0 ? "the sample_interval " : "the duration ") + rounded_text(interval, 9),
-        "errors are measured at the ends of steps, without interpolation");
+  const std::string rule = "the step size " + rounded_text(step, 9) + " does not divide " +
+                           (spec.sample_interval > 0.0 ? "the sample_interval " : "the duration ") +
+                           rounded_text(interval, 9);
+  const bool was_said = std::any_of(faults.begin(), faults.end(),
+                                    [&](const PlacedFault& f) { return f.pointer == at && f.rule == rule; });
+  if (!was_said) fault(at, rule, "errors are measured at the ends of steps, without interpolation");
   return false;
 }
 
