@@ -239,6 +239,8 @@ std::string slope_text(const Chart& chart, const ChartFrame& f, const SlopeLine&
   // beside the upper end, on the side with room
   const bool rises = line.slope >= 0.0;
   const double end = rises ? b : a, x = f.to_x(end), y = std::max(height(end), f.top + 4.0);
+  const bool has_room = rises && x + 8.0 + character * static_cast<double>(line.label.size()) < f.right;
+  if (has_room) return text + text_element("tiny soft", x + 4.0, y + 12.0, "start", line.label);
   return text + text_element("tiny soft", rises ? x - 5.0 : x + 5.0, y + 15.0, rises ? "end" : "start", line.label);
 }
 

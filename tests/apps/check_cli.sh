@@ -154,15 +154,15 @@ holds grep -q '</html>' study.out/study.html
 sed 's/"order": 2, "theory"/"order": 3, "theory"/' study.json > high.json
 expect 1 'theory 3' study high.json --out high.out
 sed 's/step size/step sise/; s/"bob"/"bab"/' study.json > bad_study.json
-expect 2 'line 2, column .*/quantities/0/sensor: .*did you mean "bob"' study bad_study.json --out bad_study.out
+expect 2 'line 2, column .*/quantities/0/sensor .*did you mean "bob"' study bad_study.json --out bad_study.out
 holds test ! -e bad_study.out
-mkdir studies empty && cp study.json good.json studies
-expect 2 '/quantities' study studies --out studies.out
+mkdir studies no_studies && cp study.json good.json studies
+expect 2 'needs the key "quantities"' study studies --out studies.out
 holds test ! -e studies.out
 sed -i 's|"good.json"|"../good.json"|' studies/study.json && rm studies/good.json
 expect 0 'index.html' study studies --out studies.out
 holds grep -q 'study/study.html' studies.out/index.html
-expect 2 'no study' study empty --out studies.out
+expect 2 'no study' study no_studies --out studies.out
 expect 0 '"grids"' schema --study
 
 # kinematics razi
