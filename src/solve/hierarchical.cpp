@@ -136,7 +136,8 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   }
   s.scales_wanted = false;
   auto visit = [&s, &prepare](int group) { s.factor_group(group, prepare); };
-  walker.walk_up(s.lanes.walk, tree::make_visit(visit));
+  s.mark = walker.mark;
+  walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
   ++s.counters.factorizations;
   for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
   for (std::size_t i = 0; i < s.scalar_lanes.size(); ++i)

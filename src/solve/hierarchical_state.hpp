@@ -99,6 +99,7 @@ struct Hierarchical::State {
   FactorStatus status;
   SolverCounters counters;
   const double* visit_rhs = nullptr;  ///< right-hand side of the walk at hand
+  tree::Mark mark;                    ///< of the walk at hand
 
   // lane_walks.cpp: visits of groups
   void factor_group(int group, const Prepare& prepare);

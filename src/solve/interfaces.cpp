@@ -140,7 +140,7 @@ const Hierarchical::State& Hierarchical::reporting_state() const {
   return twin;
 }
 
-std::vector<InterfaceReport> Hierarchical::interfaces() const {
+std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
   const State& state = reporting_state();
   std::vector<InterfaceReport> reports;
   for (tree::SubdomainId s = 0; s < state.tree.root(); ++s) {
@@ -148,6 +148,12 @@ std::vector<InterfaceReport> Hierarchical::interfaces() const {
     const FrontData& d = state.data(sub.top());
     const int n = d.size - d.full;
     InterfaceReport report{.subdomain = s, .level = sub.level, .num_unknowns = n, .num_delayed = d.num_delayed()};
+    report.flops = sub.flops;
+    if (n > widest) {
+      report.condition = std::numeric_limits<double>::quiet_NaN();
+      reports.push_back(report);
+      continue;
+    }
     if (n > 0 && !d.failed && state.counters.factorizations > 0) {
       std::vector<double> stiffness = state.interface_stiffness(s);
       Matrix stiffened =

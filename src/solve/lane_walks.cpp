@@ -17,15 +17,20 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   const LaneGroup& group = lanes.groups[at(index)];
   if (prepare.run != nullptr && group.element_begin < group.element_end)
     prepare.run(prepare.context, index, group.element_begin, group.element_end);
+  mark(tree::Stage::evaluate);
   if (group.in_lanes) {
     for (int f = group.front_begin; f < group.front_end; ++f) {
       factor_lane_front(f);
-      if (visit_rhs != nullptr) forward_lane_front(f);
+      if (visit_rhs == nullptr) continue;
+      forward_lane_front(f);
+      mark(tree::Stage::forward);
     }
     return;
   }
   factor_subdomain(group.subdomains.front());
-  if (visit_rhs != nullptr && group.subdomains.front() != tree.root()) forward_group(index);
+  if (visit_rhs == nullptr || group.subdomains.front() == tree.root()) return;
+  forward_group(index);
+  mark(tree::Stage::forward);
 }
 
 void Hierarchical::State::forward_group(int index) {
@@ -145,6 +150,7 @@ void Hierarchical::State::factor_lane_front(int index) {
       if (lanes.unknowns[at(f.unknown + k)] < 0)
         factor[static_cast<std::int64_t>(k / wide) * (n + 1) * wide + k % wide] = 1.0;
   if (alone != 0) neutralise_lanes(factor, schur, n, e, alone);
+  mark(tree::Stage::assemble);
   const LanePivotRule rule{options.pivot_threshold, options.tiny_pivot};
   const LaneSet refused = eliminate_lanes(factor, schur, n, e, lane_row_scales.data() + f.vector * wide,
                                           lane_inverse_column_scales.data() + f.vector * wide, rule);
@@ -152,6 +158,7 @@ void Hierarchical::State::factor_lane_front(int index) {
   scalar_lanes[at(index)] = alone;
   for (int l = 0; alone != 0 && l < wide; ++l)
     if ((alone >> l & 1) != 0) factor_lane_alone(index, l);
+  mark(tree::Stage::eliminate);
 }
 
 /// Lanes with unknowns that wait, or a failure below: these can only be taken over on the scalar path.

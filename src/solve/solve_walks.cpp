@@ -58,7 +58,7 @@ void Hierarchical::State::backward_front(tree::FrontId f) {
 void Hierarchical::State::solve_into_x(const tree::Walker& walker, const double* b) {
   visit_rhs = b;
   auto forward = [this](int group) { forward_group(group); };
-  walker.walk_up(lanes.walk, tree::make_visit(forward));
+  walker.walk_up(lanes.walk, tree::make_visit(forward, tree::Work::forward));
   back_substitute(walker);
 }
 
@@ -66,7 +66,7 @@ void Hierarchical::State::back_substitute(const tree::Walker& walker) {
   const FrontData& root = fronts.back();
   for (int i = root.pivots; i < root.full; ++i) x[at(root.columns[i])] = 0.0;
   auto backward = [this](int group) { backward_group(group); };
-  walker.walk_down(lanes.walk, tree::make_visit(backward));
+  walker.walk_down(lanes.walk, tree::make_visit(backward, tree::Work::backward));
   if (null_space.dimension > 0) project_multipliers();
 }
 
@@ -75,7 +75,7 @@ ElementStore::Errors Hierarchical::State::eval_residual(const tree::Walker& walk
                                                         SolveReport& report) {
   visit_rhs = b;
   auto visit = [this](int group) { residual_group(group); };
-  walker.walk_up(lanes.walk, tree::make_visit(visit));
+  walker.walk_up(lanes.walk, tree::make_visit(visit, tree::Work::residual));
   SolutionSizes most;
   for (const SolutionSizes& s : sizes) {
     most.residual = s.residual <= most.residual ? most.residual : s.residual;  // NaN goes through

@@ -15,7 +15,9 @@ void Hierarchical::State::factor_subdomain(tree::SubdomainId s) {
   for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) {
     size_front(f);
     assemble_front(f);
+    mark(tree::Stage::assemble);
     eliminate_front(f);
+    mark(tree::Stage::eliminate);
   }
   if (options.elimination == Elimination::plain && s != tree.root()) condense_through_flexibility(s);
 }

@@ -182,7 +182,8 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
         if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, f, tangent);
     }
   };
-  walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain, tree::make_chunk(by_batch));
+  walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain,
+                         tree::make_chunk(by_batch, tree::Work::evaluate));
   auto by_block = [&](std::int64_t begin, std::int64_t end) { sum_blocks(begin, end); };
   walker_.for_each_chunk(plan_.graph.num_blocks(), block_grain, tree::make_chunk(by_block));
   if (std::all_of(chunk_sizes_.begin(), chunk_sizes_.end(), [](const ChunkSize& c) { return c.is_finite; }))

@@ -49,6 +49,7 @@ class Run {
   results::Recorder& recorder_;
   const ProgressCallback& progress_;
   const decltype(SimulateOptions::before_step)& before_step_;
+  const decltype(SimulateOptions::after_run)& after_run_;
   bool want_motion_;
   schedule::Threads threads_;
   plan::Plan plan_;

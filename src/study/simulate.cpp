@@ -22,10 +22,11 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
       recorder_(recorder),
       progress_(progress),
       before_step_(options.before_step),
+      after_run_(options.after_run),
       want_motion_(options.want_motion || scene.output.motion),
       threads_(std::max(1, scene.solver.tasks ? options.threads : 1)),
       plan_(plan::make_plan(scene)),
-      system_(plan_, scene.solver, threads_.walker()),
+      system_(plan_, scene.solver, options.wrap_walker ? options.wrap_walker(threads_.walker()) : threads_.walker()),
       state_(step::make_initial_state(plan_)),
       work_meter_(plan_) {
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::variational)
@@ -206,6 +207,7 @@ void Run::finish() {
     summary_.expected.push_back(e);
   }
   summary_.solver = solver_figures(system_, dependent_rows_);
+  if (after_run_) after_run_(system_, state_);
 }
 
 Summary simulate(const scene::Scene& scene, const SimulateOptions& options, results::Recorder& recorder,

@@ -1,5 +1,6 @@
 #pragma once
 /// The hierarchical direct solver: sub-domains condensed to their interfaces, level by level, then substituted back.
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -55,8 +56,9 @@ class Hierarchical {
 
   const FactorStatus& last_status() const;
   SolverCounters counters() const;
-  /// Interfaces of all sub-domains but the root, in order; computes condition numbers (dense eigenvalues: for reports, allocates).
-  std::vector<InterfaceReport> interfaces() const;
+  /// Interfaces of all sub-domains but the root, in order; computes condition numbers (dense singular values: for reports, allocates) of
+  /// those with at most `widest` unknowns, NaN for others. flops: of the sub-domain's own fronts; seconds are not measured here.
+  std::vector<InterfaceReport> interfaces(int widest = std::numeric_limits<int>::max()) const;
   /// Local multipliers l_i of a sub-domain after solve(): generalised interface forces in the units of the right-hand side (times 1/s),
   /// one per unknown of its boundary blocks, in that order.
   std::vector<double> local_multipliers(tree::SubdomainId subdomain) const;

@@ -20,6 +20,10 @@ struct SimulateOptions {
   bool want_motion = false;  ///< hand out the moving structure even if the scene does not ask for it
   /// Asked before every attempt of a step, with the state it starts from; false: stop here (interrupted), the system is no longer used.
   std::function<bool(step::System&, const step::State&, const BeforeStep&)> before_step = {};
+  /// The walker that the solver gets instead of the one of the threads: another way of the same walks, a watched one say.
+  std::function<tree::Walker(const tree::Walker&)> wrap_walker = {};
+  /// Called once after the last step, whether the run went well or not.
+  std::function<void(step::System&, const step::State&)> after_run = {};
 };
 
 /// Asked after every accepted step; false: stop here (interrupted).

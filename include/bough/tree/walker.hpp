@@ -6,16 +6,33 @@
 
 namespace bough::tree {
 
+/// What a walk is for: a name for whoever watches walks. Walkers ignore it.
+enum class Work : std::uint8_t { other, evaluate, factor, forward, backward, residual };
+
+/// Part of one visit.
+enum class Stage : std::uint8_t { evaluate, assemble, eliminate, forward };
+
+/// Told by a visit that it has just done a stage; does nothing unless somebody watches.
+struct Mark {
+  void (*run)(void* context, Stage done) = nullptr;
+  void* context = nullptr;
+  void operator()(Stage done) const {
+    if (run != nullptr) run(context, done);
+  }
+};
+
 /// Work on one sub-domain (its own fronts). Must not throw.
 struct Visit {
   void (*run)(void* context, SubdomainId subdomain) = nullptr;
   void* context = nullptr;
+  Work work = Work::other;
 };
 
 /// Work on a chunk [begin, end) of independent items. Must not throw.
 struct Chunk {
   void (*run)(void* context, std::int64_t begin, std::int64_t end) = nullptr;
   void* context = nullptr;
+  Work work = Work::other;
 };
 
 /// A way to walk the tree: `up` visits every child before its parent, `down` every parent before its children, `each` cuts [0, count) into
@@ -25,6 +42,7 @@ struct Walker {
   void (*down)(void* context, const Tree& tree, Visit visit) = nullptr;
   void (*each)(void* context, std::int64_t count, std::int64_t grain, Chunk chunk) = nullptr;
   void* context = nullptr;
+  Mark mark = {};  ///< for visits that have stages
 
   void walk_up(const Tree& tree, Visit visit) const { up(context, tree, visit); }
   void walk_down(const Tree& tree, Visit visit) const { down(context, tree, visit); }
@@ -33,15 +51,15 @@ struct Walker {
 
 /// A visit that calls `body(SubdomainId)`; body must outlive the walk.
 template <class Body>
-Visit make_visit(Body& body) {
-  return {[](void* context, SubdomainId s) { (*static_cast<Body*>(context))(s); }, &body};
+Visit make_visit(Body& body, Work work = Work::other) {
+  return {[](void* context, SubdomainId s) { (*static_cast<Body*>(context))(s); }, &body, work};
 }
 
 /// A chunk that calls `body(begin, end)`; body must outlive the call.
 template <class Body>
-Chunk make_chunk(Body& body) {
+Chunk make_chunk(Body& body, Work work = Work::other) {
   return {[](void* context, std::int64_t begin, std::int64_t end) { (*static_cast<Body*>(context))(begin, end); },
-          &body};
+          &body, work};
 }
 
 }  // namespace bough::tree
