@@ -41,6 +41,20 @@ struct ExportMatrixArguments {
   int threads = 0;
   std::vector<std::string> overrides;
 };
+struct ProfileArguments {
+  std::filesystem::path scene, out;  ///< out empty: ./<scene>.profile
+  long steps = 200;
+  int threads = 0;
+  std::vector<std::string> overrides;
+  bool quiet = false;
+};
+struct TuneArguments {
+  std::filesystem::path scene, out;  ///< out empty: standard output only
+  long steps = 20;
+  double seconds = 60.0;
+  int threads = 0;
+  std::vector<std::string> overrides;
+};
 struct CheckArguments {
   std::filesystem::path scene;
   std::vector<std::string> overrides;
@@ -82,6 +96,8 @@ int run(const RunArguments& arguments);
 int view(const ViewArguments& arguments);
 int batch(const BatchArguments& arguments);
 int export_matrix(const ExportMatrixArguments& arguments);
+int profile(const ProfileArguments& arguments);
+int tune(const TuneArguments& arguments);
 int check(const CheckArguments& arguments);
 int compare(const CompareArguments& arguments);
 int kinematics_razi(const RaziArguments& arguments);

@@ -10,8 +10,7 @@
 namespace bough::app {
 namespace {
 
-const std::vector<std::string> verbs = {"run",     "view",       "batch",         "check", "schema",
-                                        "compare", "kinematics", "export-matrix", "study", "doctor"};
+const std::vector<std::string> verbs = {"run", "view", "batch", "check", "schema", "compare", "kinematics", "export-matrix", "study", "profile", "tune", "doctor"};
 
 /// A finite number from low to high. (CLI::Range lets NaN pass.)
 CLI::Validator between(double low, double high) {
@@ -133,6 +132,41 @@ void add_study(CLI::App& app, StudyArguments& a, int& code) {
   verb.add_option("--cache", a.cache, "Folder of computed references (default: DIR/references)")->type_name("DIR");
   verb.add_flag("--quiet", a.quiet, "Print problems only");
   verb.callback([&] { code = study_scene(a); });
+}
+
+void add_profile(CLI::App& app, ProfileArguments& a, int& code) {
+  CLI::App& verb =
+      add_verb(app, "profile", "Show the tree of sub-domains as it runs: sizes, times, threads, other trees",
+               "  bough profile four_bar.json --out four_bar.profile --steps 50\n"
+               "  bough profile chain.json --set /solver/leaf_size=8\n"
+               "Writes profile.html, profile.json and trace.json (opens in Perfetto); the tree is printed.\n"
+               "Exit status: 0 done, 1 the run failed (what ran is shown), 2 bad input.");
+  verb.add_option("SCENE", a.scene, "Scene file (JSON)")->required();
+  verb.add_option("--out", a.out, "Directory to write (default: ./<scene>.profile)")->type_name("DIR");
+  verb.add_option("--steps", a.steps, "Most steps (default: 200)")->type_name("N")->check(CLI::Range(1L, 1000000000L));
+  add_threads(verb, a.threads, "Threads");
+  add_overrides(verb, a.overrides);
+  verb.add_flag("--quiet", a.quiet, "Print problems only");
+  verb.callback([&] { code = profile(a); });
+}
+
+void add_tune(CLI::App& app, TuneArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, "tune", "Measure which solver options run a scene fastest here",
+                            "  bough tune chain.json --out solver.json\n"
+                            "  bough run chain.json --set /solver=\"$(bough tune chain.json)\"\n"
+                            "The table goes to standard error, the block \"solver\" to standard output.\n"
+                            "Exit status: 0 done, 1 no options run the scene, 2 bad input.");
+  verb.add_option("SCENE", a.scene, "Scene file (JSON)")->required();
+  verb.add_option("--out", a.out, "Write the block, too")->type_name("FILE");
+  verb.add_option("--steps", a.steps, "Steps of each short run (default: 20)")
+      ->type_name("N")
+      ->check(CLI::Range(1L, 1000000L));
+  verb.add_option("--seconds", a.seconds, "Start no further round after so long, but for the first three (default: 60)")
+      ->type_name("S")
+      ->check(between(0.0, 1e6));
+  add_threads(verb, a.threads, "Threads");
+  add_overrides(verb, a.overrides);
+  verb.callback([&] { code = tune(a); });
 }
 
 void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArguments& compare_arguments,
@@ -271,6 +305,10 @@ int dispatch(int count, char** values) {
   SchemaArguments schema_arguments;
   ExportMatrixArguments export_arguments;
   add_export_matrix(app, export_arguments, code);
+  ProfileArguments profile_arguments;
+  TuneArguments tune_arguments;
+  add_profile(app, profile_arguments, code);
+  add_tune(app, tune_arguments, code);
   add_small_verbs(app, check_arguments, compare_arguments, schema_arguments, code);
   StudyArguments study_arguments;
   add_study(app, study_arguments, code);

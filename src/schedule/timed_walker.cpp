@@ -241,7 +241,9 @@ void TimedWalker::keep_events(bool keep) {
   if (keep && state_->events.capacity() == 0) state_->events.reserve(at(state_->options.most_events));
 }
 
-double TimedWalker::now() const { return static_cast<double>(ticks() - state_->first_tick) * state_->seconds_per_tick(); }
+double TimedWalker::now() const {
+  return static_cast<double>(ticks() - state_->first_tick) * state_->seconds_per_tick();
+}
 
 WalkTimes TimedWalker::times() const {
   const State& s = *state_;

@@ -35,7 +35,7 @@ echo '{"schema_version": 1, "bodies": [{"name": "a", "mass": -1}, 7], "nonsense"
 # words
 expect 0 '^bough [0-9]' --version
 expect 0 'bough run' --help
-for verb in run view batch check schema compare export-matrix kinematics study doctor; do expect 0 '  bough '$verb $verb --help; done
+for verb in run view batch check schema compare export-matrix kinematics study profile tune doctor; do expect 0 '  bough '$verb $verb --help; done
 expect 2 "did you mean 'run'" rnu good.json
 expect 2 "did you mean 'compare'" comapre a b
 expect 2 'Verbs:' xyzzy
@@ -251,6 +251,17 @@ expect 0 '2 cases, 0 not done' batch scenes --out batch2
 mkdir empty
 expect 2 'no scene' batch empty --out batch3
 expect 2 'missing' batch missing --out batch3
+
+# profile and tune
+expect 0 'sub-domains on' profile good.json --out good.profile --steps 5
+for file in profile.html profile.json trace.json; do holds test -s good.profile/$file; done
+expect 0 silence profile good.json --steps 5 --quiet --threads 1
+holds test -s good.profile/trace.json
+expect 2 '/solver/kind' profile good.json --set /solver/kind=monolithic
+expect 2 . profile good.json --steps 0
+expect 0 '"kind"' tune good.json --steps 3 --seconds 0 --out solver.json
+expect 0 silence run good.json --out tuned.out --quiet --set "/solver=$(cat solver.json)"
+expect 2 . tune good.json --seconds nan
 
 expect 0 'all is well' doctor
 

@@ -10,8 +10,10 @@ namespace bough::schedule {
 /// Results do not depend on the number of threads: a task only decides when a sub-domain is visited, never what is added to what.
 class Threads {
  public:
+  static constexpr double usual_grain_flops = 2e5;
+
   /// count: threads, >= 1 (1: the serial walk). grain_flops: least work of a task [flop].
-  explicit Threads(int count, double grain_flops = 2e5);
+  explicit Threads(int count, double grain_flops = usual_grain_flops);
   ~Threads();
   Threads(Threads&&) noexcept;
   Threads& operator=(Threads&&) noexcept;

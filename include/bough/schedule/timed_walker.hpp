@@ -16,8 +16,8 @@ constexpr int num_stages = 4;  ///< of tree::Stage
 struct WorkTimes {
   std::int64_t walks = 0;
   std::int64_t stride = 1;
-  std::vector<float> visit;                          ///< duration of each visit, by sample and visit
-  std::vector<float> wait;                           ///< upward: from when the last of its children was done until its start
+  std::vector<float> visit;  ///< duration of each visit, by sample and visit
+  std::vector<float> wait;   ///< upward: from when the last of its children was done until its start
   std::array<std::vector<float>, num_stages> stage;  ///< parts of the visits; factor only
   std::vector<float> wall;                           ///< by sample: duration of the whole walk
   double wall_sum = 0.0;                             ///< over all walks

@@ -14,8 +14,9 @@ struct VisitShape {
   std::vector<tree::SubdomainId> subdomains;
   bool in_lanes = false;
   int num_fronts = 0;
-  double flops = 0.0;              ///< of the elimination [flop].
-  double condense_flops = 0.0;     ///< of these, updates of the boundary's own block: 2 e b^2 for e eliminated, b boundary unknowns [flop].
+  double flops = 0.0;  ///< of the elimination [flop].
+  double condense_flops =
+      0.0;  ///< of these, updates of the boundary's own block: 2 e b^2 for e eliminated, b boundary unknowns [flop].
   std::int64_t factor_bytes = 0;   ///< factor of all its lanes.
   std::int64_t element_bytes = 0;  ///< element matrices of all its lanes.
   int batch_begin = 0;             ///< positions in Hierarchical::batches().

@@ -1,0 +1,70 @@
+/// bough profile SCENE: the tree of sub-domains as it is and as it runs.
+#include <filesystem>
+#include <iostream>
+
+#include "arguments.hpp"
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/profile_json.hpp"
+#include "bough/io/read_scene.hpp"
+#include "bough/report/profile_page.hpp"
+#include "bough/study/profile.hpp"
+#include "bough/version.hpp"
+#include "terminal.hpp"
+#include "tree_text.hpp"
+
+namespace bough::app {
+namespace {
+
+/// A profile looks at steps; it records nothing of the motion.
+class NoRecorder final : public results::Recorder {
+ public:
+  void begin(const results::HistoryHeader&) override {}
+  void row(const results::HistoryRow&) override {}
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+};
+
+}  // namespace
+
+int profile(const ProfileArguments& arguments) {
+  const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
+  print_problems(arguments.scene, file, arguments.quiet);
+  if (!file.ok()) return exit_bad_input;
+  if (const std::string cause = study::cannot_profile(file.scene); !cause.empty()) {
+    std::cerr << "bough: " << file.scene.name << ": " << cause << "\n";
+    return exit_bad_input;
+  }
+  const std::filesystem::path out =
+      arguments.out.empty() ? std::filesystem::path(file.scene.name + ".profile") : arguments.out;
+  catch_interrupts();
+  ProgressBar bar(arguments.quiet);
+  study::ProfileOptions options;
+  options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
+  options.steps = arguments.steps;
+  NoRecorder nobody;
+  results::Profile result;
+  try {
+    result = study::profile(file.scene, options, nobody, [&bar](const results::Progress& progress) {
+      bar.show(progress);
+      return !interrupted();
+    });
+    bar.clear();
+    std::filesystem::create_directories(out);
+    io::write_file(out / "profile.json", io::profile_text(result, version));
+    io::write_file(out / "trace.json", io::trace_text(result));
+    io::write_file(out / "profile.html", report::profile_page(result, "profile.json"));
+  } catch (const std::exception& error) {
+    bar.clear();
+    std::cerr << "bough: " << error.what() << "\n";
+    return exit_failed;
+  }
+  if (!arguments.quiet)
+    std::cout << tree_text(result, style_of_terminal()) << "Profile in " << out.string()
+              << ": profile.html profile.json trace.json\n"
+              << std::flush;
+  if (result.trouble.empty()) return exit_done;
+  std::cerr << "bough: " << file.scene.name << ": " << result.trouble << "\n";
+  return exit_failed;
+}
+
+}  // namespace bough::app

@@ -1,0 +1,321 @@
+#include "bough/study/profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "bough/schedule/threads.hpp"
+#include "profile_cost.hpp"
+#include "profile_parts.hpp"
+#include "profile_run.hpp"
+#include "profile_schedule.hpp"
+
+namespace bough::study {
+
+namespace {
+
+using schedule::TreeTimes;
+using schedule::WalkTimes;
+using tree::Stage;
+using tree::Work;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t of(Work w) { return static_cast<std::size_t>(w); }
+constexpr std::size_t of(Stage s) { return static_cast<std::size_t>(s); }
+constexpr Work walks[] = {Work::factor, Work::forward, Work::backward, Work::residual};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Median of each of n columns.
+std::vector<double> medians(const std::vector<float>& samples, std::size_t n) {
+  std::vector<double> result(n, 0.0), column;
+  if (n == 0) return result;
+  for (std::size_t v = 0; v < n && samples.size() >= n; ++v) {
+    column.clear();
+    for (std::size_t k = v; k < samples.size(); k += n) column.push_back(static_cast<double>(samples[k]));
+    result[v] = median(column);
+  }
+  return result;
+}
+
+/// Medians of one run by visit.
+struct VisitMedians {
+  std::array<std::vector<double>, schedule::num_works> seconds;
+  std::array<std::vector<double>, schedule::num_stages> stage;
+  std::vector<double> wait, evaluate;
+};
+
+VisitMedians find_medians(const WalkTimes& times, const std::vector<solve::VisitShape>& visits) {
+  const std::size_t n = visits.size();
+  VisitMedians m;
+  for (auto& s : m.seconds) s.assign(n, 0.0);
+  for (auto& s : m.stage) s.assign(n, 0.0);
+  m.wait.assign(n, 0.0);
+  m.evaluate.assign(n, 0.0);
+  if (const TreeTimes* t = walked_tree(times, n); t != nullptr) {
+    for (Work w : walks) m.seconds[of(w)] = medians(t->work[of(w)].visit, n);
+    for (std::size_t k = 0; k < m.stage.size(); ++k) m.stage[k] = medians(t->work[of(Work::factor)].stage[k], n);
+    m.wait = medians(t->work[of(Work::factor)].wait, n);
+  }
+  const schedule::ChunkTimes& c = times.chunks[of(Work::evaluate)];
+  if (c.count == 0) return m;
+  std::size_t visit = 0;
+  for (std::size_t chunk = 0; chunk < c.chunk.size(); ++chunk) {  // both go over the batches in order
+    const auto begin = static_cast<std::int64_t>(chunk) * c.grain;
+    const std::int64_t end = std::min(begin + c.grain, static_cast<std::int64_t>(visits.back().batch_end));
+    for (std::int64_t b = begin; b < end; ++b) {
+      while (visit + 1 < n && b >= visits[visit].batch_end) ++visit;
+      m.evaluate[visit] += c.chunk[chunk] / static_cast<double>(c.count * (end - begin));
+    }
+  }
+  return m;
+}
+
+/// What the look at the system after the run has found.
+struct Found {
+  tree::Tree tree;
+  solve::VisitShapes shapes;
+  std::vector<solve::InterfaceReport> interfaces;
+  solve::SolverCounters counters;
+  blocks::BlockGraph graph;
+};
+
+void fill_subdomains(const Found& found, const VisitMedians& m, results::Profile& out) {
+  const std::vector<std::int64_t> own_entries = count_matrix_entries(found.graph, found.tree);
+  out.subdomains.resize(at(found.tree.num_subdomains()));
+  for (int s = 0; s < found.tree.num_subdomains(); ++s) {
+    const tree::Subdomain& sub = found.tree.subdomains[at(s)];
+    results::SubdomainProfile& p = out.subdomains[at(s)];
+    p.id = s;
+    p.parent = sub.parent;
+    p.level = sub.level;
+    p.is_leaf = sub.is_leaf();
+    p.num_elements = sub.element_end - sub.element_begin;
+    p.num_fronts = sub.front_end - sub.front_begin;
+    p.interface_unknowns = found.tree.fronts[at(sub.top())].num_boundary;
+    p.flops = sub.flops;
+    p.subtree_flops = sub.subtree_flops;
+    for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) {
+      const std::int64_t e = found.tree.fronts[at(f)].num_eliminated, b = found.tree.fronts[at(f)].num_boundary;
+      p.num_unknowns += static_cast<int>(e);
+      p.factor_entries += e * e + 2 * e * b;
+    }
+    p.fill = p.factor_entries - own_entries[at(s)];
+    p.subtree_unknowns = p.num_unknowns;
+    for (tree::SubdomainId c : found.tree.children(sub)) p.subtree_unknowns += out.subdomains[at(c)].subtree_unknowns;
+  }
+  for (std::size_t v = 0; v < found.shapes.visits.size(); ++v) {
+    const solve::VisitShape& shape = found.shapes.visits[v];
+    const auto share = 1.0 / static_cast<double>(shape.subdomains.size());
+    results::SubdomainTimes t;
+    const double evaluated = m.stage[of(Stage::evaluate)][v];
+    t.evaluate = (m.evaluate[v] + evaluated) * share;
+    t.assemble = m.stage[of(Stage::assemble)][v] * share;
+    const double forward_inside = m.stage[of(Stage::forward)][v];
+    const double elimination =
+        std::max(0.0, m.seconds[of(Work::factor)][v] - evaluated - m.stage[of(Stage::assemble)][v] - forward_inside) *
+        share;
+    t.condense = shape.flops > 0.0 ? elimination * std::min(1.0, shape.condense_flops / shape.flops) : 0.0;
+    t.factor = elimination - t.condense;
+    t.forward = (m.seconds[of(Work::forward)][v] + forward_inside) * share;
+    t.backward = m.seconds[of(Work::backward)][v] * share;
+    t.residual = m.seconds[of(Work::residual)][v] * share;
+    t.wait = m.wait[v];
+    for (tree::SubdomainId s : shape.subdomains) {
+      results::SubdomainProfile& p = out.subdomains[at(s)];
+      p.visit = static_cast<int>(v);
+      p.num_in_visit = static_cast<int>(shape.subdomains.size());
+      p.times = t;
+      p.bytes = static_cast<double>(shape.factor_bytes + shape.element_bytes) * share;
+    }
+    if (shape.in_lanes) out.num_in_lanes += static_cast<int>(shape.subdomains.size());
+    out.factor_bytes += shape.factor_bytes;
+    out.element_bytes += shape.element_bytes;
+  }
+  for (const solve::InterfaceReport& i : found.interfaces) out.subdomains[at(i.subdomain)].condition = i.condition;
+  results::sum_subtrees(out.subdomains);
+  out.levels = results::sum_levels(out.subdomains);
+}
+
+void fill_events(const WatchedRun& run, results::Profile& out) {
+  static constexpr const char* names[] = {"other", "evaluate", "factor", "forward", "backward", "residual"};
+  std::vector<std::vector<int>> visits_by_thread(at(out.num_visits), std::vector<int>(run.times.thread_busy.size(), 0));
+  for (const schedule::TimedEvent& e : run.times.events) {
+    out.events.push_back(
+        {names[of(e.work)], e.is_chunk ? -1 : e.item, e.item, e.thread, e.begin, static_cast<double>(e.seconds)});
+    if (!e.is_chunk && e.work == Work::factor && e.item < out.num_visits && e.thread >= 0)
+      ++visits_by_thread[at(e.item)][at(e.thread)];
+  }
+  const double last = run.times.events.empty() ? 0.0 : run.times.events.back().begin;
+  for (std::size_t k = 0; k < run.kept_steps.size() && run.kept_steps[k].begin <= last; ++k)
+    out.events.push_back({"step", -1, static_cast<int>(k), -1, run.kept_steps[k].begin, run.kept_steps[k].seconds});
+  out.events_left_out = run.times.events_left_out;
+  for (results::SubdomainProfile& s : out.subdomains) {
+    const std::vector<int>& counts = visits_by_thread[at(s.visit)];
+    if (!counts.empty()) s.thread = static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  }
+}
+
+/// Means of the steps of a run, the start left out.
+results::StepProfile mean_step(const WatchedRun& run, std::size_t num_visits) {
+  results::StepProfile s;
+  const auto n = static_cast<double>(std::max<std::size_t>(run.steps.size(), 1));
+  double sum = 0.0;
+  for (double seconds : run.steps) sum += seconds;
+  s.total = median(run.steps);
+  const TreeTimes *end = walked_tree(run.times, num_visits), *begin = walked_tree(run.start, num_visits);
+  const auto wall = [&](Work w) {
+    if (end == nullptr) return 0.0;
+    return (end->work[of(w)].wall_sum - (begin != nullptr ? begin->work[of(w)].wall_sum : 0.0)) / n;
+  };
+  const auto count = [&](Work w) {
+    if (end == nullptr) return 0.0;
+    return static_cast<double>(end->work[of(w)].walks - (begin != nullptr ? begin->work[of(w)].walks : 0)) / n;
+  };
+  s.factor = wall(Work::factor);
+  s.forward = wall(Work::forward);
+  s.backward = wall(Work::backward);
+  s.residual = wall(Work::residual);
+  s.factorizations = count(Work::factor);
+  s.solutions = count(Work::backward);
+  for (std::size_t w = 0; w < run.times.chunks.size(); ++w)
+    (w == of(Work::evaluate) ? s.evaluate : s.other_chunks) +=
+        (run.times.chunks[w].wall_sum - run.start.chunks[w].wall_sum) / n;
+  s.evaluations =
+      static_cast<double>(run.times.chunks[of(Work::evaluate)].count - run.start.chunks[of(Work::evaluate)].count) / n;
+  s.rest = std::max(0.0, sum / n - s.evaluate - s.other_chunks - s.factor - s.forward - s.backward - s.residual);
+  return s;
+}
+
+/// Median duration of one factorization and solution.
+double measured_solution(const WatchedRun& run, std::size_t num_visits) {
+  const TreeTimes* t = walked_tree(run.times, num_visits);
+  double sum = 0.0;
+  if (t == nullptr) return sum;
+  for (Work w : walks) {
+    const auto m = medians(t->work[of(w)].wall, 1);
+    sum += m.front();
+  }
+  return sum;
+}
+
+/// What other numbers of threads would take, from visits that ran on one.
+void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun& alone, results::Profile& out) {
+  constexpr double grain = schedule::Threads::usual_grain_flops;
+  const std::vector<int> threads{1, 2, 4, 8, 16, 32, 64};
+  std::vector<double> seconds(found.shapes.visits.size(), 0.0);
+  std::vector<results::ThreadsProfile> rows(threads.size());
+  for (std::size_t k = 0; k < threads.size(); ++k) rows[k].threads = threads[k];
+  const results::StepProfile step = mean_step(alone, found.shapes.visits.size());
+  const double per_step[] = {step.factorizations, step.forward > 0.0 ? step.solutions : 0.0, step.solutions,
+                             step.residual > 0.0 ? step.solutions : 0.0};
+  for (std::size_t w = 0; w < std::size(walks); ++w) {
+    const std::vector<double>& own = m.seconds[of(walks[w])];
+    out.critical_path += critical_path(found.shapes.walk, own);
+    const auto direction = walks[w] == Work::backward ? Direction::down : Direction::up;
+    const std::vector<double> durations = eval_walks(found.shapes.walk, own, direction, threads, grain);
+    for (std::size_t k = 0; k < threads.size(); ++k) {
+      rows[k].predicted += durations[k];
+      rows[k].predicted_step += per_step[w] * durations[k];
+    }
+  }
+  const auto chunks =
+      static_cast<double>(std::max<std::size_t>(alone.times.chunks[of(Work::evaluate)].chunk.size(), 1));
+  for (results::ThreadsProfile& r : rows) {
+    const double rounds = std::ceil(chunks / r.threads);  // equal chunks go in rounds
+    r.predicted_step += step.rest + (step.evaluate + step.other_chunks) * rounds / chunks;
+  }
+  out.total = rows.front().predicted;
+  out.speed = rows;
+}
+
+}  // namespace
+
+std::string cannot_profile(const scene::Scene& scene) {
+  using scene::SolverKind;
+  if (scene.solver.kind == SolverKind::automatic || scene.solver.kind == SolverKind::hierarchical) return {};
+  return "only the hierarchical solver walks the tree of sub-domains: profile with --set "
+         "/solver/kind='\"hierarchical\"'";
+}
+
+results::Profile profile(const scene::Scene& scene, const ProfileOptions& options, results::Recorder& recorder,
+                         const ProgressCallback& progress) {
+  results::Profile out;
+  out.scene = scene.name;
+  out.title = scene.title;
+  out.threads = scene.solver.tasks ? options.threads : 1;
+  out.machine_threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  out.widest_condition = options.widest_condition;
+  Found found;
+  const auto look = [&](step::System& system) {
+    found.tree = system.tree();
+    found.graph = system.plan().graph;
+    found.shapes = solve::make_visit_shapes(found.graph, found.tree);
+    found.counters = system.solver().counters();
+    if (system.counts().factorizations > 0 && system.solver().last_status().ok())
+      found.interfaces = system.solver().hierarchical()->interfaces(options.widest_condition);
+    out.is_dynamic = system.plan().is_dynamic;
+    draw_parts(system.plan(), found.tree, out);
+  };
+  const WatchedRun run =
+      watch_run(scene, {.threads = out.threads, .steps = options.steps, .keep_events = true}, recorder, progress, look);
+  if (run.summary.status == results::RunStatus::failed) out.trouble = run.summary.cause;
+  out.steps = run.summary.steps.accepted;
+  out.factorizations = run.summary.steps.factorizations;
+  out.solutions = found.counters.solutions;
+  out.cut = found.tree.method;
+  out.num_visits = static_cast<int>(found.shapes.visits.size());
+  out.solver_bytes = found.counters.memory_bytes;
+  out.peak_bytes = run.summary.memory_peak_bytes;
+  const VisitMedians measured = find_medians(run.times, found.shapes.visits);
+  fill_subdomains(found, measured, out);
+  fill_events(run, out);
+  out.step = mean_step(run, found.shapes.visits.size());
+  out.thread_busy = run.times.thread_busy;
+  double busy = 0.0, most = 0.0, wall = 0.0;
+  for (double b : out.thread_busy) {
+    busy += b;
+    most = std::max(most, b);
+  }
+  for (const TreeTimes& t : run.times.trees)
+    for (const schedule::WorkTimes& w : t.work) wall += w.wall_sum;
+  for (const schedule::ChunkTimes& c : run.times.chunks) wall += c.wall_sum;
+  if (most > 0.0) out.load_balance = busy / (out.threads * most);
+  if (wall > 0.0) out.efficiency = busy / (out.threads * wall);
+  if (out.steps == 0) return out;
+
+  NullRecorder nobody;
+  WatchedRun alone;
+  std::vector<std::pair<int, WatchedRun>> others;
+  const auto go_on = [&progress](const results::Progress& p) { return !progress || progress(p); };
+  const auto run_on = [&](int threads) {
+    return watch_run(scene, {.threads = threads, .steps = std::min(options.steps, options.steps_for_speed)}, nobody,
+                     go_on);
+  };
+  if (out.threads != 1) alone = run_on(1);
+  const WatchedRun& one = out.threads == 1 ? run : alone;
+  predict_threads(found, find_medians(one.times, found.shapes.visits), one, out);
+  for (results::ThreadsProfile& row : out.speed) {
+    if (row.threads > std::max(out.machine_threads, out.threads) || (row.threads > 1 && !scene.solver.tasks)) continue;
+    WatchedRun other;
+    if (row.threads != 1 && row.threads != out.threads) other = run_on(row.threads);
+    const WatchedRun& r = row.threads == 1 ? one : row.threads == out.threads ? run : other;
+    row.measured = measured_solution(r, found.shapes.visits.size());
+    row.measured_step = median(r.steps);
+  }
+  const VisitMedians serial = find_medians(one.times, found.shapes.visits);
+  std::vector<double> seconds(found.shapes.visits.size(), 0.0);
+  for (Work w : walks)
+    for (std::size_t v = 0; v < seconds.size(); ++v) seconds[v] += serial.seconds[of(w)][v];
+  out.costs = fit_costs(found.shapes.visits, seconds);
+  out.alternatives = try_alternatives(found.graph, found.tree, scene.solver, out.threads,
+                                      schedule::Threads::usual_grain_flops, out.costs);
+  return out;
+}
+
+}  // namespace bough::study

@@ -1,0 +1,58 @@
+#include "profile_run.hpp"
+
+#include <chrono>
+#include <memory>
+
+namespace bough::study {
+
+WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, results::Recorder& recorder,
+                     const ProgressCallback& progress, const std::function<void(step::System&)>& look) {
+  using Clock = std::chrono::steady_clock;
+  WatchedRun run;
+  std::unique_ptr<schedule::TimedWalker> watch;
+  Clock::time_point step_begin;
+  double mark_begin = 0.0;
+  long tried = 0;
+  const long first_kept = options.steps >= 3 ? 3 : 1;  // the first steps find caches and pages cold
+  SimulateOptions simulate_options;
+  simulate_options.threads = options.threads;
+  simulate_options.want_motion = options.want_motion;
+  simulate_options.wrap_walker = [&](const tree::Walker& inner) {
+    watch = std::make_unique<schedule::TimedWalker>(inner);
+    return watch->walker();
+  };
+  simulate_options.before_step = [&](step::System&, const step::State&, const BeforeStep& attempt) {
+    if (attempt.number > options.steps) return false;
+    if (tried++ == 0) run.start = watch->times();
+    if (options.keep_events && attempt.number >= first_kept) {
+      watch->keep_events(true);
+      mark_begin = watch->now();
+    }
+    step_begin = Clock::now();
+    return true;
+  };
+  simulate_options.after_run = [&](step::System& system, const step::State&) {
+    run.times = watch->times();
+    if (look) look(system);
+  };
+  const auto on_step = [&](const results::Progress& p) {
+    run.steps.push_back(std::chrono::duration<double>(Clock::now() - step_begin).count());
+    if (options.keep_events && p.step >= first_kept && run.kept_steps.size() < 1000)
+      run.kept_steps.push_back({mark_begin, run.steps.back()});
+    return progress ? progress(p) : true;
+  };
+  run.summary = simulate(scene, simulate_options, recorder, on_step);
+  return run;
+}
+
+const schedule::TreeTimes* walked_tree(const schedule::WalkTimes& times, std::size_t num_visits) {
+  const schedule::TreeTimes* best = nullptr;
+  const auto cost = [](const schedule::TreeTimes& t) {
+    return t.work[static_cast<std::size_t>(tree::Work::factor)].wall_sum;
+  };
+  for (const schedule::TreeTimes& t : times.trees)
+    if (t.num_visits == static_cast<int>(num_visits) && (best == nullptr || cost(t) > cost(*best))) best = &t;
+  return best;
+}
+
+}  // namespace bough::study

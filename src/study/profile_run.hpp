@@ -1,0 +1,46 @@
+#pragma once
+/// One run with a watched walker, and what it left behind. Internal to study.
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "bough/schedule/timed_walker.hpp"
+#include "bough/study/simulate.hpp"
+
+namespace bough::study {
+
+struct WatchedRun {
+  results::Summary summary;
+  schedule::WalkTimes start;  ///< what was watched before the first step: consistent start, first accelerations
+  schedule::WalkTimes times;  ///< in all
+  std::vector<double> steps;  ///< wall time of each accepted step [s]
+  struct StepMark {
+    double begin, seconds;  ///< since the watch began [s]
+  };
+  std::vector<StepMark> kept_steps;  ///< of the steps whose events were kept
+};
+
+struct WatchedRunOptions {
+  int threads = 1;
+  long steps = 200;          ///< most accepted steps
+  bool keep_events = false;  ///< from the third step on, or from the first where there are fewer
+  bool want_motion = false;
+};
+
+/// Runs a scene. `look` is called once after the last step.
+WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, results::Recorder& recorder,
+                     const ProgressCallback& progress, const std::function<void(step::System&)>& look = {});
+
+/// A recorder that keeps nothing.
+class NullRecorder final : public results::Recorder {
+ public:
+  void begin(const results::HistoryHeader&) override {}
+  void row(const results::HistoryRow&) override {}
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+};
+
+/// The tree of visits that a run spent most of its factorizations on, among those with so many visits; null where none was walked.
+const schedule::TreeTimes* walked_tree(const schedule::WalkTimes& times, std::size_t num_visits);
+
+}  // namespace bough::study

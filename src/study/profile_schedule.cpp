@@ -1,0 +1,107 @@
+#include "profile_schedule.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace bough::study {
+
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// Tasks of a walk as a tree of their own; parents before children.
+struct Task {
+  int parent = -1;
+  double seconds = 0.0;
+  double remaining = 0.0;  ///< longest sum along what depends on it, itself included
+  int open = 0;            ///< tasks that must be done before
+};
+
+std::vector<Task> cut_into_tasks(const tree::Tree& walk, const std::vector<double>& seconds, double grain_flops) {
+  std::vector<Task> tasks;
+  std::vector<std::pair<tree::SubdomainId, int>> open{{walk.root(), -1}};
+  while (!open.empty()) {
+    const auto [id, parent] = open.back();
+    open.pop_back();
+    const tree::Subdomain& s = walk.subdomains[at(id)];
+    Task task{.parent = parent};
+    const bool is_whole = s.is_leaf() || s.subtree_flops < grain_flops;
+    for (tree::SubdomainId v = is_whole ? s.subtree_begin : id; v <= id; ++v) task.seconds += seconds[at(v)];
+    const int index = static_cast<int>(tasks.size());
+    tasks.push_back(task);
+    if (is_whole) continue;
+    for (auto c = s.child_begin; c < s.child_end; ++c) open.emplace_back(walk.subdomain_children[at(c)], index);
+  }
+  return tasks;
+}
+
+}  // namespace
+
+double critical_path(const tree::Tree& walk, const std::vector<double>& seconds) {
+  std::vector<double> path(seconds.size(), 0.0);
+  for (std::size_t v = 0; v < seconds.size(); ++v) {  // children stand before their parents
+    path[v] += seconds[v];
+    const tree::SubdomainId parent = walk.subdomains[v].parent;
+    if (parent != tree::none) path[at(parent)] = std::max(path[at(parent)], path[v]);
+  }
+  return path.empty() ? 0.0 : path.back();
+}
+
+double eval_walk(const tree::Tree& walk, const std::vector<double>& seconds, Direction direction, int threads,
+                 double grain_flops) {
+  std::vector<Task> tasks = cut_into_tasks(walk, seconds, grain_flops);
+  std::vector<std::vector<int>> next(tasks.size());
+  if (direction == Direction::up) {
+    for (std::size_t k = 0; k < tasks.size(); ++k) {
+      Task& t = tasks[k];
+      t.remaining = t.seconds + (t.parent >= 0 ? tasks[at(t.parent)].remaining : 0.0);
+      if (t.parent < 0) continue;
+      next[k].push_back(t.parent);
+      ++tasks[at(t.parent)].open;
+    }
+  } else {
+    for (std::size_t k = tasks.size(); k-- > 0;) {
+      Task& t = tasks[k];
+      t.remaining += t.seconds;
+      if (t.parent < 0) continue;
+      tasks[at(t.parent)].remaining = std::max(tasks[at(t.parent)].remaining, t.remaining);
+      next[at(t.parent)].push_back(static_cast<int>(k));
+      t.open = 1;
+    }
+  }
+  std::priority_queue<std::pair<double, int>> ready;  // longest remaining path first, then the higher index
+  using Busy = std::pair<double, int>;                // until, task
+  std::priority_queue<Busy, std::vector<Busy>, std::greater<>> busy;
+  for (std::size_t k = 0; k < tasks.size(); ++k)
+    if (tasks[k].open == 0) ready.emplace(tasks[k].remaining, static_cast<int>(k));
+  double now = 0.0;
+  while (!ready.empty() || !busy.empty()) {
+    while (!ready.empty() && static_cast<int>(busy.size()) < threads) {
+      const int k = ready.top().second;
+      ready.pop();
+      busy.emplace(now + tasks[at(k)].seconds, k);
+    }
+    now = busy.top().first;
+    const int done = busy.top().second;
+    busy.pop();
+    for (int k : next[at(done)])
+      if (--tasks[at(k)].open == 0) ready.emplace(tasks[at(k)].remaining, k);
+  }
+  return now;
+}
+
+std::vector<double> eval_walks(const tree::Tree& walk, const std::vector<double>& seconds, Direction direction,
+                               const std::vector<int>& threads, double grain_flops) {
+  std::vector<double> durations;
+  double least = std::numeric_limits<double>::infinity();
+  for (int p : threads) {
+    least = std::min(least, eval_walk(walk, seconds, direction, p, grain_flops));
+    durations.push_back(least);
+  }
+  return durations;
+}
+
+}  // namespace bough::study

@@ -1,0 +1,291 @@
+/// Laws of a profile: sums over the tree, bounds of schedules, fits, files that can be read.
+#include "bough/study/profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include "../../src/study/profile_cost.hpp"
+#include "../../src/study/profile_parts.hpp"
+#include "../../src/study/profile_run.hpp"
+#include "../../src/study/profile_schedule.hpp"
+#include "../step/small_scenes.hpp"
+#include "bough/io/json_value.hpp"
+#include "bough/io/profile_json.hpp"
+#include "bough/io/read_scene.hpp"
+#include "bough/plan/plan.hpp"
+#include "bough/study/tune.hpp"
+
+namespace bough {
+namespace {
+
+using results::Profile;
+using results::SubdomainProfile;
+using study::Direction;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// Rows as they come.
+class Rows final : public results::Recorder {
+ public:
+  void begin(const results::HistoryHeader&) override {}
+  void row(const results::HistoryRow& row) override { rows.push_back(row); }
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+  std::vector<results::HistoryRow> rows;
+};
+
+scene::Scene make_scene(int links, int leaf_size = 0) {
+  scene::Scene s = test::make_chain(links);
+  scene::Sensor sensor;
+  sensor.name = "tip";
+  sensor.kind = scene::SensorKind::position;
+  sensor.at.to = "b" + std::to_string(links - 1);
+  s.sensors.push_back(sensor);
+  s.analysis.step_size = 1e-3;
+  s.analysis.end_time = 0.01;
+  s.solver.leaf_size = leaf_size;
+  return s;
+}
+
+Profile profile_of(const scene::Scene& s, int threads = 1) {
+  Rows nobody;
+  return study::profile(s, {.threads = threads, .steps = 8, .steps_for_speed = 4}, nobody);
+}
+
+tree::Tree walk_of(const scene::Scene& s) {
+  const plan::Plan plan = plan::make_plan(s);
+  return tree::make_tree(plan.graph, {.leaf_size = s.solver.leaf_size});
+}
+
+TEST(ProfileSchedule, lies_between_the_bounds_of_any_schedule_and_never_grows) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0.1, 2.0);
+  for (int leaf_size : {1, 2, 5}) {
+    const tree::Tree walk = walk_of(make_scene(24, leaf_size));
+    std::vector<double> seconds(at(walk.num_subdomains()));
+    double total = 0.0;
+    for (double& s : seconds) total += s = uniform(random);
+    const double path = study::critical_path(walk, seconds);
+    EXPECT_LE(path, total);
+    const std::vector<int> threads{1, 2, 3, 4, 8, 16, 64};
+    for (Direction direction : {Direction::up, Direction::down}) {
+      const std::vector<double> durations = study::eval_walks(walk, seconds, direction, threads, 0.0);
+      EXPECT_NEAR(durations.front(), total, 1e-12 * total);
+      for (std::size_t k = 0; k < threads.size(); ++k) {
+        const double p = threads[k];
+        EXPECT_GE(durations[k], std::max(path, total / p) * (1.0 - 1e-12));
+        EXPECT_LE(durations[k], (total / p + (1.0 - 1.0 / p) * path) * (1.0 + 1e-12));  // Graham 1966
+        if (k > 0) EXPECT_LE(durations[k], durations[k - 1]);
+      }
+      // So many threads that nobody waits for one.
+      EXPECT_NEAR(study::eval_walk(walk, seconds, direction, 1000, 0.0), path, 1e-12 * path);
+      // Everything below the grain: one task.
+      EXPECT_NEAR(study::eval_walk(walk, seconds, direction, 64, 1e30), total, 1e-12 * total);
+    }
+  }
+}
+
+TEST(ProfileCost, finds_costs_again_and_never_a_negative_one) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(1.0, 100.0);
+  std::vector<solve::VisitShape> visits(60);
+  std::vector<double> seconds;
+  for (std::size_t v = 0; v < visits.size(); ++v) {
+    visits[v].in_lanes = v % 2 == 0;
+    visits[v].num_fronts = static_cast<int>(uniform(random));
+    visits[v].flops = 1e3 * uniform(random);
+    visits[v].factor_bytes = static_cast<std::int64_t>(1e3 * uniform(random));
+    const double front = visits[v].in_lanes ? 1e-6 : 3e-6, flop = visits[v].in_lanes ? 1e-10 : 4e-10;
+    seconds.push_back(front * visits[v].num_fronts + flop * visits[v].flops);
+  }
+  const auto costs = study::fit_costs(visits, seconds);
+  ASSERT_EQ(costs.size(), 2u);
+  for (const results::CostFit& c : costs) {
+    EXPECT_EQ(c.num_visits, 30);
+    EXPECT_NEAR(c.per_front, c.in_lanes ? 1e-6 : 3e-6, 1e-10);
+    EXPECT_NEAR(c.per_flop, c.in_lanes ? 1e-10 : 4e-10, 1e-14);
+    EXPECT_GE(c.per_byte, 0.0);
+    EXPECT_LE(c.median_error, 1e-6);
+  }
+  const std::vector<double> again = study::predict(visits, costs);
+  for (std::size_t v = 0; v < visits.size(); ++v) EXPECT_NEAR(again[v], seconds[v], 1e-6 * seconds[v]);
+}
+
+TEST(ProfileParts, entries_of_the_matrix_are_all_counted_once) {
+  for (int leaf_size : {1, 4}) {
+    const plan::Plan plan = plan::make_plan(make_scene(12, leaf_size));
+    const tree::Tree tree = tree::make_tree(plan.graph, {.leaf_size = leaf_size});
+    std::set<std::pair<int, int>> couples;
+    for (int e = 0; e < plan.graph.num_elements(); ++e)
+      for (auto i = plan.graph.element_begin[at(e)]; i < plan.graph.element_begin[at(e) + 1]; ++i)
+        for (auto j = plan.graph.element_begin[at(e)]; j < plan.graph.element_begin[at(e) + 1]; ++j)
+          couples.emplace(plan.graph.element_blocks[at(i)], plan.graph.element_blocks[at(j)]);
+    std::int64_t expected = 0, found = 0;
+    for (const auto& [a, b] : couples)
+      expected += static_cast<std::int64_t>(plan.graph.block_size[at(a)]) * plan.graph.block_size[at(b)];
+    for (std::int64_t n : study::count_matrix_entries(plan.graph, tree)) found += n;
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(Profile, sums_of_the_tree_agree) {
+  for (int threads : {1, 2}) {
+    const scene::Scene s = make_scene(40, 4);
+    const Profile p = profile_of(s, threads);
+    const tree::Tree tree = walk_of(s);
+    ASSERT_EQ(p.subdomains.size(), at(tree.num_subdomains()));
+    EXPECT_EQ(p.subdomains.back().subtree_unknowns, tree.num_unknowns());
+    std::int64_t unknowns = 0;
+    double seconds = 0.0, of_levels = 0.0, flops = 0.0;
+    std::map<int, int> in_visit;
+    for (const SubdomainProfile& d : p.subdomains) {
+      unknowns += d.num_unknowns;
+      seconds += d.times.solver();
+      flops += d.flops;
+      ++in_visit[d.visit];
+      EXPECT_GE(d.fill, 0) << d.id;
+      EXPECT_GT(d.times.factor, 0.0) << d.id;
+      EXPECT_GE(d.times.assemble, 0.0);
+      EXPECT_GE(d.times.condense, 0.0);
+      EXPECT_GT(d.times.backward, 0.0);
+      EXPECT_GE(d.thread, 0);
+      EXPECT_LT(d.thread, threads);
+      if (d.parent >= 0) EXPECT_GE(d.condition, 1.0 - 1e-12);
+    }
+    for (const SubdomainProfile& d : p.subdomains) EXPECT_EQ(d.num_in_visit, in_visit[d.visit]);
+    for (const results::LevelProfile& l : p.levels) of_levels += l.times.solver();
+    EXPECT_EQ(unknowns, tree.num_unknowns());
+    EXPECT_NEAR(p.subdomains.back().subtree_seconds, seconds, 1e-12 * seconds);
+    EXPECT_NEAR(of_levels, seconds, 1e-12 * seconds);
+    EXPECT_NEAR(p.subdomains.back().subtree_flops, flops, 1e-9 * flops);
+    EXPECT_GT(p.num_in_lanes, 0);
+    EXPECT_EQ(p.steps, 8);
+    EXPECT_LE(p.critical_path, p.total * (1.0 + 1e-12));
+    EXPECT_GT(p.critical_path, 0.0);
+    ASSERT_EQ(p.speed.size(), 7u);
+    for (std::size_t k = 1; k < p.speed.size(); ++k) {
+      EXPECT_LE(p.speed[k].predicted, p.speed[k - 1].predicted);
+      EXPECT_LE(p.speed[k].predicted_step, p.speed[k - 1].predicted_step);
+      EXPECT_GE(p.speed[k].predicted, p.critical_path * (1.0 - 1e-12));
+    }
+    EXPECT_GT(p.speed.front().measured, 0.0);
+    EXPECT_GT(p.load_balance, 0.0);
+    EXPECT_LE(p.load_balance, 1.0 + 1e-12);
+    EXPECT_LE(p.efficiency, 1.0 + 1e-9);
+    EXPECT_GT(p.alternatives.size(), 2u);
+    EXPECT_TRUE(p.alternatives.front().is_present);
+    EXPECT_FALSE(p.parts.empty());
+    EXPECT_FALSE(p.events.empty());
+  }
+}
+
+TEST(Profile, files_are_json_and_hold_what_they_name) {
+  Profile p = profile_of(make_scene(12, 2));
+  p.scene = "a \"quoted\" name";
+  std::vector<io::JsonFault> faults;
+  const std::string profile_json = io::profile_text(p, "0.0");
+  const auto profile = io::parse_json(profile_json, io::source_file, faults);
+  ASSERT_TRUE(profile && faults.empty());
+  EXPECT_EQ(profile->find("scene")->text, p.scene);
+  EXPECT_EQ(profile->find("sub_domains")->items.size(), p.subdomains.size());
+  const std::string trace_json = io::trace_text(p);
+  const auto trace = io::parse_json(trace_json, io::source_file, faults);
+  ASSERT_TRUE(trace && faults.empty());
+  const io::JsonValue* events = trace->find("traceEvents");
+  ASSERT_NE(events, nullptr);
+  std::size_t complete = 0;
+  double last = -1.0;
+  for (const io::JsonValue& e : events->items) {
+    ASSERT_NE(e.find("ph"), nullptr);
+    ASSERT_NE(e.find("pid"), nullptr);
+    if (e.find("ph")->text != "X") continue;
+    ++complete;
+    EXPECT_GE(e.find("dur")->number, 0.0);
+    EXPECT_GE(e.find("ts")->number, 0.0);
+    last = std::max(last, e.find("ts")->number);
+  }
+  EXPECT_EQ(complete, p.events.size());
+  EXPECT_GT(last, 0.0);
+}
+
+TEST(Profile, a_run_that_fails_shows_what_ran) {
+  scene::Scene s = make_scene(4);
+  s.analysis.max_iterations = 1;
+  s.analysis.max_cuts = 0;
+  const Profile p = profile_of(s);
+  EXPECT_FALSE(p.trouble.empty());
+  EXPECT_FALSE(p.subdomains.empty());
+  std::vector<io::JsonFault> faults;
+  EXPECT_TRUE(io::parse_json(io::profile_text(p, "0"), io::source_file, faults) && faults.empty());
+}
+
+TEST(Profile, other_solvers_are_refused_in_words) {
+  scene::Scene s = make_scene(4);
+  EXPECT_EQ(study::cannot_profile(s), "");
+  s.solver.kind = scene::SolverKind::monolithic;
+  EXPECT_NE(study::cannot_profile(s).find("/solver/kind"), std::string::npos);
+}
+
+TEST(Tune, proposes_trees_that_differ_and_writes_a_block_that_reads_back) {
+  const scene::Scene s = make_scene(16);
+  const study::TuneResult r = study::tune(s, {.threads = 2, .steps = 3, .seconds = 0.0, .rounds = 3});
+  ASSERT_GT(r.candidates.size(), 3u);
+  EXPECT_EQ(r.rounds, 3);
+  std::set<std::string> blocks;
+  int present = 0;
+  for (const study::TuneCandidate& c : r.candidates) {
+    EXPECT_TRUE(blocks.insert(study::solver_block(c.solver)).second) << study::solver_block(c.solver);
+    present += c.is_present ? 1 : 0;
+    if (c.failure.empty()) {
+      EXPECT_EQ(c.seconds.size(), 3u);
+      EXPECT_LE(c.low, c.median);
+      EXPECT_LE(c.median, c.high);
+    }
+  }
+  EXPECT_EQ(present, 1);
+  EXPECT_TRUE(r.candidates[r.present].is_present);
+  EXPECT_TRUE(r.candidates[r.best].failure.empty());
+  scene::Solver given;
+  given.kind = scene::SolverKind::hybrid;
+  given.iterate_interface = true;
+  given.leaf_size = 12;
+  given.penalty_factor = 0.1;
+  given.tasks = false;
+  const std::string text =
+      R"({"schema_version": 1, "bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1], "position": [0, 0, 0]}],
+          "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.1}})";
+  const std::vector<std::string> overrides{"/solver=" + study::solver_block(given)};
+  const io::SceneFile file = io::read_scene_text(text, "one", overrides);
+  for (const io::Problem& problem : file.problems) ADD_FAILURE() << problem.text();
+  EXPECT_EQ(file.scene.solver.kind, given.kind);
+  EXPECT_EQ(file.scene.solver.iterate_interface, given.iterate_interface);
+  EXPECT_EQ(file.scene.solver.leaf_size, given.leaf_size);
+  EXPECT_EQ(file.scene.solver.depth, given.depth);
+  EXPECT_EQ(file.scene.solver.penalty_factor, given.penalty_factor);
+  EXPECT_EQ(file.scene.solver.tasks, given.tasks);
+}
+
+TEST(Profile, does_not_change_a_bit_of_the_results) {
+  for (int threads : {1, 3}) {
+    scene::Scene s = make_scene(20);
+    Rows alone, watched;
+    study::SimulateOptions options;
+    options.threads = threads;
+    const results::Summary summary = study::simulate(s, options, alone);
+    ASSERT_EQ(summary.status, results::RunStatus::ok) << summary.cause;
+    const Profile p = study::profile(s, {.threads = threads, .steps = 1000, .steps_for_speed = 2}, watched);
+    EXPECT_EQ(p.steps, summary.steps.accepted);
+    ASSERT_EQ(alone.rows.size(), watched.rows.size());
+    for (std::size_t k = 0; k < alone.rows.size(); ++k) {
+      EXPECT_EQ(alone.rows[k].time, watched.rows[k].time);
+      EXPECT_EQ(alone.rows[k].values, watched.rows[k].values) << k;  // bitwise
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bough
