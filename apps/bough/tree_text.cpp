@@ -250,7 +250,7 @@ std::string tree_text(const Profile& p, const TextStyle& style, int most_rows) {
           seconds_text(s.rest) + "\n";
   double worst = std::nan("");
   for (const results::LevelProfile& l : p.levels)
-    if (!(worst >= l.condition_most)) worst = std::isnan(l.condition_most) ? worst : l.condition_most;
+    if (!std::isnan(l.condition_most)) worst = std::isnan(worst) ? l.condition_most : std::max(worst, l.condition_most);
   if (!std::isnan(worst))
     text += "Interfaces: condition up to " + rounded_text(worst, 3) + ", digits lost " +
             rounded_text(std::log10(worst), 2) + "\n";

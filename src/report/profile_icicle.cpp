@@ -43,7 +43,7 @@ struct Range {
   double low = HUGE_VAL, high = -HUGE_VAL;
   bool has_any() const { return low <= high; }
   int color(double x) const {
-    if (!(x > 0.0) || !std::isfinite(x)) return -1;
+    if (!std::isfinite(x) || x <= 0.0) return -1;
     if (!(high > low)) return num_colors / 2;
     const double t = std::log(x / low) / std::log(high / low);
     return std::clamp(static_cast<int>(t * num_colors), 0, num_colors - 1);
@@ -161,7 +161,7 @@ std::string icicle_html(const Profile& p) {
   for (const SubdomainProfile& s : p.subdomains)
     for (std::size_t m = 0; m < num_measures; ++m) {
       const double x = measures[m].of(s);
-      if (!(x > 0.0) || !std::isfinite(x)) continue;
+      if (!std::isfinite(x) || x <= 0.0) continue;
       ranges[m].low = std::min(ranges[m].low, x);
       ranges[m].high = std::max(ranges[m].high, x);
     }

@@ -114,7 +114,8 @@ void add_speed(Document& page, const Profile& p) {
          seconds_cell(t.measured_step, source + "/measured_step"),
          number_cell(one.predicted_step / t.predicted_step, 3), number_cell(one.measured_step / t.measured_step, 3)});
     if (t.predicted > 0.0) predicted.points.push_back({static_cast<double>(t.threads), one.predicted / t.predicted});
-    if (t.measured > 0.0) measured.points.push_back({static_cast<double>(t.threads), one.measured / t.measured});
+    if (!std::isnan(t.measured) && t.measured > 0.0)
+      measured.points.push_back({static_cast<double>(t.threads), one.measured / t.measured});
   }
   chart.series = {predicted, measured};
   chart.slopes = {{1.0, 1.0, 1.0, "ideal"}};

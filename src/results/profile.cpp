@@ -36,7 +36,8 @@ std::vector<LevelProfile> sum_levels(const std::vector<SubdomainProfile>& subdom
     l.flops += s.flops;
     l.bytes += s.bytes;
     add(l.times, s.times);
-    if (!std::isnan(s.condition) && !(l.condition_most >= s.condition)) l.condition_most = s.condition;
+    if (!std::isnan(s.condition))
+      l.condition_most = std::isnan(l.condition_most) ? s.condition : std::max(l.condition_most, s.condition);
   }
   for (std::size_t k = 0; k < levels.size(); ++k) levels[k].level = static_cast<int>(k);
   return levels;

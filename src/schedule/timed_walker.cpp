@@ -241,9 +241,7 @@ void TimedWalker::keep_events(bool keep) {
   if (keep && state_->events.capacity() == 0) state_->events.reserve(at(state_->options.most_events));
 }
 
-double TimedWalker::now() const {
-  return static_cast<double>(ticks() - state_->first_tick) * state_->seconds_per_tick();
-}
+std::uint64_t TimedWalker::now() const { return ticks() - state_->first_tick; }
 
 WalkTimes TimedWalker::times() const {
   const State& s = *state_;
@@ -281,6 +279,7 @@ WalkTimes TimedWalker::times() const {
     e.seconds = static_cast<float>(static_cast<double>(e.seconds) * unit);
   }
   out.events_left_out = s.events_left_out;
+  out.seconds_per_tick = unit;
   return out;
 }
 

@@ -11,7 +11,8 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
   WatchedRun run;
   std::unique_ptr<schedule::TimedWalker> watch;
   Clock::time_point step_begin;
-  double mark_begin = 0.0;
+  std::uint64_t mark_begin = 0;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> marks;  // begin and end of steps
   long tried = 0;
   const long first_kept = options.steps >= 3 ? 3 : 1;  // the first steps find caches and pages cold
   SimulateOptions simulate_options;
@@ -33,12 +34,15 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
   };
   simulate_options.after_run = [&](step::System& system, const step::State&) {
     run.times = watch->times();
+    for (const auto& [begin, end] : marks)
+      run.kept_steps.push_back({static_cast<double>(begin) * run.times.seconds_per_tick,
+                                static_cast<double>(end - begin) * run.times.seconds_per_tick});
     if (look) look(system);
   };
   const auto on_step = [&](const results::Progress& p) {
     run.steps.push_back(std::chrono::duration<double>(Clock::now() - step_begin).count());
-    if (options.keep_events && p.step >= first_kept && run.kept_steps.size() < 1000)
-      run.kept_steps.push_back({mark_begin, run.steps.back()});
+    if (options.keep_events && p.step >= first_kept && marks.size() < 1000)
+      marks.emplace_back(mark_begin, watch->now());
     return progress ? progress(p) : true;
   };
   run.summary = simulate(scene, simulate_options, recorder, on_step);

@@ -53,6 +53,7 @@ struct WalkTimes {
   std::vector<double> thread_busy;  ///< seconds in visits and chunks, by thread
   std::vector<TimedEvent> events;
   std::int64_t events_left_out = 0;
+  double seconds_per_tick = 0.0;
 };
 
 /// Limits of what is kept.
@@ -74,8 +75,8 @@ class TimedWalker {
   tree::Walker walker();
   /// Events are kept only between true and false. They are not at first.
   void keep_events(bool keep);
-  /// Seconds since the watch began, for events of one's own.
-  double now() const;
+  /// Ticks since the watch began, for events of one's own; WalkTimes::seconds_per_tick tells their length in the end.
+  std::uint64_t now() const;
   /// Everything so far.
   WalkTimes times() const;
 
