@@ -16,8 +16,6 @@ using io::bytes_text;
 using io::seconds_text;
 using results::Profile;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 Cell seconds_cell(double seconds, std::string source) {
   return {seconds_text(seconds), Tone::plain, true, std::move(source)};
 }

@@ -1,8 +1,11 @@
 #include "bough/schedule/timed_walker.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
+#include <type_traits>
+#ifdef BOUGH_HAS_TBB
+#include <tbb/task_arena.h>
+#endif
 
 namespace bough::schedule {
 
@@ -37,10 +40,13 @@ struct Watched {
 
 thread_local Record* current = nullptr;
 
+/// Place of the calling thread among those that walk; workers come and go, places stay.
 int thread_number() {
-  static std::atomic<int> next{0};
-  thread_local const int number = std::min(next.fetch_add(1, std::memory_order_relaxed), most_threads - 1);
-  return number;
+#ifdef BOUGH_HAS_TBB
+  return std::clamp(tbb::this_task_arena::current_thread_index(), 0, most_threads - 1);
+#else
+  return 0;
+#endif
 }
 
 struct Busy {

@@ -291,7 +291,6 @@ results::Profile profile(const scene::Scene& scene, const ProfileOptions& option
 
   NullRecorder nobody;
   WatchedRun alone;
-  std::vector<std::pair<int, WatchedRun>> others;
   const auto go_on = [&progress](const results::Progress& p) { return !progress || progress(p); };
   const auto run_on = [&](int threads) {
     return watch_run(scene, {.threads = threads, .steps = std::min(options.steps, options.steps_for_speed)}, nobody,

@@ -15,9 +15,9 @@
 #include "../step/small_scenes.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/profile_json.hpp"
-#include "bough/io/read_scene.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/study/tune.hpp"
+#include "support/scenes.hpp"
 
 namespace bough {
 namespace {
@@ -255,18 +255,13 @@ TEST(Tune, proposes_trees_that_differ_and_writes_a_block_that_reads_back) {
   given.leaf_size = 12;
   given.penalty_factor = 0.1;
   given.tasks = false;
-  const std::string text =
-      R"({"schema_version": 1, "bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1], "position": [0, 0, 0]}],
-          "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.1}})";
-  const std::vector<std::string> overrides{"/solver=" + study::solver_block(given)};
-  const io::SceneFile file = io::read_scene_text(text, "one", overrides);
-  for (const io::Problem& problem : file.problems) ADD_FAILURE() << problem.text();
-  EXPECT_EQ(file.scene.solver.kind, given.kind);
-  EXPECT_EQ(file.scene.solver.iterate_interface, given.iterate_interface);
-  EXPECT_EQ(file.scene.solver.leaf_size, given.leaf_size);
-  EXPECT_EQ(file.scene.solver.depth, given.depth);
-  EXPECT_EQ(file.scene.solver.penalty_factor, given.penalty_factor);
-  EXPECT_EQ(file.scene.solver.tasks, given.tasks);
+  const scene::Scene read = support::gallery("pendulum", {"/solver=" + study::solver_block(given)});
+  EXPECT_EQ(read.solver.kind, given.kind);
+  EXPECT_EQ(read.solver.iterate_interface, given.iterate_interface);
+  EXPECT_EQ(read.solver.leaf_size, given.leaf_size);
+  EXPECT_EQ(read.solver.depth, given.depth);
+  EXPECT_EQ(read.solver.penalty_factor, given.penalty_factor);
+  EXPECT_EQ(read.solver.tasks, given.tasks);
 }
 
 TEST(Profile, does_not_change_a_bit_of_the_results) {
