@@ -86,7 +86,7 @@ void add_costliest(Document& page, const Profile& p) {
                           {bytes_text(s->bytes), Tone::plain, true, source + "/bytes"}};
     for (Cell& c : time_cells(s->times, source)) row.push_back(std::move(c));
     row.push_back(number_cell(s->condition, 3, source + "/condition"));
-    row.push_back(number_cell(s->digits_lost(), 2, source + "/digits_lost"));
+    row.push_back(number_cell(s->digits_lost(), 3, source + "/digits_lost"));
     table.rows.push_back(std::move(row));
   }
   table.caption = "The " + std::to_string(order.size()) + " of " + std::to_string(p.subdomains.size()) +

@@ -11,7 +11,6 @@ namespace bough::study {
 
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr std::size_t num_features = 3;
 using Features = std::array<double, num_features>;
 

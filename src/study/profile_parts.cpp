@@ -30,7 +30,7 @@ constexpr bool is_beam = requires(const E& e) {
 
 template <class E>
 void add_part(const plan::Plan& plan, const E& e, int leaf, results::Profile& out) {
-  results::ProfilePart part{.kind = results::ProfilePart::Kind::joint, .leaf = leaf};
+  results::ProfilePart part{.kind = results::ProfilePart::Kind::joint, .leaf = leaf, .points = {}};
   if constexpr (is_beam<E>) {
     part.kind = results::ProfilePart::Kind::beam;
     for (const elements::Port& port : e.ports) {

@@ -20,10 +20,10 @@ struct TuneCandidate {
   bool is_present = false;  ///< the scene's own options
   int num_subdomains = 0;   ///< 0: there is no tree
   int num_levels = 0;
-  std::vector<double> seconds;   ///< of a step, by round
-  double median = 0.0;           ///< of these [s]
-  double low = 0.0, high = 0.0;  ///< smallest and largest [s]
-  std::string failure;           ///< why it was left out; empty: it was not
+  std::vector<double> seconds = {};  ///< of a step, by round
+  double median = 0.0;               ///< of these [s]
+  double low = 0.0, high = 0.0;      ///< smallest and largest [s]
+  std::string failure = {};          ///< why it was left out; empty: it was not
 };
 
 struct TuneResult {
