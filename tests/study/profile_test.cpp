@@ -79,7 +79,7 @@ TEST(ProfileSchedule, lies_between_the_bounds_of_any_schedule_and_never_grows) {
         const double p = threads[k];
         EXPECT_GE(durations[k], std::max(path, total / p) * (1.0 - 1e-12));
         EXPECT_LE(durations[k], (total / p + (1.0 - 1.0 / p) * path) * (1.0 + 1e-12));  // Graham 1966
-        if (k > 0) EXPECT_LE(durations[k], durations[k - 1]);
+        EXPECT_LE(durations[k], durations[k > 0 ? k - 1 : 0]);
       }
       // So many threads that nobody waits for one.
       EXPECT_NEAR(study::eval_walk(walk, seconds, direction, 1000, 0.0), path, 1e-12 * path);
@@ -154,7 +154,7 @@ TEST(Profile, sums_of_the_tree_agree) {
       EXPECT_GT(d.times.backward, 0.0);
       EXPECT_GE(d.thread, 0);
       EXPECT_LT(d.thread, threads);
-      if (d.parent >= 0) EXPECT_GE(d.condition, 1.0 - 1e-12);
+      EXPECT_GE(d.parent >= 0 ? d.condition : 1.0, 1.0 - 1e-12);
     }
     for (const SubdomainProfile& d : p.subdomains) EXPECT_EQ(d.num_in_visit, in_visit[d.visit]);
     for (const results::LevelProfile& l : p.levels) of_levels += l.times.solver();
