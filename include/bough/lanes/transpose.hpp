@@ -7,9 +7,18 @@ namespace bough::lanes {
 inline namespace BOUGH_REGISTER_NAMESPACE {
 
 namespace detail {
+/// rows[i][j] <-> rows[j][i] of N registers of N doubles.
+template <class Real, int N>
+void transpose_square(Real (&r)[N]) {
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < i; ++j) {
+      const double below = r[i][j];
+      r[i][j] = r[j][i];
+      r[j][i] = below;
+    }
+}
 #if BOUGH_REGISTER_DOUBLES >= 4
 using Real4 = Register<4>::Real;
-/// rows[i][j] <-> rows[j][i] of four registers of four.
 inline void transpose_square(Real4 (&r)[4]) {
   const Real4 a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6), b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
   const Real4 c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6), d = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
@@ -21,7 +30,7 @@ inline void transpose_square(Real4 (&r)[4]) {
 #endif
 #if BOUGH_REGISTER_DOUBLES >= 8
 using Real8 = Register<8>::Real;
-/// The same of eight by eight: pairs of rows interleaved, then the 4 x 4 blocks of pairs.
+/// Pairs of rows interleaved, then the 4 x 4 blocks of pairs.
 inline void transpose_square(Real8 (&r)[8]) {
   Real8 even[4], odd[4];
   for (int k = 0; k < 4; ++k) {
