@@ -10,7 +10,8 @@
 namespace bough::app {
 namespace {
 
-const std::vector<std::string> verbs = {"run", "view", "batch", "check", "schema", "compare", "kinematics", "export-matrix", "study", "profile", "tune", "doctor"};
+const std::vector<std::string> verbs = {"run",        "view",          "batch", "check",   "schema", "compare",
+                                        "kinematics", "export-matrix", "study", "profile", "tune",   "doctor"};
 
 /// A finite number from low to high. (CLI::Range lets NaN pass.)
 CLI::Validator between(double low, double high) {
