@@ -123,8 +123,27 @@ void Converter::settings() {
     r.end_time = number_or(*a, "end_time", 0.0);
     r.step_size = number_or(*a, "step_size", 1e-3);
     if (const Value* integrator = a->find("integrator"))
-      r.integrator =
-          integrator->text == "variational" ? scene::Integrator::variational : scene::Integrator::generalized_alpha;
+      r.integrator = integrator->text == "variational" ? scene::Integrator::variational
+                     : integrator->text == "bdf"       ? scene::Integrator::bdf
+                                                       : scene::Integrator::generalized_alpha;
+    if (const Value* arc = a->find("arc_length")) {
+      scene::ArcLength& l = r.arc_length.emplace();
+      l.step = arc->find("step")->number;
+      l.largest_step = number_or(*arc, "largest_step", 0.0);
+      l.max_steps = static_cast<int>(arc->find("max_steps")->number);
+      l.end_load_factor = number_or(*arc, "end_load_factor", 1.0);
+      l.after_limit_points = static_cast<int>(number_or(*arc, "after_limit_points", 0.0));
+      l.end_at_limit_point = static_cast<int>(number_or(*arc, "end_at_limit_point", 0.0));
+    }
+    if (const Value* control = a->find("step_control")) {
+      scene::StepControl& c = r.step_control.emplace();
+      c.tolerance = control->find("tolerance")->number;
+      c.position_tolerance = control->find("position_tolerance")->number;
+      c.rotation_tolerance = control->find("rotation_tolerance")->number;
+      c.velocity_tolerance = control->find("velocity_tolerance")->number;
+      c.angular_velocity_tolerance = control->find("angular_velocity_tolerance")->number;
+      c.largest_step = number_or(*control, "largest_step", 0.0);
+    }
     r.spectral_radius = number_or(*a, "spectral_radius", 0.8);
     r.newmark_beta = number_or(*a, "newmark_beta", 0.3);
     r.newton = a->find("newton")->text == "single" ? scene::Newton::single : scene::Newton::full;

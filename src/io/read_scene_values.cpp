@@ -110,7 +110,10 @@ scene::LoadAxes Converter::axes(const Value& v) const {
 
 laws::Law Converter::load_law(const Value& object, const std::string& at) {
   if (const Value* v = object.find("law")) return law(*v, at + "/law");
-  return is_static_ ? laws::make_ramp(0.0, 1.0, 0.0, 1.0) : laws::make_constant(1.0);
+  if (!is_static_) return laws::make_constant(1.0);
+  const Value* analysis = root_.find("analysis");
+  const bool is_path = analysis != nullptr && analysis->find("arc_length") != nullptr;
+  return is_path ? laws::make_expression("t") : laws::make_ramp(0.0, 1.0, 0.0, 1.0);
 }
 
 laws::Law ValueConverter::law(const Value& v, const std::string& at) {

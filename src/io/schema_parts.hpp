@@ -6,6 +6,8 @@ namespace bough::io {
 /// The rules that several things use: vectors, rotations, laws, attachments, matrices, shapes.
 void add_part_rules(RuleTable& table);
 void add_law_rules(RuleTable& table);
+/// Statics and dynamics with their step control and paths; `frame`: the field that names the frame of description.
+void add_analysis_rules(RuleTable& table, const Field& frame);
 
 /// An object rule: all its fields, told by a marker key where the choice around it needs one.
 Rule object_of(std::string about, std::vector<Field> fields, std::string marker = {});

@@ -246,44 +246,13 @@ void add_sensors(RuleTable& t) {
 }
 
 void add_settings(RuleTable& t) {
-  const std::vector<Field> newton = {
-      may("newton", word_rule("", {"full", "single"}), "full: to convergence. single: one linear solution per step.",
-          "\"full\""),
-      may("tolerance", number_rule("", 0.0, true, 1e-2),
-          "Of relative motions, and of residuals relative to their contributions [-].", "1e-8"),
-      may("max_iterations", integer_rule("", 1, 1000), "Newton's limit per step.", "20"),
-      may("max_cuts", integer_rule("", 0, 60), "Halvings of a step before the run fails.", "10")};
-  std::vector<Field> statics = {
-      may("load_steps", integer_rule("", 1, 1e6), "Steps of the load factor from 0 to 1.", "1")};
-  std::vector<Field> dynamics = {
-      need("end_time", positive(""), "[s]."), may("step_size", positive(""), "h [s].", "1e-3"),
-      may("integrator", word_rule("", {"generalized_alpha", "variational"}),
-          "generalized_alpha: damps what is faster than the step. variational: keeps the momentum of "
-          "what floats freely to round-off, and energy within a bound where the step "
-          "resolves the fastest vibration; it damps nothing and is not suited to stiff "
-          "scenes with vibrations that the step does not resolve: they ring or grow, and "
-          "a run ends with an error where energy comes out of nothing.",
-          "\"generalized_alpha\""),
-      may("spectral_radius", number_rule("", 0.0, false, 1.0),
-          "Of generalized_alpha at high frequency: 0 damps most, 1 not at all [-].", "0.8"),
-      may("newmark_beta", number_rule("", 0.25, false, 1.0),
-          "Of variational, for vibrations: 0.25 is the most accurate; more slows down those faster "
-          "than the step, which is no cure for stiff scenes [-].",
-          "0.3")};
   const Field frame = frame_field(
       "Frame in which everything is described: the ground, poses, velocities, dead loads and results are relative to "
       "it, and its inertial "
       "loads act. Static: it moves steadily, its laws are taken at time 0, its inertial loads grow with the load "
       "factor. Default: "
       "the inertial frame.");
-  statics.push_back(frame);
-  dynamics.push_back(frame);
-  statics.insert(statics.end(), newton.begin(), newton.end());
-  dynamics.insert(dynamics.end(), newton.begin(), newton.end());
-  t.named["analysis"] = choice_rule(
-      "What is computed.",
-      {made(object_of_kind({"static"}, "Equilibrium at load factors up to 1, or under prescribed motions.", statics)),
-       made(object_of_kind({"dynamic"}, "Motion in time.", dynamics))});
+  add_analysis_rules(t, frame);
   t.named["solver"] = made(object_of(
       "Linear solver. What is left out is chosen from the scene.",
       {may("kind", word_rule("", {"automatic", "hierarchical", "global", "hybrid", "monolithic"}),

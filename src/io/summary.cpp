@@ -20,6 +20,10 @@ void write_steps(JsonText& json, const results::Summary& summary) {
   json.begin_object();
   json.member("accepted", wide(summary.steps.accepted));
   json.member("rejected", wide(summary.steps.rejected));
+  if (summary.steps.size_changes > 0) {
+    json.member("rejected_for_error", wide(summary.steps.rejected_for_error));
+    json.member("size_changes", wide(summary.steps.size_changes));
+  }
   json.member("newton_iterations", wide(summary.steps.newton_iterations));
   json.member("factorizations", wide(summary.steps.factorizations));
   json.end_object();
@@ -46,9 +50,27 @@ void write_checks(JsonText& json, const results::Checks& checks) {
     json.member("constraint_violation_position", checks.constraint_violation_position);
     json.member("constraint_violation_velocity", checks.constraint_violation_velocity);
   }
+  if (checks.local_error_known) {
+    json.member("local_error_max", checks.local_error_max);
+    json.member("local_error_sum", checks.local_error_sum);
+    json.member("local_error_max_velocity", checks.local_error_max_velocity);
+  }
   json.member("linear_backward_error_max", checks.linear_backward_error_max);
   json.member("round_off_floor_reached", checks.round_off_floor_reached);
   json.end_object();
+}
+
+void write_limit_points(JsonText& json, const std::vector<results::LimitPoint>& points) {
+  if (points.empty()) return;
+  json.key("limit_points");
+  json.begin_array();
+  for (const results::LimitPoint& p : points) {
+    json.begin_object();
+    json.member("load_factor", p.load_factor);
+    json.member("is_maximum", p.is_maximum);
+    json.end_object();
+  }
+  json.end_array();
 }
 
 /// Final values: {sensor: number} or {sensor: {component: number}}.
@@ -161,6 +183,7 @@ std::string summary_text(const results::Summary& summary, std::string_view versi
   json.end_object();
   write_steps(json, summary);
   write_checks(json, summary.checks);
+  write_limit_points(json, summary.limit_points);
   json.key("notes");
   json.begin_array();
   for (const std::string& note : summary.notes) json.value(std::string_view(note));

@@ -30,7 +30,9 @@ int Builder::add_law(const laws::Law& law, const std::string& user) {
 /// A factor left out: full from the start in dynamics, growing with the load factor in statics.
 int Builder::add_factor(const laws::Law& law, const std::string& user) {
   if (law.node() != nullptr) return add_law(law, user);
-  return add_law(plan.is_dynamic ? laws::make_constant(1.0) : laws::make_ramp(0.0, 1.0, 0.0, 1.0), user);
+  if (plan.is_dynamic) return add_law(laws::make_constant(1.0), user);
+  // Along a path of equilibria the load factor may be negative or above 1.
+  return add_law(scene.analysis.arc_length ? laws::make_expression("t") : laws::make_ramp(0.0, 1.0, 0.0, 1.0), user);
 }
 
 int Builder::add_node(const std::string& name, const Frame<double>& pose) {

@@ -161,6 +161,13 @@ void check_analysis(ProblemList& list) {
   const Analysis& a = s.analysis;
   if (s.nodes.empty() && s.bodies.empty() && list.defective.empty())
     list.add("scene", 0, "", "", "nothing here can move", "add nodes and beams, or bodies");
+  if (!list.is_dynamic && a.arc_length && a.newton == Newton::single)
+    list.add("analysis", 0, "newton", "single", "points of a path by arc length are solved to convergence",
+             "leave out newton or arc_length");
+  if (!list.is_dynamic && a.arc_length &&
+      std::any_of(s.frames.begin(), s.frames.end(), [](const FrameDef& f) { return f.motion.has_value(); }))
+    list.add("analysis", 0, "arc_length", "", "paths by arc length do not know frames that move",
+             "inertial loads grow with the square of the speed and have no negative factor: take load_steps");
   if (!list.is_dynamic) return;  // or the analysis itself is at fault
   if (!(a.end_time > 0.0)) list.add("analysis", 0, "end_time", text_of(a.end_time), "has to be above 0");
   if (!(a.step_size > 0.0)) list.add("analysis", 0, "step_size", text_of(a.step_size), "has to be above 0");
@@ -174,11 +181,25 @@ void check_analysis(ProblemList& list) {
     list.add("analysis", 0, "newton", "single",
              "the variational integrator keeps momentum and energy of solved steps only",
              "leave out newton, or take the generalized_alpha integrator");
+  if (is_variational && a.step_control)
+    list.add("analysis", 0, "step_control", "",
+             "the variational integrator keeps energy within a bound where its steps are equal",
+             "leave out step_control, or take the generalized_alpha integrator");
+  const bool is_bdf = a.integrator == Integrator::bdf;
+  if (is_bdf && a.step_control)
+    list.add("analysis", 0, "step_control", "", "the bdf integrator takes steps of equal size",
+             "leave out step_control, or take the generalized_alpha integrator");
+  if (is_bdf && a.newton == Newton::single)
+    list.add("analysis", 0, "newton", "single", "the bdf integrator solves its steps to convergence",
+             "leave out newton, or take the generalized_alpha integrator");
+  if (a.step_control && a.newton == Newton::single)
+    list.add("analysis", 0, "newton", "single", "errors of steps are known only where these are solved to convergence",
+             "leave out newton or step_control");
   const auto frame_moves = [](const FrameDef& f) { return f.motion.has_value(); };
   if (is_variational && std::any_of(s.frames.begin(), s.frames.end(), frame_moves))
     list.add("analysis", 0, "integrator", "variational", "the variational integrator does not know frames that move",
              "take the generalized_alpha integrator");
-  if (!is_variational && a.spectral_radius == 1.0 && (!s.joints.empty() || !s.motions.empty()))
+  if (!is_variational && !is_bdf && a.spectral_radius == 1.0 && (!s.joints.empty() || !s.motions.empty()))
     list.add("analysis", 0, "spectral_radius", "1",
              "with joints or prescribed motions the spectral radius has to be below 1",
              "the constraint forces would oscillate undamped; 0.9 is nearly free of damping");

@@ -10,6 +10,8 @@ StepOptions make_step_options(const scene::Analysis& a) {
   o.tolerance = a.tolerance;
   o.max_iterations = a.max_iterations;
   o.max_cuts = a.max_cuts;
+  o.step_control = a.step_control;
+  o.arc_length = a.arc_length;
   o.single_solution = a.newton == scene::Newton::single;
   return o;
 }
@@ -22,6 +24,8 @@ std::vector<std::string> problems_in(const StepOptions& o) {
   if (!(o.tolerance > 0.0 && o.tolerance < 1.0)) problems.push_back("tolerance must be between 0 and 1");
   if (o.max_iterations < 1) problems.push_back("max_iterations must be at least 1");
   if (o.max_cuts < 0) problems.push_back("max_cuts must not be negative");
+  if (o.step_control && !(o.step_control->tolerance > 0.0 && o.step_control->tolerance < 1.0))
+    problems.push_back("the tolerance of step_control must be between 0 and 1");
   return problems;
 }
 

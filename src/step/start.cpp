@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "bough/step/advance.hpp"
+#include "start_parts.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -89,21 +90,15 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
   return std::nullopt;
 }
 
-/// Steady velocity error of the index-3 scheme in the constraints' normals, by multiplier:
-///   G delta = -h^2 G ((beta + shift/2 - 1/6) jerk - ad(v) a / 12)
-/// (local error of dq against the Magnus series of the motion). Element matrices hold G.
-void steady_velocity_error(System& system, const State& state, const AlphaCoefficients& c, double h,
-                           const std::vector<Vec6<double>>& jerk, std::vector<double>& offset) {
-  std::vector<double> delta(system.num_unknowns(), 0.0), product(system.num_unknowns());
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
-    const Vec6<double> d = (-h * h) * ((c.beta + 0.5 * c.shift() - 1.0 / 6.0) * jerk[n] -
-                                       (1.0 / 12.0) * motion::cross6_times(state.nodes[n].v, state.nodes[n].a));
-    for (int i = 0; i < 6; ++i) delta[static_cast<std::size_t>(system.block_begin(static_cast<int>(n)) + i)] = d[i];
-  }
-  system.solver().multiply(system.walker(), delta.data(), product.data());
-  offset.assign(static_cast<std::size_t>(system.plan().num_multipliers), 0.0);
+/// G d by multiplier. Element matrices hold G.
+void eval_rates(System& system, const std::vector<Vec6<double>>& d, std::vector<double>& rates) {
+  std::vector<double> vector(system.num_unknowns(), 0.0), product(system.num_unknowns());
+  for (std::size_t n = 0; n < d.size(); ++n)
+    for (int i = 0; i < 6; ++i) vector[static_cast<std::size_t>(system.block_begin(static_cast<int>(n)) + i)] = d[n][i];
+  system.solver().multiply(system.walker(), vector.data(), product.data());
+  rates.assign(static_cast<std::size_t>(system.plan().num_multipliers), 0.0);
   for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
-    offset[multiplier] = product[unknown];
+    rates[multiplier] = product[unknown];
   });
 }
 
@@ -114,6 +109,30 @@ StartReport failed(const std::string& cause) {
 }
 
 }  // namespace
+
+std::optional<Trouble> set_normal_velocities(System& system, State& state, const std::vector<Vec6<double>>* d) {
+  if (auto t = factor_mass(system, state)) return t;
+  std::vector<double> offset;
+  if (d != nullptr) eval_rates(system, *d, offset);
+  return project_velocities(system, state, d != nullptr ? &offset : nullptr, nullptr);
+}
+
+std::optional<Trouble> solve_accelerations(System& system, State& state) {
+  std::vector<double> rhs(system.num_unknowns()), x(system.num_unknowns());
+  std::vector<Taylor<double, 3>> series;
+  for (elements::NodeMotion& n : state.nodes) n.a = Vec6<double>::zero();
+  std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
+  if (auto t = system.evaluate(state, mass_slopes, false)) return t;
+  system.constraint_series(state, nullptr, 0.0, series);
+  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
+  set_rows(system, rhs, [&](std::size_t m) { return -2.0 * series[m].c[2]; });
+  if (auto t = system.solve(rhs.data(), x.data())) return t;
+  for (std::size_t n = 0; n < state.nodes.size(); ++n) state.nodes[n].a = node_part(system, x, n);
+  for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
+    state.multipliers[multiplier] = x[unknown];
+  });
+  return std::nullopt;
+}
 
 StartReport make_consistent(System& system, State& state, bool fix_positions, double step_size) {
   StartReport report;
@@ -158,17 +177,7 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
     return failed(contradicting(system, worst, system.solver().blocks_not_unique()) + text);
   }
 
-  std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
-  if (const auto t = system.evaluate(state, mass_slopes, false)) return failed(t->text);
-  std::vector<Taylor<double, 3>> series;
-  system.constraint_series(state, nullptr, 0.0, series);
-  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
-  set_rows(system, rhs, [&](std::size_t m) { return -2.0 * series[m].c[2]; });
-  if (const auto t = system.solve(rhs.data(), x.data())) return failed(t->text);
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) state.nodes[n].a = node_part(system, x, n);
-  for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
-    state.multipliers[multiplier] = x[unknown];
-  });
+  if (const auto t = solve_accelerations(system, state)) return failed(t->text);
   report.ok = true;
   return report;
 }
@@ -201,10 +210,12 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   StartReport report;
   report.ok = true;
   if (system.plan().num_multipliers == 0) return report;
-  if (const auto t = factor_mass(system, state)) return failed(t->text);
-  std::vector<double> offset;
-  steady_velocity_error(system, state, c, h, jerk, offset);
-  if (const auto t = project_velocities(system, state, &offset, nullptr)) return failed(t->text);
+  // Steady velocity error of the index-3 scheme in the constraints' normals: local error of dq against the Magnus series of the motion,
+  //   G delta = -h^2 G ((beta + shift/2 - 1/6) jerk - ad(v) a / 12).
+  for (std::size_t n = 0; n < jerk.size(); ++n)
+    jerk[n] = (-h * h) * ((c.beta + 0.5 * c.shift() - 1.0 / 6.0) * jerk[n] -
+                          (1.0 / 12.0) * motion::cross6_times(state.nodes[n].v, state.nodes[n].a));
+  if (const auto t = set_normal_velocities(system, state, &jerk)) return failed(t->text);
   return report;
 }
 

@@ -35,6 +35,9 @@ results::EffectiveOptions effective_options(const scene::Scene& scene, const ste
     if (o.integrator == scene::Integrator::variational) {
       list.emplace_back("analysis/integrator", quoted("variational"));
       list.emplace_back("analysis/newmark_beta", number(o.newmark_beta));
+    } else if (o.integrator == scene::Integrator::bdf) {
+      list.emplace_back("analysis/integrator", quoted("bdf"));
+      list.emplace_back("analysis/order", "3");
     } else {
       const step::AlphaCoefficients c = step::make_alpha_coefficients(o.spectral_radius);
       list.emplace_back("analysis/integrator", quoted("generalized_alpha"));
@@ -43,6 +46,26 @@ results::EffectiveOptions effective_options(const scene::Scene& scene, const ste
       list.emplace_back("analysis/alpha_f", number(c.alpha_f));
       list.emplace_back("analysis/beta", number(c.beta));
       list.emplace_back("analysis/gamma", number(c.gamma));
+    }
+    if (o.step_control) {
+      const scene::StepControl& c = *o.step_control;
+      list.emplace_back("analysis/step_control/tolerance", number(c.tolerance));
+      list.emplace_back("analysis/step_control/position_tolerance", number(c.position_tolerance));
+      list.emplace_back("analysis/step_control/rotation_tolerance", number(c.rotation_tolerance));
+      list.emplace_back("analysis/step_control/velocity_tolerance", number(c.velocity_tolerance));
+      list.emplace_back("analysis/step_control/angular_velocity_tolerance", number(c.angular_velocity_tolerance));
+      if (c.largest_step > 0.0) list.emplace_back("analysis/step_control/largest_step", number(c.largest_step));
+    }
+  } else if (o.arc_length) {
+    const scene::ArcLength& l = *o.arc_length;
+    list.emplace_back("analysis/arc_length/step", number(l.step));
+    if (l.largest_step > 0.0) list.emplace_back("analysis/arc_length/largest_step", number(l.largest_step));
+    list.emplace_back("analysis/arc_length/max_steps", std::to_string(l.max_steps));
+    if (l.end_at_limit_point > 0) {
+      list.emplace_back("analysis/arc_length/end_at_limit_point", std::to_string(l.end_at_limit_point));
+    } else {
+      list.emplace_back("analysis/arc_length/end_load_factor", number(l.end_load_factor));
+      list.emplace_back("analysis/arc_length/after_limit_points", std::to_string(l.after_limit_points));
     }
   } else {
     list.emplace_back("analysis/load_steps", std::to_string(scene.analysis.load_steps));

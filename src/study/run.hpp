@@ -7,6 +7,9 @@
 #include "bough/results/balance.hpp"
 #include "bough/schedule/threads.hpp"
 #include "bough/step/advance.hpp"
+#include "bough/step/arc_length.hpp"
+#include "bough/step/bdf.hpp"
+#include "bough/step/step_control.hpp"
 #include "bough/step/variational.hpp"
 #include "bough/study/simulate.hpp"
 #include "vibration_watch.hpp"
@@ -39,7 +42,22 @@ class Run {
   /// Work and energies are looked at in every step.
   bool has_balance() const { return scene_.output.checks || variational_.has_value(); }
   bool run_statics();
+  bool run_path();
+  bool take_path_step(double& length);
+  bool end_within(double from, double to, double from_factor, double to_factor);
+  std::optional<step::Trouble> go_to(double distance);
+  template <class Value>
+  bool find_on_path(double from, double to, double value_from, double value_to, double tolerance, double& distance,
+                    Value&& value);
   bool run_dynamics();
+  bool run_controlled_segment(double begin, double end, double total_end);
+  bool take_controlled_steps(double stop, double total_end);
+  bool accept_controlled(const step::StepReport& report, double size, bool is_last);
+  bool look_at_error();
+  void add_error(double duration, double size);
+  std::vector<double> stops_between(double begin, double end) const;
+  bool set_step_size(double size);
+  step::StepReport advance_to(double target);
   bool start_segment(double step_size, bool is_first);
   bool run_segment(double begin, double end, double& sum_of_cuts);
   void finish();
@@ -64,6 +82,17 @@ class Run {
   std::vector<double> expected_values_, expected_distance_;
   std::string first_rejection_, not_unique_;
   int dependent_rows_ = 0;
+  std::optional<step::Bdf> bdf_;             ///< when chosen
+  std::optional<step::ArcLengthPath> path_;  ///< statics by arc length
+  step::State path_start_;                   ///< of its present step
+  bool path_done_ = false;
+  std::optional<step::LocalError> local_error_;  ///< of generalized-alpha where checks or step control ask for it
+  std::optional<step::StepController> controller_;
+  double wanted_size_ = 0.0;        ///< of the next controlled step [s]
+  double looked_at_ = 0.0;          ///< time of the last look at a local error, at fixed steps
+  double unfiltered_looked_ = 0.0;  ///< largest unfiltered error at a look
+  long steps_since_look_ = 0;
+  bool looking_ = false;  ///< at the second of two steps
   VibrationWatch vibrations_;
   long rows_ = 0;
   double last_step_ = 0.0;

@@ -38,9 +38,30 @@ bool Run::start_segment(double step_size, bool is_first) {
     const auto t = variational_->start(state_);
     return t ? fail(t->text) : true;
   }
+  if (bdf_) {
+    bdf_->restart(step_size);
+    return true;
+  }
   const step::StartReport started = step::start_alpha(system_, state_, options_, step_size);
   if (!started.ok) return fail(started.cause);
   return true;
+}
+
+bool Run::set_step_size(double size) {
+  if (variational_) {
+    state_.step_size = size;
+  } else if (bdf_) {
+    if (size != bdf_->step_size()) bdf_->restart(size);
+  } else if (const auto changed = step::change_step_size(system_, state_, options_, size); !changed.ok) {
+    return fail(changed.cause);
+  }
+  return true;
+}
+
+step::StepReport Run::advance_to(double target) {
+  if (variational_) return variational_->advance(state_, options_, target);
+  if (bdf_) return bdf_->advance(state_, options_, target);
+  return step::advance(system_, state_, options_, target);
 }
 
 /// Steps of equal size from one breakpoint to the next; a step that fails is halved, and the size grows back after four easy steps.
@@ -53,16 +74,11 @@ bool Run::run_segment(double begin, double end, double& total_end) {
   if (!start_segment(h, begin == 0.0)) return false;
   while (done < (steps << level)) {
     const double size = h / static_cast<double>(1L << level);
-    if (variational_) {
-      state_.step_size = size;
-    } else if (const auto changed = step::change_step_size(system_, state_, options_, size); !changed.ok) {
-      return fail(changed.cause);
-    }
+    if (!set_step_size(size)) return false;
     const long next = done + 1;
     const double target = next == (steps << level) ? end : begin + static_cast<double>(next) * size;
     if (!may_try(target)) return false;
-    const step::StepReport report = variational_ ? variational_->advance(state_, options_, target)
-                                                 : step::advance(system_, state_, options_, target);
+    const step::StepReport report = advance_to(target);
     count(report, report.converged);
     if (!report.converged) {
       easy = 0;
@@ -77,6 +93,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     last_step_ = size;
     if (options_.single_solution && summary_.steps.accepted == 1)
       note("one linear solution per step: residuals are not driven to the tolerance");
+    if (!look_at_error()) return false;
     step::accept_turns(system_, state_);
     if (has_balance()) work_meter_.add(system_, state_, size);
     const bool goes_on = watch_vibrations();
@@ -103,8 +120,11 @@ bool Run::run_dynamics() {
   for (double t : cuts)
     if (t > times.back() + least && t < end - least) times.push_back(t);
   times.push_back(end);
-  for (std::size_t k = 0; k + 1 < times.size(); ++k)
-    if (!run_segment(times[k], times[k + 1], end)) return false;
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+    looking_ = false;  // errors across a start say nothing
+    if (!(controller_ ? run_controlled_segment(times[k], times[k + 1], end) : run_segment(times[k], times[k + 1], end)))
+      return false;
+  }
   summary_.status = RunStatus::ok;
   return true;
 }

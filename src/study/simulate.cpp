@@ -31,6 +31,10 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
       work_meter_(plan_) {
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::variational)
     variational_.emplace(system_, scene.solver, options_.newmark_beta);
+  if (plan_.is_dynamic && options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_);
+  if (plan_.is_dynamic && !variational_ && !bdf_ && (options_.step_control || scene.output.checks))
+    local_error_.emplace(system_, options_, scene.analysis.end_time);
+  if (plan_.is_dynamic && options_.step_control) controller_.emplace(options_.step_control->tolerance);
   summary_.scene = scene.name;
   summary_.title = scene.title;
   summary_.threads = threads_.count();
@@ -54,7 +58,7 @@ Summary Run::run() {
   recorder_.begin(summary_.header);
   summary_.status = RunStatus::failed;
   if (scene_.analysis.kind == scene::AnalysisKind::statics)
-    run_statics();
+    (void)(options_.arc_length ? run_path() : run_statics());
   else
     run_dynamics();
   summary_.times.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

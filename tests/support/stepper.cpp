@@ -31,6 +31,7 @@ Stepper::Stepper(const scene::Scene& scene)
       options_(step::make_step_options(scene.analysis)) {
   if (options_.integrator == scene::Integrator::variational)
     variational_.emplace(system_, scene.solver, options_.newmark_beta);
+  if (options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_);
 }
 
 step::StartReport Stepper::start(double step_size) {
@@ -39,6 +40,10 @@ step::StartReport Stepper::start(double step_size) {
   if (variational_) {
     state_.step_size = step_size;
     if (const auto t = variational_->start(state_)) throw std::runtime_error(t->text);
+    return consistent;
+  }
+  if (bdf_) {
+    bdf_->restart(step_size);
     return consistent;
   }
   const step::StartReport started = step::start_alpha(system_, state_, options_, step_size);
@@ -51,12 +56,17 @@ void Stepper::change(double step_size) {
     state_.step_size = step_size;
     return;
   }
+  if (bdf_) {
+    if (step_size != bdf_->step_size()) bdf_->restart(step_size);
+    return;
+  }
   const step::StartReport changed = step::change_step_size(system_, state_, options_, step_size);
   if (!changed.ok) throw std::runtime_error(changed.cause);
 }
 
 void Stepper::step(double end_time) {
   const step::StepReport report = variational_ ? variational_->advance(state_, options_, end_time)
+                                  : bdf_       ? bdf_->advance(state_, options_, end_time)
                                                : step::advance(system_, state_, options_, end_time);
   if (!report.converged) throw std::runtime_error(report.cause);
   step::accept_turns(system_, state_);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bough/plan/plan.hpp"
+#include "bough/step/bdf.hpp"
 #include "bough/step/variational.hpp"
 
 namespace bough::support {
@@ -34,6 +35,7 @@ class Stepper {
   step::State state_;
   step::StepOptions options_;
   std::optional<step::Variational> variational_;  ///< when the scene chooses it
+  std::optional<step::Bdf> bdf_;                  ///< the same
 };
 
 /// Largest |a - b| relative to the largest |b|, of each part.

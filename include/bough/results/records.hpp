@@ -53,6 +53,8 @@ enum class RunStatus : std::uint8_t { ok, failed, interrupted };
 
 struct StepCounts {
   long accepted = 0, rejected = 0, newton_iterations = 0, factorizations = 0;
+  long rejected_for_error = 0;  ///< of those rejected, by step control
+  long size_changes = 0;        ///< changes of the step size by step control
 };
 struct StepTimes {
   double total = 0.0;                                                            ///< wall [s]
@@ -68,7 +70,16 @@ struct Checks {
   double constraint_violation_position = 0.0;  ///< [m] or [rad]
   double constraint_violation_velocity = 0.0;  ///< [m/s] or [rad/s]
   double linear_backward_error_max = 0.0;
+  /// Local errors of the steps in time (at fixed steps: of some) [-]: of positions and rotations, relative to the size of the structure and
+  /// 1 rad, the largest and all added up over the run; of velocities, relative to the largest speeds so far.
+  bool local_error_known = false;
+  double local_error_max = 0.0, local_error_sum = 0.0, local_error_max_velocity = 0.0;
   bool round_off_floor_reached = false;
+};
+/// Where the load factor turns along the path of equilibria.
+struct LimitPoint {
+  double load_factor = 0.0;
+  bool is_maximum = true;
 };
 struct ExpectedResult {
   std::string name;
@@ -92,6 +103,7 @@ struct Summary {
   StepTimes times;
   std::int64_t memory_peak_bytes = 0;
   Checks checks;
+  std::vector<LimitPoint> limit_points;  ///< of statics by arc length, in the order of the path
   std::vector<std::string>
       notes;  ///< warnings in words: dependent constraints, impulses at the start, floors reached ...
   HistoryHeader header;

@@ -216,7 +216,30 @@ struct Sensor {
 
 enum class AnalysisKind : std::uint8_t { statics, dynamics };
 enum class Newton : std::uint8_t { full, single };
-enum class Integrator : std::uint8_t { generalized_alpha, variational };
+enum class Integrator : std::uint8_t { generalized_alpha, variational, bdf };
+
+/// Step sizes chosen so that local errors stay within a tolerance (generalized-alpha).
+struct StepControl {
+  /// Of the sum of local errors over the run, relative to sizes: that of the structure, 1 rad, the largest speeds so far [-].
+  double tolerance = 1e-4;
+  double position_tolerance = 0.0;          ///< allowed beside [m]
+  double rotation_tolerance = 0.0;          ///< [rad]
+  double velocity_tolerance = 0.0;          ///< [m/s]
+  double angular_velocity_tolerance = 0.0;  ///< [rad/s]
+  double largest_step = 0.0;                ///< [s]; 0: a fiftieth of the end time
+};
+
+/// Statics along the path of equilibria, past limit points of the load.
+struct ArcLength {
+  /// First step [-]: root mean square over nodes of displacements over the size of the structure and of rotations [rad].
+  double step = 0.05;
+  double largest_step = 0.0;  ///< [-]; 0: four times the first
+  int max_steps = 1000;
+  /// The run ends where the load factor passes this value, limit points counted before.
+  double end_load_factor = 1.0;
+  int after_limit_points = 0;
+  int end_at_limit_point = 0;  ///< the run ends at the limit point of this number instead; 0: it does not
+};
 
 struct Analysis {
   AnalysisKind kind = AnalysisKind::dynamics;
@@ -225,9 +248,11 @@ struct Analysis {
   std::string frame;
   // statics
   int load_steps = 1;
+  std::optional<ArcLength> arc_length;  ///< instead of load steps
   // dynamics
   double end_time = 0.0;    ///< [s]
-  double step_size = 1e-3;  ///< h [s]
+  double step_size = 1e-3;  ///< h [s]; of the first step where sizes are controlled
+  std::optional<StepControl> step_control;
   Integrator integrator = Integrator::generalized_alpha;
   double spectral_radius = 0.8;  ///< of generalized-alpha
   double newmark_beta = 0.3;     ///< of the variational integrator, for vibrations

@@ -1,5 +1,6 @@
 #pragma once
 /// Options of a run in time or load.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct StepOptions {
   double tolerance = 1e-8;    ///< [-] of changes of relative motions, and of residuals relative to what makes them
   int max_iterations = 20;    ///< Newton limit, >= 1
   int max_cuts = 10;          ///< halvings of a step before the run fails
+  std::optional<scene::StepControl> step_control;  ///< none: steps of equal size
+  std::optional<scene::ArcLength> arc_length;      ///< statics: none: load steps
   bool single_solution = false;  ///< one linear solution per step, no convergence asked for (linearly implicit)
 };
 

@@ -1,0 +1,114 @@
+#pragma once
+/// Local error of a step of generalized-alpha, and the control of the step size to a tolerance.
+///
+/// What a step leaves of the exact motion through its start, in a node's own axes (rule's terms against the Magnus series of the motion):
+///   e_q = h^3 (C_q v'' - ad(v) v' / 12),  e_v = h^3 C_v v''',   d = alpha_m - alpha_f
+///   C_q = beta + d/2 - 1/6,   C_v = kappa - d^2/2 + 1/12,   kappa = (1 - alpha_f - (1 - alpha_m)(1 + 2 d) - d^2) / 2
+/// v'' is the change of v' over the step. Where constraints or stiff parts hold the motion, this is not what comes of it: the step's own matrix
+/// S = K + c1 C + c2 M with its constraints carries it to where the step does,
+///   [S G^T; G 0] (e, mu) = (c2 M e_q, 0),
+/// so that vibrations which the step filters and directions which constraints fix count no more than they move. v''' is the change of
+/// e / (C_q h^3) from step to step.
+/// Sources: Zienkiewicz, Xie 1991 (error from the change of accelerations); Hairer, Wanner 1996, IV.8 (error filtered by the step's matrix).
+#include <optional>
+#include <vector>
+
+#include "bough/step/options.hpp"
+#include "bough/step/system.hpp"
+
+namespace bough::step {
+
+/// Largest parts over all nodes.
+struct ErrorParts {
+  double position = 0.0;          ///< [m]
+  double rotation = 0.0;          ///< [rad]
+  double velocity = 0.0;          ///< [m/s]
+  double angular_velocity = 0.0;  ///< [rad/s]
+};
+
+/// Constants of e_q and e_v, functions of the spectral radius alone.
+struct ErrorConstants {
+  double position, velocity;
+};
+ErrorConstants make_error_constants(const AlphaCoefficients& c);
+
+/// Local errors along a run. Allocates when made, not afterwards.
+class LocalError {
+ public:
+  /// `absolute`: allowances beside the tolerance, 0: none. Sizes that errors are compared with: the size of the structure, 1 rad, the largest speeds
+  /// so far, and these at the least: the size of the structure and 1 rad in `duration` [s].
+  LocalError(const System& system, const StepOptions& options, double duration);
+
+  /// A start, or the far side of a jump: v''' is not known in the first step.
+  void restart() { has_previous_ = false; }
+
+  /// Of the step that `advance` just took to `after` (its residual and its factor are still there) from system.work().start.
+  /// Overwrites the residual and the right-hand side of `system`. Fails where the solution does.
+  [[nodiscard]] std::optional<Trouble> measure(System& system, const State& after);
+  /// The step is accepted: speeds and v'' of it are kept.
+  void accept(const State& after);
+
+  const ErrorParts& parts() const { return parts_; }
+  /// Largest parts of the last measured error over what they are compared with: size + allowance / tolerance [-].
+  double relative_motion() const;    ///< of positions and rotations
+  double relative_velocity() const;  ///< of velocities
+
+  /// Largest change of e_q without the filter, over the same sizes [-]: costs no solution; at fixed steps tells when to look closer.
+  double unfiltered(const System& system, const State& after) const;
+
+ private:
+  motion::Vec6<double> unfiltered_of(const State& start, const State& after, std::size_t node) const;
+
+  ErrorConstants constants_;
+  AlphaCoefficients alpha_;
+  ErrorParts least_, allowance_;  ///< least sizes; absolute tolerances over the relative one
+  double speed_ = 0.0, spin_ = 0.0;
+  ErrorParts parts_;
+  std::vector<motion::Vec6<double>> now_, previous_;  ///< e / h^3 by node
+  double step_ = 0.0, previous_step_ = 0.0;
+  bool has_previous_ = false;
+  State shifted_;
+};
+
+/// Step sizes from errors. A step is accepted where its local error keeps
+///   E = max(e_q / tolerance^(3/2), e_v / tolerance) <= 1,
+/// e relative to sizes. The integrator is of second order, so steps are of the order of tolerance^(1/2) of the motion's characteristic time, and
+/// the local errors of one such time add up to about the tolerance: the global error follows the tolerance (tolerances are transformed so by
+/// RADAU5, too, Hairer, Wanner 1996, IV.8). Error per unit of time would do the same, but not where parts vibrate faster than the step: errors
+/// there are their amplitude, whatever the step, and smaller steps would only make matters worse. Velocities of smooth motions follow positions;
+/// those of such vibrations are held to the tolerance of the whole, not of a step, for the same reason. The next size is a PI controller's
+/// (Gustafsson 1991; Soderlind 2003, integral and proportional gains 0.6/3 and 0.4/3),
+///   h (safety / E_n)^0.2 max(1/2, E_{n-1} / E_n)^0.133,   0.2 h to 4 h,
+/// after an accepted step, h (safety / E_n)^(1/3) after a rejected one. A change costs three factors, so a size stays while the next would be
+/// between 0.9 and 1.25 of it; it grows by the largest E (fading by 0.85 a step) of at least four steps of one size (or where E is below 0.01), since E goes up and
+/// down with vibrations.
+class StepController {
+ public:
+  static constexpr double safety = 0.8, integral = 0.6 / 3.0, proportional = 0.4 / 3.0;
+  static constexpr int steps_to_grow = 4, steps_held = 8;
+  static constexpr double far_below = 0.01;
+  static constexpr double least_factor = 0.2, largest_factor = 4.0, dead_below = 0.9, dead_above = 1.25;
+
+  explicit StepController(double tolerance) : tolerance_(tolerance) {}
+  /// E of a step.
+  double ratio(const LocalError& error) const;
+  /// Next size after a step of size h that was accepted; h itself within the dead band.
+  double after_accepted(double ratio, double h);
+  /// Size of the next attempt.
+  double after_rejected(double ratio, double h);
+  /// Newton failed at h: half of it, and no growth in the next eight steps.
+  double after_failure(double h);
+  /// The far side of a jump: the error before it says nothing.
+  void restart() {
+    previous_ = most_ = 0.0;
+    since_change_ = 0;
+  }
+
+ private:
+  double tolerance_;
+  double previous_ = 0.0;  ///< E of the step before; 0: none
+  double most_ = 0.0;      ///< largest E since the last change, fading
+  int since_change_ = 0;   ///< steps since; below 0: growth is held up longer
+};
+
+}  // namespace bough::step

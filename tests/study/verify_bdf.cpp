@@ -1,0 +1,148 @@
+// Backward differences of third order on the group: orders of positions, velocities and multipliers, stiff parts, moving frames, failures.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "order_scenes.hpp"
+#include "support/stepper.hpp"
+
+namespace bough::study {
+namespace {
+
+using support::Difference;
+using support::Outcome;
+using support::Sample;
+using support::Stepper;
+
+scene::Scene by_bdf(scene::Scene scene) {
+  scene.analysis.integrator = scene::Integrator::bdf;
+  return scene;
+}
+
+/// Steps of one size from the start; samples at the ends of the steps of size `sampling`.
+std::vector<Sample> march(const scene::Scene& scene, double h, double sampling, int samples) {
+  Stepper s(scene);
+  s.start(h);
+  std::vector<Sample> run{s.sample()};
+  const auto every = static_cast<int>(std::lround(sampling / h));
+  for (int k = 1; k <= samples * every; ++k) {
+    s.step(k * h);
+    if (k % every == 0) run.push_back(s.sample());
+  }
+  return run;
+}
+
+/// Largest differences over samples [first, last] of `run`, whose sampling is `ratio` times that of the reference.
+Difference compare(const std::vector<Sample>& run, const std::vector<Sample>& reference, std::size_t first,
+                   std::size_t last, std::size_t ratio) {
+  Difference d;
+  const Sample scale = support::scale_of(reference);
+  for (std::size_t k = first; k <= last; ++k) d.include(run[k], reference[k * ratio], scale);
+  return d;
+}
+
+void expect_order(const std::string& what, const Difference& coarse, const Difference& fine, double least) {
+  const double p = support::order_of(coarse.positions, fine.positions),
+               v = support::order_of(coarse.velocities, fine.velocities),
+               m = support::order_of(coarse.multipliers, fine.multipliers);
+  std::printf("| %s | %.2f (%.1e) | %.2f (%.1e) | %.2f (%.1e) |\n", what.c_str(), p, fine.positions, v, fine.velocities,
+              m, fine.multipliers);
+  EXPECT_GT(p, least) << what;
+  EXPECT_GT(v, least) << what;
+  EXPECT_GT(m, least) << what;
+}
+
+/// The reference: the same rule at h / 16, and generalized-alpha extrapolated from much smaller steps says that it is right.
+void check_orders(const std::string& name, const scene::Scene& scene, double h) {
+  const std::vector<Sample> reference = march(by_bdf(scene), h / 16.0, h / 2.0, 80),
+                            coarse = march(by_bdf(scene), h, h, 40), fine = march(by_bdf(scene), h / 2.0, h / 2.0, 80);
+  expect_order(name + ", steps 3 to 10", compare(coarse, reference, 3, 10, 2), compare(fine, reference, 3, 10, 1), 2.8);
+  expect_order(name + ", 40 h", compare(coarse, reference, 1, 40, 2), compare(fine, reference, 1, 80, 1), 2.8);
+  std::vector<Sample> alpha = march(scene, h / 128.0, h / 2.0, 80);
+  const std::vector<Sample> twice = march(scene, h / 64.0, h / 2.0, 80);
+  for (std::size_t k = 0; k < alpha.size(); ++k) {
+    const auto extrapolate = [](std::vector<double>& a, const std::vector<double>& b) {
+      for (std::size_t i = 0; i < a.size(); ++i) a[i] += (a[i] - b[i]) / 3.0;
+    };
+    extrapolate(alpha[k].positions, twice[k].positions);
+    extrapolate(alpha[k].velocities, twice[k].velocities);
+  }
+  const Difference methods = compare(reference, alpha, 1, 80, 1), error = compare(fine, reference, 1, 80, 1);
+  std::printf("| %s, against generalized-alpha | positions %.1e, velocities %.1e |\n", name.c_str(), methods.positions,
+              methods.velocities);
+  EXPECT_LT(methods.positions, 0.05 * error.positions);
+  EXPECT_LT(methods.velocities, 0.05 * error.velocities);
+}
+
+TEST(Bdf, is_of_third_order_with_ball_and_hinge) { check_orders("ball and hinge", spatial_pendulum(), 0.01); }
+TEST(Bdf, is_of_third_order_with_a_driven_joint) { check_orders("driven hinge", driven_pendulum(), 0.01); }
+TEST(Bdf, is_of_third_order_with_a_driven_beam) { check_orders("driven beam", driven_beam(), 0.002); }
+
+TEST(Bdf, is_of_third_order_across_a_change_of_step_size_and_after_a_failure) {
+  // 10 steps of h, 10 of h / 2, 10 of h: each change is a new start.
+  const auto uneven = [](double h, int fineness) {
+    Stepper s(by_bdf(spatial_pendulum()));
+    std::vector<Sample> run;
+    s.start(h / fineness);
+    double at = 0.0;
+    for (const double size : {h, 0.5 * h, h}) {
+      s.change(size / fineness);
+      for (int k = 1; k <= 10; ++k) {
+        for (int i = 1; i <= fineness; ++i) s.step(at + size * i / fineness);
+        at += size;
+        run.push_back(s.sample());
+      }
+    }
+    return run;
+  };
+  const std::vector<Sample> coarse = uneven(0.01, 1), fine = uneven(0.01, 2), reference = uneven(0.01, 16);
+  expect_order("changing steps", compare(coarse, reference, 0, 29, 1), compare(fine, reference, 0, 29, 1), 2.7);
+}
+
+TEST(Bdf, runs_the_heavy_top_to_its_table_with_fewer_steps_than_generalized_alpha) {
+  const auto error_at_end = [](const std::string& integrator, const std::string& h) {
+    const Outcome run =
+        support::run(support::gallery("heavy_top", {"/analysis/integrator=\"" + integrator + "\"",
+                                                    "/analysis/step_size=" + h, "/analysis/end_time=1"}));
+    EXPECT_TRUE(run.ok()) << run.summary.cause;
+    return std::array<double, 3>{run.history.last("center.x"), run.history.last("center.y"),
+                                 run.history.last("center.z")};
+  };
+  const auto distance = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  };
+  const auto reference = error_at_end("bdf", "2e-5");
+  const double a = distance(error_at_end("bdf", "4e-4"), reference),
+               b = distance(error_at_end("bdf", "2e-4"), reference),
+               alpha = distance(error_at_end("generalized_alpha", "2e-4"), reference);
+  std::printf("| heavy top, 1 s, h = 0.4, 0.2 ms | %.1e, %.1e m, order %.2f | generalized-alpha %.1e m |\n", a, b,
+              support::order_of(a, b), alpha);
+  EXPECT_GT(support::order_of(a, b), 2.7);
+  EXPECT_LT(b, alpha);
+}
+
+TEST(Bdf, knows_frames_that_move) {
+  const auto tilt = [](const std::string& integrator, double h) {
+    scene::Scene scene = support::gallery("gyroscope_on_turntable",
+                                          {"/analysis/integrator=\"" + integrator + "\"", "/analysis/end_time=0.2"});
+    scene.analysis.step_size = h;
+    scene.analysis.tolerance = 1e-11;
+    const Outcome run = support::run(scene);
+    EXPECT_TRUE(run.ok()) << run.summary.cause;
+    return run.summary.final_values;
+  };
+  const auto reference = tilt("generalized_alpha", 1e-5), coarse = tilt("bdf", 1e-3), fine = tilt("bdf", 5e-4);
+  double a = 0.0, b = 0.0;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const double scale = std::max(1.0, std::abs(reference[i]));
+    a = std::max(a, std::abs(coarse[i] - reference[i]) / scale);
+    b = std::max(b, std::abs(fine[i] - reference[i]) / scale);
+  }
+  std::printf("| gyroscope on a turntable, all sensors | %.1e, %.1e, order %.2f |\n", a, b, support::order_of(a, b));
+  EXPECT_GT(support::order_of(a, b), 2.5);
+}
+
+}  // namespace
+}  // namespace bough::study
