@@ -15,7 +15,7 @@ namespace {
 using results::Profile;
 using results::ProfileEvent;
 
-constexpr double width = 960.0, left = 70.0, right = 950.0, top = 44.0, row_height = 34.0, row_gap = 8.0;  // [px]
+constexpr double left = 70.0, right = 950.0, top = 44.0, row_height = 34.0, row_gap = 8.0;  // [px]
 constexpr std::size_t most_bars = 4000;
 constexpr double same_spot = 0.25;
 

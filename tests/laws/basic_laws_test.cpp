@@ -80,7 +80,7 @@ TEST_P(SmoothRise, is_monotone_point_symmetric_and_held_outside) {
 INSTANTIATE_TEST_SUITE_P(AllProfiles, SmoothRise,
                          ::testing::Values(Profile{"smooth_ramp", &make_smooth_ramp},
                                            Profile{"cycloidal", &make_cycloidal}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 TEST(BasicLaws, cycloidal_rate_is_a_full_wave) {
   const Law law = make_cycloidal(1.0, 3.0, 0.0, 10.0);

@@ -37,8 +37,9 @@ TEST(Scaling, ConditionDoesNotGrowAsTheStepFallsInAnyFamily) {
         Solved s(scenes[f], {}, {});
         ASSERT_TRUE(s.factor().ok()) << scenes[f].name << ", step " << step;
         const double condition = condition_of(s.scaled_dense());
-        if (most[f] > 0.0)  // 2: scales are rounded to powers of two
+        if (most[f] > 0.0) {  // 2: scales are rounded to powers of two
           EXPECT_LE(condition, 2.0 * most[f]) << scenes[f].name << ", seed " << seed << ", step " << step;
+        }
         EXPECT_LE(condition, 1e5) << scenes[f].name << ", seed " << seed << ", step " << step;
         most[f] = std::max(most[f], condition);
       }
@@ -64,7 +65,9 @@ TEST(Scaling, ARowOfNodesBetweenJointsBorrowsFromItsEnds) {
     Solved s(scene, {}, {});
     ASSERT_TRUE(s.factor().ok()) << step;
     const double condition = condition_of(s.scaled_dense());
-    if (longest > 0.0) EXPECT_LE(condition, 2.0 * longest) << step;
+    if (longest > 0.0) {
+      EXPECT_LE(condition, 2.0 * longest) << step;
+    }
     longest = std::max(longest, condition);
   }
 }

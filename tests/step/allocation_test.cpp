@@ -11,6 +11,10 @@ namespace {
 long allocations = 0;
 }
 
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"  // they do match: gcc sees only one of them inlined
+#endif
+
 // Counts every allocation of the program; freed with free.
 void* operator new(std::size_t size) {
   ++allocations;

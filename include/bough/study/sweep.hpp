@@ -116,9 +116,9 @@ struct SweepResult {
 };
 
 struct SweepOptions {
-  int threads = 1;              ///< runs at a time while errors are measured; timed runs go one at a time
-  std::filesystem::path cache;  ///< folder of computed references; empty: none are kept
-  int repetitions = 0;          ///< timed runs of every choice; 0: as the study says
+  int threads = 1;                   ///< runs at a time while errors are measured; timed runs go one at a time
+  std::filesystem::path cache = {};  ///< folder of computed references; empty: none are kept
+  int repetitions = 0;               ///< timed runs of every choice; 0: as the study says
   std::function<bool()> stop = {};
   std::function<void(const std::string& what, std::size_t done, std::size_t all)> progress = {};
 };
