@@ -11,7 +11,9 @@
 namespace bough::study {
 namespace {
 
+using support::compare;
 using support::Difference;
+using support::march;
 using support::Outcome;
 using support::Sample;
 using support::Stepper;
@@ -19,28 +21,6 @@ using support::Stepper;
 scene::Scene by_bdf(scene::Scene scene) {
   scene.analysis.integrator = scene::Integrator::bdf;
   return scene;
-}
-
-/// Steps of one size from the start; samples at the ends of the steps of size `sampling`.
-std::vector<Sample> march(const scene::Scene& scene, double h, double sampling, int samples) {
-  Stepper s(scene);
-  s.start(h);
-  std::vector<Sample> run{s.sample()};
-  const auto every = static_cast<int>(std::lround(sampling / h));
-  for (int k = 1; k <= samples * every; ++k) {
-    s.step(k * h);
-    if (k % every == 0) run.push_back(s.sample());
-  }
-  return run;
-}
-
-/// Largest differences over samples [first, last] of `run`, whose sampling is `ratio` times that of the reference.
-Difference compare(const std::vector<Sample>& run, const std::vector<Sample>& reference, std::size_t first,
-                   std::size_t last, std::size_t ratio) {
-  Difference d;
-  const Sample scale = support::scale_of(reference);
-  for (std::size_t k = first; k <= last; ++k) d.include(run[k], reference[k * ratio], scale);
-  return d;
 }
 
 void expect_order(const std::string& what, const Difference& coarse, const Difference& fine, double least) {

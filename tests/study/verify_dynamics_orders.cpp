@@ -11,30 +11,15 @@
 namespace bough::study {
 namespace {
 
+using support::compare;
 using support::Difference;
+using support::march;
 using support::Sample;
 using support::Stepper;
 
-/// Steps of one size from the start; samples at the ends of the steps of size `sampling`.
-std::vector<Sample> march(const scene::Scene& scene, double radius, double h, double sampling, int samples) {
-  Stepper s(scene);
-  s.options().spectral_radius = radius;
-  s.start(h);
-  std::vector<Sample> run{s.sample()};
-  const auto every = static_cast<int>(std::lround(sampling / h));
-  for (int k = 1; k <= samples * every; ++k) {
-    s.step(k * h);
-    if (k % every == 0) run.push_back(s.sample());
-  }
-  return run;
-}
-
-Difference compare(const std::vector<Sample>& run, const std::vector<Sample>& reference, std::size_t first,
-                   std::size_t last, std::size_t ratio) {
-  Difference d;
-  const Sample scale = support::scale_of(reference);
-  for (std::size_t k = first; k <= last; ++k) d.include(run[k], reference[k * ratio], scale);
-  return d;
+scene::Scene with_radius(scene::Scene scene, double radius) {
+  scene.analysis.spectral_radius = radius;
+  return scene;
 }
 
 void expect_order(const std::string& what, const Difference& coarse, const Difference& fine, double least = 1.8) {
@@ -53,8 +38,9 @@ class Orders : public testing::TestWithParam<double> {};
 /// Errors of the first step, and the largest of the first 20 steps, at h and h / 2, against steps of h / fineness by the same rule with a
 /// spectral radius of 0.8.
 void check_start(const std::string& name, const scene::Scene& scene, double radius, double h, double fineness = 64.0) {
-  const std::vector<Sample> reference = march(scene, 0.8, h / fineness, h / 2.0, 40);
-  const std::vector<Sample> coarse = march(scene, radius, h, h, 20), fine = march(scene, radius, h / 2.0, h / 2.0, 40);
+  const std::vector<Sample> reference = march(with_radius(scene, 0.8), h / fineness, h / 2.0, 40);
+  const std::vector<Sample> coarse = march(with_radius(scene, radius), h, h, 20),
+                            fine = march(with_radius(scene, radius), h / 2.0, h / 2.0, 40);
   char label[80];
   std::snprintf(label, sizeof label, "%s, rho %.1f", name.c_str(), radius);
   expect_order(std::string(label) + ", first step", compare(coarse, reference, 1, 1, 2),

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "bough/results/balance.hpp"
+#include "order_scenes.hpp"
 #include "support/scenes.hpp"
 #include "support/stepper.hpp"
 
@@ -16,35 +17,8 @@ using support::Difference;
 using support::Sample;
 using support::Stepper;
 
-/// Ball joint, then a hinge askew, a spring with a damper.
-constexpr const char* spatial_pendulum = R"json({
-  "gravity": [0.3, -1.0, -9.81],
-  "bodies": [
-    {"name": "a", "mass": 2, "inertia": [0.3, 0.5, 0.4], "center_of_mass": [0.5, 0.1, 0]},
-    {"name": "b", "mass": 1, "inertia": [0.05, 0.1, 0.12], "position": [1, 0.2, 0.1], "center_of_mass": [0.3, 0, -0.2]}],
-  "joints": [
-    {"name": "ball", "kind": "spherical", "first": "ground", "second": "a", "position": [0, 0, 0]},
-    {"name": "hinge", "kind": "revolute", "first": "a", "second": "b", "position": [1, 0.2, 0.1], "axis": [1, 2, -1]}],
-  "springs": [{"name": "spring", "first": {"to": "ground", "position": [0, 0, 2]}, "second": {"to": "b", "position": [0.5, 0, 0]},
-               "stiffness": 20, "rest_length": 1.5, "damping": 0.5}],
-  "initial_velocities": [{"of": "a", "angular_velocity": [1, 2, 3]}, {"of": "b", "angular_velocity": [4, 1, 2]}],
-  "analysis": {"kind": "dynamic", "end_time": 1, "tolerance": 1e-12}})json";
-
-/// A hinge driven in time carries a body on a universal joint.
-constexpr const char* driven_pendulum = R"json({
-  "gravity": [0.3, -1.0, -9.81],
-  "bodies": [
-    {"name": "a", "mass": 2, "inertia": [0.3, 0.5, 0.4], "center_of_mass": [0.5, 0.1, 0]},
-    {"name": "b", "mass": 1, "inertia": [0.05, 0.1, 0.12], "position": [1, 0.2, 0.1], "center_of_mass": [0.3, 0, -0.2]}],
-  "joints": [
-    {"name": "motor", "kind": "revolute", "first": "ground", "second": "a", "position": [0, 0, 0], "axis": [1, 0.3, 2],
-     "drives": [{"law": {"expression": "0.4*sin(3*t) + 0.6*t^2 + 0.5*t^3"}}]},
-    {"name": "cross", "kind": "universal", "first": "a", "second": "b", "position": [1, 0.2, 0.1], "axis": [0, 1, 0], "second_axis": [0, 0, 1]}],
-  "initial_velocities": [{"of": "b", "angular_velocity": [1, 2, 2]}],
-  "analysis": {"kind": "dynamic", "end_time": 1, "tolerance": 1e-12}})json";
-
 /// A soft, damped beam on a driven hinge with a body at its tip, a follower force on it.
-constexpr const char* driven_beam = R"json({
+constexpr const char* damped_beam = R"json({
   "gravity": [0, 0, -9.81],
   "sections": [{"name": "soft", "stiffness": {"EA": 400, "GA2": 200, "GA3": 200, "GJ": 5, "EI2": 10, "EI3": 8},
                 "mass": {"mass_per_length": 1, "rotary": [0.02, 0.01, 0.01]}, "damping": {"time": 0.002}}],
@@ -56,30 +30,13 @@ constexpr const char* driven_beam = R"json({
   "loads": [{"at": "tip", "axes": "body", "force": [0, 3, 0], "law": {"expression": "sin(20*t)"}}],
   "analysis": {"kind": "dynamic", "end_time": 1, "tolerance": 1e-12}})json";
 
-std::vector<Sample> march(const char* text, const char* integrator, double h, double sampling, int samples) {
-  Stepper s(support::scene_of(text, {std::string("/analysis/integrator=") + integrator}));
-  s.start(h);
-  std::vector<Sample> run{s.sample()};
-  const auto every = static_cast<int>(std::lround(sampling / h));
-  for (int k = 1; k <= samples * every; ++k) {
-    s.step(k * h);
-    if (k % every == 0) run.push_back(s.sample());
-  }
-  return run;
-}
-
-Difference compare(const std::vector<Sample>& run, const std::vector<Sample>& reference) {
-  Difference d;
-  const Sample scale = support::scale_of(reference);
-  for (std::size_t k = 1; k < run.size(); ++k) d.include(run[k], reference[k], scale);
-  return d;
-}
-
 /// Largest errors over 20 h of steps of h and h / 2, against generalized-alpha in much finer ones.
-void check_orders(const char* name, const char* text, double h, double fineness) {
-  const std::vector<Sample> reference = march(text, "generalized_alpha", h / fineness, h, 20);
-  const Difference coarse = compare(march(text, "variational", h, h, 20), reference),
-                   fine = compare(march(text, "variational", h / 2.0, h, 20), reference);
+void check_orders(const char* name, scene::Scene scene, double h, double fineness) {
+  scene.analysis.integrator = scene::Integrator::generalized_alpha;
+  const std::vector<Sample> reference = support::march(scene, h / fineness, h, 20);
+  scene.analysis.integrator = scene::Integrator::variational;
+  const Difference coarse = support::compare(support::march(scene, h, h, 20), reference, 1, 20, 1),
+                   fine = support::compare(support::march(scene, h / 2.0, h, 20), reference, 1, 20, 1);
   const double p = support::order_of(coarse.positions, fine.positions),
                v = support::order_of(coarse.velocities, fine.velocities),
                m = support::order_of(coarse.multipliers, fine.multipliers);
@@ -92,13 +49,13 @@ void check_orders(const char* name, const char* text, double h, double fineness)
 }
 
 TEST(Variational, is_of_second_order_with_ball_hinge_and_damper) {
-  check_orders("ball and hinge", spatial_pendulum, 0.008, 32.0);
+  check_orders("ball and hinge", study::spatial_pendulum(), 0.008, 32.0);
 }
 TEST(Variational, is_of_second_order_with_a_driven_joint) {
-  check_orders("driven hinge", driven_pendulum, 0.008, 32.0);
+  check_orders("driven hinge", study::driven_pendulum(), 0.008, 32.0);
 }
 TEST(Variational, is_of_second_order_with_a_driven_beam_and_a_follower_force) {
-  check_orders("driven beam", driven_beam, 0.0008, 16.0);
+  check_orders("driven beam", support::scene_of(damped_beam), 0.0008, 16.0);
 }
 
 struct Drift {

@@ -101,4 +101,24 @@ Sample scale_of(const std::vector<Sample>& run) {
   return s;
 }
 
+std::vector<Sample> march(const scene::Scene& scene, double h, double sampling, int samples) {
+  Stepper s(scene);
+  s.start(h);
+  std::vector<Sample> run{s.sample()};
+  const auto every = static_cast<int>(std::lround(sampling / h));
+  for (int k = 1; k <= samples * every; ++k) {
+    s.step(k * h);
+    if (k % every == 0) run.push_back(s.sample());
+  }
+  return run;
+}
+
+Difference compare(const std::vector<Sample>& run, const std::vector<Sample>& reference, std::size_t first,
+                   std::size_t last, std::size_t ratio) {
+  Difference d;
+  const Sample scale = scale_of(reference);
+  for (std::size_t k = first; k <= last; ++k) d.include(run[k], reference[k * ratio], scale);
+  return d;
+}
+
 }  // namespace bough::support

@@ -47,4 +47,11 @@ struct Difference {
 /// Largest magnitudes over a run, one number in each part: the scale of differences.
 Sample scale_of(const std::vector<Sample>& run);
 
+/// Steps of one size from the start, and samples of it and of the ends of the steps of size `sampling`.
+std::vector<Sample> march(const scene::Scene& scene, double h, double sampling, int samples);
+
+/// Largest differences over samples [first, last] of `run`, whose sampling is `ratio` times that of the reference.
+Difference compare(const std::vector<Sample>& run, const std::vector<Sample>& reference, std::size_t first,
+                   std::size_t last, std::size_t ratio);
+
 }  // namespace bough::support
