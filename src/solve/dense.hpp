@@ -1,19 +1,51 @@
 #pragma once
-/// Dense kernels of one front. Column-major, leading dimension given. No allocation. Internal to solve.
+/// Dense kernels of one front. Column-major, leading dimensions given. No allocation. Internal to solve.
+#include <cstddef>
+
+#include "bough/tree/walker.hpp"
 
 namespace bough::solve {
 
-/// c -= a b. c: m x n, a: m x k, b: k x n; the sum over k runs upward for every entry, whatever the blocking.
+/// c -= a b. c: m x n, a: m x k, b: k x n; every entry is one sum over k upward, taken off at once for each 96 terms, whatever the blocking.
 void subtract_product(int m, int n, int k, const double* a, int lda, const double* b, int ldb, double* c, int ldc);
 
-/// A front being factored: the first `full` rows and columns are fully summed.
+/// A front being factored: the first `full` rows and columns are fully summed. Either one square (u null, leading dimension size), or in
+/// three parts, of which the last can be given up when the parent has read it:
+///   [ a  u ]     a: size x full, u: full x (size - full), s: (size - full) x (size - full)
+///   [ .  s ]
+/// Symmetric: the lower triangles of a and s alone; u is not there, above the diagonals stands nothing of meaning.
 struct FrontMatrix {
-  double* a = nullptr;  ///< size x size, column-major, leading dimension size
+  double* a = nullptr;
   int size = 0;
   int full = 0;
   int* rows = nullptr;      ///< global unknown of each fully summed row, permuted with it
   int* columns = nullptr;   ///< the same for columns
   int* row_from = nullptr;  ///< position of each row before any pivoting
+  int lda = 0;              ///< of the three parts; 0: one square
+  double* u = nullptr;
+  int ldu = 0;
+  double* s = nullptr;
+  int lds = 0;
+  double* d =
+      nullptr;  ///< symmetric: 2 x full, the diagonal of D and what stands below it (nonzero: a pivot of two rows begins)
+};
+
+/// The parts of a front, wherever they stand.
+struct FrontParts {
+  double *a, *u, *s;
+  std::ptrdiff_t lda, ldu, lds;
+  int size, full;
+  explicit FrontParts(const FrontMatrix& f)
+      : a(f.a), u(f.u), s(f.s), lda(f.lda), ldu(f.ldu), lds(f.lds), size(f.size), full(f.full) {
+    if (f.lda != 0) return;
+    lda = ldu = lds = size;
+    u = a + full * lda;
+    s = u + full;
+  }
+  /// Column j, rows [0, full) of it where j is not fully summed.
+  double* top(int j) const { return j < full ? a + j * lda : u + (j - full) * ldu; }
+  /// Rows from `full` on of column j.
+  double* bottom(int j) const { return j < full ? a + j * lda + full : s + (j - full) * lds; }
 };
 
 /// Which pivots may be taken.
@@ -25,8 +57,14 @@ struct PivotRule {
 /// Eliminates as many fully summed unknowns as the rule allows, the diagonal preferred, rows exchanged within the fully summed ones only;
 /// leaves L (unit, below), U and the Schur complement in place, the refused rows and columns last among the fully summed.
 ///   P A Q = [L11 0; L21 I] [U11 U12; 0 S]
+/// The update of what remains goes to the walker's threads where it is large; bits do not depend on that.
 /// Returns the number of pivots, or -1 when an entry is not finite.
-int eliminate_with_threshold(FrontMatrix& front, const PivotRule& rule);
+int eliminate_with_threshold(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
+
+/// The same for a symmetric front (lower triangle; d given): P A P^T = L D L^T, D of blocks of one and two rows. A pivot of two rows, p and the largest
+/// entry of its column among the candidates at hand, is taken if |D^-1| times the largest entries of its columns stays below 1 / threshold
+/// [Duff, Reid 1983].
+int eliminate_symmetric(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
 
 /// Goes on from `pivots` up to `most` with complete pivoting over the remaining fully summed block (precondition: no boundary), as long as
 /// the largest entry reaches `least`. row_weight, column_weight: one factor for each remaining row and column by which entries are
@@ -35,10 +73,28 @@ int eliminate_completely(FrontMatrix& front, int pivots, int most, double least,
                          double* column_weight = nullptr);
 
 /// f = L^-1 f for the first `pivots` entries, the rest reduced: f_B -= L21 y. f already permuted.
-void substitute_forward(const double* a, int size, int pivots, double* f);
-/// y = U11^-1 (y - U12 x_B); x: size entries, y in the first `pivots`, x_B in the others.
-void substitute_backward(const double* a, int size, int pivots, double* x);
+void substitute_forward(const FrontMatrix& front, int pivots, double* f);
+/// y = U11^-1 (y - U12 x_B), symmetric: L11^-T (D^-1 y - L21^T x_B); x: size entries, y in the first `pivots`, x_B in the others.
+void substitute_backward(const FrontMatrix& front, int pivots, double* x);
 /// Left vectors: z^T = -z_B^T L21 L11^-1 in the first `pivots` entries, z_B in the others; then add nothing else (rows are permuted).
-void substitute_backward_left(const double* a, int size, int pivots, double* z);
+void substitute_backward_left(const FrontMatrix& front, int pivots, double* z);
+
+/// The same for a square.
+inline FrontMatrix make_square(const double* a, int size, int full) {
+  FrontMatrix f;
+  f.a = const_cast<double*>(a);  // substitutions read only
+  f.size = size;
+  f.full = full;
+  return f;
+}
+inline void substitute_forward(const double* a, int size, int pivots, double* f) {
+  substitute_forward(make_square(a, size, pivots), pivots, f);
+}
+inline void substitute_backward(const double* a, int size, int pivots, double* x) {
+  substitute_backward(make_square(a, size, pivots), pivots, x);
+}
+inline void substitute_backward_left(const double* a, int size, int pivots, double* z) {
+  substitute_backward_left(make_square(a, size, pivots), pivots, z);
+}
 
 }  // namespace bough::solve

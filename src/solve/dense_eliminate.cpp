@@ -7,37 +7,24 @@
 #include <utility>
 
 #include "dense.hpp"
+#include "dense_panel.hpp"
+#include "dense_tiles.hpp"
 
 namespace bough::solve {
 
 namespace {
 
-struct View {
-  double* a;
-  std::ptrdiff_t ld;
-  double* column(int j) const { return a + j * ld; }
-  double& operator()(int i, int j) const { return a[i + j * ld]; }
-};
-
-void swap_rows(const View& v, FrontMatrix& f, int i, int k) {
+void swap_rows(const FrontParts& v, FrontMatrix& f, int i, int k) {
   if (i == k) return;
-  for (int j = 0; j < f.size; ++j) std::swap(v(i, j), v(k, j));
+  for (int j = 0; j < f.size; ++j) std::swap(v.top(j)[i], v.top(j)[k]);
   std::swap(f.rows[i], f.rows[k]);
   std::swap(f.row_from[i], f.row_from[k]);
 }
 
-void swap_columns(const View& v, FrontMatrix& f, int i, int k) {
+void swap_columns(const FrontParts& v, FrontMatrix& f, int i, int k) {
   if (i == k) return;
-  std::swap_ranges(v.column(i), v.column(i) + f.size, v.column(k));
+  std::swap_ranges(v.top(i), v.top(i) + f.size, v.top(k));
   std::swap(f.columns[i], f.columns[k]);
-}
-
-/// Largest magnitude of rows [begin, end), compared as bits: infinity and NaN come out on top, above every finite number.
-double find_largest(const double* column, int begin, int end) {
-  constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
-  std::uint64_t largest = 0;
-  for (int i = begin; i < end; ++i) largest = std::max(largest, std::bit_cast<std::uint64_t>(column[i]) & magnitude);
-  return std::bit_cast<double>(largest);
 }
 
 int find_row_of_largest(const double* column, int begin, int end) {
@@ -48,20 +35,19 @@ int find_row_of_largest(const double* column, int begin, int end) {
 }
 
 /// Divides the column below the pivot and updates columns (k, end).
-void eliminate_one(const View& v, int k, int end, int size) {
-  double* l = v.column(k);
+void eliminate_one(const FrontParts& v, int k, int end) {
+  double* l = v.top(k);
   const double inverse = 1.0 / l[k];
-  for (int i = k + 1; i < size; ++i) l[i] *= inverse;
+  for (int i = k + 1; i < v.size; ++i) l[i] *= inverse;
   for (int j = k + 1; j < end; ++j) {
-    double* c = v.column(j);
+    double* c = v.top(j);
     const double u = c[k];
-    if (u == 0.0) continue;
-    for (int i = k + 1; i < size; ++i) c[i] -= l[i] * u;
+    if (u != 0.0) tiles::take_column(v.size - k - 1, l + k + 1, u, c + k + 1);
   }
 }
 
 /// Pivots within columns [k, end), which alone are updated. Returns the new k; -1 when not finite.
-int eliminate_panel(const View& v, FrontMatrix& f, const PivotRule& rule, int k, int end) {
+int eliminate_panel(const FrontParts& v, FrontMatrix& f, const PivotRule& rule, int k, int end) {
   int open = end;  // columns [open, end) were refused in this round
   bool progress = false;
   for (;;) {
@@ -70,14 +56,15 @@ int eliminate_panel(const View& v, FrontMatrix& f, const PivotRule& rule, int k,
       open = end;  // the refused columns have changed: another round
       progress = false;
     }
-    const double largest = find_largest(v.column(k), k, f.size);
+    const double* column = v.top(k);
+    const double largest = find_largest(column, k, f.size);
     if (!std::isfinite(largest)) return -1;
     const double least = std::max({rule.threshold * largest, rule.least, std::numeric_limits<double>::min()});
     int row = k;
-    if (std::abs(v(k, k)) < least) row = find_row_of_largest(v.column(k), k, f.full);
-    if (std::abs(v(row, k)) >= least) {
+    if (std::abs(column[k]) < least) row = find_row_of_largest(column, k, f.full);
+    if (std::abs(column[row]) >= least) {
       swap_rows(v, f, row, k);
-      eliminate_one(v, k, end, f.size);
+      eliminate_one(v, k, end);
       ++k;
       progress = true;
     } else {
@@ -88,49 +75,97 @@ int eliminate_panel(const View& v, FrontMatrix& f, const PivotRule& rule, int k,
   }
 }
 
-/// Columns [end, size) catch up with pivots [begin, k).
-void update_trailing(const View& v, int begin, int k, int end, int size) {
-  const int width = k - begin;
-  if (width == 0) return;
-  for (int j = end; j < size; ++j) {
-    double* c = v.column(j);
-    for (int p = begin; p < k; ++p) {
-      const double u = c[p];
-      if (u == 0.0) continue;
-      const double* l = v.column(p);
-      for (int i = p + 1; i < k; ++i) c[i] -= l[i] * u;
+/// U = L^-1 B in place, L unit lower (depth x depth), B: n columns; packed as well, in groups filled up with zeros.
+void solve_and_pack(int depth, const double* l, std::ptrdiff_t ldl, int n, double* b, std::ptrdiff_t ldb,
+                    double* packed) {
+  using namespace tiles;
+  constexpr int high = 8;
+  for (int j0 = 0; j0 < n; j0 += width) {
+    double* group = group_of(packed, depth, j0 / width);
+    const int wide = std::min(width, n - j0);
+    double* first = b + j0 * ldb;
+    for (int i0 = 0; i0 < depth; i0 += high) {
+      const int rows = std::min(high, depth - i0);
+      alignas(64) double square[high * width] = {};
+      for (int j = 0; j < wide; ++j)
+        for (int r = 0; r < rows; ++r) square[r * width + j] = first[j * ldb + i0 + r];
+      Lanes t[high];
+#pragma GCC unroll 8
+      for (int r = 0; r < high; ++r) t[r] = load(square + r * width);
+      if (rows == high) {
+        for (int p = 0; p < i0; ++p) {
+          const Lanes y = load(group + p * width);
+          const double* lp = l + p * ldl + i0;
+#pragma GCC unroll 8
+          for (int r = 0; r < high; ++r) t[r] = take_product(y, all(lp[r]), t[r]);
+        }
+      } else {
+        for (int p = 0; p < i0; ++p)
+          for (int r = 0; r < rows; ++r) t[r] = take_product(load(group + p * width), all(l[p * ldl + i0 + r]), t[r]);
+      }
+      for (int p = 0; p < rows; ++p)
+        for (int r = p + 1; r < rows; ++r) t[r] = take_product(t[p], all(l[(i0 + p) * ldl + i0 + r]), t[r]);
+      for (int r = 0; r < rows; ++r) {
+        store(group + (i0 + r) * width, t[r]);
+        store(square + r * width, t[r]);
+      }
+      for (int j = 0; j < wide; ++j)
+        for (int r = 0; r < rows; ++r) first[j * ldb + i0 + r] = square[r * width + j];
     }
   }
-  subtract_product(size - k, size - end, width, &v(k, begin), static_cast<int>(v.ld), &v(begin, end),
-                   static_cast<int>(v.ld), &v(k, end), static_cast<int>(v.ld));
+}
+
+/// Columns [first, last), at most a chunk and all on one side of `full`, catch up with pivots [begin, k).
+void catch_up(const FrontParts& v, int begin, int k, int first, int last) {
+  using namespace tiles;
+  alignas(64) double packed[deepest * chunk];
+  const std::ptrdiff_t ld = first < v.full ? v.lda : v.ldu;
+  const int n = last - first;
+  for (int from = begin; from < k; from += deepest) {
+    const int to = std::min(k, from + deepest), depth = to - from;
+    const double* l = v.a + from * v.lda;
+    double* top = v.top(first);
+    solve_and_pack(depth, l + from, v.lda, n, top + from, ld, packed);
+    if (first < v.full) {
+      subtract_packed(v.size - to, n, depth, l + to, v.lda, packed, top + to, ld);
+    } else {
+      subtract_packed(v.full - to, n, depth, l + to, v.lda, packed, top + to, ld);
+      subtract_packed(v.size - v.full, n, depth, l + v.full, v.lda, packed, v.bottom(first), v.lds);
+    }
+  }
 }
 
 }  // namespace
 
-int eliminate_with_threshold(FrontMatrix& f, const PivotRule& rule) {
-  constexpr int panel = 32;
-  const View v{f.a, f.size};
+int eliminate_with_threshold(FrontMatrix& f, const PivotRule& rule, const tree::Walker* walker) {
+  const FrontParts v(f);
   int k = 0, tried = 0;  // columns [k, tried) were refused by earlier panels and go along with the next one
   while (tried < f.full) {
-    const int left = f.full - tried;
-    const int begin = k, end = tried + (left <= panel + panel / 2 ? left : panel);
-    k = eliminate_panel(v, f, rule, k, end);
-    if (k < 0) return -1;
-    update_trailing(v, begin, k, end, f.size);
-    tried = end;
+    const int begin = k, end = end_of_panel(tried, f.full, outer_panel);
+    while (tried < end) {
+      const int inner_begin = k, inner_end = end_of_panel(tried, end, inner_panel);
+      k = eliminate_panel(v, f, rule, k, inner_end);
+      if (k < 0) return -1;
+      for (int j = inner_end; k > inner_begin && j < end; j += tiles::chunk)
+        catch_up(v, inner_begin, k, j, std::min(end, j + tiles::chunk));
+      tried = inner_end;
+    }
+    if (k == begin) continue;
+    const auto update = [&](int first, int last) { catch_up(v, begin, k, first, last); };
+    for_chunks_of_columns(end, f.full, f.size, 2.0 * (k - begin) * (f.size - k), walker, update);
   }
   return k;
 }
 
 int eliminate_completely(FrontMatrix& f, int k, int most, double least, double* row_weight, double* column_weight) {
-  const View v{f.a, f.size};
+  const FrontParts v(f);
   const int first = k;
   while (k < most) {
     double best = 0.0;
     int row = -1, column = -1;
     for (int j = k; j < f.full; ++j)
       for (int i = k; i < f.full; ++i) {
-        double m = std::abs(v(i, j));
+        double m = std::abs(v.top(j)[i]);
         if (row_weight != nullptr) m *= row_weight[i - first] * column_weight[j - first];
         if (m <= best || m < least) continue;
         best = m;
@@ -144,40 +179,10 @@ int eliminate_completely(FrontMatrix& f, int k, int most, double least, double* 
       std::swap(row_weight[k - first], row_weight[row - first]);
       std::swap(column_weight[k - first], column_weight[column - first]);
     }
-    eliminate_one(v, k, f.size, f.size);
+    eliminate_one(v, k, f.size);
     ++k;
   }
   return k;
-}
-
-void substitute_forward(const double* a, int size, int pivots, double* f) {
-  const std::ptrdiff_t ld = size;
-  for (int k = 0; k < pivots; ++k) {
-    const double* l = a + k * ld;
-    const double y = f[k];
-    for (int i = k + 1; i < size; ++i) f[i] -= l[i] * y;
-  }
-}
-
-void substitute_backward(const double* a, int size, int pivots, double* x) {
-  const std::ptrdiff_t ld = size;
-  for (int k = size - 1; k >= 0; --k) {
-    const double* u = a + k * ld;
-    if (k < pivots) x[k] /= u[k];
-    const double value = x[k];
-    const int above = std::min(k, pivots);
-    for (int i = 0; i < above; ++i) x[i] -= u[i] * value;
-  }
-}
-
-void substitute_backward_left(const double* a, int size, int pivots, double* z) {
-  const std::ptrdiff_t ld = size;
-  for (int k = pivots - 1; k >= 0; --k) {
-    const double* l = a + k * ld;
-    double sum = 0.0;
-    for (int i = k + 1; i < size; ++i) sum += l[i] * z[i];
-    z[k] = -sum;
-  }
 }
 
 }  // namespace bough::solve

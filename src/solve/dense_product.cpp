@@ -1,86 +1,122 @@
-#include <cstddef>
-#include <cstring>
+#include <algorithm>
 
 #include "dense.hpp"
+#include "dense_tiles.hpp"
 
 namespace bough::solve {
 
+namespace tiles {
+
 namespace {
 
-// A vector register wide; how wide never changes a result: lanes do not mix and the sum over k is sequential.
-#if defined(__AVX512F__)
-constexpr int width = 8;
-#elif defined(__AVX__)
-constexpr int width = 4;
-#else
-constexpr int width = 2;
-#endif
-typedef double Lanes __attribute__((vector_size(width * sizeof(double))));
-
-inline Lanes load(const double* p) {
-  Lanes v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
-}
-inline void store(double* p, Lanes v) { std::memcpy(p, &v, sizeof v); }
-
-/// Tile of 2 registers x 4 columns.
-inline void tile_2x4(int k, const double* a, std::ptrdiff_t lda, const double* b, std::ptrdiff_t ldb, double* c,
-                     std::ptrdiff_t ldc) {
-  Lanes c00 = load(c), c10 = load(c + width);
-  Lanes c01 = load(c + ldc), c11 = load(c + ldc + width);
-  Lanes c02 = load(c + 2 * ldc), c12 = load(c + 2 * ldc + width);
-  Lanes c03 = load(c + 3 * ldc), c13 = load(c + 3 * ldc + width);
-  for (int p = 0; p < k; ++p) {
-    const Lanes a0 = load(a + p * lda), a1 = load(a + p * lda + width);
-    const double b0 = b[p], b1 = b[p + ldb], b2 = b[p + 2 * ldb], b3 = b[p + 3 * ldb];
-    c00 -= a0 * b0;
-    c10 -= a1 * b0;
-    c01 -= a0 * b1;
-    c11 -= a1 * b1;
-    c02 -= a0 * b2;
-    c12 -= a1 * b2;
-    c03 -= a0 * b3;
-    c13 -= a1 * b3;
+/// m rows of a, k columns, one column after the other, filled up with zeros to full registers.
+template <int registers>
+void pack_rows(int m, int k, const double* a, std::ptrdiff_t lda, double* packed) {
+  constexpr int high = registers * width;
+  if (m == high) {
+    for (int p = 0; p < k; ++p)
+      for (int r = 0; r < registers; ++r) store(packed + p * high + r * width, load(a + p * lda + r * width));
+    return;
   }
-  store(c, c00), store(c + width, c10);
-  store(c + ldc, c01), store(c + ldc + width, c11);
-  store(c + 2 * ldc, c02), store(c + 2 * ldc + width, c12);
-  store(c + 3 * ldc, c03), store(c + 3 * ldc + width, c13);
+  const int whole = m - m % width;
+  for (int p = 0; p < k; ++p) {
+    double* to = packed + p * high;
+    const double* from = a + p * lda;
+    for (int i = 0; i < whole; i += width) store(to + i, load(from + i));
+    for (int i = whole; i < high; ++i) to[i] = i < m ? from[i] : 0.0;
+  }
 }
 
-inline void tile_2x1(int k, const double* a, std::ptrdiff_t lda, const double* b, double* c) {
-  Lanes c0 = load(c), c1 = load(c + width);
+/// m x n entries of c, at most registers x width by width.
+template <int registers>
+inline void run_tile(int m, int n, int k, const double* a, const double* b, double* c, std::ptrdiff_t ldc) {
+  constexpr int high = registers * width;
+  Lanes sum[width][registers] = {};
+#pragma GCC unroll 8
+  for (int j = 0; j < width; ++j)
+    for (int r = 0; r < registers; ++r) __builtin_prefetch(c + std::min(j, n - 1) * ldc + r * width, 1);
   for (int p = 0; p < k; ++p) {
-    const double bp = b[p];
-    c0 -= load(a + p * lda) * bp;
-    c1 -= load(a + p * lda + width) * bp;
+    Lanes left[registers];
+#pragma GCC unroll 3
+    for (int r = 0; r < registers; ++r) left[r] = load(a + p * high + r * width);
+#pragma GCC unroll 8
+    for (int j = 0; j < width; ++j) {
+      const Lanes right = all(b[p * width + j]);
+#pragma GCC unroll 3
+      for (int r = 0; r < registers; ++r) sum[j][r] = add_product(left[r], right, sum[j][r]);
+    }
   }
-  store(c, c0), store(c + width, c1);
+  if (m == high && n == width) {
+#pragma GCC unroll 8
+    for (int j = 0; j < width; ++j)
+#pragma GCC unroll 3
+      for (int r = 0; r < registers; ++r) {
+        double* entry = c + j * ldc + r * width;
+        store(entry, load(entry) - sum[j][r]);
+      }
+    return;
+  }
+  const int whole = m - m % width;
+  double rest[width];
+#pragma GCC unroll 8
+  for (int j = 0; j < width; ++j) {
+    if (j >= n) break;
+    double* column = c + j * ldc;
+#pragma GCC unroll 3
+    for (int r = 0; r < registers; ++r) {
+      if (r * width < whole) {
+        store(column + r * width, load(column + r * width) - sum[j][r]);
+      } else if (r * width < m) {
+        store(rest, sum[j][r]);
+        for (int i = whole; i < m; ++i) column[i] -= rest[i - whole];
+      }
+    }
+  }
 }
 
-inline void rest_of_column(int m, int k, const double* a, std::ptrdiff_t lda, const double* b, double* c) {
-  for (int p = 0; p < k; ++p) {
-    const double bp = b[p];
-    const double* ap = a + p * lda;
-    for (int i = 0; i < m; ++i) c[i] -= ap[i] * bp;
-  }
+template <int registers>
+void run_row_of_tiles(int m, int n, int k, const double* a, std::ptrdiff_t lda, const double* packed, double* c,
+                      std::ptrdiff_t ldc) {
+  alignas(64) double left[registers * width * deepest];
+  pack_rows<registers>(m, k, a, lda, left);
+  for (int j = 0; j < n; j += width)
+    run_tile<registers>(m, std::min(width, n - j), k, left, packed + static_cast<std::ptrdiff_t>(j) * k, c + j * ldc,
+                        ldc);
 }
 
 }  // namespace
 
-void subtract_product(int m, int n, int k, const double* a, int lda, const double* b, int ldb, double* c, int ldc) {
-  if (k == 0) return;  // an empty factor has no memory
-  constexpr int tile_rows = 2 * width;
-  const int m_tiled = m - m % tile_rows;
-  const std::ptrdiff_t la = lda, lb = ldb, lc = ldc;
-  for (int i = 0; i < m_tiled; i += tile_rows) {
-    int j = 0;
-    for (; j + 4 <= n; j += 4) tile_2x4(k, a + i, la, b + j * lb, lb, c + i + j * lc, lc);
-    for (; j < n; ++j) tile_2x1(k, a + i, la, b + j * lb, c + i + j * lc);
+void subtract_packed(int m, int n, int k, const double* a, std::ptrdiff_t lda, const double* packed, double* c,
+                     std::ptrdiff_t ldc, bool lower) {
+  for (int i = 0; i < m; i += tile_rows) {
+    const int high = std::min(tile_rows, m - i), wide = lower ? std::min(n, i + high) : n;
+    if (high > 2 * width) {
+      run_row_of_tiles<3>(high, wide, k, a + i, lda, packed, c + i, ldc);
+    } else if (high > width) {
+      run_row_of_tiles<2>(high, wide, k, a + i, lda, packed, c + i, ldc);
+    } else {
+      run_row_of_tiles<1>(high, wide, k, a + i, lda, packed, c + i, ldc);
+    }
   }
-  if (m_tiled < m)
-    for (int j = 0; j < n; ++j) rest_of_column(m - m_tiled, k, a + m_tiled, la, b + j * lb, c + m_tiled + j * lc);
+}
+
+}  // namespace tiles
+
+void subtract_product(int m, int n, int k, const double* a, int lda, const double* b, int ldb, double* c, int ldc) {
+  using namespace tiles;
+  alignas(64) double packed[deepest * chunk];
+  for (int p0 = 0; p0 < k; p0 += deepest) {
+    const int depth = std::min(deepest, k - p0);
+    for (int j0 = 0; j0 < n; j0 += chunk) {
+      const int wide = std::min(chunk, n - j0);
+      for (int j = 0; j < (wide + width - 1) / width * width; ++j)
+        for (int p = 0; p < depth; ++p)
+          group_of(packed, depth, j / width)[p * width + j % width] =
+              j < wide ? b[p0 + p + static_cast<std::ptrdiff_t>(j0 + j) * ldb] : 0.0;
+      subtract_packed(m, wide, depth, a + static_cast<std::ptrdiff_t>(p0) * lda, lda, packed,
+                      c + static_cast<std::ptrdiff_t>(j0) * ldc, ldc);
+    }
+  }
 }
 
 }  // namespace bough::solve

@@ -302,6 +302,23 @@ std::vector<ElementBatch> ElementStore::single_batches() const {
   return batches;
 }
 
+int ElementStore::find_unsymmetric(const Scales& scales) const {
+  constexpr double most = 1e-9;
+  for (int e = 0; e < graph_.num_elements(); ++e) {
+    const ConstElementView a = view(e);
+    const std::int64_t n = size_of(e);
+    for (int p = 0, i0 = 0; p < num_blocks_of(e); i0 += graph_.block_size[at(blocks_of(e)[p++])])
+      for (int q = 0, j0 = 0; q <= p; j0 += graph_.block_size[at(blocks_of(e)[q++])])
+        for (int i = 0; i < graph_.block_size[at(blocks_of(e)[p])]; ++i)
+          for (int j = 0; j < graph_.block_size[at(blocks_of(e)[q])]; ++j) {
+            const double scale = scales.column[at(tree_.unknown_begin[at(blocks_of(e)[p])] + i)] *
+                                 scales.column[at(tree_.unknown_begin[at(blocks_of(e)[q])] + j)];
+            if (std::abs(a[(i0 + i) * n + j0 + j] - a[(j0 + j) * n + i0 + i]) * scale > most) return e;
+          }
+  }
+  return -1;
+}
+
 double ElementStore::eval_norm(const Scales& scales) const {
   double norm = 0.0;
   for (std::int64_t b = 0; b < graph_.num_blocks(); ++b)

@@ -58,6 +58,8 @@ class ElementStore {
 
   /// Serial, one pass over the element matrices. No allocation.
   void eval_scales(Scales& scales) const;
+  /// First element whose matrix differs from its transpose by more than 1e-9 in scaled variables, or -1. Serial.
+  int find_unsymmetric(const Scales& scales) const;
   /// Largest row sum of magnitudes of the scaled matrix. Serial.
   double eval_norm(const Scales& scales) const;
   /// r = b - A x for the rows of some blocks; most: {|r|, |b|} scaled, raised.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "front_storage.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
@@ -30,7 +31,7 @@ std::vector<std::string> problems_in(const SolveOptions& o) {
   return problems;
 }
 
-Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
+Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o, bool keep_all)
     : tree(t),
       options(o),
       lanes(make_lane_plan(graph, t, o.lanes && o.elimination == Elimination::flat)),
@@ -45,7 +46,9 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
       is_constraint[at(u)] = graph.block_kind[at(b)] == blocks::BlockKind::multiplier;
   fronts.resize(num_fronts);
   enlarged.resize(num_fronts);
-  matrix_begin.assign(1, 0);
+  if (options.elimination == Elimination::plain) symmetry = Symmetry::general;
+  keeps_all = keep_all || options.elimination == Elimination::plain;
+  factor_begin.assign(1, 0);
   vector_begin.assign(1, 0);
   index_begin.assign(1, 0);
   own_begin.assign(1, 0);
@@ -54,16 +57,18 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     const tree::Front& f = front(id);
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
     const std::int64_t size = in_lanes ? 0 : f.size();
-    matrix_begin.push_back(matrix_begin.back() + size * size);
+    const FrontShape shape(f.size(), f.num_eliminated, symmetry == Symmetry::symmetric);
+    factor_begin.push_back(factor_begin.back() + (in_lanes ? 0 : shape.factor_size()));
     vector_begin.push_back(vector_begin.back() + size);
     index_begin.push_back(index_begin.back() + (in_lanes ? 0 : 3 * f.num_eliminated));
     own_begin.push_back(own_begin.back() + f.num_eliminated);
     if (!in_lanes) scalar_fronts.push_back(id);
     add_runs(graph, f);
     run_begin.push_back(static_cast<std::int64_t>(runs.size()));
-    counters.factor_flops += f.flops;
+    counters.factor_flops += !in_lanes && symmetry == Symmetry::symmetric ? 0.5 * f.flops : f.flops;
   }
-  matrix_pool.resize(at(matrix_begin.back()));
+  factor_pool.resize(at(factor_begin.back()));
+  schur_pool.resize(at(plan_schur(tree, lanes.lane_front, keeps_all, schur_begin)));
   vector_pool.resize(at(vector_begin.back()));
   scratch_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));
@@ -92,7 +97,8 @@ void Hierarchical::State::add_runs(const blocks::BlockGraph& graph, const tree::
       continue;
     }
     const int to = tree.parent_row[at(k)];
-    if (runs.size() > first && runs.back().to + runs.back().length == to) {
+    const bool is_split = to == front(f.parent).num_eliminated;  // the parent's boundary is another part of it
+    if (runs.size() > first && runs.back().to + runs.back().length == to && !is_split) {
       runs.back().length += length;
     } else {
       runs.push_back({from, to, length});
@@ -106,7 +112,7 @@ Hierarchical::Hierarchical(const blocks::BlockGraph& graph, const tree::Tree& tr
   if (tree.unknown_begin.size() != graph.block_size.size() + 1 ||
       static_cast<int>(tree.element_order.size()) != graph.num_elements())
     throw std::invalid_argument("Hierarchical: the tree was made from another graph");
-  state_ = std::make_unique<State>(graph, tree, options);
+  state_ = std::make_unique<State>(graph, tree, options, false);
 }
 
 Hierarchical::~Hierarchical() = default;
@@ -131,10 +137,20 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   s.visit_rhs = rhs != nullptr ? s.rhs.data() : nullptr;
   if (s.scales_wanted) {
     s.elements.eval_scales(s.scales);
+    if (s.symmetry == Symmetry::symmetric) {
+      const int unsymmetric = s.elements.find_unsymmetric(s.scales);
+      if (unsymmetric >= 0) {
+        s.status.outcome = FactorOutcome::unsymmetric;
+        s.status.block = s.elements.blocks_of(unsymmetric)[0];
+        return s.status;
+      }
+      s.scales.row = s.scales.column;  // equal but for the order of a sum
+    }
     s.norm = s.elements.eval_norm(s.scales);
     s.set_lane_scales();
   }
   s.scales_wanted = false;
+  s.factor_walker = walker;
   auto visit = [&s, &prepare](int group) { s.factor_group(group, prepare); };
   s.mark = walker.mark;
   walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
@@ -230,7 +246,7 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker, doub
 SolverCounters Hierarchical::counters() const {
   const State& s = *state_;
   SolverCounters c = s.counters;
-  std::size_t doubles = s.matrix_pool.size() + 2 * s.vector_pool.size() + 7 * s.x.size() +
+  std::size_t doubles = s.factor_pool.size() + s.schur_pool.size() + 2 * s.vector_pool.size() + 7 * s.x.size() +
                         s.null_space.left.capacity() + s.null_space.right.capacity();
   for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
   for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors, &s.lane_residuals,

@@ -7,10 +7,14 @@
 #include "bough/solve/hierarchical.hpp"
 #include "dense.hpp"
 #include "element_store.hpp"
+#include "front_storage.hpp"
 #include "lane_kernels.hpp"
 #include "lane_plan.hpp"
 
 namespace bough::solve {
+
+/// Doubles on the boundary of a cache line.
+using LaneDoubles = std::vector<double, LineAllocator<double>>;
 
 /// A run of boundary rows that goes to adjacent rows of the parent front.
 struct Run {
@@ -19,9 +23,16 @@ struct Run {
   int length;
 };
 
+/// What is known of the values. Symmetric: fronts outside of lanes are factored as L D L^T.
+enum class Symmetry { general, symmetric };
+
 /// Numbers of one front. Without delayed pivots all pointers go into the pools of State.
 struct FrontData {
-  double* a = nullptr;       ///< size x size, column-major
+  double* a = nullptr;  ///< the parts of FrontMatrix
+  double* u = nullptr;
+  double* s = nullptr;  ///< may be used again as soon as the parent is done
+  double* d = nullptr;  ///< null: not factored as a symmetric one
+  int lda = 0, ldu = 0, lds = 0;
   double* vector = nullptr;  ///< size: right-hand side, then [y; g]
   int* rows = nullptr;       ///< full: global unknown of each fully summed row, in pivot order
   int* columns = nullptr;
@@ -31,11 +42,15 @@ struct FrontData {
   bool failed = false;     ///< not finite here or below
   bool allocated = false;  ///< the enlarging took heap memory in this factorization
   int num_delayed() const { return full - pivots; }
+  bool is_symmetric() const { return d != nullptr; }
+  void set_parts(const FrontShape& shape, double* factor, double* schur);
+  FrontMatrix matrix() const { return {a, size, full, rows, columns, row_from, lda, u, ldu, s, lds, d}; }
 };
 
 /// Own memory of a front enlarged by delayed pivots; kept for the next time.
 struct Enlarged {
-  std::vector<double> a, vector;
+  LaneDoubles a;
+  std::vector<double> vector;
   std::vector<int> indices;
 };
 
@@ -55,16 +70,14 @@ struct PlainInterface {
   bool used = false;
 };
 
-/// Doubles on the boundary of a cache line.
-using LaneDoubles = std::vector<double, LineAllocator<double>>;
-
 /// Largest scaled magnitudes that one group found.
 struct SolutionSizes {
   double residual = 0.0, rhs = 0.0, x = 0.0;
 };
 
 struct Hierarchical::State {
-  State(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options);
+  /// keep_all: all Schur complements last until the next factorization, for reports.
+  State(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options, bool keep_all);
 
   const tree::Tree& tree;
   SolveOptions options;
@@ -76,9 +89,12 @@ struct Hierarchical::State {
 
   std::vector<FrontData> fronts;
   std::vector<Enlarged> enlarged;  ///< by front
-  std::vector<std::int64_t> matrix_begin, vector_begin, index_begin, run_begin,
+  std::vector<std::int64_t> factor_begin, schur_begin, vector_begin, index_begin, run_begin,
       own_begin;  ///< by front, into the pools
-  std::vector<double> matrix_pool, vector_pool, scratch_pool;
+  Symmetry symmetry = Symmetry::general;
+  bool keeps_all = false;
+  LaneDoubles factor_pool, schur_pool;
+  std::vector<double> vector_pool, scratch_pool;
   std::vector<int> index_pool;
   std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool)
   std::vector<Run> runs;
@@ -100,6 +116,7 @@ struct Hierarchical::State {
   SolverCounters counters;
   const double* visit_rhs = nullptr;  ///< right-hand side of the walk at hand
   tree::Mark mark;                    ///< of the walk at hand
+  tree::Walker factor_walker;         ///< of the factorization at hand: shares out large fronts
 
   // lane_walks.cpp: visits of groups
   void factor_group(int group, const Prepare& prepare);
@@ -138,9 +155,12 @@ struct Hierarchical::State {
   void factor_subdomain(tree::SubdomainId s);
   void size_front(tree::FrontId f);
   void assemble_front(tree::FrontId f);
-  void add_element(const tree::Front& front, int position, double* a, int ld, int shift);
+  void add_element(int position, FrontData& d);
   void add_child(tree::FrontId child, FrontData& parent, int& delayed);
+  void add_child_both_ways(const FrontData& child, const Run* runs_begin, const Run* runs_end, FrontData& parent,
+                           int delayed);
   void eliminate_front(tree::FrontId f);
+  bool is_symmetric_here(tree::FrontId f) const;
   // solve_walks.cpp
   void forward_front(tree::FrontId f);
   void backward_front(tree::FrontId f);

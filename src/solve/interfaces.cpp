@@ -64,7 +64,7 @@ void Hierarchical::State::condense_through_flexibility(tree::SubdomainId s) {
   interface.penalty = interface_stiffness(s);
   const Eigen::Map<Eigen::VectorXd> penalty(interface.penalty.data(), n);
   Eigen::Map<Eigen::VectorXd>(interface.penalty.data(), n) *= options.penalty_factor;
-  Map S(d.a + d.full + static_cast<std::ptrdiff_t>(d.full) * d.size, n, n, Eigen::OuterStride<>(d.size));
+  Map S(d.s, n, n, Eigen::OuterStride<>(d.lds));
   const double s2 = options.multiplier_scale * options.multiplier_scale;
   Matrix stiffened = S;
   stiffened.diagonal() += penalty;
@@ -109,15 +109,16 @@ tree::Walker serial_walker() {
 
 }  // namespace
 
-/// Lanes keep factors only, not the Schur complements that reports look at: these come from a factorization of the same matrices and
-/// scales without lanes, made when first asked for.
+/// Only factors are kept, not the Schur complements that reports look at: these come from a factorization of the same matrices and
+/// scales that keeps them, without lanes, made when first asked for.
 const Hierarchical::State& Hierarchical::reporting_state() const {
   State& s = *state_;
-  if (s.lanes.fronts.empty() || s.counters.factorizations == 0) return s;
+  if (s.keeps_all || s.counters.factorizations == 0) return s;
   if (s.twin == nullptr) {
     SolveOptions options = s.options;
     options.lanes = false;
     s.twin = std::make_unique<Hierarchical>(s.elements.graph(), s.tree, options);
+    s.twin->state_ = std::make_unique<State>(s.elements.graph(), s.tree, options, true);
   }
   State& twin = *s.twin->state_;
   if (s.twin_factorization != s.counters.factorizations) {
@@ -156,8 +157,7 @@ std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
     }
     if (n > 0 && !d.failed && state.counters.factorizations > 0) {
       std::vector<double> stiffness = state.interface_stiffness(s);
-      Matrix stiffened =
-          ConstMap(d.a + d.full + static_cast<std::ptrdiff_t>(d.full) * d.size, n, n, Eigen::OuterStride<>(d.size));
+      Matrix stiffened = ConstMap(d.s, n, n, Eigen::OuterStride<>(d.lds));
       std::vector<int> motion;
       for (int i = 0; i < n; ++i) {
         const double penalty = state.options.penalty_factor * stiffness[at(i)];
@@ -206,8 +206,10 @@ std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s) const {
       unknowns.push_back(at(u));
   for (int i = 0; i < n; ++i)
     x(d.full - d.pivots + i) = state.x[unknowns[at(i)]] / state.scales.column[unknowns[at(i)]];
-  const ConstMap S(d.a + d.full + static_cast<std::ptrdiff_t>(d.pivots) * d.size, n, d.size - d.pivots,
-                   Eigen::OuterStride<>(d.size));
+  Matrix S(n, d.size - d.pivots);
+  S.leftCols(d.num_delayed()) = ConstMap(d.a + d.full + static_cast<std::ptrdiff_t>(d.pivots) * d.lda, n,
+                                         d.num_delayed(), Eigen::OuterStride<>(d.lda));
+  S.rightCols(n) = ConstMap(d.s, n, n, Eigen::OuterStride<>(d.lds));
   const Eigen::VectorXd l =
       (Eigen::Map<const Eigen::VectorXd>(d.vector + d.full, n) - S * x) / state.options.multiplier_scale;
   std::vector<double> multipliers(at(n));

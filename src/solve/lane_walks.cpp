@@ -190,7 +190,7 @@ void Hierarchical::State::factor_lane_alone(int index, int lane) {
   for_boundary(id, [&](int j, std::size_t column) {
     for_boundary(id, [&](int i, std::size_t row) {
       schur[(static_cast<std::int64_t>(j) * f.boundary + i) * wide + lane] =
-          d.a[static_cast<std::int64_t>(d.full + j) * d.size + d.full + i] / (scales.row[row] * scales.column[column]);
+          d.s[static_cast<std::int64_t>(j) * d.lds + i] / (scales.row[row] * scales.column[column]);
     });
   });
 }
@@ -203,11 +203,15 @@ void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent)
   std::array<int, 2 * lanes_wide * lanes_wide> to;  // no front in lanes has more rows
   for (std::int64_t r = run_begin[at(child)]; r < run_begin[at(child) + 1]; ++r)
     for (int i = 0; i < runs[at(r)].length; ++i) to[at(runs[at(r)].from + i)] = parent.delayed_in + runs[at(r)].to + i;
+  const FrontParts parts(parent.matrix());
   for_boundary(child, [&](int j, std::size_t column) {
+    double *top = parts.top(to[at(j)]), *bottom = parts.bottom(to[at(j)]) - parent.full;
     for_boundary(child, [&](int i, std::size_t row) {
-      parent.a[static_cast<std::int64_t>(to[at(j)]) * parent.size + to[at(i)]] +=
-          scales.row[row] * schur[(static_cast<std::int64_t>(j) * f.boundary + i) * wide + lane] *
-          scales.column[column];
+      const int k = to[at(i)];
+      if (parent.is_symmetric() && k < to[at(j)]) return;
+      (k < parent.full ? top : bottom)[k] += scales.row[row] *
+                                             schur[(static_cast<std::int64_t>(j) * f.boundary + i) * wide + lane] *
+                                             scales.column[column];
     });
   });
 }

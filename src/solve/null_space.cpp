@@ -86,7 +86,7 @@ void Hierarchical::State::backward_left_front(tree::FrontId f, std::vector<doubl
   double* z = is_enlarged ? d.vector + d.size : scratch_pool.data() + vector_begin[at(f)];
   for (int i = 0; i < d.full; ++i) z[i] = i < d.pivots ? 0.0 : left[at(d.rows[i])] / scales.row[at(d.rows[i])];
   for_boundary(f, [&](int i, std::size_t u) { z[d.full + i] = left[u] / scales.row[u]; });
-  substitute_backward_left(d.a, d.size, d.pivots, z);
+  substitute_backward_left(d.matrix(), d.pivots, z);
   for (int i = 0; i < d.pivots; ++i) left[at(d.rows[i])] = z[i] * scales.row[at(d.rows[i])];
 }
 
@@ -104,8 +104,8 @@ void Hierarchical::State::decide_rank() {
   const Eigen::Map<const Matrix> Z(null_space.right.data(), rows, m), Y(null_space.left.data(), rows, m);
   const Eigen::HouseholderQR<Matrix> qr_z(Z), qr_y(Y);
   const Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> T(
-      root.a + root.pivots + static_cast<std::ptrdiff_t>(root.pivots) * root.size, m, m,
-      Eigen::OuterStride<>(root.size));
+      root.a + root.pivots + static_cast<std::ptrdiff_t>(root.pivots) * root.lda, m, m,
+      Eigen::OuterStride<>(root.lda));
   const auto R_z = qr_z.matrixQR().topRows(m).triangularView<Eigen::Upper>();
   const auto R_y = qr_y.matrixQR().topRows(m).triangularView<Eigen::Upper>();
   Matrix core = R_y.transpose().solve(Matrix(T));
@@ -134,7 +134,7 @@ void Hierarchical::State::decide_rank() {
     row_weight[at(j)] = 1.0 / Y.col(j).norm();
     column_weight[at(j)] = 1.0 / Z.col(j).norm();
   }
-  FrontMatrix matrix{root.a, root.size, root.full, root.rows, root.columns, root.row_from};
+  FrontMatrix matrix = root.matrix();
   root.pivots = eliminate_completely(matrix, root.pivots, root.full - dependent, std::numeric_limits<double>::min(),
                                      row_weight.data(), column_weight.data());
 }

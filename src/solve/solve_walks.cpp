@@ -40,7 +40,7 @@ void Hierarchical::State::forward_front(tree::FrontId f) {
   }
   for (int i = 0; i < d.full; ++i) d.vector[i] = gathered[d.row_from[i]];
   std::copy(gathered + d.full, gathered + d.size, d.vector + d.full);
-  substitute_forward(d.a, d.size, d.pivots, d.vector);
+  substitute_forward(d.matrix(), d.pivots, d.vector);
 }
 
 void Hierarchical::State::backward_front(tree::FrontId f) {
@@ -50,7 +50,7 @@ void Hierarchical::State::backward_front(tree::FrontId f) {
   std::copy(d.vector, d.vector + d.pivots, y);
   for (int i = d.pivots; i < d.full; ++i) y[i] = x[at(d.columns[i])] / scales.column[at(d.columns[i])];
   for_boundary(f, [&](int i, std::size_t u) { y[d.full + i] = x[u] / scales.column[u]; });
-  substitute_backward(d.a, d.size, d.pivots, y);
+  substitute_backward(d.matrix(), d.pivots, y);
   for (int i = 0; i < d.pivots; ++i) x[at(d.columns[i])] = scales.column[at(d.columns[i])] * y[i];
 }
 

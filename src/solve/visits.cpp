@@ -1,5 +1,6 @@
 #include "bough/solve/visits.hpp"
 
+#include "front_storage.hpp"
 #include "lane_plan.hpp"
 
 namespace bough::solve {
@@ -55,8 +56,8 @@ VisitShapes make_visit_shapes(const blocks::BlockGraph& graph, const tree::Tree&
       for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) {
         const tree::Front& front = tree.fronts[at(f)];
         add_front(shape, front.num_eliminated, front.num_boundary);
-        shape.factor_bytes +=
-            static_cast<std::int64_t>(front.size()) * front.size() * static_cast<std::int64_t>(sizeof(double));
+        shape.factor_bytes += FrontShape(front.size(), front.num_eliminated, false).factor_size() *
+                              static_cast<std::int64_t>(sizeof(double));
       }
     }
     shapes.visits.push_back(std::move(shape));

@@ -129,5 +129,138 @@ TEST(DenseKernels, SubstitutionsInvertTheFactors) {
   }
 }
 
+/// A symmetric front in three parts, its upper triangle poisoned: nothing may read it.
+struct SymmetricFront {
+  int size, full, lds;
+  std::vector<double> a, s, d;
+  std::vector<int> rows, columns, row_from;
+  solve::FrontMatrix matrix;
+  SymmetricFront(const MatrixXd& m, int fully_summed)
+      : size(static_cast<int>(m.rows())),
+        full(fully_summed),
+        lds(size - full + 3),
+        a(at((size + 5) * full + 1)),
+        s(at(lds * (size - full) + 1)),
+        d(at(2 * full + 2)),
+        rows(at(full)) {
+    std::iota(rows.begin(), rows.end(), 0);
+    columns = row_from = rows;
+    for (int j = 0; j < size; ++j)
+      for (int i = 0; i < size; ++i) {
+        const double value = i >= j ? m(i, j) : 1e30;
+        if (j < full) a[at(j * (size + 5) + i)] = value;
+        if (j >= full && i >= full) s[at((j - full) * lds + i - full)] = value;
+      }
+    matrix = {a.data(), size, full,     rows.data(), columns.data(), row_from.data(), size + 5,
+              nullptr,  0,    s.data(), lds,         d.data()};
+  }
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  /// Largest entry of P A P^T - L D L^T over the lower triangle that was factored.
+  double defect(const MatrixXd& original, int pivots) const {
+    MatrixXd L = MatrixXd::Identity(size, size), D = MatrixXd::Zero(size, size);
+    for (int j = 0; j < size; ++j)
+      for (int i = j; i < size; ++i) {
+        const double value = j < full ? a[at(j * (size + 5) + i)] : s[at((j - full) * lds + i - full)];
+        if (j < pivots) {
+          if (i > j) L(i, j) = value;
+        } else {
+          D(i, j) = D(j, i) = value;
+        }
+      }
+    for (int k = 0; k < pivots; ++k) {
+      D(k, k) = d[at(2 * k)];
+      if (d[at(2 * k + 1)] != 0.0) D(k + 1, k) = D(k, k + 1) = d[at(2 * k + 1)];
+    }
+    Eigen::PermutationMatrix<Eigen::Dynamic> P(size);
+    for (int i = 0; i < size; ++i) P.indices()(i < full ? row_from[at(i)] : i) = i;
+    return (P * original * P.transpose() - L * D * L.transpose()).cwiseAbs().maxCoeff();
+  }
+};
+
+MatrixXd symmetric(std::mt19937& random, int n) {
+  const MatrixXd a = uniform(random, n, n);
+  return a + a.transpose();
+}
+
+TEST(DenseKernels, SymmetricFactorsReproduceIndefiniteFronts) {
+  std::mt19937 random(7);
+  for (int n : {1, 2, 5, 12, 13, 31, 64, 97, 130, 250})
+    for (int full : {0, 1, n / 3, n / 2, n})
+      for (bool has_zero_diagonal : {false, true}) {
+        MatrixXd a = symmetric(random, n);
+        if (has_zero_diagonal) a.diagonal().setZero();
+        SymmetricFront f(a, full);
+        const int pivots = solve::eliminate_symmetric(f.matrix, {.threshold = 0.01, .least = 1e-9});
+        EXPECT_EQ(pivots, n == 1 && has_zero_diagonal ? 0 : full - (full == 1 && has_zero_diagonal ? 1 : 0)) << n;
+        EXPECT_LE(f.defect(a, pivots), 1e-11 * n) << n << " " << full;
+      }
+}
+
+TEST(DenseKernels, SymmetricSaddlePointsAreSolvedInAnyOrder) {
+  std::mt19937 random(8);
+  for (int m : {6, 30, 60}) {
+    const int r = m - 1, n = m + r;
+    MatrixXd a = MatrixXd::Zero(n, n);
+    a.topLeftCorner(m, m) = MatrixXd::Identity(m, m);
+    a.bottomLeftCorner(r, m) = uniform(random, r, m);
+    a.topRightCorner(m, r) = a.bottomLeftCorner(r, m).transpose();
+    for (bool reversed : {false, true}) {
+      const MatrixXd b = reversed ? MatrixXd(a.reverse()) : a;
+      SymmetricFront f(b, n);
+      ASSERT_EQ(solve::eliminate_symmetric(f.matrix, {.threshold = 0.01, .least = 1e-12}), n);
+      EXPECT_LE(f.defect(b, n), 1e-11);
+      const Eigen::VectorXd rhs = uniform(random, n, 1);
+      Eigen::VectorXd v(n), x(n);
+      for (int i = 0; i < n; ++i) v(i) = rhs(f.row_from[static_cast<std::size_t>(i)]);
+      solve::substitute_forward(f.matrix, n, v.data());
+      solve::substitute_backward(f.matrix, n, v.data());
+      for (int i = 0; i < n; ++i) x(f.columns[static_cast<std::size_t>(i)]) = v(i);
+      EXPECT_LE((b * x - rhs).cwiseAbs().maxCoeff(), 1e-9 * (1.0 + x.cwiseAbs().maxCoeff()));
+    }
+  }
+}
+
+TEST(DenseKernels, SymmetricUnknownsWithoutAPivotWait) {
+  std::mt19937 random(9);
+  for (int n : {10, 50, 100}) {
+    MatrixXd a = symmetric(random, n);
+    const int full = n - 4;
+    for (int j : {0, 3, full - 1}) {  // they couple to the boundary alone
+      a.col(j).head(full).setZero();
+      a.row(j).head(full).setZero();
+    }
+    SymmetricFront f(a, full);
+    const int pivots = solve::eliminate_symmetric(f.matrix, {.threshold = 0.01, .least = 1e-9});
+    EXPECT_EQ(pivots, full - 3);
+    EXPECT_LE(f.defect(a, pivots), 1e-10);
+  }
+}
+
+TEST(DenseKernels, TilesOfLargeFrontsComeInAnyOrder) {
+  static int calls = 0;
+  const tree::Walker backwards{nullptr, nullptr,
+                               [](void*, std::int64_t count, std::int64_t grain, tree::Chunk chunk) {
+                                 ++calls;
+                                 for (std::int64_t i = (count - 1) / grain * grain; i >= 0; i -= grain)
+                                   chunk.run(chunk.context, i, std::min(i + grain, count));
+                               },
+                               nullptr};
+  std::mt19937 random(10);
+  const int n = 420, full = 200;
+  const MatrixXd a = uniform(random, n, n), b = symmetric(random, n);
+  Front one(a, full), other(a, full);
+  const solve::PivotRule rule{.threshold = 0.01, .least = 1e-9};
+  EXPECT_EQ(solve::eliminate_with_threshold(one.matrix, rule), full);
+  EXPECT_EQ(solve::eliminate_with_threshold(other.matrix, rule, &backwards), full);
+  EXPECT_EQ(one.a, other.a);
+  SymmetricFront first(b, full), second(b, full);
+  EXPECT_EQ(solve::eliminate_symmetric(first.matrix, rule), full);
+  EXPECT_EQ(solve::eliminate_symmetric(second.matrix, rule, &backwards), full);
+  EXPECT_EQ(first.a, second.a);
+  EXPECT_EQ(first.s, second.s);
+  EXPECT_EQ(first.d, second.d);
+  EXPECT_GE(calls, 4);
+}
+
 }  // namespace
 }  // namespace bough::test

@@ -43,6 +43,17 @@ TEST(Threads, GiveTheSameBitsForAnyCountAndAnyTiming) {
     }
 }
 
+TEST(Threads, ShareLargeFrontsAndGiveTheSameBits) {
+  const Scene scene = make_lattice(9, 40, 40);
+  const auto serial = run(scene, schedule::make_serial_walker(), 0);
+  for (int count : {2, 3}) {
+    schedule::Threads threads(count);
+    EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), 0))) << count;
+    threads.set_random_delay(20, static_cast<unsigned>(count));
+    EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), 0))) << "delayed " << count;
+  }
+}
+
 TEST(Threads, PrepareRunsOncePerLeafBeforeItsElementsAreUsed) {
   const Scene scene = make_chain(3, 12, 4);
   Solved reference(scene, {.leaf_size = 4}, {});

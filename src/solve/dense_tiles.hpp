@@ -1,0 +1,89 @@
+#pragma once
+/// Registers, and the product of packed panels: what the dense kernels are made of. Internal to solve.
+///
+/// Products are fused (rounded once) where the instruction set has it, in vectors and in what is left over alike, so an entry's bits do
+/// not depend on where in a tile it stands. All loops run upward.
+#include <cstddef>
+#include <cstring>
+#if defined(__FMA__) || defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
+namespace bough::solve::tiles {
+
+#if defined(__AVX512F__)
+constexpr int width = 8;
+#elif defined(__AVX__)
+constexpr int width = 4;
+#else
+constexpr int width = 2;
+#endif
+typedef double Lanes __attribute__((vector_size(width * sizeof(double))));
+
+constexpr int tile_registers = 3;                  ///< registers that a tile is high
+constexpr int tile_rows = tile_registers * width;  ///< by `width` columns
+constexpr int deepest = 96;                        ///< pivots in one update
+constexpr int chunk = 96;                          ///< columns of one update: a multiple of every width
+
+inline Lanes load(const double* p) {
+  Lanes v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+inline void store(double* p, const Lanes& v) { std::memcpy(p, &v, sizeof v); }
+inline Lanes all(double x) { return Lanes{} + x; }
+
+#if defined(__AVX512F__)
+inline Lanes add_product(const Lanes& a, const Lanes& b, const Lanes& c) {
+  return Lanes(_mm512_fmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
+}
+inline Lanes take_product(const Lanes& a, const Lanes& b, const Lanes& c) {
+  return Lanes(_mm512_fnmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
+}
+#elif defined(__FMA__)
+inline Lanes add_product(const Lanes& a, const Lanes& b, const Lanes& c) {
+  return Lanes(_mm256_fmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
+}
+inline Lanes take_product(const Lanes& a, const Lanes& b, const Lanes& c) {
+  return Lanes(_mm256_fnmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
+}
+#else
+inline Lanes add_product(const Lanes& a, const Lanes& b, const Lanes& c) { return c + a * b; }
+inline Lanes take_product(const Lanes& a, const Lanes& b, const Lanes& c) { return c - a * b; }
+#endif
+/// c - a b.
+inline double take_product(double a, double b, double c) {
+#if defined(__FMA__) || defined(__AVX512F__)
+  return __builtin_fma(-a, b, c);
+#else
+  return c - a * b;
+#endif
+}
+/// c + a b.
+inline double add_product(double a, double b, double c) {
+#if defined(__FMA__) || defined(__AVX512F__)
+  return __builtin_fma(a, b, c);
+#else
+  return c + a * b;
+#endif
+}
+
+/// c[0, n) -= l[0, n) u.
+inline void take_column(int n, const double* l, double u, double* c) {
+  int i = 0;
+  const Lanes factor = all(u);
+  for (; i + width <= n; i += width) store(c + i, take_product(load(l + i), factor, load(c + i)));
+  for (; i < n; ++i) c[i] = take_product(l[i], u, c[i]);
+}
+
+/// A panel of b, k rows of `width` entries, one for each group of columns: group g begins at g k width.
+inline double* group_of(double* packed, int k, int group) {
+  return packed + static_cast<std::ptrdiff_t>(group) * k * width;
+}
+
+/// c -= a b with b packed (k rows; groups of `width` columns filled up with zeros). c: m x n, a: m x k.
+/// `lower`: only entries (i, j) with i >= j are wanted; others may be overwritten.
+void subtract_packed(int m, int n, int k, const double* a, std::ptrdiff_t lda, const double* packed, double* c,
+                     std::ptrdiff_t ldc, bool lower = false);
+
+}  // namespace bough::solve::tiles
