@@ -75,9 +75,12 @@ struct Threads::State {
 
   void run_chunks(std::int64_t count_items, std::int64_t grain, tree::Chunk chunk) {
     const std::int64_t chunks = (count_items + grain - 1) / grain;
-    tbb::parallel_for(std::int64_t{0}, chunks, [&](std::int64_t c) {
-      delay();
-      chunk.run(chunk.context, c * grain, std::min((c + 1) * grain, count_items));
+    // Isolated: who waits here inside of a visit takes no other visit meanwhile.
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(std::int64_t{0}, chunks, [&](std::int64_t c) {
+        delay();
+        chunk.run(chunk.context, c * grain, std::min((c + 1) * grain, count_items));
+      });
     });
   }
 #endif

@@ -69,6 +69,17 @@ struct TimedWalker::State {
 
   template <class Walk>
   void watch(const tree::Tree& tree, tree::Visit given, bool is_upward, Walk&& walk) {
+    is_walking = true;
+    if (given.work == tree::Work::other) {
+      walk(given);
+    } else {
+      watch_named(tree, given, is_upward, walk);
+    }
+    is_walking = false;
+  }
+
+  template <class Walk>
+  void watch_named(const tree::Tree& tree, tree::Visit given, bool is_upward, Walk& walk) {
     Watched& w = watched(tree);
     visit = given;
     records = w.records.data();
@@ -172,7 +183,7 @@ struct TimedWalker::State {
   }
 
   void watch_chunks(std::int64_t count, std::int64_t grain, tree::Chunk given) {
-    if (count <= 0) {
+    if (count <= 0 || is_walking) {
       inner.for_each_chunk(count, grain, given);
       return;
     }
@@ -211,6 +222,7 @@ struct TimedWalker::State {
   std::vector<TimedEvent> events;  ///< in ticks
   std::int64_t events_left_out = 0;
   bool keeps_events = false;
+  bool is_walking = false;  ///< chunks that visits share out are part of these visits: not watched on their own
   // Of the walk at hand.
   tree::Visit visit;
   tree::Chunk chunk;
@@ -228,12 +240,10 @@ TimedWalker::~TimedWalker() = default;
 tree::Walker TimedWalker::walker() {
   return {[](void* context, const tree::Tree& tree, tree::Visit visit) {
             auto* s = static_cast<State*>(context);
-            if (visit.work == tree::Work::other) return s->inner.walk_up(tree, visit);
             s->watch(tree, visit, true, [&](tree::Visit v) { s->inner.walk_up(tree, v); });
           },
           [](void* context, const tree::Tree& tree, tree::Visit visit) {
             auto* s = static_cast<State*>(context);
-            if (visit.work == tree::Work::other) return s->inner.walk_down(tree, visit);
             s->watch(tree, visit, false, [&](tree::Visit v) { s->inner.walk_down(tree, v); });
           },
           [](void* context, std::int64_t count, std::int64_t grain, tree::Chunk chunk) {

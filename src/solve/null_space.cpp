@@ -104,8 +104,7 @@ void Hierarchical::State::decide_rank() {
   const Eigen::Map<const Matrix> Z(null_space.right.data(), rows, m), Y(null_space.left.data(), rows, m);
   const Eigen::HouseholderQR<Matrix> qr_z(Z), qr_y(Y);
   const Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> T(
-      root.a + root.pivots + static_cast<std::ptrdiff_t>(root.pivots) * root.lda, m, m,
-      Eigen::OuterStride<>(root.lda));
+      root.a + root.pivots + static_cast<std::ptrdiff_t>(root.pivots) * root.lda, m, m, Eigen::OuterStride<>(root.lda));
   const auto R_z = qr_z.matrixQR().topRows(m).triangularView<Eigen::Upper>();
   const auto R_y = qr_y.matrixQR().topRows(m).triangularView<Eigen::Upper>();
   Matrix core = R_y.transpose().solve(Matrix(T));

@@ -133,6 +133,22 @@ TEST(TimedWalker, what_is_kept_is_bounded) {
   EXPECT_EQ(times.events_left_out, 7 * 1000 - 20);
 }
 
+TEST(TimedWalker, chunks_of_a_visit_belong_to_the_visit) {
+  const tree::Tree t = make_binary(4, 1e9);
+  const schedule::Threads pool(2, 0.0);
+  TimedWalker watch(pool.walker());
+  std::atomic<std::int64_t> items{0};
+  for (const Work work : {Work::factor, Work::other}) {
+    auto visit = [&](tree::SubdomainId) {
+      auto body = [&](std::int64_t begin, std::int64_t end) { items += end - begin; };
+      watch.walker().for_each_chunk(10, 3, tree::make_chunk(body));
+    };
+    watch.walker().walk_up(t, tree::make_visit(visit, work));
+  }
+  EXPECT_EQ(items, 2 * 10 * t.num_subdomains());
+  for (const schedule::ChunkTimes& chunks : watch.times().chunks) EXPECT_EQ(chunks.count, 0);
+}
+
 TEST(TimedWalker, chunks_are_passed_on_and_summed) {
   const schedule::Threads pool(2);
   TimedWalker watch(pool.walker());

@@ -50,6 +50,30 @@ void expect_chunks(const tree::Walker& walker) {
     }
 }
 
+thread_local int visits_at_hand = 0;
+
+TEST(Walks, LetVisitsShareOutChunksAndTakeNoOtherVisitMeanwhile) {
+  const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
+  for (int count : {1, 2, 4}) {
+    schedule::Threads threads(count, 0.0);
+    for (unsigned repetition = 0; repetition < 20; ++repetition) {
+      threads.set_random_delay(30, repetition + 1);
+      const tree::Walker walker = threads.walker();
+      std::atomic<int> nested{0}, items{0};
+      auto visit = [&](tree::SubdomainId) {
+        nested += visits_at_hand++ != 0;
+        auto body = [&](std::int64_t begin, std::int64_t end) { items += static_cast<int>(end - begin); };
+        walker.for_each_chunk(5, 1, tree::make_chunk(body));
+        --visits_at_hand;
+      };
+      walker.walk_up(t, tree::make_visit(visit));
+      walker.walk_down(t, tree::make_visit(visit));
+      EXPECT_EQ(nested, 0) << count;
+      EXPECT_EQ(items, 10 * t.num_subdomains()) << count;
+    }
+  }
+}
+
 TEST(Walks, VisitChildrenFirstAndParentsFirst) {
   for (const Scene& scene : make_all_families(1)) {
     const tree::Tree t = tree::make_tree(scene.graph, {.leaf_size = 2});
