@@ -26,7 +26,10 @@ struct BoughStorage {
   solve::Hierarchical solver;
   explicit BoughStorage(const Problem& p)
       : tree(tree::make_tree(p.graph)),
-        solver(p.graph, tree, {.check = solve::SolveCheck::none, .refinement_steps = 0}) {
+        solver(p.graph, tree,
+               {.symmetry = p.is_symmetric() ? solve::Symmetry::symmetric : solve::Symmetry::general,
+                .check = solve::SolveCheck::none,
+                .refinement_steps = 0}) {
     write_elements(p, solver);
   }
 };

@@ -46,7 +46,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
       is_constraint[at(u)] = graph.block_kind[at(b)] == blocks::BlockKind::multiplier;
   fronts.resize(num_fronts);
   enlarged.resize(num_fronts);
-  if (options.elimination == Elimination::plain) symmetry = Symmetry::general;
+  if (options.elimination == Elimination::plain) options.symmetry = Symmetry::general;
   keeps_all = keep_all || options.elimination == Elimination::plain;
   factor_begin.assign(1, 0);
   vector_begin.assign(1, 0);
@@ -57,7 +57,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     const tree::Front& f = front(id);
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
     const std::int64_t size = in_lanes ? 0 : f.size();
-    const FrontShape shape(f.size(), f.num_eliminated, symmetry == Symmetry::symmetric);
+    const FrontShape shape(f.size(), f.num_eliminated, options.symmetry == Symmetry::symmetric);
     factor_begin.push_back(factor_begin.back() + (in_lanes ? 0 : shape.factor_size()));
     vector_begin.push_back(vector_begin.back() + size);
     index_begin.push_back(index_begin.back() + (in_lanes ? 0 : 3 * f.num_eliminated));
@@ -65,7 +65,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     if (!in_lanes) scalar_fronts.push_back(id);
     add_runs(graph, f);
     run_begin.push_back(static_cast<std::int64_t>(runs.size()));
-    counters.factor_flops += !in_lanes && symmetry == Symmetry::symmetric ? 0.5 * f.flops : f.flops;
+    counters.factor_flops += !in_lanes && options.symmetry == Symmetry::symmetric ? 0.5 * f.flops : f.flops;
   }
   factor_pool.resize(at(factor_begin.back()));
   schur_pool.resize(at(plan_schur(tree, lanes.lane_front, keeps_all, schur_begin)));
@@ -137,7 +137,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   s.visit_rhs = rhs != nullptr ? s.rhs.data() : nullptr;
   if (s.scales_wanted) {
     s.elements.eval_scales(s.scales);
-    if (s.symmetry == Symmetry::symmetric) {
+    if (s.options.symmetry == Symmetry::symmetric) {
       const int unsymmetric = s.elements.find_unsymmetric(s.scales);
       if (unsymmetric >= 0) {
         s.status.outcome = FactorOutcome::unsymmetric;

@@ -23,9 +23,6 @@ struct Run {
   int length;
 };
 
-/// What is known of the values. Symmetric: fronts outside of lanes are factored as L D L^T.
-enum class Symmetry { general, symmetric };
-
 /// Numbers of one front. Without delayed pivots all pointers go into the pools of State.
 struct FrontData {
   double* a = nullptr;  ///< the parts of FrontMatrix
@@ -91,7 +88,6 @@ struct Hierarchical::State {
   std::vector<Enlarged> enlarged;  ///< by front
   std::vector<std::int64_t> factor_begin, schur_begin, vector_begin, index_begin, run_begin,
       own_begin;  ///< by front, into the pools
-  Symmetry symmetry = Symmetry::general;
   bool keeps_all = false;
   LaneDoubles factor_pool, schur_pool;
   std::vector<double> vector_pool, scratch_pool;

@@ -117,6 +117,7 @@ const Hierarchical::State& Hierarchical::reporting_state() const {
   if (s.twin == nullptr) {
     SolveOptions options = s.options;
     options.lanes = false;
+    options.symmetry = Symmetry::general;
     s.twin = std::make_unique<Hierarchical>(s.elements.graph(), s.tree, options);
     s.twin->state_ = std::make_unique<State>(s.elements.graph(), s.tree, options, true);
   }

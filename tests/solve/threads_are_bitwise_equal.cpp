@@ -9,8 +9,9 @@
 namespace bough::test {
 namespace {
 
-std::vector<double> run(const Scene& scene, const tree::Walker& walker, int leaf) {
-  Solved s(scene, {.leaf_size = leaf}, {.refinement_steps = 2, .refinement_above = 0.0});
+std::vector<double> run(const Scene& scene, const tree::Walker& walker, int leaf,
+                        solve::Symmetry symmetry = solve::Symmetry::general) {
+  Solved s(scene, {.leaf_size = leaf}, {.symmetry = symmetry, .refinement_steps = 2, .refinement_above = 0.0});
   EXPECT_TRUE(s.solver.factor(walker).ok());
   const Eigen::VectorXd b = s.random_rhs(5);
   std::vector<double> x(static_cast<std::size_t>(b.size()));
@@ -44,13 +45,17 @@ TEST(Threads, GiveTheSameBitsForAnyCountAndAnyTiming) {
 }
 
 TEST(Threads, ShareLargeFrontsAndGiveTheSameBits) {
-  const Scene scene = make_lattice(9, 40, 40);
-  const auto serial = run(scene, schedule::make_serial_walker(), 0);
-  for (int count : {2, 3}) {
-    schedule::Threads threads(count);
-    EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), 0))) << count;
-    threads.set_random_delay(20, static_cast<unsigned>(count));
-    EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), 0))) << "delayed " << count;
+  Scene scene = make_lattice(9, 40, 40);
+  for (const solve::Symmetry symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric}) {
+    if (symmetry == solve::Symmetry::symmetric)
+      for (Eigen::MatrixXd& a : scene.elements) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
+    const auto serial = run(scene, schedule::make_serial_walker(), 0, symmetry);
+    for (int count : {2, 3}) {
+      schedule::Threads threads(count);
+      EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), 0, symmetry))) << count;
+      threads.set_random_delay(20, static_cast<unsigned>(count));
+      EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), 0, symmetry))) << "delayed " << count;
+    }
   }
 }
 

@@ -19,8 +19,17 @@ enum class SolveCheck {
   componentwise,   ///< both, at the price of a second product.
 };
 
+/// What is known of the values.
+enum class Symmetry {
+  general,    ///< structure symmetric, values not: L U.
+  symmetric,  ///< every element matrix is symmetric, definite or not: L D L^T, half the work and the memory.
+};
+
 struct SolveOptions {
   Elimination elimination = Elimination::flat;
+  /// Symmetric: fronts outside of lanes are factored as such (flat elimination only). Element matrices are looked at when scales are taken
+  /// (FactorOutcome::unsymmetric where they differ from their transposes by more than 1e-9); later on only lower triangles are read.
+  Symmetry symmetry = Symmetry::general;
   bool lanes = true;  ///< equal sub-domains are factored in lockstep, eight to a pack (flat elimination only).
   double penalty_factor =
       1.0;  ///< P = factor x the interface's own stiffness diagonal [-], > 0. Flat: only in what is reported.

@@ -14,7 +14,7 @@ enum class FactorOutcome {
   singular,     ///< a motion unknown is held by nothing (under-constrained, or no element touches it).
   not_finite,   ///< an element matrix holds NaN or infinity.
   backend,      ///< a foreign solver failed otherwise, or is not part of this build (monolithic only).
-  unsymmetric,  ///< the chosen library solves symmetric matrices only (CHOLMOD).
+  unsymmetric,  ///< declared symmetric, or the chosen library solves symmetric matrices only (CHOLMOD).
 };
 
 /// Outcome of factor(). When several fronts fail the lowest one is told.
