@@ -302,21 +302,23 @@ std::vector<ElementBatch> ElementStore::single_batches() const {
   return batches;
 }
 
-int ElementStore::find_unsymmetric(const Scales& scales) const {
-  constexpr double most = 1e-9;
-  for (int e = 0; e < graph_.num_elements(); ++e) {
-    const ConstElementView a = view(e);
-    const std::int64_t n = size_of(e);
-    for (int p = 0, i0 = 0; p < num_blocks_of(e); i0 += graph_.block_size[at(blocks_of(e)[p++])])
-      for (int q = 0, j0 = 0; q <= p; j0 += graph_.block_size[at(blocks_of(e)[q++])])
-        for (int i = 0; i < graph_.block_size[at(blocks_of(e)[p])]; ++i)
-          for (int j = 0; j < graph_.block_size[at(blocks_of(e)[q])]; ++j) {
-            const double scale = scales.column[at(tree_.unknown_begin[at(blocks_of(e)[p])] + i)] *
-                                 scales.column[at(tree_.unknown_begin[at(blocks_of(e)[q])] + j)];
-            if (std::abs(a[(i0 + i) * n + j0 + j] - a[(j0 + j) * n + i0 + i]) * scale > most) return e;
-          }
-  }
-  return -1;
+double ElementStore::asymmetry_of(int e, const Scales& scales) const {
+  const ConstElementView a = view(e);
+  const std::int64_t n = size_of(e);
+  const auto scale_of = [&](int p) { return scales.column.data() + tree_.unknown_begin[at(blocks_of(e)[p])]; };
+  const auto rows_of = [&](int p) { return graph_.block_size[at(blocks_of(e)[p])]; };
+  double most = 0.0;
+  for (int p = 0, i0 = 0; p < num_blocks_of(e); i0 += rows_of(p++))
+    for (int q = 0, j0 = 0; q <= p; j0 += rows_of(q++))
+      for (int i = 0; i < rows_of(p); ++i)
+        for (int j = 0; j < rows_of(q); ++j) {
+          const double upper = a[(j0 + j) * n + i0 + i], lower = a[(i0 + i) * n + j0 + j];
+          if (upper == lower) continue;
+          const double difference = std::abs(upper - lower) * scale_of(p)[i] * scale_of(q)[j];
+          if (!std::isfinite(difference)) return difference;
+          most = std::max(most, difference);
+        }
+  return most;
 }
 
 double ElementStore::eval_norm(const Scales& scales) const {

@@ -1,5 +1,6 @@
 #pragma once
 /// Element matrices, products with them, and the scales taken from them. Internal to solve; shared by both solvers.
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,6 +22,14 @@ struct Scales {
       weight;  ///< column / exact column scale, in [2^-1/2, 2^1/2]: measures multipliers free of the rounding
   std::int64_t empty_unknown = -1;  ///< first unknown whose row or column is zero, or -1
   bool finite = true;
+};
+
+/// An element whose matrix differs from its transpose, or is not finite; none: -1.
+struct Asymmetry {
+  int element = -1;
+  double difference = 0.0;
+  bool is_finite() const { return std::isfinite(difference); }
+  static bool shows(double difference) { return !std::isfinite(difference) || difference > 1e-9; }
 };
 
 class ElementStore {
@@ -58,8 +67,8 @@ class ElementStore {
 
   /// Serial, one pass over the element matrices. No allocation.
   void eval_scales(Scales& scales) const;
-  /// First element whose matrix differs from its transpose by more than 1e-9 in scaled variables, or -1. Serial.
-  int find_unsymmetric(const Scales& scales) const;
+  /// Largest entry of D (A - A^T) D of one element, D the scales of columns; infinity or NaN where A is not finite.
+  double asymmetry_of(int element, const Scales& scales) const;
   /// Largest row sum of magnitudes of the scaled matrix. Serial.
   double eval_norm(const Scales& scales) const;
   /// r = b - A x for the rows of some blocks; most: {|r|, |b|} scaled, raised.

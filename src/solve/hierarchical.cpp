@@ -46,9 +46,12 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
       is_constraint[at(u)] = graph.block_kind[at(b)] == blocks::BlockKind::multiplier;
   fronts.resize(num_fronts);
   enlarged.resize(num_fronts);
-  if (options.elimination == Elimination::plain) options.symmetry = Symmetry::general;
+  symmetry.declared = symmetry.used = options.symmetry;
+  if (is_symmetric() && options.elimination == Elimination::plain) {
+    symmetry.used = Symmetry::general;
+    symmetry.loss = SymmetryLoss::plain_elimination;
+  }
   keeps_all = keep_all || options.elimination == Elimination::plain;
-  factor_begin.assign(1, 0);
   vector_begin.assign(1, 0);
   index_begin.assign(1, 0);
   own_begin.assign(1, 0);
@@ -57,17 +60,14 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     const tree::Front& f = front(id);
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
     const std::int64_t size = in_lanes ? 0 : f.size();
-    const FrontShape shape(f.size(), f.num_eliminated, options.symmetry == Symmetry::symmetric);
-    factor_begin.push_back(factor_begin.back() + (in_lanes ? 0 : shape.factor_size()));
     vector_begin.push_back(vector_begin.back() + size);
     index_begin.push_back(index_begin.back() + (in_lanes ? 0 : 3 * f.num_eliminated));
     own_begin.push_back(own_begin.back() + f.num_eliminated);
     if (!in_lanes) scalar_fronts.push_back(id);
     add_runs(graph, f);
     run_begin.push_back(static_cast<std::int64_t>(runs.size()));
-    counters.factor_flops += !in_lanes && options.symmetry == Symmetry::symmetric ? 0.5 * f.flops : f.flops;
   }
-  factor_pool.resize(at(factor_begin.back()));
+  size_factors();
   schur_pool.resize(at(plan_schur(tree, lanes.lane_front, keeps_all, schur_begin)));
   vector_pool.resize(at(vector_begin.back()));
   scratch_pool.resize(at(vector_begin.back()));
@@ -80,10 +80,33 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);
   scalar_lanes.assign(lanes.fronts.size(), 0);
   sizes.resize(lanes.groups.size());
+  asymmetries.resize(lanes.groups.size());
   x.assign(n, 0.0);
   rhs.assign(n, 0.0);
   residual.assign(n, 0.0);
   correction.assign(n, 0.0);
+}
+
+void Hierarchical::State::size_factors() {
+  factor_begin.assign(1, 0);
+  counters.factor_flops = 0.0;
+  for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
+    const tree::Front& f = front(id);
+    const bool in_lanes = lanes.lane_front[at(id)] >= 0;
+    const FrontShape shape(f.size(), f.num_eliminated, is_symmetric());
+    factor_begin.push_back(factor_begin.back() + (in_lanes ? 0 : shape.factor_size()));
+    counters.factor_flops += !in_lanes && is_symmetric() ? 0.5 * f.flops : f.flops;
+  }
+  factor_pool.resize(at(factor_begin.back()));
+}
+
+void Hierarchical::State::lose_symmetry(const Asymmetry& found) {
+  symmetry.used = Symmetry::general;
+  symmetry.loss = SymmetryLoss::values;
+  symmetry.element = found.element;
+  symmetry.block = elements.blocks_of(found.element)[0];
+  symmetry.difference = found.difference;
+  size_factors();
 }
 
 /// Own unknowns of a front, and its boundary by runs of adjacent rows of the parent.
@@ -122,6 +145,7 @@ Hierarchical& Hierarchical::operator=(Hierarchical&&) noexcept = default;
 ElementView Hierarchical::element(int id) { return state_->elements.view(id); }
 ConstElementView Hierarchical::element(int id) const { return std::as_const(state_->elements).view(id); }
 void Hierarchical::rescale() { state_->scales_wanted = true; }
+const SymmetryReport& Hierarchical::symmetry() const { return state_->symmetry; }
 const FactorStatus& Hierarchical::last_status() const { return state_->status; }
 std::span<const double> Hierarchical::column_scale() const { return state_->scales.column; }
 std::span<const double> Hierarchical::row_scale() const { return state_->scales.row; }
@@ -137,15 +161,8 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   s.visit_rhs = rhs != nullptr ? s.rhs.data() : nullptr;
   if (s.scales_wanted) {
     s.elements.eval_scales(s.scales);
-    if (s.options.symmetry == Symmetry::symmetric) {
-      const int unsymmetric = s.elements.find_unsymmetric(s.scales);
-      if (unsymmetric >= 0) {
-        s.status.outcome = FactorOutcome::unsymmetric;
-        s.status.block = s.elements.blocks_of(unsymmetric)[0];
-        return s.status;
-      }
-      s.scales.row = s.scales.column;  // equal but for the order of a sum
-    }
+    s.check_all_symmetric();
+    if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal but for the order of a sum
     s.norm = s.elements.eval_norm(s.scales);
     s.set_lane_scales();
   }
@@ -154,6 +171,13 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   auto visit = [&s, &prepare](int group) { s.factor_group(group, prepare); };
   s.mark = walker.mark;
   walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
+  if (s.is_symmetric()) {
+    s.check_visits_symmetric();
+    if (!s.is_symmetric()) {
+      prepare = {};  // element matrices are there
+      walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
+    }
+  }
   ++s.counters.factorizations;
   for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
   for (std::size_t i = 0; i < s.scalar_lanes.size(); ++i)
@@ -167,6 +191,27 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   if (s.status.ok()) s.decide_rank();
   if (s.status.ok()) s.find_null_space();
   return s.status;
+}
+
+void Hierarchical::State::check_all_symmetric() {
+  for (int e = 0; is_symmetric() && e < elements.graph().num_elements(); ++e) {
+    const Asymmetry found{e, elements.asymmetry_of(e, scales)};
+    if (found.is_finite() && Asymmetry::shows(found.difference)) lose_symmetry(found);
+  }
+}
+
+/// What the visits found. What is not finite may stand above the diagonal, where no front has seen it; it says nothing about symmetry.
+void Hierarchical::State::check_visits_symmetric() {
+  for (const Asymmetry& a : asymmetries) {
+    if (a.element < 0) continue;
+    if (a.is_finite()) {
+      lose_symmetry(a);
+    } else {
+      status.outcome = FactorOutcome::not_finite;
+      status.block = elements.blocks_of(a.element)[0];
+    }
+    return;
+  }
 }
 
 /// What a front on the scalar path adds to status and counters.

@@ -88,6 +88,8 @@ struct Hierarchical::State {
   std::vector<Enlarged> enlarged;  ///< by front
   std::vector<std::int64_t> factor_begin, schur_begin, vector_begin, index_begin, run_begin,
       own_begin;  ///< by front, into the pools
+  SymmetryReport symmetry;
+  std::vector<Asymmetry> asymmetries;  ///< by group: the first that the visit found
   bool keeps_all = false;
   LaneDoubles factor_pool, schur_pool;
   std::vector<double> vector_pool, scratch_pool;
@@ -119,6 +121,7 @@ struct Hierarchical::State {
   void forward_group(int group);
   void backward_group(int group);
   void residual_group(int group);
+  void check_group_symmetric(int group);
   void set_lane_scales();
   double* schur_of(const LaneFront& f) { return (f.is_top ? lane_tops : lane_scratch).data() + f.schur * lanes_wide; }
   double* factor_of(const LaneFront& f) { return lane_factors.data() + f.factor * lanes_wide; }
@@ -142,6 +145,11 @@ struct Hierarchical::State {
   template <class Body>
   void for_boundary(tree::FrontId f, Body&& body) const;  ///< body(row of the boundary, unknown)
 
+  void size_factors();
+  bool is_symmetric() const { return symmetry.used == Symmetry::symmetric; }
+  void lose_symmetry(const Asymmetry& found);
+  void check_all_symmetric();
+  void check_visits_symmetric();
   void add_runs(const blocks::BlockGraph& graph, const tree::Front& f);
   void count_front(tree::FrontId f);
   double largest_x() const;

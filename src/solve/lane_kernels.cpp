@@ -438,6 +438,31 @@ void multiply_block_lanes(const double* element, int stride, int p, int q, const
     accumulate_rows<true>(p, element + l, static_cast<std::ptrdiff_t>(stride) * wide, wide, q, x + l, y + l);
 }
 
+double largest_asymmetry_lanes(const double* element, int size, const Place* places, int count,
+                               const double* row_scale) {
+  double largest = 0.0;
+  for (int l = 0; l < wide; l += width) {
+    Real most = {};
+    for (int p = 0, i = 0; p < count; ++p)
+      for (int r = places[p].row; r < places[p].row + places[p].length; ++r, ++i) {
+        const double* row = element + static_cast<std::ptrdiff_t>(i) * size * wide + l;
+        const double* column = element + static_cast<std::ptrdiff_t>(i) * wide + l;
+        const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(size) * wide;
+        Real of_row = {};
+        for (int q = 0, j = 0; j < i; ++q)
+          for (int c = places[q].row; c < places[q].row + places[q].length && j < i; ++c, ++j)
+            of_row = greater_of(
+                of_row, magnitude((load(row + j * wide) - load(column + j * step)) * load(row_scale + c * wide + l)));
+        most = greater_of(most, of_row * load(row_scale + r * wide + l));
+      }
+    for (int k = 0; k < width; ++k) {
+      if (!std::isfinite(most[k])) return most[k];
+      largest = std::max(largest, most[k]);
+    }
+  }
+  return largest;
+}
+
 double largest_scaled(const double* v, const double* scale, int count) {
   Real most = {};
   for (int i = 0; i < count * wide; i += width) most = greater_of(most, magnitude(load(v + i) * load(scale + i)));

@@ -36,6 +36,12 @@ void move_block(const double* source, int row_step, int column_step, int rows, i
 /// y_i += sum_j element_ij x_j for a block as above.
 void multiply_block_lanes(const double* element, int stride, int p, int q, const double* x, double* y);
 
+struct Place;
+/// Largest of |a_ij - a_ji| scale_i scale_j over all lanes of an element, `count` blocks at their places in the front whose row scales are
+/// given; not a number comes out as infinity or NaN.
+double largest_asymmetry_lanes(const double* element, int size, const Place* places, int count,
+                               const double* row_scale);
+
 /// Largest of |v_i| scale_i over `count` packs and all lanes; not a number comes out as infinity or NaN.
 double largest_scaled(const double* v, const double* scale, int count);
 

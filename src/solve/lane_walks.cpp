@@ -18,6 +18,7 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   if (prepare.run != nullptr && group.element_begin < group.element_end)
     prepare.run(prepare.context, index, group.element_begin, group.element_end);
   mark(tree::Stage::evaluate);
+  if (is_symmetric()) check_group_symmetric(index);
   if (group.in_lanes) {
     for (int f = group.front_begin; f < group.front_end; ++f) {
       factor_lane_front(f);
@@ -31,6 +32,33 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   if (visit_rhs == nullptr || group.subdomains.front() == tree.root()) return;
   forward_group(index);
   mark(tree::Stage::forward);
+}
+
+/// Looks at the element matrices of a visit: values that are symmetric once need not stay so.
+void Hierarchical::State::check_group_symmetric(int index) {
+  const LaneGroup& group = lanes.groups[at(index)];
+  Asymmetry& found = asymmetries[at(index)];
+  found = {};
+  const auto look_at = [&](int e) {
+    const double difference = elements.asymmetry_of(e, scales);
+    if (found.element < 0 && Asymmetry::shows(difference)) found = {e, difference};
+  };
+  if (!group.in_lanes) {
+    for (int b = group.element_begin; b < group.element_end; ++b) look_at(lanes.batches[at(b)].element[0]);
+    return;
+  }
+  for (int k = group.front_begin; k < group.front_end; ++k) {
+    const LaneFront& f = lanes.fronts[at(k)];
+    for (int i = f.element_begin; i < f.element_end; ++i) {
+      const LaneElement& element = lanes.elements[at(i)];
+      const double most = largest_asymmetry_lanes(
+          elements.values() + element.values, element.size, lanes.places.data() + element.place_begin,
+          static_cast<int>(element.place_end - element.place_begin), lane_row_scales.data() + f.vector * wide);
+      if (!Asymmetry::shows(most)) continue;
+      for (int e : element.element)
+        if (e >= 0) look_at(e);
+    }
+  }
 }
 
 void Hierarchical::State::forward_group(int index) {

@@ -69,7 +69,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
 
 /// Fronts in lanes are general, and what waits of such a front need not be the same rows as columns.
 bool Hierarchical::State::is_symmetric_here(tree::FrontId f) const {
-  if (options.symmetry != Symmetry::symmetric || lanes.lane_front[at(f)] >= 0) return false;
+  if (!is_symmetric() || lanes.lane_front[at(f)] >= 0) return false;
   for (tree::FrontId c : tree.children(front(f)))
     if (is_scalar(c) && !data(c).is_symmetric() && data(c).num_delayed() > 0) return false;
   return true;

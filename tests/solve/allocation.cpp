@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <utility>
+#include <vector>
 
 #include "solving.hpp"
 
@@ -34,8 +36,14 @@ namespace {
 
 TEST(Allocation, NothingAllocatesAfterTheFirstFactorAndSolve) {
   const tree::Walker walker = schedule::make_serial_walker();
-  for (const Scene& scene : make_all_families(5)) {
-    Solved s(scene, {.leaf_size = 3}, {});
+  std::vector<std::pair<Scene, solve::Symmetry>> cases;
+  for (Scene& scene : make_all_families(5)) {
+    cases.emplace_back(scene, solve::Symmetry::general);
+    for (Eigen::MatrixXd& a : scene.elements) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
+    cases.emplace_back(std::move(scene), solve::Symmetry::symmetric);
+  }
+  for (const auto& [scene, symmetry] : cases) {
+    Solved s(scene, {.leaf_size = 3}, {.symmetry = symmetry});
     const Eigen::VectorXd b = Eigen::VectorXd::Ones(scene.num_unknowns());
     Eigen::VectorXd x(b.size());
     ASSERT_TRUE(s.factor().ok());

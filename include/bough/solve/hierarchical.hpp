@@ -55,6 +55,9 @@ class Hierarchical {
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
 
   const FactorStatus& last_status() const;
+  /// How the values are factored. Declared symmetric and found not to be: general from that factorization on, which is then done a
+  /// second time within the same factor(), in storage allocated there once.
+  const SymmetryReport& symmetry() const;
   SolverCounters counters() const;
   /// Interfaces of all sub-domains but the root, in order; computes condition numbers (dense singular values: for reports, allocates) of
   /// those with at most `widest` unknowns, NaN for others. flops: of the sub-domain's own fronts; seconds are not measured here.

@@ -19,16 +19,16 @@ enum class SolveCheck {
   componentwise,   ///< both, at the price of a second product.
 };
 
-/// What is known of the values.
+/// What the caller knows of the values.
 enum class Symmetry {
   general,    ///< structure symmetric, values not: L U.
-  symmetric,  ///< every element matrix is symmetric, definite or not: L D L^T, half the work and the memory.
+  symmetric,  ///< every element matrix is symmetric, definite or not: L D L^T.
 };
 
 struct SolveOptions {
   Elimination elimination = Elimination::flat;
-  /// Symmetric: fronts outside of lanes are factored as such (flat elimination only). Element matrices are looked at when scales are taken
-  /// (FactorOutcome::unsymmetric where they differ from their transposes by more than 1e-9); later on only lower triangles are read.
+  /// Symmetric: half the work and the memory on fronts outside of lanes (flat elimination only). Every factorization looks at every element
+  /// matrix; where one differs from its transpose the solver goes over to general for good and says so in Hierarchical::symmetry().
   Symmetry symmetry = Symmetry::general;
   bool lanes = true;  ///< equal sub-domains are factored in lockstep, eight to a pack (flat elimination only).
   double penalty_factor =

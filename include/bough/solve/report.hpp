@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "bough/solve/options.hpp"
 #include "bough/tree/tree.hpp"
 
 namespace bough::solve {
@@ -14,7 +15,7 @@ enum class FactorOutcome {
   singular,     ///< a motion unknown is held by nothing (under-constrained, or no element touches it).
   not_finite,   ///< an element matrix holds NaN or infinity.
   backend,      ///< a foreign solver failed otherwise, or is not part of this build (monolithic only).
-  unsymmetric,  ///< declared symmetric, or the chosen library solves symmetric matrices only (CHOLMOD).
+  unsymmetric,  ///< the chosen library solves symmetric matrices only (CHOLMOD).
 };
 
 /// Outcome of factor(). When several fronts fail the lowest one is told.
@@ -47,6 +48,23 @@ struct SolveReport {
   bool finite = true;               ///< false: the solution holds NaN or infinity.
   int interface_iterations = 0;     ///< of the interface problem, refinement included (forms with global multipliers).
   bool interface_converged = true;  ///< false: the iteration on the interface problem gave up.
+};
+
+/// Why values that were declared symmetric are not factored as such.
+enum class SymmetryLoss {
+  none,               ///< they are; or they were not declared symmetric.
+  values,             ///< an element matrix differs from its transpose: SymmetryReport::element.
+  plain_elimination,  ///< Elimination::plain condenses by general inverses.
+};
+
+/// How a solver factors, and why.
+struct SymmetryReport {
+  Symmetry declared = Symmetry::general;
+  Symmetry used = Symmetry::general;
+  SymmetryLoss loss = SymmetryLoss::none;
+  int element = -1;         ///< the first found, by visit and by order in it.
+  int block = -1;           ///< its first block.
+  double difference = 0.0;  ///< largest entry of its D (A - A^T) D [-], scaled variables; above 1e-9.
 };
 
 /// Interface of one sub-domain, or the one interface problem of a form with global multipliers, after factor(). Scaled variables.
