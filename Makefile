@@ -9,7 +9,7 @@ STUDY ?= build/study
 CTEST := ctest --test-dir build/release --output-on-failure --no-tests=error -j $(JOBS)
 NEED := sh cmake/install_dependencies.sh
 
-.PHONY: help run build test bench study check-all install lint format clean
+.PHONY: help run build test bench study stress check-all install lint format clean
 
 help:
 	@echo "make run        install what is missing, build, simulate $(SCENARIO), write and draw $(RESULTS)"
@@ -17,6 +17,7 @@ help:
 	@echo "make test       build and run the unit and verification tests"
 	@echo "make bench      build and run the benchmarks"
 	@echo "make study      errors against run times of the standing set, one report with an index ($(STUDY)); about ten minutes"
+	@echo "make stress     build and measure the stiff and extreme cases: build/stress/stress.html"
 	@echo "make lint       format, include arrows, file lengths;  make format repairs the first"
 	@echo "make check-all  everything: both compilers, slow tests, sanitizers, coverage, browser (an hour or more)"
 	@echo "make install    install into PREFIX ($(PREFIX)), with sudo only if the folder needs it"
@@ -42,6 +43,9 @@ test:
 	cmake --preset release -DBOUGH_BUILD_TESTS=ON
 	cmake --build build/release --parallel $(JOBS)
 	$(CTEST) -L '^(unit|verification)$$'
+
+stress: build
+	build/release/bough stress --out build/stress --threads $(JOBS)
 
 bench:
 	@$(NEED) build bench

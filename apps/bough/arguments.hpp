@@ -90,6 +90,13 @@ struct StudyArguments {
   bool quiet = false;
 };
 struct DoctorArguments {};
+struct StressArguments {
+  std::filesystem::path out;
+  bool quick = false;
+  int threads = 0;
+  std::string only;  ///< a case or a family; empty: all
+  bool quiet = false;
+};
 
 /// One page per verb: cmd_<verb>.cpp. Each returns the exit status.
 int run(const RunArguments& arguments);
@@ -105,6 +112,7 @@ int kinematics_motion(const MotionArguments& arguments);
 int study_scene(const StudyArguments& arguments);
 int schema(const SchemaArguments& arguments);
 int doctor(const DoctorArguments& arguments);
+int stress(const StressArguments& arguments);
 
 /// Reads the command line and calls the verb.
 int dispatch(int count, char** values);

@@ -10,8 +10,9 @@
 namespace bough::app {
 namespace {
 
-const std::vector<std::string> verbs = {"run",        "view",          "batch", "check",   "schema", "compare",
-                                        "kinematics", "export-matrix", "study", "profile", "tune",   "doctor"};
+const std::vector<std::string> verbs = {"run",     "view",       "batch",         "check", "schema",
+                                        "compare", "kinematics", "export-matrix", "study", "stress",
+                                        "profile", "tune",       "doctor"};
 
 /// A finite number from low to high. (CLI::Range lets NaN pass.)
 CLI::Validator between(double low, double high) {
@@ -210,6 +211,22 @@ void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArgu
   });
 }
 
+void add_stress(CLI::App& app, StressArguments& a, int& code) {
+  CLI::App& verb =
+      add_verb(app, "stress", "Measure the stiff and extreme cases of the standing table",
+               "  bough stress --out stress --threads 2\n"
+               "  bough stress --out stress --quick\n"
+               "  bough stress --out stress --case elastica\n"
+               "Writes stress.json and stress.html. Exit status: 0 every case ends as the table lists it, or better;\n"
+               "1 one does not, or the table was stopped; 2 bad input.");
+  verb.add_option("--out", a.out, "Directory of the report")->type_name("DIR")->required();
+  verb.add_flag("--quick", a.quick, "Every family, long runs shortened and marked");
+  add_threads(verb, a.threads, "Cases side by side");
+  verb.add_option("--case", a.only, "Only this case, or the cases of this family")->type_name("NAME");
+  verb.add_flag("--quiet", a.quiet, "Print only what is not as the table lists it");
+  verb.callback([&] { code = stress(a); });
+}
+
 void add_razi(CLI::App& kinematics, RaziArguments& a, int& code) {
   CLI::App& verb = add_verb(
       kinematics, "razi", "Split the acceleration of a point in nested frames into its parts",
@@ -313,6 +330,8 @@ int dispatch(int count, char** values) {
   add_small_verbs(app, check_arguments, compare_arguments, schema_arguments, code);
   StudyArguments study_arguments;
   add_study(app, study_arguments, code);
+  StressArguments stress_arguments;
+  add_stress(app, stress_arguments, code);
   RaziArguments razi_arguments;
   CLI::App& kinematics = add_verb(app, "kinematics", "Kinematics without a simulation: razi, motion",
                                   "  bough kinematics razi --help\n  bough kinematics motion --help");

@@ -73,6 +73,36 @@ void write_limit_points(JsonText& json, const std::vector<results::LimitPoint>& 
   json.end_array();
 }
 
+/// What speaks against the run, and how the levels of the tree were met with.
+void write_trust(JsonText& json, const results::Summary& summary) {
+  json.key("trust");
+  json.begin_object();
+  json.member("verdict", summary.doubts.empty() ? std::string_view("nothing speaks against this run")
+                                                : std::string_view("not to be trusted without a closer look"));
+  json.key("doubts");
+  json.begin_array();
+  for (const results::Doubt& doubt : summary.doubts) {
+    json.begin_object();
+    json.member("about", std::string_view(doubt.about));
+    json.member("text", std::string_view(doubt.text));
+    json.end_object();
+  }
+  json.end_array();
+  json.key("levels");
+  json.begin_array();
+  for (const results::LevelFigures& level : summary.levels) {
+    json.begin_object();
+    json.member("level", static_cast<long long>(level.level));
+    json.member("sub_domains", static_cast<long long>(level.subdomains));
+    json.member("interface_unknowns", static_cast<long long>(level.interface_unknowns));
+    if (level.condition > 0.0) json.member("interface_condition", level.condition);
+    json.member("backward_error", level.backward_error);
+    json.end_object();
+  }
+  json.end_array();
+  json.end_object();
+}
+
 /// Final values: {sensor: number} or {sensor: {component: number}}.
 void write_sensors(JsonText& json, const results::Summary& summary) {
   const std::vector<std::string>& columns = summary.header.columns;
@@ -184,6 +214,7 @@ std::string summary_text(const results::Summary& summary, std::string_view versi
   write_steps(json, summary);
   write_checks(json, summary.checks);
   write_limit_points(json, summary.limit_points);
+  write_trust(json, summary);
   json.key("notes");
   json.begin_array();
   for (const std::string& note : summary.notes) json.value(std::string_view(note));
@@ -224,6 +255,10 @@ SummaryFile read_summary(const std::filesystem::path& path) {
       if (number_of(checks->items[k], value)) summary.checks.emplace_back(checks->keys[k], value);
     }
   }
+  if (const JsonValue* trust = json->find("trust"); trust != nullptr)
+    if (const JsonValue* doubts = trust->find("doubts"); doubts != nullptr)
+      for (const JsonValue& doubt : doubts->items)
+        summary.doubts.push_back({text_of(doubt, "about"), text_of(doubt, "text")});
   if (const JsonValue* options = json->find("options"); options != nullptr) {
     for (std::size_t k = 0; k < options->items.size() && k < options->keys.size(); ++k)
       if (options->items[k].is(JsonKind::string))

@@ -143,6 +143,12 @@ std::string tables(const io::SummaryFile& summary) {
     }
     html += "</table></div>\n";
   }
+  if (!summary.doubts.empty()) {
+    html += "<h2>Not to be trusted without a closer look</h2>\n<ul>\n";
+    for (const results::Doubt& doubt : summary.doubts)
+      html += "<li>" + escaped(doubt.about) + ": " + escaped(doubt.text) + "</li>\n";
+    html += "</ul>\n";
+  }
   if (!summary.checks.empty()) {
     html += "<h2>Checks</h2>\n<div class=\"wide\"><table>\n";
     for (const auto& [name, value] : summary.checks)

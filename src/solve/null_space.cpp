@@ -36,6 +36,42 @@ void orthonormalise(std::vector<double>& vectors, int count, std::size_t n, cons
   }
 }
 
+/// Whether the constraint forces of a vector (scaled) cancel at every node: G^T y = 0 against |G|^T |y|, in the units of the scene. Where rows really
+/// depend they do, whatever masses there are. Behind a light body between heavy ones they do not, although in scaled variables, in which
+/// the light body moves by much, the singular value is only the ratio of the masses. A thirtieth of what meets at a node passes, and what is 3e-5
+/// of the largest: loops that are still open, by 1e-5 as rank_tolerance has it.
+bool forces_cancel(const ElementStore& elements, const tree::Tree& tree, const bool* is_constraint,
+                   const std::vector<double>& column_scale, const double* z) {
+  constexpr double passing = 3e-2, insignificant = 1e-3;
+  std::vector<double> sum(at(tree.num_unknowns()), 0.0), magnitude(sum.size(), 0.0);
+  std::vector<std::size_t> unknowns;
+  for (const int e : tree.element_order) {
+    unknowns.clear();
+    bool has_constraint = false;
+    for (int k = 0; k < elements.num_blocks_of(e); ++k) {
+      const auto block = at(elements.blocks_of(e)[k]);
+      has_constraint |= is_constraint[at(tree.unknown_begin[block])];
+      for (auto u = tree.unknown_begin[block]; u < tree.unknown_begin[block + 1]; ++u) unknowns.push_back(at(u));
+    }
+    if (!has_constraint) continue;
+    const ConstElementView a = elements.view(e);
+    const std::size_t n = unknowns.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (is_constraint[unknowns[i]]) continue;
+      for (std::size_t j = 0; j < n; ++j) {
+        if (!is_constraint[unknowns[j]]) continue;
+        const double force = a[static_cast<std::int64_t>(i * n + j)] * column_scale[unknowns[j]] * z[unknowns[j]];
+        sum[unknowns[i]] += force;
+        magnitude[unknowns[i]] += std::abs(force);
+      }
+    }
+  }
+  const double most = *std::max_element(magnitude.begin(), magnitude.end());
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (!(std::abs(sum[i]) <= passing * std::max(magnitude[i], insignificant * most))) return false;
+  return true;
+}
+
 }  // namespace
 
 /// With the k left-over rows and columns of the root held at unit vectors in turn: right vectors z by back-substitution, left ones y with L.
@@ -92,7 +128,7 @@ void Hierarchical::State::backward_left_front(tree::FrontId f, std::vector<doubl
 
 /// The left-over block T of the root is small, but small against what? With Z = Q_z R_z and Y = Q_y R_y the smallest singular values of A
 /// are, nearly, those of R_y^-T T R_z^-1: the distances to singular matrices. Directions without motion count as dependent rows below
-/// rank_tolerance, others as singular below singular_tolerance; all the rest is eliminated after all.
+/// rank_tolerance where their forces cancel as well, others as singular below singular_tolerance; all the rest is eliminated after all.
 void Hierarchical::State::decide_rank() {
   FrontData& root = fronts.back();
   const int m = root.num_delayed();
@@ -116,15 +152,23 @@ void Hierarchical::State::decide_rank() {
       if (!is_constraint[i]) sum += unit_vectors.row(static_cast<Eigen::Index>(i)).squaredNorm();
     return std::sqrt(sum);
   };
+  const auto cancels = [&](const Eigen::VectorXd& z) {
+    return forces_cancel(elements, tree, is_constraint.get(), scales.column, z.data());
+  };
+  const auto all_cancel = [&] {
+    for (int j = 0; j < m; ++j)
+      if (!cancels(basis.col(j))) return false;
+    return true;
+  };
   int dependent = 0;
-  if (core.norm() <= options.rank_tolerance && motion_share(basis) <= options.null_motion_tolerance) {
+  if (core.norm() <= options.rank_tolerance && motion_share(basis) <= options.null_motion_tolerance && all_cancel()) {
     dependent = m;  // the usual case: constraint rows that depend, and nothing else
   } else {
     const Eigen::JacobiSVD<Matrix> svd(core, Eigen::ComputeFullV);
     for (int j = 0; j < m; ++j) {
-      const double motion = motion_share(basis * svd.matrixV().col(j));
-      if (!(svd.singularValues()(j) >
-            (motion > options.null_motion_tolerance ? options.singular_tolerance : options.rank_tolerance)))
+      const Eigen::VectorXd z = basis * svd.matrixV().col(j);
+      const bool is_of_constraints = motion_share(z) <= options.null_motion_tolerance && cancels(z);
+      if (!(svd.singularValues()(j) > (is_of_constraints ? options.rank_tolerance : options.singular_tolerance)))
         ++dependent;
     }
   }

@@ -9,6 +9,7 @@
 #include "effective_options.hpp"
 #include "run.hpp"
 #include "solver_figures.hpp"
+#include "trust.hpp"
 
 namespace bough::study {
 
@@ -90,7 +91,10 @@ void Run::note(const std::string& text) {
 void Run::count(const step::StepReport& report, bool accepted) {
   (accepted ? summary_.steps.accepted : summary_.steps.rejected) += 1;
   summary_.steps.newton_iterations += report.iterations;
-  if (accepted && report.at_floor) summary_.checks.round_off_floor_reached = true;
+  if (accepted && report.at_floor) {
+    summary_.checks.round_off_floor_reached = true;
+    ++summary_.checks.steps_at_floor;
+  }
   if (accepted) watch_dependent_rows();
   if (!accepted && first_rejection_.empty())
     first_rejection_ = "the first rejected step was that from " + std::to_string(state_.time) + ": " + report.cause;
@@ -169,7 +173,11 @@ bool Run::may_try(double target) {
 void Run::check() {
   summary_.checks.constraint_violation_position =
       std::max(summary_.checks.constraint_violation_position, system_.constraint_violation(state_, 0));
+  summary_.checks.relative_violation_position =
+      std::max(summary_.checks.relative_violation_position, system_.relative_violation(state_, 0));
   if (!plan_.is_dynamic) return;
+  summary_.checks.relative_violation_step =
+      std::max(summary_.checks.relative_violation_step, system_.relative_violation(state_, 1) * last_step_);
   summary_.checks.constraint_violation_velocity =
       std::max(summary_.checks.constraint_violation_velocity, system_.constraint_violation(state_, 1));
   balance_.compare(results::eval_measures(system_, state_), work_meter_.supply());
@@ -189,6 +197,7 @@ void Run::finish() {
   summary_.checks.energy_balance = balance_.energy_error();
   summary_.checks.energy_scale = balance_.energy_scale();
   summary_.checks.numerical_dissipation = std::max(0.0, -balance_.last_energy_error());
+  summary_.checks.energy_gained = std::max(0.0, balance_.last_energy_error());
   summary_.checks.momentum_balance = balance_.momentum_error();
   if (dependent_rows_ > 0)
     note(std::to_string(dependent_rows_) +
@@ -211,6 +220,8 @@ void Run::finish() {
     summary_.expected.push_back(e);
   }
   summary_.solver = solver_figures(system_, dependent_rows_);
+  if (summary_.status == RunStatus::ok) look_at_last_factor(system_, summary_);
+  summary_.doubts = doubts_of(summary_, plan_.is_dynamic);
   if (after_run_) after_run_(system_, state_);
 }
 

@@ -2,8 +2,121 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace bough::study {
+
+namespace {
+
+constexpr int widest_for_condition = 60;  // dense singular values of wider ones would take longer than short runs
+
+/// Largest row sum of |D_r A D_c|, elements apart.
+double norm_of(step::System& system, const solve::Hierarchical& solver) {
+  const blocks::BlockGraph& g = system.plan().graph;
+  const std::span<const double> rows = solver.row_scale(), columns = solver.column_scale();
+  std::vector<double> sums(system.num_unknowns(), 0.0);
+  std::vector<std::size_t> unknowns;
+  for (int e = 0; e < g.num_elements(); ++e) {
+    unknowns.clear();
+    for (std::int64_t k = g.element_begin[static_cast<std::size_t>(e)];
+         k < g.element_begin[static_cast<std::size_t>(e) + 1]; ++k) {
+      const int block = g.element_blocks[static_cast<std::size_t>(k)];
+      for (int i = 0; i < g.block_size[static_cast<std::size_t>(block)]; ++i)
+        unknowns.push_back(static_cast<std::size_t>(system.block_begin(block) + i));
+    }
+    const solve::ConstElementView a = solver.element(e);
+    for (std::size_t i = 0, at = 0; i < unknowns.size(); ++i)
+      for (std::size_t j = 0; j < unknowns.size(); ++j, ++at)
+        sums[unknowns[i]] += std::abs(a[static_cast<std::int64_t>(at)]) * columns[unknowns[j]];
+  }
+  double norm = 0.0;
+  for (std::size_t i = 0; i < sums.size(); ++i) norm = std::max(norm, sums[i] * rows[i]);
+  return norm;
+}
+
+/// Fixed signs, as if drawn: no direction is left out.
+std::vector<double> signs(std::size_t count) {
+  std::vector<double> values(count);
+  std::uint64_t state = 0x9e3779b97f4a7c15u;
+  for (double& v : values) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    v = (state >> 63) != 0 ? 1.0 : -1.0;
+  }
+  return values;
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double v : values) most = std::max(most, std::abs(v));
+  return most;
+}
+
+/// Levels with their widths, and the conditions of their interfaces where these are narrow.
+std::vector<results::LevelFigures> make_levels(const tree::Tree& tree, const solve::Hierarchical& solver) {
+  std::vector<results::LevelFigures> levels;
+  for (const tree::Subdomain& s : tree.subdomains) {
+    levels.resize(std::max(levels.size(), static_cast<std::size_t>(s.level) + 1));
+    results::LevelFigures& level = levels[static_cast<std::size_t>(s.level)];
+    ++level.subdomains;
+    level.interface_unknowns =
+        std::max(level.interface_unknowns, tree.fronts[static_cast<std::size_t>(s.top())].num_boundary);
+  }
+  int widest = 0;
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    levels[l].level = static_cast<int>(l);
+    widest = std::max(widest, levels[l].interface_unknowns);
+  }
+  if (widest > widest_for_condition || tree.num_subdomains() > 10000) return levels;
+  for (const solve::InterfaceReport& i : solver.interfaces()) {
+    results::LevelFigures& level = levels[static_cast<std::size_t>(i.level)];
+    level.condition = std::max(level.condition, i.condition);
+  }
+  return levels;
+}
+
+}  // namespace
+
+void look_at_last_factor(step::System& system, results::Summary& summary) {
+  const solve::Hierarchical* solver = system.solver().hierarchical();
+  if (solver == nullptr || system.counts().factorizations == 0 || !solver->last_status().ok()) return;
+  const tree::Tree& tree = system.tree();
+  const std::span<const double> rows = solver->row_scale(), columns = solver->column_scale();
+  const std::size_t n = system.num_unknowns();
+  std::vector<double> scaled = signs(n), b(n), x(n), product(n);
+  const double norm = norm_of(system, *solver);
+  summary.levels = make_levels(tree, *solver);
+  double growth = 0.0;
+  constexpr int iterations = 4;  // of inverse iteration: what grows most is met within a small factor by then
+  for (int k = 0; k < iterations; ++k) {
+    for (std::size_t i = 0; i < n; ++i) b[i] = scaled[i] / rows[i];
+    (void)system.solver().solve(system.walker(), b.data(), x.data());
+    if (k == 0) {  // the system is as consistent as its rows let it be: residuals of dependent rows are left out below
+      system.solver().multiply(system.walker(), x.data(), product.data());
+      std::vector<double> solution(n);
+      for (std::size_t i = 0; i < n; ++i) solution[i] = x[i] / columns[i];
+      const double size = norm * largest(solution) + 1.0;
+      for (int block = 0; solver->last_status().deficiency == 0 && block < system.plan().graph.num_blocks(); ++block) {
+        const tree::Front& front =
+            tree.fronts[static_cast<std::size_t>(tree.front_of_block[static_cast<std::size_t>(block)])];
+        results::LevelFigures& level =
+            summary.levels[static_cast<std::size_t>(tree.subdomains[static_cast<std::size_t>(front.subdomain)].level)];
+        for (auto i = static_cast<std::size_t>(system.block_begin(block));
+             i < static_cast<std::size_t>(system.block_begin(block + 1)); ++i)
+          level.backward_error = std::max(level.backward_error, std::abs(b[i] - product[i]) * rows[i] / size);
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) scaled[i] = x[i] / columns[i];
+    const double most = largest(scaled);
+    if (!(most > 0.0) || !std::isfinite(most)) return;
+    growth = std::max(growth, most);
+    for (double& v : scaled) v /= most;
+  }
+  const double condition = norm * growth;
+  summary.solver.emplace_back("condition_estimate", condition);
+  summary.solver.emplace_back("digits_lost", std::max(0.0, std::log10(condition)));
+}
 
 decltype(results::Summary::solver) solver_figures(step::System& system, int dependent_rows) {
   const tree::Tree& tree = system.tree();
@@ -33,7 +146,6 @@ decltype(results::Summary::solver) solver_figures(step::System& system, int depe
   }
   const solve::Hierarchical* hierarchical = system.solver().hierarchical();
   if (hierarchical == nullptr || system.counts().factorizations == 0) return figures;
-  constexpr int widest_for_condition = 60;  // dense singular values of wider ones would take longer than short runs
   int widest = 0;
   for (const tree::Subdomain& s : tree.subdomains)
     widest = std::max(widest, tree.fronts[static_cast<std::size_t>(s.top())].num_boundary);

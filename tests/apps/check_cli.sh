@@ -35,7 +35,7 @@ echo '{"schema_version": 1, "bodies": [{"name": "a", "mass": -1}, 7], "nonsense"
 # words
 expect 0 '^bough [0-9]' --version
 expect 0 'bough run' --help
-for verb in run view batch check schema compare export-matrix kinematics study profile tune doctor; do expect 0 '  bough '$verb $verb --help; done
+for verb in run view batch check schema compare export-matrix kinematics study stress profile tune doctor; do expect 0 '  bough '$verb $verb --help; done
 expect 2 "did you mean 'run'" rnu good.json
 expect 2 "did you mean 'compare'" comapre a b
 expect 2 'Verbs:' xyzzy
@@ -264,6 +264,12 @@ expect 0 silence run good.json --out tuned.out --quiet --set "/solver=$(cat solv
 expect 2 . tune good.json --seconds nan
 
 expect 0 'all is well' doctor
+
+expect 0 'stress.html' stress --out table --quick --threads 2 --case one_body
+holds grep -q '"name": "one_body"' table/stress.json
+holds grep -q '"status": "holds"' table/stress.json
+holds grep -q 'one_body' table/stress.html
+expect 2 "did you mean 'elastica'" stress --out table --case elastic
 
 # Ctrl-C keeps the history to the last accepted step and says so
 pendulum 100000 > long.json

@@ -54,7 +54,7 @@ TEST(JsonText, raw_text_that_is_not_json_becomes_a_string) {
 TEST(Summary, holds_every_promised_field) {
   const JsonValue json = parsed(summary_text(sample_summary(), "9.9"));
   for (const char* key : {"status", "cause", "scene", "title", "version", "threads", "options", "steps", "time_s",
-                          "memory_peak_bytes", "checks", "notes", "solver", "sensors", "expected"})
+                          "memory_peak_bytes", "checks", "trust", "notes", "solver", "sensors", "expected"})
     EXPECT_NE(json.find(key), nullptr) << key;
   for (const char* key : {"accepted", "rejected", "newton_iterations", "factorizations"})
     EXPECT_NE(json.find("steps")->find(key), nullptr) << key;
@@ -122,6 +122,29 @@ TEST(Summary, comes_back_with_what_reports_need) {
   EXPECT_TRUE(std::isinf(back.checks[0].second));
   ASSERT_EQ(back.expected.size(), 2u);
   EXPECT_EQ(back.expected[1].reference, -0.2);
+}
+
+TEST(Summary, says_whether_to_trust_the_run_and_why_not) {
+  const ScratchDirectory scratch;
+  results::Summary summary = sample_summary();
+  const JsonValue good = parsed(summary_text(summary, "1"));
+  EXPECT_EQ(good.find("trust")->find("verdict")->text, "nothing speaks against this run");
+  EXPECT_TRUE(good.find("trust")->find("doubts")->items.empty());
+  summary.doubts = {{"energy", "it grows \"out of nothing\""}};
+  summary.levels = {{0, 1, 0, 0.0, 1e-16}, {1, 2, 6, 3.5, 2e-16}};
+  const std::string text = summary_text(summary, "1");
+  const JsonValue doubted = parsed(text);
+  EXPECT_NE(doubted.find("trust")->find("verdict")->text, good.find("trust")->find("verdict")->text);
+  const JsonValue& levels = *doubted.find("trust")->find("levels");
+  ASSERT_EQ(levels.items.size(), 2u);
+  EXPECT_EQ(levels.items[0].find("interface_condition"), nullptr);
+  EXPECT_EQ(levels.items[1].find("interface_condition")->number, 3.5);
+  EXPECT_EQ(levels.items[1].find("backward_error")->number, 2e-16);
+  write_file(scratch / "summary.json", text);
+  const SummaryFile back = read_summary(scratch / "summary.json");
+  ASSERT_EQ(back.doubts.size(), 1u);
+  EXPECT_EQ(back.doubts[0].about, "energy");
+  EXPECT_EQ(back.doubts[0].text, summary.doubts[0].text);
 }
 
 TEST(Summary, a_file_that_is_no_summary_is_refused) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bough/study/scene_parts.hpp"
 #include "support/scenes.hpp"
 
 namespace bough::study {
@@ -12,44 +13,14 @@ namespace {
 
 using support::Table;
 
-/// N windows of planar four-bars, upright, B0 at 1 m/s.
-scene::Scene four_bars(int windows) {
-  std::string bodies, joints, speeds;
-  const auto number = [](double v) { return support::text(v); };
-  const auto add = [](std::string& list, const std::string& item) { list += (list.empty() ? "" : ", ") + item; };
-  for (int k = 0; k <= windows; ++k) {
-    const std::string name = std::to_string(k), x = number(k);
-    add(bodies, R"({"name": "crank )" + name +
-                    R"(", "mass": 1, "shape": {"kind": "rod", "length": 1, "axis": 2}, "position": [)" + x +
-                    ", 0.5, 0]}");
-    add(speeds, R"({"of": "crank )" + name + R"(", "velocity": [0.5, 0, 0], "angular_velocity": [0, 0, -1]})");
-    add(joints, R"({"name": "A)" + name + R"(", "kind": "revolute", "first": "ground", "second": "crank )" + name +
-                    R"(", "position": [)" + x + R"(, 0, 0], "axis": [0, 0, 1]})");
-    if (k == 0) continue;
-    add(bodies, R"({"name": "coupler )" + name +
-                    R"(", "mass": 1, "shape": {"kind": "rod", "length": 1, "axis": 1}, "position": [)" +
-                    number(k - 0.5) + ", 1, 0]}");
-    add(speeds, R"({"of": "coupler )" + name + R"(", "velocity": [1, 0, 0]})");
-    for (int side = 0; side < 2; ++side) {
-      const std::string crank = std::to_string(k - 1 + side);
-      add(joints, R"({"name": "B)" + name + (side == 0 ? " left" : " right") +
-                      R"(", "kind": "revolute", "first": "crank )" + crank + R"(", "second": "coupler )" + name +
-                      R"(", "position": [)" + number(k - 1 + side) + R"(, 1, 0], "axis": [0, 0, 1]})");
-    }
-  }
-  return support::scene_of(
-      R"({"gravity": [0, -9.81, 0], "bodies": [)" + bodies + R"(], "joints": [)" + joints +
-      R"(], "initial_velocities": [)" + speeds +
-      R"(], "sensors": [{"name": "B0", "kind": "position", "at": {"to": "crank 0", "position": [0, 0.5, 0]}}],
-    "analysis": {"kind": "dynamic", "end_time": 10, "spectral_radius": 0.9, "tolerance": 1e-10}})");
-}
-
 TEST(VerifySlow, forty_windows_of_four_bars_pass_their_flat_positions) {
   const Table exact = support::reference("A02_fourbar_N40.csv");
   double error[2] = {0.0, 0.0}, extrapolated = 0.0;
   Table runs[2];
   for (int k = 0; k < 2; ++k) {
-    scene::Scene scene = four_bars(40);
+    scene::Scene scene = make_four_bars(40);
+    scene.analysis.end_time = 10.0;
+    scene.analysis.tolerance = 1e-10;
     scene.analysis.step_size = k == 0 ? 4e-3 : 2e-3;
     const support::Outcome outcome = support::run(scene);
     ASSERT_TRUE(outcome.ok()) << outcome.summary.cause;

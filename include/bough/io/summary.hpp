@@ -23,6 +23,7 @@ struct SummaryFile {
   std::vector<std::pair<std::string, double>> checks;        ///< numbers only
   std::vector<std::pair<std::string, std::string>> options;  ///< by JSON pointer; texts only
   std::vector<std::string> notes;
+  std::vector<results::Doubt> doubts;  ///< why the run should not be trusted
   std::vector<results::ExpectedResult> expected;
 };
 

@@ -75,6 +75,25 @@ struct Checks {
   bool local_error_known = false;
   double local_error_max = 0.0, local_error_sum = 0.0, local_error_max_velocity = 0.0;
   bool round_off_floor_reached = false;
+  long steps_at_floor = 0;  ///< accepted at the round-off floor of the residual, above the tolerance
+  double energy_gained =
+      0.0;  ///< of energy_balance, what the integrator had added at the end [J]; 0 where it took some
+  double relative_violation_position = 0.0;  ///< over the size of the structure, angles as they are [-]
+  double relative_violation_step =
+      0.0;  ///< of rates, times the step: what opens in one step, over the size of the structure [-]
+};
+/// One level of the tree of sub-domains, looked at with the last factorization of a run.
+struct LevelFigures {
+  int level = 0;  ///< 0 at the root
+  int subdomains = 0;
+  int interface_unknowns = 0;   ///< of the widest interface to the level above; 0 at the root
+  double condition = 0.0;       ///< of the worst interface, in scaled variables [-]; 0: not computed
+  double backward_error = 0.0;  ///< of the unknowns eliminated there, normwise [-]
+};
+/// A reason not to trust a run without a closer look.
+struct Doubt {
+  std::string about;  ///< "run", "energy", "linear solutions", "condition", "constraints", "round-off", "steps"
+  std::string text;
 };
 /// Where the load factor turns along the path of equilibria.
 struct LimitPoint {
@@ -109,6 +128,8 @@ struct Summary {
   HistoryHeader header;
   std::vector<double> final_values;  ///< by header
   std::vector<ExpectedResult> expected;
+  std::vector<Doubt> doubts;         ///< why the run should not be trusted, in words; empty: nothing was found
+  std::vector<LevelFigures> levels;  ///< of the hierarchical solver
   std::vector<std::pair<std::string, double>>
       solver;  ///< figures of the tree: sub-domains, levels, interface unknowns, condition, ...
 };

@@ -1,0 +1,57 @@
+/// bough stress: the standing table of stiff and extreme cases.
+#include <algorithm>
+#include <iostream>
+
+#include "arguments.hpp"
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/report/stress_page.hpp"
+#include "bough/study/stress.hpp"
+#include "bough/version.hpp"
+#include "terminal.hpp"
+
+namespace bough::app {
+
+int stress(const StressArguments& arguments) {
+  const study::StressOptions options{arguments.quick, arguments.threads > 0 ? arguments.threads : default_threads(),
+                                     arguments.only};
+  const std::vector<std::string> problems = problems_in(options);
+  for (const std::string& problem : problems) std::cerr << "bough: " << problem << "\n";
+  if (!problems.empty()) return exit_bad_input;
+  catch_interrupts();
+  const auto tell = [&](const study::StressCase& c, std::size_t done, std::size_t all) {
+    if (arguments.quiet && c.is_as_expected()) return;
+    std::ostream& out = c.is_as_expected() ? std::cout : std::cerr;
+    out << "[" << done << "/" << all << "] " << c.name << ": " << text_of(c.status);
+    if (!c.is_as_expected())
+      out << ", listed as " << text_of(c.expected) << ": " << c.measured;
+    else if (c.status == study::StressStatus::fails)
+      out << ", as listed: " << c.reason;
+    out << " (" << io::rounded_text(c.seconds, 2) << " s)" << std::endl;
+  };
+  const std::vector<study::StressCase> cases = study::run_stress(options, tell, interrupted);
+  try {
+    std::filesystem::create_directories(arguments.out);
+    io::write_file(arguments.out / "stress.json", study::stress_json(cases, options, std::string(version)));
+    io::write_file(arguments.out / "stress.html", report::stress_page(cases, options));
+  } catch (const std::exception& error) {
+    std::cerr << "bough: " << error.what() << "\n";
+    return exit_failed;
+  }
+  const auto count = [&](study::StressStatus status) {
+    return std::count_if(cases.begin(), cases.end(), [status](const auto& c) { return c.status == status; });
+  };
+  double ratio = 0.0;
+  for (const study::StressCase& c : cases) ratio = std::max(ratio, c.lapack_ratio);
+  if (!arguments.quiet)
+    std::cout << count(study::StressStatus::holds) << " hold, " << count(study::StressStatus::fails) << " fail, "
+              << count(study::StressStatus::refused) << " refused by name; LAPACK ratio at most "
+              << io::rounded_text(ratio, 2) << ": " << (arguments.out / "stress.html").string() << "\n";
+  const bool is_whole = !interrupted();
+  const bool is_bad = std::any_of(cases.begin(), cases.end(), [](const study::StressCase& c) {
+    return !c.is_as_expected() && c.expected != study::StressStatus::fails;
+  });
+  return is_whole && !is_bad ? exit_done : exit_failed;
+}
+
+}  // namespace bough::app

@@ -1,0 +1,72 @@
+#include "tangent_matrix.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "bough/study/memory_run.hpp"
+#include "bough/study/simulate.hpp"
+
+namespace bough::study::stress {
+
+TangentMatrix tangent_matrix(const scene::Scene& scene) {
+  TangentMatrix t;
+  std::string trouble;
+  SimulateOptions options;
+  options.before_step = [&](step::System& system, const step::State& start, const BeforeStep& step) {
+    step::State state = start;
+    elements::Slopes slopes;
+    const auto failed = [&trouble](const std::optional<step::Trouble>& x) {
+      if (x) trouble = x->text;
+      return x.has_value();
+    };
+    if (scene.analysis.kind == scene::AnalysisKind::dynamics) {
+      if (failed(step::predict(system, state, step.options, step.end, slopes))) return false;
+    } else if (failed(system.set_time(step.end))) {
+      return false;
+    }
+    if (failed(system.evaluate(state, slopes, true)) || failed(system.factor(true, slopes))) return false;
+    const auto n = static_cast<Eigen::Index>(system.num_unknowns());
+    t.matrix.resize(n, n);
+    Eigen::VectorXd unit = Eigen::VectorXd::Zero(n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      unit(j) = 1.0;
+      system.solver().multiply(system.walker(), unit.data(), t.matrix.col(j).data());
+      unit(j) = 0.0;
+    }
+    if (const solve::Hierarchical* h = system.solver().hierarchical(); h != nullptr) {
+      const Eigen::Map<const Eigen::VectorXd> rows(h->row_scale().data(), n), columns(h->column_scale().data(), n);
+      t.scaled = rows.asDiagonal() * t.matrix * columns.asDiagonal();
+    } else {
+      t.scaled = t.matrix;
+    }
+    t.rhs = -Eigen::Map<const Eigen::VectorXd>(system.residual().data(), n);
+    t.solution.resize(n);
+    if (failed(system.solve(t.rhs.data(), t.solution.data()))) return false;
+    t.backward_error = system.last_solution().backward_error;
+    return false;
+  };
+  const MemoryRun run = run_in_memory(scene, options);
+  if (trouble.empty() && t.matrix.size() == 0) trouble = run.summary.cause;
+  if (!trouble.empty()) throw std::runtime_error(trouble);
+  return t;
+}
+
+double condition_of(const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd values = Eigen::BDCSVD<Eigen::MatrixXd>(matrix).singularValues();
+  return values(0) / values(values.size() - 1);
+}
+
+void equilibrate(const Eigen::MatrixXd& matrix, Eigen::VectorXd& row, Eigen::VectorXd& column) {
+  row = Eigen::VectorXd::Ones(matrix.rows());
+  column = Eigen::VectorXd::Ones(matrix.cols());
+  for (int sweep = 0; sweep < 30; ++sweep) {
+    const Eigen::MatrixXd scaled = (row.asDiagonal() * matrix * column.asDiagonal()).cwiseAbs();
+    const auto factor = [](double most) { return most > 0.0 ? 1.0 / std::sqrt(most) : 1.0; };
+    for (Eigen::Index i = 0; i < row.size(); ++i) {
+      row(i) *= factor(scaled.row(i).maxCoeff());
+      column(i) *= factor(scaled.col(i).maxCoeff());
+    }
+  }
+}
+
+}  // namespace bough::study::stress

@@ -1,0 +1,31 @@
+#pragma once
+#include <vector>
+
+#include "bough/results/records.hpp"
+
+namespace bough::study {
+
+/// Where a run is doubted. Each bound lies well above what the gallery shows and below what an engineer would accept unsaid.
+struct TrustLimits {
+  /// Of the largest energy: what the integrator may have added by the end. A scheme that is stable adds what its truncation error is; a hundredth
+  /// is visible in amplitudes (their half).
+  double energy_gained = 1e-2;
+  /// Of the largest energy: the same for what it took. Damping of unresolved vibrations is meant, a fifth of all energy changes the motion.
+  double energy_taken = 0.2;
+  /// LAPACK's bar for a solution: residual over norm, unknowns and unit round-off.
+  double lapack_ratio = 30.0;
+  /// Round-off times condition: fewer than three digits of a linear solution are sure, and Newton's corrections come in that quality.
+  double lost = 1e-3;
+  /// Of the size of the structure, or rad: joints open by more than a millionth.
+  double violation = 1e-6;
+  /// The same for what the rates open in one step: a thousandth.
+  double violation_step = 1e-3;
+  /// Share of the steps that were rejected: the step size is not that of the problem.
+  double rejected = 0.1;
+};
+
+/// Why a run should not be trusted without a closer look, in words: about the run itself (it broke off), energy, linear solutions, condition,
+/// constraints, round-off, steps. Reads the summary's status, steps, checks, levels and solver figures.
+std::vector<results::Doubt> doubts_of(const results::Summary& summary, bool is_dynamic, const TrustLimits& limits = {});
+
+}  // namespace bough::study

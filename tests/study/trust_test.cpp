@@ -1,0 +1,176 @@
+/// Every reason to doubt a run: by its bound alone, and provoked in a run.
+#include "trust.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "bough/study/memory_run.hpp"
+#include "bough/study/scene_parts.hpp"
+#include "bough/study/simulate.hpp"
+#include "support/untrapped.hpp"
+
+namespace bough::study {
+namespace {
+
+/// A run nothing speaks against.
+results::Summary good() {
+  results::Summary s;
+  s.status = results::RunStatus::ok;
+  s.steps.accepted = 100;
+  s.checks.energy_scale = 10.0;
+  s.checks.linear_backward_error_max = 1e-16;
+  s.solver = {{"unknowns", 12.0}, {"condition_estimate", 1e4}};
+  s.levels = {{0, 1, 0, 0.0, 1e-16}};
+  return s;
+}
+
+bool is_doubted(const std::vector<results::Doubt>& doubts, const std::string& about) {
+  for (const results::Doubt& d : doubts)
+    if (d.about == about) return true;
+  return false;
+}
+bool is_doubted(const results::Summary& s, const std::string& about) { return is_doubted(doubts_of(s, true), about); }
+
+TEST(Trust, nothing_speaks_against_a_good_run) {
+  EXPECT_TRUE(doubts_of(good(), true).empty());
+  results::Summary without = good();
+  without.levels.clear();
+  without.solver.clear();
+  EXPECT_TRUE(doubts_of(without, true).empty());
+}
+
+/// Just below and just above each bound.
+TEST(Trust, each_bound_is_where_it_is_said_to_be) {
+  const test::Untrapped untrapped;  // NaN is compared
+  const TrustLimits limits;
+  struct Case {
+    const char* about;
+    double bound;
+    double& (*of)(results::Summary&);
+  };
+  const Case cases[] = {
+      {"energy", limits.energy_gained * 10.0, [](auto& s) -> double& { return s.checks.energy_gained; }},
+      {"energy", limits.energy_taken * 10.0, [](auto& s) -> double& { return s.checks.numerical_dissipation; }},
+      {"linear solutions", limits.lapack_ratio * 12.0 * 0x1p-53,
+       [](auto& s) -> double& { return s.checks.linear_backward_error_max; }},
+      {"linear solutions", limits.lapack_ratio * 12.0 * 0x1p-53,
+       [](auto& s) -> double& { return s.levels[0].backward_error; }},
+      {"condition", limits.lost / 0x1p-53, [](auto& s) -> double& { return s.solver[1].second; }},
+      {"constraints", limits.violation, [](auto& s) -> double& { return s.checks.relative_violation_position; }},
+      {"constraints", limits.violation_step, [](auto& s) -> double& { return s.checks.relative_violation_step; }}};
+  for (const Case& c : cases) {
+    results::Summary s = good();
+    c.of(s) = 0.99 * c.bound;
+    EXPECT_FALSE(is_doubted(s, c.about)) << c.about;
+    c.of(s) = 1.01 * c.bound;
+    EXPECT_TRUE(is_doubted(s, c.about)) << c.about;
+    EXPECT_EQ(doubts_of(s, true).size(), 1u) << c.about;
+    c.of(s) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(is_doubted(s, c.about)) << c.about << ", not a number";
+  }
+}
+
+TEST(Trust, balances_that_were_not_made_are_not_judged) {
+  results::Summary s = good();
+  s.checks.energy_gained = 5.0;
+  s.checks.relative_violation_position = 1.0;
+  EXPECT_FALSE(is_doubted(doubts_of(s, false), "energy"));
+  s.checks.evaluated = false;
+  EXPECT_TRUE(doubts_of(s, true).empty());
+}
+
+TEST(Trust, runs_that_broke_off_or_floundered_are_doubted) {
+  results::Summary s = good();
+  s.status = results::RunStatus::failed;
+  s.cause = "nothing holds 'tip'";
+  ASSERT_TRUE(is_doubted(s, "run"));
+  EXPECT_NE(doubts_of(s, true)[0].text.find("tip"), std::string::npos);
+  s = good();
+  s.status = results::RunStatus::interrupted;
+  EXPECT_TRUE(is_doubted(s, "run"));
+  s = good();
+  s.steps.rejected = 10;
+  EXPECT_FALSE(is_doubted(s, "steps"));
+  s.steps.rejected = 11;
+  EXPECT_TRUE(is_doubted(s, "steps"));
+  s = good();
+  s.checks.steps_at_floor = 1;
+  EXPECT_TRUE(is_doubted(s, "round-off"));
+}
+
+scene::Scene cantilever(int elements) {
+  scene::Scene s = make_cantilever(make_section("s", 1e4, 5e3, 5e3, 100, 100, 100), 1.0, elements, 1);
+  s.point_loads = {make_load("tip", {{0, 1e-3, 0}})};
+  return s;
+}
+
+TEST(Trust, a_short_cantilever_is_trusted_and_one_of_thousands_of_elements_is_not) {
+  const MemoryRun few = run_in_memory(cantilever(10));
+  ASSERT_TRUE(few.ok()) << few.text();
+  EXPECT_TRUE(few.summary.doubts.empty()) << few.summary.doubts[0].text;
+  const MemoryRun many =
+      run_in_memory(cantilever(8000));  // the condition grows as the fourth power: 1e4 or so times 800^4
+  EXPECT_TRUE(is_doubted(many.summary.doubts, "condition")) << many.text();
+}
+
+TEST(Trust, a_tolerance_below_round_off_is_said_to_be_out_of_reach) {
+  scene::Scene s = cantilever(10);
+  s.analysis.tolerance = 1e-16;
+  const MemoryRun run = run_in_memory(s);
+  ASSERT_TRUE(run.ok()) << run.text();
+  EXPECT_TRUE(is_doubted(run.summary.doubts, "round-off"));
+}
+
+/// A mass on a spring, 20 vibrations in steps of a third of a period: the scheme takes what it does not resolve.
+TEST(Trust, energy_that_the_integrator_takes_is_told) {
+  scene::Scene s;
+  s.name = "mass on a spring";
+  s.bodies = {make_body("mass", 1.0, {{0.1, 0.1, 0.1}}, {{0.1, 0.0, 0.0}})};
+  scene::Bushing spring;
+  spring.name = "spring";
+  spring.second.to = "mass";
+  for (int i = 0; i < 6; ++i) spring.stiffness(i, i) = 1e4;
+  s.bushings = {spring};
+  s.analysis.step_size = 0.02;
+  s.analysis.end_time = 1.2;
+  s.analysis.spectral_radius = 0.5;
+  EXPECT_TRUE(is_doubted(run_in_memory(s).summary.doubts, "energy"));
+  s.analysis.step_size = 1e-3;
+  const MemoryRun resolved = run_in_memory(s);
+  EXPECT_TRUE(resolved.summary.doubts.empty()) << resolved.summary.doubts[0].text;
+}
+
+TEST(Trust, a_run_that_is_stopped_says_so) {
+  SimulateOptions options;
+  options.before_step = [](step::System&, const step::State&, const BeforeStep& step) { return step.number < 2; };
+  scene::Scene s = cantilever(4);
+  s.analysis.load_steps = 3;
+  EXPECT_TRUE(is_doubted(run_in_memory(s, options).summary.doubts, "run"));
+}
+
+/// A^-1 of a known matrix: one body on a bushing in statics, springs that differ in what scaling cannot take out.
+TEST(Trust, the_condition_is_told_by_level_and_in_all) {
+  scene::Scene s = cantilever(64);
+  s.solver.depth = 3;
+  const MemoryRun run = run_in_memory(s);
+  ASSERT_TRUE(run.ok()) << run.text();
+  ASSERT_EQ(run.summary.levels.size(), 4u);
+  int subdomains = 0;
+  for (const results::LevelFigures& level : run.summary.levels) {
+    subdomains += level.subdomains;
+    EXPECT_LT(level.backward_error, 1e-14) << level.level;
+    EXPECT_GT(level.backward_error, 0.0) << level.level;
+    if (level.level > 0) EXPECT_GE(level.condition, 1.0) << level.level;
+  }
+  EXPECT_EQ(subdomains, 15);
+  double condition = 0.0;
+  for (const auto& [name, value] : run.summary.solver)
+    if (name == "condition_estimate") condition = value;
+  EXPECT_GT(condition, 1e4);
+  EXPECT_LT(condition, 1e10);
+}
+
+}  // namespace
+}  // namespace bough::study
