@@ -148,10 +148,12 @@ ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, con
 /// An unknown with little or nothing on the diagonal may still resist through a constraint to one that does (the turning of a massless bar
 /// that carries a mass): a row g then lends it g_u^2 / sum_{v != u} g_v^2 / a_v. Taken where the own diagonal is weaker by `weak`;
 /// scaled by noise instead, such an unknown would dwarf the others in its rows and make them look dependent.
-/// strict: rows all of whose other unknowns have a diagonal. bare: a node between joints, to which no such row leads, takes the sum over
+/// strict: rows all of whose other unknowns have a diagonal; it is their own one that they lend, not what they have borrowed, else the rows of
+/// many hinges on one body, which couple its unknowns in ever other ratios, raise these without end. bare: a node between joints, to which no such row leads, takes the sum over
 /// what has one in the row's other blocks, and the most of its rows; what its own block could give way to is held by its other joints, or
 /// by nothing at all. What was lent in a bare sweep stands negative until its end and does not lend on. Answers whether something was lent.
-bool ElementStore::lend_diagonals(Lending lending, std::vector<double>& diagonal) const {
+bool ElementStore::lend_diagonals(Lending lending, const std::vector<double>& given,
+                                  std::vector<double>& diagonal) const {
   constexpr double weak = 1e-6;
   bool has_lent = false;
   for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
@@ -180,8 +182,9 @@ bool ElementStore::lend_diagonals(Lending lending, std::vector<double>& diagonal
           for_motion([&](std::size_t v, std::int64_t k, int other) {
             if (v == u || !couples(k)) return;
             if (lending == Lending::bare && (other == own || !(diagonal[v] > 0.0))) return;
-            held = held && diagonal[v] > 0.0;
-            if (held) others += g[k] * g[k] / diagonal[v];
+            const double own_one = lending == Lending::strict && given[v] > 0.0 ? given[v] : diagonal[v];
+            held = held && own_one > 0.0;
+            if (held) others += g[k] * g[k] / own_one;
           });
           if (!held || others == 0.0) return;
           const double lent = g[j] * g[j] / others;
@@ -204,9 +207,10 @@ bool ElementStore::lend_diagonals(Lending lending, std::vector<double>& diagonal
 
 /// Strictly once: rows that couple in other ratios would raise each other without end. Bare nodes borrow from nothing, so only once each;
 /// what has borrowed lends on.
-void ElementStore::lift_weak_diagonals(std::vector<double>& diagonal) const {
-  lend_diagonals(Lending::strict, diagonal);
-  while (lend_diagonals(Lending::bare, diagonal)) {
+void ElementStore::lift_weak_diagonals(std::vector<double>& given, std::vector<double>& diagonal) const {
+  given = diagonal;
+  lend_diagonals(Lending::strict, given, diagonal);
+  while (lend_diagonals(Lending::bare, given, diagonal)) {
   }
 }
 
@@ -237,7 +241,7 @@ void ElementStore::eval_scales(Scales& s) const {
       }
     }
   }
-  lift_weak_diagonals(exact_row);
+  lift_weak_diagonals(s.given, exact_row);
   s.empty_unknown = -1;
   const auto empty = [&](std::size_t i) {
     if (s.empty_unknown < 0 || static_cast<std::int64_t>(i) < s.empty_unknown)

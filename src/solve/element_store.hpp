@@ -20,6 +20,7 @@ struct Scales {
   std::vector<double> row, column;
   std::vector<double>
       weight;  ///< column / exact column scale, in [2^-1/2, 2^1/2]: measures multipliers free of the rounding
+  std::vector<double> given;        ///< scratch: sums of |diagonal| before rows lend any
   std::int64_t empty_unknown = -1;  ///< first unknown whose row or column is zero, or -1
   bool finite = true;
 };
@@ -89,8 +90,8 @@ class ElementStore {
   };
   void prepare();
   enum class Lending { strict, bare };
-  bool lend_diagonals(Lending lending, std::vector<double>& diagonal) const;
-  void lift_weak_diagonals(std::vector<double>& diagonal) const;
+  bool lend_diagonals(Lending lending, const std::vector<double>& given, std::vector<double>& diagonal) const;
+  void lift_weak_diagonals(std::vector<double>& given, std::vector<double>& diagonal) const;
   template <class Row>
   void for_rows(std::int64_t begin, std::int64_t end, Row&& row) const;
 

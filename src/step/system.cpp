@@ -315,6 +315,7 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
     text += ": nothing holds " + block_name(status.block);
     if (joint_of_block_[static_cast<std::size_t>(status.block)] < 0 && status.local >= 0 && status.local < 6)
       text += std::string(" (") + axes[status.local] + " of its own frame has the largest share)";
+    text += ", or it is held some 1e16 times more softly than its neighbours hold each other";
   }
   return Trouble{text};
 }

@@ -57,6 +57,7 @@ struct Definition {
   void (*body)(Bench&);
   StressStatus expected = StressStatus::holds;
   const char* reason = "";  ///< of an expected failure
+  bool is_long = false;     ///< begun before the others, so that no thread is left alone with it at the end
 };
 
 /// Rows by file; `table.cpp` puts them together.

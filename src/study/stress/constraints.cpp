@@ -35,7 +35,8 @@ scene::Scene door(int hinges, double offset) {
 
 void redundant_hinges(Bench& bench) {
   const MemoryRun one = bench.run(door(1, 0.0), "one hinge");
-  for (const int hinges : {2, 5, 20}) {
+  for (const int hinges : {2, 5, 20, 40}) {
+    if (hinges > bench.shorten(40, 20)) break;
     const MemoryRun many = bench.run(door(hinges, 0.0), std::to_string(hinges) + " hinges");
     double angle = 0.0, force = 0.0, size = 0.0;
     for (std::size_t r = 0; r < one.rows.size(); ++r) {
@@ -205,14 +206,13 @@ void held_by_nothing(Bench& bench) {
 
 void add_constraints(std::vector<Definition>& table) {
   table.push_back({"redundant_hinges", "constraints",
-                   "a door on 2, 5 and 20 hinges moves as on one to 1e-10 rad, the sum of their forces is that of the "
+                   "a door on 2 to 40 hinges moves as on one to 1e-10 rad, the sum of their forces is that of the "
                    "one to 1e-7, and the run says that rows depend",
-                   redundant_hinges, StressStatus::fails,
-                   "2 and 5 hinges hold; with 20 a solution of the linear system is not finite"});
+                   redundant_hinges});
   table.push_back({"four_bars_40", "constraints",
                    "40 windows of four-bars through flat positions, where all lose rank at once: the corner to 2e-3 m, "
                    "extrapolated to 2e-4 m over 10 s",
-                   four_bars_40});
+                   four_bars_40, StressStatus::holds, "", true});
   table.push_back({"change_points", "constraints",
                    "two windows pass their change points on their branch: to 5e-4 m, extrapolated to 2e-5 m",
                    change_points});

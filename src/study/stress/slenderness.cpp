@@ -19,9 +19,12 @@ RodPiece rod_of(double slenderness) {
   return {1.0, EA, shear_ratio * EA, 1.0, 0.0, 0.0};
 }
 
+/// Ten elements of order 3 are near the elastica by 1e-9. More are not better where the beam is slender: shear and extension are GA L^2 / EI times
+/// as stiff as bending, n elements in a row give way n^2 times as easily as one, and the tangent's condition is about the product. At L/h = 1e6 it
+/// is 6e15 here; from 20 elements on it passes 1/u, bending cannot be told from free motion, and the run says that nothing holds the beam.
 scene::Scene cantilever(double slenderness) {
   const RodPiece r = rod_of(slenderness);
-  scene::Scene s = make_cantilever(make_section("s", r.EA, r.GA, r.GA, 0.8, 1.0, 1.0), 1.0, 24, 3);
+  scene::Scene s = make_cantilever(make_section("s", r.EA, r.GA, r.GA, 0.8, 1.0, 1.0), 1.0, 10, 3);
   s.point_loads = {make_load("tip", {{0.0, load, 0.0}})};
   s.analysis.load_steps = 5;
   s.analysis.tolerance = 1e-11;
@@ -74,14 +77,13 @@ void section_forces(Bench& bench) {
 
 void add_slenderness(std::vector<Definition>& table) {
   table.push_back({"elastica", "slenderness",
-                   "the tip of a cantilever under P L^2/EI = 5 is found to 1e-8 L for L/h from 10 to 1e6", displacement,
-                   StressStatus::fails,
-                   "holds to L/h = 1e5 with 6e-12; at 1e6 Newton meets a shape whose tangent is taken for singular"});
+                   "the tip of a cantilever under P L^2/EI = 5 is found to 1e-8 L for L/h from 10 to 1e6",
+                   displacement});
   table.push_back({"section_forces", "slenderness",
                    "section forces, which strains would give to 2 log10(L/h) digits less, are found to 1e-8 P at the "
                    "same slendernesses, from the equilibrium of nodes",
                    section_forces, StressStatus::fails,
-                   "1e-8 holds to L/h = 1e3; 3e-8 at 1e4, 2e-6 at 1e5, and no equilibrium is found at 1e6"});
+                   "1e-8 holds to L/h = 1e3; then u (L/h)^2: forces of the elements' ends come from their strains"});
 }
 
 }  // namespace bough::study::stress

@@ -99,10 +99,10 @@ void bushings(Bench& bench) {
   for (int decade = 5; decade <= 12; ++decade) {
     const double k = std::pow(10.0, decade);
     const MemoryRun run = bench.run(two_bars(k), "bushing of 1e" + std::to_string(decade));
-    double worst = 0.0;
-    for (std::size_t r = 0; r < ideal.rows.size(); ++r)
-      worst = std::max(worst, std::hypot(run.rows.at(r).values[0] - ideal.rows[r].values[0],
-                                         run.rows[r].values[1] - ideal.rows[r].values[1]));
+    double worst = 0.0;  // by time: steps that are cut and regrown leave rows in between
+    for (const results::HistoryRow& row : ideal.rows)
+      worst = std::max(worst, std::hypot(value_at(run, "lower.x", row.time) - row.values[0],
+                                         value_at(run, "lower.y", row.time) - row.values[1]));
     // The bushing gives way by (forces of some ten newtons) / k, and the motion carries it on.
     bench.error("against the ideal joint, 1e" + std::to_string(decade) + " N/m", worst, 2e2 / k + 2e-5);
   }
@@ -123,8 +123,7 @@ void add_stiff(std::vector<Definition>& table) {
       {"bushings", "stiff dynamics",
        "a bushing of 1e5 to 1e12 N/m in place of a hinge: within 200 N over its stiffness and 2e-5 m of the "
        "ideal joint",
-       bushings, StressStatus::fails,
-       "to 1e11 N/m the error falls with the stiffness; at 1e12 the motion is wrong by 1 m"});
+       bushings});
 }
 
 }  // namespace bough::study::stress

@@ -120,9 +120,14 @@ std::vector<StressCase> run_stress(
   std::atomic<std::size_t> next{0};
   std::size_t done = 0;
   std::mutex telling;
+  std::vector<std::size_t> order;
+  for (const bool is_long : {true, false})
+    for (std::size_t k = 0; k < table.size(); ++k)
+      if (table[k].is_long == is_long) order.push_back(k);
   const auto work = [&] {
-    for (std::size_t k = next++; k < table.size(); k = next++) {
+    for (std::size_t place = next++; place < table.size(); place = next++) {
       if (is_stopped && is_stopped()) return;
+      const std::size_t k = order[place];
       results[k] = stress::run_case(table[k], options.quick);
       const std::lock_guard<std::mutex> lock(telling);
       is_done[k] = 1;

@@ -33,12 +33,12 @@ TangentMatrix tangent_matrix(const scene::Scene& scene) {
       system.solver().multiply(system.walker(), unit.data(), t.matrix.col(j).data());
       unit(j) = 0.0;
     }
+    t.row_scale = t.column_scale = Eigen::VectorXd::Ones(n);
     if (const solve::Hierarchical* h = system.solver().hierarchical(); h != nullptr) {
-      const Eigen::Map<const Eigen::VectorXd> rows(h->row_scale().data(), n), columns(h->column_scale().data(), n);
-      t.scaled = rows.asDiagonal() * t.matrix * columns.asDiagonal();
-    } else {
-      t.scaled = t.matrix;
+      t.row_scale = Eigen::Map<const Eigen::VectorXd>(h->row_scale().data(), n);
+      t.column_scale = Eigen::Map<const Eigen::VectorXd>(h->column_scale().data(), n);
     }
+    t.scaled = t.row_scale.asDiagonal() * t.matrix * t.column_scale.asDiagonal();
     t.rhs = -Eigen::Map<const Eigen::VectorXd>(system.residual().data(), n);
     t.solution.resize(n);
     if (failed(system.solve(t.rhs.data(), t.solution.data()))) return false;
@@ -52,8 +52,14 @@ TangentMatrix tangent_matrix(const scene::Scene& scene) {
 }
 
 double condition_of(const Eigen::MatrixXd& matrix) {
-  const Eigen::VectorXd values = Eigen::BDCSVD<Eigen::MatrixXd>(matrix).singularValues();
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues();
   return values(0) / values(values.size() - 1);
+}
+
+double condition_without_scaling(const TangentMatrix& t) {
+  const Eigen::MatrixXd inverse =
+      t.column_scale.asDiagonal() * t.scaled.partialPivLu().inverse() * t.row_scale.asDiagonal();
+  return t.matrix.norm() * inverse.norm();
 }
 
 void equilibrate(const Eigen::MatrixXd& matrix, Eigen::VectorXd& row, Eigen::VectorXd& column) {
