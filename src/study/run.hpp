@@ -28,6 +28,7 @@ class Run {
   void watch_dependent_rows();
   void note(const std::string& text);
   void count(const step::StepReport& report, bool accepted);
+  void watch_floor(const step::StepReport& report);
   /// The variational integrator damps nothing: ends a run whose unresolved vibrations make energy out of nothing.
   bool watch_vibrations();
   /// Records the state (as its time's left limit, or right limit at a start).
@@ -80,6 +81,7 @@ class Run {
   std::vector<double> values_;
   std::vector<std::size_t> expected_columns_;
   std::vector<double> expected_values_, expected_distance_;
+  double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< of accepted steps; of those at the floor of round-off
   std::string first_rejection_, not_unique_;
   int dependent_rows_ = 0;
   std::optional<step::Bdf> bdf_;             ///< when chosen

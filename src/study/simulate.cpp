@@ -91,13 +91,21 @@ void Run::note(const std::string& text) {
 void Run::count(const step::StepReport& report, bool accepted) {
   (accepted ? summary_.steps.accepted : summary_.steps.rejected) += 1;
   summary_.steps.newton_iterations += report.iterations;
-  if (accepted && report.at_floor) {
-    summary_.checks.round_off_floor_reached = true;
-    ++summary_.checks.steps_at_floor;
-  }
+  if (accepted) watch_floor(report);
   if (accepted) watch_dependent_rows();
   if (!accepted && first_rejection_.empty())
     first_rejection_ = "the first rejected step was that from " + std::to_string(state_.time) + ": " + report.cause;
+}
+
+/// What steps leave unbalanced at the floor counts against the largest forces of the run: at rest there are none to compare with.
+void Run::watch_floor(const step::StepReport& report) {
+  const step::ResidualSize& r = report.residual;
+  const double arm = system_.moment_arm();
+  largest_force_ = std::max({largest_force_, r.force_scale, r.moment_scale / arm});
+  if (!report.at_floor) return;
+  summary_.checks.round_off_floor_reached = true;
+  ++summary_.checks.steps_at_floor;
+  unbalanced_force_ = std::max({unbalanced_force_, r.force, r.moment / arm});
 }
 
 bool Run::watch_vibrations() {
@@ -194,6 +202,7 @@ void Run::finish() {
   getrusage(RUSAGE_SELF, &usage);
   summary_.memory_peak_bytes = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
   summary_.checks.linear_backward_error_max = work.backward_error_max;
+  summary_.checks.unbalanced_at_floor = largest_force_ > 0.0 ? unbalanced_force_ / largest_force_ : 0.0;
   summary_.checks.energy_balance = balance_.energy_error();
   summary_.checks.energy_scale = balance_.energy_scale();
   summary_.checks.numerical_dissipation = std::max(0.0, -balance_.last_energy_error());

@@ -58,6 +58,7 @@ TEST(Trust, each_bound_is_where_it_is_said_to_be) {
       {"linear solutions", limits.lapack_ratio * 12.0 * 0x1p-53,
        [](auto& s) -> double& { return s.levels[0].backward_error; }},
       {"condition", limits.lost / 0x1p-53, [](auto& s) -> double& { return s.solver[1].second; }},
+      {"round-off", limits.unbalanced, [](auto& s) -> double& { return s.checks.unbalanced_at_floor; }},
       {"constraints", limits.violation, [](auto& s) -> double& { return s.checks.relative_violation_position; }},
       {"constraints", limits.violation_step, [](auto& s) -> double& { return s.checks.relative_violation_step; }}};
   for (const Case& c : cases) {
@@ -95,9 +96,6 @@ TEST(Trust, runs_that_broke_off_or_floundered_are_doubted) {
   EXPECT_FALSE(is_doubted(s, "steps"));
   s.steps.rejected = 11;
   EXPECT_TRUE(is_doubted(s, "steps"));
-  s = good();
-  s.checks.steps_at_floor = 1;
-  EXPECT_TRUE(is_doubted(s, "round-off"));
 }
 
 scene::Scene cantilever(int elements) {
@@ -119,12 +117,21 @@ TEST(Trust, a_short_cantilever_is_trusted_and_one_of_thousands_of_elements_is_no
   EXPECT_TRUE(is_doubted(many.summary.doubts, "condition")) << many.text();
 }
 
-TEST(Trust, a_tolerance_below_round_off_is_said_to_be_out_of_reach) {
+/// A tolerance of fewer digits than there are is reached at the floor and no reason for doubt, unless what is left unbalanced is.
+TEST(Trust, forces_that_round_off_leaves_unbalanced_are_told) {
   scene::Scene s = cantilever(10);
   s.analysis.tolerance = 1e-15;
   const MemoryRun run = run_in_memory(s);
   ASSERT_TRUE(run.ok()) << run.text();
-  EXPECT_TRUE(is_doubted(run.summary.doubts, "round-off"));
+  EXPECT_GT(run.summary.checks.steps_at_floor, 0);
+  EXPECT_TRUE(run.summary.doubts.empty()) << run.summary.doubts[0].text;
+  s = cantilever(10);
+  s.sections = {make_section("s", 1e13, 5e12, 5e12, 1.0, 1.0, 1.0)};
+  s.point_loads = {make_load("tip", {{0, 1.0, 0}})};
+  s.analysis.load_steps = 2;
+  const MemoryRun slender = run_in_memory(s);
+  ASSERT_TRUE(slender.ok()) << slender.text();
+  EXPECT_TRUE(is_doubted(slender.summary.doubts, "round-off")) << slender.summary.checks.unbalanced_at_floor;
 }
 
 /// A mass on a spring, 20 vibrations in steps of a third of a period: the scheme takes what it does not resolve.

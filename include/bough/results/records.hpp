@@ -75,7 +75,8 @@ struct Checks {
   bool local_error_known = false;
   double local_error_max = 0.0, local_error_sum = 0.0, local_error_max_velocity = 0.0;
   bool round_off_floor_reached = false;
-  long steps_at_floor = 0;  ///< accepted at the round-off floor of the residual, above the tolerance
+  long steps_at_floor = 0;           ///< accepted at the round-off floor of the residual, above the tolerance
+  double unbalanced_at_floor = 0.0;  ///< largest force or moment these steps left, over the largest of the run [-]
   double energy_gained =
       0.0;  ///< of energy_balance, what the integrator had added at the end [J]; 0 where it took some
   double relative_violation_position = 0.0;  ///< over the size of the structure, angles as they are [-]
