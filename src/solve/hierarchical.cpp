@@ -40,6 +40,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   scales.row.assign(n, 1.0);
   scales.column.assign(n, 1.0);
   scales.weight.assign(n, 1.0);
+  scales.given.assign(n, 0.0);
   is_constraint = std::make_unique<bool[]>(n);
   for (int b = 0; b < graph.num_blocks(); ++b)
     for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u)
