@@ -177,6 +177,8 @@ void Converter::settings() {
     scene.output.motion_stride = static_cast<int>(o->find("motion_stride")->number);
     scene.output.checks = o->find("checks")->truth;
   }
+  if (const Value* w = sound("without"))
+    for (const Value& name : w->items) scene.without.push_back(name.text);
 }
 
 void Converter::each(const char* list, void (Converter::*read)(const Value&, const std::string&)) {

@@ -1,3 +1,4 @@
+#include "bough/scene/components.hpp"
 #include "schema_parts.hpp"
 
 namespace bough::io {
@@ -328,6 +329,8 @@ RuleTable make_table() {
        need("analysis", named_rule("analysis"), "What is computed."),
        may("solver", named_rule("solver"), "Linear solver.", "{}"),
        may("output", named_rule("output"), "What is written.", "{}"),
+       may("without", array_rule("", word_rule("", scene::decision_names())),
+           "Decisions that the plan is not to take (`bough plan` lists them), for comparison.", "[]"),
        list("expected", "expected", "Figures the run has to meet.")}));
   return t;
 }

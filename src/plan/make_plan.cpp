@@ -109,6 +109,7 @@ int Builder::add_joint(elements::Joint& j, const std::string& name, const std::s
     p.counts_turns |= j.rows[k].kind == elements::RowKind::angle || j.rows[k].kind == elements::RowKind::screw;
   for (int k = 0; k < j.num_efforts; ++k) p.counts_turns |= j.efforts[k].coordinate == elements::Coordinate::angle;
   p.multiplier_begin = plan.num_multipliers;
+  for (int k = 0; k < j.num_rows; ++k) p.rows.push_back(k);
   plan.num_multipliers += j.num_rows;
   plan.joints.push_back(p);
   return static_cast<int>(plan.joints.size()) - 1;
@@ -296,7 +297,7 @@ double Builder::size_of_structure() const {
 void Builder::make_graph() {
   blocks::BlockGraph& g = plan.graph;
   const int num_nodes = static_cast<int>(plan.nodes.size());
-  g.block_size.assign(static_cast<std::size_t>(num_nodes), 6);
+  g.block_size.assign(static_cast<std::size_t>(num_nodes), plan.unknowns.count);
   g.block_kind.assign(static_cast<std::size_t>(num_nodes), blocks::BlockKind::motion);
   std::map<int, JointPlan*> joint_of_element;
   for (JointPlan& j : plan.joints) joint_of_element[j.element] = &j;
@@ -304,18 +305,16 @@ void Builder::make_graph() {
     with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       for (const Port& p : e.ports)
         if (p.node != elements::ground) g.element_blocks.push_back(p.node);
-      const int m = elements::num_multipliers(e);
       const auto joint = joint_of_element.find(static_cast<int>(id));
-      if (m > 0) {
+      if (joint != joint_of_element.end() && !joint->second->rows.empty()) {
         joint->second->block = g.num_blocks();
         g.element_blocks.push_back(g.num_blocks());
-        g.block_size.push_back(m);
+        g.block_size.push_back(static_cast<int>(joint->second->rows.size()));
         g.block_kind.push_back(blocks::BlockKind::multiplier);
       }
     });
     g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
   }
-  plan.length_scale = size_of_structure();
 }
 
 Plan make_plan(const scene::Scene& scene) {
@@ -332,6 +331,8 @@ Plan make_plan(const scene::Scene& scene) {
   b.add_initial_velocities();
   b.stop_spins();
   b.number_elements();
+  b.plan.length_scale = b.size_of_structure();
+  b.choose_unknowns();
   b.make_graph();
   b.add_sensors();
   return std::move(b.plan);

@@ -76,6 +76,9 @@ struct Builder {
   void stop_spins();
   void number_elements();
   double size_of_structure() const;
+  bool is_barred(const std::string& decision) const;  ///< by Scene::without
+  void choose_unknowns();
+  void add_planar_elements(const motion::Mat3<double>& axes);
   void make_graph();
   void add_sensors();
 };

@@ -63,6 +63,11 @@ const std::vector<std::string>& coordinates_of(JointKind kind) {
   }
 }
 
+const std::vector<std::string>& decision_names() {
+  static const std::vector<std::string> names{"line", "translation", "planar", "symmetric", "reuse", "lanes", "small"};
+  return names;
+}
+
 std::string to_string(JointKind kind) {
   static const char* const names[] = {"fixed",       "revolute",  "spherical", "prismatic",
                                       "cylindrical", "universal", "planar",    "screw"};

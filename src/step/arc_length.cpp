@@ -30,9 +30,7 @@ ArcLengthPath::ArcLengthPath(System& system, const StepOptions& options)
 }
 
 Vec6<double> ArcLengthPath::node_part(const std::vector<double>& x, std::size_t node) const {
-  Vec6<double> v;
-  for (int i = 0; i < 6; ++i) v[i] = x[static_cast<std::size_t>(system_.block_begin(static_cast<int>(node)) + i)];
-  return v;
+  return system_.node_part(x.data(), static_cast<int>(node));
 }
 
 double ArcLengthPath::inner(const Vec6<double>& a, const Vec6<double>& b) const {

@@ -2,10 +2,11 @@
 
 namespace bough::step {
 
+template <class Kernels>
 template <std::size_t I>
-void LaneBatches::add(const solve::ElementBatch& batch, Slot& slot) {
-  using E = typename std::tuple_element_t<I, plan::ElementArrays>::value_type;
-  const auto& array = std::get<I>(plan_->elements);
+void LaneBatches<Kernels>::add(const solve::ElementBatch& batch, Slot& slot) {
+  using E = typename std::tuple_element_t<I, typename Kernels::Arrays>::value_type;
+  const auto& array = std::get<I>(Kernels::arrays(*plan_));
   const E* list[elements::num_lanes];
   int count = 0;
   for (int l = 0, filler = -1; l < elements::num_lanes; ++l) {  // a lane that is missing repeats one that is there
@@ -16,18 +17,19 @@ void LaneBatches::add(const solve::ElementBatch& batch, Slot& slot) {
     const plan::ElementPlace place = plan_->directory[static_cast<std::size_t>(id)];
     if (place.array != I) return;
     list[count++] = &array[static_cast<std::size_t>(place.index)];
-    if (!elements::may_share_lanes(*list[0], *list[count - 1])) return;
+    if (!may_share_lanes(*list[0], *list[count - 1])) return;
   }
   int nodes[E::num_ports];
   for (int p = 0; p < E::num_ports; ++p) nodes[p] = p;
   auto& lanes = std::get<I>(lanes_);
   slot.array = static_cast<int>(I);
   slot.index = static_cast<int>(lanes.size());
-  lanes.push_back(elements::make_lane_element<E>(list, count, nodes, 0));
+  lanes.push_back(make_lane_element<E>(list, count, nodes, 0));
 }
 
-void LaneBatches::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
-                       const std::vector<int>& joint_of_element) {
+template <class Kernels>
+void LaneBatches<Kernels>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
+                                const std::vector<int>& joint_of_element) {
   plan_ = &plan;
   batches_ = batches;
   joint_of_element_ = joint_of_element;
@@ -44,14 +46,18 @@ void LaneBatches::make(const plan::Plan& plan, std::span<const solve::ElementBat
     const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
       static_cast<void>(((array == static_cast<int>(I) ? (add<I>(batches[b], slots_[b]), true) : false) || ...));
     };
-    pick(std::make_index_sequence<std::tuple_size_v<plan::ElementArrays>>{});
+    pick(std::make_index_sequence<std::tuple_size_v<typename Kernels::Arrays>>{});
   }
 }
 
-void LaneBatches::set_frames(const plan::FrameMotions& frames) {
+template <class Kernels>
+void LaneBatches<Kernels>::set_frames(const plan::FrameMotions& frames) {
   carriers_.resize(frames.in_ground.size());
   for (std::size_t i = 0; i < carriers_.size(); ++i) elements::set_all_lanes(carriers_[i], frames.in_ground[i]);
   elements::set_all_lanes(observer_, frames.observer);
 }
+
+template class LaneBatches<SpatialKernels>;
+template class LaneBatches<PlanarKernels>;
 
 }  // namespace bough::step

@@ -20,9 +20,31 @@ template <class Arrays>
 struct LaneArraysOf;
 template <class... E>
 struct LaneArraysOf<std::tuple<std::vector<E>...>> {
-  using Type = std::tuple<std::vector<elements::LaneElement<E>>...>;
+  using Type = std::tuple<std::vector<typename elements::detail::OverLanes<E>::Type>...>;
 };
 }  // namespace detail
+
+/// What differs between elements in space and those in a plane.
+struct SpatialKernels {
+  using Arrays = plan::ElementArrays;
+  using Field = elements::Field;
+  using NodeLanes = elements::NodeLanes;
+  using FieldLanes = elements::FieldLanes;
+  static constexpr int node_unknowns = 6, node_numbers = elements::numbers_of_node;
+  template <class E>
+  static constexpr int most_rows = E::num_multipliers;
+  static const Arrays& arrays(const plan::Plan& plan) { return plan.elements; }
+};
+struct PlanarKernels {
+  using Arrays = plan::PlanarArrays;
+  using Field = elements::planar::Field;
+  using NodeLanes = elements::planar::NodeLanes;
+  using FieldLanes = elements::planar::FieldLanes;
+  static constexpr int node_unknowns = 3, node_numbers = elements::planar::numbers_of_node;
+  template <class E>
+  static constexpr int most_rows = E::num_rows_at_most;
+  static const Arrays& arrays(const plan::Plan& plan) { return plan.planar->elements; }
+};
 
 /// Where results of one element go.
 struct ElementResult {
@@ -31,8 +53,11 @@ struct ElementResult {
   solve::ElementView tangent;  ///< first == nullptr: not wanted
 };
 
+template <class Kernels>
 class LaneBatches {
  public:
+  using Field = typename Kernels::Field;
+
   /// A batch goes in lanes if it holds at least `least_lanes` elements and they differ in numbers only.
   void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
             const std::vector<int>& joint_of_element);
@@ -44,8 +69,7 @@ class LaneBatches {
 
   /// Residuals, magnitudes and (where wanted) tangents of all elements of a batch. `result(id)` tells where they go. No allocation.
   template <class Result>
-  void evaluate(std::size_t batch, const State& state, const elements::Field& field, bool tangent,
-                Result&& result) const;
+  void evaluate(std::size_t batch, const State& state, const Field& field, bool tangent, Result&& result) const;
 
  private:
   struct Slot {
@@ -55,22 +79,23 @@ class LaneBatches {
   template <std::size_t I>
   void add(const solve::ElementBatch& batch, Slot& slot);
   template <std::size_t I, class Result>
-  void evaluate_as(const solve::ElementBatch& batch, int index, const State& state, const elements::Field& field,
-                   bool tangent, Result& result) const;
+  void evaluate_as(const solve::ElementBatch& batch, int index, const State& state, const Field& field, bool tangent,
+                   Result& result) const;
 
   static constexpr int least_lanes = 3;
   const plan::Plan* plan_ = nullptr;
   std::span<const solve::ElementBatch> batches_;
   std::span<const int> joint_of_element_;
   std::vector<Slot> slots_;
-  detail::LaneArraysOf<plan::ElementArrays>::Type lanes_;
+  typename detail::LaneArraysOf<typename Kernels::Arrays>::Type lanes_;
   std::vector<elements::CarrierLanes> carriers_;
   elements::CarrierLanes observer_;
 };
 
+template <class Kernels>
 template <class Result>
-void LaneBatches::evaluate(std::size_t batch, const State& state, const elements::Field& field, bool tangent,
-                           Result&& result) const {
+void LaneBatches<Kernels>::evaluate(std::size_t batch, const State& state, const Field& field, bool tangent,
+                                    Result&& result) const {
   const Slot slot = slots_[batch];
   const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
     static_cast<void>(((slot.array == static_cast<int>(I)
@@ -78,16 +103,18 @@ void LaneBatches::evaluate(std::size_t batch, const State& state, const elements
                             : false) ||
                        ...));
   };
-  pick(std::make_index_sequence<std::tuple_size_v<plan::ElementArrays>>{});
+  pick(std::make_index_sequence<std::tuple_size_v<typename Kernels::Arrays>>{});
 }
 
+template <class Kernels>
 template <std::size_t I, class Result>
-void LaneBatches::evaluate_as(const solve::ElementBatch& batch, int index, const State& state,
-                              const elements::Field& field, bool tangent, Result& result) const {
+void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, int index, const State& state,
+                                       const Field& field, bool tangent, Result& result) const {
   using Pack = elements::LanePack;
-  using E = typename std::tuple_element_t<I, plan::ElementArrays>::value_type;
-  constexpr int wide = elements::num_lanes, most = 6 * E::num_ports + E::num_multipliers;
-  const auto& array = std::get<I>(plan_->elements);
+  using E = typename std::tuple_element_t<I, typename Kernels::Arrays>::value_type;
+  constexpr int rows = Kernels::template most_rows<E>, wide = elements::num_lanes,
+                most = Kernels::node_unknowns * E::num_ports + rows;
+  const auto& array = std::get<I>(Kernels::arrays(*plan_));
   const auto& lane_element = std::get<I>(lanes_)[static_cast<std::size_t>(index)];
   int ids[wide], filler = -1, present = 0;
   for (int l = 0; l < wide; ++l) {
@@ -95,35 +122,39 @@ void LaneBatches::evaluate_as(const solve::ElementBatch& batch, int index, const
     if (ids[l] >= 0) filler = ids[l];
     present += ids[l] >= 0 ? 1 : 0;
   }
-  elements::NodeLanes nodes[E::num_ports];
-  Pack laws[elements::max_laws], multipliers[E::num_multipliers > 0 ? E::num_multipliers : 1], turns(0.0);
+  typename Kernels::NodeLanes nodes[E::num_ports];
+  Pack laws[elements::max_laws], multipliers[rows > 0 ? rows : 1], turns(0.0);
   const double* from[E::num_ports][wide] = {};
   for (int l = 0; l < wide; ++l) {
     const auto id = static_cast<std::size_t>(ids[l] >= 0 ? ids[l] : filler);
     const E& e = array[static_cast<std::size_t>(plan_->directory[id].index)];
     for (int p = 0; p < E::num_ports; ++p)
       if (e.ports[p].node != elements::ground)
-        from[p][l] = elements::numbers_of(field.nodes[static_cast<std::size_t>(e.ports[p].node)]);
+        from[p][l] = reinterpret_cast<const double*>(&field.nodes[static_cast<std::size_t>(e.ports[p].node)]);
     int law_ids[elements::max_laws];
-    const int num_laws = elements::list_laws(e, law_ids);
+    const int num_laws = list_laws(e, law_ids);
     for (int k = 0; k < num_laws; ++k) laws[k].set(l, field.around.laws[law_ids[k]]);
-    if constexpr (E::num_multipliers > 0) {
+    if constexpr (rows > 0) {
       const int j = joint_of_element_[id];
       if (j < 0) continue;
-      const auto first = static_cast<std::size_t>(plan_->joints[static_cast<std::size_t>(j)].multiplier_begin);
-      for (int r = 0; r < elements::num_multipliers(e); ++r)
-        multipliers[r].set(l, state.multipliers[first + static_cast<std::size_t>(r)]);
+      const plan::JointPlan& joint = plan_->joints[static_cast<std::size_t>(j)];
+      for (int r = 0; r < num_multipliers(e); ++r)
+        multipliers[r].set(
+            l, state.multipliers[static_cast<std::size_t>(joint.multiplier_begin + joint.rows[static_cast<std::size_t>(r)])]);
       turns.set(l, state.turns[static_cast<std::size_t>(j)]);
     }
   }
   for (int p = 0; p < E::num_ports; ++p)
-    if (from[p][0] != nullptr) elements::set_lanes(nodes[p], from[p]);
-  elements::FieldLanes around;
+    if (from[p][0] != nullptr)
+      lanes::gather_lanes(from[p], Kernels::node_numbers, reinterpret_cast<Pack*>(&nodes[p]));
+  typename Kernels::FieldLanes around;
   around.nodes = nodes;
   around.slopes = field.slopes;
-  if (field.carriers != nullptr) around.carriers = carriers_.data();
-  if (field.observer != nullptr) around.observer = &observer_;
-  for (int i = 0; i < 3; ++i) around.around.gravity[i] = Pack(field.around.gravity[i]);
+  if constexpr (requires { field.carriers; }) {
+    if (field.carriers != nullptr) around.carriers = carriers_.data();
+    if (field.observer != nullptr) around.observer = &observer_;
+  }
+  for (int i = 0; i < field.around.gravity.size(); ++i) around.around.gravity[i] = Pack(field.around.gravity[i]);
   around.around.laws = laws;
   around.around.has_inertia = field.around.has_inertia;
   Pack residual[most], magnitude[most], spare[most * most];
@@ -131,9 +162,8 @@ void LaneBatches::evaluate_as(const solve::ElementBatch& batch, int index, const
   Pack* matrix = nullptr;
   if (is_direct) matrix = reinterpret_cast<Pack*>(result(ids[0]).tangent.first);
   if (tangent && !is_direct) matrix = spare;
-  elements::evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
-  const int n =
-      elements::num_unknowns(array[static_cast<std::size_t>(plan_->directory[static_cast<std::size_t>(filler)].index)]);
+  evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
+  const int n = num_unknowns(array[static_cast<std::size_t>(plan_->directory[static_cast<std::size_t>(filler)].index)]);
   double nowhere[most], *to_residual[wide], *to_magnitude[wide];
   for (int l = 0; l < wide; ++l) {
     to_residual[l] = to_magnitude[l] = nowhere;

@@ -72,8 +72,7 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   step_ = h;
   const double between = 0.5 * (h + previous_step_);
   for (std::size_t n = 0; n < now_.size(); ++n) {
-    for (int i = 0; i < 6; ++i)
-      now_[n][i] = x[static_cast<std::size_t>(system.block_begin(static_cast<int>(n)) + i)] / h;
+    now_[n] = (1.0 / h) * system.node_part(x.data(), static_cast<int>(n));
     include(parts_.position, parts_.rotation, now_[n], h3);
     if (has_previous_)
       include(parts_.velocity, parts_.angular_velocity, now_[n] - previous_[n],

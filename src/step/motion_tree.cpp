@@ -175,8 +175,7 @@ double System::power_along_tree(const double* x) {
     if (link.parent >= 0)
       tree.twists[node] +=
           motion::inverse_adjoint_times(tree.relative[node], tree.twists[static_cast<std::size_t>(link.parent)]);
-    const double* r = residual_.data() + block_begin(link.node);
-    for (int i = 0; i < 6; ++i) power += r[i] * tree.twists[node][i];
+    power += lanes::dot(node_part(residual_.data(), link.node), tree.twists[node]);
   }
   for_each_multiplier(
       *this, [&](int, std::size_t, std::size_t unknown, std::size_t) { power += residual_[unknown] * x[unknown]; });

@@ -14,9 +14,7 @@ namespace {
 constexpr elements::Slopes mass_slopes{0.0, 0.0, true};
 
 Vec6<double> node_part(const System& system, const std::vector<double>& x, std::size_t node) {
-  Vec6<double> v;
-  for (int i = 0; i < 6; ++i) v[i] = x[static_cast<std::size_t>(system.block_begin(static_cast<int>(node)) + i)];
-  return v;
+  return system.node_part(x.data(), static_cast<int>(node));
 }
 
 constexpr double closed = 1e-13;  ///< relative gap that is not worth another correction
@@ -93,8 +91,7 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
 /// G d by multiplier. Element matrices hold G.
 void eval_rates(System& system, const std::vector<Vec6<double>>& d, std::vector<double>& rates) {
   std::vector<double> vector(system.num_unknowns(), 0.0), product(system.num_unknowns());
-  for (std::size_t n = 0; n < d.size(); ++n)
-    for (int i = 0; i < 6; ++i) vector[static_cast<std::size_t>(system.block_begin(static_cast<int>(n)) + i)] = d[n][i];
+  for (std::size_t n = 0; n < d.size(); ++n) system.set_node_part(vector.data(), static_cast<int>(n), d[n]);
   system.solver().multiply(system.walker(), vector.data(), product.data());
   rates.assign(static_cast<std::size_t>(system.plan().num_multipliers), 0.0);
   for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {

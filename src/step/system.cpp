@@ -8,6 +8,8 @@
 
 #include "lane_batches.hpp"
 #include "make_solver.hpp"
+#include "planar_system.hpp"
+#include "projection.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -18,8 +20,6 @@ using motion::Vec6;
 
 namespace {
 
-constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
-
 /// By exponents, which no trap minds and compilers vectorise.
 bool all_finite(const double* a, int count) {
   constexpr std::uint64_t exponent = 0x7ff0000000000000u;
@@ -29,6 +29,20 @@ bool all_finite(const double* a, int count) {
 }
 
 double largest_of_three(const double* a) { return std::max(std::max(std::abs(a[0]), std::abs(a[1])), std::abs(a[2])); }
+
+struct NodeSize {
+  double force, moment;
+};
+/// Largest entries of the force and the moment at a node.
+NodeSize size_up(const plan::NodeUnknowns& unknowns, const double* a) {
+  if (unknowns.is_whole()) return {largest_of_three(a), largest_of_three(a + 3)};
+  NodeSize size{0.0, 0.0};
+  for (int i = 0; i < unknowns.count; ++i) {
+    double& most = unknowns.is_length(i) ? size.force : size.moment;
+    most = std::max(most, std::abs(a[i]));
+  }
+  return size;
+}
 
 std::unique_ptr<tree::Tree> make_scene_tree(const plan::Plan& plan, const scene::Solver& given) {
   tree::TreeOptions options;
@@ -86,8 +100,12 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
     if (plan.joints[j].block >= 0)
       joint_of_block_[static_cast<std::size_t>(plan.joints[j].block)] = static_cast<int>(j);
   }
-  lane_batches_ = std::make_unique<LaneBatches>();
-  lane_batches_->make(plan, solver_->batches(), joint_of_element_);
+  lane_batches_ = std::make_unique<LaneBatches<SpatialKernels>>();
+  if (plan.unknowns.is_whole())
+    lane_batches_->make(plan, solver_->batches(), joint_of_element_);
+  else
+    projection_ = std::make_unique<Projection>(plan);
+  if (plan.planar) planar_ = std::make_unique<PlanarSystem>(plan, solver_->batches(), joint_of_element_);
   law_values_.assign(plan.laws.size(), 0.0);
   law_rates_ = law_accelerations_ = law_values_;
   law_series_.resize(plan.laws.size());
@@ -147,6 +165,7 @@ void System::evaluate_alone(std::size_t id, const State& state, const elements::
   }
   plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
     double* residual = element_residual_.data() + element_begin_[id];
+    if (projection_) return evaluate_projected(e, id, f, multipliers, turns, tangent);
     std::array<double, most_unknowns * most_unknowns> tangent_entries;
     const solve::ElementView view = solver_->element(static_cast<int>(id));
     const bool is_direct = view.stride == 1;
@@ -162,6 +181,22 @@ void System::evaluate_alone(std::size_t id, const State& state, const elements::
   });
 }
 
+/// The element in six unknowns a node, then in those that the scene has.
+template <class E>
+void System::evaluate_projected(const E& e, std::size_t id, const elements::Field& f, const double* multipliers,
+                                double turns, bool tangent) {
+  std::array<double, most_unknowns * most_unknowns> entries, reduced;
+  std::array<double, most_unknowns> residual, magnitude;
+  elements::evaluate(e, f, multipliers, turns, residual.data(), tangent ? entries.data() : nullptr);
+  elements::eval_magnitude(e, f, residual.data(), magnitude.data());
+  projection_->project_vector(id, residual.data(), element_residual_.data() + element_begin_[id]);
+  projection_->project_sizes(id, magnitude.data(), element_magnitude_.data() + element_begin_[id]);
+  if (!tangent) return;
+  const int n = projection_->project_matrix(id, entries.data(), reduced.data());
+  const solve::ElementView view = solver_->element(static_cast<int>(id));
+  for (int i = 0; i < n * n; ++i) view[i] = reduced[static_cast<std::size_t>(i)];
+}
+
 std::optional<Trouble> System::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
   PhaseTimer timer{counts_.assemble};
   ++counts_.evaluations;
@@ -172,8 +207,17 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
     return ElementResult{element_residual_.data() + begin, element_magnitude_.data() + begin,
                          tangent ? solver_->element(id) : solve::ElementView{}};
   };
+  if (planar_) {
+    auto by_node = [&](std::int64_t begin, std::int64_t end) { planar_->set_nodes(state, begin, end); };
+    walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
+    planar_->set_field(f);
+  }
   auto by_batch = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
+      if (planar_) {
+        planar_->evaluate(static_cast<std::size_t>(k), state, tangent, result);
+        continue;
+      }
       if (lane_batches_->holds(static_cast<std::size_t>(k))) {
         lane_batches_->evaluate(static_cast<std::size_t>(k), state, f, tangent, result);
         continue;
@@ -220,13 +264,13 @@ void System::sum_blocks(std::int64_t begin, std::int64_t end) {
     }
     const int joint = joint_of_block_[block];
     if (joint < 0) {
-      const double force = largest_of_three(r), moment = largest_of_three(r + 3);
-      if (force > s.force) s.worst_force_node = static_cast<int>(b);
-      if (moment > s.moment) s.worst_moment_node = static_cast<int>(b);
-      s.force = std::max(s.force, force);
-      s.moment = std::max(s.moment, moment);
-      s.force_scale = std::max(s.force_scale, largest_of_three(m));
-      s.moment_scale = std::max(s.moment_scale, largest_of_three(m + 3));
+      const NodeSize now = size_up(plan_.unknowns, r), terms = size_up(plan_.unknowns, m);
+      if (now.force > s.force) s.worst_force_node = static_cast<int>(b);
+      if (now.moment > s.moment) s.worst_moment_node = static_cast<int>(b);
+      s.force = std::max(s.force, now.force);
+      s.moment = std::max(s.moment, now.moment);
+      s.force_scale = std::max(s.force_scale, terms.force);
+      s.moment_scale = std::max(s.moment_scale, terms.moment);
       continue;
     }
     for (int i = 0; i < size; ++i) {
@@ -260,17 +304,18 @@ ResidualSize System::round_off_floor(const State&) const {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   std::vector<double> floor(num_unknowns(), 0.0);
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
-    const int n = static_cast<int>(element_begin_[e + 1] - element_begin_[e]);
+    const int n = static_cast<int>(element_begin_[e + 1] - element_begin_[e]), count = plan_.unknowns.count;
     const solve::ElementView K = const_cast<solve::AnySolver&>(*solver_).element(static_cast<int>(e));
-    int row = 0;
+    int row = 0, node_columns = 0;
+    for (std::int64_t kb = plan_.graph.element_begin[e]; kb < plan_.graph.element_begin[e + 1]; ++kb)
+      if (plan_.graph.element_blocks[static_cast<std::size_t>(kb)] < static_cast<int>(plan_.nodes.size()))
+        node_columns += count;
     for (std::int64_t kb = plan_.graph.element_begin[e]; kb < plan_.graph.element_begin[e + 1]; ++kb) {
       const int block = plan_.graph.element_blocks[static_cast<std::size_t>(kb)];
       for (int i = 0; i < plan_.graph.block_size[static_cast<std::size_t>(block)]; ++i, ++row) {
         double sum = 0.0;
-        for (int col = 0; col < n; ++col) {
-          const bool is_node_column = col < (n / 6) * 6;
-          if (is_node_column) sum += std::abs(K[row * n + col]) * (col % 6 < 3 ? element_length_[e] : 1.0);
-        }
+        for (int col = 0; col < node_columns; ++col)
+          sum += std::abs(K[row * n + col]) * (plan_.unknowns.is_length(col % count) ? element_length_[e] : 1.0);
         floor[static_cast<std::size_t>(block_begin(block) + i)] += eps * sum;
       }
     }
@@ -278,10 +323,9 @@ ResidualSize System::round_off_floor(const State&) const {
   ResidualSize s;
   for (int b = 0; b < plan_.graph.num_blocks(); ++b) {
     if (joint_of_block_[static_cast<std::size_t>(b)] >= 0) continue;
-    for (int i = 0; i < 6; ++i) {
-      double& size = i < 3 ? s.force : s.moment;
-      size = std::max(size, floor[static_cast<std::size_t>(block_begin(b) + i)]);
-    }
+    const NodeSize size = size_up(plan_.unknowns, floor.data() + block_begin(b));
+    s.force = std::max(s.force, size.force);
+    s.moment = std::max(s.moment, size.moment);
   }
   s.length = 8.0 * eps * plan_.length_scale;
   s.angle = 8.0 * eps;
@@ -313,8 +357,16 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
                                        "displacement along axis 3", "rotation about axis 1",
                                        "rotation about axis 2",     "rotation about axis 3"};
     text += ": nothing holds " + block_name(status.block);
-    if (joint_of_block_[static_cast<std::size_t>(status.block)] < 0 && status.local >= 0 && status.local < 6)
-      text += std::string(" (") + axes[status.local] + " of its own frame has the largest share)";
+    if (joint_of_block_[static_cast<std::size_t>(status.block)] < 0 && status.local >= 0 &&
+        status.local < plan_.unknowns.count) {
+      std::array<double, 6> unit{};
+      unit[static_cast<std::size_t>(status.local)] = 1.0;
+      const Vec6<double> eta = plan_.unknowns.expanded(unit.data(), static_cast<std::size_t>(status.block));
+      int largest = 0;
+      for (int i = 1; i < 6; ++i)
+        if (std::abs(eta[i]) > std::abs(eta[largest])) largest = i;
+      text += std::string(" (") + axes[largest] + " of its own frame has the largest share)";
+    }
     text += ", or it is held some 1e16 times more softly than its neighbours hold each other";
   }
   return Trouble{text};

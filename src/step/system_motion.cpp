@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bough/step/system.hpp"
+#include "projection.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -69,13 +70,6 @@ double System::relative_size(const State& state, const double* x) {
   return std::sqrt(most);
 }
 
-Vec6<double> System::node_part(const double* x, int node) const {
-  Vec6<double> eta;
-  const double* from = x + block_begin(node);
-  for (int i = 0; i < 6; ++i) eta[i] = from[i];
-  return eta;
-}
-
 void System::add_multipliers(State& state, const double* x, double factor) const {
   for_each_multiplier(*this, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
     state.multipliers[multiplier] += factor * x[unknown];
@@ -122,9 +116,9 @@ void System::evaluate_rate(const State& state, std::vector<double>& rate, double
     }
   }
   rate.assign(num_unknowns(), 0.0);
-  std::vector<double> part;
+  std::vector<double> part, projected;
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
-    part.assign(static_cast<std::size_t>(element_begin_[e + 1] - element_begin_[e]), 0.0);
+    part.assign(most_unknowns, 0.0);
     const int j = joint_of_element_[e];
     const double* multipliers =
         j >= 0 ? state.multipliers.data() + plan_.joints[static_cast<std::size_t>(j)].multiplier_begin : nullptr;
@@ -132,11 +126,16 @@ void System::evaluate_rate(const State& state, std::vector<double>& rate, double
     plan::with_element(plan_.elements, plan_.directory[e], [&](const auto& element) {
       elements::evaluate_rate(element, f, around, multipliers, turns, part.data());
     });
-    std::size_t at = 0;
+    const double* from = part.data();
+    if (projection_) {
+      projected.resize(part.size());
+      projection_->project_vector(e, part.data(), projected.data());
+      from = projected.data();
+    }
     for (std::int64_t k = plan_.graph.element_begin[e]; k < plan_.graph.element_begin[e + 1]; ++k) {
       const int block = plan_.graph.element_blocks[static_cast<std::size_t>(k)];
       for (int i = 0; i < plan_.graph.block_size[static_cast<std::size_t>(block)]; ++i)
-        rate[static_cast<std::size_t>(block_begin(block) + i)] += part[at++];
+        rate[static_cast<std::size_t>(block_begin(block) + i)] += *from++;
     }
   }
 }
@@ -174,17 +173,21 @@ double System::largest_violation(const State& state, int order, double length, i
   std::vector<lanes::Taylor<double, 3>>& series = row_series_;
   constraint_series(state, nullptr, 0.0, series);
   double most = 0.0;
-  for_each_multiplier(*this, [&](int j, std::size_t multiplier, std::size_t, std::size_t row) {
-    const auto& e = plan::array_of<elements::Joint>(plan_.elements)[static_cast<std::size_t>(
-        plan_.directory[static_cast<std::size_t>(plan_.joints[static_cast<std::size_t>(j)].element)].index)];
-    const elements::RowKind kind = e.rows[row].kind;
-    const bool is_length = kind == elements::RowKind::along || kind == elements::RowKind::screw;
-    const double value = std::abs(series[multiplier].c[order]) / (is_length ? length : 1.0);
-    if (value > most) {
-      most = value;
-      if (joint != nullptr) *joint = j;
+  // All rows, those that hold by themselves as well.
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    const auto& e = plan::array_of<elements::Joint>(
+        plan_.elements)[static_cast<std::size_t>(plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)].index)];
+    for (int row = 0; row < e.num_rows; ++row) {
+      const elements::RowKind kind = e.rows[row].kind;
+      const bool is_length = kind == elements::RowKind::along || kind == elements::RowKind::screw;
+      const auto multiplier = static_cast<std::size_t>(plan_.joints[j].multiplier_begin + row);
+      const double value = std::abs(series[multiplier].c[order]) / (is_length ? length : 1.0);
+      if (value > most) {
+        most = value;
+        if (joint != nullptr) *joint = static_cast<int>(j);
+      }
     }
-  });
+  }
   return most;
 }
 

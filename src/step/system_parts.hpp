@@ -21,6 +21,7 @@ struct PhaseTimer {
 };
 
 /// Items a task takes at once; chunks do not depend on the number of threads.
+inline constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
 inline constexpr std::int64_t element_grain = 32, block_grain = 128, pair_grain = 512, batch_grain = 8;
 
 /// Calls f(joint, multiplier, unknown, row) for every multiplier that is an unknown: its place in State::multipliers and in the solver's
@@ -31,10 +32,13 @@ void for_each_multiplier(const System& system, F&& f) {
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const int block = plan.joints[j].block;
     if (block < 0) continue;
-    const auto size = static_cast<std::size_t>(plan.graph.block_size[static_cast<std::size_t>(block)]);
+    const std::vector<int>& rows = plan.joints[j].rows;
     const auto multiplier = static_cast<std::size_t>(plan.joints[j].multiplier_begin);
     const auto unknown = static_cast<std::size_t>(system.block_begin(block));
-    for (std::size_t i = 0; i < size; ++i) f(static_cast<int>(j), multiplier + i, unknown + i, i);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto row = static_cast<std::size_t>(rows[i]);
+      f(static_cast<int>(j), multiplier + row, unknown + i, row);
+    }
   }
 }
 

@@ -15,7 +15,6 @@ using motion::Vec6;
 
 namespace {
 
-constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
 constexpr double largest_turn = 2.8;       ///< rotation of a node in one step [rad], below pi: the logarithm is unique
 
 /// Node n of `to` at H exp(d) of `from`.

@@ -13,6 +13,10 @@ struct Jet {
   Jet(double x) : a(x) {  // NOLINT(google-explicit-constructor): numbers must mix with jets in kernels
     for (int i = 0; i < N; ++i) d[i] = S(0.0);
   }
+  template <class T>
+  requires(std::same_as<T, S> && !std::same_as<T, double>) explicit Jet(const T& x) : a(x) {
+    for (int i = 0; i < N; ++i) d[i] = S(0.0);
+  }
   static Jet variable(const S& value, int direction) {
     Jet r(0.0);
     r.a = value;
@@ -105,6 +109,28 @@ template <class S, int N>
 Jet<S, N> operator/(double k, const Jet<S, N>& x) {
   const S value = S(k) / x.a;
   return chain(x, value, S(-value / x.a));
+}
+/// With a plain scalar that is not a double: a constant of the kernel.
+template <class S, int N>
+requires(!std::same_as<S, double>) Jet<S, N> operator*(const S& k, const Jet<S, N>& x) {
+  Jet<S, N> r;
+  r.a = k * x.a;
+  for (int i = 0; i < N; ++i) r.d[i] = k * x.d[i];
+  return r;
+}
+template <class S, int N>
+requires(!std::same_as<S, double>) Jet<S, N> operator*(const Jet<S, N>& x, const S& k) { return k * x; }
+template <class S, int N>
+requires(!std::same_as<S, double>) Jet<S, N> operator+(const Jet<S, N>& x, const S& k) {
+  Jet<S, N> r = x;
+  r.a = r.a + k;
+  return r;
+}
+template <class S, int N>
+requires(!std::same_as<S, double>) Jet<S, N> operator-(const Jet<S, N>& x, const S& k) {
+  Jet<S, N> r = x;
+  r.a = r.a - k;
+  return r;
 }
 template <class S, int N>
 Jet<S, N> sqrt(const Jet<S, N>& x) {

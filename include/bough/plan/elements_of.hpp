@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "bough/elements/evaluate.hpp"
+#include "bough/elements/planar/evaluate.hpp"
 
 namespace bough::plan {
 
@@ -13,6 +13,16 @@ using ElementArrays =
                std::vector<elements::RigidBody>, std::vector<elements::Joint>, std::vector<elements::Spring>,
                std::vector<elements::Bushing>, std::vector<elements::PointLoad>, std::vector<elements::LineLoad<2>>,
                std::vector<elements::LineLoad<3>>, std::vector<elements::LineLoad<4>>>;
+
+/// The same types in the same order for motions in a plane.
+using PlanarArrays =
+    std::tuple<std::vector<elements::planar::Beam<2>>, std::vector<elements::planar::Beam<3>>,
+               std::vector<elements::planar::Beam<4>>, std::vector<elements::planar::RigidBody>,
+               std::vector<elements::planar::Joint>, std::vector<elements::planar::Spring>,
+               std::vector<elements::planar::Bushing>, std::vector<elements::planar::PointLoad>,
+               std::vector<elements::planar::LineLoad<2>>, std::vector<elements::planar::LineLoad<3>>,
+               std::vector<elements::planar::LineLoad<4>>>;
+static_assert(std::tuple_size_v<PlanarArrays> == std::tuple_size_v<ElementArrays>);
 
 template <class E>
 std::vector<E>& array_of(ElementArrays& all) {
@@ -30,13 +40,13 @@ struct ElementPlace {
 };
 
 /// Calls f(element) on the element at a place.
-template <class F>
-void with_element(const ElementArrays& all, ElementPlace place, F&& f) {
+template <class Arrays, class F>
+void with_element(const Arrays& all, ElementPlace place, F&& f) {
   const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
     static_cast<void>(
         ((place.array == I ? (f(std::get<I>(all)[static_cast<std::size_t>(place.index)]), true) : false) || ...));
   };
-  pick(std::make_index_sequence<std::tuple_size_v<ElementArrays>>{});
+  pick(std::make_index_sequence<std::tuple_size_v<Arrays>>{});
 }
 
 /// Calls f(array) for every array, in order.

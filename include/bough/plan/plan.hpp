@@ -1,11 +1,13 @@
 #pragma once
 /// What a scene is made of once it is understood: nodes, elements, time functions, block graph. Immutable after make_plan.
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bough/blocks/block_graph.hpp"
 #include "bough/laws/law.hpp"
 #include "bough/plan/elements_of.hpp"
+#include "bough/plan/unknowns.hpp"
 #include "bough/scene/scene.hpp"
 
 namespace bough::plan {
@@ -22,6 +24,8 @@ struct JointPlan {
   int element = 0;           ///< global element id
   int block = -1;            ///< multiplier block
   int multiplier_begin = 0;  ///< in the array of all multipliers
+  /// Its rows that are unknowns, in order; the others hold by themselves in the motions that the scene has, their multipliers are zero.
+  std::vector<int> rows;
   bool counts_turns = false;
   std::string what;  ///< "joint", "prescribed motion", "held rotation"
 };
@@ -59,6 +63,14 @@ struct FramePlan {
   std::vector<Turn> turns;
 };
 
+/// Something that a scene does not need, or does: what was settled before anything is allocated.
+struct Decision {
+  std::string name;    ///< as in Scene::without
+  bool taken = false;  ///< the thing is left out
+  bool barred = false;  ///< by Scene::without
+  std::string reason;  ///< why it was taken, or the first thing that stands against it
+};
+
 /// A law made from another: one component, in the ground's axes, of a vector fixed in a frame times a factor.
 ///   laws[law] = laws[factor] (R vector)_row
 struct TurnedLawPlan {
@@ -74,6 +86,13 @@ struct SensorPlan {
   elements::Port frame;                 ///< of the frame it is seen from or resolved in
   std::vector<elements::Port> chain;    ///< acceleration_split
   std::vector<std::string> components;  ///< "" for a scalar
+};
+
+/// The elements of a scene that moves in a plane, in three unknowns a node.
+struct PlanarModel {
+  motion::Mat3<double> axes;    ///< columns: two along the plane, its normal; in the ground
+  motion::Vec3<double> origin;  ///< where coordinates in the plane are counted from
+  PlanarArrays elements;        ///< with the places of Plan::elements
 };
 
 struct Plan {
@@ -95,7 +114,10 @@ struct Plan {
   std::vector<SensorPlan> sensors;
   std::vector<int> body_nodes;  ///< nodes of the scene's bodies, in its order
   std::vector<motion::Vec3<double>> body_centers;
-  blocks::BlockGraph graph;        ///< blocks: nodes, then one per joint
+  NodeUnknowns unknowns;
+  std::optional<PlanarModel> planar;  ///< where unknowns.motions is planar
+  std::vector<Decision> decisions;
+  blocks::BlockGraph graph;        ///< blocks: nodes, then one per joint that has rows which are unknowns
   double length_scale = 1.0;       ///< [m], size of the structure
   std::vector<std::string> notes;  ///< what the plan chose where the scene leaves it open, in words
 };

@@ -19,6 +19,9 @@ std::vector<std::string> columns_of(const Sensor& sensor);
 /// revolute and planar: angle; prismatic: displacement; cylindrical and screw: both (of a screw they depend on each other); others none.
 const std::vector<std::string>& coordinates_of(JointKind kind);
 
+/// What a plan may leave out (plan::Decision), as in Scene::without.
+const std::vector<std::string>& decision_names();
+
 /// Names as in files.
 std::string to_string(JointKind kind);
 std::string to_string(SensorKind kind);

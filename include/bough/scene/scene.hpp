@@ -313,6 +313,7 @@ struct Scene {
   Analysis analysis;
   Solver solver;
   Output output;
+  std::vector<std::string> without;  ///< decisions of the plan that are not to be taken ("planar", ...)
   std::vector<Expected> expected;
 };
 

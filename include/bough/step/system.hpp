@@ -42,7 +42,11 @@ struct Trouble {
   std::string text;
 };
 
+template <class Kernels>
 class LaneBatches;
+struct SpatialKernels;
+class PlanarSystem;
+class Projection;
 
 class System {
  public:
@@ -112,6 +116,14 @@ class System {
   int joint_of_element(int element) const { return joint_of_element_[static_cast<std::size_t>(element)]; }
   /// "node 'a'" or "joint 'b'": the owner of a block, for messages.
   std::string block_name(int block) const;
+  /// The motion of a node in a vector of unknowns, (linear; angular) in its own axes.
+  motion::Vec6<double> node_part(const double* x, int node) const {
+    return plan_.unknowns.expanded(x + block_begin(node), static_cast<std::size_t>(node));
+  }
+  /// Sets the unknowns of a node from a motion, or the entries of a right-hand side from a wrench.
+  void set_node_part(double* x, int node, const motion::Vec6<double>& eta) const {
+    plan_.unknowns.project(eta, static_cast<std::size_t>(node), x + block_begin(node));
+  }
   std::int64_t block_begin(int block) const { return tree_->unknown_begin[static_cast<std::size_t>(block)]; }
   std::size_t num_unknowns() const { return static_cast<std::size_t>(tree_->num_unknowns()); }
   const std::vector<double>& law_values() const { return law_values_; }
@@ -132,7 +144,6 @@ class System {
 
   void find_pairs();
   void sum_blocks(std::int64_t begin, std::int64_t end);
-  motion::Vec6<double> node_part(const double* x, int node) const;
   double largest_violation(const State& state, int order, double length, int* joint) const;
   void add_multipliers(State& state, const double* x, double factor) const;
   void set_frames();
@@ -140,9 +151,14 @@ class System {
   void set_frame_series(double step_size, plan::FrameMotions& motions) const;
 
   void evaluate_alone(std::size_t id, const State& state, const elements::Field& field, bool tangent);
+  template <class E>
+  void evaluate_projected(const E& e, std::size_t id, const elements::Field& field, const double* multipliers,
+                          double turns, bool tangent);
 
   const plan::Plan& plan_;
-  std::unique_ptr<LaneBatches> lane_batches_;
+  std::unique_ptr<LaneBatches<SpatialKernels>> lane_batches_;
+  std::unique_ptr<PlanarSystem> planar_;  ///< where the plan has planar elements
+  std::unique_ptr<Projection> projection_;  ///< none where a node has six unknowns
   std::unique_ptr<tree::Tree> tree_;
   std::unique_ptr<solve::AnySolver> solver_;
   tree::Walker walker_;

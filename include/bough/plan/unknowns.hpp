@@ -1,0 +1,48 @@
+#pragma once
+/// Which increments of a node are unknowns: all six, or those in which a scene can move.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bough/motion/types.hpp"
+
+namespace bough::plan {
+
+/// A set of motions that every element of a scene leaves alone: from a state within it no force leads out of it.
+enum class Motions : std::uint8_t {
+  spatial,      ///< all
+  planar,       ///< displacements in a plane, rotation about its normal: 3 unknowns a node
+  translation,  ///< no rotation: 3
+  line,         ///< displacements along one line, no rotation: 1
+};
+
+/// x = P eta of an increment eta of a node, (linear; angular) in its own axes, and eta = P^T x:
+///   P: `count` rows of [B^T 0; 0 B^T], B a rotation that belongs to the node (planar: columns along the plane, along the plane, normal;
+///   line: the first column along the line). The motions lie in the range of P^T, so nothing is lost.
+struct NodeUnknowns {
+  Motions motions = Motions::spatial;
+  int count = 6;
+  std::array<int, 6> component{0, 1, 2, 3, 4, 5};  ///< of (B^T u; B^T w), for each of the `count` unknowns
+  std::vector<motion::Mat3<double>> basis;         ///< B by node; empty: identities
+
+  bool is_whole() const { return count == 6; }
+  bool is_length(int unknown) const { return component[static_cast<std::size_t>(unknown)] < 3; }
+
+  /// P^T x
+  motion::Vec6<double> expanded(const double* x, std::size_t node) const {
+    motion::Vec6<double> eta = motion::Vec6<double>::zero();
+    for (int i = 0; i < count; ++i) eta[component[static_cast<std::size_t>(i)]] = x[i];
+    if (basis.empty()) return eta;
+    return lanes::join(basis[node] * lanes::linear_part(eta), basis[node] * lanes::angular_part(eta));
+  }
+  /// P eta, of increments and of wrenches alike.
+  void project(const motion::Vec6<double>& eta, std::size_t node, double* x) const {
+    motion::Vec6<double> turned = eta;
+    if (!basis.empty())
+      turned = lanes::join(lanes::transpose_times(basis[node], lanes::linear_part(eta)),
+                           lanes::transpose_times(basis[node], lanes::angular_part(eta)));
+    for (int i = 0; i < count; ++i) x[i] = turned[component[static_cast<std::size_t>(i)]];
+  }
+};
+
+}  // namespace bough::plan

@@ -1,0 +1,8 @@
+#include "evaluate_impl.hpp"
+
+namespace bough::elements::planar {
+
+BOUGH_INSTANTIATE_PLANAR(Beam<2>)
+BOUGH_INSTANTIATE_PLANAR(LineLoad<2>)
+
+}  // namespace bough::elements::planar

@@ -1,0 +1,213 @@
+/// Elements of a scene that moves in a plane, from those in space: constants as seen along the plane.
+#include <cmath>
+
+#include "plan_builder.hpp"
+
+namespace bough::plan {
+
+using motion::Mat3;
+using motion::Mat6;
+using motion::Vec2;
+using motion::Vec3;
+using motion::Vec6;
+
+namespace {
+
+namespace flat = elements::planar;
+using elements::RowKind;
+
+constexpr int kept[3] = {0, 1, 5};
+
+/// [B^T 0; 0 B^T] M [B 0; 0 B], rows and columns in the plane.
+Mat3<double> in_plane(const Mat6<double>& m, const Mat3<double>& B) {
+  Mat3<double> r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int a = kept[i], b = kept[j];
+      double sum = 0.0;
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) sum += B(k, a % 3) * m(a / 3 * 3 + k, b / 3 * 3 + l) * B(l, b % 3);
+      r(i, j) = sum;
+    }
+  return r;
+}
+Vec3<double> in_plane(const Vec6<double>& v, const Mat3<double>& B) {
+  const Vec3<double> linear = lanes::transpose_times(B, lanes::linear_part(v)),
+                     angular = lanes::transpose_times(B, lanes::angular_part(v));
+  return {{linear[0], linear[1], angular[2]}};
+}
+Vec2<double> in_plane(const Vec3<double>& v, const Mat3<double>& B) {
+  return motion::plane_part(lanes::transpose_times(B, v));
+}
+
+class Flattener {
+ public:
+  Flattener(const Builder& builder, const PlanarModel& model) : b_(builder), model_(model) {}
+
+  template <int N>
+  flat::Beam<N> operator()(const elements::Beam<N>& e) const {
+    const Mat3<double> B = section_axes(e.ports[0]);
+    flat::Beam<N> r;
+    set_ports(e.ports, B, r.ports);
+    r.length = e.length;
+    r.stiffness = in_plane(e.stiffness, B);
+    r.damping = in_plane(e.damping, B);
+    r.mass = in_plane(e.mass, B);
+    r.has_damping = e.has_damping;
+    r.has_mass = e.has_mass;
+    for (int g = 0; g < N - 1; ++g) r.reference_strain[g] = in_plane(e.reference_strain[g], B);
+    return r;
+  }
+  template <int N>
+  flat::LineLoad<N> operator()(const elements::LineLoad<N>& e) const {
+    const Mat3<double> B = section_axes(e.ports[0]);
+    flat::LineLoad<N> r;
+    set_ports(e.ports, B, r.ports);
+    r.length = e.length;
+    r.wrench = in_plane(e.wrench, e.follows ? B : model_.axes);
+    r.follows = e.follows;
+    r.law = e.law;
+    return r;
+  }
+  flat::RigidBody operator()(const elements::RigidBody& e) const {
+    const Mat3<double> B = axes_at(e.ports[0]);
+    flat::RigidBody r;
+    set_ports(e.ports, B, r.ports);
+    r.mass = in_plane(e.mass, B);
+    return r;
+  }
+  flat::PointLoad operator()(const elements::PointLoad& e) const {
+    const Mat3<double> B = axes_at(e.ports[0]);
+    flat::PointLoad r;
+    set_ports(e.ports, B, r.ports);
+    r.wrench = in_plane(e.wrench, e.follows ? B : model_.axes);
+    r.follows = e.follows;
+    r.law = e.law;
+    return r;
+  }
+  flat::Spring operator()(const elements::Spring& e) const {
+    flat::Spring r;
+    for (int k = 0; k < 2; ++k) r.ports[k] = port(e.ports[k], axes_at(e.ports[k]));
+    r.stiffness = e.stiffness;
+    r.rest_length = e.rest_length;
+    r.damping = e.damping;
+    return r;
+  }
+  flat::Bushing operator()(const elements::Bushing& e) const {
+    const Mat3<double> B = axes_at(e.ports[0]);
+    flat::Bushing r;
+    set_ports(e.ports, B, r.ports);
+    r.stiffness = in_plane(e.stiffness, B);
+    r.damping = in_plane(e.damping, B);
+    r.rest = in_plane(e.rest, B);
+    r.has_damping = e.has_damping;
+    return r;
+  }
+  /// Both frames keep their own axis 1 where axis 3 is the normal: angles are those of the joint.
+  flat::Joint operator()(const elements::Joint& e, const std::vector<int>& rows) const {
+    const Mat3<double> Ba = joint_axes(e.ports[0]), Bb = joint_axes(e.ports[1]);
+    const Vec3<double> normal_a = lanes::column(Ba, 2);
+    const auto unit = [](const Mat3<double>& B, int i) { return Vec2<double>{{B(i, 0), B(i, 1)}}; };
+    const Vec2<double> sign{{normal_a[2] > 0.0 ? 1.0 : -1.0, 0.0}};
+    flat::Joint r;
+    r.ports[0] = port(e.ports[0], Ba);
+    r.ports[1] = port(e.ports[1], Bb);
+    for (int row : rows) {
+      const elements::ConstraintRow& from = e.rows[row];
+      flat::RowOf<double>& to = r.rows[r.num_rows++];
+      to.kind = from.kind;
+      to.law = from.law;
+      if (from.kind == RowKind::along) {
+        to.d = unit(Ba, from.i);
+      } else if (from.kind == RowKind::across) {  // g . (c k + s i k)
+        const Vec2<double> g = unit(Ba, from.i), k = unit(Bb, from.j);
+        to.d = {{lanes::dot(g, k), lanes::dot(g, motion::quarter_turn(k))}};
+      } else {
+        to.d = sign;
+      }
+    }
+    for (int k = 0; k < e.num_efforts; ++k) {
+      flat::EffortOf<double>& to = r.efforts[r.num_efforts++];
+      to.coordinate = e.efforts[k].coordinate;
+      to.d = e.efforts[k].coordinate == elements::Coordinate::angle ? sign : unit(Ba, 2);
+      to.effort = e.efforts[k];
+    }
+    return r;
+  }
+
+ private:
+  /// Axes of the plane in those of a port's frame, the first two turned to it.
+  Mat3<double> axes_at(const elements::Port& p) const {
+    return lanes::transpose_times(b_.initial_pose(p).R, model_.axes);
+  }
+  Mat3<double> with_first(const Vec3<double>& first, const Vec3<double>& normal) const {
+    const Vec3<double> second = lanes::cross(normal, first);
+    Mat3<double> B;
+    for (int i = 0; i < 3; ++i) {
+      B(i, 0) = first[i];
+      B(i, 1) = second[i];
+      B(i, 2) = normal[i];
+    }
+    return B;
+  }
+  Mat3<double> section_axes(const elements::Port& p) const {
+    return with_first(Vec3<double>::unit(0), lanes::column(axes_at(p), 2));
+  }
+  Mat3<double> joint_axes(const elements::Port& p) const {
+    const Mat3<double> B = axes_at(p);
+    const Vec3<double> normal = lanes::column(B, 2);
+    return std::abs(normal[2]) > 0.5 ? with_first(Vec3<double>::unit(0), normal) : B;
+  }
+  /// Frame of a port with axes B (in the port's own), as seen from its node's planar frame.
+  flat::Port port(const elements::Port& p, const Mat3<double>& B) const {
+    constexpr double round_off = 4e-16;
+    flat::Port r;
+    r.node = p.node;
+    const bool on_ground = p.node == elements::ground;
+    const Mat3<double> turned = (on_ground || p.has_offset ? p.offset.R : Mat3<double>::identity()) * B;
+    const Mat3<double> own = on_ground                            ? model_.axes
+                             : b_.plan.unknowns.basis.empty() ? Mat3<double>::identity()
+                                                               : b_.plan.unknowns.basis[static_cast<std::size_t>(p.node)];
+    const Mat3<double> Q = lanes::transpose_times(own, turned);
+    r.turn = {{Q(0, 0), Q(1, 0)}};
+    if (on_ground)
+      r.x = in_plane(Vec3<double>(p.offset.x - model_.origin), own);
+    else if (p.has_offset)
+      r.x = in_plane(p.offset.x, own);
+    if (std::abs(r.turn[1]) <= round_off && r.turn[0] > 0.0) r.turn = {{1.0, 0.0}};
+    r.has_offset = r.turn[1] != 0.0 || r.turn[0] != 1.0 || r.x[0] != 0.0 || r.x[1] != 0.0;
+    return r;
+  }
+  template <std::size_t P>
+  void set_ports(const elements::Port (&from)[P], const Mat3<double>& B, flat::Port (&to)[P]) const {
+    for (std::size_t k = 0; k < P; ++k) to[k] = port(from[k], B);
+  }
+
+  const Builder& b_;
+  const PlanarModel& model_;
+};
+
+}  // namespace
+
+void Builder::add_planar_elements(const Mat3<double>& axes) {
+  PlanarModel& model = plan.planar.emplace();
+  model.axes = axes;
+  model.origin = plan.nodes.front().pose.x;
+  const Flattener flatten(*this, model);
+  std::map<int, const JointPlan*> joint_of;
+  for (const JointPlan& j : plan.joints) joint_of[plan.directory[static_cast<std::size_t>(j.element)].index] = &j;
+  const auto fill = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    const auto one = [&](const auto& from, auto& to) {
+      for (std::size_t i = 0; i < from.size(); ++i) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(from[i])>, elements::Joint>)
+          to.push_back(flatten(from[i], joint_of.at(static_cast<int>(i))->rows));
+        else
+          to.push_back(flatten(from[i]));
+      }
+    };
+    (one(std::get<I>(plan.elements), std::get<I>(model.elements)), ...);
+  };
+  fill(std::make_index_sequence<std::tuple_size_v<ElementArrays>>{});
+}
+
+}  // namespace bough::plan

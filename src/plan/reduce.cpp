@@ -1,0 +1,426 @@
+/// In which motions a scene stays once it is in them: the unknowns of its nodes.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "plan_builder.hpp"
+
+namespace bough::plan {
+
+using elements::Port;
+using elements::RowKind;
+using motion::Frame;
+using motion::Mat3;
+using motion::Mat6;
+using motion::Vec3;
+using motion::Vec6;
+
+namespace {
+
+using Obstacle = std::optional<std::string>;  ///< what stands against a set of motions, in words
+
+constexpr double small = 1e-12;  ///< relative: what directions and places that were computed may differ by
+
+double length_of(const Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
+Vec3<double> linear(const Vec6<double>& v) { return lanes::linear_part(v); }
+Vec3<double> angular(const Vec6<double>& v) { return lanes::angular_part(v); }
+
+/// Three axes, `which` of them along `direction`.
+Mat3<double> axes_with(int which, const Vec3<double>& direction) {
+  int least = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(direction[i]) < std::abs(direction[least]) - small) least = i;
+  Vec3<double> second = lanes::cross(direction, Vec3<double>::unit(least));
+  second = (1.0 / length_of(second)) * second;
+  const Vec3<double> third = lanes::cross(direction, second);
+  Mat3<double> axes;
+  for (int i = 0; i < 3; ++i) {
+    axes(i, which) = direction[i];
+    axes(i, (which + 1) % 3) = second[i];
+    axes(i, (which + 2) % 3) = third[i];
+  }
+  return axes;
+}
+
+/// Whether a matrix of sections or bodies couples motions in the plane with those out of it; axes: columns along, along, normal.
+bool couples(const Mat6<double>& m, const Mat3<double>& axes) {
+  double turned[6][6], largest[2] = {0.0, 0.0};
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      double sum = 0.0;
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) sum += axes(k, i % 3) * m(i / 3 * 3 + k, j / 3 * 3 + l) * axes(l, j % 3);
+      turned[i][j] = sum;
+      if (i == j) largest[i / 3] = std::max(largest[i / 3], std::abs(sum));
+    }
+  constexpr int inside[3] = {0, 1, 5}, outside[3] = {2, 3, 4};
+  for (int i : inside)
+    for (int j : outside) {
+      const double scale = std::sqrt(largest[i / 3] * largest[j / 3]);
+      if (std::max(std::abs(turned[i][j]), std::abs(turned[j][i])) > small * scale) return true;
+    }
+  return false;
+}
+
+/// What is asked of every element: `against` gives the first thing that leads out of the motions.
+class Motion {
+ public:
+  explicit Motion(const Builder& builder) : b_(builder), size_(builder.plan.length_scale) {}
+  virtual ~Motion() = default;
+
+  virtual Motions kind() const = 0;
+  virtual std::array<int, 6> components() const = 0;
+  virtual int count() const = 0;
+  virtual Mat3<double> axes() const = 0;  ///< of B, in the ground
+
+  virtual Obstacle against(const elements::RigidBody& e) const = 0;
+  virtual Obstacle against(const elements::Joint& e) const = 0;
+  virtual Obstacle against(const elements::Spring& e) const = 0;
+  virtual Obstacle against(const elements::Bushing& e) const = 0;
+  virtual Obstacle against(const elements::PointLoad& e) const = 0;
+  template <int N>
+  Obstacle against(const elements::Beam<N>& e) const {
+    Frame<double> pose[N];
+    for (int i = 0; i < N; ++i) pose[i] = b_.initial_pose(e.ports[i]);
+    return against_beam(pose, N, {&e.stiffness, &e.mass, &e.damping}, e.reference_strain, e.num_strain_points,
+                        e.length);
+  }
+  template <int N>
+  Obstacle against(const elements::LineLoad<N>& e) const {
+    return against_wrench(e.wrench, e.follows ? b_.initial_pose(e.ports[0]).R : Mat3<double>::identity());
+  }
+  virtual Obstacle against_gravity() const = 0;
+  virtual Obstacle against_node(const NodePlan& node) const = 0;
+
+  /// Rows of a joint that are unknowns. Precondition: nothing stands against the joint.
+  virtual bool keeps(const elements::Joint& e, int row) const = 0;
+
+ protected:
+  virtual Obstacle against_beam(const Frame<double>* pose, int count, std::array<const Mat6<double>*, 3> section,
+                                const Vec6<double>* strain, int points, double length) const = 0;
+  virtual Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) const = 0;
+
+  const Builder& b_;
+  double size_;  ///< of the structure [m]
+};
+
+/// Symmetry of reflection in a plane: geometry, masses and loads are their own mirror images, so forces out of the plane are zero.
+class InPlane final : public Motion {
+ public:
+  InPlane(const Builder& builder, const Vec3<double>& normal)
+      : Motion(builder), normal_(normal), height_(lanes::dot(normal, builder.plan.nodes.front().pose.x)) {}
+
+  Motions kind() const override { return Motions::planar; }
+  std::array<int, 6> components() const override { return {0, 1, 5, 2, 3, 4}; }
+  int count() const override { return 3; }
+  Mat3<double> axes() const override { return axes_with(2, normal_); }
+
+  Obstacle against(const elements::RigidBody& e) const override {
+    const Frame<double> pose = b_.initial_pose(e.ports[0]);
+    return couples(e.mass, axes_with(2, normal_in(pose)))
+               ? Obstacle{"its mass is not symmetric about the plane (centre of mass, principal axes)"}
+               : std::nullopt;
+  }
+  Obstacle against(const elements::Spring& e) const override { return against_places(e.ports); }
+  Obstacle against(const elements::Bushing& e) const override {
+    if (auto o = against_places(e.ports)) return o;
+    const Vec3<double> a = normal_in(b_.initial_pose(e.ports[0])), b = normal_in(b_.initial_pose(e.ports[1]));
+    if (length_of(a - b) > small) return "its two frames are turned against each other out of the plane";
+    return couples(e.stiffness, axes_with(2, a)) || couples(e.damping, axes_with(2, a))
+               ? Obstacle{"its stiffness or damping couples motions in the plane with others"}
+               : std::nullopt;
+  }
+  Obstacle against(const elements::PointLoad& e) const override {
+    if (auto o = against_places(e.ports)) return o;
+    return against_wrench(e.wrench, e.follows ? b_.initial_pose(e.ports[0]).R : Mat3<double>::identity());
+  }
+  Obstacle against(const elements::Joint& e) const override {
+    if (auto o = against_places(e.ports)) return o;
+    const Vec3<double> a = normal_in(b_.initial_pose(e.ports[0])), b = normal_in(b_.initial_pose(e.ports[1]));
+    for (int k = 0; k < e.num_rows; ++k) {
+      const elements::ConstraintRow& row = e.rows[k];
+      const bool upright = std::abs(std::abs(a[2]) - 1.0) < small && std::abs(a[2] - b[2]) < small;
+      if (row.kind == RowKind::screw) return "it is a screw";
+      if (row.kind == RowKind::angle && !upright) return "it drives a rotation out of the plane";
+      if (row.kind == RowKind::along && !along(a, row.i) && !beside(a, row.i)) return oblique();
+      if (row.kind == RowKind::along && along(a, row.i) && row.law >= 0) return "it drives a motion out of the plane";
+      if (row.kind != RowKind::across) continue;
+      const bool first = along(a, row.i), second = along(b, row.j);
+      if ((!first && !beside(a, row.i)) || (!second && !beside(b, row.j))) return oblique();
+      if (first && second) return "it turns an axis out of the plane";
+    }
+    for (int k = 0; k < e.num_efforts; ++k) {
+      const bool turns = e.efforts[k].coordinate == elements::Coordinate::angle;
+      if (turns ? !along(a, 2) || !along(b, 2) : !beside(a, 2))
+        return "a force or moment along its free motion acts out of the plane";
+    }
+    return std::nullopt;
+  }
+  bool keeps(const elements::Joint& e, int k) const override {
+    const elements::ConstraintRow& row = e.rows[k];
+    const Vec3<double> a = normal_in(b_.initial_pose(e.ports[0])), b = normal_in(b_.initial_pose(e.ports[1]));
+    if (row.kind == RowKind::along) return beside(a, row.i);
+    if (row.kind == RowKind::across) return beside(a, row.i) && beside(b, row.j);
+    return true;
+  }
+  Obstacle against_gravity() const override {
+    return std::abs(lanes::dot(b_.plan.gravity, normal_)) > small * length_of(b_.plan.gravity)
+               ? Obstacle{"gravity acts out of the plane"}
+               : std::nullopt;
+  }
+  Obstacle against_node(const NodePlan& node) const override {
+    if (is_outside(node.pose.x)) return "it lies outside the plane";
+    const Vec3<double> v = node.pose.R * linear(node.twist), w = node.pose.R * angular(node.twist);
+    if (std::abs(lanes::dot(v, normal_)) > small * length_of(v)) return "it starts out of the plane";
+    if (length_of(lanes::cross(w, normal_)) > small * length_of(w)) return "it starts turning out of the plane";
+    return std::nullopt;
+  }
+
+ private:
+  Vec3<double> normal_in(const Frame<double>& pose) const { return lanes::transpose_times(pose.R, normal_); }
+  static bool along(const Vec3<double>& normal, int axis) { return std::abs(std::abs(normal[axis]) - 1.0) < small; }
+  static bool beside(const Vec3<double>& normal, int axis) { return std::abs(normal[axis]) < small; }
+  static Obstacle oblique() { return "its axes are oblique to the plane"; }
+  bool is_outside(const Vec3<double>& x) const { return std::abs(lanes::dot(x, normal_) - height_) > small * size_; }
+  template <std::size_t N>
+  Obstacle against_places(const Port (&ports)[N]) const {
+    for (const Port& p : ports)
+      if (is_outside(b_.initial_pose(p).x)) return "it takes hold outside the plane";
+    return std::nullopt;
+  }
+  Obstacle against_beam(const Frame<double>* pose, int count, std::array<const Mat6<double>*, 3> section,
+                        const Vec6<double>* strain, int points, double length) const override {
+    const Vec3<double> n = normal_in(pose[0]);
+    if (std::abs(n[0]) > small) return "its axis leaves the plane";
+    for (int i = 0; i < count; ++i) {
+      if (is_outside(pose[i].x)) return "it lies outside the plane";
+      if (length_of(normal_in(pose[i]) - n) > small) return "it is twisted";
+    }
+    const Mat3<double> axes = axes_with(2, n);
+    for (const Mat6<double>* m : section)
+      if (couples(*m, axes)) return "its section couples bending in the plane with other strains";
+    for (int g = 0; g < points; ++g) {
+      const Vec3<double> kappa = angular(strain[g]);
+      if (std::abs(lanes::dot(linear(strain[g]), n)) > small ||
+          length * length_of(lanes::cross(kappa, n)) > small * std::max(1.0, length * length_of(kappa)))
+        return "it is bent out of the plane";
+    }
+    return std::nullopt;
+  }
+  Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) const override {
+    const Vec3<double> force = axes * linear(wrench), moment = axes * angular(wrench);
+    if (std::abs(lanes::dot(force, normal_)) > small * length_of(force)) return "its force acts out of the plane";
+    if (length_of(lanes::cross(moment, normal_)) > small * length_of(moment))
+      return "its moment acts out of the plane";
+    return std::nullopt;
+  }
+
+  Vec3<double> normal_;
+  double height_;
+};
+
+/// Forces at points that are the origins of their nodes: nothing turns. On a line besides, where one is given.
+class OfPoints final : public Motion {
+ public:
+  OfPoints(const Builder& builder, std::optional<Vec3<double>> line) : Motion(builder), line_(line) {}
+
+  Motions kind() const override { return line_ ? Motions::line : Motions::translation; }
+  std::array<int, 6> components() const override { return {0, 1, 2, 3, 4, 5}; }
+  int count() const override { return line_ ? 1 : 3; }
+  Mat3<double> axes() const override { return line_ ? axes_with(0, *line_) : Mat3<double>::identity(); }
+
+  Obstacle against(const elements::RigidBody& e) const override {
+    const double mass = std::abs(e.mass(0, 0));
+    for (int i = 0; i < 3; ++i)
+      for (int j = 3; j < 6; ++j)
+        if (std::abs(e.mass(i, j)) > small * mass * size_) return "its centre of mass is not at its frame's origin";
+    return std::nullopt;
+  }
+  Obstacle against(const elements::Spring& e) const override { return against_places(e.ports); }
+  Obstacle against(const elements::Bushing&) const override { return "it holds rotations"; }
+  Obstacle against(const elements::PointLoad& e) const override {
+    if (auto o = against_places(e.ports)) return o;
+    if (e.follows) return "it follows rotations";
+    return against_wrench(e.wrench, Mat3<double>::identity());
+  }
+  Obstacle against(const elements::Joint& e) const override {
+    if (e.num_efforts > 0) return "forces act along its free motion";
+    if (e.ports[0].node != elements::ground) return "it joins two bodies";
+    const Mat3<double>& axes = b_.initial_pose(e.ports[0]).R;
+    for (int k = 0; k < e.num_rows; ++k) {
+      const elements::ConstraintRow& row = e.rows[k];
+      if (row.kind == RowKind::across) continue;
+      if (row.kind != RowKind::along) return "it turns";
+      if (auto o = against_places(e.ports)) return o;
+      if (!line_) continue;
+      const double part = std::abs(lanes::dot(*line_, axis_of(axes, row.i)));
+      if (part > small && std::abs(part - 1.0) > small) return "its axes are oblique to the line";
+      if (part <= small && row.law >= 0) return "it drives a motion off the line";
+    }
+    return std::nullopt;
+  }
+  bool keeps(const elements::Joint& e, int k) const override {
+    if (e.rows[k].kind != RowKind::along) return false;
+    return !line_ || std::abs(lanes::dot(*line_, axis_of(b_.initial_pose(e.ports[0]).R, e.rows[k].i))) > 0.5;
+  }
+  Obstacle against_gravity() const override {
+    return is_off(b_.plan.gravity) ? Obstacle{"gravity acts off the line"} : std::nullopt;
+  }
+  Obstacle against_node(const NodePlan& node) const override {
+    if (length_of(angular(node.twist)) > 0.0) return "it starts turning";
+    if (line_ && is_off(node.pose.x - b_.plan.nodes.front().pose.x, size_)) return "it lies off the line";
+    return is_off(node.pose.R * linear(node.twist)) ? Obstacle{"it starts off the line"} : std::nullopt;
+  }
+
+ private:
+  static Vec3<double> axis_of(const Mat3<double>& axes, int i) { return {{axes(0, i), axes(1, i), axes(2, i)}}; }
+  bool is_off(const Vec3<double>& v, double scale = 0.0) const {
+    return line_ && length_of(lanes::cross(v, *line_)) > small * std::max(scale, length_of(v));
+  }
+  template <std::size_t N>
+  Obstacle against_places(const Port (&ports)[N]) const {
+    for (const Port& p : ports) {
+      if (p.node != elements::ground && p.has_offset && length_of(p.offset.x) > small * size_)
+        return "it takes hold beside the origin of a body's frame";
+      if (is_off(b_.initial_pose(p).x - b_.plan.nodes.front().pose.x, size_)) return "it takes hold off the line";
+    }
+    return std::nullopt;
+  }
+  Obstacle against_beam(const Frame<double>*, int, std::array<const Mat6<double>*, 3>, const Vec6<double>*, int,
+                        double) const override {
+    return "it bends";
+  }
+  Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) const override {
+    if (length_of(angular(wrench)) > 0.0) return "it has a moment";
+    return is_off(axes * linear(wrench)) ? Obstacle{"it acts off the line"} : std::nullopt;
+  }
+
+  std::optional<Vec3<double>> line_;
+};
+
+Obstacle first_obstacle(const Builder& b, const Motion& motion) {
+  if (auto o = motion.against_gravity()) return o;
+  for (const NodePlan& node : b.plan.nodes)
+    if (auto o = motion.against_node(node)) return "'" + node.name + "': " + *o;
+  Obstacle found;
+  for (std::size_t id = 0; id < b.plan.directory.size() && !found; ++id)
+    with_element(b.plan.elements, b.plan.directory[id], [&](const auto& e) {
+      if (auto o = motion.against(e)) found = "'" + b.plan.element_owner[id] + "': " + *o;
+    });
+  return found;
+}
+
+/// Normals that the plane of a scene may have: the ground's axes, the axes of its joints, the normal of its nodes.
+std::vector<Vec3<double>> normals(const Builder& b) {
+  std::vector<Vec3<double>> list;
+  const auto add = [&list](const Vec3<double>& n) {
+    const double length = length_of(n);
+    if (!(length > 0.0)) return;
+    const Vec3<double> unit = (1.0 / length) * n;
+    const bool is_known = std::any_of(list.begin(), list.end(), [&unit](const Vec3<double>& other) {
+      return length_of(lanes::cross(other, unit)) < small;
+    });
+    if (!is_known) list.push_back(unit);
+  };
+  for (int i : {2, 1, 0}) add(Vec3<double>::unit(i));
+  const Vec3<double> first = b.plan.nodes.front().pose.x;
+  Vec3<double> far = Vec3<double>::zero(), normal = far;
+  for (const NodePlan& node : b.plan.nodes) {
+    const Vec3<double> r = node.pose.x - first;
+    if (lanes::dot(r, r) > lanes::dot(far, far)) far = r;
+  }
+  for (const NodePlan& node : b.plan.nodes) {
+    const Vec3<double> n = lanes::cross(far, Vec3<double>(node.pose.x - first));
+    if (lanes::dot(n, n) > lanes::dot(normal, normal)) normal = n;
+  }
+  if (length_of(normal) > 1e-6 * lanes::dot(far, far)) add(normal);
+  for (const elements::Joint& e : array_of<elements::Joint>(b.plan.elements)) {
+    if (list.size() > 6) break;
+    const Mat3<double>& axes = b.initial_pose(e.ports[0]).R;
+    add({{axes(0, 2), axes(1, 2), axes(2, 2)}});
+  }
+  return list;
+}
+
+std::optional<Vec3<double>> line_of(const Builder& b) {
+  Vec3<double> far = Vec3<double>::zero();
+  const auto look = [&](const Vec3<double>& x) {
+    const Vec3<double> r = x - b.plan.nodes.front().pose.x;
+    if (lanes::dot(r, r) > lanes::dot(far, far)) far = r;
+  };
+  for (const NodePlan& node : b.plan.nodes) look(node.pose.x);
+  for (const elements::Spring& e : array_of<elements::Spring>(b.plan.elements))
+    for (const Port& p : e.ports) look(b.initial_pose(p).x);
+  const double length = length_of(far);
+  if (!(length > 0.0)) return std::nullopt;
+  return (1.0 / length) * far;
+}
+
+void take(Builder& b, const Motion& motion) {
+  NodeUnknowns& u = b.plan.unknowns;
+  u.motions = motion.kind();
+  u.count = motion.count();
+  u.component = motion.components();
+  const Mat3<double> axes = motion.axes();
+  bool is_plain = true;
+  for (const NodePlan& node : b.plan.nodes) {
+    u.basis.push_back(lanes::transpose(node.pose.R) * axes);
+    for (int i = 0; i < 9; ++i) is_plain &= u.basis.back().m[i] == (i % 4 == 0 ? 1.0 : 0.0);
+  }
+  if (is_plain) u.basis.clear();
+  for (JointPlan& j : b.plan.joints) {
+    const auto& e = array_of<elements::Joint>(b.plan.elements)[static_cast<std::size_t>(
+        b.plan.directory[static_cast<std::size_t>(j.element)].index)];
+    std::erase_if(j.rows, [&](int row) { return !motion.keeps(e, row); });
+  }
+  if (motion.kind() == Motions::planar) b.add_planar_elements(axes);
+}
+
+/// What no reduction goes with, whatever the elements are.
+Obstacle general_obstacle(const Builder& b) {
+  if (b.plan.nodes.empty()) return "there are no nodes";
+  if (!b.plan.frames.empty()) return "frames of prescribed motion move in six ways";
+  if (b.plan.is_dynamic && b.scene.analysis.integrator == scene::Integrator::variational)
+    return "the variational integrator takes six unknowns a node";
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool Builder::is_barred(const std::string& decision) const {
+  return std::find(scene.without.begin(), scene.without.end(), decision) != scene.without.end();
+}
+
+void Builder::choose_unknowns() {
+  const Obstacle general = general_obstacle(*this);
+  const auto settle = [&](const char* name, const char* why, const std::vector<Vec3<double>>& directions, auto make) {
+    Decision d{name, false, is_barred(name), "everything is at one place"};
+    if (general) d.reason = *general;
+    for (std::size_t k = 0; k < directions.size() && !general && !d.taken; ++k) {
+      const auto motion = make(directions[k]);
+      const Obstacle o = first_obstacle(*this, motion);
+      // The reason given is that of the candidate which all nodes lie in, if there is one.
+      if (o && (k == 0 || d.reason.find("outside the plane") != std::string::npos)) d.reason = *o;
+      if (o) continue;
+      d.reason = why;
+      if (d.barred || !plan.unknowns.is_whole()) break;
+      d.taken = true;
+      take(*this, motion);
+    }
+    plan.decisions.push_back(d);
+  };
+  const std::vector<Vec3<double>> any{Vec3<double>::zero()};
+  std::vector<Vec3<double>> lines, planes;
+  if (!general) {
+    if (const auto line = line_of(*this)) lines.push_back(*line);
+    planes = normals(*this);
+  }
+  settle("line", "point masses, springs and loads lie on one line", lines,
+         [this](const Vec3<double>& d) { return OfPoints(*this, d); });
+  settle("translation", "forces act at the origins of nodes only, so nothing turns", any,
+         [this](const Vec3<double>&) { return OfPoints(*this, std::nullopt); });
+  settle("planar", "geometry, sections, masses, joints, loads and initial data are symmetric about one plane", planes,
+         [this](const Vec3<double>& n) { return InPlane(*this, n); });
+}
+
+}  // namespace bough::plan

@@ -1,0 +1,47 @@
+#pragma once
+/// Evaluation of a scene that moves in a plane: nodes seen in it, planar elements alone and in lockstep. Internal to step.
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lane_batches.hpp"
+#include "system_parts.hpp"
+
+namespace bough::step {
+
+class PlanarSystem {
+ public:
+  PlanarSystem(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
+               const std::vector<int>& joint_of_element)
+      : plan_(plan), batches_(batches), joint_of_element_(joint_of_element), nodes_(plan.nodes.size()) {
+    lanes_.make(plan, batches, joint_of_element);
+    field_.nodes = nodes_.data();
+  }
+
+  /// Nodes [begin, end) as seen in the plane.
+  void set_nodes(const State& state, std::int64_t begin, std::int64_t end);
+  /// Gravity, laws and slopes.
+  void set_field(const elements::Field& field);
+
+  /// Residuals, magnitudes and (where wanted) tangents of all elements of a batch, as LaneBatches::evaluate.
+  template <class Result>
+  void evaluate(std::size_t batch, const State& state, bool tangent, Result&& result) const {
+    if (lanes_.holds(batch)) return lanes_.evaluate(batch, state, field_, tangent, result);
+    for (int id : batches_[batch].element)
+      if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, tangent, result(id));
+  }
+
+ private:
+  void evaluate_alone(std::size_t id, const State& state, bool tangent, const ElementResult& to) const;
+
+  const plan::Plan& plan_;
+  std::span<const solve::ElementBatch> batches_;
+  const std::vector<int>& joint_of_element_;
+  std::vector<elements::planar::Node> nodes_;
+  elements::planar::Field field_;
+  LaneBatches<PlanarKernels> lanes_;
+};
+
+}  // namespace bough::step
