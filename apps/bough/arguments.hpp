@@ -55,6 +55,10 @@ struct TuneArguments {
   int threads = 0;
   std::vector<std::string> overrides;
 };
+struct PlanArguments {
+  std::filesystem::path scene, json;  ///< json empty: not written
+  std::vector<std::string> overrides;
+};
 struct CheckArguments {
   std::filesystem::path scene;
   std::vector<std::string> overrides;
@@ -105,6 +109,7 @@ int batch(const BatchArguments& arguments);
 int export_matrix(const ExportMatrixArguments& arguments);
 int profile(const ProfileArguments& arguments);
 int tune(const TuneArguments& arguments);
+int plan(const PlanArguments& arguments);
 int check(const CheckArguments& arguments);
 int compare(const CompareArguments& arguments);
 int kinematics_razi(const RaziArguments& arguments);

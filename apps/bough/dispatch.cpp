@@ -4,6 +4,7 @@
 
 #include "arguments.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/scene/components.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/version.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 const std::vector<std::string> verbs = {"run",     "view",       "batch",         "check", "schema",
                                         "compare", "kinematics", "export-matrix", "study", "stress",
-                                        "profile", "tune",       "doctor"};
+                                        "profile", "tune",       "plan",          "doctor"};
 
 /// A finite number from low to high. (CLI::Range lets NaN pass.)
 CLI::Validator between(double low, double high) {
@@ -31,6 +32,22 @@ void add_overrides(CLI::App& verb, std::vector<std::string>& overrides) {
       ->type_name("/POINTER=VALUE")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+/// Decisions of the plan that are not to be taken: an override of /without, made when all are known.
+void add_without(CLI::App& verb, std::vector<std::string>& overrides) {
+  verb.add_option_function<std::vector<std::string>>(
+          "--without",
+          [&overrides](const std::vector<std::string>& names) {
+            std::string list;
+            for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + name + "\"";
+            overrides.push_back("/without=[" + list + "]");
+          },
+          "Do not take this decision of the plan (see bough plan); may be given several times")
+      ->type_name("DECISION")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::IsMember(scene::decision_names()));
 }
 
 void add_threads(CLI::App& verb, int& threads, const std::string& what) {
@@ -55,6 +72,7 @@ void add_run(CLI::App& app, RunArguments& a, int& code) {
   verb.add_option("--out", a.out, "Directory of the results (default: ./<scene>.out)")->type_name("DIR");
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
+  add_without(verb, a.overrides);
   verb.add_flag("--quiet", a.quiet, "Print problems only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
   verb.callback([&] { code = run(a); });
@@ -169,6 +187,18 @@ void add_tune(CLI::App& app, TuneArguments& a, int& code) {
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
   verb.callback([&] { code = tune(a); });
+}
+
+void add_plan(CLI::App& app, PlanArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, "plan", "Say what a run leaves out and why, and what it will take",
+                            "  bough plan four_bar.json\n"
+                            "  bough plan four_bar.json --without planar --json plan.json\n"
+                            "Nothing is run: seconds come from a model, for comparisons of a scene with itself.");
+  verb.add_option("SCENE", a.scene, "Scene file (JSON)")->required();
+  verb.add_option("--json", a.json, "Write all of it")->type_name("FILE");
+  add_overrides(verb, a.overrides);
+  add_without(verb, a.overrides);
+  verb.callback([&] { code = plan(a); });
 }
 
 void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArguments& compare_arguments,
@@ -327,6 +357,8 @@ int dispatch(int count, char** values) {
   TuneArguments tune_arguments;
   add_profile(app, profile_arguments, code);
   add_tune(app, tune_arguments, code);
+  PlanArguments plan_arguments;
+  add_plan(app, plan_arguments, code);
   add_small_verbs(app, check_arguments, compare_arguments, schema_arguments, code);
   StudyArguments study_arguments;
   add_study(app, study_arguments, code);

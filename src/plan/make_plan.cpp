@@ -333,6 +333,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.number_elements();
   b.plan.length_scale = b.size_of_structure();
   b.choose_unknowns();
+  b.settle();
   b.make_graph();
   b.add_sensors();
   return std::move(b.plan);

@@ -8,6 +8,7 @@
 
 #include "bough/plan/frames.hpp"
 #include "bough/plan/plan.hpp"
+#include "bough/scene/components.hpp"
 #include "bough/scene/poses.hpp"
 
 namespace bough::plan {
@@ -77,6 +78,9 @@ struct Builder {
   void number_elements();
   double size_of_structure() const;
   bool is_barred(const std::string& decision) const;  ///< by Scene::without
+  /// Notes a decision: taken where it holds and is not barred.
+  void decide(const std::string& name, const std::string& what, bool holds, const std::string& reason);
+  void settle();
   void choose_unknowns();
   void add_planar_elements(const motion::Mat3<double>& axes);
   void make_graph();

@@ -298,16 +298,26 @@ class OfPoints final : public Motion {
   std::optional<Vec3<double>> line_;
 };
 
-Obstacle first_obstacle(const Builder& b, const Motion& motion) {
-  if (auto o = motion.against_gravity()) return o;
-  for (const NodePlan& node : b.plan.nodes)
-    if (auto o = motion.against_node(node)) return "'" + node.name + "': " + *o;
-  Obstacle found;
-  for (std::size_t id = 0; id < b.plan.directory.size() && !found; ++id)
+/// The first thing that stands against a set of motions, and how many things did not.
+struct Verdict {
+  Obstacle obstacle;
+  std::size_t passed = 0;
+};
+Verdict judge(const Builder& b, const Motion& motion) {
+  Verdict v;
+  for (const NodePlan& node : b.plan.nodes) {
+    if (auto o = motion.against_node(node)) return {"'" + node.name + "': " + *o, v.passed};
+    ++v.passed;
+  }
+  for (std::size_t id = 0; id < b.plan.directory.size() && !v.obstacle; ++id)
     with_element(b.plan.elements, b.plan.directory[id], [&](const auto& e) {
-      if (auto o = motion.against(e)) found = "'" + b.plan.element_owner[id] + "': " + *o;
+      if (auto o = motion.against(e))
+        v.obstacle = "'" + b.plan.element_owner[id] + "': " + *o;
+      else
+        ++v.passed;
     });
-  return found;
+  if (!v.obstacle) v.obstacle = motion.against_gravity();
+  return v;
 }
 
 /// Normals that the plane of a scene may have: the ground's axes, the axes of its joints, the normal of its nodes.
@@ -387,27 +397,30 @@ Obstacle general_obstacle(const Builder& b) {
 
 }  // namespace
 
-bool Builder::is_barred(const std::string& decision) const {
-  return std::find(scene.without.begin(), scene.without.end(), decision) != scene.without.end();
-}
-
 void Builder::choose_unknowns() {
   const Obstacle general = general_obstacle(*this);
-  const auto settle = [&](const char* name, const char* why, const std::vector<Vec3<double>>& directions, auto make) {
-    Decision d{name, false, is_barred(name), "everything is at one place"};
-    if (general) d.reason = *general;
-    for (std::size_t k = 0; k < directions.size() && !general && !d.taken; ++k) {
+  Motions before = Motions::spatial;
+  const auto settle = [&](const char* name, const char* what, const char* why,
+                          const std::vector<Vec3<double>>& directions, auto make) {
+    std::string reason = general.value_or("everything is at one place");
+    bool holds = false;
+    std::size_t furthest = 0;
+    for (std::size_t k = 0; k < directions.size() && !general && !holds; ++k) {
       const auto motion = make(directions[k]);
-      const Obstacle o = first_obstacle(*this, motion);
-      // The reason given is that of the candidate which all nodes lie in, if there is one.
-      if (o && (k == 0 || d.reason.find("outside the plane") != std::string::npos)) d.reason = *o;
-      if (o) continue;
-      d.reason = why;
-      if (d.barred || !plan.unknowns.is_whole()) break;
-      d.taken = true;
-      take(*this, motion);
+      const Verdict v = judge(*this, motion);
+      holds = !v.obstacle;
+      if (holds) {
+        reason = why;
+        if (!is_barred(name) && plan.unknowns.is_whole()) take(*this, motion);
+      } else if (k == 0 || v.passed > furthest) {  // the reason given is that of the direction which goes furthest
+        reason = *v.obstacle;
+        furthest = v.passed;
+      }
     }
-    plan.decisions.push_back(d);
+    const bool fewer = plan.unknowns.motions != before;
+    if (holds && !fewer && !is_barred(name)) reason += "; but fewer unknowns are taken already";
+    decide(name, what, fewer, reason);
+    before = plan.unknowns.motions;
   };
   const std::vector<Vec3<double>> any{Vec3<double>::zero()};
   std::vector<Vec3<double>> lines, planes;
@@ -415,11 +428,18 @@ void Builder::choose_unknowns() {
     if (const auto line = line_of(*this)) lines.push_back(*line);
     planes = normals(*this);
   }
-  settle("line", "point masses, springs and loads lie on one line", lines,
+  settle("line",
+         "one unknown a node. Taken where only springs and forces along one line act, at the origins of nodes on it",
+         "point masses, springs and loads lie on one line", lines,
          [this](const Vec3<double>& d) { return OfPoints(*this, d); });
-  settle("translation", "forces act at the origins of nodes only, so nothing turns", any,
+  settle("translation",
+         "three unknowns a node, no rotations. Taken where only springs, forces and held displacements act, at the origins of nodes",
+         "forces act at the origins of nodes only, so nothing turns", any,
          [this](const Vec3<double>&) { return OfPoints(*this, std::nullopt); });
-  settle("planar", "geometry, sections, masses, joints, loads and initial data are symmetric about one plane", planes,
+  settle("planar",
+         "three unknowns a node, two displacements and a rotation. Taken where geometry, sections, masses, joints, loads and initial "
+         "data are their own mirror images in one plane",
+         "geometry, sections, masses, joints, loads and initial data are symmetric about one plane", planes,
          [this](const Vec3<double>& n) { return InPlane(*this, n); });
 }
 

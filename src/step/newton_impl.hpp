@@ -13,8 +13,9 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     report.cause = t.text;
     return report;
   };
-  const bool may_reuse = !options.single_solution;
+  const bool may_reuse = !options.single_solution && options.reuse_factors;
   double previous = 0.0, rate = system.last_contraction();
+  bool is_own = false;  // whether the factor was made in this step
   bool fresh = !may_reuse || !system.has_factor(slopes);  // whether the next solution gets a new factor
   for (int k = 0;; ++k) {
     if (const auto t = system.evaluate(state, slopes, fresh && k == 0)) return fail(*t);
@@ -26,8 +27,8 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       }
       if (k > 1) rate = previous > 0.0 ? report.change / previous : 0.0;
       const bool still = report.change < options.tolerance;
-      const bool stalled = k > 1 && rate > shrinks;
-      const bool near = !may_reuse || stalled || report.change * rate <= left_open * options.tolerance;
+      const bool stalled = k > 1 && rate > shrinks && is_own;  // with an old factor: it contracts badly here
+      const bool near = stalled || report.change * rate <= left_open * options.tolerance;
       if (still && near && is_small(system, report.residual, options.tolerance)) {
         report.converged = true;
         if (k > 1) system.set_last_contraction(rate);
@@ -52,6 +53,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       if (fresh)
         if (const auto t = system.evaluate(state, slopes, true)) return fail(*t);
     }
+    is_own |= fresh;
     if (fresh)
       if (const auto t = system.factor(k == 0, slopes))
         return fail(k == 0 ? *t : Trouble{"iteration " + std::to_string(k) + " came to a shape at which " + t->text});
@@ -64,7 +66,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     ++report.iterations;
     if (!std::isfinite(report.change)) return fail({"the iteration left finite numbers"});
     if (const auto t = follow(state)) return fail(*t);
-    if (k == 0 || !may_reuse || !is_small(system, report.residual, options.tolerance)) continue;
+    if (k == 0 || options.single_solution || !is_small(system, report.residual, options.tolerance)) continue;
     // The residual was small before this change answered it: where changes shrink on to nothing, it need not be looked at again.
     rate = previous > 0.0 ? report.change / previous : 0.0;
     if (rate <= shrinks && report.change < options.tolerance && report.change * rate <= left_open * options.tolerance) {

@@ -70,8 +70,8 @@ class Run {
   const decltype(SimulateOptions::before_step)& before_step_;
   const decltype(SimulateOptions::after_run)& after_run_;
   bool want_motion_;
-  schedule::Threads threads_;
   plan::Plan plan_;
+  schedule::Threads threads_;
   step::System system_;
   std::optional<step::Variational> variational_;  ///< when chosen
   step::State state_;

@@ -25,11 +25,12 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
       before_step_(options.before_step),
       after_run_(options.after_run),
       want_motion_(options.want_motion || scene.output.motion),
-      threads_(std::max(1, scene.solver.tasks ? options.threads : 1)),
       plan_(plan::make_plan(scene)),
+      threads_(scene.solver.tasks && !plan_.took("small") ? std::max(1, options.threads) : 1),
       system_(plan_, scene.solver, options.wrap_walker ? options.wrap_walker(threads_.walker()) : threads_.walker()),
       state_(step::make_initial_state(plan_)),
       work_meter_(plan_) {
+  options_.reuse_factors = plan_.took("reuse");
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::variational)
     variational_.emplace(system_, scene.solver, options_.newmark_beta);
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_);

@@ -63,12 +63,14 @@ struct FramePlan {
   std::vector<Turn> turns;
 };
 
-/// Something that a scene does not need, or does: what was settled before anything is allocated.
+/// A simplification that a scene allows, or does not: what was settled before anything is allocated.
 struct Decision {
-  std::string name;    ///< as in Scene::without
-  bool taken = false;  ///< the thing is left out
+  std::string name;
+  std::string what;     ///< it means, and when exactly it is taken
+  std::string reason;   ///< why it was taken, or the first thing that stands against it
+  bool taken = false;
   bool barred = false;  ///< by Scene::without
-  std::string reason;  ///< why it was taken, or the first thing that stands against it
+  bool can_be_barred = false;  ///< is one of scene::decision_names(); the others follow from the scene alone
 };
 
 /// A law made from another: one component, in the ground's axes, of a vector fixed in a frame times a factor.
@@ -117,6 +119,7 @@ struct Plan {
   NodeUnknowns unknowns;
   std::optional<PlanarModel> planar;  ///< where unknowns.motions is planar
   std::vector<Decision> decisions;
+  bool took(const std::string& decision) const;
   blocks::BlockGraph graph;        ///< blocks: nodes, then one per joint that has rows which are unknowns
   double length_scale = 1.0;       ///< [m], size of the structure
   std::vector<std::string> notes;  ///< what the plan chose where the scene leaves it open, in words

@@ -18,6 +18,7 @@ struct StepOptions {
   int max_cuts = 10;          ///< halvings of a step before the run fails
   std::optional<scene::StepControl> step_control;  ///< none: steps of equal size
   std::optional<scene::ArcLength> arc_length;      ///< statics: none: load steps
+  bool reuse_factors = true;     ///< dynamics: over iterations and steps, while they contract (plan decision "reuse")
   bool single_solution = false;  ///< one linear solution per step, no convergence asked for (linearly implicit)
 };
 

@@ -1,0 +1,138 @@
+/// bough plan SCENE: what is left out of a run and why, and what the run will take.
+#include <iostream>
+
+#include "arguments.hpp"
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/json_text.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/io/quantity_text.hpp"
+#include "bough/io/read_scene.hpp"
+#include "bough/study/outlook.hpp"
+#include "result_text.hpp"
+#include "terminal.hpp"
+
+namespace bough::app {
+namespace {
+
+using io::bytes_text;
+using io::rounded_text;
+using io::seconds_text;
+
+std::string ratio_text(double without, double with) {
+  return with > 0.0 ? rounded_text(without / with, 2) + " times" : "-";
+}
+
+std::string saving_text(const study::OutlookDecision& d, const study::Effort& now) {
+  if (!d.has_saving) return "";
+  const study::Effort& other = d.without;
+  std::string text;
+  if (other.unknowns != now.unknowns)
+    text += std::to_string(other.unknowns) + " unknowns instead of " + std::to_string(now.unknowns) + ", ";
+  text += "step " + ratio_text(other.step_seconds(), now.step_seconds());
+  if (other.memory_bytes != now.memory_bytes)
+    text += ", memory " + ratio_text(static_cast<double>(other.memory_bytes), static_cast<double>(now.memory_bytes));
+  return text;
+}
+
+std::string plan_text(const study::Outlook& o) {
+  const study::Effort& e = o.effort;
+  std::string text = o.scene + (o.title.empty() ? "" : ": " + o.title) + "\n\n";
+  text += std::to_string(o.nodes) + " nodes, " + std::to_string(o.elements) + " elements, " +
+          std::to_string(o.joints) + " joints; moves " + o.motions + "\n";
+  text += std::to_string(e.unknowns) + " unknowns";
+  if (e.unknowns != o.unknowns_in_space) text += " of " + std::to_string(o.unknowns_in_space);
+  text += "; " + std::to_string(o.sub_domains) + " sub-domains, " + std::to_string(o.leaves) + " leaves, " +
+          std::to_string(o.levels) + " levels (" + o.cut + "), " + std::to_string(o.fronts_in_lanes) + " of " +
+          std::to_string(o.fronts) + " fronts in lockstep\n";
+  text += "a step, about " + seconds_text(e.step_seconds()) + " on one thread: elements " +
+          seconds_text(e.evaluate_seconds) + ", factor " + seconds_text(e.factor_seconds) + " (" +
+          rounded_text(e.factorizations, 2) + " of " + rounded_text(1e-6 * e.factor_flops, 3) + " Mflop), solve " +
+          seconds_text(e.solve_seconds) + ", nodes " + seconds_text(e.other_seconds) + "\n";
+  text += "memory, about " + bytes_text(static_cast<double>(o.process_bytes)) + ", of which " +
+          bytes_text(static_cast<double>(e.memory_bytes)) + " for the scene\n\n";
+  std::vector<std::vector<std::string>> rows{{"decision", "", "saves", "because"}};
+  for (const study::OutlookDecision& d : o.decisions)
+    rows.push_back({d.decision.name, d.decision.taken ? "taken" : d.decision.barred ? "barred" : "-", saving_text(d, e),
+                    d.decision.reason});
+  text += table_text(rows);
+  for (const std::string& note : o.notes) text += "note: " + note + "\n";
+  return text;
+}
+
+void write_effort(io::JsonText& json, const study::Effort& e) {
+  json.begin_object();
+  json.member("unknowns", static_cast<long long>(e.unknowns));
+  json.member("factor_flops", e.factor_flops);
+  json.member("factorizations", e.factorizations);
+  json.member("iterations", e.iterations);
+  json.member("evaluate_s", e.evaluate_seconds);
+  json.member("factor_s", e.factor_seconds);
+  json.member("solve_s", e.solve_seconds);
+  json.member("other_s", e.other_seconds);
+  json.member("step_s", e.step_seconds());
+  json.member("memory_bytes", static_cast<long long>(e.memory_bytes));
+  json.end_object();
+}
+
+std::string plan_json(const study::Outlook& o) {
+  io::JsonText json;
+  json.begin_object();
+  json.member("scene", o.scene);
+  json.member("title", o.title);
+  json.member("nodes", static_cast<long long>(o.nodes));
+  json.member("elements", static_cast<long long>(o.elements));
+  json.member("joints", static_cast<long long>(o.joints));
+  json.member("motions", o.motions);
+  json.member("unknowns_in_space", static_cast<long long>(o.unknowns_in_space));
+  json.member("cut", o.cut);
+  json.member("sub_domains", static_cast<long long>(o.sub_domains));
+  json.member("leaves", static_cast<long long>(o.leaves));
+  json.member("levels", static_cast<long long>(o.levels));
+  json.member("fronts", static_cast<long long>(o.fronts));
+  json.member("fronts_in_lanes", static_cast<long long>(o.fronts_in_lanes));
+  json.member("process_bytes", static_cast<long long>(o.process_bytes));
+  json.key("step");
+  write_effort(json, o.effort);
+  json.key("decisions");
+  json.begin_array();
+  for (const study::OutlookDecision& d : o.decisions) {
+    json.begin_object();
+    json.member("name", d.decision.name);
+    json.member("taken", d.decision.taken);
+    json.member("barred", d.decision.barred);
+    json.member("can_be_barred", d.decision.can_be_barred);
+    json.member("what", d.decision.what);
+    json.member("reason", d.decision.reason);
+    if (d.has_saving) {
+      json.key("step_without");
+      write_effort(json, d.without);
+    }
+    json.end_object();
+  }
+  json.end_array();
+  json.key("notes");
+  json.begin_array();
+  for (const std::string& note : o.notes) json.value(note);
+  json.end_array();
+  json.end_object();
+  return json.text();
+}
+
+}  // namespace
+
+int plan(const PlanArguments& arguments) {
+  const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
+  print_problems(arguments.scene, file, false);
+  if (!file.ok()) return exit_bad_input;
+  const study::Outlook outlook = study::look_ahead(file.scene);
+  try {
+    if (!arguments.json.empty()) io::write_file(arguments.json, plan_json(outlook));
+  } catch (const std::exception& error) {
+    std::cerr << "bough: " << error.what() << "\n";
+    return exit_failed;
+  }
+  std::cout << plan_text(outlook) << std::flush;
+  return exit_done;
+}
+
+}  // namespace bough::app

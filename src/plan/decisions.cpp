@@ -1,0 +1,99 @@
+/// What a scene does not need, beside unknowns (reduce.cpp): each decision with its condition.
+#include <algorithm>
+#include <cstdio>
+
+#include "plan_builder.hpp"
+
+namespace bough::plan {
+
+bool Plan::took(const std::string& decision) const {
+  return std::any_of(decisions.begin(), decisions.end(),
+                     [&](const Decision& d) { return d.name == decision && d.taken; });
+}
+
+bool Builder::is_barred(const std::string& decision) const {
+  return std::find(scene.without.begin(), scene.without.end(), decision) != scene.without.end();
+}
+
+void Builder::decide(const std::string& name, const std::string& what, bool holds, const std::string& reason) {
+  const std::vector<std::string>& names = scene::decision_names();
+  Decision d{name, what, reason};
+  d.can_be_barred = std::find(names.begin(), names.end(), name) != names.end();
+  d.barred = is_barred(name);
+  d.taken = holds && !d.barred;
+  plan.decisions.push_back(d);
+}
+
+namespace {
+
+/// Nanoseconds of one residual of an element alone, from bench_elements (src/elements/README.md): only ratios and orders of magnitude count.
+template <class E>
+constexpr double nanoseconds = 50.0;
+template <int N>
+constexpr double nanoseconds<elements::Beam<N>> = N == 2 ? 400.0 : N == 3 ? 1180.0 : 1800.0;
+template <int N>
+constexpr double nanoseconds<elements::LineLoad<N>> = 200.0 * N;
+template <>
+constexpr double nanoseconds<elements::Bushing> = 240.0;
+template <>
+constexpr double nanoseconds<elements::Joint> = 150.0;
+
+/// Work below which the start of a task costs more than a second thread saves: a chain of 16 links of four beam elements, where one and two threads
+/// take the same time (benchmarks/README.md).
+constexpr double task_break_even = 40e3;
+
+std::string count_of(std::size_t n, const std::string& one, const std::string& many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+}  // namespace
+
+void Builder::settle() {
+  const bool dynamic = plan.is_dynamic;
+  std::size_t damped = 0, rows = 0;
+  double work = 0.0;
+  for_each_array(plan.elements, [&](const auto& array) {
+    using E = typename std::decay_t<decltype(array)>::value_type;
+    work += nanoseconds<E> * static_cast<double>(array.size());
+    for (const E& e : array) {
+      if constexpr (requires { e.has_damping; }) damped += e.has_damping ? 1 : 0;
+      if constexpr (requires { e.rest_length; }) damped += e.damping != 0.0 ? 1 : 0;
+      if constexpr (std::is_same_v<E, elements::Joint>)
+        damped += std::any_of(e.efforts, e.efforts + e.num_efforts, [](const auto& f) { return f.damping != 0.0; }) ? 1 : 0;
+    }
+  });
+  for (const JointPlan& j : plan.joints) rows += j.rows.size();
+
+  decide("reuse",
+         "a factor serves again, over iterations and steps of one size, while it shrinks the changes at least eightfold; "
+         "tangents are not even evaluated meanwhile. Taken in dynamics with Newton's full iteration",
+         dynamic && scene.analysis.newton == scene::Newton::full,
+         !dynamic                                             ? "statics takes a new tangent each time"
+         : scene.analysis.newton == scene::Newton::single ? "one solution a step is asked for, with its own tangent"
+                                                              : "steps of one size give nearly the same matrix");
+  decide("lanes", "equal sub-domains are analysed once, and evaluated and factored eight at a time. Taken unless the solver is monolithic",
+         scene.solver.kind != scene::SolverKind::monolithic,
+         scene.solver.kind != scene::SolverKind::monolithic ? "the solver groups equal sub-domains" : "the solver is monolithic");
+  char text[120];
+  std::snprintf(text, sizeof text, "one evaluation of the elements is about %.0f us of work; tasks pay above %.0f us",
+                1e-3 * work, 1e-3 * task_break_even);
+  decide("small", "one thread, no tasks. Taken where the work of an evaluation is below a measured break-even",
+         work < task_break_even, text);
+
+  decide("no velocities", "rates, inertia and gyroscopic terms are not entered. Taken in statics", !dynamic,
+         dynamic ? "the analysis is dynamic" : "the analysis is static");
+  decide("no damping", "no damper's terms are entered. Taken where no section, spring, bushing or joint has one", damped == 0,
+         damped == 0 ? "nothing damps" : count_of(damped, "element damps", "elements damp"));
+  decide("no multipliers", "the matrix has no constraint rows. Taken where no joint has a row that can be violated", rows == 0,
+         rows == 0 ? "there are no constraints" : count_of(rows, "constraint row", "constraint rows"));
+  decide("no moving frames", "no frame's motion is evaluated. Taken where no frame is driven", plan.frames.empty(),
+         plan.frames.empty() ? "all frames are fixed" : count_of(plan.frames.size(), "frame moves", "frames move"));
+  decide("no checks", "balances, violations and local errors are not evaluated. Taken with /output/checks false",
+         !scene.output.checks, scene.output.checks ? "/output/checks is true" : "/output/checks is false");
+  decide("no pictures", "the moving structure is not written. Taken unless /output/motion is true", !scene.output.motion,
+         scene.output.motion ? "/output/motion is true" : "/output/motion is false");
+  decide("no sensors", "nothing is measured but the time. Taken where the scene has none", scene.sensors.empty(),
+         scene.sensors.empty() ? "the scene has none" : count_of(scene.sensors.size(), "sensor", "sensors"));
+}
+
+}  // namespace bough::plan
