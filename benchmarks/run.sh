@@ -7,7 +7,7 @@ folder=$build/benchmarks
 here=$(dirname "$0")
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1   # one thread a call, whatever BLAS is installed
 found=0
-for name in solve step; do
+for name in solve step lean; do
   program=$folder/bench_$name
   [ -x "$program" ] || continue
   found=1

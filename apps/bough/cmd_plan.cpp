@@ -37,8 +37,8 @@ std::string saving_text(const study::OutlookDecision& d, const study::Effort& no
 std::string plan_text(const study::Outlook& o) {
   const study::Effort& e = o.effort;
   std::string text = o.scene + (o.title.empty() ? "" : ": " + o.title) + "\n\n";
-  text += std::to_string(o.nodes) + " nodes, " + std::to_string(o.elements) + " elements, " +
-          std::to_string(o.joints) + " joints; moves " + o.motions + "\n";
+  text += std::to_string(o.nodes) + " nodes, " + std::to_string(o.elements) + " elements, " + std::to_string(o.joints) +
+          " joints; moves " + o.motions + "\n";
   text += std::to_string(e.unknowns) + " unknowns";
   if (e.unknowns != o.unknowns_in_space) text += " of " + std::to_string(o.unknowns_in_space);
   text += "; " + std::to_string(o.sub_domains) + " sub-domains, " + std::to_string(o.leaves) + " leaves, " +
@@ -52,8 +52,11 @@ std::string plan_text(const study::Outlook& o) {
           bytes_text(static_cast<double>(e.memory_bytes)) + " for the scene\n\n";
   std::vector<std::vector<std::string>> rows{{"decision", "", "saves", "because"}};
   for (const study::OutlookDecision& d : o.decisions)
-    rows.push_back({d.decision.name, d.decision.taken ? "taken" : d.decision.barred ? "barred" : "-", saving_text(d, e),
-                    d.decision.reason});
+    rows.push_back({d.decision.name,
+                    d.decision.taken    ? "taken"
+                    : d.decision.barred ? "barred"
+                                        : "-",
+                    saving_text(d, e), d.decision.reason});
   text += table_text(rows);
   for (const std::string& note : o.notes) text += "note: " + note + "\n";
   return text;

@@ -130,6 +130,7 @@ void add_export_matrix(CLI::App& app, ExportMatrixArguments& a, int& code) {
       ->excludes(step);
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
+  add_without(verb, a.overrides);
   verb.callback([&] { code = export_matrix(a); });
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bough/plan/plan.hpp"
+#include "bough/scene/components.hpp"
 #include "bough/step/options.hpp"
 #include "bough/step/state.hpp"
 
@@ -148,7 +149,9 @@ void assemble(Problem& p) {
 
 }  // namespace
 
-Problem make_problem(const std::string& name, const scene::Scene& scene, Values values) {
+Problem make_problem(const std::string& name, const scene::Scene& given, Values values) {
+  scene::Scene scene = given;
+  scene.without = scene::decision_names();  // the matrix in six unknowns a node, as other programs set it up
   const plan::Plan plan = plan::make_plan(scene);
   Random random;
   Problem p;

@@ -6,6 +6,8 @@
 
 namespace bough::plan {
 
+using elements::Port;
+
 bool Plan::took(const std::string& decision) const {
   return std::any_of(decisions.begin(), decisions.end(),
                      [&](const Decision& d) { return d.name == decision && d.taken; });
@@ -30,7 +32,9 @@ namespace {
 template <class E>
 constexpr double nanoseconds = 50.0;
 template <int N>
-constexpr double nanoseconds<elements::Beam<N>> = N == 2 ? 400.0 : N == 3 ? 1180.0 : 1800.0;
+constexpr double nanoseconds<elements::Beam<N>> = N == 2   ? 400.0
+                                                  : N == 3 ? 1180.0
+                                                           : 1800.0;
 template <int N>
 constexpr double nanoseconds<elements::LineLoad<N>> = 200.0 * N;
 template <>
@@ -42,6 +46,10 @@ constexpr double nanoseconds<elements::Joint> = 150.0;
 /// take the same time (benchmarks/README.md).
 constexpr double task_break_even = 40e3;
 
+/// Loops of the structure from which on a factorization outweighs the rest of a step, and symmetric parts pay for iterations that they may add: a
+/// lattice of 9 by 9 nodes.
+constexpr int loops_of_lattices = 64;
+
 std::string count_of(std::size_t n, const std::string& one, const std::string& many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
@@ -50,6 +58,7 @@ std::string count_of(std::size_t n, const std::string& one, const std::string& m
 
 void Builder::settle() {
   const bool dynamic = plan.is_dynamic;
+  char text[120];
   std::size_t damped = 0, rows = 0;
   double work = 0.0;
   for_each_array(plan.elements, [&](const auto& array) {
@@ -59,22 +68,56 @@ void Builder::settle() {
       if constexpr (requires { e.has_damping; }) damped += e.has_damping ? 1 : 0;
       if constexpr (requires { e.rest_length; }) damped += e.damping != 0.0 ? 1 : 0;
       if constexpr (std::is_same_v<E, elements::Joint>)
-        damped += std::any_of(e.efforts, e.efforts + e.num_efforts, [](const auto& f) { return f.damping != 0.0; }) ? 1 : 0;
+        damped +=
+            std::any_of(e.efforts, e.efforts + e.num_efforts, [](const auto& f) { return f.damping != 0.0; }) ? 1 : 0;
     }
   });
   for (const JointPlan& j : plan.joints) rows += j.rows.size();
 
-  decide("reuse",
-         "a factor serves again, over iterations and steps of one size, while it shrinks the changes at least eightfold; "
-         "tangents are not even evaluated meanwhile. Taken in dynamics with Newton's full iteration",
-         dynamic && scene.analysis.newton == scene::Newton::full,
-         !dynamic                                             ? "statics takes a new tangent each time"
-         : scene.analysis.newton == scene::Newton::single ? "one solution a step is asked for, with its own tangent"
-                                                              : "steps of one size give nearly the same matrix");
-  decide("lanes", "equal sub-domains are analysed once, and evaluated and factored eight at a time. Taken unless the solver is monolithic",
+  decide(
+      "reuse",
+      "a factor serves again, over iterations and steps of one size, while it shrinks the changes at least eightfold; "
+      "tangents are not even evaluated meanwhile. Taken in dynamics with Newton's full iteration",
+      dynamic && scene.analysis.newton == scene::Newton::full,
+      !dynamic                                         ? "statics takes a new tangent each time"
+      : scene.analysis.newton == scene::Newton::single ? "one solution a step is asked for, with its own tangent"
+                                                       : "steps of one size give nearly the same matrix");
+  // Followers and dead moments are not conservative; frames that move bring Coriolis terms.
+  std::string obstacle;
+  int edges = 0;
+  for (std::size_t id = 0; id < plan.directory.size(); ++id)
+    with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      int ends = 0;
+      for (const Port& p : e.ports) ends += p.node != elements::ground ? 1 : 0;
+      edges += std::max(0, ends - 1);
+      if constexpr (requires { e.follows; }) {
+        const bool has_moment = lanes::dot(lanes::angular_part(e.wrench), lanes::angular_part(e.wrench)) > 0.0;
+        if (obstacle.empty() && (e.follows || has_moment))
+          obstacle = "'" + plan.element_owner[id] + (e.follows ? "' follows rotations" : "' is a dead moment");
+      }
+    });
+  const int loops = edges - static_cast<int>(plan.nodes.size()) + 1;
+  const bool hierarchical =
+      scene.solver.kind == scene::SolverKind::automatic || scene.solver.kind == scene::SolverKind::hierarchical;
+  if (obstacle.empty() && !plan.frames.empty()) obstacle = "frames move, which brings Coriolis terms";
+  if (obstacle.empty() && plan.is_dynamic && scene.analysis.integrator == scene::Integrator::variational)
+    obstacle = "the variational integrator's matrix is not symmetric";
+  if (obstacle.empty() && !hierarchical) obstacle = "the solver is not the hierarchical one";
+  const bool conservative = obstacle.empty();
+  std::snprintf(text, sizeof text, "%d loops, symmetric parts pay from %d on", std::max(0, loops), loops_of_lattices);
+  decide("symmetric",
+         "the symmetric parts of tangents are factored, L D L^T: half the work and memory of L U. Tangents in body "
+         "increments are "
+         "symmetric at equilibrium, but for gyroscopic terms. Taken where no load follows, no dead moment acts, no "
+         "frame moves and "
+         "loops make factorizations heavy; given up in a run where Newton's iteration suffers",
+         conservative && loops >= loops_of_lattices, conservative ? text : obstacle);
+  decide("lanes",
+         "equal sub-domains are analysed once, and evaluated and factored eight at a time. Taken unless the solver is "
+         "monolithic",
          scene.solver.kind != scene::SolverKind::monolithic,
-         scene.solver.kind != scene::SolverKind::monolithic ? "the solver groups equal sub-domains" : "the solver is monolithic");
-  char text[120];
+         scene.solver.kind != scene::SolverKind::monolithic ? "the solver groups equal sub-domains"
+                                                            : "the solver is monolithic");
   std::snprintf(text, sizeof text, "one evaluation of the elements is about %.0f us of work; tasks pay above %.0f us",
                 1e-3 * work, 1e-3 * task_break_even);
   decide("small", "one thread, no tasks. Taken where the work of an evaluation is below a measured break-even",
@@ -82,16 +125,16 @@ void Builder::settle() {
 
   decide("no velocities", "rates, inertia and gyroscopic terms are not entered. Taken in statics", !dynamic,
          dynamic ? "the analysis is dynamic" : "the analysis is static");
-  decide("no damping", "no damper's terms are entered. Taken where no section, spring, bushing or joint has one", damped == 0,
-         damped == 0 ? "nothing damps" : count_of(damped, "element damps", "elements damp"));
-  decide("no multipliers", "the matrix has no constraint rows. Taken where no joint has a row that can be violated", rows == 0,
-         rows == 0 ? "there are no constraints" : count_of(rows, "constraint row", "constraint rows"));
+  decide("no damping", "no damper's terms are entered. Taken where no section, spring, bushing or joint has one",
+         damped == 0, damped == 0 ? "nothing damps" : count_of(damped, "element damps", "elements damp"));
+  decide("no multipliers", "the matrix has no constraint rows. Taken where no joint has a row that can be violated",
+         rows == 0, rows == 0 ? "there are no constraints" : count_of(rows, "constraint row", "constraint rows"));
   decide("no moving frames", "no frame's motion is evaluated. Taken where no frame is driven", plan.frames.empty(),
          plan.frames.empty() ? "all frames are fixed" : count_of(plan.frames.size(), "frame moves", "frames move"));
   decide("no checks", "balances, violations and local errors are not evaluated. Taken with /output/checks false",
          !scene.output.checks, scene.output.checks ? "/output/checks is true" : "/output/checks is false");
-  decide("no pictures", "the moving structure is not written. Taken unless /output/motion is true", !scene.output.motion,
-         scene.output.motion ? "/output/motion is true" : "/output/motion is false");
+  decide("no pictures", "the moving structure is not written. Taken unless /output/motion is true",
+         !scene.output.motion, scene.output.motion ? "/output/motion is true" : "/output/motion is false");
   decide("no sensors", "nothing is measured but the time. Taken where the scene has none", scene.sensors.empty(),
          scene.sensors.empty() ? "the scene has none" : count_of(scene.sensors.size(), "sensor", "sensors"));
 }

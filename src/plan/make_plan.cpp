@@ -334,6 +334,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.plan.length_scale = b.size_of_structure();
   b.choose_unknowns();
   b.settle();
+  b.say_idle_parts();
   b.make_graph();
   b.add_sensors();
   return std::move(b.plan);

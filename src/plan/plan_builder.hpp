@@ -81,6 +81,7 @@ struct Builder {
   /// Notes a decision: taken where it holds and is not barred.
   void decide(const std::string& name, const std::string& what, bool holds, const std::string& reason);
   void settle();
+  void say_idle_parts();
   void choose_unknowns();
   void add_planar_elements(const motion::Mat3<double>& axes);
   void make_graph();

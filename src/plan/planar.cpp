@@ -165,9 +165,10 @@ class Flattener {
     r.node = p.node;
     const bool on_ground = p.node == elements::ground;
     const Mat3<double> turned = (on_ground || p.has_offset ? p.offset.R : Mat3<double>::identity()) * B;
-    const Mat3<double> own = on_ground                            ? model_.axes
-                             : b_.plan.unknowns.basis.empty() ? Mat3<double>::identity()
-                                                               : b_.plan.unknowns.basis[static_cast<std::size_t>(p.node)];
+    const Mat3<double> own = on_ground ? model_.axes
+                             : b_.plan.unknowns.basis.empty()
+                                 ? Mat3<double>::identity()
+                                 : b_.plan.unknowns.basis[static_cast<std::size_t>(p.node)];
     const Mat3<double> Q = lanes::transpose_times(own, turned);
     r.turn = {{Q(0, 0), Q(1, 0)}};
     if (on_ground)

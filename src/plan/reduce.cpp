@@ -210,8 +210,7 @@ class InPlane final : public Motion {
   Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) const override {
     const Vec3<double> force = axes * linear(wrench), moment = axes * angular(wrench);
     if (std::abs(lanes::dot(force, normal_)) > small * length_of(force)) return "its force acts out of the plane";
-    if (length_of(lanes::cross(moment, normal_)) > small * length_of(moment))
-      return "its moment acts out of the plane";
+    if (length_of(lanes::cross(moment, normal_)) > small * length_of(moment)) return "its moment acts out of the plane";
     return std::nullopt;
   }
 
@@ -379,8 +378,8 @@ void take(Builder& b, const Motion& motion) {
   }
   if (is_plain) u.basis.clear();
   for (JointPlan& j : b.plan.joints) {
-    const auto& e = array_of<elements::Joint>(b.plan.elements)[static_cast<std::size_t>(
-        b.plan.directory[static_cast<std::size_t>(j.element)].index)];
+    const auto& e = array_of<elements::Joint>(
+        b.plan.elements)[static_cast<std::size_t>(b.plan.directory[static_cast<std::size_t>(j.element)].index)];
     std::erase_if(j.rows, [&](int row) { return !motion.keeps(e, row); });
   }
   if (motion.kind() == Motions::planar) b.add_planar_elements(axes);
@@ -433,11 +432,13 @@ void Builder::choose_unknowns() {
          "point masses, springs and loads lie on one line", lines,
          [this](const Vec3<double>& d) { return OfPoints(*this, d); });
   settle("translation",
-         "three unknowns a node, no rotations. Taken where only springs, forces and held displacements act, at the origins of nodes",
+         "three unknowns a node, no rotations. Taken where only springs, forces and held displacements act, at the "
+         "origins of nodes",
          "forces act at the origins of nodes only, so nothing turns", any,
          [this](const Vec3<double>&) { return OfPoints(*this, std::nullopt); });
   settle("planar",
-         "three unknowns a node, two displacements and a rotation. Taken where geometry, sections, masses, joints, loads and initial "
+         "three unknowns a node, two displacements and a rotation. Taken where geometry, sections, masses, joints, "
+         "loads and initial "
          "data are their own mirror images in one plane",
          "geometry, sections, masses, joints, loads and initial data are symmetric about one plane", planes,
          [this](const Vec3<double>& n) { return InPlane(*this, n); });

@@ -85,6 +85,11 @@ StepReport equilibrate(System& system, State& state, const StepOptions& options,
   State& start = system.work().start;
   start = state;
   StepReport report = try_load(system, state, options, load_factor);
+  if (!report.converged && system.takes_symmetric_parts()) {  // may be why
+    system.drop_symmetry();
+    state = start;
+    report = try_load(system, state, options, load_factor);
+  }
   if (!report.converged) std::swap(state, start);
   return report;
 }

@@ -139,14 +139,13 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, int ind
       if (j < 0) continue;
       const plan::JointPlan& joint = plan_->joints[static_cast<std::size_t>(j)];
       for (int r = 0; r < num_multipliers(e); ++r)
-        multipliers[r].set(
-            l, state.multipliers[static_cast<std::size_t>(joint.multiplier_begin + joint.rows[static_cast<std::size_t>(r)])]);
+        multipliers[r].set(l, state.multipliers[static_cast<std::size_t>(joint.multiplier_begin +
+                                                                         joint.rows[static_cast<std::size_t>(r)])]);
       turns.set(l, state.turns[static_cast<std::size_t>(j)]);
     }
   }
   for (int p = 0; p < E::num_ports; ++p)
-    if (from[p][0] != nullptr)
-      lanes::gather_lanes(from[p], Kernels::node_numbers, reinterpret_cast<Pack*>(&nodes[p]));
+    if (from[p][0] != nullptr) lanes::gather_lanes(from[p], Kernels::node_numbers, reinterpret_cast<Pack*>(&nodes[p]));
   typename Kernels::FieldLanes around;
   around.nodes = nodes;
   around.slopes = field.slopes;

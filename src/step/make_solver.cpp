@@ -21,6 +21,7 @@ std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree
   solve::SolveOptions options;
   options.penalty_factor = given.penalty_factor;
   options.lanes = plan.took("lanes");
+  if (plan.took("symmetric")) options.symmetry = solve::Symmetry::symmetric;
   if (given.kind == scene::SolverKind::monolithic) return make_monolithic(plan, tree, given.library, options);
   if (given.kind == scene::SolverKind::global || given.kind == scene::SolverKind::hybrid) {
     const solve::DualOptions form{

@@ -15,7 +15,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
   };
   const bool may_reuse = !options.single_solution && options.reuse_factors;
   double previous = 0.0, rate = system.last_contraction();
-  bool is_own = false;  // whether the factor was made in this step
+  bool is_own = false;                                    // whether the factor was made in this step
   bool fresh = !may_reuse || !system.has_factor(slopes);  // whether the next solution gets a new factor
   for (int k = 0;; ++k) {
     if (const auto t = system.evaluate(state, slopes, fresh && k == 0)) return fail(*t);
@@ -49,7 +49,9 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
         report.cause = "the iteration diverges: " + describe(system, report.residual, options.tolerance);
         return report;
       }
-      fresh = !may_reuse || (k > 1 && rate > slowest_contraction);
+      const bool is_slow = k > 1 && rate > slowest_contraction;
+      if (is_slow && is_own && system.takes_symmetric_parts()) system.drop_symmetry();  // not the factor's age
+      fresh = !may_reuse || is_slow;
       if (fresh)
         if (const auto t = system.evaluate(state, slopes, true)) return fail(*t);
     }

@@ -68,9 +68,9 @@ void PlanarSystem::evaluate_alone(std::size_t id, const State& state, bool tange
     std::array<double, most_unknowns * most_unknowns> entries;
     const bool is_direct = to.tangent.stride == 1;
     elements::planar::evaluate(e, field_, multipliers.data(), turns, to.residual, to.magnitude,
-             !tangent    ? nullptr
-             : is_direct ? to.tangent.first
-                         : entries.data());
+                               !tangent    ? nullptr
+                               : is_direct ? to.tangent.first
+                                           : entries.data());
     if (!tangent || is_direct) return;
     const int n = num_unknowns(e);
     for (int i = 0; i < n * n; ++i) to.tangent[i] = entries[static_cast<std::size_t>(i)];

@@ -28,7 +28,7 @@ class Projection {
   };
 
   std::vector<Unknown> unknowns_;        ///< element after element
-  std::vector<std::int64_t> begin_{0};  ///< by element
+  std::vector<std::int64_t> begin_{0};   ///< by element
   std::vector<std::int8_t> whole_size_;  ///< by element: unknowns in six a node
 };
 

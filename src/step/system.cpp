@@ -105,6 +105,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
     lane_batches_->make(plan, solver_->batches(), joint_of_element_);
   else
     projection_ = std::make_unique<Projection>(plan);
+  takes_symmetric_parts_ = plan.took("symmetric");
   if (plan.planar) planar_ = std::make_unique<PlanarSystem>(plan, solver_->batches(), joint_of_element_);
   law_values_.assign(plan.laws.size(), 0.0);
   law_rates_ = law_accelerations_ = law_values_;
@@ -197,6 +198,17 @@ void System::evaluate_projected(const E& e, std::size_t id, const elements::Fiel
   for (int i = 0; i < n * n; ++i) view[i] = reduced[static_cast<std::size_t>(i)];
 }
 
+void System::symmetrise(const solve::ElementBatch& batch) {
+  for (int id : batch.element) {
+    if (id < 0) continue;
+    const auto n = static_cast<int>(element_begin_[static_cast<std::size_t>(id) + 1] -
+                                    element_begin_[static_cast<std::size_t>(id)]);
+    const solve::ElementView view = solver_->element(id);
+    for (int i = 1; i < n; ++i)
+      for (int j = 0; j < i; ++j) view[i * n + j] = view[j * n + i] = 0.5 * (view[i * n + j] + view[j * n + i]);
+  }
+}
+
 std::optional<Trouble> System::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
   PhaseTimer timer{counts_.assemble};
   ++counts_.evaluations;
@@ -214,16 +226,15 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   }
   auto by_batch = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
-      if (planar_) {
-        planar_->evaluate(static_cast<std::size_t>(k), state, tangent, result);
-        continue;
-      }
-      if (lane_batches_->holds(static_cast<std::size_t>(k))) {
-        lane_batches_->evaluate(static_cast<std::size_t>(k), state, f, tangent, result);
-        continue;
-      }
-      for (int id : batches[static_cast<std::size_t>(k)].element)
-        if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, f, tangent);
+      const auto batch = static_cast<std::size_t>(k);
+      if (planar_)
+        planar_->evaluate(batch, state, tangent, result);
+      else if (lane_batches_->holds(batch))
+        lane_batches_->evaluate(batch, state, f, tangent, result);
+      else
+        for (int id : batches[batch].element)
+          if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, f, tangent);
+      if (tangent && takes_symmetric_parts_) symmetrise(batches[batch]);
     }
   };
   walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain,

@@ -175,8 +175,8 @@ double System::largest_violation(const State& state, int order, double length, i
   double most = 0.0;
   // All rows, those that hold by themselves as well.
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
-    const auto& e = plan::array_of<elements::Joint>(
-        plan_.elements)[static_cast<std::size_t>(plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)].index)];
+    const auto& e = plan::array_of<elements::Joint>(plan_.elements)[static_cast<std::size_t>(
+        plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)].index)];
     for (int row = 0; row < e.num_rows; ++row) {
       const elements::RowKind kind = e.rows[row].kind;
       const bool is_length = kind == elements::RowKind::along || kind == elements::RowKind::screw;

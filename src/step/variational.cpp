@@ -15,7 +15,7 @@ using motion::Vec6;
 
 namespace {
 
-constexpr double largest_turn = 2.8;       ///< rotation of a node in one step [rad], below pi: the logarithm is unique
+constexpr double largest_turn = 2.8;  ///< rotation of a node in one step [rad], below pi: the logarithm is unique
 
 /// Node n of `to` at H exp(d) of `from`.
 void place(const State& from, std::size_t n, const Vec6<double>& d, State& to) {

@@ -105,6 +105,20 @@ std::string row_text(const elements::ConstraintRow& row) {
   return "screw along 3";
 }
 
+const char* node_text(plan::Motions motions) {
+  switch (motions) {
+    case plan::Motions::planar:
+      return "displacement along the plane's axes [m], rotation about its normal [rad], turning with the node";
+    case plan::Motions::translation:
+      return "displacement along three axes [m]";
+    case plan::Motions::line:
+      return "displacement along the line [m]";
+    case plan::Motions::spatial:
+      break;
+  }
+  return "displacement along 1, 2, 3 [m], rotation about 1, 2, 3 [rad], own axes";
+}
+
 std::vector<UnknownBlock> make_blocks(const step::System& system) {
   const plan::Plan& plan = system.plan();
   std::vector<UnknownBlock> out;
@@ -112,12 +126,14 @@ std::vector<UnknownBlock> make_blocks(const step::System& system) {
     UnknownBlock block{system.block_name(b), "", static_cast<int>(system.block_begin(b)), plan.graph.block_size[at(b)]};
     const int joint = system.joint_of_block(b);
     if (joint < 0) {
-      block.components = "displacement along 1, 2, 3 [m], rotation about 1, 2, 3 [rad], own axes";
+      block.components = node_text(plan.unknowns.motions);
     } else {
       const plan::ElementPlace place = plan.directory[at(plan.joints[at(joint)].element)];
       const auto& element = plan::array_of<elements::Joint>(plan.elements)[at(place.index)];
       block.components = "multipliers";
-      for (int k = 0; k < element.num_rows; ++k) block.components += (k == 0 ? ": " : "; ") + row_text(element.rows[k]);
+      const std::vector<int>& rows = plan.joints[at(joint)].rows;
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        block.components += (k == 0 ? ": " : "; ") + row_text(element.rows[rows[k]]);
     }
     out.push_back(block);
   }

@@ -27,12 +27,12 @@ constexpr ElementCost cost<elements::Bushing>{240e-9, 870e-9, 33e-9, 184e-9};
 template <>
 constexpr ElementCost cost<elements::Joint>{250e-9, 900e-9, 40e-9, 190e-9};
 
-constexpr double planar_share = 0.45;   ///< of an element in space
-constexpr double per_sum = 55e-9;       ///< gathering, adding and sizing up, an element and evaluation [s]
-constexpr double per_node = 110e-9;     ///< moving a node with its velocity and acceleration, an iteration [s]
+constexpr double planar_share = 0.45;  ///< of an element in space
+constexpr double per_sum = 55e-9;      ///< gathering, adding and sizing up, an element and evaluation [s]
+constexpr double per_node = 110e-9;    ///< moving a node with its velocity and acceleration, an iteration [s]
 constexpr double per_front_lanes = 3.5e-6, per_flop_lanes = 3.6e-10;  ///< a visit of eight [s]
 constexpr double per_front = 1.5e-6, per_flop = 1.1e-10;
-constexpr double per_byte = 6e-11;    ///< of factor and element matrices, a solution and its check [s]
+constexpr double per_byte = 6e-11;  ///< of factor and element matrices, a solution and its check [s]
 
 constexpr double usual_iterations = 3.8, usual_evaluations = 4.4, usual_factorizations = 0.4;
 constexpr std::int64_t program_bytes = 11'000'000;  ///< resident before a scene is built
@@ -46,8 +46,8 @@ std::int64_t bytes_of(const step::System& system) {
     element_unknowns += static_cast<std::int64_t>(array.size()) * (6 * E::num_ports);
   });
   const auto nodes = static_cast<std::int64_t>(plan.nodes.size());
-  constexpr std::int64_t of_state = sizeof(elements::NodeMotion) + sizeof(motion::Quaternion<double>) +
-                                    2 * sizeof(motion::Vec6<double>);
+  constexpr std::int64_t of_state =
+      sizeof(elements::NodeMotion) + sizeof(motion::Quaternion<double>) + 2 * sizeof(motion::Vec6<double>);
   constexpr std::int64_t states = 5, per_node_plan = 3400;  // plan, names, lists, the scene
   return elements * 2 + element_unknowns * 3 * 8 + nodes * (states * of_state + per_node_plan) +
          static_cast<std::int64_t>(system.num_unknowns()) * 6 * 8;
@@ -80,8 +80,9 @@ Effort effort_of(Built& b, const scene::Scene& scene) {
     plan::with_element(b.plan.elements, b.plan.directory[static_cast<std::size_t>(first)], [&](const auto& element) {
       const ElementCost& c = cost<std::decay_t<decltype(element)>>;
       const double count = in_lanes ? solve::lanes_wide : present;
-      e.evaluate_seconds += share * count * (residuals * (in_lanes ? c.lane : c.alone) +
-                                             tangents * (in_lanes ? c.lane_tangent : c.alone_tangent));
+      e.evaluate_seconds +=
+          share * count *
+          (residuals * (in_lanes ? c.lane : c.alone) + tangents * (in_lanes ? c.lane_tangent : c.alone_tangent));
       e.evaluate_seconds += present * per_sum * (residuals + tangents);
     });
   }

@@ -213,6 +213,8 @@ void Run::finish() {
     note(std::to_string(dependent_rows_) +
          " constraint row(s) depend on others: the motion is unique, the reactions of these are not: " + not_unique_);
   if (!first_rejection_.empty() && summary_.status != RunStatus::failed) note(first_rejection_);
+  if (plan_.took("symmetric") && !system_.takes_symmetric_parts())
+    note("the symmetric parts of tangents were given up for whole ones: Newton's iteration had slowed down");
   if (summary_.checks.round_off_floor_reached)
     note("some steps were accepted at the round-off floor of the residual, above the tolerance asked for");
   for (std::size_t i = 0; i < scene_.expected.size(); ++i) {

@@ -35,7 +35,7 @@ echo '{"schema_version": 1, "bodies": [{"name": "a", "mass": -1}, 7], "nonsense"
 # words
 expect 0 '^bough [0-9]' --version
 expect 0 'bough run' --help
-for verb in run view batch check schema compare export-matrix kinematics study stress profile tune doctor; do expect 0 '  bough '$verb $verb --help; done
+for verb in run view batch check schema compare export-matrix kinematics study stress profile tune plan doctor; do expect 0 '  bough '$verb $verb --help; done
 expect 2 "did you mean 'run'" rnu good.json
 expect 2 "did you mean 'compare'" comapre a b
 expect 2 'Verbs:' xyzzy
@@ -121,7 +121,7 @@ expect 0 '"\$schema"' schema
 holds python3 -c 'import json, sys; json.load(open("printed"))'
 
 # matrices
-expect 0 '^matrix.mtx: 11 unknowns' export-matrix good.json --out matrix.mtx --rhs rhs.mtx --step 3
+expect 0 '^matrix.mtx: 11 unknowns' export-matrix good.json --out matrix.mtx --rhs rhs.mtx --step 3 --without planar
 holds grep -q '^%%MatrixMarket matrix coordinate real' matrix.mtx
 holds grep -q "^% 1-6 'bob' displacement" matrix.mtx
 holds grep -q '^11 1$' rhs.mtx

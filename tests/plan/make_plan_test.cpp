@@ -10,7 +10,9 @@ namespace bough::plan {
 namespace {
 
 TEST(MakePlan, numbers_elements_blocks_and_multipliers_without_gaps) {
-  const Plan p = make_plan(test::make_chain(3));
+  scene::Scene chain = test::make_chain(3);
+  chain.without = {"planar"};
+  const Plan p = make_plan(chain);
   EXPECT_EQ(p.nodes.size(), 9u);      // two ends and one inner node a link
   EXPECT_EQ(p.directory.size(), 9u);  // two elements and one hinge a link
   EXPECT_EQ(p.num_multipliers, 15);

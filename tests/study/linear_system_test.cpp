@@ -167,16 +167,24 @@ TEST(LinearSystem, StepsAreChosenByNumberOrTime) {
 }
 
 TEST(LinearSystem, EveryUnknownHasAnOwner) {
-  const LinearSystem s = make(test::make_chain(2));
-  int next = 0;
-  bool has_hinge = false;
-  for (const study::UnknownBlock& b : s.blocks) {
-    EXPECT_EQ(b.first, next);
-    next += b.count;
-    has_hinge |= b.owner == "joint 'hinge1'" && b.count == 5;
+  for (const bool spatial : {true, false}) {
+    scene::Scene chain = test::make_chain(2);
+    if (spatial) chain.without = {"planar"};
+    const LinearSystem s = make(chain);
+    int next = 0;
+    bool has_hinge = false;
+    for (const study::UnknownBlock& b : s.blocks) {
+      EXPECT_EQ(b.first, next);
+      next += b.count;
+      has_hinge |= b.owner == "joint 'hinge1'" && b.count == (spatial ? 5 : 2) &&
+                   b.components ==
+                       (spatial ? "multipliers: along 1; along 2; along 3; axis 1 of the first normal to axis 3 of the "
+                                  "second; axis 2 of the first normal to axis 3 of the second"
+                                : "multipliers: along 1; along 2");
+    }
+    EXPECT_EQ(next, s.matrix.size);
+    EXPECT_TRUE(has_hinge);
   }
-  EXPECT_EQ(next, s.matrix.size);
-  EXPECT_TRUE(has_hinge);
 }
 
 TEST(LinearSystem, SingularMatricesAreHandedOutWithTheirTrouble) {

@@ -113,7 +113,8 @@ std::vector<double> expand(const Rig& flat, const Rig& whole, const std::vector<
     whole.system.set_node_part(out.data(), static_cast<int>(n), flat.system.node_part(x.data(), static_cast<int>(n)));
   for (std::size_t j = 0; j < flat.plan.joints.size(); ++j)
     for (std::size_t r = 0; r < flat.plan.joints[j].rows.size(); ++r)
-      out[static_cast<std::size_t>(whole.system.block_begin(whole.plan.joints[j].block) + flat.plan.joints[j].rows[r])] =
+      out[static_cast<std::size_t>(whole.system.block_begin(whole.plan.joints[j].block) +
+                                   flat.plan.joints[j].rows[r])] =
           x[static_cast<std::size_t>(flat.system.block_begin(flat.plan.joints[j].block)) + r];
   return out;
 }
@@ -178,14 +179,16 @@ scene::Scene chain(int links) {
     beams += comma + R"({"name": "link )" + n + R"(", "section": "bar", "start": "a)" + n + R"(", "end": "b)" + n +
              R"(", "elements": 4})";
     joints += comma + R"({"name": "hinge )" + n + R"(", "kind": "revolute", "first": ")" +
-              (l == 0 ? "ground" : "b" + std::to_string(l - 1)) + R"(", "second": "a)" + n + R"(", "position": )" + x(l) +
-              R"(, "axis": [0, 1, 0]})";
+              (l == 0 ? "ground" : "b" + std::to_string(l - 1)) + R"(", "second": "a)" + n + R"(", "position": )" +
+              x(l) + R"(, "axis": [0, 1, 0]})";
   }
-  return support::scene_of(R"({"gravity": [0, 0, -9.81],
+  return support::scene_of(
+      R"({"gravity": [0, 0, -9.81],
     "materials": [{"name": "steel", "young": 2.1e11, "poisson": 0.3, "density": 7850}],
     "sections": [{"name": "bar", "shape": {"kind": "rectangle", "width": 0.02, "height": 0.02}, "material": "steel"}],
-    "nodes": [)" + nodes + R"(], "beams": [)" + beams + R"(], "joints": [)" + joints +
-                           R"(], "sensors": [{"name": "energy", "kind": "total_energy"}, {"name": "end", "kind": "acceleration", "at": "b1"}],
+    "nodes": [)" +
+      nodes + R"(], "beams": [)" + beams + R"(], "joints": [)" + joints +
+      R"(], "sensors": [{"name": "energy", "kind": "total_energy"}, {"name": "end", "kind": "acceleration", "at": "b1"}],
     "analysis": {"kind": "dynamic", "end_time": 0.02, "step_size": 0.001}})");
 }
 
@@ -202,10 +205,12 @@ class Rows final : public results::Recorder {
 
 TEST(PlanarElements, give_the_same_bits_on_any_number_of_threads) {
   Rows one, three;
-  ASSERT_EQ(simulate(chain(32), {}, one).status, results::RunStatus::ok);
+  scene::Scene s = chain(32);
+  s.without = {"small"};
+  ASSERT_EQ(simulate(s, {}, one).status, results::RunStatus::ok);
   SimulateOptions options;
   options.threads = 3;
-  simulate(chain(32), options, three);
+  simulate(s, options, three);
   EXPECT_EQ(one.values.size(), 21u);
   EXPECT_EQ(one.values, three.values);
 }
@@ -235,7 +240,8 @@ TEST(Unknowns, of_a_plane_are_three_a_node_and_the_rows_that_hold_in_it) {
   EXPECT_EQ(rows("ball"), 2u);
   EXPECT_EQ(rows("tube"), 2u);
   EXPECT_EQ(rows("crank"), 3u);  // two displacements and the angle that is driven
-  EXPECT_EQ(rig.system.num_unknowns(), 3 * rig.plan.nodes.size() + 3 + 2 + 2 + 2 + 2 + 3 + 1);  // held rotation of the mass
+  EXPECT_EQ(rig.system.num_unknowns(),
+            3 * rig.plan.nodes.size() + 3 + 2 + 2 + 2 + 2 + 3 + 1);  // held rotation of the mass
 }
 
 /// What stands against the plane where one thing leaves it.
@@ -257,13 +263,18 @@ TEST(Unknowns, are_six_with_a_reason_where_something_leaves_the_plane) {
   EXPECT_EQ(reason([](Scene& s) { s.bodies[0].inertia(0, 2) = s.bodies[0].inertia(2, 0) = 1e-6; }),
             "'block': its mass is not symmetric about the plane (centre of mass, principal axes)");
   EXPECT_EQ(reason([](Scene& s) { s.beams[0].twist = 0.1; }), "'one': it is twisted");
-  EXPECT_EQ(reason([](Scene& s) { s.sections[0].stiffness(0, 5) = s.sections[0].stiffness(5, 0) = 10.0;
-                                  s.sections[0].stiffness(0, 4) = s.sections[0].stiffness(4, 0) = 10.0; }),
+  EXPECT_EQ(reason([](Scene& s) {
+              s.sections[0].stiffness(0, 5) = s.sections[0].stiffness(5, 0) = 10.0;
+              s.sections[0].stiffness(0, 4) = s.sections[0].stiffness(4, 0) = 10.0;
+            }),
             "'one': its section couples bending in the plane with other strains");
   EXPECT_EQ(reason([](Scene& s) { s.point_loads[0].force[2] = 1e-6; }), "'dead': its force acts out of the plane");
-  EXPECT_EQ(reason([](Scene& s) { s.point_loads[1].moment[0] = 1e-6; }), "'follower': its moment acts out of the plane");
-  EXPECT_EQ(reason([](Scene& s) { s.initial_velocities[0].velocity[2] = 1e-6; }), "'weight': it starts out of the plane");
-  EXPECT_EQ(reason([](Scene& s) { s.springs[0].second.offset.x[2] = 1e-6; }), "'spring': it takes hold outside the plane");
+  EXPECT_EQ(reason([](Scene& s) { s.point_loads[1].moment[0] = 1e-6; }),
+            "'follower': its moment acts out of the plane");
+  EXPECT_EQ(reason([](Scene& s) { s.initial_velocities[0].velocity[2] = 1e-6; }),
+            "'weight': it starts out of the plane");
+  EXPECT_EQ(reason([](Scene& s) { s.springs[0].second.offset.x[2] = 1e-6; }),
+            "'spring': it takes hold outside the plane");
   EXPECT_EQ(reason([](Scene& s) { s.joints[4].kind = scene::JointKind::screw; }), "'ball': it is a screw");
   EXPECT_EQ(reason([](Scene& s) { s.bushings[0].stiffness(0, 2) = s.bushings[0].stiffness(2, 0) = 1e-3; }),
             "'mount': its stiffness or damping couples motions in the plane with others");
@@ -275,7 +286,8 @@ scene::Scene masses(const std::string& second) {
   return support::scene_of(R"({
     "gravity": [0, 0, -9.81],
     "bodies": [{"name": "upper", "kind": "point_mass", "mass": 1, "position": [0, 0, -1]},
-               {"name": "lower", "kind": "point_mass", "mass": 2, "position": )" + second + R"(}],
+               {"name": "lower", "kind": "point_mass", "mass": 2, "position": )" +
+                           second + R"(}],
     "springs": [{"name": "a", "stiffness": 100, "first": {"to": "ground"}, "second": {"to": "upper"}},
                 {"name": "b", "stiffness": 200, "damping": 1, "first": {"to": "upper"}, "second": {"to": "lower"}}],
     "sensors": [{"name": "lower", "kind": "position", "at": "lower"}],

@@ -112,22 +112,26 @@ Jet<S, N> operator/(double k, const Jet<S, N>& x) {
 }
 /// With a plain scalar that is not a double: a constant of the kernel.
 template <class S, int N>
-requires(!std::same_as<S, double>) Jet<S, N> operator*(const S& k, const Jet<S, N>& x) {
+requires(!std::same_as<S, double>) Jet<S, N>
+operator*(const S& k, const Jet<S, N>& x) {
   Jet<S, N> r;
   r.a = k * x.a;
   for (int i = 0; i < N; ++i) r.d[i] = k * x.d[i];
   return r;
 }
 template <class S, int N>
-requires(!std::same_as<S, double>) Jet<S, N> operator*(const Jet<S, N>& x, const S& k) { return k * x; }
+requires(!std::same_as<S, double>) Jet<S, N>
+operator*(const Jet<S, N>& x, const S& k) { return k * x; }
 template <class S, int N>
-requires(!std::same_as<S, double>) Jet<S, N> operator+(const Jet<S, N>& x, const S& k) {
+requires(!std::same_as<S, double>) Jet<S, N>
+operator+(const Jet<S, N>& x, const S& k) {
   Jet<S, N> r = x;
   r.a = r.a + k;
   return r;
 }
 template <class S, int N>
-requires(!std::same_as<S, double>) Jet<S, N> operator-(const Jet<S, N>& x, const S& k) {
+requires(!std::same_as<S, double>) Jet<S, N>
+operator-(const Jet<S, N>& x, const S& k) {
   Jet<S, N> r = x;
   r.a = r.a - k;
   return r;

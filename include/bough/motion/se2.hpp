@@ -79,7 +79,7 @@ PlaneSeries<S> eval_plane_series(const S& theta) {
   PlaneSeries<S> r;
   r.f = {{c[1], theta * c[2]}};
   r.k = {{theta * c[3], c[2]}};
-  r.df = {{theta * (c[3] - c[2]), c[1] - c[2]}};                             // (theta c_2)' = c_1 - c_2
+  r.df = {{theta * (c[3] - c[2]), c[1] - c[2]}};              // (theta c_2)' = c_1 - c_2
   r.dk = {{c[2] - 2.0 * c[3], theta * (2.0 * c[4] - c[3])}};  // (theta c_3)' = c_2 - 2 c_3
   return r;
 }
@@ -163,7 +163,8 @@ Mat3<S> inverse_tangent_plane(const Vec3<S>& d) {
   const PlaneMotion<S> m(d);
   const Vec2<S> h{{half_cotangent(x), -0.5 * d[2]}}, last = -conjugate_times(h, m.ku);
   const S o(0.0);
-  return {{h[0], h[1], last[0], -h[1], h[0], last[1], o, o, S(1.0)}};  // conj(h) y = (h_0 y_0 + h_1 y_1, h_0 y_1 - h_1 y_0)
+  return {
+      {h[0], h[1], last[0], -h[1], h[0], last[1], o, o, S(1.0)}};  // conj(h) y = (h_0 y_0 + h_1 y_1, h_0 y_1 - h_1 y_0)
 }
 
 }  // namespace bough::motion

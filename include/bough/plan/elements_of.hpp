@@ -15,13 +15,12 @@ using ElementArrays =
                std::vector<elements::LineLoad<3>>, std::vector<elements::LineLoad<4>>>;
 
 /// The same types in the same order for motions in a plane.
-using PlanarArrays =
-    std::tuple<std::vector<elements::planar::Beam<2>>, std::vector<elements::planar::Beam<3>>,
-               std::vector<elements::planar::Beam<4>>, std::vector<elements::planar::RigidBody>,
-               std::vector<elements::planar::Joint>, std::vector<elements::planar::Spring>,
-               std::vector<elements::planar::Bushing>, std::vector<elements::planar::PointLoad>,
-               std::vector<elements::planar::LineLoad<2>>, std::vector<elements::planar::LineLoad<3>>,
-               std::vector<elements::planar::LineLoad<4>>>;
+using PlanarArrays = std::tuple<std::vector<elements::planar::Beam<2>>, std::vector<elements::planar::Beam<3>>,
+                                std::vector<elements::planar::Beam<4>>, std::vector<elements::planar::RigidBody>,
+                                std::vector<elements::planar::Joint>, std::vector<elements::planar::Spring>,
+                                std::vector<elements::planar::Bushing>, std::vector<elements::planar::PointLoad>,
+                                std::vector<elements::planar::LineLoad<2>>, std::vector<elements::planar::LineLoad<3>>,
+                                std::vector<elements::planar::LineLoad<4>>>;
 static_assert(std::tuple_size_v<PlanarArrays> == std::tuple_size_v<ElementArrays>);
 
 template <class E>

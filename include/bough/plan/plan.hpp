@@ -66,10 +66,10 @@ struct FramePlan {
 /// A simplification that a scene allows, or does not: what was settled before anything is allocated.
 struct Decision {
   std::string name;
-  std::string what;     ///< it means, and when exactly it is taken
-  std::string reason;   ///< why it was taken, or the first thing that stands against it
+  std::string what;    ///< it means, and when exactly it is taken
+  std::string reason;  ///< why it was taken, or the first thing that stands against it
   bool taken = false;
-  bool barred = false;  ///< by Scene::without
+  bool barred = false;         ///< by Scene::without
   bool can_be_barred = false;  ///< is one of scene::decision_names(); the others follow from the scene alone
 };
 

@@ -73,6 +73,10 @@ class System {
   /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment.
   ResidualSize round_off_floor(const State& state) const;
 
+  /// Whether tangents are replaced by their symmetric parts (plan decision "symmetric"); drop_symmetry: not from now on.
+  bool takes_symmetric_parts() const { return takes_symmetric_parts_; }
+  void drop_symmetry() { takes_symmetric_parts_ = is_factored_ = false; }
+
   /// Factors the element matrices now present, made with these slopes.
   [[nodiscard]] std::optional<Trouble> factor(bool rescale, const elements::Slopes& slopes);
   /// Whether the present factor was made with these slopes (of some earlier state).
@@ -150,6 +154,8 @@ class System {
   void set_turned_laws();
   void set_frame_series(double step_size, plan::FrameMotions& motions) const;
 
+  /// Puts (A + A^T) / 2 in place of the tangents of a batch.
+  void symmetrise(const solve::ElementBatch& batch);
   void evaluate_alone(std::size_t id, const State& state, const elements::Field& field, bool tangent);
   template <class E>
   void evaluate_projected(const E& e, std::size_t id, const elements::Field& field, const double* multipliers,
@@ -157,7 +163,7 @@ class System {
 
   const plan::Plan& plan_;
   std::unique_ptr<LaneBatches<SpatialKernels>> lane_batches_;
-  std::unique_ptr<PlanarSystem> planar_;  ///< where the plan has planar elements
+  std::unique_ptr<PlanarSystem> planar_;    ///< where the plan has planar elements
   std::unique_ptr<Projection> projection_;  ///< none where a node has six unknowns
   std::unique_ptr<tree::Tree> tree_;
   std::unique_ptr<solve::AnySolver> solver_;
@@ -191,6 +197,7 @@ class System {
   elements::Slopes factored_;
   bool is_factored_ = false;
   double contraction_ = 1.0;
+  bool takes_symmetric_parts_ = false;
 };
 
 }  // namespace bough::step

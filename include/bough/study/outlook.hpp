@@ -13,14 +13,14 @@ namespace bough::study {
 /// machine, or busy ones, all seconds are off by one factor.
 struct Effort {
   std::int64_t unknowns = 0;
-  double factor_flops = 0.0;        ///< of one factorization [flop]
-  double factorizations = 0.0;      ///< a step, and
-  double iterations = 0.0;          ///< assumed of Newton: as usual at the default tolerance
-  double evaluate_seconds = 0.0;    ///< elements, residuals and tangents, a step on one thread [s]
-  double factor_seconds = 0.0;      ///< the same
-  double solve_seconds = 0.0;       ///< the same, with the check of the solution
-  double other_seconds = 0.0;       ///< nodes moved, sums
-  std::int64_t memory_bytes = 0;    ///< of solver, elements and states
+  double factor_flops = 0.0;      ///< of one factorization [flop]
+  double factorizations = 0.0;    ///< a step, and
+  double iterations = 0.0;        ///< assumed of Newton: as usual at the default tolerance
+  double evaluate_seconds = 0.0;  ///< elements, residuals and tangents, a step on one thread [s]
+  double factor_seconds = 0.0;    ///< the same
+  double solve_seconds = 0.0;     ///< the same, with the check of the solution
+  double other_seconds = 0.0;     ///< nodes moved, sums
+  std::int64_t memory_bytes = 0;  ///< of solver, elements and states
   double step_seconds() const { return evaluate_seconds + factor_seconds + solve_seconds + other_seconds; }
 };
 

@@ -142,9 +142,8 @@ void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers,
                          !on_ground && (!mass_only || is_joint), !on_ground && field.around.has_inertia, 3 * k);
     if (!on_ground) apply_offset(e.ports[k], moved[k]);
   }
-  const Surroundings<T> around{{{T(field.around.gravity[0]), T(field.around.gravity[1])}},
-                               field.around.laws,
-                               field.around.has_inertia};
+  const Surroundings<T> around{
+      {{T(field.around.gravity[0]), T(field.around.gravity[1])}}, field.around.laws, field.around.has_inertia};
   Vec3<T> slopes[P];
   T row_slopes[most_rows + 1], all[D + most_rows + 1];
   eval_kernel<E, S, T>(e, moved, multipliers, turns, around, slopes, row_slopes);
@@ -154,8 +153,7 @@ void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers,
   for (int k = 0; k < P; ++k) {
     if (e.ports[k].node == ground) continue;
     for (int j = 0; j < 3; ++j, ++column) {
-      for (int i = 0; i < forces; ++i)
-        tangent[i * n + column] = is_joint && mass_only ? S(0.0) : all[i].d[3 * k + j];
+      for (int i = 0; i < forces; ++i) tangent[i * n + column] = is_joint && mass_only ? S(0.0) : all[i].d[3 * k + j];
       for (int i = forces; i < n; ++i)  // forces are G^T lambda: the columns of the multipliers
         tangent[i * n + column] = tangent[column * n + i] = all[i].d[3 * k + j];
     }
@@ -306,9 +304,9 @@ void evaluate_lanes(const E& e, const FieldLanes& field, const LanePack* multipl
 }  // namespace bough::elements::planar
 
 /// Instantiates all forms of one element type.
-#define BOUGH_INSTANTIATE_PLANAR(E)                                                                                  \
-  template void evaluate(const E&, const Field&, const double*, double, double*, double*, double*);                  \
-  template bool may_share_lanes(const E&, const E&);                                                                 \
-  template LaneElement<E> make_lane_element(const E* const*, int, const int*, int);                                  \
+#define BOUGH_INSTANTIATE_PLANAR(E)                                                                                   \
+  template void evaluate(const E&, const Field&, const double*, double, double*, double*, double*);                   \
+  template bool may_share_lanes(const E&, const E&);                                                                  \
+  template LaneElement<E> make_lane_element(const E* const*, int, const int*, int);                                   \
   template void evaluate_lanes(const LaneElement<E>&, const FieldLanes&, const LanePack*, const LanePack&, LanePack*, \
                                LanePack*, LanePack*);

@@ -146,8 +146,7 @@ void eval_residual(const BushingOf<C>& e, const PortMotion<S>* p, const Surround
   Vec3<S> stretch = log.d;
   for (int k = 0; k < 3; ++k) stretch[k] = stretch[k] - e.rest[k];
   Vec3<S> n = e.stiffness * stretch;
-  if (around.has_inertia && e.has_damping)
-    n += e.damping * log.inverse_times(p[1].v - seen_from(H.turn, H.x, p[0].v));
+  if (around.has_inertia && e.has_damping) n += e.damping * log.inverse_times(p[1].v - seen_from(H.turn, H.x, p[0].v));
   out[1] = log.inverse_transpose_times(n);
   out[0] = -carried_back(H.turn, H.x, out[1]);
 }

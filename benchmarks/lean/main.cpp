@@ -1,0 +1,134 @@
+/// bench_lean [--case=REGEX] [options of Google Benchmark]
+/// Rows taken/CASE and barred/CASE: the same scene with a decision of its plan taken and barred, interleaved; CASE begins with the decision.
+/// One iteration is one accepted step, but for symmetric/..., where it is one factorization.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "../support/arguments.hpp"
+#include "../support/context.hpp"
+#include "../support/scenes.hpp"
+#include "bough/study/simulate.hpp"
+
+namespace {
+
+using namespace bough;
+using namespace bough::bench;
+
+struct LeanCase {
+  std::string decision, name;
+  int size, steps;
+  scene::Scene (*make)(int);
+};
+
+/// The lattice in its own plane, gravity along it.
+scene::Scene make_hanging_lattice(int n) {
+  scene::Scene s = make_lattice_2d(n, Support::clamp);
+  s.gravity = {{0.0, -9.81, 0.0}};
+  return s;
+}
+scene::Scene make_level_lattice(int n) { return make_lattice_2d(n, Support::clamp); }
+scene::Scene make_sprung_lattice(int n) { return make_lattice_2d(n, Support::spring); }
+
+std::vector<LeanCase> make_cases() {
+  return {{"planar", "chain_128", 128, 100, make_chain},
+          {"planar", "rigid_chain_128", 128, 100, make_rigid_chain},
+          {"planar", "lattice_20", 20, 20, make_hanging_lattice},
+          {"planar", "lattice_50", 50, 10, make_hanging_lattice},
+          {"reuse", "chain_128", 128, 50, make_chain},
+          {"reuse", "lattice_50", 50, 10, make_level_lattice},
+          {"symmetric", "lattice_50", 50, 5, make_sprung_lattice},
+          {"symmetric", "lattice_100", 100, 3, make_sprung_lattice},
+          {"small", "chain_4", 4, 200, make_chain},
+          {"lanes", "chain_128", 128, 50, make_chain}};
+}
+
+class NoRecorder final : public results::Recorder {
+ public:
+  void begin(const results::HistoryHeader&) override {}
+  void row(const results::HistoryRow&) override {}
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+};
+
+scene::Scene make_scene(const LeanCase& c, bool barred) {
+  scene::Scene s = c.make(c.size);
+  s.analysis.step_size = 1e-3;
+  s.analysis.end_time = 1e-3 * (c.steps + 1);
+  s.output.stride = c.steps + 1;
+  s.output.checks = false;
+  if (barred) s.without = {c.decision};
+  if (c.decision == "symmetric") s.without.push_back("reuse");  // a factor in every iteration
+  return s;
+}
+
+void run_case(benchmark::State& state, const LeanCase& c, bool barred, int threads) {
+  const scene::Scene s = make_scene(c, barred);
+  study::SimulateOptions options;
+  options.threads = threads;
+  NoRecorder recorder;
+  results::Summary end;
+  double first_factor = 0.0;
+  long first_factorizations = 0;
+  options.before_step = [&](step::System& system, const step::State&, const study::BeforeStep& attempt) {
+    if (attempt.number == 2) {
+      first_factor = system.counts().factor;
+      first_factorizations = system.counts().factorizations;
+    }
+    return true;
+  };
+  const bool of_factors = c.decision == "symmetric";
+  for (auto _ : state) {
+    double seconds = 0.0;
+    std::chrono::steady_clock::time_point start;
+    end = study::simulate(s, options, recorder, [&](const results::Progress& p) {
+      const auto now = std::chrono::steady_clock::now();
+      if (p.step == 1) start = now;
+      seconds = std::chrono::duration<double>(now - start).count();
+      return true;
+    });
+    if (end.status != results::RunStatus::ok || end.steps.rejected > 0) {
+      state.SkipWithError(("the run failed or rejected steps: " + end.cause).c_str());
+      return;
+    }
+    state.SetIterationTime(of_factors ? (end.times.factor - first_factor) /
+                                            static_cast<double>(end.steps.factorizations - first_factorizations)
+                                      : seconds / c.steps);
+  }
+  state.counters["iterations_a_step"] =
+      static_cast<double>(end.steps.newton_iterations) / static_cast<double>(end.steps.accepted);
+  state.counters["factorizations_a_step"] =
+      static_cast<double>(end.steps.factorizations) / static_cast<double>(end.steps.accepted);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  const std::regex wanted(take_option(arguments, "case", ".*"));
+  std::vector<std::string> defaults{"--benchmark_repetitions=5", "--benchmark_enable_random_interleaving=true",
+                                    "--benchmark_min_time=0.01"};
+  for (std::string& d : defaults) arguments.insert(arguments.begin() + 1, d.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+  add_context();
+  const std::vector<LeanCase> cases = make_cases();
+  for (const LeanCase& c : cases)
+    if (std::regex_match(c.decision + "_" + c.name, wanted))
+      for (bool barred : {false, true}) {
+        const int threads = c.decision == "small" ? 2 : 1;
+        benchmark::RegisterBenchmark(
+            (std::string(barred ? "barred/" : "taken/") + c.decision + "_" + c.name +
+             "/threads:" + std::to_string(threads))
+                .c_str(),
+            [&c, barred, threads](benchmark::State& state) { run_case(state, c, barred, threads); })
+            ->UseManualTime()
+            ->Unit(benchmark::kMillisecond);
+      }
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

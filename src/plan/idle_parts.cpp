@@ -1,0 +1,104 @@
+/// Parts of a scene that nothing moves, or that cannot move: recognised and said, for they cost as much as others.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "plan_builder.hpp"
+
+namespace bough::plan {
+
+namespace {
+
+/// Sets of nodes that touch each other; the ground is the last one.
+class Sets {
+ public:
+  explicit Sets(std::size_t nodes) : parent_(nodes + 1) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  std::size_t ground() const { return parent_.size() - 1; }
+  std::size_t of(std::size_t node) {
+    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
+    return node;
+  }
+  void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
+  std::size_t index(const elements::Port& port) const {
+    return port.node == elements::ground ? ground() : static_cast<std::size_t>(port.node);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+bool is_zero(const motion::Vec6<double>& v) { return lanes::dot(v, v) == 0.0; }
+
+/// Six rows that hold two frames together, none of them driven.
+bool is_rigid(const elements::Joint& e) {
+  int held = 0;
+  for (int k = 0; k < e.num_rows; ++k) held += e.rows[k].law < 0 && e.rows[k].kind != elements::RowKind::screw ? 1 : 0;
+  return held == 6;
+}
+
+/// "'a', 'b', 'c' and 4 more"
+std::string names_of(const Plan& plan, const std::vector<std::size_t>& nodes) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, nodes.size()); ++i)
+    text += (i > 0 ? ", '" : "'") + plan.nodes[nodes[i]].name + "'";
+  return nodes.size() > most ? text + " and " + std::to_string(nodes.size() - most) + " more" : text;
+}
+
+}  // namespace
+
+void Builder::say_idle_parts() {
+  const std::size_t count = plan.nodes.size();
+  Sets parts(count), rigid(count);
+  std::vector<bool> is_moved(count + 1, false);  // by a load, a spring under tension, a drive, its weight, at the start
+  const bool has_gravity = lanes::dot(plan.gravity, plan.gravity) > 0.0;
+  for_each_array(plan.elements, [&](const auto& array) {
+    using E = typename std::decay_t<decltype(array)>::value_type;
+    for (const E& e : array) {
+      std::size_t first = parts.ground();
+      bool moves = false;
+      if constexpr (elements::has_mass_matrix<E>) moves = has_gravity;
+      if constexpr (requires { e.wrench; }) moves = !is_zero(e.wrench);
+      if constexpr (std::is_same_v<E, elements::Spring>) {
+        const motion::Vec3<double> r = initial_pose(e.ports[1]).x - initial_pose(e.ports[0]).x;
+        moves = std::abs(std::sqrt(lanes::dot(r, r)) - e.rest_length) > 1e-12 * plan.length_scale;
+      }
+      if constexpr (std::is_same_v<E, elements::Joint>) {
+        for (int k = 0; k < e.num_rows; ++k) moves |= e.rows[k].law >= 0;
+        for (int k = 0; k < e.num_efforts; ++k) moves |= e.efforts[k].stiffness != 0.0 || e.efforts[k].law >= 0;
+        if (is_rigid(e) && e.ports[0].carrier < 0 && e.ports[1].carrier < 0)
+          rigid.join(rigid.index(e.ports[0]), rigid.index(e.ports[1]));
+      }
+      for (const elements::Port& p : e.ports) {
+        if (p.carrier >= 0) moves = true;
+        if (p.node == elements::ground) continue;
+        const auto node = static_cast<std::size_t>(p.node);
+        if (first != parts.ground()) parts.join(node, first);
+        first = node;
+        is_moved[node] = is_moved[node] || moves;
+      }
+    }
+  });
+  for (std::size_t n = 0; n < count; ++n)
+    if (!is_zero(plan.nodes[n].twist) || plan.observer >= 0) is_moved[n] = true;
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t n = 0; n < count; ++n) members[parts.of(n)].push_back(n);
+  for (const auto& [part, nodes] : members)
+    if (std::none_of(nodes.begin(), nodes.end(), [&](std::size_t n) { return is_moved[n]; }))
+      plan.notes.push_back(
+          names_of(plan, nodes) + (nodes.size() == 1 ? ": nothing moves it" : ": nothing moves them") +
+          " (no load, weight, drive, tension or initial velocity): left out of the scene, the rest would "
+          "be the same");
+  std::vector<std::size_t> held;
+  for (int body : plan.body_nodes)  // bodies alone: a clamped node of a beam is how beams are held
+    if (rigid.of(static_cast<std::size_t>(body)) == rigid.of(rigid.ground()))
+      held.push_back(static_cast<std::size_t>(body));
+  if (members.size() > 1)
+    plan.notes.push_back("the scene falls into " + std::to_string(members.size()) +
+                         " parts that do not feel each other");
+  if (!held.empty())
+    plan.notes.push_back(names_of(plan, held) + (held.size() == 1 ? " cannot move: it is" : " cannot move: they are") +
+                         " fixed to the ground; beams and joints may take hold of the ground itself");
+}
+
+}  // namespace bough::plan
