@@ -1,5 +1,7 @@
 #include "lane_batches.hpp"
 
+#include <algorithm>
+
 namespace bough::step {
 
 template <class Kernels>
@@ -28,23 +30,59 @@ void LaneBatches<Kernels>::add(const solve::ElementBatch& batch, Slot& slot) {
 }
 
 template <class Kernels>
+void LaneBatches<Kernels>::gather_singles() {
+  constexpr std::size_t near_by = 256;  ///< batches: their elements still lie in the cache together
+  struct Open {
+    std::size_t batch = 0;
+    plan::ElementPlace first;
+    std::size_t count = 1;
+  };
+  std::vector<Open> open;
+  const auto share = [this](plan::ElementPlace a, plan::ElementPlace b) {
+    if (a.array != b.array) return false;
+    bool may = false;
+    plan::with_element(Kernels::arrays(*plan_), a, [&](const auto& x) {
+      plan::with_element(Kernels::arrays(*plan_), b, [&](const auto& y) {
+        if constexpr (std::is_same_v<decltype(x), decltype(y)>) may = may_share_lanes(x, y);
+      });
+    });
+    return may;
+  };
+  for (std::size_t b = 0; b < batches_.size(); ++b) {
+    solve::ElementBatch& batch = batches_[b];
+    if (batch.stride != 1 || batch.element[0] < 0) continue;
+    std::erase_if(open, [b](const Open& o) { return b - o.batch > near_by; });
+    const plan::ElementPlace place = plan_->directory[static_cast<std::size_t>(batch.element[0])];
+    const auto group = std::find_if(open.begin(), open.end(), [&](const Open& o) { return share(o.first, place); });
+    if (group == open.end()) {
+      open.push_back({b, place});
+      continue;
+    }
+    batches_[group->batch].element[group->count++] = batch.element[0];
+    batch.element[0] = -1;
+    if (group->count == solve::lanes_wide) open.erase(group);
+  }
+}
+
+template <class Kernels>
 void LaneBatches<Kernels>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
                                 const std::vector<int>& joint_of_element) {
   plan_ = &plan;
-  batches_ = batches;
+  batches_.assign(batches.begin(), batches.end());
+  gather_singles();
   joint_of_element_ = joint_of_element;
-  slots_.assign(batches.size(), {});
-  for (std::size_t b = 0; b < batches.size(); ++b) {
+  slots_.assign(batches_.size(), {});
+  for (std::size_t b = 0; b < batches_.size(); ++b) {
     int present = 0, first = -1;
-    for (int id : batches[b].element) {
+    for (int id : batches_[b].element) {
       if (id < 0) continue;
       ++present;
       first = first < 0 ? id : first;
     }
-    if (batches[b].stride != solve::lanes_wide || present < least_lanes) continue;
+    if (present < least_lanes) continue;
     const int array = plan.directory[static_cast<std::size_t>(first)].array;
     const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
-      static_cast<void>(((array == static_cast<int>(I) ? (add<I>(batches[b], slots_[b]), true) : false) || ...));
+      static_cast<void>(((array == static_cast<int>(I) ? (add<I>(batches_[b], slots_[b]), true) : false) || ...));
     };
     pick(std::make_index_sequence<std::tuple_size_v<typename Kernels::Arrays>>{});
   }

@@ -58,6 +58,7 @@ class LaneBatches {
  public:
   using Field = typename Kernels::Field;
 
+  /// Batches of the solver; elements that stand alone there are put together with others near by of one kind, each in the place of the first.
   /// A batch goes in lanes if it holds at least `least_lanes` elements and they differ in numbers only.
   void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
             const std::vector<int>& joint_of_element);
@@ -65,6 +66,7 @@ class LaneBatches {
   /// Frames of prescribed motion as they are now, the same for all lanes; needed only where there are some.
   void set_frames(const plan::FrameMotions& frames);
 
+  std::span<const solve::ElementBatch> batches() const { return batches_; }
   bool holds(std::size_t batch) const { return !slots_.empty() && slots_[batch].index >= 0; }
 
   /// Residuals, magnitudes and (where wanted) tangents of all elements of a batch. `result(id)` tells where they go. No allocation.
@@ -76,6 +78,7 @@ class LaneBatches {
     int array = -1;  ///< of plan.elements
     int index = -1;  ///< in that array's lane elements; -1: not in lanes
   };
+  void gather_singles();
   template <std::size_t I>
   void add(const solve::ElementBatch& batch, Slot& slot);
   template <std::size_t I, class Result>
@@ -84,7 +87,7 @@ class LaneBatches {
 
   static constexpr int least_lanes = 3;
   const plan::Plan* plan_ = nullptr;
-  std::span<const solve::ElementBatch> batches_;
+  std::vector<solve::ElementBatch> batches_;
   std::span<const int> joint_of_element_;
   std::vector<Slot> slots_;
   typename detail::LaneArraysOf<typename Kernels::Arrays>::Type lanes_;
@@ -157,7 +160,8 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, int ind
   around.around.laws = laws;
   around.around.has_inertia = field.around.has_inertia;
   Pack residual[most], magnitude[most], spare[most * most];
-  const bool is_direct = tangent && present == wide;  // else the empty lanes must stay empty
+  const bool is_direct =
+      tangent && present == wide && batch.stride == wide;  // else the empty lanes must stay empty
   Pack* matrix = nullptr;
   if (is_direct) matrix = reinterpret_cast<Pack*>(result(ids[0]).tangent.first);
   if (tangent && !is_direct) matrix = spare;

@@ -15,10 +15,12 @@ class PlanarSystem {
  public:
   PlanarSystem(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
                const std::vector<int>& joint_of_element)
-      : plan_(plan), batches_(batches), joint_of_element_(joint_of_element), nodes_(plan.nodes.size()) {
+      : plan_(plan), joint_of_element_(joint_of_element), nodes_(plan.nodes.size()) {
     lanes_.make(plan, batches, joint_of_element);
     field_.nodes = nodes_.data();
   }
+
+  std::span<const solve::ElementBatch> batches() const { return lanes_.batches(); }
 
   /// Nodes [begin, end) as seen in the plane.
   void set_nodes(const State& state, std::int64_t begin, std::int64_t end);
@@ -29,7 +31,7 @@ class PlanarSystem {
   template <class Result>
   void evaluate(std::size_t batch, const State& state, bool tangent, Result&& result) const {
     if (lanes_.holds(batch)) return lanes_.evaluate(batch, state, field_, tangent, result);
-    for (int id : batches_[batch].element)
+    for (int id : batches()[batch].element)
       if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, tangent, result(id));
   }
 
@@ -37,7 +39,6 @@ class PlanarSystem {
   void evaluate_alone(std::size_t id, const State& state, bool tangent, const ElementResult& to) const;
 
   const plan::Plan& plan_;
-  std::span<const solve::ElementBatch> batches_;
   const std::vector<int>& joint_of_element_;
   std::vector<elements::planar::Node> nodes_;
   elements::planar::Field field_;
