@@ -160,8 +160,7 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, int ind
   around.around.laws = laws;
   around.around.has_inertia = field.around.has_inertia;
   Pack residual[most], magnitude[most], spare[most * most];
-  const bool is_direct =
-      tangent && present == wide && batch.stride == wide;  // else the empty lanes must stay empty
+  const bool is_direct = tangent && present == wide && batch.stride == wide;  // else the empty lanes must stay empty
   Pack* matrix = nullptr;
   if (is_direct) matrix = reinterpret_cast<Pack*>(result(ids[0]).tangent.first);
   if (tangent && !is_direct) matrix = spare;

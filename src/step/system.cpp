@@ -213,8 +213,9 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   PhaseTimer timer{counts_.assemble};
   ++counts_.evaluations;
   const elements::Field f = field(state, slopes);
-  const std::span<const solve::ElementBatch> batches =
-      planar_ ? planar_->batches() : projection_ ? solver_->batches() : lane_batches_->batches();
+  const std::span<const solve::ElementBatch> batches = planar_       ? planar_->batches()
+                                                       : projection_ ? solver_->batches()
+                                                                     : lane_batches_->batches();
   const auto result = [&](int id) {
     const auto begin = static_cast<std::size_t>(element_begin_[static_cast<std::size_t>(id)]);
     return ElementResult{element_residual_.data() + begin, element_magnitude_.data() + begin,
