@@ -40,8 +40,10 @@ std::vector<LeanCase> make_cases() {
           {"planar", "lattice_50", 50, 10, make_hanging_lattice},
           {"reuse", "chain_128", 128, 50, make_chain},
           {"reuse", "lattice_50", 50, 10, make_level_lattice},
+          {"reuse", "lattice_100", 100, 5, make_level_lattice},
           {"symmetric", "lattice_50", 50, 5, make_sprung_lattice},
           {"symmetric", "lattice_100", 100, 3, make_sprung_lattice},
+          {"symmetric", "lattice_3d_12", 12, 3, make_lattice_3d},
           {"small", "chain_4", 4, 200, make_chain},
           {"lanes", "chain_128", 128, 50, make_chain}};
 }

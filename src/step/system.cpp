@@ -34,14 +34,31 @@ struct NodeSize {
   double force, moment;
 };
 /// Largest entries of the force and the moment at a node.
-NodeSize size_up(const plan::NodeUnknowns& unknowns, const double* a) {
-  if (unknowns.is_whole()) return {largest_of_three(a), largest_of_three(a + 3)};
-  NodeSize size{0.0, 0.0};
-  for (int i = 0; i < unknowns.count; ++i) {
-    double& most = unknowns.is_length(i) ? size.force : size.moment;
-    most = std::max(most, std::abs(a[i]));
+inline NodeSize size_up(plan::Motions motions, const double* a) {
+  switch (motions) {
+    case plan::Motions::spatial:
+      return {largest_of_three(a), largest_of_three(a + 3)};
+    case plan::Motions::planar:
+      return {std::max(std::abs(a[0]), std::abs(a[1])), std::abs(a[2])};
+    case plan::Motions::translation:
+      return {largest_of_three(a), 0.0};
+    case plan::Motions::line:
+      break;
   }
-  return size;
+  return {std::abs(a[0]), 0.0};
+}
+
+/// r = sum of parts, m = sum of terms, of `Size` entries each; Size 0: of `size`.
+template <int Size>
+inline void add_parts(const double* parts, const double* terms, const std::int64_t* begin, const std::int64_t* end, int size,
+                      double* r, double* m) {
+  const int count = Size > 0 ? Size : size;
+  for (int i = 0; i < count; ++i) r[i] = m[i] = 0.0;
+  for (const std::int64_t* use = begin; use != end; ++use)
+    for (int i = 0; i < count; ++i) {
+      r[i] += parts[*use + i];
+      m[i] += terms[*use + i];
+    }
 }
 
 std::unique_ptr<tree::Tree> make_scene_tree(const plan::Plan& plan, const scene::Solver& given) {
@@ -262,22 +279,16 @@ void System::sum_blocks(std::int64_t begin, std::int64_t end) {
     const int size = plan_.graph.block_size[block];
     const auto first = static_cast<std::size_t>(tree_->unknown_begin[block]);
     double *r = residual_.data() + first, *m = magnitude_.data() + first;
-    for (int i = 0; i < size; ++i) r[i] = m[i] = 0.0;
-    for (std::int64_t u = use_begin_[block]; u < use_begin_[block + 1]; ++u) {
-      const double* part = element_residual_.data() + uses_[static_cast<std::size_t>(u)];
-      const double* terms = element_magnitude_.data() + uses_[static_cast<std::size_t>(u)];
-      for (int i = 0; i < size; ++i) {
-        r[i] += part[i];
-        m[i] += terms[i];
-      }
-    }
+    const auto add = size == 6 ? add_parts<6> : size == 3 ? add_parts<3> : size == 2 ? add_parts<2> : add_parts<0>;
+    add(element_residual_.data(), element_magnitude_.data(), uses_.data() + use_begin_[block],
+        uses_.data() + use_begin_[block + 1], size, r, m);
     if (!all_finite(r, size)) {
       chunk.is_finite = false;
       continue;
     }
     const int joint = joint_of_block_[block];
     if (joint < 0) {
-      const NodeSize now = size_up(plan_.unknowns, r), terms = size_up(plan_.unknowns, m);
+      const NodeSize now = size_up(plan_.unknowns.motions, r), terms = size_up(plan_.unknowns.motions, m);
       if (now.force > s.force) s.worst_force_node = static_cast<int>(b);
       if (now.moment > s.moment) s.worst_moment_node = static_cast<int>(b);
       s.force = std::max(s.force, now.force);
@@ -336,7 +347,7 @@ ResidualSize System::round_off_floor(const State&) const {
   ResidualSize s;
   for (int b = 0; b < plan_.graph.num_blocks(); ++b) {
     if (joint_of_block_[static_cast<std::size_t>(b)] >= 0) continue;
-    const NodeSize size = size_up(plan_.unknowns, floor.data() + block_begin(b));
+    const NodeSize size = size_up(plan_.unknowns.motions, floor.data() + block_begin(b));
     s.force = std::max(s.force, size.force);
     s.moment = std::max(s.moment, size.moment);
   }
