@@ -60,7 +60,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       if (const auto t = system.factor(k == 0, slopes))
         return fail(k == 0 ? *t : Trouble{"iteration " + std::to_string(k) + " came to a shape at which " + t->text});
     for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
-    if (const auto t = system.solve(rhs.data(), x.data())) return fail(*t);
+    if (const auto t = system.solve(rhs.data(), x.data(), k == 0)) return fail(*t);
     previous = report.change;
     report.change = system.apply(state, x.data());
     if (report.iterations < StepReport::remembered_changes)

@@ -48,8 +48,15 @@ class AnySolver {
         },
         solver_);
   }
-  [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x) {
-    return std::visit([&](auto& s) { return s.solve(walker, rhs, x); }, solver_);
+  /// check: false: without a backward error (NaN) where the solver can do without and SolveReport's refinement is not needed.
+  [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x, bool check = true) {
+    return std::visit(
+        [&](auto& s) {
+          if constexpr (requires { s.solve_unchecked(walker, rhs, x); })
+            if (!check) return s.solve_unchecked(walker, rhs, x);
+          return s.solve(walker, rhs, x);
+        },
+        solver_);
   }
   void multiply(const tree::Walker& walker, const double* x, double* y) const {
     std::visit([&](auto& s) { s.multiply(walker, x, y); }, solver_);

@@ -51,6 +51,9 @@ class Hierarchical {
   /// Dependent constraint rows: the multipliers are those of least norm (each measured against its constraint row, free of units).
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x);
 
+  /// The same without backward error and refinement, whatever SolveOptions::check says: saves a product with A. Dependent rows are checked.
+  [[nodiscard]] SolveReport solve_unchecked(const tree::Walker& walker, const double* rhs, double* x);
+
   /// y = A x with the element matrices present now (unscaled). y must not be x. No allocation.
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
 

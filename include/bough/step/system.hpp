@@ -84,8 +84,9 @@ class System {
   /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
   double last_contraction() const { return contraction_; }
   void set_last_contraction(double contraction) { contraction_ = contraction; }
-  /// x <- A^-1 rhs.
-  [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x);
+  /// x <- A^-1 rhs. check: false: its backward error may be left out where a solution with the same factor was found good; then
+  /// last_solution() stays that of the last check.
+  [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x, bool check = true);
   const solve::SolveReport& last_solution() const { return last_solution_; }
 
   /// Size of an increment: the largest change of relative motions, of elements' nodes with respect to each other, lengths relative to the
@@ -196,6 +197,7 @@ class System {
   mutable plan::FrameMotions series_frames_;  ///< the same with third derivatives of the laws, for starts
   elements::Slopes factored_;
   bool is_factored_ = false;
+  bool is_trusted_ = false;  ///< the present factor gave a solution that needed no refinement
   double contraction_ = 1.0;
   bool takes_symmetric_parts_ = false;
 };
