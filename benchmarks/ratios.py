@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""ratios.py FOLDER   reads FOLDER/solve.json, step.json, scaling.json and motion.json, those that are there, and prints, for every case,
+"""ratios.py FOLDER   reads FOLDER/solve.json, step.json, scaling.json, motion.json and start.json, those that are there, and prints, for every case,
 
     case | bough ms | best peer ms (which) | ratio | bar | 2-thread speed-up | CPU ratio
 
@@ -16,6 +16,7 @@ import sys
 LATTICE_RIVALS = ("cholmod", "umfpack", "mumps", "superlu")
 STEP_BARS = {"chain_128": 0.27, "chain_512": 0.26, "chain_2048": 0.32}
 SPEED_UP_BAR = 1.7
+VERSION_BAR, RUN_BAR = 4.0, 5.0  # milliseconds of `bough --version`, and of a run of ten unknowns beyond that
 
 
 def rule(case):
@@ -142,12 +143,31 @@ def motion_rows(path):
              number(t["eigen"] / t["lanes"], 2)) for operator, t in times.items()]
 
 
+def start_rows(path):
+    """Medians of whole processes; of a run also what it takes beyond `bough --version`."""
+    with open(path, encoding="utf-8") as file:
+        rows = json.load(file)["benchmarks"]
+    times = {row["run_name"].split("/")[1]: (row["real_time"], row["cpu_ms"], row["faults"]) for row in rows
+             if row.get("aggregate_name") == "median" and not row.get("error_occurred")}
+
+    def with_bar(value, bar):
+        return f"{bar:g}" + (" >" if value > bar else "")
+
+    out = [(name, *(number(value, 2) for value in t[:2]), f"{t[2]:.0f}",
+            with_bar(t[0], VERSION_BAR) if name == "version" else "-") for name, t in times.items()]
+    if "version" in times and "ten_unknowns" in times:
+        wall, cpu, faults = (b - a for a, b in zip(times["version"], times["ten_unknowns"]))
+        out.append(("ten_unknowns less version", number(wall, 2), number(cpu, 2), f"{faults:.0f}",
+                    with_bar(wall, RUN_BAR)))
+    return out
+
+
 def main():
     if len(sys.argv) != 2:
         print(__doc__, file=sys.stderr)
         return 2
     found = False
-    paths = {name: os.path.join(sys.argv[1], name + ".json") for name in ("solve", "step", "scaling", "motion")}
+    paths = {name: os.path.join(sys.argv[1], name + ".json") for name in ("solve", "step", "scaling", "motion", "start")}
     for name, path in paths.items():
         if not os.path.exists(path):
             continue
@@ -166,10 +186,12 @@ def main():
                          "factorizations"), split_rows(path))
         elif name == "motion":
             print_table(("motion", "bough ns", "a lane ns", "eigen ns", "eigen/bough", "eigen/lane"), motion_rows(path))
+        elif name == "start":
+            print_table(("process", "wall ms", "CPU ms", "page faults", "bar"), start_rows(path))
         else:
             print_scaling(path)
     if not found:
-        print(f"ratios.py: no solve.json, step.json, scaling.json or motion.json in {sys.argv[1]}; `make bench` writes all but scaling.json", file=sys.stderr)
+        print(f"ratios.py: no solve.json, step.json, scaling.json, motion.json or start.json in {sys.argv[1]}; `make bench` writes all but scaling.json", file=sys.stderr)
         return 2
     return 0
 

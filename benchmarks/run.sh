@@ -1,6 +1,6 @@
 #!/bin/sh
 # run.sh BUILD_FOLDER   runs all benchmarks: micro (JSON beside the programs), solve (BUILD_FOLDER/solve.json) and
-# step (BUILD_FOLDER/step.json), motion (BUILD_FOLDER/motion.json), then prints the tables of ratios.
+# step (BUILD_FOLDER/step.json), motion (BUILD_FOLDER/motion.json), start (BUILD_FOLDER/start.json), then prints the tables of ratios.
 set -eu
 build=$1
 folder=$build/benchmarks
@@ -19,8 +19,12 @@ if [ -x "$folder/bench_motion" ]; then
   "$folder/bench_motion" --benchmark_min_time=0.05 --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true \
     --benchmark_display_aggregates_only=true --benchmark_out="$build/motion.json" --benchmark_out_format=json
 fi
+if [ -x "$folder/bench_start" ]; then
+  found=1
+  "$folder/bench_start" --benchmark_display_aggregates_only=true --benchmark_out="$build/start.json" --benchmark_out_format=json
+fi
 for program in "$folder"/bench_*; do
-  case "$program" in *.json | */bench_solve | */bench_step | */bench_motion) continue ;; esac
+  case "$program" in *.json | */bench_solve | */bench_step | */bench_motion | */bench_start) continue ;; esac
   [ -x "$program" ] || continue
   found=1
   "$program" --benchmark_min_time=0.2 --benchmark_out="$program.json" --benchmark_out_format=json
