@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <stdexcept>
 
 #include "bough/schedule/serial.hpp"
@@ -26,7 +27,21 @@ struct Threads::State {
 
 #ifdef BOUGH_HAS_TBB
   tbb::task_arena arena;
+  std::once_flag is_started;
   std::unique_ptr<tbb::global_control> allowance;  ///< more threads than the machine has need a permission
+
+  /// The arena, with its threads. TBB takes a third of a millisecond to look at the machine: a run without tasks does not ask for it.
+  tbb::task_arena& started() {
+    std::call_once(is_started, [this] {
+      if (count > tbb::info::default_concurrency())
+        allowance = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                          static_cast<std::size_t>(count));
+      arena.initialize(count);
+    });
+    return arena;
+  }
+
+  [[nodiscard]] bool is_whole(const tree::Subdomain& s) const { return s.is_leaf() || s.subtree_flops < grain_flops; }
 
   void delay() {
     const unsigned limit = delay_microseconds.load(std::memory_order_relaxed);
@@ -42,7 +57,7 @@ struct Threads::State {
 
   void visit_up(const tree::Tree& tree, tree::SubdomainId top, tree::Visit visit) {
     const tree::Subdomain& s = tree.subdomains[static_cast<std::size_t>(top)];
-    if (s.is_leaf() || s.subtree_flops < grain_flops) {
+    if (is_whole(s)) {
       delay();
       for (tree::SubdomainId i = s.subtree_begin; i <= top; ++i) visit.run(visit.context, i);
       return;
@@ -60,7 +75,7 @@ struct Threads::State {
   void visit_down(const tree::Tree& tree, tree::SubdomainId top, tree::Visit visit) {
     const tree::Subdomain& s = tree.subdomains[static_cast<std::size_t>(top)];
     delay();
-    if (s.is_leaf() || s.subtree_flops < grain_flops) {
+    if (is_whole(s)) {
       for (tree::SubdomainId i = top; i >= s.subtree_begin; --i) visit.run(visit.context, i);
       return;
     }
@@ -93,11 +108,15 @@ template <class State>
 tree::Walker make_walker(State* state) {
   return {[](void* context, const tree::Tree& tree, tree::Visit visit) {
             auto* s = static_cast<State*>(context);
-            s->arena.execute([&] { s->visit_up(tree, tree.root(), visit); });
+            if (s->is_whole(tree.subdomains[static_cast<std::size_t>(tree.root())]))
+              return s->visit_up(tree, tree.root(), visit);
+            s->started().execute([&] { s->visit_up(tree, tree.root(), visit); });
           },
           [](void* context, const tree::Tree& tree, tree::Visit visit) {
             auto* s = static_cast<State*>(context);
-            s->arena.execute([&] { s->visit_down(tree, tree.root(), visit); });
+            if (s->is_whole(tree.subdomains[static_cast<std::size_t>(tree.root())]))
+              return s->visit_down(tree, tree.root(), visit);
+            s->started().execute([&] { s->visit_down(tree, tree.root(), visit); });
           },
           [](void* context, std::int64_t count, std::int64_t grain, tree::Chunk chunk) {
             auto* s = static_cast<State*>(context);
@@ -105,7 +124,7 @@ tree::Walker make_walker(State* state) {
               if (count > 0) chunk.run(chunk.context, 0, count);
               return;
             }
-            s->arena.execute([&] { s->run_chunks(count, grain, chunk); });
+            s->started().execute([&] { s->run_chunks(count, grain, chunk); });
           },
           state};
 }
@@ -117,12 +136,6 @@ Threads::Threads(int count, double grain_flops) {
   if (count < 1) throw std::invalid_argument("Threads: count must be >= 1");
   if (!(grain_flops >= 0.0)) throw std::invalid_argument("Threads: grain_flops must be >= 0");
   state_ = std::make_unique<State>(count, grain_flops);
-#ifdef BOUGH_HAS_TBB
-  if (count > tbb::info::default_concurrency())
-    state_->allowance = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                              static_cast<std::size_t>(count));
-  if (count > 1) state_->arena.initialize(count);
-#endif
 }
 
 Threads::~Threads() = default;
