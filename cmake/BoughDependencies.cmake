@@ -1,11 +1,13 @@
 # Everything the layers link from outside, found once. A layer names imported targets only:
-#   Eigen3::Eigen  TBB::tbb  nlohmann_json::nlohmann_json  muparser::muparser  CLI11::CLI11  Threads::Threads
+#   Eigen3::Eigen  TBB::tbb  nlohmann_json::nlohmann_json (with BOUGH_WITH_IO)  Threads::Threads
 #   SuiteSparse::KLU and METIS::METIS exist only when BOUGH_HAS_KLU / BOUGH_HAS_METIS is true here.
+# What programs and tests use besides (CLI11, GoogleTest, muParser) is found where it is used.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
-find_package(nlohmann_json 3.11 REQUIRED)
-find_package(muparser REQUIRED)
+if(BOUGH_WITH_IO)
+  find_package(nlohmann_json 3.11 REQUIRED)
+endif()
 
 set(BOUGH_HAS_KLU OFF)
 if(BOUGH_WITH_KLU)

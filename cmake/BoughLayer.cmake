@@ -34,13 +34,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
 endif()
 
 # bough_add_layer(NAME SOURCES a.cpp ... USES lower layers ... LIBS public targets ... PRIVATE_LIBS targets ...
-#                 PRIVATE_DEFS definitions ...)
-# makes the target bough_NAME (alias and export bough::NAME) with the headers of include/bough/NAME. Without SOURCES
-# the layer is header-only. Each layer is a library of its own, so that the algebra can be used without the
+#                 PRIVATE_DEFS definitions ... [HEADERS a.hpp ...])
+# makes the target bough_NAME (alias and export bough::NAME) with the headers of include/bough/NAME (HEADERS: only
+# these of them). Without SOURCES the layer is header-only. Each layer is a library of its own, so that the algebra can be used without the
 # mechanics; BUILD_SHARED_LIBS makes all of them static or all of them shared. Symbols are hidden in static archives
 # and visible in shared libraries: an export macro on every type of fifteen layers would buy little here.
 function(bough_add_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 LAYER "" "" "SOURCES;USES;LIBS;PRIVATE_LIBS;PRIVATE_DEFS")
+  cmake_parse_arguments(PARSE_ARGV 1 LAYER "" "" "SOURCES;USES;LIBS;PRIVATE_LIBS;PRIVATE_DEFS;HEADERS")
   if(LAYER_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "bough_add_layer(${name}): unknown arguments ${LAYER_UNPARSED_ARGUMENTS}")
   endif()
@@ -56,6 +56,9 @@ function(bough_add_layer name)
     endif()
   endforeach()
   file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/bough/${name}/*.hpp")
+  if(LAYER_HEADERS)
+    list(TRANSFORM LAYER_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/include/bough/${name}/" OUTPUT_VARIABLE headers)
+  endif()
   if(LAYER_SOURCES)
     add_library(${target} ${LAYER_SOURCES})
     set(scope PUBLIC)

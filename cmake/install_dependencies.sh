@@ -13,9 +13,9 @@ set -eu
 packages_of() {
   case "$1" in
     build)
-      echo g++ cmake ninja-build libeigen3-dev libtbb-dev nlohmann-json3-dev libcli11-dev libmuparser-dev \
+      echo g++ cmake ninja-build libeigen3-dev libtbb-dev nlohmann-json3-dev libcli11-dev \
         libsuitesparse-dev libmetis-dev ;;
-    test) echo libgtest-dev libgmock-dev libboost-dev python3 python3-jsonschema strace ;;
+    test) echo libgtest-dev libgmock-dev libboost-dev libmuparser-dev python3 python3-jsonschema strace ;;
     bench)
       echo libbenchmark-dev python3 libsuitesparse-dev libmumps-seq-dev libsuperlu-dev libopenblas-pthread-dev ;;
     lint) echo clang-format-14 python3 ;;

@@ -9,8 +9,8 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_frames.hpp"
 #include "bough/io/read_motion.hpp"
-#include "bough/report/split_plot.hpp"
 #include "bough/study/frames.hpp"
+#include "pages.hpp"
 #include "result_text.hpp"
 #include "terminal.hpp"
 
@@ -66,6 +66,7 @@ void write_to(const std::filesystem::path& path, const std::string& text) {
 }  // namespace
 
 int kinematics_razi(const RaziArguments& arguments) {
+  if (!arguments.files.svg.empty() && !can_draw("--svg")) return exit_bad_input;
   io::SplitTable table;
   if (arguments.chain.empty()) {
     table = study::split_disc(disc_of(arguments));
@@ -77,7 +78,7 @@ int kinematics_razi(const RaziArguments& arguments) {
   }
   write_to(arguments.files.csv, io::split_csv(table));
   write_to(arguments.files.json, io::split_json(table));
-  write_to(arguments.files.svg, report::split_svg(table));
+  if (!arguments.files.svg.empty()) write_split_picture(arguments.files.svg, table);
   std::cout << largest_text(table);
   for (const std::filesystem::path& path : {arguments.files.csv, arguments.files.json, arguments.files.svg})
     if (!path.empty()) std::cout << path.string() << "\n";

@@ -6,9 +6,9 @@
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/profile_json.hpp"
 #include "bough/io/read_scene.hpp"
-#include "bough/report/profile_page.hpp"
 #include "bough/study/profile.hpp"
 #include "bough/version.hpp"
+#include "pages.hpp"
 #include "terminal.hpp"
 #include "tree_text.hpp"
 
@@ -43,6 +43,7 @@ int profile(const ProfileArguments& arguments) {
   options.steps = arguments.steps;
   NoRecorder nobody;
   results::Profile result;
+  std::string pages;
   try {
     result = study::profile(file.scene, options, nobody, [&bar](const results::Progress& progress) {
       bar.show(progress);
@@ -52,15 +53,15 @@ int profile(const ProfileArguments& arguments) {
     std::filesystem::create_directories(out);
     io::write_file(out / "profile.json", io::profile_text(result, version));
     io::write_file(out / "trace.json", io::trace_text(result));
-    io::write_file(out / "profile.html", report::profile_page(result, "profile.json"));
+    pages = write_profile_page(out / "profile.html", result, "profile.json");
   } catch (const std::exception& error) {
     bar.clear();
     std::cerr << "bough: " << error.what() << "\n";
     return exit_failed;
   }
   if (!arguments.quiet)
-    std::cout << tree_text(result, style_of_terminal()) << "Profile in " << out.string()
-              << ": profile.html profile.json trace.json\n"
+    std::cout << tree_text(result, style_of_terminal()) << "Profile in " << out.string() << ": " << pages
+              << "profile.json trace.json\n"
               << std::flush;
   if (result.trouble.empty()) return exit_done;
   std::cerr << "bough: " << file.scene.name << ": " << result.trouble << "\n";

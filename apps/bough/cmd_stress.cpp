@@ -5,9 +5,9 @@
 #include "arguments.hpp"
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/number_text.hpp"
-#include "bough/report/stress_page.hpp"
 #include "bough/study/stress.hpp"
 #include "bough/version.hpp"
+#include "pages.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
@@ -30,10 +30,11 @@ int stress(const StressArguments& arguments) {
     out << " (" << io::rounded_text(c.seconds, 2) << " s)" << std::endl;
   };
   const std::vector<study::StressCase> cases = study::run_stress(options, tell, interrupted);
+  std::filesystem::path page;
   try {
     std::filesystem::create_directories(arguments.out);
     io::write_file(arguments.out / "stress.json", study::stress_json(cases, options, std::string(version)));
-    io::write_file(arguments.out / "stress.html", report::stress_page(cases, options));
+    page = write_stress_page(arguments.out / "stress.html", cases, options);
   } catch (const std::exception& error) {
     std::cerr << "bough: " << error.what() << "\n";
     return exit_failed;
@@ -46,7 +47,8 @@ int stress(const StressArguments& arguments) {
   if (!arguments.quiet)
     std::cout << count(study::StressStatus::holds) << " hold, " << count(study::StressStatus::fails) << " fail, "
               << count(study::StressStatus::refused) << " refused by name; LAPACK ratio at most "
-              << io::rounded_text(ratio, 2) << ": " << (arguments.out / "stress.html").string() << "\n";
+              << io::rounded_text(ratio, 2) << ": " << (page.empty() ? arguments.out / "stress.json" : page).string()
+              << "\n";
   const bool is_whole = !interrupted();
   const bool is_bad = std::any_of(cases.begin(), cases.end(), [](const study::StressCase& c) {
     return !c.is_as_expected() && c.expected != study::StressStatus::fails;

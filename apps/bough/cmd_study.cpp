@@ -5,8 +5,8 @@
 #include "arguments.hpp"
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/read_study.hpp"
-#include "bough/report/study_page.hpp"
 #include "bough/study/sweep.hpp"
+#include "pages.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
@@ -36,7 +36,8 @@ void print_result(const study::SweepResult& r, const std::filesystem::path& page
       std::cerr << "bough: " << r.spec.name << ": " << r.spec.grids[series.grid].name << ", " << series.label << ", "
                 << r.spec.quantities[q].name << ": order " << f.order << ", theory " << f.expected << "\n";
     }
-  std::cout << page.string() << "\n" << std::flush;
+  if (!page.empty()) std::cout << page.string() << "\n";
+  std::cout << std::flush;
 }
 
 bool is_good(const study::SweepResult& r) {
@@ -66,7 +67,6 @@ study::SweepResult run_one(const io::StudySpec& spec, const StudyArguments& argu
   std::filesystem::create_directories(directory);
   io::write_file(directory / "study.csv", study::sweep_csv(result));
   io::write_file(directory / "study.json", study::sweep_json(result));
-  io::write_file(directory / "study.html", report::study_html(result));
   return result;
 }
 
@@ -88,23 +88,24 @@ int study_scene(const StudyArguments& arguments) {
   if (specs.size() != files.size()) return exit_bad_input;
 
   catch_interrupts();
-  std::vector<report::StudyEntry> entries;
+  StudyPages pages;
+  std::filesystem::path index;
   bool all_good = true;
   try {
     for (const io::StudySpec& spec : specs) {
       if (interrupted()) break;
       const std::filesystem::path directory = is_folder ? arguments.out / spec.name : arguments.out;
       const study::SweepResult result = run_one(spec, arguments, directory);
-      if (!arguments.quiet) print_result(result, directory / "study.html");
+      const std::filesystem::path page = pages.write(directory / "study.html", result);
+      if (!arguments.quiet) print_result(result, page);
       all_good = all_good && is_good(result);
-      entries.push_back(report::entry_of(result));
-      if (is_folder) io::write_file(arguments.out / "index.html", report::study_index_html(entries));
+      if (is_folder) index = pages.write_index(arguments.out / "index.html");
     }
   } catch (const std::exception& error) {
     std::cerr << "bough: " << error.what() << "\n";
     return exit_failed;
   }
-  if (is_folder && !arguments.quiet) std::cout << (arguments.out / "index.html").string() << "\n";
+  if (!index.empty() && !arguments.quiet) std::cout << index.string() << "\n";
   return all_good && !interrupted() ? exit_done : exit_failed;
 }
 

@@ -10,10 +10,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void remove_file(const fs::path& path) {
+#ifdef BOUGH_HAS_VTK
+constexpr bool has_vtk = true;
+#else
+constexpr bool has_vtk = false;  // what stands under it is not compiled: vtu_text and its like are not there
+#endif
+
+/// Returns false where there is no such file.
+bool remove_file(const fs::path& path) {
   std::error_code error;
-  fs::remove(path, error);
+  const bool was_there = fs::remove(path, error);
   if (error) throw std::runtime_error("cannot remove " + path.string() + ": " + error.message());
+  return was_there;
 }
 
 void make_directory(const fs::path& path) {
@@ -40,8 +48,7 @@ RunDirectory::RunDirectory(fs::path directory, std::string version)
     : directory_(std::move(directory)), version_(std::move(version)) {}
 
 void RunDirectory::remove_former_results() {
-  remove_file(directory_ / "summary.json");
-  sync_directory(directory_);
+  if (remove_file(directory_ / "summary.json")) sync_directory(directory_);
   remove_file(directory_ / "motion.pvd");
   remove_file(directory_ / "motion.jsonl");
   const fs::path folder = directory_ / "motion";
@@ -66,13 +73,17 @@ void RunDirectory::row(const results::HistoryRow& row) {
 
 void RunDirectory::motion(const results::MotionFrame& frame) {
   if (!motion_lines_) {
-    make_directory(directory_ / "motion");
-    vtu_options_ = vtu_options_for(frame);
+    if constexpr (has_vtk) {
+      make_directory(directory_ / "motion");
+      vtu_options_ = vtu_options_for(frame);
+    }
     motion_lines_ = std::make_unique<MotionLinesWriter>(directory_ / "motion.jsonl");
   }
-  const std::string name = frame_name(frames_.size());
-  write_file(directory_ / "motion" / name, vtu_text(frame, vtu_options_), Durability::later);
-  frames_.push_back({frame.time, "motion/" + name});
+  if constexpr (has_vtk) {
+    const std::string name = frame_name(frames_.size());
+    write_file(directory_ / "motion" / name, vtu_text(frame, vtu_options_), Durability::later);
+    frames_.push_back({frame.time, "motion/" + name});
+  }
   motion_lines_->frame(frame);
 }
 
@@ -99,13 +110,15 @@ void RunDirectory::end(const results::Summary& summary) {
     }
   };
   attempt("history.csv", [&] { commit(*history_); });
-  if (motion_lines_) {
-    attempt("motion.jsonl", [&] { commit(*motion_lines_); });
-    attempt("motion", [&] {
-      for (const PvdEntry& frame : frames_) sync_file(directory_ / frame.file);
-      sync_directory(directory_ / "motion");
-    });
-    attempt("motion.pvd", [&] { write_file(directory_ / "motion.pvd", pvd_text(frames_)); });
+  if (motion_lines_) attempt("motion.jsonl", [&] { commit(*motion_lines_); });
+  if constexpr (has_vtk) {
+    if (motion_lines_) {
+      attempt("motion", [&] {
+        for (const PvdEntry& frame : frames_) sync_file(directory_ / frame.file);
+        sync_directory(directory_ / "motion");
+      });
+      attempt("motion.pvd", [&] { write_file(directory_ / "motion.pvd", pvd_text(frames_)); });
+    }
   }
   if (failure) std::rethrow_exception(failure);  // no summary: the directory is not whole
   attempt("summary.json", [&] { write_file(directory_ / "summary.json", summary_text(summary, version_)); });

@@ -3,6 +3,7 @@
 ///   summary.json   removed first, written last
 ///   history.csv    the sensors
 ///   motion.pvd, motion/frame_000000.vtu ..., motion.jsonl   where motion is recorded
+///                  (a build without BOUGH_WITH_VTK writes motion.jsonl only)
 /// Every file appears under its name only when it is whole.
 #include <filesystem>
 #include <memory>
