@@ -34,7 +34,8 @@ std::vector<std::string> problems_in(const SolveOptions& o) {
 Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o, bool keep_all)
     : tree(t),
       options(o),
-      lanes(make_lane_plan(graph, t, o.lanes && o.elimination == Elimination::flat)),
+      lanes(make_lane_plan(graph, t, o.lanes && o.elimination == Elimination::flat,
+                           o.elimination == Elimination::flat ? o.symmetry : Symmetry::general)),
       elements(graph, t, lanes.element_first, lanes.element_stride, lanes.num_values) {
   const std::size_t n = at(tree.num_unknowns()), num_fronts = at(tree.num_fronts());
   scales.row.assign(n, 1.0);
@@ -78,7 +79,6 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     pool->assign(at(lanes.vector_size * lanes_wide), 0.0);
   lane_scratch.assign(at(lanes.scratch_size * lanes_wide), 0.0);
   lane_tops.assign(at(lanes.top_size * lanes_wide), 0.0);
-  lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);
   scalar_lanes.assign(lanes.fronts.size(), 0);
   sizes.resize(lanes.groups.size());
   asymmetries.resize(lanes.groups.size());
@@ -96,9 +96,10 @@ void Hierarchical::State::size_factors() {
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
     const FrontShape shape(f.size(), f.num_eliminated, is_symmetric());
     factor_begin.push_back(factor_begin.back() + (in_lanes ? 0 : shape.factor_size()));
-    counters.factor_flops += !in_lanes && is_symmetric() ? 0.5 * f.flops : f.flops;
+    counters.factor_flops += is_symmetric() ? 0.5 * f.flops : f.flops;
   }
   factor_pool.resize(at(factor_begin.back()));
+  lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);
 }
 
 void Hierarchical::State::lose_symmetry(const Asymmetry& found) {
@@ -107,6 +108,9 @@ void Hierarchical::State::lose_symmetry(const Asymmetry& found) {
   symmetry.element = found.element;
   symmetry.block = elements.blocks_of(found.element)[0];
   symmetry.difference = found.difference;
+  LanePlan general = make_lane_plan(elements.graph(), tree, options.lanes);
+  general.batches = std::move(lanes.batches);  // the same; callers look at the old ones
+  lanes = std::move(general);
   size_factors();
 }
 

@@ -164,7 +164,6 @@ struct Hierarchical::State {
   void add_child_both_ways(const FrontData& child, const Run* runs_begin, const Run* runs_end, FrontData& parent,
                            int delayed);
   void eliminate_front(tree::FrontId f);
-  bool is_symmetric_here(tree::FrontId f) const;
   // solve_walks.cpp
   void forward_front(tree::FrontId f);
   void backward_front(tree::FrontId f);

@@ -4,7 +4,13 @@
 /// Internal to solve.
 #include <cstdint>
 
+#include "bough/solve/element_view.hpp"
+#include "bough/solve/options.hpp"
+
 namespace bough::solve {
+
+struct LaneMove;
+struct Place;
 
 /// Bit l: lane l.
 using LaneSet = std::uint8_t;
@@ -21,22 +27,28 @@ struct LanePivotRule {
 LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const double* row_scale,
                         const double* inverse_column_scale, const LanePivotRule& rule);
 
+/// The same for symmetric fronts, L D L^T. factor: e columns of n entries, schur as above; of both only what is not above the diagonal is read. After: L
+/// (unit) below the diagonal, the inverse of D on it, the Schur complement on and below its diagonal; above stands nothing of meaning.
+LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, const double* scale,
+                                  const double* inverse_scale, const LanePivotRule& rule);
+constexpr int most_lane_rows = 2 * lanes_wide * lanes_wide;  ///< no front in lanes has more rows
+
 /// Identity in the eliminated part and 0 elsewhere, for the lanes of the set.
-void neutralise_lanes(double* factor, double* schur, int n, int e, LaneSet lanes);
+void neutralise_lanes(double* factor, double* schur, int n, int e, LaneSet lanes, Symmetry symmetry);
 
 /// v: n packs. Forward: v_E = L11^-1 v_E, v_B -= L21 v_E. Backward: v_E = U11^-1 (v_E - U12 v_B). Left: v_E^T = -v_B^T L21 L11^-1.
 void forward_lanes(const double* factor, int n, int e, double* v);
 void backward_lanes(const double* factor, int n, int e, double* v);
+/// v_E = L11^-T (D^-1 v_E - L21^T v_B); forward and left are those of L.
+void backward_lanes_symmetric(const double* factor, int n, int e, double* v);
 void backward_left_lanes(const double* factor, int n, int e, double* v);
 
-/// target (+)= a block of rows x columns packs; steps in packs.
-void move_block(const double* source, int row_step, int column_step, int rows, int columns, double* target,
-                int target_step, bool is_first);
+/// target (+)= the block of a move: rows x columns packs, or of a triangle what is not above the diagonal.
+void move_block(const double* source, const LaneMove& move, double* target);
 
 /// y_i += sum_j element_ij x_j for a block as above.
 void multiply_block_lanes(const double* element, int stride, int p, int q, const double* x, double* y);
 
-struct Place;
 /// Largest of |a_ij - a_ji| scale_i scale_j over all lanes of an element, `count` blocks at their places in the front whose row scales are
 /// given; not a number comes out as infinity or NaN.
 double largest_asymmetry_lanes(const double* element, int size, const Place* places, int count,

@@ -23,8 +23,8 @@ double flops_of(int eliminated, int boundary) {
 
 class Planner {
  public:
-  Planner(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes)
-      : graph_(graph), tree_(tree), use_lanes_(use_lanes) {}
+  Planner(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes, Symmetry symmetry)
+      : graph_(graph), tree_(tree), use_lanes_(use_lanes), is_symmetric_(symmetry == Symmetry::symmetric) {}
 
   LanePlan run() {
     plan_.lane_front.assign(at(tree_.num_fronts()), -1);
@@ -188,6 +188,7 @@ class Planner {
     for (tree::SubdomainId s : group.subdomains) count = std::max(count, count_of(s));
     for (int k = 0; k < count; ++k) {
       LaneFront f;
+      f.is_symmetric = is_symmetric_;
       f.front.fill(tree::none);
       for (std::size_t l = 0; l < group.subdomains.size(); ++l) {
         const tree::FrontId id = front_at(group.subdomains[l], k, count);
@@ -367,10 +368,11 @@ class Planner {
         move.target_step = b;
       }
     };
+    const auto has_place = [&](int i, int j) { return !is_symmetric_ || i >= j; };
     const auto fill_gaps = [&](int row, int column, int rows, int columns) {
       for (int j = column; j < column + columns; ++j)
         for (int i = row; i < row + rows;) {
-          if (reached[at(static_cast<std::int64_t>(j) * n + i)] != 0) {
+          if (!has_place(i, j) || reached[at(static_cast<std::int64_t>(j) * n + i)] != 0) {
             ++i;
             continue;
           }
@@ -385,12 +387,18 @@ class Planner {
         }
     };
     const auto add = [&](LaneMove move, int row, int column) {
+      if (is_symmetric_ && row < column) return;  // blocks are the same or apart
+      move.is_triangle = is_symmetric_ && row == column;
       place(move, row, column);
-      int already = 0;
+      int already = 0, places = 0;
       for (int j = column; j < column + move.columns; ++j)
-        for (int i = row; i < row + move.rows; ++i) already += reached[at(static_cast<std::int64_t>(j) * n + i)];
+        for (int i = row; i < row + move.rows; ++i)
+          if (has_place(i, j)) {
+            ++places;
+            already += reached[at(static_cast<std::int64_t>(j) * n + i)];
+          }
       move.is_first = already == 0;
-      if (already > 0 && already < move.rows * move.columns) fill_gaps(row, column, move.rows, move.columns);
+      if (already > 0 && already < places) fill_gaps(row, column, move.rows, move.columns);
       for (int j = column; j < column + move.columns; ++j)
         for (int i = row; i < row + move.rows; ++i) reached[at(static_cast<std::int64_t>(j) * n + i)] = 1;
       plan_.moves.push_back(move);
@@ -472,7 +480,7 @@ class Planner {
 
   const blocks::BlockGraph& graph_;
   const tree::Tree& tree_;
-  bool use_lanes_;
+  bool use_lanes_, is_symmetric_;
   std::vector<int> largest_;
   std::vector<char> is_path_;
   LanePlan plan_;
@@ -480,8 +488,8 @@ class Planner {
 
 }  // namespace
 
-LanePlan make_lane_plan(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes) {
-  return Planner(graph, tree, use_lanes).run();
+LanePlan make_lane_plan(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes, Symmetry symmetry) {
+  return Planner(graph, tree, use_lanes, symmetry).run();
 }
 
 }  // namespace bough::solve

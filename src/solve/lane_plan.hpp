@@ -6,6 +6,7 @@
 
 #include "bough/blocks/block_graph.hpp"
 #include "bough/solve/element_view.hpp"
+#include "bough/solve/options.hpp"
 #include "bough/tree/tree.hpp"
 
 namespace bough::solve {
@@ -34,7 +35,8 @@ struct LaneMove {
   int target_step = 0;                ///< between columns of the target
   int child = -1;                     ///< index in LanePlan::children; -1: an element
   bool to_schur = false;
-  bool is_first = false;  ///< nothing is there yet: written, not added
+  bool is_triangle = false;  ///< a block of the diagonal of a symmetric front: what stands above is left out
+  bool is_first = false;     ///< nothing is there yet: written, not added
 };
 
 /// A run of packs that no element and no child reaches.
@@ -69,12 +71,15 @@ struct LaneFront {
   int move_begin = 0, move_end = 0;             ///< LanePlan::moves
   int gap_begin = 0, gap_end = 0;               ///< LanePlan::gaps
   std::int64_t schur = 0;  ///< first pack of the Schur complement: in the group's scratch, or lasting where it is a top
-  std::int64_t factor = 0;   ///< first pack of the factor: e columns of all n rows, then the b columns of U12
-  std::int64_t vector = 0;   ///< first pack of the right-hand side and solution
-  std::int64_t unknown = 0;  ///< first of 8 x eliminated unknowns (-1: padding), lanes innermost
-  bool is_top = false;       ///< its Schur complement lasts until the parent group is visited
+  std::int64_t factor = 0;    ///< first pack of the factor: e columns of all n rows, then the b columns of U12
+  std::int64_t vector = 0;    ///< first pack of the right-hand side and solution
+  std::int64_t unknown = 0;   ///< first of 8 x eliminated unknowns (-1: padding), lanes innermost
+  bool is_symmetric = false;  ///< no U12; blocks above the diagonal have no place
+  bool is_top = false;        ///< its Schur complement lasts until the parent group is visited
   int size() const { return eliminated + boundary; }
-  std::int64_t factor_size() const { return static_cast<std::int64_t>(eliminated) * (size() + boundary); }
+  std::int64_t factor_size() const {
+    return static_cast<std::int64_t>(eliminated) * (size() + (is_symmetric ? 0 : boundary));
+  }
 };
 
 /// Sub-domains visited together: several in lockstep, or a single one on the scalar path.
@@ -107,7 +112,9 @@ struct LanePlan {
   std::vector<int> element_stride;                                                ///< by element
 };
 
-/// Groups the sub-domains of a tree. A function of graph and tree alone. `use_lanes` false: every sub-domain alone, on the scalar path.
-LanePlan make_lane_plan(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes);
+/// Groups the sub-domains of a tree. A function of graph and tree alone, batches and places in the element store whatever the symmetry.
+/// `use_lanes` false: every sub-domain alone, on the scalar path.
+LanePlan make_lane_plan(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes,
+                        Symmetry symmetry = Symmetry::general);
 
 }  // namespace bough::solve

@@ -155,21 +155,21 @@ void Hierarchical::State::factor_lane_front(int index) {
     const LaneMove& move = lanes.moves[at(i)];
     double* target = (move.to_schur ? schur : factor) + move.target * wide;
     if (move.child < 0) {
-      move_block(elements.values() + move.source * wide, move.row_step, move.column_step, move.rows, move.columns,
-                 target, move.target_step, move.is_first);
+      move_block(elements.values() + move.source * wide, move, target);
       continue;
     }
     const LaneChild& child = lanes.children[at(move.child)];
     const double* source = schur_of(lanes.fronts[at(child.front)]) + move.source * wide;
     if (child.is_identity) {
-      move_block(source, move.row_step, move.column_step, move.rows, move.columns, target, move.target_step,
-                 move.is_first);
+      move_block(source, move, target);
       continue;
     }
     for (int j = 0; j < move.columns; ++j) {
-      double* to = target + static_cast<std::int64_t>(j) * move.target_step * wide;
-      if (move.is_first) std::memset(to, 0, sizeof(double) * wide * at(move.rows));
-      add_packs(source + static_cast<std::int64_t>(j) * move.column_step * wide, move.rows, to, child.from.data());
+      const int above = move.is_triangle ? j : 0;
+      const double* from = source + (static_cast<std::int64_t>(j) * move.column_step + above) * wide;
+      double* to = target + (static_cast<std::int64_t>(j) * move.target_step + above) * wide;
+      if (move.is_first) std::memset(to, 0, sizeof(double) * wide * at(move.rows - above));
+      add_packs(from, move.rows - above, to, child.from.data());
     }
   }
   LaneSet alone = lanes_to_leave(f);
@@ -177,11 +177,12 @@ void Hierarchical::State::factor_lane_front(int index) {
     for (int k = 0; k < e * wide; ++k)
       if (lanes.unknowns[at(f.unknown + k)] < 0)
         factor[static_cast<std::int64_t>(k / wide) * (n + 1) * wide + k % wide] = 1.0;
-  if (alone != 0) neutralise_lanes(factor, schur, n, e, alone);
+  if (alone != 0) neutralise_lanes(factor, schur, n, e, alone, symmetry.used);
   mark(tree::Stage::assemble);
   const LanePivotRule rule{options.pivot_threshold, options.tiny_pivot};
-  const LaneSet refused = eliminate_lanes(factor, schur, n, e, lane_row_scales.data() + f.vector * wide,
-                                          lane_inverse_column_scales.data() + f.vector * wide, rule);
+  const LaneSet refused = (f.is_symmetric ? eliminate_lanes_symmetric : eliminate_lanes)(
+      factor, schur, n, e, lane_row_scales.data() + f.vector * wide,
+      lane_inverse_column_scales.data() + f.vector * wide, rule);
   alone = static_cast<LaneSet>(alone | refused);
   scalar_lanes[at(index)] = alone;
   for (int l = 0; alone != 0 && l < wide; ++l)
@@ -217,6 +218,7 @@ void Hierarchical::State::factor_lane_alone(int index, int lane) {
   double* schur = schur_of(f);
   for_boundary(id, [&](int j, std::size_t column) {
     for_boundary(id, [&](int i, std::size_t row) {
+      if (d.is_symmetric() && i < j) return;
       schur[(static_cast<std::int64_t>(j) * f.boundary + i) * wide + lane] =
           d.s[static_cast<std::int64_t>(j) * d.lds + i] / (scales.row[row] * scales.column[column]);
     });
@@ -228,7 +230,7 @@ void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent)
   const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
   const int lane = lanes.lane[at(child)];
   const double* schur = schur_of(f);
-  std::array<int, 2 * lanes_wide * lanes_wide> to;  // no front in lanes has more rows
+  std::array<int, most_lane_rows> to;
   for (std::int64_t r = run_begin[at(child)]; r < run_begin[at(child) + 1]; ++r)
     for (int i = 0; i < runs[at(r)].length; ++i) to[at(runs[at(r)].from + i)] = parent.delayed_in + runs[at(r)].to + i;
   const FrontParts parts(parent.matrix());
@@ -237,9 +239,10 @@ void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent)
     for_boundary(child, [&](int i, std::size_t row) {
       const int k = to[at(i)];
       if (parent.is_symmetric() && k < to[at(j)]) return;
-      (k < parent.full ? top : bottom)[k] += scales.row[row] *
-                                             schur[(static_cast<std::int64_t>(j) * f.boundary + i) * wide + lane] *
-                                             scales.column[column];
+      const bool is_mirrored = f.is_symmetric && i < j;  // the root, where its rank is decided
+      const std::int64_t entry =
+          is_mirrored ? static_cast<std::int64_t>(i) * f.boundary + j : static_cast<std::int64_t>(j) * f.boundary + i;
+      (k < parent.full ? top : bottom)[k] += scales.row[row] * schur[entry * wide + lane] * scales.column[column];
     });
   });
 }
@@ -311,7 +314,8 @@ void Hierarchical::State::hand_down(tree::FrontId f) {
 void Hierarchical::State::backward_lane_front(int index) {
   const LaneFront& f = lanes.fronts[at(index)];
   double* v = vector_of(f);
-  backward_lanes(lane_factors.data() + f.factor * wide, f.size(), f.eliminated, v);
+  (f.is_symmetric ? backward_lanes_symmetric : backward_lanes)(lane_factors.data() + f.factor * wide, f.size(),
+                                                               f.eliminated, v);
   const int* unknown = lanes.unknowns.data() + f.unknown;
   const LaneSet alone = scalar_lanes[at(index)];
   if (alone == 0 && !f.has_padding) {

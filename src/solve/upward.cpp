@@ -38,7 +38,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   d.full = d.delayed_in + shape.num_eliminated;
   d.size = d.delayed_in + shape.size();
   d.pivots = 0;
-  const bool is_symmetric = is_symmetric_here(f);
+  const bool is_symmetric = this->is_symmetric();
   if (d.delayed_in == 0 && lanes.lane_front[at(f)] < 0) {
     d.vector = vector_pool.data() + vector_begin[at(f)];
     d.rows = index_pool.data() + index_begin[at(f)];
@@ -65,14 +65,6 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   }
   d.columns = d.rows + d.full;
   d.row_from = d.columns + d.full;
-}
-
-/// Fronts in lanes are general, and what waits of such a front need not be the same rows as columns.
-bool Hierarchical::State::is_symmetric_here(tree::FrontId f) const {
-  if (!is_symmetric() || lanes.lane_front[at(f)] >= 0) return false;
-  for (tree::FrontId c : tree.children(front(f)))
-    if (is_scalar(c) && !data(c).is_symmetric() && data(c).num_delayed() > 0) return false;
-  return true;
 }
 
 void FrontData::set_parts(const FrontShape& shape, double* factor, double* schur) {

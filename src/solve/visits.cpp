@@ -28,7 +28,8 @@ void add_front(VisitShape& shape, int eliminated, int boundary) {
 }  // namespace
 
 VisitShapes make_visit_shapes(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options) {
-  LanePlan plan = make_lane_plan(graph, tree, options.lanes && options.elimination == Elimination::flat);
+  const Symmetry symmetry = options.elimination == Elimination::flat ? options.symmetry : Symmetry::general;
+  LanePlan plan = make_lane_plan(graph, tree, options.lanes && options.elimination == Elimination::flat, symmetry);
   VisitShapes shapes;
   for (const LaneGroup& group : plan.groups) {
     VisitShape shape{.subdomains = group.subdomains, .in_lanes = group.in_lanes};
@@ -56,8 +57,9 @@ VisitShapes make_visit_shapes(const blocks::BlockGraph& graph, const tree::Tree&
       for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) {
         const tree::Front& front = tree.fronts[at(f)];
         add_front(shape, front.num_eliminated, front.num_boundary);
-        shape.factor_bytes += FrontShape(front.size(), front.num_eliminated, false).factor_size() *
-                              static_cast<std::int64_t>(sizeof(double));
+        shape.factor_bytes +=
+            FrontShape(front.size(), front.num_eliminated, symmetry == Symmetry::symmetric).factor_size() *
+            static_cast<std::int64_t>(sizeof(double));
       }
     }
     shapes.visits.push_back(std::move(shape));

@@ -56,6 +56,52 @@ struct Fronts {
   }
 };
 
+/// The same fronts made symmetric, above the diagonal poison, and the right-hand sides of both.
+TEST(Lanes, symmetric_kernels_give_the_factor_of_general_ones_and_read_nothing_above_the_diagonal) {
+  constexpr double poison = 1e300;
+  for (int e : {1, 2, 5, 6, 7, 11, 12, 18, 23})
+    for (int b : {0, 1, 3, 6, 7, 12, 17}) {
+      Fronts general(e + b, e, 11);
+      const int n = e + b;
+      for (int l = 0; l < lanes_wide; ++l)
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < j; ++i) {
+            // indefinite: some pivots are negative
+            const double value = 0.5 * (general.at(l, i, j) + general.at(l, j, i));
+            general.set(l, i, j, value);
+            general.set(l, j, i, value);
+          }
+      for (int l = 0; l < lanes_wide; ++l)
+        for (int j = 0; j < n; j += 3) general.set(l, j, j, -general.at(l, j, j));
+      std::vector<double> factor(general.factor.begin(), general.factor.begin() + lanes_wide * n * e);
+      std::vector<double> schur = general.schur;
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < j; ++i)
+          for (int l = 0; l < lanes_wide; ++l) {
+            if (j < e) factor[static_cast<std::size_t>((j * n + i) * lanes_wide + l)] = poison;
+            if (i >= e) schur[static_cast<std::size_t>(((j - e) * b + i - e) * lanes_wide + l)] = poison;
+          }
+      ASSERT_EQ(general.eliminate(), 0);
+      const double* ones = general.ones.data();
+      ASSERT_EQ(solve::eliminate_lanes_symmetric(factor.data(), schur.data(), n, e, ones, ones, {}), 0);
+      for (int l = 0; l < lanes_wide; ++l)
+        for (int j = 0; j < n; ++j)
+          for (int i = j; i < n; ++i) {
+            const double value = j < e ? factor[static_cast<std::size_t>((j * n + i) * lanes_wide + l)]
+                                       : schur[static_cast<std::size_t>(((j - e) * b + i - e) * lanes_wide + l)];
+            EXPECT_NEAR(value, general.at(l, i, j), 1e-12) << e << ' ' << b << ' ' << l << ' ' << i << ' ' << j;
+          }
+      std::vector<double> v(static_cast<std::size_t>(lanes_wide * n)), w;
+      for (std::size_t i = 0; i < v.size(); ++i) v[i] = std::sin(0.7 * static_cast<double>(i));
+      w = v;
+      solve::forward_lanes(factor.data(), n, e, v.data());
+      solve::forward_lanes(general.factor.data(), n, e, w.data());
+      solve::backward_lanes_symmetric(factor.data(), n, e, v.data());
+      solve::backward_lanes(general.factor.data(), n, e, w.data());
+      for (std::size_t i = 0; i < v.size(); ++i) EXPECT_NEAR(v[i], w[i], 1e-11) << e << ' ' << b;
+    }
+}
+
 TEST(Lanes, kernels_give_the_factor_of_one_front_at_a_time) {
   for (int e : {1, 2, 5, 6, 7, 11, 12, 18, 23})
     for (int b : {0, 1, 3, 6, 12, 17}) {

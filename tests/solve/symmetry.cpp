@@ -60,6 +60,12 @@ TEST(Symmetry, DeclaredValuesAreFactoredAsSuchInHalfTheMemory) {
       EXPECT_LE(s.report.backward_error, 1e-14) << scene.name;
       EXPECT_LE(s.scaled_difference(x, y), 1e-9) << scene.name;
     }
+  // Lanes: a long chain of equal links.
+  const Scene chain = make_symmetric(make_chain(4, 64, 4));
+  Solved in_lanes(chain, {}, {.symmetry = Symmetry::symmetric}), general_lanes(chain, {}, {});
+  EXPECT_GT(in_lanes.solver.counters().fronts_in_lanes, 100);
+  EXPECT_LT(static_cast<double>(in_lanes.solver.counters().memory_bytes),
+            0.95 * static_cast<double>(general_lanes.solver.counters().memory_bytes));
   const Scene lattice = make_symmetric(make_lattice(4, 24, 24));
   Solved s(lattice, {}, {.symmetry = Symmetry::symmetric, .lanes = false}), general(lattice, {}, {.lanes = false});
   EXPECT_LT(s.solver.counters().factor_flops, 0.51 * general.solver.counters().factor_flops);

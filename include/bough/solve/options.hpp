@@ -27,8 +27,8 @@ enum class Symmetry {
 
 struct SolveOptions {
   Elimination elimination = Elimination::flat;
-  /// Symmetric: half the work and the memory on fronts outside of lanes (flat elimination only). Every factorization looks at every element
-  /// matrix; where one differs from its transpose the solver goes over to general for good and says so in Hierarchical::symmetry().
+  /// Symmetric: half the work, less memory (flat elimination only). Every factorization looks at every element matrix; where one differs
+  /// from its transpose the solver goes over to general for good and says so in Hierarchical::symmetry().
   Symmetry symmetry = Symmetry::general;
   bool lanes = true;  ///< equal sub-domains are factored in lockstep, eight to a pack (flat elimination only).
   double penalty_factor =
