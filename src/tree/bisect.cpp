@@ -1,12 +1,21 @@
 #include "bisect.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "quotient.hpp"
 
 namespace bough::tree {
 
 namespace {
+
+/// Separators looked for before the one of least predicted cost is taken. Small sets are many and decide little.
+constexpr int most_trials = 8, few_trials = 3, small_set = 200;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
 }  // namespace
 
 Bisector::Bisector(const Adjacency& adjacency, unsigned seed)
@@ -16,7 +25,8 @@ Bisector::Bisector(const Adjacency& adjacency, unsigned seed)
       touches_(at(adjacency.graph->num_blocks()), 0),
       position_(at(adjacency.graph->num_elements()), -1),
       removed_(at(adjacency.graph->num_blocks()), 0),
-      local_(at(adjacency.graph->num_blocks()), -1) {
+      local_(at(adjacency.graph->num_blocks()), -1),
+      side_touches_(at(adjacency.graph->num_blocks()), 0) {
   for (int e = 0; e < adjacency.graph->num_elements(); ++e) {
     const double n = adjacency.unknowns_of(e);
     weight_[at(e)] = std::max(1.0, n * n);
@@ -147,7 +157,39 @@ int Bisector::centroid_block(const std::vector<int>& elements, const Pieces& pie
   return best;
 }
 
-void Bisector::cut_by_separator(const std::vector<int>& elements, Pieces& pieces, int piece) {
+/// What the separator of a cut and those of its two sides will cost: E(s, b) flops for s unknowns to eliminate and b on the boundary. The separators
+/// of the sides are not known yet: as a guess smaller by the ratio of the weights to the power 1/2.
+double Bisector::predict_flops(const Cut& cut) {
+  double own = 0.0, sides = 0.0, weight[2] = {0.0, 0.0};
+  int separator = 0, boundary = 0, held[2] = {0, 0};
+  for (int b : loaded_) (touches_[at(b)] == adjacency_.degree(b) ? separator : boundary) += adjacency_.size_of(b);
+  std::vector<int> touched;
+  for (int k : {0, 1}) {
+    touched.clear();
+    for (int e : cut.side[k]) {
+      weight[k] += weight_of(e);
+      for (int b : adjacency_.blocks_of(e))
+        if (side_touches_[at(b)]++ == 0) touched.push_back(b);
+    }
+    for (int b : touched) {
+      const int size = adjacency_.size_of(b);
+      if (side_touches_[at(b)] == adjacency_.degree(b)) {
+        separator -= size;
+      } else {
+        held[k] += size;
+      }
+      side_touches_[at(b)] = 0;
+    }
+  }
+  own = elimination_flops(separator, boundary);
+  for (int k : {0, 1}) {
+    const double next = separator * std::sqrt(weight[k] / (weight[0] + weight[1]));
+    sides += elimination_flops(static_cast<int>(next), held[k]);
+  }
+  return own + sides;
+}
+
+Cut Bisector::cut_by_separator(const std::vector<int>& elements, const Pieces& pieces, int piece) {
   used_separator_ = true;
   // Vertices: connecting blocks of the piece; a joint's multipliers (one element each) weigh on its first connecting block.
   std::vector<int> vertices, weights;
@@ -177,22 +219,31 @@ void Bisector::cut_by_separator(const std::vector<int>& elements, Pieces& pieces
     }
     if (first >= 0) weights[at(first)] += extra;
   }
-  std::vector<int> row_begin(1, 0), columns;
+  VertexGraph graph;
+  graph.row_begin.assign(1, 0);
+  graph.weights = weights;
   for (auto& row : neighbours) {
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
-    columns.insert(columns.end(), row.begin(), row.end());
-    row_begin.push_back(static_cast<int>(columns.size()));
+    graph.columns.insert(graph.columns.end(), row.begin(), row.end());
+    graph.row_begin.push_back(static_cast<int>(graph.columns.size()));
   }
-  const std::vector<int> part = separate_vertices(row_begin, columns, weights, seed_);
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-    if (part[v] == 2) removed_[at(vertices[v])] = 1;
-  const Pieces finer = find_pieces(elements);
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    removed_[at(vertices[v])] = 0;
-    local_[at(vertices[v])] = -1;
+  for (int b : vertices) local_[at(b)] = -1;
+  Cut best;
+  double least = 0.0;
+  const int trials = static_cast<int>(vertices.size()) < small_set ? few_trials : most_trials;
+  for (int trial = 0; trial < trials; ++trial) {
+    const std::vector<int> part = separate_vertices(graph, seed_ + static_cast<unsigned>(trial));
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      if (part[v] == 2) removed_[at(vertices[v])] = 1;
+    Cut cut = deal_out(elements, find_pieces(elements));
+    for (int b : vertices) removed_[at(b)] = 0;
+    const double flops = predict_flops(cut);
+    if (trial > 0 && !(flops < least)) continue;
+    least = flops;
+    best = std::move(cut);
   }
-  pieces = finer;
+  return best;
 }
 
 Cut Bisector::cut(const std::vector<int>& elements) {
@@ -210,9 +261,13 @@ Cut Bisector::cut(const std::vector<int>& elements) {
         removed_[at(block)] = 0;
       }
     } else {
-      cut_by_separator(elements, pieces, largest);
+      return cut_by_separator(elements, pieces, largest);
     }
   }
+  return deal_out(elements, pieces);
+}
+
+Cut Bisector::deal_out(const std::vector<int>& elements, const Pieces& pieces) const {
   std::vector<int> order(at(pieces.count));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),

@@ -20,7 +20,8 @@ class Bisector {
   bool is_forest(const std::vector<int>& elements);
 
   /// Two non-empty sides (precondition: at least two elements). Unconnected pieces are dealt out, the largest first; a piece above
-  /// two thirds of the weight is cut before: a tree exactly at one block (centroid), others at a vertex separator.
+  /// two thirds of the weight is cut before: a tree exactly at one block (centroid), others at the vertex separator of least predicted
+  /// cost among several.
   Cut cut(const std::vector<int>& elements);
 
   bool used_separator() const { return used_separator_; }
@@ -35,7 +36,9 @@ class Bisector {
   Pieces find_pieces(const std::vector<int>& elements) const;
   bool piece_is_tree(const std::vector<int>& elements, const Pieces& pieces, int piece) const;
   int centroid_block(const std::vector<int>& elements, const Pieces& pieces, int piece);
-  void cut_by_separator(const std::vector<int>& elements, Pieces& pieces, int piece);
+  Cut cut_by_separator(const std::vector<int>& elements, const Pieces& pieces, int piece);
+  Cut deal_out(const std::vector<int>& elements, const Pieces& pieces) const;
+  double predict_flops(const Cut& cut);
   double weight_of(int element) const { return weight_[static_cast<std::size_t>(element)]; }
   bool connects(int block) const;
 
@@ -48,11 +51,16 @@ class Bisector {
   mutable std::vector<int> position_;  ///< by element: position in the set at hand, or -1 (scratch)
   std::vector<char> removed_;          ///< by block: separator of the present cut
   std::vector<int> local_;             ///< by block: vertex number in a separator graph, or -1
+  std::vector<int> side_touches_;      ///< by block: elements of the side at hand that hold it (scratch)
 };
 
-/// Vertex separator of a graph in compressed rows: part 0, 1, or 2 (the separator). METIS with a fixed seed where it was built in and the
-/// graph is large enough, otherwise breadth-first levels from a far vertex.
-std::vector<int> separate_vertices(const std::vector<int>& row_begin, const std::vector<int>& columns,
-                                   const std::vector<int>& weights, unsigned seed);
+/// A graph in compressed rows.
+struct VertexGraph {
+  std::vector<int> row_begin, columns, weights;
+};
+
+/// Vertex separator of a graph: part 0, 1, or 2 (the separator). METIS where it was built in and the graph is large enough, otherwise
+/// breadth-first levels from a far vertex, whatever the seed.
+std::vector<int> separate_vertices(const VertexGraph& graph, unsigned seed);
 
 }  // namespace bough::tree

@@ -78,16 +78,15 @@ std::vector<int> separate_by_levels(const std::vector<int>& row_begin, const std
 
 }  // namespace
 
-std::vector<int> separate_vertices(const std::vector<int>& row_begin, const std::vector<int>& columns,
-                                   const std::vector<int>& weights, unsigned seed) {
+std::vector<int> separate_vertices(const VertexGraph& graph, unsigned seed) {
   (void)seed;
 #ifdef BOUGH_HAS_METIS
   constexpr int least_for_metis = 16;  // below, its coarsening has nothing to do and the levels are as good
-  if (static_cast<int>(weights.size()) >= least_for_metis) {
-    std::vector<idx_t> xadj(row_begin.begin(), row_begin.end()), adjncy(columns.begin(), columns.end()),
-        vwgt(weights.begin(), weights.end());
-    std::vector<idx_t> part(weights.size(), 0);
-    idx_t nvtxs = static_cast<idx_t>(weights.size()), sepsize = 0;
+  if (static_cast<int>(graph.weights.size()) >= least_for_metis) {
+    std::vector<idx_t> xadj(graph.row_begin.begin(), graph.row_begin.end()),
+        adjncy(graph.columns.begin(), graph.columns.end()), vwgt(graph.weights.begin(), graph.weights.end());
+    std::vector<idx_t> part(graph.weights.size(), 0);
+    idx_t nvtxs = static_cast<idx_t>(graph.weights.size()), sepsize = 0;
     idx_t options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = static_cast<idx_t>(seed);
@@ -97,7 +96,7 @@ std::vector<int> separate_vertices(const std::vector<int>& row_begin, const std:
     if (status == METIS_OK && filled(0) && filled(1)) return {part.begin(), part.end()};
   }
 #endif
-  return separate_by_levels(row_begin, columns, weights);
+  return separate_by_levels(graph.row_begin, graph.columns, graph.weights);
 }
 
 }  // namespace bough::tree

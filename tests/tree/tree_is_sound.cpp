@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <set>
+#include <string>
 
 #include "bough/tree/tree.hpp"
 #include "solve/random_scene.hpp"
@@ -166,6 +168,47 @@ TEST(Tree, AStarKeepsOneHubAtAllInterfaces) {
   const Scene scene = make_star(1, 16, 4);
   const tree::Tree t = tree::make_tree(scene.graph, {.leaf_size = 6});
   for (tree::SubdomainId s = 0; s < t.root(); ++s) EXPECT_LE(t.fronts[at(t.subdomains[at(s)].top())].num_boundary, 12);
+}
+
+/// Beams between the neighbours in a cube of n x n x n nodes, one face held.
+blocks::BlockGraph make_cube(int n) {
+  blocks::BlockGraph g;
+  g.block_size.assign(static_cast<std::size_t>(n * n * n), 6);
+  g.block_kind.assign(g.block_size.size(), blocks::BlockKind::motion);
+  g.element_begin.assign(1, 0);
+  const auto add = [&](std::initializer_list<int> nodes) {
+    g.element_blocks.insert(g.element_blocks.end(), nodes);
+    g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
+  };
+  for (int k = 0, v = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i, ++v) {
+        if (i + 1 < n) add({v, v + 1});
+        if (j + 1 < n) add({v, v + n});
+        if (k + 1 < n) add({v, v + n * n});
+        if (i == 0) add({v});
+      }
+  return g;
+}
+
+/// Whatever the seed: single separators differ by a factor of two here.
+TEST(Tree, CutsOfACubeAreChosenByWhatTheyCost) {
+  const blocks::BlockGraph cube = make_cube(12);
+  double least = 0.0, most = 0.0;
+  for (unsigned seed : {1u, 2u, 3u, 21u}) {
+    const tree::Tree t = tree::make_tree(cube, {.seed = seed});
+    if (t.method.find("METIS") == std::string::npos) GTEST_SKIP() << "without METIS there is nothing to choose from";
+    const double flops = t.subdomains.back().subtree_flops;
+    least = least > 0.0 ? std::min(least, flops) : flops;
+    most = std::max(most, flops);
+  }
+  EXPECT_LT(most, 1.25 * least);
+  // Straight planes: the middle one alone, and of the two halves one each that holds half as much, take this much without all below.
+  const auto eliminate = [](double e, double b) {  // sum of 2 m^2 + m over the rows m that are left
+    const auto sum = [](double n) { return n * (n + 1.0) / 2.0 + n * (n + 1.0) * (2.0 * n + 1.0) / 3.0; };
+    return sum(e + b - 1.0) - (b > 0.0 ? sum(b - 1.0) : 0.0);
+  };
+  EXPECT_LT(most, eliminate(6 * 144, 0.0) + 2.0 * eliminate(6 * 72, 6 * 144));
 }
 
 TEST(Tree, RefusesGraphsThatAreNotConsistent) {
