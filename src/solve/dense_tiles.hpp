@@ -76,6 +76,21 @@ inline void take_column(int n, const double* l, double u, double* c) {
   for (; i < n; ++i) c[i] = take_product(l[i], u, c[i]);
 }
 
+/// c[0, n) += a[0, n).
+inline void add_to(int n, const double* a, double* c) {
+  int i = 0;
+  for (; i + width <= n; i += width) store(c + i, load(c + i) + load(a + i));
+#if defined(__AVX512F__)
+  if (i < n) {
+    const auto rest = static_cast<__mmask8>((1u << (n - i)) - 1u);
+    const __m512d sum = _mm512_add_pd(_mm512_maskz_loadu_pd(rest, c + i), _mm512_maskz_loadu_pd(rest, a + i));
+    _mm512_mask_storeu_pd(c + i, rest, sum);
+  }
+#else
+  for (; i < n; ++i) c[i] += a[i];
+#endif
+}
+
 /// A panel of b, k rows of `width` entries, one for each group of columns: group g begins at g k width.
 inline double* group_of(double* packed, int k, int group) {
   return packed + static_cast<std::ptrdiff_t>(group) * k * width;

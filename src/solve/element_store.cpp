@@ -1,6 +1,7 @@
 #include "element_store.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -308,21 +309,29 @@ std::vector<ElementBatch> ElementStore::single_batches() const {
 
 double ElementStore::asymmetry_of(int e, const Scales& scales) const {
   const ConstElementView a = view(e);
-  const std::int64_t n = size_of(e);
-  const auto scale_of = [&](int p) { return scales.column.data() + tree_.unknown_begin[at(blocks_of(e)[p])]; };
-  const auto rows_of = [&](int p) { return graph_.block_size[at(blocks_of(e)[p])]; };
-  double most = 0.0;
-  for (int p = 0, i0 = 0; p < num_blocks_of(e); i0 += rows_of(p++))
-    for (int q = 0, j0 = 0; q <= p; j0 += rows_of(q++))
-      for (int i = 0; i < rows_of(p); ++i)
-        for (int j = 0; j < rows_of(q); ++j) {
-          const double upper = a[(j0 + j) * n + i0 + i], lower = a[(i0 + i) * n + j0 + j];
-          if (upper == lower) continue;
-          const double difference = std::abs(upper - lower) * scale_of(p)[i] * scale_of(q)[j];
-          if (!std::isfinite(difference)) return difference;
-          most = std::max(most, difference);
+  const std::int64_t step = a.stride, n = size_of(e) * step;
+  const int* blocks = blocks_of(e);
+  const int count = num_blocks_of(e);
+  std::uint64_t most = 0;  // as bits: infinity and NaN come out on top
+  for (int p = 0, i0 = 0; p < count; ++p) {
+    const int rows = graph_.block_size[at(blocks[p])];
+    const double* row_scale = scales.column.data() + tree_.unknown_begin[at(blocks[p])];
+    for (int q = 0, j0 = 0; q <= p; ++q) {
+      const int columns = graph_.block_size[at(blocks[q])];
+      const double* column_scale = scales.column.data() + tree_.unknown_begin[at(blocks[q])];
+      for (int i = 0; i < rows; ++i) {
+        const double *lower = a.first + (i0 + i) * n + j0 * step, *upper = a.first + j0 * n + (i0 + i) * step;
+        for (int j = 0; j < columns; ++j, lower += step, upper += n) {
+          if (*lower == *upper) continue;
+          const double difference = std::abs(*upper - *lower) * row_scale[i] * column_scale[j];
+          most = std::max(most, std::bit_cast<std::uint64_t>(difference));
         }
-  return most;
+      }
+      j0 += columns;
+    }
+    i0 += rows;
+  }
+  return std::bit_cast<double>(most);
 }
 
 double ElementStore::eval_norm(const Scales& scales) const {

@@ -36,6 +36,7 @@ struct FrontData {
   int* row_from = nullptr;  ///< full: row before pivoting
   int size = 0, full = 0, pivots = 0;
   int delayed_in = 0;      ///< unknowns that children could not eliminate: they come first
+  int delayed_to = 0;      ///< row of the parent of the first that it could not eliminate itself
   bool failed = false;     ///< not finite here or below
   bool allocated = false;  ///< the enlarging took heap memory in this factorization
   int num_delayed() const { return full - pivots; }
@@ -155,14 +156,14 @@ struct Hierarchical::State {
   double largest_x() const;
   double largest_rhs() const;
 
-  // upward.cpp: factor
+  // upward.cpp, assemble.cpp: factor
   void factor_subdomain(tree::SubdomainId s);
   void size_front(tree::FrontId f);
   void assemble_front(tree::FrontId f);
   void add_element(int position, FrontData& d);
-  void add_child(tree::FrontId child, FrontData& parent, int& delayed);
-  void add_child_both_ways(const FrontData& child, const Run* runs_begin, const Run* runs_end, FrontData& parent,
-                           int delayed);
+  void fill_columns(tree::FrontId f, int first, int last);
+  void add_child(tree::FrontId child, const FrontData& parent, int first, int last);
+  void add_child_both_ways(tree::FrontId child, const FrontData& parent);
   void eliminate_front(tree::FrontId f);
   // solve_walks.cpp
   void forward_front(tree::FrontId f);

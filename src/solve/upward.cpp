@@ -1,6 +1,5 @@
-/// The upward walk of factor(): size, assemble, eliminate.
+/// The upward walk of factor(): size, eliminate.
 #include <algorithm>
-#include <cstring>
 
 #include "front_storage.hpp"
 #include "hierarchical_state.hpp"
@@ -75,120 +74,6 @@ void FrontData::set_parts(const FrontShape& shape, double* factor, double* schur
   d = shape.is_symmetric ? factor + shape.a : nullptr;
   u = factor + shape.a + shape.d;
   s = schur;
-}
-
-void Hierarchical::State::assemble_front(tree::FrontId f) {
-  const tree::Front& shape = front(f);
-  FrontData& d = data(f);
-  if (d.failed) return;
-  const auto clear = [](double* part, int ld, int columns) {
-    if (columns > 0) std::memset(part, 0, sizeof(double) * at(ld) * at(columns));
-  };
-  clear(d.a, d.lda, d.full);
-  if (!d.is_symmetric()) clear(d.u, d.ldu, d.size - d.full);
-  clear(d.s, d.lds, d.size - d.full);
-  const int* own = own_unknowns.data() + own_begin[at(f)];
-  for (int i = 0; i < d.full; ++i) {
-    d.row_from[i] = i;
-    if (i >= d.delayed_in) d.rows[i] = d.columns[i] = own[i - d.delayed_in];
-  }
-  for (int p = shape.element_begin; p < shape.element_end; ++p) add_element(p, d);
-  int delayed = 0;
-  for (tree::FrontId c : tree.children(shape)) {
-    if (is_scalar(c)) {
-      add_child(c, d, delayed);
-    } else {
-      add_lane_child(c, d);
-    }
-  }
-}
-
-/// += D_r A_e D_c, the element's blocks at their rows of the front; symmetric: what is not above the diagonal.
-void Hierarchical::State::add_element(int position, FrontData& d) {
-  const int e = tree.element_order[at(position)];
-  const int* rows = tree.scatter.data() + tree.scatter_begin[at(position)];
-  const int* blocks = elements.blocks_of(e);
-  const int count = elements.num_blocks_of(e), n = elements.size_of(e);
-  const ConstElementView matrix = elements.view(e);
-  const auto& block_size = elements.graph().block_size;
-  const FrontParts parts(d.matrix());
-  for (int q = 0, j0 = 0; q < count; ++q) {
-    const int bj = blocks[q], nj = block_size[at(bj)];
-    const double* column_scale = scales.column.data() + tree.unknown_begin[at(bj)];
-    for (int p = 0, i0 = 0; p < count; ++p) {
-      const int bi = blocks[p], ni = block_size[at(bi)], row = d.delayed_in + rows[p];
-      const double* row_scale = scales.row.data() + tree.unknown_begin[at(bi)];
-      if (!d.is_symmetric() || rows[p] >= rows[q])
-        for (int j = 0; j < nj; ++j) {
-          const int column = d.delayed_in + rows[q] + j;
-          double* to = row < d.full ? parts.top(column) + row : parts.bottom(column) + (row - d.full);
-          for (int i = 0; i < ni; ++i)
-            to[i] += row_scale[i] * matrix[static_cast<std::int64_t>(i0 + i) * n + j0 + j] * column_scale[j];
-        }
-      i0 += ni;
-    }
-    j0 += nj;
-  }
-}
-
-/// Extend-add of a child's Schur complement and what waits in it; symmetric: what is not above the diagonal.
-void Hierarchical::State::add_child(tree::FrontId child, FrontData& parent, int& delayed) {
-  const FrontData& c = data(child);
-  const int waiting = c.num_delayed();
-  const Run* runs_begin = runs.data() + run_begin[at(child)];
-  const Run* runs_end = runs.data() + run_begin[at(child) + 1];
-  for (int j = 0; j < waiting; ++j) {
-    parent.rows[delayed + j] = c.rows[c.pivots + j];
-    parent.columns[delayed + j] = c.columns[c.pivots + j];
-  }
-  if (c.is_symmetric() && !parent.is_symmetric()) {
-    add_child_both_ways(c, runs_begin, runs_end, parent, delayed);
-    delayed += waiting;
-    return;
-  }
-  const FrontParts from(c.matrix()), to(parent.matrix());
-  const bool is_lower = parent.is_symmetric();
-  // Column j of the child to column k of the parent: what waits from row `first_waiting` on, the boundary from row `skip` of `run` on.
-  const auto add_column = [&](int j, int k, int first_waiting, const Run* run, int skip) {
-    const double *top = from.top(j) + c.pivots, *bottom = from.bottom(j);
-    double *to_top = to.top(k), *to_bottom = to.bottom(k) - parent.full;
-    for (int i = first_waiting; i < waiting; ++i) to_top[delayed + i] += top[i];
-    for (const Run* r = run; r != runs_end; ++r) {
-      const int row = parent.delayed_in + r->to;
-      double* t = (row < parent.full ? to_top : to_bottom) + row;
-      const double* b = bottom + r->from;
-      for (int i = skip; i < r->length; ++i) t[i] += b[i];
-      skip = 0;
-    }
-  };
-  for (int j = 0; j < waiting; ++j) add_column(c.pivots + j, delayed + j, is_lower ? j : 0, runs_begin, 0);
-  for (const Run* r = runs_begin; r != runs_end; ++r)
-    for (int j = 0; j < r->length; ++j)
-      add_column(c.full + r->from + j, parent.delayed_in + r->to + j, is_lower ? waiting : 0, is_lower ? r : runs_begin,
-                 is_lower ? j : 0);
-  delayed += waiting;
-}
-
-/// A symmetric child of a front that is not: both triangles.
-void Hierarchical::State::add_child_both_ways(const FrontData& c, const Run* runs_begin, const Run* runs_end,
-                                              FrontData& parent, int delayed) {
-  const FrontParts from(c.matrix()), to(parent.matrix());
-  const auto add = [&](int i, int j, double value) {
-    (i < parent.full ? to.top(j)[i] : to.bottom(j)[i - parent.full]) += value;
-  };
-  const auto for_rows = [&](auto&& body) {  // body(row of the child, row of the parent), in order
-    for (int i = c.pivots; i < c.full; ++i) body(i, delayed + i - c.pivots);
-    for (const Run* r = runs_begin; r != runs_end; ++r)
-      for (int i = 0; i < r->length; ++i) body(c.full + r->from + i, parent.delayed_in + r->to + i);
-  };
-  for_rows([&](int j, int to_j) {
-    for_rows([&](int i, int to_i) {
-      if (i < j) return;
-      const double value = i < c.full ? from.top(j)[i] : from.bottom(j)[i - c.full];
-      add(to_i, to_j, value);
-      if (i != j) add(to_j, to_i, value);
-    });
-  });
 }
 
 void Hierarchical::State::eliminate_front(tree::FrontId f) {
