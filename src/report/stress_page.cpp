@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "bough/io/number_text.hpp"
 #include "bough/report/document.hpp"
 #include "bough/version.hpp"
 
@@ -28,8 +29,8 @@ Cell count_cell(long count, std::size_t k, const char* key) {
 
 Table overview(const std::vector<StressCase>& cases) {
   Table table;
-  table.head = {"family",       "case",        "status", "largest error", "digits lost", "condition", "backward error",
-                "LAPACK ratio", "constraints", "steps",  "rejected",      "iterations",  "seconds"};
+  table.head = {"family",         "case",         "status",      "largest error", "digits lost", "condition",
+                "backward error", "LAPACK ratio", "constraints", "steps",         "iterations",  "seconds"};
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const StressCase& c = cases[k];
     const auto number = [k](double value, const char* key, int digits = 2) {
@@ -45,14 +46,9 @@ Table overview(const std::vector<StressCase>& cases) {
                           number(c.lapack_ratio, "lapack_ratio"),
                           number(c.constraint_violation, "constraint_violation"),
                           count_cell(c.steps, k, "steps"),
-                          count_cell(c.rejected, k, "rejected"),
                           count_cell(c.iterations, k, "iterations"),
                           number(c.seconds, "seconds", 3)});
   }
-  table.caption =
-      "Condition: estimate for a tangent in scaled variables. LAPACK ratio: residual over norm, unknowns and unit "
-      "round-off, "
-      "largest of all linear solutions, at most 30. Constraints in m or rad. Seconds of CPU.";
   return table;
 }
 
@@ -73,6 +69,17 @@ Table figures(const StressCase& c, std::size_t k) {
   return table;
 }
 
+/// What of a case is not as promised: the figures beyond their limits, or else why it broke off.
+std::string failure_text(const StressCase& c) {
+  std::string text;
+  for (const StressFigure& f : c.figures)
+    if (!f.holds())
+      text += (text.empty() ? "" : "; ") + f.name + ": " + io::rounded_text(f.value, 3) + " instead of at most " +
+              io::rounded_text(f.limit, 3);
+  if (text.empty()) text = c.measured.substr(0, c.measured.find("; "));
+  return c.name + ": " + text + (c.reason.empty() ? ". Not listed as failing." : ". Listed as failing: " + c.reason);
+}
+
 }  // namespace
 
 std::string stress_page(const std::vector<StressCase>& cases, const study::StressOptions& options) {
@@ -88,8 +95,7 @@ std::string stress_page(const std::vector<StressCase>& cases, const study::Stres
   std::vector<std::string> failing;
   for (const StressCase& c : cases)
     if (c.status == StressStatus::fails)
-      failing.push_back(c.name + ": " + c.measured +
-                        (c.reason.empty() ? ". Not listed as failing." : ". Listed as failing: " + c.reason));
+      failing.push_back(failure_text(c));
     else if (!c.is_as_expected())
       failing.push_back(c.name + " is listed as " + study::text_of(c.expected) + " and " + study::text_of(c.status));
   page.section("What fails");
@@ -98,6 +104,10 @@ std::string stress_page(const std::vector<StressCase>& cases, const study::Stres
   else
     page.list(failing);
   page.section("All cases");
+  page.paragraph(
+      "Condition: estimate for a tangent in scaled variables. LAPACK ratio: residual over norm, unknowns and unit "
+      "round-off, largest of all linear solutions, at most 30. Constraints in m or rad. Seconds of CPU. A dash: not "
+      "measured, or zero.");
   page.table(overview(cases));
   std::string family;
   for (std::size_t k = 0; k < cases.size(); ++k) {
@@ -107,7 +117,7 @@ std::string stress_page(const std::vector<StressCase>& cases, const study::Stres
     page.paragraph(std::string(study::text_of(c.status)) + (c.is_shortened ? ", shortened" : "") +
                        (c.refusal.empty() ? "" : ". The refusal: " + c.refusal),
                    tone_of(c));
-    if (c.status == StressStatus::fails) page.paragraph(c.measured, Tone::bad);
+    if (c.status == StressStatus::fails) page.paragraph(failure_text(c), Tone::bad);
     page.table(figures(c, k));
   }
   page.section("How this was made");

@@ -34,11 +34,56 @@ struct BeamPoint {
   Vec6<double> v, a, strain;
 };
 
+using Series = lanes::Taylor<double, 1>;  ///< value and change to first order
+
+/// A port's motion, and how it changes with the increment eta (own axes of the node) that the node still lacks:  R' = R ~w, x' = R v.
+PortMotion<Series> with_unsettled(const PortMotion<double>& p, const Port& port, const step::State& state) {
+  PortMotion<Series> r;
+  r.H.R = lanes::cast<Series>(p.H.R);
+  r.H.x = lanes::cast<Series>(p.H.x);
+  r.v = r.a = Vec6<Series>::zero();
+  if (port.node == elements::ground) return r;
+  Vec6<double> eta = state.unsettled[static_cast<std::size_t>(port.node)];
+  if (port.has_offset) eta = motion::inverse_adjoint_times(port.offset, eta);
+  const Vec3<double> dx = p.H.R * lanes::linear_part(eta), w = lanes::angular_part(eta);
+  for (int i = 0; i < 3; ++i) {
+    r.H.x[i].c[1] = dx[i];
+    for (int j = 0; j < 3; ++j) {
+      const int k = (j + 1) % 3, l = (j + 2) % 3;
+      r.H.R(i, j).c[1] = p.H.R(i, k) * w[l] - p.H.R(i, l) * w[k];
+    }
+  }
+  return r;
+}
+
+/// Adds the residual of an element to `sum`; in statics with what it lacks to first order, f + K eta, see step::System::settle.
+template <class E>
+void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& f, const step::State& state,
+                          double* sum) {
+  constexpr int n = 6 * E::num_ports;
+  double out[n];
+  elements::eval_residual(e, p, static_cast<const double*>(nullptr), f.around, out);
+  for (int k = 0; k < n; ++k) sum[k] += out[k];
+  if (state.unsettled.empty()) return;
+  PortMotion<Series> moved[E::num_ports];
+  for (int i = 0; i < E::num_ports; ++i) moved[i] = with_unsettled(p[i], e.ports[i], state);
+  Series law(0.0);
+  elements::Surroundings<Series> around{lanes::cast<Series>(f.around.gravity), &law, f.around.has_inertia};
+  E own = e;
+  if constexpr (requires { own.law; }) {
+    law = Series(f.around.laws[own.law]);
+    own.law = 0;
+  }
+  Series change[n];
+  elements::eval_residual(own, moved, static_cast<const Series*>(nullptr), around, change);
+  for (int k = 0; k < n; ++k) sum[k] += change[k].c[1];
+}
+
 /// Wrenches of a beam element and its line loads on its first and last node, in section axes; out-of-element ends see (-first, last) as the
 /// section resultants: nodal equilibrium, one order more accurate than the strains.
 template <class E>
 void eval_end_wrenches(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f,
-                       Vec6<double>& first, Vec6<double>& last) {
+                       const step::State& state, Vec6<double>& first, Vec6<double>& last) {
   constexpr int N = E::num_ports;
   const motion::Vec3Pair anchor = elements::anchor_of(e, f.nodes);
   PortMotion<double> p[N];
@@ -48,23 +93,18 @@ void eval_end_wrenches(const step::System& system, const E& e, const std::vector
       elements::add_observer_motion(p[i], Vec3<double>(anchor.hi + anchor.lo), f.observer->twist,
                                     f.observer->twist_rate);
   }
-  double out[6 * N];
-  elements::eval_residual(e, p, static_cast<const double*>(nullptr), f.around, out);
+  double out[6 * N] = {};
+  add_settled_residual(e, p, f, state, out);
+  for (int id : loads)
+    plan::with_element(system.plan().elements, system.plan().directory[static_cast<std::size_t>(id)],
+                       [&](const auto& load) {
+                         if constexpr (std::is_same_v<std::decay_t<decltype(load)>, elements::LineLoad<N>>)
+                           add_settled_residual(load, p, f, state, out);
+                       });
   for (int k = 0; k < 6; ++k) {
     first[k] = -out[k];
     last[k] = out[6 * (N - 1) + k];
   }
-  for (int id : loads)
-    plan::with_element(system.plan().elements, system.plan().directory[static_cast<std::size_t>(id)],
-                       [&](const auto& load) {
-                         if constexpr (std::is_same_v<std::decay_t<decltype(load)>, elements::LineLoad<N>>) {
-                           elements::eval_residual(load, p, static_cast<const double*>(nullptr), f.around, out);
-                           for (int k = 0; k < 6; ++k) {
-                             first[k] -= out[k];
-                             last[k] += out[6 * (N - 1) + k];
-                           }
-                         }
-                       });
 }
 
 template <class E>
@@ -124,7 +164,7 @@ PointMotion eval_sensor_point(const step::System& system, const step::State& sta
 /// Curvature of the sectional force over an element, 1/2 d2f/ds2, from its strains at the strain points: elements of four nodes have three and
 /// hence one; those of fewer nodes none. (Strains elsewhere than at these points are less accurate.)
 template <class E>
-Vec6<double> eval_force_curvature(const E& e, const Field& f) {
+Vec6<double> eval_force_curvature(const E& e, const Field& f, const step::State& state) {
   constexpr int N = E::num_ports, P = E::num_strain_points;
   if constexpr (P < 3) {
     return Vec6<double>::zero();
@@ -133,6 +173,12 @@ Vec6<double> eval_force_curvature(const E& e, const Field& f) {
     PortMotion<double> p[N];
     for (int i = 0; i < N; ++i) p[i] = elements::eval_port(e.ports[i], f.nodes, anchor);
     const auto shape = elements::eval_shape<double, N>(p);
+    elements::BeamShape<Series, N> moved_shape;
+    if (!state.unsettled.empty()) {
+      PortMotion<Series> moved[N];
+      for (int i = 0; i < N; ++i) moved[i] = with_unsettled(p[i], e.ports[i], state);
+      moved_shape = elements::eval_shape<Series, N>(moved);
+    }
     Vec6<double> force[P];
     double at[P];
     for (int g = 0; g < P; ++g) {
@@ -140,6 +186,10 @@ Vec6<double> eval_force_curvature(const E& e, const Field& f) {
       for (int i = 0; i < N; ++i) at[g] += elements::strain_rule<N>().shape[g][i] * i / (N - 1);
       Vec6<double> strain = elements::eval_strain<double, N>(shape, e.length, g);
       strain -= e.reference_strain[g];
+      if (!state.unsettled.empty()) {
+        const Vec6<Series> change = elements::eval_strain<Series, N>(moved_shape, e.length, g);
+        for (int k = 0; k < 6; ++k) strain[k] += change[k].c[1];
+      }
       force[g] = e.stiffness * strain;
     }
     const Vec6<double> first = (1.0 / (at[1] - at[0])) * (force[1] - force[0]),
@@ -152,9 +202,10 @@ Vec6<double> eval_force_curvature(const E& e, const Field& f) {
 struct ElementForce {
   Vec6<double> first, last, curvature;
   template <class E>
-  ElementForce(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f)
-      : curvature(eval_force_curvature(e, f)) {
-    eval_end_wrenches(system, e, loads, f, first, last);
+  ElementForce(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f,
+               const step::State& state)
+      : curvature(eval_force_curvature(e, f, state)) {
+    eval_end_wrenches(system, e, loads, f, state, first, last);
   }
   Vec6<double> at(double s) const { return (1.0 - s) * first + s * last + (s * (s - 1.0)) * curvature; }
 };
@@ -214,7 +265,7 @@ void eval_sensors(const step::System& system, const step::State& state, std::vec
         if (s.sensor.kind == scene::SensorKind::section_force)
           with_beam_element(
               system.plan(), beam.elements[static_cast<std::size_t>(k)], [&, element = k, at = local](const auto& e) {
-                append(values, ElementForce(system, e, beam.loads[static_cast<std::size_t>(element)], f).at(at));
+                append(values, ElementForce(system, e, beam.loads[static_cast<std::size_t>(element)], f, state).at(at));
               });
         else
           with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)],
@@ -259,7 +310,7 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
     constexpr int parts = 4;  // points per element: the axis is curved within it
     for (std::size_t k = 0; k < beam.elements.size(); ++k)
       with_beam_element(plan, beam.elements[k], [&](const auto& e) {
-        const ElementForce along(system, e, beam.loads[k], f);
+        const ElementForce along(system, e, beam.loads[k], f, state);
         for (int i = k == 0 ? 0 : 1; i <= parts; ++i) {
           const double s = static_cast<double>(i) / parts;
           const BeamPoint p = eval_point(e, f, s);

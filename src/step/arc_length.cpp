@@ -94,6 +94,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
   };
   for (elements::NodeMotion& n : state.nodes) n.dq = n.v = n.a = Vec6<double>::zero();
   state.time = start_.time + length * slope_;
+  state.unsettled.clear();
   system_.apply_along_tree(state, x_.data(), length);
   double previous = 0.0, change_of_load = std::abs(length * slope_);
   for (int k = 0;; ++k) {
@@ -142,6 +143,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
   for (std::size_t n = 0; n < moved_.size(); ++n) along += inner(moved_[n], direction_[n]);
   if (along < least_alignment * length) return fail("the path bends sharply, or the step turned back");
   if (const auto t = check_shape(system_, state)) return fail(t->text);
+  system_.settle(state);
   return report;
 }
 

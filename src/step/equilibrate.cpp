@@ -44,6 +44,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
   };
   if (const auto t = system.set_time(load_factor, laws::Side::left)) return fail(t->text);
   state.time = load_factor;
+  state.unsettled.clear();
   for (elements::NodeMotion& n : state.nodes) n.dq = n.v = n.a = motion::Vec6<double>::zero();
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
   double previous = 0.0;
@@ -76,6 +77,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
     apply_damped(system, state, report.change);
   }
   if (const auto t = check_shape(system, state)) return fail(t->text);
+  system.settle(state);
   return report;
 }
 

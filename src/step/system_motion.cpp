@@ -92,6 +92,19 @@ double System::apply(State& state, const double* x) {
   return change;
 }
 
+void System::settle(State& state) {
+  state.unsettled.clear();
+  // Without tangents: the kernel that sensors evaluate, bit by bit. The matrices stay those of the last evaluation.
+  if (evaluate(state, {}, false)) return;
+  for (std::size_t i = 0; i < work_.rhs.size(); ++i) work_.rhs[i] = -residual_[i];
+  if (solve(work_.rhs.data(), work_.x.data())) return;
+  state.unsettled.resize(state.nodes.size());
+  for (std::size_t n = 0; n < state.nodes.size(); ++n)
+    for (int i = 0; i < 6; ++i)
+      state.unsettled[n][i] = work_.x[static_cast<std::size_t>(block_begin(static_cast<int>(n)) + i)];
+  add_multipliers(state, work_.x.data(), 1.0);
+}
+
 void System::evaluate_rate(const State& state, std::vector<double>& rate, double step_size) {
   elements::Field f = field(state);
   using T = lanes::Taylor<double, 1>;

@@ -75,11 +75,12 @@ std::vector<results::Doubt> doubts_of(const results::Summary& s, bool is_dynamic
   if (c.evaluated && is_dynamic) doubt_energy(c, limits, doubts);
   if (c.evaluated) doubt_constraints(c, limits, doubts);
   doubt_linear_solutions(s, limits, doubts);
-  if (passes(c.unbalanced_at_floor, limits.unbalanced))
-    doubts.push_back({"round-off", std::to_string(c.steps_at_floor) + " of " + std::to_string(s.steps.accepted) +
-                                       " steps ended at the round-off floor of the residual and left up to " +
-                                       number(c.unbalanced_at_floor) +
-                                       " of the largest force unbalanced: section forces are no more exact than that"});
+  if (is_dynamic && passes(c.unbalanced_at_floor, limits.unbalanced))
+    doubts.push_back(
+        {"round-off",
+         std::to_string(c.steps_at_floor) + " of " + std::to_string(s.steps.accepted) +
+             " steps ended at the round-off floor of the residual and left up to " + number(c.unbalanced_at_floor) +
+             " of the largest force unbalanced: accelerations, reactions and section forces are no more exact"});
   if (static_cast<double>(s.steps.rejected) > limits.rejected * static_cast<double>(s.steps.accepted) &&
       s.status == results::RunStatus::ok)
     doubts.push_back({"steps", std::to_string(s.steps.rejected) + " steps were rejected for " +

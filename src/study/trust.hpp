@@ -20,8 +20,8 @@ struct TrustLimits {
   double violation = 1e-6;
   /// The same for what the rates open in one step: a thousandth.
   double violation_step = 1e-3;
-  /// Of the largest force: what steps accepted at the floor of round-off leave unbalanced. Reactions and section forces have that error; a tolerance
-  /// that asks for more digits than there are is no reason for doubt.
+  /// Of the largest force: what steps in time accepted at the floor of round-off leave unbalanced. Reactions and section forces have that error; a
+  /// tolerance that asks for more digits than there are is no reason for doubt. In statics nothing stays unbalanced, see step::System::settle.
   double unbalanced = 1e-6;
   /// Share of the steps that were rejected: the step size is not that of the problem.
   double rejected = 0.1;

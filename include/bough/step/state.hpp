@@ -18,6 +18,8 @@ struct State {
   bool follows_trend = false;                  ///< whether the last step was nearer to its trend than to its start
   double last_step = 0.0;                      ///< h that dq spans, of the variational integrator [s]; 0 at a start
   std::vector<motion::Vec6<double>> momentum;  ///< p_n of the variational integrator, own axes; else empty
+  std::vector<motion::Vec6<double>>
+      unsettled;  ///< statics: eta that nodes still lack and their digits cannot hold; else empty
   std::vector<double> multipliers;
   std::vector<double> turns;  ///< angle of each joint at the last accepted step [rad]
 };

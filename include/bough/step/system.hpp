@@ -100,6 +100,10 @@ class System {
   /// Agrees with apply to first order, but relative motions take their increments exactly: a beam that bends far in one go is not
   /// stretched, as it is where nodes move alone, along their tangents.
   void apply_along_tree(State& state, const double* x, double factor);
+  /// Solves once more at an equilibrium, with the matrix that led there. A node's place is rounded, by u |x|, and a stiff element answers with forces of
+  /// EA u |x| / L that no load balances; with the eta found here, kept apart in State::unsettled, forces f + K eta are in equilibrium to
+  /// round-off of their own size. Multipliers take their part. Says nothing where the solution fails: then there is no `unsettled`.
+  void settle(State& state);
   /// Power of the present residual at the end of the path that apply_along_tree took last with `x`:  sum of residual . d(increment)/d(factor).
   double power_along_tree(const double* x);
 
