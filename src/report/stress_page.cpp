@@ -36,8 +36,7 @@ Table overview(const std::vector<StressCase>& cases) {
     const auto number = [k](double value, const char* key, int digits = 2) {
       return value == 0.0 ? Cell{"-", Tone::soft, true} : number_cell(value, digits, pointer(k, key));
     };
-    table.rows.push_back({{c.family, Tone::soft},
-                          {c.name + (c.is_shortened ? " (shortened)" : ""), Tone::plain, false, {}, "#" + c.name},
+    table.rows.push_back({{c.name + (c.is_shortened ? " *" : ""), Tone::plain, false, {}, "#" + c.name},
                           status_cell(c),
                           number(c.largest_error, "largest_error"),
                           number(c.digits_lost, "digits_lost"),
@@ -90,7 +89,7 @@ std::string stress_page(const std::vector<StressCase>& cases, const study::Stres
   Document page("Stiff and extreme cases",
                 count(StressStatus::holds) + " cases hold what is promised, " + count(StressStatus::fails) + " fail, " +
                     count(StressStatus::refused) + " are refused by name, as they have to be." +
-                    (options.quick ? " Long runs are shortened; cases where this was done say so." : ""),
+                    (options.quick ? " Long runs are shortened, those with a star." : ""),
                 "stress.json");
   std::vector<std::string> failing;
   for (const StressCase& c : cases)
@@ -106,8 +105,9 @@ std::string stress_page(const std::vector<StressCase>& cases, const study::Stres
   page.section("All cases");
   page.paragraph(
       "Condition: estimate for a tangent in scaled variables. LAPACK ratio: residual over norm, unknowns and unit "
-      "round-off, largest of all linear solutions, at most 30. Constraints in m or rad. Seconds of CPU. A dash: not "
-      "measured, or zero.");
+      "round-off, largest of all linear solutions, at most 30. Constraints in m or rad. Seconds of CPU. Digits lost: "
+      "where round-off alone makes the error, those of the result; else what the condition allows. A dash: not "
+      "measured, or zero. A star: shortened.");
   page.table(overview(cases));
   std::string family;
   for (std::size_t k = 0; k < cases.size(); ++k) {

@@ -98,6 +98,8 @@ void System::settle(State& state) {
   if (evaluate(state, {}, false)) return;
   for (std::size_t i = 0; i < work_.rhs.size(); ++i) work_.rhs[i] = -residual_[i];
   if (solve(work_.rhs.data(), work_.x.data())) return;
+  for (State* s : {&state, &work_.start, &work_.before})
+    s->unsettled.reserve(state.nodes.size());  // copies take no memory then
   state.unsettled.resize(state.nodes.size());
   for (std::size_t n = 0; n < state.nodes.size(); ++n)
     for (int i = 0; i < 6; ++i)

@@ -36,7 +36,7 @@ struct StressCase {
 
   double largest_error = 0.0;  ///< of the figures that are errors relative to a reference [-]
   double digits_lost =
-      0.0;  ///< log10(error / unit round-off) where round-off alone makes the error; else of the linear solutions
+      0.0;  ///< log10(error / unit round-off) where round-off alone makes the error; else log10(condition)
   double condition = 0.0;             ///< largest estimate for a tangent in scaled variables [-]; 0: not estimated
   double backward_error = 0.0;        ///< largest normwise backward error of a linear solution [-]
   double lapack_ratio = 0.0;          ///< largest |r| / (|A| |x| n u) of a linear solution [-], see lapack_ratio_limit

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 #include <thread>
 
@@ -60,6 +61,9 @@ StressCase run_case(const Definition& definition, bool is_quick) {
     if (cause.empty()) cause = "it broke off without a word";
   }
   result.seconds = thread_seconds() - begin;
+  constexpr double all_digits = 15.95;  // of a double
+  if (result.digits_lost == 0.0 && result.condition > 1.0)
+    result.digits_lost = std::min(all_digits, std::log10(result.condition));
   bench.figure("LAPACK ratio", result.lapack_ratio, lapack_ratio_limit);
   const bool holds = cause.empty() && std::all_of(result.figures.begin(), result.figures.end(),
                                                   [](const StressFigure& f) { return f.holds(); });
