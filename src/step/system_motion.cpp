@@ -102,8 +102,7 @@ void System::settle(State& state) {
     s->unsettled.reserve(state.nodes.size());  // copies take no memory then
   state.unsettled.resize(state.nodes.size());
   for (std::size_t n = 0; n < state.nodes.size(); ++n)
-    for (int i = 0; i < 6; ++i)
-      state.unsettled[n][i] = work_.x[static_cast<std::size_t>(block_begin(static_cast<int>(n)) + i)];
+    state.unsettled[n] = node_part(work_.x.data(), static_cast<int>(n));
   add_multipliers(state, work_.x.data(), 1.0);
 }
 
