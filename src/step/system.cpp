@@ -238,16 +238,17 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
     return ElementResult{element_residual_.data() + begin, element_magnitude_.data() + begin,
                          tangent ? solver_->element(id) : solve::ElementView{}};
   };
-  if (planar_) {
-    auto by_node = [&](std::int64_t begin, std::int64_t end) { planar_->set_nodes(state, begin, end); };
+  PlanarSystem* const planar = as_sensors_ ? nullptr : planar_.get();
+  if (planar != nullptr) {
+    auto by_node = [&](std::int64_t begin, std::int64_t end) { planar->set_nodes(state, begin, end); };
     walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
-    planar_->set_field(f);
+    planar->set_field(f);
   }
   auto by_batch = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const auto batch = static_cast<std::size_t>(k);
-      if (planar_)
-        planar_->evaluate(batch, state, tangent, result);
+      if (planar != nullptr)
+        planar->evaluate(batch, state, tangent, result);
       else if (lane_batches_->holds(batch))
         lane_batches_->evaluate(batch, state, f, tangent, result);
       else

@@ -95,7 +95,10 @@ double System::apply(State& state, const double* x) {
 void System::settle(State& state) {
   state.unsettled.clear();
   // Without tangents: the kernel that sensors evaluate, bit by bit. The matrices stay those of the last evaluation.
-  if (evaluate(state, {}, false)) return;
+  as_sensors_ = true;
+  const bool is_finite = !evaluate(state, {}, false);
+  as_sensors_ = false;
+  if (!is_finite) return;
   for (std::size_t i = 0; i < work_.rhs.size(); ++i) work_.rhs[i] = -residual_[i];
   if (solve(work_.rhs.data(), work_.x.data())) return;
   for (State* s : {&state, &work_.start, &work_.before})

@@ -204,6 +204,7 @@ class System {
   bool is_trusted_ = false;  ///< the present factor gave a solution that needed no refinement
   double contraction_ = 1.0;
   bool takes_symmetric_parts_ = false;
+  bool as_sensors_ = false;  ///< elements in space, one at a time: the bits that sensors see
 };
 
 }  // namespace bough::step
