@@ -230,15 +230,15 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   PhaseTimer timer{counts_.assemble};
   ++counts_.evaluations;
   const elements::Field f = field(state, slopes);
-  const std::span<const solve::ElementBatch> batches = planar_       ? planar_->batches()
-                                                       : projection_ ? solver_->batches()
-                                                                     : lane_batches_->batches();
+  PlanarSystem* const planar = as_sensors_ ? nullptr : planar_.get();
+  const std::span<const solve::ElementBatch> batches = planar != nullptr ? planar->batches()
+                                                       : projection_     ? solver_->batches()
+                                                                         : lane_batches_->batches();
   const auto result = [&](int id) {
     const auto begin = static_cast<std::size_t>(element_begin_[static_cast<std::size_t>(id)]);
     return ElementResult{element_residual_.data() + begin, element_magnitude_.data() + begin,
                          tangent ? solver_->element(id) : solve::ElementView{}};
   };
-  PlanarSystem* const planar = as_sensors_ ? nullptr : planar_.get();
   if (planar != nullptr) {
     auto by_node = [&](std::int64_t begin, std::int64_t end) { planar->set_nodes(state, begin, end); };
     walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
