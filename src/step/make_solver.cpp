@@ -1,5 +1,7 @@
 #include "make_solver.hpp"
 
+#include "bough/step/system.hpp"
+
 namespace bough::step {
 
 namespace {
@@ -16,12 +18,17 @@ std::unique_ptr<solve::AnySolver> make_monolithic(const plan::Plan& plan, const 
 
 }  // namespace
 
-std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree::Tree& tree,
-                                              const scene::Solver& given) {
+solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solver& given) {
   solve::SolveOptions options;
   options.penalty_factor = given.penalty_factor;
   options.lanes = plan.took("lanes");
   if (plan.took("symmetric")) options.symmetry = solve::Symmetry::symmetric;
+  return options;
+}
+
+std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree::Tree& tree,
+                                              const scene::Solver& given) {
+  const solve::SolveOptions options = make_solve_options(plan, given);
   if (given.kind == scene::SolverKind::monolithic) return make_monolithic(plan, tree, given.library, options);
   if (given.kind == scene::SolverKind::global || given.kind == scene::SolverKind::hybrid) {
     const solve::DualOptions form{

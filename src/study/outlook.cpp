@@ -88,8 +88,7 @@ Effort effort_of(Built& b, const scene::Scene& scene) {
   }
   e.other_seconds = static_cast<double>(b.plan.nodes.size()) * per_node * e.iterations;
   if (const solve::Hierarchical* solver = b.system.solver().hierarchical()) {
-    solve::SolveOptions options;
-    options.lanes = b.plan.took("lanes");
+    const solve::SolveOptions options = step::make_solve_options(b.plan, scene.solver);
     for (const solve::VisitShape& v : solve::make_visit_shapes(b.plan.graph, b.system.tree(), options).visits) {
       const double once = v.in_lanes ? v.num_fronts * per_front_lanes + v.flops * per_flop_lanes
                                      : v.num_fronts * per_front + v.flops * per_flop;
@@ -105,7 +104,6 @@ Effort effort_of(Built& b, const scene::Scene& scene) {
     e.solve_seconds = e.iterations * per_byte * static_cast<double>(e.memory_bytes);
   }
   e.memory_bytes += bytes_of(b.system);
-  static_cast<void>(scene);
   return e;
 }
 

@@ -83,6 +83,7 @@ struct Found {
   std::vector<solve::InterfaceReport> interfaces;
   solve::SolverCounters counters;
   blocks::BlockGraph graph;
+  solve::SolveOptions options;
 };
 
 void fill_subdomains(const Found& found, const VisitMedians& m, results::Profile& out) {
@@ -255,7 +256,8 @@ results::Profile profile(const scene::Scene& scene, const ProfileOptions& option
   const auto look = [&](step::System& system) {
     found.tree = system.tree();
     found.graph = system.plan().graph;
-    found.shapes = solve::make_visit_shapes(found.graph, found.tree);
+    found.options = step::make_solve_options(system.plan(), scene.solver);
+    found.shapes = solve::make_visit_shapes(found.graph, found.tree, found.options);
     found.counters = system.solver().counters();
     if (system.counts().factorizations > 0 && system.solver().last_status().ok())
       found.interfaces = system.solver().hierarchical()->interfaces(options.widest_condition);
@@ -313,7 +315,7 @@ results::Profile profile(const scene::Scene& scene, const ProfileOptions& option
     for (std::size_t v = 0; v < seconds.size(); ++v) seconds[v] += serial.seconds[of(w)][v];
   out.costs = fit_costs(found.shapes.visits, seconds);
   out.alternatives = try_alternatives(found.graph, found.tree, scene.solver, out.threads,
-                                      schedule::Threads::usual_grain_flops, out.costs);
+                                      schedule::Threads::usual_grain_flops, out.costs, found.options);
   return out;
 }
 

@@ -141,9 +141,10 @@ std::vector<double> predict(std::span<const solve::VisitShape> visits, const std
 
 std::vector<results::Alternative> try_alternatives(const blocks::BlockGraph& graph, const tree::Tree& present,
                                                    const scene::Solver& solver, int threads, double grain_flops,
-                                                   const std::vector<results::CostFit>& costs) {
+                                                   const std::vector<results::CostFit>& costs,
+                                                   const solve::SolveOptions& options) {
   const auto price = [&](const tree::Tree& tree, results::Alternative& a) {
-    const solve::VisitShapes shapes = solve::make_visit_shapes(graph, tree);
+    const solve::VisitShapes shapes = solve::make_visit_shapes(graph, tree, options);
     const std::vector<double> seconds = predict(shapes.visits, costs);
     for (double s : seconds) a.predicted += s;
     std::vector<int> counts;

@@ -20,6 +20,7 @@ std::vector<double> predict(std::span<const solve::VisitShape> visits, const std
 /// Trees around the present one (and the automatic one), each different from all others; the present first, the rest by predicted time.
 std::vector<results::Alternative> try_alternatives(const blocks::BlockGraph& graph, const tree::Tree& present,
                                                    const scene::Solver& solver, int threads, double grain_flops,
-                                                   const std::vector<results::CostFit>& costs);
+                                                   const std::vector<results::CostFit>& costs,
+                                                   const solve::SolveOptions& options);
 
 }  // namespace bough::study

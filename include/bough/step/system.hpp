@@ -37,6 +37,9 @@ struct Workspace {
   State before;                ///< statics: where an iteration started
 };
 
+/// What a plan and the options of a scene ask of the linear solver.
+solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solver& given);
+
 /// Why a step or a run cannot go on, in words for the user.
 struct Trouble {
   std::string text;
