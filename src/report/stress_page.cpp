@@ -29,8 +29,8 @@ Cell count_cell(long count, std::size_t k, const char* key) {
 
 Table overview(const std::vector<StressCase>& cases) {
   Table table;
-  table.head = {"family",         "case",         "status",      "largest error", "digits lost", "condition",
-                "backward error", "LAPACK ratio", "constraints", "steps",         "iterations",  "seconds"};
+  table.head = {"case",         "status",      "largest error", "digits lost", "condition", "backward error",
+                "LAPACK ratio", "constraints", "steps",         "iterations",  "seconds"};
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const StressCase& c = cases[k];
     const auto number = [k](double value, const char* key, int digits = 2) {
