@@ -32,7 +32,7 @@ if grep -E -i "LINK_LIBRARIES.*($left_out)" "$scratch/user/build.ninja"; then
   echo "linked, though left out: the lines above"
   exit 1
 fi
-if find "$scratch/prefix" -path '*/bough/io/*' ! -name number_text.hpp -o -path '*bough*report*' | grep .; then
+if find "$scratch/prefix" -path '*/bough/io/*' ! -name number_text.hpp -o -path '*/bough/report/*' -o -name '*bough_report*' | grep .; then
   echo "installed, though left out: the files above"
   exit 1
 fi
