@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "bough/io/read_study.hpp"
+#include "support/scratch_directory.hpp"
 #include "support/untrapped.hpp"
 
 namespace bough::io {
@@ -14,8 +15,7 @@ namespace {
 class Studies : public testing::Test {
  protected:
   Studies() {
-    folder_ = std::filesystem::path(testing::TempDir()) / "bough_study_spec";
-    std::filesystem::create_directories(folder_);
+    folder_ = scratch_.path();
     std::ofstream(folder_ / "ball.json") << R"({
       "schema_version": 1, "gravity": [0, 0, -8],
       "bodies": [{"name": "ball", "mass": 2, "inertia": [1, 1, 1]}],
@@ -69,6 +69,7 @@ class Studies : public testing::Test {
     return file.problems.empty() ? Problem{} : file.problems.front();
   }
 
+  support::ScratchDirectory scratch_;
   std::filesystem::path folder_;
 };
 

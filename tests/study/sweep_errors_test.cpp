@@ -6,6 +6,7 @@
 
 #include "../../src/study/sweep/references.hpp"
 #include "bough/study/errors.hpp"
+#include "support/scratch_directory.hpp"
 
 namespace bough::study {
 namespace {
@@ -121,14 +122,14 @@ TEST(Spread, is_median_and_range) {
 
 class Cache : public testing::Test {
  protected:
-  Cache() : folder_(std::filesystem::path(testing::TempDir()) / "bough_reference_cache") {
-    std::filesystem::remove_all(folder_);
+  Cache() : folder_(scratch_.path()) {
     history_.header.columns = {"tip.x"};
     results::HistoryRow row;
     row.time = 1.0;
     row.values = {1.0 / 3.0};
     history_.rows = {row};
   }
+  support::ScratchDirectory scratch_;
   std::filesystem::path folder_;
   io::History history_;
 };

@@ -7,6 +7,7 @@
 
 #include "bough/io/read_study.hpp"
 #include "bough/study/sweep.hpp"
+#include "support/scratch_directory.hpp"
 #include "support/source_dir.hpp"
 
 namespace bough::study {
@@ -33,7 +34,8 @@ io::StudySpec pendulum_study(const std::string& steps = "[0.02, 0.01, 0.005]", c
       "orders": [{"quantity": "place", "order": 2, "theory": "second order"},
                  {"quantity": "force", "order": 2, "theory": "second order"}]}]})";
   // the table has no column for the third coordinate, which is zero
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "bough_sweep";
+  static const support::ScratchDirectory scratch;  // runs read it after this returns
+  const std::filesystem::path& folder = scratch.path();
   std::filesystem::create_directories(folder / "reference");
   std::filesystem::create_directories(folder / "scenarios");
   const std::filesystem::path data = std::filesystem::path(support::source_dir()) / "data";
@@ -77,8 +79,8 @@ TEST(Sweep, finds_the_orders_of_both_integrators_against_closed_form_and_finer_s
 }
 
 TEST(Sweep, gives_the_same_errors_bitwise_twice_with_and_without_kept_references_on_one_thread_and_two) {
-  const std::filesystem::path cache = std::filesystem::path(testing::TempDir()) / "bough_sweep_cache";
-  std::filesystem::remove_all(cache);
+  const support::ScratchDirectory scratch;
+  const std::filesystem::path cache = scratch / "cache";
   const SweepResult first = run_sweep(pendulum_study(), {.threads = 1, .cache = cache});
   const SweepResult second = run_sweep(pendulum_study(), {.threads = 2, .cache = cache});
   EXPECT_FALSE(first.references[0].is_cached);
