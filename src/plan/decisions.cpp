@@ -112,12 +112,15 @@ void Builder::settle() {
          "frame moves and "
          "loops make factorizations heavy; given up in a run where Newton's iteration suffers",
          conservative && loops >= loops_of_lattices, conservative ? text : obstacle);
+  const bool one_matrix = scene.solver.kind == scene::SolverKind::monolithic;
+  std::snprintf(text, sizeof text,
+                "one evaluation of the elements is about %.0f us of work; lanes are worth filling above %.0f us",
+                1e-3 * work, 1e-3 * task_break_even);
   decide("lanes",
-         "equal sub-domains are analysed once, and evaluated and factored eight at a time. Taken unless the solver is "
-         "monolithic",
-         scene.solver.kind != scene::SolverKind::monolithic,
-         scene.solver.kind != scene::SolverKind::monolithic ? "the solver groups equal sub-domains"
-                                                            : "the solver is monolithic");
+         "equal sub-domains are analysed once, and factored eight at a time. Taken unless the solver is monolithic or "
+         "the scene small: a "
+         "few sub-domains leave most lanes empty",
+         !one_matrix && work >= task_break_even, one_matrix ? "the solver is monolithic" : text);
   std::snprintf(text, sizeof text, "one evaluation of the elements is about %.0f us of work; tasks pay above %.0f us",
                 1e-3 * work, 1e-3 * task_break_even);
   decide("small", "one thread, no tasks. Taken where the work of an evaluation is below a measured break-even",

@@ -134,7 +134,7 @@ TEST(ProfileParts, entries_of_the_matrix_are_all_counted_once) {
 
 TEST(Profile, sums_of_the_tree_agree) {
   for (int threads : {1, 2}) {
-    const scene::Scene s = make_scene(40, 4);
+    const scene::Scene s = make_scene(80, 4);
     const Profile p = profile_of(s, threads);
     const tree::Tree tree = walk_of(s);
     ASSERT_EQ(p.subdomains.size(), at(tree.num_subdomains()));
