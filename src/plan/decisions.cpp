@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "bough/plan/element_cost.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -28,23 +29,13 @@ void Builder::decide(const std::string& name, const std::string& what, bool hold
 
 namespace {
 
-/// Nanoseconds of one residual of an element alone, from bench_elements (src/elements/README.md): only ratios and orders of magnitude count.
-template <class E>
-constexpr double nanoseconds = 50.0;
-template <int N>
-constexpr double nanoseconds<elements::Beam<N>> = N == 2   ? 400.0
-                                                  : N == 3 ? 1180.0
-                                                           : 1800.0;
-template <int N>
-constexpr double nanoseconds<elements::LineLoad<N>> = 200.0 * N;
-template <>
-constexpr double nanoseconds<elements::Bushing> = 240.0;
-template <>
-constexpr double nanoseconds<elements::Joint> = 150.0;
+/// Nanoseconds of residuals below which the start of a task costs more than a second thread saves: a chain of 32 links of four beam elements takes 0.21 ms a
+/// step on one thread and 0.23 on two, one of 64 links 0.43 and 0.42.
+constexpr double task_break_even = 100e3;
 
-/// Work below which the start of a task costs more than a second thread saves: a chain of 16 links of four beam elements, where one and two threads
-/// take the same time (benchmarks/README.md).
-constexpr double task_break_even = 40e3;
+/// The same for sub-domains in lockstep, which leaves lanes empty where there are few: chains of 16 links gain a fifth or more, spin_up, four_bar_misaligned
+/// and flying_spaghetti of the gallery lose as much.
+constexpr double lanes_break_even = 25e3;
 
 /// Loops of the structure from which on a factorization outweighs the rest of a step, and symmetric parts pay for iterations that they may add: a
 /// lattice of 9 by 9 nodes.
@@ -63,7 +54,7 @@ void Builder::settle() {
   double work = 0.0;
   for_each_array(plan.elements, [&](const auto& array) {
     using E = typename std::decay_t<decltype(array)>::value_type;
-    work += nanoseconds<E> * static_cast<double>(array.size());
+    work += 1e9 * cost<E>.alone * static_cast<double>(array.size());
     for (const E& e : array) {
       if constexpr (requires { e.has_damping; }) damped += e.has_damping ? 1 : 0;
       if constexpr (requires { e.rest_length; }) damped += e.damping != 0.0 ? 1 : 0;
@@ -115,14 +106,14 @@ void Builder::settle() {
   const bool one_matrix = scene.solver.kind == scene::SolverKind::monolithic;
   std::snprintf(text, sizeof text,
                 "one evaluation of the elements is about %.0f us of work; lanes are worth filling above %.0f us",
-                1e-3 * work, 1e-3 * task_break_even);
+                1e-3 * work, 1e-3 * lanes_break_even);
   decide("lanes",
          "equal sub-domains are analysed once, and factored eight at a time. Taken unless the solver is monolithic or "
          "the scene small: a "
          "few sub-domains leave most lanes empty",
-         !one_matrix && work >= task_break_even, one_matrix ? "the solver is monolithic" : text);
+         !one_matrix && work >= lanes_break_even, one_matrix ? "the solver is monolithic" : text);
   std::snprintf(text, sizeof text, "one evaluation of the elements is about %.0f us of work; tasks pay above %.0f us",
-                1e-3 * work, 1e-3 * task_break_even);
+                1e-3 * work, 1e-3 * lanes_break_even);
   decide("small", "one thread, no tasks. Taken where the work of an evaluation is below a measured break-even",
          work < task_break_even, text);
 

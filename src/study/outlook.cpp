@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "bough/plan/element_cost.hpp"
 #include "bough/schedule/serial.hpp"
 #include "bough/solve/visits.hpp"
 #include "bough/step/state.hpp"
@@ -11,21 +12,6 @@
 namespace bough::study {
 
 namespace {
-
-/// Seconds of one element, alone and as one of eight lanes: residual, and residual with tangent (bench_elements).
-struct ElementCost {
-  double alone, alone_tangent, lane, lane_tangent;
-};
-template <class E>
-constexpr ElementCost cost{60e-9, 200e-9, 15e-9, 60e-9};
-template <int N>
-constexpr ElementCost cost<elements::Beam<N>> = N == 2   ? ElementCost{400e-9, 1790e-9, 59e-9, 535e-9}
-                                                : N == 3 ? ElementCost{1180e-9, 5430e-9, 190e-9, 1610e-9}
-                                                         : ElementCost{1800e-9, 8800e-9, 290e-9, 2850e-9};
-template <>
-constexpr ElementCost cost<elements::Bushing>{240e-9, 870e-9, 33e-9, 184e-9};
-template <>
-constexpr ElementCost cost<elements::Joint>{250e-9, 900e-9, 40e-9, 190e-9};
 
 constexpr double planar_share = 0.45;  ///< of an element in space
 constexpr double per_sum = 55e-9;      ///< gathering, adding and sizing up, an element and evaluation [s]
@@ -78,7 +64,7 @@ Effort effort_of(Built& b, const scene::Scene& scene) {
     if (first < 0) continue;
     const bool in_lanes = batch.stride == solve::lanes_wide && present >= 3;
     plan::with_element(b.plan.elements, b.plan.directory[static_cast<std::size_t>(first)], [&](const auto& element) {
-      const ElementCost& c = cost<std::decay_t<decltype(element)>>;
+      const plan::ElementCost& c = plan::cost<std::decay_t<decltype(element)>>;
       const double count = in_lanes ? solve::lanes_wide : present;
       e.evaluate_seconds +=
           share * count *
