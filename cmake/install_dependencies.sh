@@ -1,7 +1,7 @@
 #!/bin/sh
 # install_dependencies.sh GROUP...   installs the Debian packages of the groups that are not installed yet.
 #   build  what the library and the program need        bench  Google Benchmark and the solvers compared with
-#   test   GoogleTest, Boost headers (Multiprecision), the Python of the checks, strace
+#   test   GoogleTest, Boost headers (Multiprecision), the Python of the checks, strace, valgrind
 #   lint   clang-format and Python
 #   asan   clang with its sanitizers                    tsan   asan, and what rebuilding TBB from source needs
 #   browser  a browser without a screen, for the pages of reports
@@ -15,7 +15,7 @@ packages_of() {
     build)
       echo g++ cmake ninja-build libeigen3-dev libtbb-dev nlohmann-json3-dev libcli11-dev \
         libsuitesparse-dev libmetis-dev ;;
-    test) echo libgtest-dev libgmock-dev libboost-dev libmuparser-dev python3 python3-jsonschema strace ;;
+    test) echo libgtest-dev libgmock-dev libboost-dev libmuparser-dev python3 python3-jsonschema strace valgrind ;;
     bench)
       echo libbenchmark-dev python3 libsuitesparse-dev libmumps-seq-dev libsuperlu-dev libopenblas-pthread-dev ;;
     lint) echo clang-format-14 python3 ;;

@@ -31,6 +31,13 @@ scene::Scene make_hanging_lattice(int n) {
   return s;
 }
 scene::Scene make_level_lattice(int n) { return make_lattice_2d(n, Support::clamp); }
+/// A beam of so many elements, held at one end, falls from the horizontal.
+scene::Scene make_cantilever(int elements) {
+  scene::Scene s = make_chain(1);
+  s.joints[0].kind = scene::JointKind::fixed;
+  s.beams[0].elements = elements;
+  return s;
+}
 scene::Scene make_sprung_lattice(int n) { return make_lattice_2d(n, Support::spring); }
 
 std::vector<LeanCase> make_cases() {
@@ -38,6 +45,9 @@ std::vector<LeanCase> make_cases() {
           {"planar", "rigid_chain_128", 128, 100, make_rigid_chain},
           {"planar", "lattice_20", 20, 20, make_hanging_lattice},
           {"planar", "lattice_50", 50, 10, make_hanging_lattice},
+          {"held", "cantilever_8", 8, 400, make_cantilever},
+          {"held", "cantilever_64", 64, 200, make_cantilever},
+          {"held", "lattice_20", 20, 20, make_level_lattice},
           {"reuse", "chain_128", 128, 50, make_chain},
           {"reuse", "lattice_50", 50, 10, make_level_lattice},
           {"reuse", "lattice_100", 100, 5, make_level_lattice},

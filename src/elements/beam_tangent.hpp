@@ -113,7 +113,11 @@ void eval_internal_blocks(const Beam<N, C>& beam, const BeamRates<S, N>& b, bool
     }
   } else {
     const auto& rule = strain_rule<N>();
-    Mat6<S> by_d[N][N] = {}, by_rate[N][N] = {};
+    Mat6<S> by_d[N][N] = {};
+    Mat6<S> by_rate[N][N];
+    if (viscous)
+      for (auto& row : by_rate)
+        for (Mat6<S>& block : row) block = Mat6<S>::zero();
     for (int g = 0; g < Beam<N>::num_strain_points; ++g) {
       const double *shape = rule.shape[g], *slope = rule.slope[g], w = rule.weight[g];
       StrainPoint<S> s;

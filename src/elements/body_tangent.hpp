@@ -5,6 +5,24 @@
 
 namespace bough::elements {
 
+/// Of a point of mass m:  df = m (du' - d(R^T g)) - m (du x w + u x dw); no moments.
+template <class S, class C>
+void eval_point_tangent(const C& mass, const PortMotion<S>* p, const PortSlopes<S>* ports, const DualMat<S>& a,
+                        bool turns, S* matrix) {
+  Mat3<S> linear = a.a, angular = a.b;
+  if (turns) {
+    const Mat3<S> w = lanes::skew(lanes::angular_part(p[0].v)), u = lanes::skew(lanes::linear_part(p[0].v));
+    linear += w * ports[0].velocity.a;
+    angular += w * ports[0].velocity.b;
+    angular = angular - u * ports[0].velocity.a;
+  }
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 3; ++j) {
+      matrix[6 * i + j] = i < 3 ? S(mass * linear(i, j)) : S(0.0);
+      matrix[6 * i + 3 + j] = i < 3 ? S(mass * angular(i, j)) : S(0.0);
+    }
+}
+
 /// dF = M (da - d(R^T g)) - (ad(v)^T M + ^(M v)) dv,  d(R^T g) = ~(R^T g) theta.
 template <class S, class C>
 void eval_tangent(const RigidBodyOf<C>& body, const PortMotion<S>* p, const PortSlopes<S>* ports,
@@ -13,6 +31,10 @@ void eval_tangent(const RigidBodyOf<C>& body, const PortMotion<S>* p, const Port
   DualMat<S> a = DualMat<S>::zero();
   if (around.has_inertia) a = ports[0].acceleration;
   if (ports[0].moves) a.b = a.b - lanes::skew(lanes::transpose_times(p[0].H.R, around.gravity));
+  if (is_seen_as_point(body, around)) {
+    const bool turns = around.has_inertia && around.nodes_turn && ports[0].moves;
+    return eval_point_tangent<S, C>(body.mass(0, 0), p, ports, a, turns, matrix);
+  }
   Mat6<S> x = motion_product(body.mass, a);
   if (around.has_inertia && ports[0].moves) {
     const DualVec<S> v = motion::motion_dual(p[0].v), momentum = motion::wrench_dual(Vec6<S>(body.mass * p[0].v));

@@ -19,9 +19,12 @@ Mat6<double> make_mass_matrix(double mass, const Vec3<double>& center, const Mat
   return M;
 }
 
-void evaluate_constraint_series(const Joint& joint, const Field& field, const Vec6<double>* jerk,
-                                const lanes::Taylor<double, 3>* laws, double turns, lanes::Taylor<double, 3>* out) {
-  using T = lanes::Taylor<double, 3>;
+namespace {
+
+template <int K>
+void eval_rows(const Joint& joint, const Field& field, const Vec6<double>* jerk, const lanes::Taylor<double, K>* laws,
+               double turns, lanes::Taylor<double, K>* out) {
+  using T = lanes::Taylor<double, K>;
   const motion::Vec3Pair anchor = anchor_of(joint, field.nodes);
   PortMotion<T> p[2];
   for (int k = 0; k < 2; ++k) {
@@ -31,11 +34,23 @@ void evaluate_constraint_series(const Joint& joint, const Field& field, const Ve
       j = port.has_offset ? motion::inverse_adjoint_times(port.offset, jerk[port.node]) : jerk[port.node];
     if (port.node == ground && port.carrier >= 0)
       j = motion::inverse_adjoint_times(port.offset, field.carriers[port.carrier].twist_second);
-    p[k] = series_of<3>(eval_port(port, field.nodes, anchor, field.carriers), j);
+    p[k] = series_of<K>(eval_port(port, field.nodes, anchor, field.carriers), j);
   }
   const Frame<T> H = motion::relative(p[0].H, p[1].H);
   Vec6<T> gradient;
   for (int k = 0; k < joint.num_rows; ++k) out[k] = eval_row(joint.rows[k], H, turns, laws, gradient);
+}
+
+}  // namespace
+
+void evaluate_constraint_series(const Joint& joint, const Field& field, const Vec6<double>* jerk,
+                                const lanes::Taylor<double, 3>* laws, double turns, lanes::Taylor<double, 3>* out) {
+  eval_rows<3>(joint, field, jerk, laws, turns, out);
+}
+
+void evaluate_constraint_rates(const Joint& joint, const Field& field, const lanes::Taylor<double, 1>* laws,
+                               double turns, lanes::Taylor<double, 1>* out) {
+  eval_rows<1>(joint, field, nullptr, laws, turns, out);
 }
 
 JointMotion eval_joint_motion(const Joint& joint, const Field& field, double turns) {

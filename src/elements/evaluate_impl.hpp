@@ -97,9 +97,7 @@ bool looks_at_rates(const BushingOf<C>& e) {
 }
 template <class C>
 bool looks_at_rates(const JointOf<C>& e) {
-  bool damped = false;
-  for (int k = 0; k < e.num_efforts; ++k) damped = damped || is_present(e.efforts[k].damping);
-  return damped;
+  return is_damped(e);
 }
 
 /// How the ports of an element follow the unknowns of their nodes.
@@ -127,12 +125,12 @@ void eval_port_slopes(const E& e, const FieldOf<S>& field, PortSlopes<S>* ports)
 /// Motions of an element with mass as seen from the inertial frame, where nodes are described in a frame that moves; and with
 /// slopes how they follow the port's increment eta, since Ad((H exp(eta))^-1) V = c + ad(c) eta:
 ///   dv_s = dv + ad(c) eta,   da_s = da + ad(c) dv + (ad(Ad(H^-1) V') - ad(v) ad(c)) eta
-/// All of these are operators on motions, as the kernels take them.
+/// All of these are operators on motions, as the kernels take them. Precondition: there is an observer.
 template <class E, class S>
 void see_from_inertial(const E&, const FieldOf<S>& field, const motion::PositionPair<S>& anchor, PortMotion<S>* p,
                        PortSlopes<S>* slopes) {
   if constexpr (has_mass_matrix<E>) {
-    if (field.observer == nullptr || !field.around.has_inertia) return;
+    if (!field.around.has_inertia) return;
     const CarrierMotionOf<S>& o = *field.observer;
     const Vec3<S> from = anchor.hi + anchor.lo;
     for (int k = 0; k < E::num_ports; ++k) {
@@ -162,14 +160,14 @@ void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers,
   for (int k = 0; k < P; ++k) p[k] = eval_port(e.ports[k], field.nodes, anchor, field.carriers);
   S out[rows];
   if (tangent == nullptr) {
-    see_from_inertial<E, S>(e, field, anchor, p, nullptr);
+    if (field.observer != nullptr) see_from_inertial<E, S>(e, field, anchor, p, nullptr);
     eval_kernel<E, S>(e, p, multipliers, field.around, out, turns);
     gather<E, S>(e, out, nullptr, residual, nullptr);
     return;
   }
   PortSlopes<S> ports[P];
   eval_port_slopes(e, field, ports);
-  see_from_inertial<E, S>(e, field, anchor, p, ports);
+  if (field.observer != nullptr) see_from_inertial<E, S>(e, field, anchor, p, ports);
   bool in_place = E::num_multipliers == 0;  // nothing to carry from ports to nodes: the rows and columns as they are
   for (const auto& port : e.ports) in_place = in_place && port.node != ground && !port.has_offset;
   S own[rows * D];

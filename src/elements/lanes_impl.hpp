@@ -71,7 +71,7 @@ template <int N>
 bool is_same_kind(const LineLoad<N>& a, const LineLoad<N>& b) {
   return a.follows == b.follows;
 }
-inline bool is_same_kind(const RigidBody&, const RigidBody&) { return true; }
+inline bool is_same_kind(const RigidBody& a, const RigidBody& b) { return a.is_point == b.is_point; }
 inline bool is_same_kind(const PointLoad& a, const PointLoad& b) { return a.follows == b.follows; }
 inline bool is_same_kind(const Spring&, const Spring&) { return true; }
 inline bool is_same_kind(const Bushing& a, const Bushing& b) { return a.has_damping == b.has_damping; }
@@ -99,7 +99,7 @@ void set_kind(const LineLoad<N>& a, LineLoad<N, LanePack>& b, int law) {
   b.follows = a.follows;
   b.law = law;
 }
-inline void set_kind(const RigidBody&, RigidBodyOf<LanePack>&, int) {}
+inline void set_kind(const RigidBody& a, RigidBodyOf<LanePack>& b, int) { b.is_point = a.is_point; }
 inline void set_kind(const PointLoad& a, PointLoadOf<LanePack>& b, int law) {
   b.follows = a.follows;
   b.law = law;

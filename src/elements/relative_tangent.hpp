@@ -9,13 +9,14 @@
 
 namespace bough::elements {
 
-/// The force on the second port and its derivatives by zeta and, if it `has_twist`, by xi.
+/// The force on the second port and its derivatives by zeta and, if it `has_twist`, by xi; else `by_twist` is not looked at.
 template <class S>
 struct RelativeForce {
   Frame<S> H;
   DualMat<S> Q;  ///< Ad(H)^-1
   Vec6<S> f = Vec6<S>::zero();
-  Mat6<S> by_pose = Mat6<S>::zero(), by_twist = Mat6<S>::zero();
+  Mat6<S> by_pose = Mat6<S>::zero();
+  Mat6<S> by_twist;
   bool has_twist = false;
 };
 
@@ -149,6 +150,18 @@ void eval_row_slopes(const ConstraintRowOf<C>& row, const Frame<S>& H, RowSlopes
   }
 }
 
+/// Of the force c (g . xi) g, damped = c g, by the rate's own changes.
+template <class S>
+void add_damping_slopes(const Vec6<S>& damped, const RowSlopes<S>& r, const Vec6<S>& xi, RelativeForce<S>& e) {
+  using lanes::multiply_add;
+  const Vec3<S> turned = lanes::transpose_times(r.linear, lanes::linear_part(xi)) +
+                         lanes::transpose_times(r.angular, lanes::angular_part(xi));
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 3; ++j) e.by_pose(i, 3 + j) = multiply_add(damped[i], turned[j], e.by_pose(i, 3 + j));
+    for (int j = 0; j < 6; ++j) e.by_twist(i, j) = multiply_add(damped[i], r.gradient[j], e.by_twist(i, j));
+  }
+}
+
 /// `matrix`: 12 rows of forces, then the constraint rows, 12 columns, row-major. With poses held (a consistent start) the
 /// forces do not change and the rows keep their gradient.
 template <class S, class C>
@@ -177,8 +190,12 @@ void eval_tangent(const JointOf<C>& joint, const PortMotion<S>* p, const PortSlo
       matrix_out[(12 + row) * 12 + 6 + i] = r.gradient[i];
     }
   }
-  Vec6<S> xi = Vec6<S>::zero();
-  if (around.has_inertia && joint.num_efforts > 0) xi = p[1].v - motion::inverse_adjoint_times(e.H, p[0].v);
+  Vec6<S> xi;
+  e.has_twist = around.has_inertia && is_damped(joint);
+  if (e.has_twist) {
+    xi = p[1].v - motion::inverse_adjoint_times(e.H, p[0].v);
+    e.by_twist = Mat6<S>::zero();
+  }
   for (int k = 0; k < joint.num_efforts; ++k) {
     const EffortOf<C>& effort = joint.efforts[k];
     ConstraintRowOf<C> coordinate;
@@ -187,19 +204,14 @@ void eval_tangent(const JointOf<C>& joint, const PortMotion<S>* p, const PortSlo
     eval_row_slopes(coordinate, e.H, r);
     Vec6<S> unused;
     const S value = eval_row<S, C>(coordinate, e.H, turns, nullptr, unused);
+    const bool damps = e.has_twist && is_present(effort.damping);
     S rate(0.0);
-    if (around.has_inertia && is_present(effort.damping)) rate = lanes::dot(r.gradient, xi);
-    add_slopes(eval_effort(effort, value, rate, around.laws));
-    const Vec6<S> stiff = effort.stiffness * r.gradient, damp = effort.damping * r.gradient;
-    const Vec3<S> turned = lanes::transpose_times(r.linear, lanes::linear_part(xi)) +
-                           lanes::transpose_times(r.angular, lanes::angular_part(xi));
-    e.has_twist = e.has_twist || (around.has_inertia && is_present(effort.damping));
+    if (damps) rate = lanes::dot(r.gradient, xi);
+    add_slopes(eval_effort(effort, value, damps ? &rate : nullptr, around.laws));
+    const Vec6<S> stiff = effort.stiffness * r.gradient;
     for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) {
-        e.by_pose(i, j) = multiply_add(stiff[i], r.gradient[j], e.by_pose(i, j));
-        if (j >= 3) e.by_pose(i, j) = multiply_add(damp[i], turned[j - 3], e.by_pose(i, j));
-        e.by_twist(i, j) = multiply_add(damp[i], r.gradient[j], e.by_twist(i, j));
-      }
+      for (int j = 0; j < 6; ++j) e.by_pose(i, j) = multiply_add(stiff[i], r.gradient[j], e.by_pose(i, j));
+    if (damps) add_damping_slopes<S>(effort.damping * r.gradient, r, xi, e);
   }
   carry_to_ports(e, p, ports, matrix_out);
 }

@@ -27,10 +27,13 @@ void add_analysis_rules(RuleTable& t, const Field& frame) {
   arc.at_most_one = {{"end_load_factor", "end_at_limit_point"}, {"after_limit_points", "end_at_limit_point"}};
   statics.push_back(may("arc_length", made(std::move(arc)), "Statics past limit points. Default: load steps."));
   std::vector<Field> dynamics = {
-      need("end_time", positive(""), "[s]."), may("step_size", positive(""), "h [s].", "1e-3"),
+      need("end_time", positive(""), "[s]."),
+      may("step_size", positive(""), "h [s].", "1e-3"),
       may("integrator", word_rule("", {"generalized_alpha", "bdf", "variational"}),
-          "generalized_alpha: second order; damps what is faster than the step. bdf: third order, for smooth motions "
-          "to high accuracy; undamped vibrations of some 3 to 12 steps a period grow. variational: keeps the momentum "
+          "generalized_alpha: second order; damps what is faster than the step. bdf: third order (or second, "
+          "see bdf_order), for smooth motions "
+          "to high accuracy; undamped vibrations of some 3 to 12 steps a period grow at order 3. variational: keeps "
+          "the momentum "
           "of "
           "what floats freely to round-off, and energy within a bound where the step "
           "resolves the fastest vibration; it damps nothing and is not suited to stiff "
@@ -39,6 +42,8 @@ void add_analysis_rules(RuleTable& t, const Field& frame) {
           "\"generalized_alpha\""),
       may("spectral_radius", number_rule("", 0.0, false, 1.0),
           "Of generalized_alpha at high frequency: 0 damps most, 1 not at all [-].", "0.8"),
+      may("bdf_order", integer_rule("", 2, 3),
+          "Of bdf: 2 damps every vibration, 3 is more accurate where none is undamped.", "3"),
       may("newmark_beta", number_rule("", 0.25, false, 1.0),
           "Of variational, for vibrations: 0.25 is the most accurate; more slows down those faster "
           "than the step, which is no cure for stiff scenes [-].",

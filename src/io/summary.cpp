@@ -56,6 +56,7 @@ void write_checks(JsonText& json, const results::Checks& checks) {
     json.member("local_error_max_velocity", checks.local_error_max_velocity);
   }
   json.member("linear_backward_error_max", checks.linear_backward_error_max);
+  json.member("linear_rank_error_max", checks.linear_rank_error_max);
   json.member("round_off_floor_reached", checks.round_off_floor_reached);
   json.member("unbalanced_at_floor", checks.unbalanced_at_floor);
   json.end_object();

@@ -64,6 +64,8 @@ void Builder::settle() {
     }
   });
   for (const JointPlan& j : plan.joints) rows += j.rows.size();
+  for (const HeldNode& h : plan.held)
+    for (int j : h.joints) rows -= plan.joints[static_cast<std::size_t>(j)].rows.size();
 
   decide(
       "reuse",

@@ -296,17 +296,26 @@ double Builder::size_of_structure() const {
 
 void Builder::make_graph() {
   blocks::BlockGraph& g = plan.graph;
-  const int num_nodes = static_cast<int>(plan.nodes.size());
-  g.block_size.assign(static_cast<std::size_t>(num_nodes), plan.unknowns.count);
-  g.block_kind.assign(static_cast<std::size_t>(num_nodes), blocks::BlockKind::motion);
   std::map<int, JointPlan*> joint_of_element;
-  for (JointPlan& j : plan.joints) joint_of_element[j.element] = &j;
+  for (JointPlan& j : plan.joints)
+    if (!j.rows.empty()) joint_of_element[j.element] = &j;
+  plan.block_of_node.assign(plan.nodes.size(), 0);
+  for (const HeldNode& h : plan.held) {
+    plan.block_of_node[static_cast<std::size_t>(h.node)] = -1;
+    for (int j : h.joints) joint_of_element.erase(plan.joints[static_cast<std::size_t>(j)].element);
+  }
+  int num_blocks = 0;
+  for (int& block : plan.block_of_node)
+    if (block == 0) block = num_blocks++;
+  g.block_size.assign(static_cast<std::size_t>(num_blocks), plan.unknowns.count);
+  g.block_kind.assign(static_cast<std::size_t>(num_blocks), blocks::BlockKind::motion);
   for (std::size_t id = 0; id < plan.directory.size(); ++id) {
     with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       for (const Port& p : e.ports)
-        if (p.node != elements::ground) g.element_blocks.push_back(p.node);
+        if (p.node != elements::ground && plan.block_of_node[static_cast<std::size_t>(p.node)] >= 0)
+          g.element_blocks.push_back(plan.block_of_node[static_cast<std::size_t>(p.node)]);
       const auto joint = joint_of_element.find(static_cast<int>(id));
-      if (joint != joint_of_element.end() && !joint->second->rows.empty()) {
+      if (joint != joint_of_element.end()) {
         joint->second->block = g.num_blocks();
         g.element_blocks.push_back(g.num_blocks());
         g.block_size.push_back(static_cast<int>(joint->second->rows.size()));
@@ -330,9 +339,11 @@ Plan make_plan(const scene::Scene& scene) {
   b.hold_point_masses();
   b.add_initial_velocities();
   b.stop_spins();
+  b.mark_points();
   b.number_elements();
   b.plan.length_scale = b.size_of_structure();
   b.choose_unknowns();
+  b.hold_nodes();
   b.settle();
   b.say_idle_parts();
   b.make_graph();

@@ -24,6 +24,11 @@ struct OwnersOf<std::tuple<std::vector<E>...>> {
   using tag = Tagged<T>;
 };
 
+inline const elements::Joint& joint_of(const Plan& plan, const JointPlan& j) {
+  return array_of<elements::Joint>(
+      plan.elements)[static_cast<std::size_t>(plan.directory[static_cast<std::size_t>(j.element)].index)];
+}
+
 /// A load in the ground's axes or following: its wrench and law.
 struct SpaceLoad {
   motion::Vec6<double> wrench;
@@ -75,6 +80,8 @@ struct Builder {
   void keep_from_spinning(std::size_t body, const std::vector<motion::Vec3<double>>& met);
   void add_initial_velocities();
   void stop_spins();
+  /// Tells bodies that are points at their origins by the mass that they have in the end.
+  void mark_points();
   void number_elements();
   double size_of_structure() const;
   bool is_barred(const std::string& decision) const;  ///< by Scene::without
@@ -83,6 +90,7 @@ struct Builder {
   void settle();
   void say_idle_parts();
   void choose_unknowns();
+  void hold_nodes();
   void add_planar_elements(const motion::Mat3<double>& axes);
   void make_graph();
   void add_sensors();

@@ -74,6 +74,7 @@ class Flattener {
     flat::RigidBody r;
     set_ports(e.ports, B, r.ports);
     r.mass = in_plane(e.mass, B);
+    r.is_point = e.is_point;
     return r;
   }
   flat::PointLoad operator()(const elements::PointLoad& e) const {

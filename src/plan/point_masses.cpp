@@ -100,4 +100,12 @@ void Builder::stop_spins() {
   }
 }
 
+void Builder::mark_points() {
+  for (elements::RigidBody& e : array_of<elements::RigidBody>(plan.elements)) {
+    e.is_point = true;
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) e.is_point = e.is_point && e.mass(i, j) == (i == j && i < 3 ? e.mass(0, 0) : 0.0);
+  }
+}
+
 }  // namespace bough::plan

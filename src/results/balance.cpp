@@ -14,18 +14,6 @@ using motion::Vec6;
 
 namespace {
 
-void add(Measures& sum, const Measures& m) {
-  sum.kinetic += m.kinetic;
-  sum.strain += m.strain;
-  sum.potential += m.potential;
-  sum.work_rate += m.work_rate;
-  sum.dissipation_rate += m.dissipation_rate;
-  sum.momentum += m.momentum;
-  sum.load += m.load;
-}
-
-double energy_of(const Measures& m) { return m.kinetic + m.strain + m.potential; }
-
 template <class E>
 bool holds_on_to_ground(const E& e) {
   return std::any_of(std::begin(e.ports), std::end(e.ports),
@@ -140,30 +128,6 @@ double advance_load(const E& e, const Field& f, P* last) {
 
 }  // namespace
 
-Measures eval_measures(const step::System& system, const step::State& state) {
-  Measures sum;
-  const plan::Plan& plan = system.plan();
-  const Field f = system.field(state);
-  std::size_t joint = 0;
-  plan::for_each_array(plan.elements, [&](const auto& array) {
-    using E = typename std::decay_t<decltype(array)>::value_type;
-    for (const E& e : array) {
-      if constexpr (std::is_same_v<E, elements::Joint>) {
-        add(sum, elements::measure(e, f, state.multipliers.data() + plan.joints[joint].multiplier_begin,
-                                   state.turns[joint]));
-        ++joint;
-      } else {
-        add(sum, elements::measure(e, f, nullptr, 0.0));
-      }
-    }
-  });
-  if (f.observer != nullptr) {  // elements tell them in the ground's axes
-    sum.momentum = turned(f.observer->pose.R, sum.momentum);
-    sum.load = turned(f.observer->pose.R, sum.load);
-  }
-  return sum;
-}
-
 WorkMeter::WorkMeter(const plan::Plan& plan) {
   std::vector<int> joint_of(plan.directory.size(), -1);
   for (std::size_t j = 0; j < plan.joints.size(); ++j)
@@ -221,7 +185,7 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
       if constexpr (is_coupling<E>)
         if (f.carriers != nullptr)
           work += advance_grounds(plan, e, f, multipliers, turns, ports_.data() + w.first_port);
-      const Measures m = elements::measure(e, f, multipliers, turns);
+      const Measures m = elements::measure(e, f, multipliers, turns, false);
       dissipation_rate_ += m.dissipation_rate;
       force_ += lanes::linear_part(m.load);
     });
@@ -241,19 +205,19 @@ void WorkMeter::add(const step::System& system, const step::State& state, double
   supply_.impulse += (0.5 * h) * (force + force_);
 }
 
-void Balance::begin(const Measures& start) {
-  start_energy_ = energy_of(start);
+void Balance::begin(const Energies& start) {
+  start_energy_ = start.total();
   start_momentum_ = lanes::linear_part(start.momentum);
 }
 
-void Balance::jump(const Measures& before, const Measures& after) {
-  start_energy_ += energy_of(after) - energy_of(before);
+void Balance::jump(const Energies& before, const Energies& after) {
+  start_energy_ += after.total() - before.total();
   start_momentum_ += lanes::linear_part(after.momentum) - lanes::linear_part(before.momentum);
 }
 
-void Balance::compare(const Measures& now, const Supply& supply) {
+void Balance::compare(const Energies& now, const Supply& supply) {
   const double supplied = supply.work - supply.dissipation;
-  last_error_ = energy_of(now) - start_energy_ - supplied;
+  last_error_ = now.total() - start_energy_ - supplied;
   energy_error_ = std::max(energy_error_, std::abs(last_error_));
   energy_scale_ =
       std::max(energy_scale_, now.kinetic + now.strain + std::abs(now.potential - start_energy_) + std::abs(supplied));

@@ -11,7 +11,6 @@
 namespace bough::results {
 
 using elements::Field;
-using elements::Measures;
 using elements::Port;
 using elements::PortMotion;
 using motion::Frame;
@@ -248,12 +247,13 @@ HistoryHeader make_header(const plan::Plan& plan) {
   return header;
 }
 
-void eval_sensors(const step::System& system, const step::State& state, std::vector<double>& values) {
+void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
+                  std::vector<double>& values) {
   values.clear();
-  std::optional<Measures> measures;  // one sweep over the elements serves all sensors of energies
-  const auto energies = [&]() -> const Measures& {
-    if (!measures) measures = eval_measures(system, state);
-    return *measures;
+  std::optional<Energies> measured;  // one sweep over the elements serves all sensors of energies
+  const auto energies = [&]() -> const Energies& {
+    if (!measured) measured = meter.eval(system, state);
+    return *measured;
   };
   for (const plan::SensorPlan& s : system.plan().sensors) {
     switch (s.sensor.kind) {

@@ -64,7 +64,8 @@ const std::vector<std::string>& coordinates_of(JointKind kind) {
 }
 
 const std::vector<std::string>& decision_names() {
-  static const std::vector<std::string> names{"line", "translation", "planar", "symmetric", "reuse", "lanes", "small"};
+  static const std::vector<std::string> names{"line",      "translation", "planar", "held",
+                                              "symmetric", "reuse",       "lanes",  "small"};
   return names;
 }
 

@@ -126,7 +126,9 @@ tree::Walker make_walker(State* state) {
             }
             s->started().execute([&] { s->run_chunks(count, grain, chunk); });
           },
-          state};
+          state,
+          {},
+          state->count};
 }
 
 }  // namespace

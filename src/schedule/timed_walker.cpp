@@ -249,7 +249,9 @@ tree::Walker TimedWalker::walker() {
           [](void* context, std::int64_t count, std::int64_t grain, tree::Chunk chunk) {
             static_cast<State*>(context)->watch_chunks(count, grain, chunk);
           },
-          state_.get(), tree::Mark{&State::run_mark, state_.get()}};
+          state_.get(),
+          tree::Mark{&State::run_mark, state_.get()},
+          state_->inner.threads};
 }
 
 void TimedWalker::keep_events(bool keep) {

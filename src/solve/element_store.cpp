@@ -141,8 +141,8 @@ ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, con
   }
   for (std::size_t i = 0; i < scales.column.size(); ++i) size = std::max(size, std::abs(x[i]) / scales.column[i]);
   errors.finite = std::isfinite(residual) && std::isfinite(size);
-  const double whole = norm * size + rhs;
-  errors.normwise = whole > 0.0 ? residual / whole : residual;
+  errors.size = norm * size + rhs;
+  errors.normwise = errors.size > 0.0 ? residual / errors.size : residual;
   return errors;
 }
 

@@ -61,6 +61,7 @@ class ElementStore {
 
   struct Errors {
     double normwise = 0.0, componentwise = 0.0;
+    double size = 0.0;  ///< |A| |x| + |b|, which the normwise error is relative to.
     bool finite = true;
   };
   /// r = b - A x and the backward errors of x in scaled variables.

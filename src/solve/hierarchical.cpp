@@ -276,7 +276,7 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker, doub
   if (options.check == SolveCheck::none) return report;
   ElementStore::Errors errors;
   if (null_space.dimension > 0) {  // multipliers were made least after the walk: the lanes do not hold them
-    errors = elements.eval_residual(walker, scales, x_out, rhs.data(), residual.data());
+    errors = eval_met_residual(walker, x_out, report);
     set_growth(largest_x(), largest_rhs(), report);
   } else {
     errors = eval_residual(walker, rhs.data(), report);
@@ -288,8 +288,10 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker, doub
     std::copy(x_out, x_out + n, correction.begin());
     solve_into_x(walker, residual.data());
     for (std::size_t i = 0; i < n; ++i) x_out[i] = x[i] += correction[i];
-    const ElementStore::Errors refined = elements.eval_residual(walker, scales, x_out, rhs.data(), residual.data());
+    const double rank_error = report.rank_error;
+    const ElementStore::Errors refined = eval_met_residual(walker, x_out, report);
     if (!(refined.normwise < errors.normwise)) {  // as good as it gets: keep the better one
+      report.rank_error = rank_error;
       std::copy(correction.begin(), correction.end(), x_out);
       std::copy(correction.begin(), correction.end(), x.begin());
       break;

@@ -179,6 +179,7 @@ struct Hierarchical::State {
   void eval_null_candidates();
   void backward_left_front(tree::FrontId f, std::vector<double>& left);
   void project_multipliers();
+  ElementStore::Errors eval_met_residual(const tree::Walker& walker, const double* x_out, SolveReport& report);
   void eval_inconsistency(const double* b, SolveReport& report);
   // interfaces.cpp
   void condense_through_flexibility(tree::SubdomainId s);

@@ -221,9 +221,37 @@ void Hierarchical::State::project_multipliers() {
     const double* z = null_space.right.data() + at(v) * n;
     double c = 0.0;
     for (std::size_t i = 0; i < n; ++i) c += x[i] / scales.column[i] * z[i] * scales.weight[i] * scales.weight[i];
-    for (std::size_t i = 0; i < n; ++i)
-      if (is_constraint[i]) x[i] -= c * z[i] * scales.column[i];
+    // With the little motion that is in it: without it the equations would not be met.
+    for (std::size_t i = 0; i < n; ++i) x[i] -= c * z[i] * scales.column[i];
   }
+}
+
+/// Where rows depend the matrix that is solved with is A_k, A with the left-over block T of the root for zero: its null vectors are exact, and its
+/// solutions are those of A but for T x in the left-over rows. The residual is that of A_k; |T x|, what deciding on the rank has
+/// cost, is told apart. T is the singular value that was taken for zero, times the lengths of the null vectors in units of the left-over
+/// rows and columns, which are long where a direction hardly lives in these.
+ElementStore::Errors Hierarchical::State::eval_met_residual(const tree::Walker& walker, const double* x_out,
+                                                            SolveReport& report) {
+  ElementStore::Errors errors = elements.eval_residual(walker, scales, x_out, rhs.data(), residual.data());
+  if (null_space.dimension == 0 || !errors.finite || !(errors.size > 0.0)) return errors;
+  const FrontData& root = fronts.back();
+  const int k = root.num_delayed();
+  double left_out = 0.0, met = 0.0;
+  for (int i = 0; i < k; ++i) {
+    double sum = 0.0;
+    for (int j = 0; j < k; ++j) {
+      const auto column = at(root.columns[root.pivots + j]);
+      sum += root.a[root.pivots + i + static_cast<std::ptrdiff_t>(root.pivots + j) * root.lda] * x_out[column] /
+             scales.column[column];
+    }
+    const auto row = at(root.rows[root.pivots + i]);
+    residual[row] += sum / scales.row[row];
+    left_out = std::max(left_out, std::abs(sum));
+  }
+  for (std::size_t i = 0; i < residual.size(); ++i) met = std::max(met, std::abs(scales.row[i] * residual[i]));
+  report.rank_error = left_out / errors.size;
+  errors.normwise = met / errors.size;
+  return errors;
 }
 
 void Hierarchical::State::eval_inconsistency(const double* b, SolveReport& report) {

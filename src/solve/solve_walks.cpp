@@ -84,8 +84,8 @@ ElementStore::Errors Hierarchical::State::eval_residual(const tree::Walker& walk
   }
   ElementStore::Errors errors;
   errors.finite = std::isfinite(most.residual) && std::isfinite(most.x);
-  const double whole = norm * most.x + most.rhs;
-  errors.normwise = whole > 0.0 ? most.residual / whole : most.residual;
+  errors.size = norm * most.x + most.rhs;
+  errors.normwise = errors.size > 0.0 ? most.residual / errors.size : most.residual;
   set_growth(most.x, most.rhs, report);
   return errors;
 }

@@ -129,6 +129,7 @@ StepReport try_step(System& system, State& state, const StepOptions& options, co
   if (!report.converged) return report;
   if (const auto t = check_shape(system, state)) return fail(*t);
   note_trend(system, rule.start, state);
+  system.recover_multipliers(state);
   return report;
 }
 

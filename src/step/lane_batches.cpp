@@ -66,9 +66,13 @@ void LaneBatches<Kernels>::gather_singles() {
 
 template <class Kernels>
 void LaneBatches<Kernels>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
-                                const std::vector<int>& joint_of_element) {
+                                const std::vector<int>& joint_of_element, const HeldNodes* held) {
   plan_ = &plan;
+  held_ = held;
   batches_.assign(batches.begin(), batches.end());
+  for (solve::ElementBatch& batch : batches_)
+    for (int& id : batch.element)
+      if (id >= 0 && held != nullptr && held->leaves_out(static_cast<std::size_t>(id))) id = -1;
   gather_singles();
   joint_of_element_ = joint_of_element;
   slots_.assign(batches_.size(), {});
@@ -77,6 +81,7 @@ void LaneBatches<Kernels>::make(const plan::Plan& plan, std::span<const solve::E
     for (int id : batches_[b].element) {
       if (id < 0) continue;
       ++present;
+      slots_[b].is_trimmed |= held != nullptr && held->trims(static_cast<std::size_t>(id));
       first = first < 0 ? id : first;
     }
     if (present < least_lanes) continue;

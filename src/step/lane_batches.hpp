@@ -12,6 +12,7 @@
 #include "bough/plan/plan.hpp"
 #include "bough/solve/element_view.hpp"
 #include "bough/step/state.hpp"
+#include "held_nodes.hpp"
 
 namespace bough::step {
 
@@ -60,8 +61,9 @@ class LaneBatches {
 
   /// Batches of the solver; elements that stand alone there are put together with others near by of one kind, each in the place of the first.
   /// A batch goes in lanes if it holds at least `least_lanes` elements and they differ in numbers only.
+  /// Joints that hold nodes are in none: nothing of them is asked for.
   void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
-            const std::vector<int>& joint_of_element);
+            const std::vector<int>& joint_of_element, const HeldNodes* held);
 
   /// Frames of prescribed motion as they are now, the same for all lanes; needed only where there are some.
   void set_frames(const plan::FrameMotions& frames);
@@ -75,18 +77,20 @@ class LaneBatches {
 
  private:
   struct Slot {
-    int array = -1;  ///< of plan.elements
-    int index = -1;  ///< in that array's lane elements; -1: not in lanes
+    int array = -1;           ///< of plan.elements
+    int index = -1;           ///< in that array's lane elements; -1: not in lanes
+    bool is_trimmed = false;  ///< a node of one of them is held
   };
   void gather_singles();
   template <std::size_t I>
   void add(const solve::ElementBatch& batch, Slot& slot);
   template <std::size_t I, class Result>
-  void evaluate_as(const solve::ElementBatch& batch, int index, const State& state, const Field& field, bool tangent,
-                   Result& result) const;
+  void evaluate_as(const solve::ElementBatch& batch, const Slot& slot, const State& state, const Field& field,
+                   bool tangent, Result& result) const;
 
   static constexpr int least_lanes = 3;
   const plan::Plan* plan_ = nullptr;
+  const HeldNodes* held_ = nullptr;
   std::vector<solve::ElementBatch> batches_;
   std::span<const int> joint_of_element_;
   std::vector<Slot> slots_;
@@ -102,7 +106,7 @@ void LaneBatches<Kernels>::evaluate(std::size_t batch, const State& state, const
   const Slot slot = slots_[batch];
   const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
     static_cast<void>(((slot.array == static_cast<int>(I)
-                            ? (evaluate_as<I>(batches_[batch], slot.index, state, field, tangent, result), true)
+                            ? (evaluate_as<I>(batches_[batch], slot, state, field, tangent, result), true)
                             : false) ||
                        ...));
   };
@@ -111,14 +115,14 @@ void LaneBatches<Kernels>::evaluate(std::size_t batch, const State& state, const
 
 template <class Kernels>
 template <std::size_t I, class Result>
-void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, int index, const State& state,
+void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, const Slot& slot, const State& state,
                                        const Field& field, bool tangent, Result& result) const {
   using Pack = elements::LanePack;
   using E = typename std::tuple_element_t<I, typename Kernels::Arrays>::value_type;
   constexpr int rows = Kernels::template most_rows<E>, wide = elements::num_lanes,
                 most = Kernels::node_unknowns * E::num_ports + rows;
   const auto& array = std::get<I>(Kernels::arrays(*plan_));
-  const auto& lane_element = std::get<I>(lanes_)[static_cast<std::size_t>(index)];
+  const auto& lane_element = std::get<I>(lanes_)[static_cast<std::size_t>(slot.index)];
   int ids[wide], filler = -1, present = 0;
   for (int l = 0; l < wide; ++l) {
     ids[l] = batch.element[static_cast<std::size_t>(l)];
@@ -160,7 +164,8 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, int ind
   around.around.laws = laws;
   around.around.has_inertia = field.around.has_inertia;
   Pack residual[most], magnitude[most], spare[most * most];
-  const bool is_direct = tangent && present == wide && batch.stride == wide;  // else the empty lanes must stay empty
+  const bool is_direct =  // else the empty lanes must stay empty
+      tangent && present == wide && batch.stride == wide && !slot.is_trimmed;
   Pack* matrix = nullptr;
   if (is_direct) matrix = reinterpret_cast<Pack*>(result(ids[0]).tangent.first);
   if (tangent && !is_direct) matrix = spare;
@@ -174,7 +179,8 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, int ind
     to_residual[l] = to.residual;
     to_magnitude[l] = to.magnitude;
     if (tangent && !is_direct)
-      for (int i = 0; i < n * n; ++i) to.tangent[i] = spare[i][l];
+      write_matrix(
+          held_, static_cast<std::size_t>(ids[l]), n, [&](int i) { return spare[i][l]; }, to.tangent);
   }
   lanes::scatter_lanes(residual, n, to_residual);
   lanes::scatter_lanes(magnitude, n, to_magnitude);

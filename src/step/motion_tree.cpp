@@ -134,7 +134,7 @@ RigidMotion relative_motion(const MotionTree::Link& link, const Frame<double>& H
 }  // namespace
 
 void System::apply_along_tree(State& state, const double* x, double factor) {
-  PhaseTimer timer{counts_.update};
+  PhaseTimer timer{clock_, counts_.update};
   MotionTree& tree = motion_tree_;
   for (const MotionTree::Link& link : tree.links) {
     const auto node = static_cast<std::size_t>(link.node);

@@ -66,14 +66,14 @@ void PlanarSystem::evaluate_alone(std::size_t id, const State& state, bool tange
   }
   plan::with_element(plan_.planar->elements, plan_.directory[id], [&](const auto& e) {
     std::array<double, most_unknowns * most_unknowns> entries;
-    const bool is_direct = to.tangent.stride == 1;
+    const bool is_direct = to.tangent.stride == 1 && !(held_ != nullptr && held_->trims(id));
     elements::planar::evaluate(e, field_, multipliers.data(), turns, to.residual, to.magnitude,
                                !tangent    ? nullptr
                                : is_direct ? to.tangent.first
                                            : entries.data());
     if (!tangent || is_direct) return;
-    const int n = num_unknowns(e);
-    for (int i = 0; i < n * n; ++i) to.tangent[i] = entries[static_cast<std::size_t>(i)];
+    write_matrix(
+        held_, id, num_unknowns(e), [&](int i) { return entries[static_cast<std::size_t>(i)]; }, to.tangent);
   });
 }
 

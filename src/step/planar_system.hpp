@@ -14,9 +14,9 @@ namespace bough::step {
 class PlanarSystem {
  public:
   PlanarSystem(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
-               const std::vector<int>& joint_of_element)
-      : plan_(plan), joint_of_element_(joint_of_element), nodes_(plan.nodes.size()) {
-    lanes_.make(plan, batches, joint_of_element);
+               const std::vector<int>& joint_of_element, const HeldNodes* held)
+      : plan_(plan), held_(held), joint_of_element_(joint_of_element), nodes_(plan.nodes.size()) {
+    lanes_.make(plan, batches, joint_of_element, held);
     field_.nodes = nodes_.data();
   }
 
@@ -39,6 +39,7 @@ class PlanarSystem {
   void evaluate_alone(std::size_t id, const State& state, bool tangent, const ElementResult& to) const;
 
   const plan::Plan& plan_;
+  const HeldNodes* held_;
   const std::vector<int>& joint_of_element_;
   std::vector<elements::planar::Node> nodes_;
   elements::planar::Field field_;

@@ -83,6 +83,7 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
     for_each_multiplier(system, [&](int, std::size_t, std::size_t unknown, std::size_t) {
       report->velocity_impulse = std::max(report->velocity_impulse, std::abs(x[unknown]));
     });
+    report->velocity_impulse = std::max(report->velocity_impulse, system.largest_held_impulse(state, x.data()));
   }
   for (std::size_t n = 0; n < state.nodes.size(); ++n) state.nodes[n].v += node_part(system, x, n);
   return std::nullopt;
@@ -128,6 +129,7 @@ std::optional<Trouble> solve_accelerations(System& system, State& state) {
   for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
     state.multipliers[multiplier] = x[unknown];
   });
+  system.recover_multipliers(state);
   return std::nullopt;
 }
 

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <limits>
 
+#include "held_nodes.hpp"
 #include "lane_batches.hpp"
 #include "make_solver.hpp"
 #include "planar_system.hpp"
@@ -14,52 +13,9 @@
 
 namespace bough::step {
 
-using elements::NodeMotion;
-using motion::Vec3;
 using motion::Vec6;
 
 namespace {
-
-/// By exponents, which no trap minds and compilers vectorise.
-bool all_finite(const double* a, int count) {
-  constexpr std::uint64_t exponent = 0x7ff0000000000000u;
-  bool finite = true;
-  for (int i = 0; i < count; ++i) finite &= (std::bit_cast<std::uint64_t>(a[i]) & exponent) != exponent;
-  return finite;
-}
-
-double largest_of_three(const double* a) { return std::max(std::max(std::abs(a[0]), std::abs(a[1])), std::abs(a[2])); }
-
-struct NodeSize {
-  double force, moment;
-};
-/// Largest entries of the force and the moment at a node.
-inline NodeSize size_up(plan::Motions motions, const double* a) {
-  switch (motions) {
-    case plan::Motions::spatial:
-      return {largest_of_three(a), largest_of_three(a + 3)};
-    case plan::Motions::planar:
-      return {std::max(std::abs(a[0]), std::abs(a[1])), std::abs(a[2])};
-    case plan::Motions::translation:
-      return {largest_of_three(a), 0.0};
-    case plan::Motions::line:
-      break;
-  }
-  return {std::abs(a[0]), 0.0};
-}
-
-/// r = sum of parts, m = sum of terms, of `Size` entries each; Size 0: of `size`.
-template <int Size>
-inline void add_parts(const double* parts, const double* terms, const std::int64_t* begin, const std::int64_t* end,
-                      int size, double* r, double* m) {
-  const int count = Size > 0 ? Size : size;
-  for (int i = 0; i < count; ++i) r[i] = m[i] = 0.0;
-  for (const std::int64_t* use = begin; use != end; ++use)
-    for (int i = 0; i < count; ++i) {
-      r[i] += parts[*use + i];
-      m[i] += terms[*use + i];
-    }
-}
 
 std::unique_ptr<tree::Tree> make_scene_tree(const plan::Plan& plan, const scene::Solver& given) {
   tree::TreeOptions options;
@@ -79,35 +35,18 @@ double length_of(const E&, const std::vector<plan::NodePlan>&, double fallback) 
 }  // namespace
 
 System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::Walker& walker)
-    : plan_(plan), tree_(make_scene_tree(plan, solver)), walker_(walker) {
+    : plan_(plan), tree_(make_scene_tree(plan, solver)), walker_(walker), clock_(walker.threads == 1) {
   solver_ = make_solver(plan, *tree_, solver);
   const blocks::BlockGraph& g = plan.graph;
   const std::size_t num_elements = plan.directory.size();
-  element_begin_.assign(1, 0);
-  std::vector<std::vector<std::int64_t>> uses(static_cast<std::size_t>(g.num_blocks()));
   element_length_.resize(num_elements);
-  for (std::size_t e = 0; e < num_elements; ++e) {
-    std::int64_t at = element_begin_.back();
-    for (std::int64_t k = g.element_begin[e]; k < g.element_begin[e + 1]; ++k) {
-      const int block = g.element_blocks[static_cast<std::size_t>(k)];
-      uses[static_cast<std::size_t>(block)].push_back(at);
-      at += g.block_size[static_cast<std::size_t>(block)];
-    }
-    element_begin_.push_back(at);
+  for (std::size_t e = 0; e < num_elements; ++e)
     plan::with_element(plan.elements, plan.directory[e], [&](const auto& element) {
       element_length_[e] = length_of(element, plan.nodes, plan.length_scale);
       if constexpr (requires { element.length; }) moment_arm_ = std::max(moment_arm_, element.length);
     });
-  }
   if (!plan.is_dynamic) motion_tree_ = make_motion_tree(plan);
   if (moment_arm_ == 0.0) moment_arm_ = plan.length_scale;
-  element_residual_.assign(static_cast<std::size_t>(element_begin_.back()), 0.0);
-  element_magnitude_ = element_residual_;
-  use_begin_.assign(1, 0);
-  for (const auto& list : uses) {
-    uses_.insert(uses_.end(), list.begin(), list.end());
-    use_begin_.push_back(static_cast<std::int64_t>(uses_.size()));
-  }
   residual_.assign(num_unknowns(), 0.0);
   magnitude_.assign(num_unknowns(), 0.0);
   joint_of_element_.assign(num_elements, -1);
@@ -117,16 +56,19 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
     if (plan.joints[j].block >= 0)
       joint_of_block_[static_cast<std::size_t>(plan.joints[j].block)] = static_cast<int>(j);
   }
+  if (!plan.held.empty()) held_ = std::make_unique<HeldNodes>(plan);
+  place_parts();
   lane_batches_ = std::make_unique<LaneBatches<SpatialKernels>>();
   if (plan.unknowns.is_whole())
-    lane_batches_->make(plan, solver_->batches(), joint_of_element_);
+    lane_batches_->make(plan, solver_->batches(), joint_of_element_, held_.get());
   else
     projection_ = std::make_unique<Projection>(plan);
   takes_symmetric_parts_ = plan.took("symmetric");
-  if (plan.planar) planar_ = std::make_unique<PlanarSystem>(plan, solver_->batches(), joint_of_element_);
+  if (plan.planar) planar_ = std::make_unique<PlanarSystem>(plan, solver_->batches(), joint_of_element_, held_.get());
   law_values_.assign(plan.laws.size(), 0.0);
   law_rates_ = law_accelerations_ = law_values_;
   law_series_.resize(plan.laws.size());
+  law_rate_series_.resize(plan.laws.size());
   row_series_.resize(static_cast<std::size_t>(plan.num_multipliers));
   work_.rhs.assign(num_unknowns(), 0.0);
   work_.x = work_.rhs;
@@ -136,7 +78,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
         plan.directory[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(joint)].element)].index)];
     is_length_[unknown] = e.rows[row].kind == elements::RowKind::along || e.rows[row].kind == elements::RowKind::screw;
   });
-  chunk_sizes_.resize((static_cast<std::size_t>(g.num_blocks()) + block_grain - 1) / block_grain, {{}, true});
+  chunk_sizes_.resize((use_begin_.size() - 1 + block_grain - 1) / block_grain, {{}, true});
   find_pairs();
 }
 
@@ -164,6 +106,8 @@ elements::Field System::field(const State& state, const elements::Slopes& slopes
   f.around.gravity = law_values_[static_cast<std::size_t>(plan_.gravity_law)] * plan_.gravity;
   f.around.laws = law_values_.data();
   f.around.has_inertia = plan_.is_dynamic && with_inertia;
+  f.around.nodes_turn =
+      plan_.unknowns.motions == plan::Motions::spatial || plan_.unknowns.motions == plan::Motions::planar;
   if (plan_.frames.empty()) return f;
   f.carriers = frames_.in_ground.data();
   f.observer = observer();
@@ -174,6 +118,7 @@ elements::Field System::field(const State& state, const elements::Slopes& slopes
 }
 
 void System::evaluate_alone(std::size_t id, const State& state, const elements::Field& f, bool tangent) {
+  if (held_ && held_->leaves_out(id)) return;
   const int j = joint_of_element_[id];
   const double* multipliers = nullptr;
   double turns = 0.0;
@@ -186,15 +131,15 @@ void System::evaluate_alone(std::size_t id, const State& state, const elements::
     if (projection_) return evaluate_projected(e, id, f, multipliers, turns, tangent);
     std::array<double, most_unknowns * most_unknowns> tangent_entries;
     const solve::ElementView view = solver_->element(static_cast<int>(id));
-    const bool is_direct = view.stride == 1;
+    const bool is_direct = view.stride == 1 && !(held_ && held_->trims(id));
     elements::evaluate(e, f, multipliers, turns, residual,
                        !tangent    ? nullptr
                        : is_direct ? view.first
                                    : tangent_entries.data());
-    if (tangent && !is_direct) {
-      const int n = elements::num_unknowns(e);
-      for (int i = 0; i < n * n; ++i) view[i] = tangent_entries[static_cast<std::size_t>(i)];
-    }
+    if (tangent && !is_direct)
+      write_matrix(
+          held_.get(), id, elements::num_unknowns(e),
+          [&](int i) { return tangent_entries[static_cast<std::size_t>(i)]; }, view);
     elements::eval_magnitude(e, f, residual, element_magnitude_.data() + element_begin_[id]);
   });
 }
@@ -211,15 +156,36 @@ void System::evaluate_projected(const E& e, std::size_t id, const elements::Fiel
   projection_->project_sizes(id, magnitude.data(), element_magnitude_.data() + element_begin_[id]);
   if (!tangent) return;
   const int n = projection_->project_matrix(id, entries.data(), reduced.data());
-  const solve::ElementView view = solver_->element(static_cast<int>(id));
-  for (int i = 0; i < n * n; ++i) view[i] = reduced[static_cast<std::size_t>(i)];
+  write_matrix(
+      held_.get(), id, n, [&](int i) { return reduced[static_cast<std::size_t>(i)]; },
+      solver_->element(static_cast<int>(id)));
+}
+
+void System::set_matrix(int element, int num_unknowns, const double* entries) {
+  const solve::ElementView view = solver_->element(element);
+  for_each_kept(held_.get(), static_cast<std::size_t>(element), num_unknowns,
+                [&](std::int64_t place, int i) { view[place] = entries[i]; });
+}
+
+void System::add_matrix(int element, int num_unknowns, const double* entries) {
+  const solve::ElementView view = solver_->element(element);
+  for_each_kept(held_.get(), static_cast<std::size_t>(element), num_unknowns,
+                [&](std::int64_t place, int i) { view[place] += entries[i]; });
+}
+
+/// Of an element, those that the solver knows.
+int System::num_unknowns_of(std::size_t element) const {
+  int n = 0;
+  const blocks::BlockGraph& g = plan_.graph;
+  for (std::int64_t k = g.element_begin[element]; k < g.element_begin[element + 1]; ++k)
+    n += g.block_size[static_cast<std::size_t>(g.element_blocks[static_cast<std::size_t>(k)])];
+  return n;
 }
 
 void System::symmetrise(const solve::ElementBatch& batch) {
   for (int id : batch.element) {
     if (id < 0) continue;
-    const auto n = static_cast<int>(element_begin_[static_cast<std::size_t>(id) + 1] -
-                                    element_begin_[static_cast<std::size_t>(id)]);
+    const int n = num_unknowns_of(static_cast<std::size_t>(id));
     const solve::ElementView view = solver_->element(id);
     for (int i = 1; i < n; ++i)
       for (int j = 0; j < i; ++j) view[i * n + j] = view[j * n + i] = 0.5 * (view[i * n + j] + view[j * n + i]);
@@ -227,8 +193,9 @@ void System::symmetrise(const solve::ElementBatch& batch) {
 }
 
 std::optional<Trouble> System::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
-  PhaseTimer timer{counts_.assemble};
+  PhaseTimer timer{clock_, counts_.assemble};
   ++counts_.evaluations;
+  if (tangent) is_of_matrices_ = false;
   const elements::Field f = field(state, slopes);
   PlanarSystem* const planar = as_sensors_ ? nullptr : planar_.get();
   const std::span<const solve::ElementBatch> batches = planar != nullptr ? planar->batches()
@@ -260,7 +227,7 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain,
                          tree::make_chunk(by_batch, tree::Work::evaluate));
   auto by_block = [&](std::int64_t begin, std::int64_t end) { sum_blocks(begin, end); };
-  walker_.for_each_chunk(plan_.graph.num_blocks(), block_grain, tree::make_chunk(by_block));
+  walker_.for_each_chunk(static_cast<std::int64_t>(use_begin_.size()) - 1, block_grain, tree::make_chunk(by_block));
   if (std::all_of(chunk_sizes_.begin(), chunk_sizes_.end(), [](const ChunkSize& c) { return c.is_finite; }))
     return std::nullopt;
   for (std::size_t e = 0; e < plan_.directory.size(); ++e)
@@ -271,99 +238,13 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   return Trouble{"a sum of forces is not finite at time " + std::to_string(time_)};
 }
 
-/// Adds the parts of blocks [begin, end), a chunk, in a fixed order, and sizes up the sums.
-void System::sum_blocks(std::int64_t begin, std::int64_t end) {
-  ChunkSize chunk{{}, true};
-  ResidualSize& s = chunk.size;
-  for (std::int64_t b = begin; b < end; ++b) {
-    const auto block = static_cast<std::size_t>(b);
-    const int size = plan_.graph.block_size[block];
-    const auto first = static_cast<std::size_t>(tree_->unknown_begin[block]);
-    double *r = residual_.data() + first, *m = magnitude_.data() + first;
-    const auto add = size == 6 ? add_parts<6> : size == 3 ? add_parts<3> : size == 2 ? add_parts<2> : add_parts<0>;
-    add(element_residual_.data(), element_magnitude_.data(), uses_.data() + use_begin_[block],
-        uses_.data() + use_begin_[block + 1], size, r, m);
-    if (!all_finite(r, size)) {
-      chunk.is_finite = false;
-      continue;
-    }
-    const int joint = joint_of_block_[block];
-    if (joint < 0) {
-      const NodeSize now = size_up(plan_.unknowns.motions, r), terms = size_up(plan_.unknowns.motions, m);
-      if (now.force > s.force) s.worst_force_node = static_cast<int>(b);
-      if (now.moment > s.moment) s.worst_moment_node = static_cast<int>(b);
-      s.force = std::max(s.force, now.force);
-      s.moment = std::max(s.moment, now.moment);
-      s.force_scale = std::max(s.force_scale, terms.force);
-      s.moment_scale = std::max(s.moment_scale, terms.moment);
-      continue;
-    }
-    for (int i = 0; i < size; ++i) {
-      const double value = std::abs(r[i]);
-      if (value > std::max(s.length, s.angle)) s.worst_joint = joint;
-      double& most = is_length_[first + static_cast<std::size_t>(i)] != 0 ? s.length : s.angle;
-      most = std::max(most, value);
-    }
-  }
-  chunk_sizes_[static_cast<std::size_t>(begin / block_grain)] = chunk;
-}
-
-ResidualSize System::residual_size() const {
-  ResidualSize s;
-  for (const ChunkSize& chunk : chunk_sizes_) {
-    const ResidualSize& c = chunk.size;
-    if (c.force > s.force) s.worst_force_node = c.worst_force_node;
-    if (c.moment > s.moment) s.worst_moment_node = c.worst_moment_node;
-    if (std::max(c.length, c.angle) > std::max(s.length, s.angle)) s.worst_joint = c.worst_joint;
-    s.force = std::max(s.force, c.force);
-    s.moment = std::max(s.moment, c.moment);
-    s.force_scale = std::max(s.force_scale, c.force_scale);
-    s.moment_scale = std::max(s.moment_scale, c.moment_scale);
-    s.length = std::max(s.length, c.length);
-    s.angle = std::max(s.angle, c.angle);
-  }
-  return s;
-}
-
-ResidualSize System::round_off_floor(const State&) const {
-  constexpr double eps = std::numeric_limits<double>::epsilon();
-  std::vector<double> floor(num_unknowns(), 0.0);
-  for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
-    const int n = static_cast<int>(element_begin_[e + 1] - element_begin_[e]), count = plan_.unknowns.count;
-    const solve::ElementView K = const_cast<solve::AnySolver&>(*solver_).element(static_cast<int>(e));
-    int row = 0, node_columns = 0;
-    for (std::int64_t kb = plan_.graph.element_begin[e]; kb < plan_.graph.element_begin[e + 1]; ++kb)
-      if (plan_.graph.element_blocks[static_cast<std::size_t>(kb)] < static_cast<int>(plan_.nodes.size()))
-        node_columns += count;
-    for (std::int64_t kb = plan_.graph.element_begin[e]; kb < plan_.graph.element_begin[e + 1]; ++kb) {
-      const int block = plan_.graph.element_blocks[static_cast<std::size_t>(kb)];
-      for (int i = 0; i < plan_.graph.block_size[static_cast<std::size_t>(block)]; ++i, ++row) {
-        double sum = 0.0;
-        for (int col = 0; col < node_columns; ++col)
-          sum += std::abs(K[row * n + col]) * (plan_.unknowns.is_length(col % count) ? element_length_[e] : 1.0);
-        floor[static_cast<std::size_t>(block_begin(block) + i)] += eps * sum;
-      }
-    }
-  }
-  ResidualSize s;
-  for (int b = 0; b < plan_.graph.num_blocks(); ++b) {
-    if (joint_of_block_[static_cast<std::size_t>(b)] >= 0) continue;
-    const NodeSize size = size_up(plan_.unknowns.motions, floor.data() + block_begin(b));
-    s.force = std::max(s.force, size.force);
-    s.moment = std::max(s.moment, size.moment);
-  }
-  s.length = 8.0 * eps * plan_.length_scale;
-  s.angle = 8.0 * eps;
-  return s;
-}
-
 bool System::has_factor(const elements::Slopes& s) const {
   return is_factored_ && s.velocity == factored_.velocity && s.acceleration == factored_.acceleration &&
          s.mass_only == factored_.mass_only;
 }
 
 std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slopes) {
-  PhaseTimer timer{counts_.factor};
+  PhaseTimer timer{clock_, counts_.factor};
   if (rescale || !has_factor(slopes)) solver_->rescale();
   is_factored_ = is_trusted_ = false;
   contraction_ = 1.0;
@@ -371,7 +252,7 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
   const solve::FactorStatus status = solver_->factor(walker_);
   if (status.ok()) {
     factored_ = slopes;
-    is_factored_ = true;
+    is_factored_ = is_of_matrices_ = true;
     return std::nullopt;
   }
   if (status.outcome == solve::FactorOutcome::not_finite) return Trouble{"a tangent is not finite"};
@@ -386,7 +267,8 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
         status.local < plan_.unknowns.count) {
       std::array<double, 6> unit{};
       unit[static_cast<std::size_t>(status.local)] = 1.0;
-      const Vec6<double> eta = plan_.unknowns.expanded(unit.data(), static_cast<std::size_t>(status.block));
+      const int node = node_of_block_[static_cast<std::size_t>(status.block)];
+      const Vec6<double> eta = plan_.unknowns.expanded(unit.data(), static_cast<std::size_t>(node));
       int largest = 0;
       for (int i = 1; i < 6; ++i)
         if (std::abs(eta[i]) > std::abs(eta[largest])) largest = i;
@@ -398,7 +280,7 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
 }
 
 std::optional<Trouble> System::solve(const double* rhs, double* x, bool check) {
-  PhaseTimer timer{counts_.solve};
+  PhaseTimer timer{clock_, counts_.solve};
   ++counts_.solutions;
   if (!check && is_trusted_ && solver_->hierarchical() != nullptr) {
     static_cast<void>(solver_->solve(walker_, rhs, x, false));
@@ -413,6 +295,7 @@ std::optional<Trouble> System::solve(const double* rhs, double* x, bool check) {
   if (!last_solution_.finite) return Trouble{"the solution of the linear system is not finite"};
   if (last_solution_.backward_error > counts_.backward_error_max)
     counts_.backward_error_max = last_solution_.backward_error;
+  counts_.rank_error_max = std::max(counts_.rank_error_max, last_solution_.rank_error);
   return std::nullopt;
 }
 
@@ -423,7 +306,7 @@ std::string System::block_name(int block) const {
   if (joint >= 0)
     return plan_.joints[static_cast<std::size_t>(joint)].what + " '" +
            plan_.joints[static_cast<std::size_t>(joint)].name + "'";
-  return "'" + plan_.nodes[static_cast<std::size_t>(block)].name + "'";
+  return "'" + plan_.nodes[static_cast<std::size_t>(node_of_block_[static_cast<std::size_t>(block)])].name + "'";
 }
 
 }  // namespace bough::step

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bough/step/system.hpp"
+#include "held_nodes.hpp"
 #include "projection.hpp"
 #include "system_parts.hpp"
 
@@ -27,8 +28,17 @@ void System::find_pairs() {
 }
 
 namespace {
-constexpr double too_far = 1e100;  ///< a change whose square may not be finite: the iteration is lost
+constexpr std::int64_t joint_grain = 64;
+
+bool is_length(elements::RowKind kind) { return kind == elements::RowKind::along || kind == elements::RowKind::screw; }
+
+Violations largest(const Violations& a, const Violations& b) {
+  return {std::max(a.position, b.position), std::max(a.relative_position, b.relative_position),
+          std::max(a.velocity, b.velocity), std::max(a.relative_velocity, b.relative_velocity)};
 }
+
+constexpr double too_far = 1e100;  ///< a change whose square may not be finite: the iteration is lost
+}  // namespace
 
 double System::relative_size(const State& state, const double* x) {
   auto by_node = [&](std::int64_t begin, std::int64_t end) {
@@ -77,7 +87,7 @@ void System::add_multipliers(State& state, const double* x, double factor) const
 }
 
 double System::apply(State& state, const double* x) {
-  PhaseTimer timer{counts_.update};
+  PhaseTimer timer{clock_, counts_.update};
   const double change = relative_size(state, x);
   auto by_node = [&](std::int64_t begin, std::int64_t end) {
     Vec6<double> eta[nodes_in_lanes];
@@ -88,11 +98,24 @@ double System::apply(State& state, const double* x) {
     }
   };
   walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
-  add_multipliers(state, x, 1.0);
+  if (plan_.num_multipliers > 0) add_multipliers(state, x, 1.0);
   return change;
 }
 
 void System::settle(State& state) {
+  find_unsettled(state);
+  recover_multipliers(state);
+}
+
+void System::recover_multipliers(State& state, const std::vector<Vec6<double>>* more) const {
+  if (held_) held_->recover_multipliers(*this, state, more);
+}
+
+double System::largest_held_impulse(const State& state, const double* x) const {
+  return held_ ? held_->largest_impulse(*this, state, x) : 0.0;
+}
+
+void System::find_unsettled(State& state) {
   state.unsettled.clear();
   // Without tangents: the kernel that sensors evaluate, bit by bit. The matrices stay those of the last evaluation.
   as_sensors_ = true;
@@ -100,6 +123,7 @@ void System::settle(State& state) {
   as_sensors_ = false;
   if (!is_finite) return;
   for (std::size_t i = 0; i < work_.rhs.size(); ++i) work_.rhs[i] = -residual_[i];
+  if (!is_of_matrices_ && factor(false, {})) return;
   if (solve(work_.rhs.data(), work_.x.data())) return;
   for (State* s : {&state, &work_.start, &work_.before})
     s->unsettled.reserve(state.nodes.size());  // copies take no memory then
@@ -121,6 +145,7 @@ void System::evaluate_rate(const State& state, std::vector<double>& rate, double
   for (int k = 0; k < 3; ++k) around.gravity[k] = plan_.gravity[k] * laws[static_cast<std::size_t>(plan_.gravity_law)];
   around.laws = laws.data();
   around.has_inertia = plan_.is_dynamic;
+  around.nodes_turn = f.around.nodes_turn;
   if (!plan_.frames.empty()) {
     set_frame_series(step_size, series_frames_);
     f.carriers = series_frames_.in_ground.data();
@@ -149,11 +174,10 @@ void System::evaluate_rate(const State& state, std::vector<double>& rate, double
       projection_->project_vector(e, part.data(), projected.data());
       from = projected.data();
     }
-    for (std::int64_t k = plan_.graph.element_begin[e]; k < plan_.graph.element_begin[e + 1]; ++k) {
-      const int block = plan_.graph.element_blocks[static_cast<std::size_t>(k)];
-      for (int i = 0; i < plan_.graph.block_size[static_cast<std::size_t>(block)]; ++i)
-        rate[static_cast<std::size_t>(block_begin(block) + i)] += *from++;
-    }
+    for_each_part(plan_, e, j, [&](int block, int size, int) {
+      for (int i = 0; i < size && block >= 0; ++i) rate[static_cast<std::size_t>(block_begin(block) + i)] += from[i];
+      from += size;
+    });
   }
 }
 
@@ -186,6 +210,36 @@ void System::constraint_series(const State& state, const Vec6<double>* jerk, dou
                        });
 }
 
+Violations System::constraint_violations(const State& state) const {
+  using T = lanes::Taylor<double, 1>;
+  const elements::Field f = field(state);
+  for (std::size_t i = 0; i < law_rate_series_.size(); ++i) {
+    law_rate_series_[i].c[0] = law_values_[i];
+    law_rate_series_[i].c[1] = law_rates_[i];
+  }
+  const auto& joints = plan::array_of<elements::Joint>(plan_.elements);
+  const auto count = static_cast<std::int64_t>(plan_.joints.size());
+  violation_parts_.assign(static_cast<std::size_t>((count + joint_grain - 1) / joint_grain), {});
+  auto body = [&](std::int64_t begin, std::int64_t end) {
+    Violations& most = violation_parts_[static_cast<std::size_t>(begin / joint_grain)];
+    T rows[elements::max_rows];
+    for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
+      const elements::Joint& e =
+          joints[static_cast<std::size_t>(plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)].index)];
+      elements::evaluate_constraint_rates(e, f, law_rate_series_.data(), state.turns[j], rows);
+      for (int row = 0; row < e.num_rows; ++row) {
+        const double length = is_length(e.rows[row].kind) ? plan_.length_scale : 1.0;
+        const double gap = std::abs(rows[row].c[0]), rate = std::abs(rows[row].c[1]);
+        most = largest(most, {gap, gap / length, rate, rate / length});
+      }
+    }
+  };
+  walker_.for_each_chunk(count, joint_grain, tree::make_chunk(body));
+  Violations most;
+  for (const Violations& part : violation_parts_) most = largest(most, part);
+  return most;
+}
+
 double System::largest_violation(const State& state, int order, double length, int* joint) const {
   std::vector<lanes::Taylor<double, 3>>& series = row_series_;
   constraint_series(state, nullptr, 0.0, series);
@@ -195,10 +249,8 @@ double System::largest_violation(const State& state, int order, double length, i
     const auto& e = plan::array_of<elements::Joint>(plan_.elements)[static_cast<std::size_t>(
         plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)].index)];
     for (int row = 0; row < e.num_rows; ++row) {
-      const elements::RowKind kind = e.rows[row].kind;
-      const bool is_length = kind == elements::RowKind::along || kind == elements::RowKind::screw;
       const auto multiplier = static_cast<std::size_t>(plan_.joints[j].multiplier_begin + row);
-      const double value = std::abs(series[multiplier].c[order]) / (is_length ? length : 1.0);
+      const double value = std::abs(series[multiplier].c[order]) / (is_length(e.rows[row].kind) ? length : 1.0);
       if (value > most) {
         most = value;
         if (joint != nullptr) *joint = static_cast<int>(j);

@@ -1,28 +1,28 @@
 #pragma once
 /// Shared by the files of System.
 #include <cstdint>
-#include <ctime>
 
 #include "bough/step/system.hpp"
 
 namespace bough::step {
 
-/// CPU seconds of the whole process, all threads.
-inline double cpu_now() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-struct PhaseTimer {
-  double& sum;
-  double start = cpu_now();
-  ~PhaseTimer() { sum += cpu_now() - start; }
-};
-
 /// Items a task takes at once; chunks do not depend on the number of threads.
 inline constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
 inline constexpr std::int64_t element_grain = 32, block_grain = 128, pair_grain = 512, batch_grain = 8;
+
+/// Calls f(block, size, node) for every part of an element's unknowns, in their order: its nodes, then, with node -1, the rows of a joint
+/// (index in Plan::joints, or -1). block -1: no unknowns of the system.
+template <class F>
+void for_each_part(const plan::Plan& plan, std::size_t element, int joint, F&& f) {
+  plan::with_element(plan.elements, plan.directory[element], [&](const auto& e) {
+    for (const elements::Port& p : e.ports)
+      if (p.node != elements::ground)
+        f(plan.block_of_node[static_cast<std::size_t>(p.node)], plan.unknowns.count, p.node);
+  });
+  if (joint < 0) return;
+  const plan::JointPlan& j = plan.joints[static_cast<std::size_t>(joint)];
+  if (!j.rows.empty()) f(j.block, static_cast<int>(j.rows.size()), -1);
+}
 
 /// Calls f(joint, multiplier, unknown, row) for every multiplier that is an unknown: its place in State::multipliers and in the solver's
 /// vectors, and its number among the rows of the joint.

@@ -101,7 +101,7 @@ std::optional<Trouble> Variational::place_nodes(State& next, double h) {
 /// (1 + Ad(exp(D/2))^T)/2 carries wrenches from the start to the middle such that forces of the middle are in it as they are: stiff ones
 /// then meet their own tangent in the iteration.
 std::optional<Trouble> Variational::evaluate_step(const State& next, double h, ResidualSize& size) {
-  PhaseTimer timer{system_.counts().assemble};
+  PhaseTimer timer{system_.clock(), system_.counts().assemble};
   ++system_.counts().evaluations;
   const elements::Field middle = system_.field(mid_);
   if (auto t = sums_.evaluate(system_, middle, base_.turns, elastic_inertia(h), MomentumSums::Want::forces)) return t;
@@ -120,13 +120,18 @@ std::optional<Trouble> Variational::evaluate_step(const State& next, double h, R
     residual_[n] -= (2.0 / h) * p;
     residual_[n] = 0.5 * (residual_[n] + motion::adjoint_transpose_times(motion::Se3::exp(half), residual_[n])) +
                    (2.0 / h) * motion::Se3::inverse_tangent_transpose_times(-half, P) + sums_.force(n);
+    const Vec6<double> left = residual_[n];
+    if (is_held(n)) {  // balanced by the joints that hold it
+      add_sizes(left, terms);
+      residual_[n] = Vec6<double>::zero();
+    }
     for (int i = 0; i < 6; ++i) {
-      const double r = std::abs(residual_[n][i]);
       double& largest = i < 3 ? size.force : size.moment;
       double& scale = i < 3 ? size.force_scale : size.moment_scale;
-      if (!std::isfinite(r))
+      if (!std::isfinite(left[i]))
         return Trouble{"the forces at '" + system_.plan().nodes[n].name + "' are not finite at time " +
                        std::to_string(base_.time)};
+      const double r = std::abs(residual_[n][i]);
       if (r > largest) {
         largest = r;
         (i < 3 ? size.worst_force_node : size.worst_moment_node) = static_cast<int>(n);
@@ -187,7 +192,7 @@ void Variational::add_elastic_tangent(const E& e, const elements::Field& field, 
 /// dv = (2/h) T(D/2)^-1 xi, da = (4/h^2) T(D/2)^-1 xi, a = 0, plus ad(v)^T M / h, but for terms of the order of (h omega)^2 and of h times
 /// the rates of relative motion, both in the inertia alone. Rows and forces of constraints are exact:  eta_{n+1} = (1 + Ad(exp(D/2))^-1) xi.
 void Variational::evaluate_tangent(const elements::Slopes& slopes, double h) {
-  PhaseTimer timer{system_.counts().assemble};
+  PhaseTimer timer{system_.clock(), system_.counts().assemble};
   const elements::Field field = system_.field(mid_, slopes);
   const plan::Plan& plan = system_.plan();
   constexpr double no_multipliers[elements::max_rows] = {};
@@ -203,30 +208,31 @@ void Variational::evaluate_tangent(const elements::Slopes& slopes, double h) {
                            residual, matrix.data());
         elements::add_gyroscopic(e, field, 1.0 / h, matrix.data());
         add_elastic_tangent(e, field, h, matrix.data());
-        const solve::ElementView view = system_.solver().element(id);
-        const int n = elements::num_unknowns(e);
-        for (int i = 0; i < n * n; ++i) view[i] = matrix[static_cast<std::size_t>(i)];
+        if constexpr (std::is_same_v<E, elements::Joint>) set_rows_of(id, matrix.data());
+        system_.set_matrix(id, elements::num_unknowns(e), matrix.data());
       });
     }
   };
   system_.walker().for_each_chunk(static_cast<std::int64_t>(plan.directory.size()), element_grain,
                                   tree::make_chunk(by_element));
-  for (const ConstraintRows::Place& p : after_.places()) {
-    const solve::ElementView matrix = system_.solver().element(p.element);
-    const int motion = 6 * p.num_nodes, size = motion + p.joint->num_rows;
-    for (int node = 0; node < p.num_nodes; ++node) {
-      const auto half = motion::Se3::exp(0.5 * D_[static_cast<std::size_t>(p.nodes[node])]);
-      for (int k = 0; k < p.joint->num_rows; ++k) {
-        Vec6<double> g;
-        for (int i = 0; i < 6; ++i) g[i] = after_.gradient(p, k)[6 * node + i];
-        g += motion::inverse_adjoint_transpose_times(half, g);
-        Vec6<double> f;
-        for (int i = 0; i < 6; ++i) f[i] = before_.gradient(p, k)[6 * node + i];
-        f = 0.5 * (f + motion::adjoint_transpose_times(half, f));
-        for (int i = 0; i < 6; ++i) {
-          matrix[(motion + k) * size + 6 * node + i] = g[i];
-          matrix[(6 * node + i) * size + motion + k] = f[i];
-        }
+}
+
+/// Gradients of a joint's rows in its matrix: of forces at the start of the step, of rows at its end, carried to the middle.
+void Variational::set_rows_of(int element, double* matrix) const {
+  const ConstraintRows::Place* const p = after_.place_of(element);
+  if (p == nullptr) return;
+  const int motion = 6 * p->num_nodes, size = motion + p->joint->num_rows;
+  for (int node = 0; node < p->num_nodes; ++node) {
+    const auto half = motion::Se3::exp(0.5 * D_[static_cast<std::size_t>(p->nodes[node])]);
+    for (int k = 0; k < p->joint->num_rows; ++k) {
+      Vec6<double> g, f;
+      for (int i = 0; i < 6; ++i) g[i] = after_.gradient(*p, k)[6 * node + i];
+      g += motion::inverse_adjoint_transpose_times(half, g);
+      for (int i = 0; i < 6; ++i) f[i] = before_.gradient(*p, k)[6 * node + i];
+      f = 0.5 * (f + motion::adjoint_transpose_times(half, f));
+      for (int i = 0; i < 6; ++i) {
+        matrix[(motion + k) * size + 6 * node + i] = g[i];
+        matrix[(6 * node + i) * size + motion + k] = f[i];
       }
     }
   }
@@ -274,7 +280,7 @@ StepReport Variational::iterate(State& next, const StepOptions& options, double 
       if (const auto t = system_.factor(k == 0, slopes)) return fail(*t);
     }
     for (std::size_t n = 0; n < D_.size(); ++n)
-      for (int i = 0; i < 6; ++i) rhs_[node_unknown(n, i)] = -residual_[n][i];
+      system_.set_node_part(rhs_.data(), static_cast<int>(n), -1.0 * residual_[n]);
     set_rows([&](std::size_t m) { return -after_.value(m); });
     if (const auto t = system_.solve(rhs_.data(), x_.data())) return fail(*t);
     for (std::size_t n = 0; n < D_.size(); ++n)

@@ -15,12 +15,6 @@ namespace {
 constexpr elements::Slopes mass_slopes{0.0, 0.0, true};
 }
 
-Vec6<double> Variational::node_part(std::size_t node) const {
-  Vec6<double> v;
-  for (int i = 0; i < 6; ++i) v[i] = x_[node_unknown(node, i)];
-  return v;
-}
-
 /// Largest of lengths over the scene's size, and of angles.
 double Variational::largest(const Vectors& vectors) const {
   double lengths = 0.0, angles = 0.0;
@@ -45,9 +39,7 @@ std::optional<Trouble> Variational::factor_mass(const State& state, double h) {
                            constexpr int most = 6 * std::decay_t<decltype(e)>::num_ports + elements::max_rows;
                            double elastic[most * most] = {};
                            elements::add_elastic_mass(e, field, elastic_inertia(h), elastic);
-                           const solve::ElementView view = mass_.solver().element(static_cast<int>(k));
-                           const int n = elements::num_unknowns(e);
-                           for (int i = 0; i < n * n; ++i) view[i] += elastic[i];
+                           mass_.add_matrix(static_cast<int>(k), elements::num_unknowns(e), elastic);
                          });
   };
   mass_.walker().for_each_chunk(static_cast<std::int64_t>(mass_.plan().directory.size()), element_grain,
@@ -76,8 +68,7 @@ std::optional<Trouble> Variational::solve_mass(State& moving, std::vector<double
       return t;
     for (std::size_t n = 0; n < goal_.size(); ++n) left_[n] = goal_[n] - sums_.momentum(n);
     after_.add_forces(multipliers.data(), -1.0, left_);
-    for (std::size_t n = 0; n < goal_.size(); ++n)
-      for (int i = 0; i < 6; ++i) rhs_[node_unknown(n, i)] = left_[n][i];
+    for (std::size_t n = 0; n < goal_.size(); ++n) system_.set_node_part(rhs_.data(), static_cast<int>(n), left_[n]);
     set_rows([&](std::size_t m) { return row_goals_[m]; });
     if (auto t = mass_.solve(rhs_.data(), x_.data())) return t;
     const double change = add_solution(moving, multipliers, scale);
@@ -131,6 +122,8 @@ std::optional<Trouble> Variational::solve_velocities(State& state, double h) {
   goal_ = state.momentum;
   if (auto t = solve_mass(state, impulses_, h, 1e-15)) return t;
   after_.add_forces(impulses_.data(), -1.0, state.momentum);
+  for (std::size_t n = 0; n < D_.size(); ++n)
+    if (is_held(n)) state.momentum[n] = sums_.momentum(n);  // the impulses of what holds it taken off
   return std::nullopt;
 }
 
@@ -151,11 +144,26 @@ std::optional<Trouble> Variational::solve_accelerations(State& state, double h) 
   for (elements::NodeMotion& n : mid_.nodes) n.a = Vec6<double>::zero();
   if (auto t = system_.evaluate(mid_, {}, false)) return t;
   for (std::size_t n = 0; n < D_.size(); ++n) {
-    for (int i = 0; i < 6; ++i) goal_[n][i] = -system_.residual()[node_unknown(n, i)];
+    goal_[n] = -1.0 * system_.node_part(system_.residual().data(), static_cast<int>(n));
     mid_.nodes[n].v = state.nodes[n].a;
   }
   if (auto t = solve_mass(mid_, state.multipliers, h, 1e-12)) return t;
+  if (auto t = recover_multipliers(state, h)) return t;
   for (std::size_t n = 0; n < D_.size(); ++n) state.nodes[n].a = mid_.nodes[n].v;
+  return std::nullopt;
+}
+
+/// Of joints that hold nodes: from inertia as in the equations of motion above, P(q, a), and all forces without it.
+std::optional<Trouble> Variational::recover_multipliers(State& state, double h) {
+  if (system_.plan().held.empty()) return std::nullopt;
+  if (auto t =
+          sums_.evaluate(system_, system_.field(mid_), state.turns, elastic_inertia(h), MomentumSums::Want::momenta))
+    return t;
+  for (std::size_t n = 0; n < D_.size(); ++n) {
+    left_[n] = sums_.momentum(n);
+    state.nodes[n].a = Vec6<double>::zero();
+  }
+  system_.recover_multipliers(state, &left_);
   return std::nullopt;
 }
 
@@ -168,6 +176,7 @@ void Variational::add_counts() {
   to.solutions += from.solutions;
   to.evaluations += from.evaluations;
   to.backward_error_max = std::max(to.backward_error_max, from.backward_error_max);
+  to.rank_error_max = std::max(to.rank_error_max, from.rank_error_max);
   from = WorkCounts{};
 }
 

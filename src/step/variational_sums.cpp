@@ -81,8 +81,10 @@ std::optional<Trouble> MomentumSums::evaluate(const System& system, const elemen
 
 ConstraintRows::ConstraintRows(const plan::Plan& plan) {
   std::size_t at = 0;
+  place_of_element_.assign(plan.directory.size(), -1);
   for (const plan::JointPlan& j : plan.joints) {
     if (j.block < 0) continue;
+    place_of_element_[static_cast<std::size_t>(j.element)] = static_cast<int>(places_.size());
     Place p;
     p.element = j.element;
     p.block = j.block;

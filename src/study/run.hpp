@@ -29,7 +29,7 @@ class Run {
   void note(const std::string& text);
   void count(const step::StepReport& report, bool accepted);
   void watch_floor(const step::StepReport& report);
-  /// The variational integrator damps nothing: ends a run whose unresolved vibrations make energy out of nothing.
+  /// The variational integrator, for which this is, damps nothing: ends a run whose unresolved vibrations make energy out of nothing.
   bool watch_vibrations();
   /// Records the state (as its time's left limit, or right limit at a start).
   void record(int iterations, bool is_last);
@@ -54,6 +54,8 @@ class Run {
   bool run_controlled_segment(double begin, double end, double total_end);
   bool take_controlled_steps(double stop, double total_end);
   bool accept_controlled(const step::StepReport& report, double size, bool is_last);
+  /// Whether steps of a fixed size tell their errors.
+  bool watches_error() const { return local_error_ && scene_.output.checks && !options_.single_solution; }
   bool look_at_error();
   void add_error(double duration, double size);
   std::vector<double> stops_between(double begin, double end) const;
@@ -67,6 +69,7 @@ class Run {
   step::StepOptions options_;
   results::Recorder& recorder_;
   const ProgressCallback& progress_;
+  const std::vector<double>& stops_;
   const decltype(SimulateOptions::before_step)& before_step_;
   const decltype(SimulateOptions::after_run)& after_run_;
   bool want_motion_;
@@ -76,6 +79,7 @@ class Run {
   std::optional<step::Variational> variational_;  ///< when chosen
   step::State state_;
   results::WorkMeter work_meter_;
+  results::EnergyMeter energy_meter_;
   results::Summary summary_;
   results::Balance balance_;
   std::vector<double> values_;

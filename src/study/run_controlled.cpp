@@ -22,12 +22,14 @@ long steps_to_fill(double duration, double size) {
 
 }  // namespace
 
-/// Times of expected figures within a stretch, and its end: steps end there.
+/// Times of expected figures, and those asked for, within a stretch, and its end: steps end there.
 std::vector<double> Run::stops_between(double begin, double end) const {
   const double least = 1e-9 * (end - begin);
   std::vector<double> stops;
   for (const scene::Expected& e : scene_.expected)
     if (e.time && *e.time > begin + least && *e.time < end - least) stops.push_back(*e.time);
+  for (const double t : stops_)
+    if (t > begin + least && t < end - least) stops.push_back(t);
   std::sort(stops.begin(), stops.end());
   stops.erase(std::unique(stops.begin(), stops.end(), [&](double a, double b) { return b - a <= least; }), stops.end());
   stops.push_back(end);
@@ -108,7 +110,7 @@ bool Run::take_controlled_steps(double stop, double total_end) {
 bool Run::accept_controlled(const step::StepReport& report, double size, bool is_last) {
   count(report, true);
   last_step_ = size;
-  step::accept_turns(system_, state_);
+  if (!plan_.joints.empty()) step::accept_turns(system_, state_);
   if (has_balance()) work_meter_.add(system_, state_, size);
   record(report.iterations, is_last);
   return report_progress(report, scene_.analysis.end_time);
@@ -126,7 +128,6 @@ void Run::add_error(double duration, double size) {
 /// At fixed steps: local errors of two steps in a row (the second tells that of velocities), at least each 32 steps and where they rise: a
 /// solution and two evaluations in one of 16 steps.
 bool Run::look_at_error() {
-  if (!local_error_ || !scene_.output.checks || options_.single_solution) return true;
   const bool is_second = looking_;
   if (!is_second) {
     const double unfiltered = local_error_->unfiltered(system_, state_);

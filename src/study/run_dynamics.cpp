@@ -10,8 +10,8 @@ namespace bough::study {
 using results::RunStatus;
 
 bool Run::start_segment(double step_size, bool is_first) {
-  elements::Measures before;
-  if (!is_first && has_balance()) before = results::eval_measures(system_, state_);
+  results::Energies before;
+  if (!is_first && has_balance()) before = energy_meter_.eval(system_, state_);
   const step::StartReport consistent = step::make_consistent(system_, state_, is_first, step_size);
   if (!consistent.ok) return fail(consistent.cause);
   if (is_first && consistent.position_correction > 1e-9)
@@ -26,7 +26,7 @@ bool Run::start_segment(double step_size, bool is_first) {
     note(text);
   }
   if (has_balance()) {
-    const elements::Measures now = results::eval_measures(system_, state_);
+    const results::Energies now = energy_meter_.eval(system_, state_);
     work_meter_.begin(system_, state_);
     if (is_first)
       balance_.begin(now);
@@ -93,10 +93,10 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     last_step_ = size;
     if (options_.single_solution && summary_.steps.accepted == 1)
       note("one linear solution per step: residuals are not driven to the tolerance");
-    if (!look_at_error()) return false;
-    step::accept_turns(system_, state_);
+    if (watches_error() && !look_at_error()) return false;
+    if (!plan_.joints.empty()) step::accept_turns(system_, state_);
     if (has_balance()) work_meter_.add(system_, state_, size);
-    const bool goes_on = watch_vibrations();
+    const bool goes_on = !variational_ || watch_vibrations();
     record(report.iterations, target == total_end || !goes_on);
     if (!goes_on) return false;
     if (!report_progress(report, total_end)) return false;

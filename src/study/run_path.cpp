@@ -112,7 +112,7 @@ bool Run::take_path_step(double& length) {
       summary_.limit_points.push_back({limit_factor, slope_before > 0.0});
       path_done_ = arc.end_at_limit_point == static_cast<int>(summary_.limit_points.size());
       last_step_ = at;
-      step::accept_turns(system_, state_);
+      if (!plan_.joints.empty()) step::accept_turns(system_, state_);
       record(report.iterations, path_done_);
       if (path_done_) return true;
       from = at;
@@ -127,7 +127,7 @@ bool Run::take_path_step(double& length) {
       if (const auto t = path_->set_tangent(state_)) return fail(t->text);
   }
   last_step_ = length;
-  step::accept_turns(system_, state_);
+  if (!plan_.joints.empty()) step::accept_turns(system_, state_);
   record(report.iterations, path_done_);
   length *= std::clamp(std::sqrt(static_cast<double>(wanted_iterations) / report.iterations), shortest_part,
                        cuts > 0 ? 1.0 : longest_part);

@@ -30,7 +30,7 @@ bool Run::run_statics() {
         continue;
       }
       last_step_ = target - before;
-      step::accept_turns(system_, state_);
+      if (!plan_.joints.empty()) step::accept_turns(system_, state_);
       ++part;
       while (level > 0 && part % 2 == 0) {
         part /= 2;

@@ -22,6 +22,7 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
       options_(step::make_step_options(scene.analysis)),
       recorder_(recorder),
       progress_(progress),
+      stops_(options.stops),
       before_step_(options.before_step),
       after_run_(options.after_run),
       want_motion_(options.want_motion || scene.output.motion),
@@ -29,11 +30,12 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
       threads_(scene.solver.tasks && !plan_.took("small") ? std::max(1, options.threads) : 1),
       system_(plan_, scene.solver, options.wrap_walker ? options.wrap_walker(threads_.walker()) : threads_.walker()),
       state_(step::make_initial_state(plan_)),
-      work_meter_(plan_) {
+      work_meter_(plan_),
+      energy_meter_(plan_) {
   options_.reuse_factors = plan_.took("reuse");
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::variational)
     variational_.emplace(system_, scene.solver, options_.newmark_beta);
-  if (plan_.is_dynamic && options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_);
+  if (plan_.is_dynamic && options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_, options_.bdf_order);
   if (plan_.is_dynamic && !variational_ && !bdf_ && (options_.step_control || scene.output.checks))
     local_error_.emplace(system_, options_, scene.analysis.end_time);
   if (plan_.is_dynamic && options_.step_control) controller_.emplace(options_.step_control->tolerance);
@@ -110,20 +112,19 @@ void Run::watch_floor(const step::StepReport& report) {
 }
 
 bool Run::watch_vibrations() {
-  if (!variational_) return true;
   if (const auto text = vibrations_.look(*variational_, state_.time)) note(*text);
   if (!vibrations_.seen()) return true;
-  balance_.compare(results::eval_measures(system_, state_), work_meter_.supply());
+  balance_.compare(energy_meter_.eval(system_, state_), work_meter_.supply());
   const auto cause = vibrations_.judge(balance_, state_.time);
   return cause ? fail(*cause) : true;
 }
 
 void Run::record(int iterations, bool is_last) {
-  const double before = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  const step::PhaseTimer timer{system_.clock(), summary_.times.output};
   const long row = rows_++;
   const bool due = row % std::max(1, scene_.output.stride) == 0 || is_last;
-  if (due || near_expected()) {
-    results::eval_sensors(system_, state_, values_);
+  if (!plan_.sensors.empty() && (due || near_expected())) {
+    results::eval_sensors(system_, state_, energy_meter_, values_);
     watch_expected();
   }
   if (due && scene_.output.checks) check();
@@ -138,7 +139,6 @@ void Run::record(int iterations, bool is_last) {
   }
   if (want_motion_ && (row % std::max(1, scene_.output.motion_stride) == 0 || is_last))
     recorder_.motion(results::eval_motion(system_, state_));
-  summary_.times.output += static_cast<double>(std::clock()) / CLOCKS_PER_SEC - before;
 }
 
 bool Run::near_expected() const {
@@ -180,16 +180,14 @@ bool Run::may_try(double target) {
 }
 
 void Run::check() {
-  summary_.checks.constraint_violation_position =
-      std::max(summary_.checks.constraint_violation_position, system_.constraint_violation(state_, 0));
-  summary_.checks.relative_violation_position =
-      std::max(summary_.checks.relative_violation_position, system_.relative_violation(state_, 0));
+  results::Checks& c = summary_.checks;
+  const step::Violations gaps = system_.constraint_violations(state_);
+  c.constraint_violation_position = std::max(c.constraint_violation_position, gaps.position);
+  c.relative_violation_position = std::max(c.relative_violation_position, gaps.relative_position);
   if (!plan_.is_dynamic) return;
-  summary_.checks.relative_violation_step =
-      std::max(summary_.checks.relative_violation_step, system_.relative_violation(state_, 1) * last_step_);
-  summary_.checks.constraint_violation_velocity =
-      std::max(summary_.checks.constraint_violation_velocity, system_.constraint_violation(state_, 1));
-  balance_.compare(results::eval_measures(system_, state_), work_meter_.supply());
+  c.constraint_violation_velocity = std::max(c.constraint_violation_velocity, gaps.velocity);
+  c.relative_violation_step = std::max(c.relative_violation_step, gaps.relative_velocity * last_step_);
+  balance_.compare(energy_meter_.eval(system_, state_), work_meter_.supply());
 }
 
 void Run::finish() {
@@ -203,6 +201,7 @@ void Run::finish() {
   getrusage(RUSAGE_SELF, &usage);
   summary_.memory_peak_bytes = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
   summary_.checks.linear_backward_error_max = work.backward_error_max;
+  summary_.checks.linear_rank_error_max = work.rank_error_max;
   summary_.checks.unbalanced_at_floor = largest_force_ > 0.0 ? unbalanced_force_ / largest_force_ : 0.0;
   summary_.checks.energy_balance = balance_.energy_error();
   summary_.checks.energy_scale = balance_.energy_scale();

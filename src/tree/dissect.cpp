@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "bisect.hpp"
 
@@ -15,11 +14,11 @@ constexpr std::size_t terminal_elements = 48;
 
 /// Elements of a leaf from the mean cost of an element's elimination: a beam element of n unknowns leaves a front of 1.5 n with n/2
 /// eliminated, about 1.6 n^3 flops.
-std::size_t choose_leaf_size(const Adjacency& adjacency, const TreeOptions& options) {
-  const int count = adjacency.graph->num_elements();
+std::size_t choose_leaf_size(const Adjacency& adjacency, const std::vector<int>& elements, const TreeOptions& options) {
+  const auto count = static_cast<double>(elements.size());
   double flops = 0.0;
-  for (int e = 0; e < count; ++e) flops += 1.6 * std::pow(adjacency.unknowns_of(e), 3.0);
-  const double mean = count > 0 ? std::max(1.0, flops / count) : 1.0;
+  for (int e : elements) flops += 1.6 * std::pow(adjacency.unknowns_of(e), 3.0);
+  const double mean = count > 0.0 ? std::max(1.0, flops / count) : 1.0;
   // Two groups of eight leaves in lockstep at least, where there is enough to cut.
   const double most = std::max(5.0, count / 12.0);
   return static_cast<std::size_t>(std::clamp(options.target_leaf_flops / mean, 4.0, std::min(most, 4096.0)));
@@ -27,12 +26,12 @@ std::size_t choose_leaf_size(const Adjacency& adjacency, const TreeOptions& opti
 
 class Recursion {
  public:
-  Recursion(const Adjacency& adjacency, const TreeOptions& options)
+  Recursion(const Adjacency& adjacency, const std::vector<int>& elements, const TreeOptions& options)
       : bisector_(adjacency, options.seed), depth_(options.depth) {
     if (options.leaf_size > 0) {
       leaf_size_ = static_cast<std::size_t>(options.leaf_size);
     } else {
-      leaf_size_ = options.depth >= 0 ? 1 : choose_leaf_size(adjacency, options);
+      leaf_size_ = options.depth >= 0 ? 1 : choose_leaf_size(adjacency, elements, options);
     }
   }
 
@@ -68,9 +67,10 @@ class Recursion {
 }  // namespace
 
 Dissection dissect(const Adjacency& adjacency, const TreeOptions& options) {
-  std::vector<int> all(static_cast<std::size_t>(adjacency.graph->num_elements()));
-  std::iota(all.begin(), all.end(), 0);
-  Recursion recursion(adjacency, options);
+  std::vector<int> all;
+  for (int e = 0; e < adjacency.graph->num_elements(); ++e)
+    if (!adjacency.blocks_of(e).empty()) all.push_back(e);
+  Recursion recursion(adjacency, all, options);
   recursion.run(std::move(all), 0, true);
 #ifdef BOUGH_HAS_METIS
   const char* general = "vertex separators (METIS)";

@@ -1,5 +1,5 @@
 #pragma once
-/// Recursive dissection of the elements. Internal to tree.
+/// Recursive dissection of the elements that have blocks. Internal to tree.
 #include <string>
 #include <vector>
 

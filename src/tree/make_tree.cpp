@@ -271,7 +271,10 @@ class Builder {
     const FrontId id = tree_.num_fronts();
     f.subdomain = s;
     f.element_begin = static_cast<int>(tree_.element_order.size());
-    for (int e : group.elements) {
+    std::vector<int> elements = group.elements;
+    for (int e = 0; id == 0 && e < graph_.num_elements(); ++e)
+      if (adjacency_.blocks_of(e).empty()) elements.push_back(e);  // which add nothing wherever they are
+    for (int e : elements) {
       tree_.element_order.push_back(e);
       tree_.leaf_of_element[at(e)] = s;
     }

@@ -1,6 +1,6 @@
 #!/bin/sh
 # check_minimal.sh SOURCE SCRATCH COMPILER   builds and installs the core library alone, without optimisation to keep it short, builds a
-# user of it, runs it, and looks at what it loads. CMake is not allowed to find what the core does without.
+# user of it, runs it, and looks at what it loads. CMake is not allowed to find what the core does without. Lines are told for lean/check.sh.
 set -eu
 source=$1 scratch=$2 compiler=$3
 none=
@@ -10,7 +10,7 @@ done
 rm -rf "$scratch/prefix" "$scratch/user"
 mkdir -p "$scratch"
 # shellcheck disable=SC2086
-cmake -G Ninja -S "$source" -B "$scratch/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
+cmake -G Ninja -S "$source" -B "$scratch/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O0 -g1" \
   -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_INSTALL_PREFIX="$scratch/prefix" -DBOUGH_BUILD_TESTS=OFF -DBOUGH_BUILD_APPS=OFF \
   -DBOUGH_WITH_IO=OFF -DBOUGH_WITH_METIS=OFF -DBOUGH_WITH_KLU=OFF $none
 cmake --build "$scratch/build" --parallel 2

@@ -1,7 +1,7 @@
 /// Elements in lanes against the same elements alone.
 #include <gtest/gtest.h>
 
-#include "bough/elements/evaluate_lanes.hpp"
+#include "bough/elements/energies.hpp"
 #include "elements/check_element.hpp"
 
 namespace bough::elements::check {
@@ -71,9 +71,37 @@ Sample<E> varied(Sample<E> s, unsigned seed) {
   return s;
 }
 
+/// To round-off of their own size.
+void expect_same_energies(const std::vector<double>& got, const std::vector<double>& alone) {
+  ASSERT_EQ(got.size(), alone.size());
+  double most = 0.0;
+  for (double e : alone) most = std::max(most, std::abs(e));
+  for (std::size_t i = 0; i < got.size(); ++i) EXPECT_NEAR(got[i], alone[i], 16.0 * 0x1p-53 * most) << i;
+}
+
 struct LaneResult {
-  std::vector<double> residual, magnitude, tangent;  ///< entry-major, num_lanes to an entry
+  std::vector<double> residual, magnitude, tangent, energies;  ///< entry-major, num_lanes to an entry
 };
+
+/// Loads store nothing.
+template <class E>
+constexpr bool has_energies = !requires(const E& e) {
+  e.wrench;
+};
+
+template <class S>
+std::vector<S> list_of(const EnergiesOf<S>& e) {
+  std::vector<S> list = {e.kinetic, e.strain, e.mass};
+  for (int i = 0; i < 6; ++i) list.push_back(e.momentum[i]);
+  for (int i = 0; i < 3; ++i) list.push_back(e.mass_moment[i]);
+  return list;
+}
+
+template <class E>
+std::vector<double> energies_alone(const Sample<E>& s, const Field& field) {
+  if constexpr (has_energies<E>) return list_of(eval_energies(s.element, field, s.turns));
+  return {};
+}
 
 template <class E>
 LaneResult lane_results(const std::vector<Sample<E>>& samples, bool has_inertia, const Slopes& slopes,
@@ -117,7 +145,13 @@ LaneResult lane_results(const std::vector<Sample<E>>& samples, bool has_inertia,
     return std::vector<double>(begin, begin + num_lanes * a.size());
   };
   EXPECT_EQ(numbers_of(residual), numbers_of(alone)) << "the same bits with and without a tangent";
-  return {numbers_of(residual), numbers_of(magnitude), numbers_of(tangent)};
+  std::vector<LanePack> energies;
+  if constexpr (has_energies<E>) {
+    EnergiesOf<LanePack> all;
+    eval_energies_lanes<E>(e, field, turns, all);
+    energies = list_of(all);
+  }
+  return {numbers_of(residual), numbers_of(magnitude), numbers_of(tangent), numbers_of(energies)};
 }
 std::vector<double> lane_of(const std::vector<double>& a, std::size_t lane) {
   std::vector<double> r;
@@ -143,6 +177,7 @@ TEST(ElementLanes, hold_the_bits_of_each_element_alone) {
         EXPECT_EQ(lane_of(got.residual, lane), alone.residual) << "lane " << lane;
         EXPECT_EQ(lane_of(got.magnitude, lane), magnitude) << "lane " << lane;
         EXPECT_EQ(lane_of(got.tangent, lane), alone.tangent) << "lane " << lane;
+        expect_same_energies(lane_of(got.energies, lane), energies_alone(samples[lane], field));
       }
     }
   });
@@ -171,6 +206,7 @@ TEST(ElementLanes, hold_the_same_bits_in_a_moving_frame) {
         EXPECT_EQ(lane_of(got.residual, lane), alone.residual) << "lane " << lane;
         EXPECT_EQ(lane_of(got.magnitude, lane), magnitude) << "lane " << lane;
         EXPECT_EQ(lane_of(got.tangent, lane), alone.tangent) << "lane " << lane;
+        expect_same_energies(lane_of(got.energies, lane), energies_alone(samples[lane], field));
       }
     }
   });
@@ -191,12 +227,33 @@ TEST(ElementLanes, do_not_depend_on_their_neighbours_and_may_be_partly_filled) {
   });
 }
 
+/// Terms that one lane has are evaluated for all; to the others they add nothing.
+template <class E>
+void expect_undamped_neighbours(const Sample<E>& damped) {
+  SCOPED_TRACE(damped.name);
+  std::vector<Sample<E>> samples;
+  for (unsigned k = 0; k < num_lanes; ++k) samples.push_back(varied(k == 3 ? damped : undamped(damped), k));
+  const Slopes slopes{3.1, 7.3, false};
+  const LaneResult got = lane_results(samples, true, slopes);
+  for (std::size_t lane = 0; lane < num_lanes; ++lane) {
+    const Evaluation alone = evaluation_of(samples[lane], samples[lane].field(true, slopes));
+    EXPECT_EQ(lane_of(got.residual, lane), alone.residual) << "lane " << lane;
+    EXPECT_EQ(lane_of(got.tangent, lane), alone.tangent) << "lane " << lane;
+  }
+}
+TEST(ElementLanes, without_dampers_are_not_changed_by_one_that_has_some) {
+  for (const Ends ends : {Ends::plain, Ends::offset, Ends::grounded}) expect_undamped_neighbours(spring_sample(ends));
+  for (const Sample<Joint>& s : joint_samples())
+    if (s.element.num_efforts > 0) expect_undamped_neighbours(s);
+}
+
 TEST(ElementLanes, are_shared_by_elements_that_differ_in_numbers_only) {
   const auto plain = beam_sample<2>(Ends::plain).element, offset = beam_sample<2>(Ends::offset).element;
   EXPECT_TRUE(may_share_lanes(plain, varied(beam_sample<2>(Ends::plain), 5).element));
   EXPECT_FALSE(may_share_lanes(plain, offset));
   EXPECT_FALSE(may_share_lanes(plain, beam_sample<2>(Ends::grounded).element));
   EXPECT_FALSE(may_share_lanes(plain, beam_sample<2>(Ends::plain, false).element));
+  EXPECT_FALSE(may_share_lanes(body_sample(false).element, point_sample(false).element));
   EXPECT_FALSE(may_share_lanes(point_load_sample(true).element, point_load_sample(false).element));
   auto carried = beam_sample<2>(Ends::grounded).element;
   for (auto& port : carried.ports)

@@ -161,6 +161,15 @@ inline Sample<RigidBody> body_sample(bool offset) {
   return s;
 }
 
+/// A mass at the origin of its port's frame alone.
+inline Sample<RigidBody> point_sample(bool offset) {
+  Sample<RigidBody> s = body_sample(offset);
+  s.name = "point mass";
+  s.element.mass = make_mass_matrix(1.7, Vec3<double>::zero(), Mat3<double>::zero());
+  s.element.is_point = true;
+  return s;
+}
+
 inline Sample<PointLoad> point_load_sample(bool follows) {
   Numbers numbers(310);
   Sample<PointLoad> s;
@@ -270,6 +279,18 @@ inline std::vector<Sample<Joint>> joint_samples() {
   return r;
 }
 
+/// The same without dampers.
+inline Sample<Spring> undamped(Sample<Spring> s) {
+  s.name += ", undamped";
+  s.element.damping = 0.0;
+  return s;
+}
+inline Sample<Joint> undamped(Sample<Joint> s) {
+  s.name += ", undamped";
+  for (int k = 0; k < s.element.num_efforts; ++k) s.element.efforts[k].damping = 0.0;
+  return s;
+}
+
 /// Calls check(sample) for all elements of all kinds.
 template <class Check>
 void for_all_beams(const Check& check) {
@@ -283,6 +304,7 @@ template <class Check>
 void for_all_couplings(const Check& check) {
   for (const Ends ends : {Ends::plain, Ends::offset, Ends::grounded}) {
     check(spring_sample(ends));
+    check(undamped(spring_sample(ends)));
     check(bushing_sample(ends));
   }
 }
@@ -304,7 +326,12 @@ void for_all_elements(const Check& check) {
   for_all_loads(check);
   check(body_sample(false));
   check(body_sample(true));
-  for (const Sample<Joint>& s : joint_samples()) check(s);
+  check(point_sample(false));
+  check(point_sample(true));
+  for (const Sample<Joint>& s : joint_samples()) {
+    check(s);
+    if (s.element.num_efforts > 0) check(undamped(s));
+  }
 }
 
 }  // namespace bough::elements::check

@@ -67,6 +67,50 @@ TEST(ElementTangent, of_a_consistent_start_in_a_moving_frame_is_the_same_mass) {
   for_all_elements([&](const auto& s) { expect_tangent(s, true, Slopes{0.0, 0.0, true}, &frame); });
 }
 
+std::vector<double> magnitude_of(const Sample<RigidBody>& s, const Field& field, const Evaluation& of) {
+  std::vector<double> magnitude(of.residual.size());
+  eval_magnitude(s.element, field, of.residual.data(), magnitude.data());
+  return magnitude;
+}
+
+TEST(ElementTangent, of_a_point_mass_is_that_of_a_body_whose_inertia_is_zero) {
+  const CarrierMotion frame = turning_frame();
+  for (const bool offset : {false, true})
+    for (const bool has_inertia : {false, true})
+      for (const CarrierMotion* observer : {static_cast<const CarrierMotion*>(nullptr), &frame}) {
+        const Sample<RigidBody> point = point_sample(offset);
+        Sample<RigidBody> body = point;
+        body.element.is_point = false;
+        Field field = point.field(has_inertia, Slopes{3.1, 7.3, false});
+        field.observer = observer;
+        const Evaluation got = evaluation_of(point, field), want = evaluation_of(body, field);
+        EXPECT_LE(relative_error(got.residual, want.residual), exact);
+        EXPECT_LE(relative_error(got.tangent, want.tangent), exact);
+        EXPECT_LE(relative_error(magnitude_of(point, field, got), magnitude_of(body, field, want)), exact);
+      }
+}
+
+/// Where nodes do not turn, bodies are points, whatever their inertia.
+TEST(ElementTangent, of_a_body_that_cannot_turn_is_that_of_its_forces_by_displacements) {
+  Sample<RigidBody> s = body_sample(false);
+  s.element.mass =
+      make_mass_matrix(1.7, Vec3<double>::zero(), Mat3<double>{1.1, 0.1, 0.2, 0.1, 0.9, -0.1, 0.2, -0.1, 1.3});
+  for (NodeMotion& n : s.nodes)
+    for (Vec6<double>* v : {&n.v, &n.a, &n.dq})
+      for (int i = 3; i < 6; ++i) (*v)[i] = 0.0;
+  Field field = s.field(true, Slopes{3.1, 7.3, false});
+  const Evaluation whole = evaluation_of(s, field);
+  const std::vector<double> terms = magnitude_of(s, field, whole);
+  field.around.nodes_turn = false;
+  const Evaluation got = evaluation_of(s, field);
+  const std::vector<double> own_terms = magnitude_of(s, field, got);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(got.residual[i], whole.residual[i], exact);
+    EXPECT_NEAR(own_terms[i], terms[i], exact);
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(got.tangent[6 * i + j], whole.tangent[6 * i + j], exact * 7.3);
+  }
+}
+
 TEST(ElementTangent, of_statics_ignores_motion) {
   for_all_elements([](auto s) {
     SCOPED_TRACE(s.name);

@@ -63,6 +63,13 @@ TEST(Advance, allocates_nothing_after_the_first_step_with_elements_of_higher_ord
   EXPECT_EQ(allocations_of_steps(test::make_chain(2, 3), 5), 0);
 }
 
+TEST(Advance, allocates_nothing_after_the_first_step_of_a_chain_that_is_clamped) {
+  scene::Scene scene = test::make_chain(4, 2);
+  scene.joints[0].kind = scene::JointKind::fixed;
+  ASSERT_EQ(plan::make_plan(scene).held.size(), 1u);
+  EXPECT_EQ(allocations_of_steps(scene, 20), 0);
+}
+
 /// Described in a frame that turns, with its last link tied to another one.
 TEST(Advance, allocates_nothing_after_the_first_step_in_moving_frames) {
   scene::Scene scene = test::make_chain(4);

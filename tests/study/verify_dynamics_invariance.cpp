@@ -61,7 +61,8 @@ Drift drift_of(const std::string& text, double h, double duration) {
   support::Stepper s(
       support::scene_of(text, {"/initial_velocities/0/angular_velocity=[1.5, 3, 1]", "/analysis/tolerance=1e-11"}));
   s.start(h);
-  const motion::Vec6<double> first = results::eval_measures(s.system(), s.state()).momentum;
+  results::EnergyMeter meter(s.system().plan());
+  const motion::Vec6<double> first = meter.eval(s.system(), s.state()).momentum;
   const auto spin = [&s] {
     const elements::NodeMotion& n = s.state().nodes.front();
     return n.R * motion::Vec3<double>{{1.0 * n.v[3], 2.0 * n.v[4], 3.0 * n.v[5]}};
@@ -71,7 +72,7 @@ Drift drift_of(const std::string& text, double h, double duration) {
   const long steps = std::lround(duration / h);
   for (long k = 1; k <= steps; ++k) {
     s.step(static_cast<double>(k) * h);
-    const motion::Vec6<double> now = results::eval_measures(s.system(), s.state()).momentum - first;
+    const motion::Vec6<double> now = meter.eval(s.system(), s.state()).momentum - first;
     d.linear = std::max(d.linear, std::sqrt(lanes::dot(lanes::linear_part(now), lanes::linear_part(now)) /
                                             lanes::dot(lanes::linear_part(first), lanes::linear_part(first))));
     d.angular = std::max(d.angular, std::sqrt(lanes::dot(lanes::angular_part(now), lanes::angular_part(now)) /

@@ -66,9 +66,9 @@ struct Drift {
 Drift drift_of(const char* text, double h, int steps) {
   Stepper s(support::scene_of(text, {"/analysis/integrator=variational"}));
   s.start(h);
-  const auto measure = [&s] { return results::eval_measures(s.system(), s.state()); };
-  const auto energy_of = [](const elements::Measures& m) { return m.kinetic + m.strain + m.potential; };
-  const elements::Measures start = measure();
+  results::EnergyMeter meter(s.system().plan());
+  const auto measure = [&] { return meter.eval(s.system(), s.state()); };
+  const results::Energies start = measure();
   Drift d;
   double linear = 0.0, angular = 0.0;
   for (int i = 0; i < 3; ++i) {
@@ -78,11 +78,11 @@ Drift drift_of(const char* text, double h, int steps) {
   for (int k = 1; k <= steps; ++k) {
     s.step(k * h);
     if (k % 10 != 0) continue;
-    const elements::Measures now = measure();
+    const results::Energies now = measure();
     for (int i = 0; i < 6; ++i)
       d.momentum = std::max(d.momentum, std::abs(now.momentum[i] - start.momentum[i]) / (i < 3 ? linear : angular));
     double& part = k <= steps / 2 ? d.early : d.late;
-    part = std::max(part, std::abs(energy_of(now) - energy_of(start)) / start.kinetic);
+    part = std::max(part, std::abs(now.total() - start.total()) / start.kinetic);
   }
   std::printf("| %d steps of %g | momentum %.1e | energy %.2e, then %.2e |\n", steps, h, d.momentum, d.early, d.late);
   return d;

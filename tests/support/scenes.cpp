@@ -1,5 +1,7 @@
 #include "support/scenes.hpp"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -162,10 +164,21 @@ scene::Scene moved(scene::Scene s, const scene::Frame& to) {
   return s;
 }
 
+void expect_sound_solutions(double backward_error, double unknowns) {
+  constexpr double unit_round_off = 0x1p-53;
+  // |b| <= |A| |x| + |r|, so |r| / (|A| |x|) is at most 2 eta / (1 - eta).
+  EXPECT_LE(2.0 * backward_error / (1.0 - backward_error) / (std::max(1.0, unknowns) * unit_round_off), 30.0)
+      << "LAPACK's ratio of a linear solution, backward error " << backward_error;
+}
+
 Outcome run(const scene::Scene& scene, const study::ProgressCallback& progress) {
   Outcome outcome;
   Memory memory(outcome.history);
   outcome.summary = study::simulate(scene, {}, memory, progress);
+  // The foreign solvers are oracles: they do not pivot as dependent rows ask for.
+  if (outcome.ok() && scene.solver.kind != scene::SolverKind::monolithic)
+    for (const auto& [name, value] : outcome.summary.solver)
+      if (name == "unknowns") expect_sound_solutions(outcome.summary.checks.linear_backward_error_max, value);
   return outcome;
 }
 

@@ -52,7 +52,10 @@ struct Outcome {
 /// frames and prescribed motions only.
 scene::Scene moved(scene::Scene scene, const scene::Frame& to);
 
-/// Runs a scene in memory on one thread. Does not throw where the run fails: ask ok() and summary.cause.
+/// Expects LAPACK's ratio of linear solutions, |r| / (|A| |x| n u), to be at most 30.
+void expect_sound_solutions(double backward_error, double unknowns);
+
+/// Runs a scene in memory on one thread, and expects the linear solutions to be sound. Does not throw where the run fails: ask ok() and summary.cause.
 Outcome run(const scene::Scene& scene, const study::ProgressCallback& progress = {});
 
 /// Order p from errors at step sizes h and h / ratio: e = C h^p.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bough/schedule/serial.hpp"
+#include "support/scenes.hpp"
 
 namespace bough::support {
 
@@ -31,7 +32,11 @@ Stepper::Stepper(const scene::Scene& scene)
       options_(step::make_step_options(scene.analysis)) {
   if (options_.integrator == scene::Integrator::variational)
     variational_.emplace(system_, scene.solver, options_.newmark_beta);
-  if (options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_);
+  if (options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_, options_.bdf_order);
+}
+
+Stepper::~Stepper() {
+  expect_sound_solutions(system_.counts().backward_error_max, static_cast<double>(system_.num_unknowns()));
 }
 
 step::StartReport Stepper::start(double step_size) {

@@ -19,6 +19,7 @@ struct Sample {
 class Stepper {
  public:
   explicit Stepper(const scene::Scene& scene);  ///< integrator, spectral radius, tolerance: the scene's
+  ~Stepper();                                   ///< expects all linear solutions to have been sound
   step::StepOptions& options() { return options_; }
   step::System& system() { return system_; }
   step::State& state() { return state_; }

@@ -211,6 +211,37 @@ TEST(Tree, CutsOfACubeAreChosenByWhatTheyCost) {
   EXPECT_LT(most, eliminate(6 * 144, 0.0) + 2.0 * eliminate(6 * 72, 6 * 144));
 }
 
+/// A chain of springs between nodes, and elements of what is held at both ends and in the middle of the list.
+TEST(Tree, ElementsWithoutBlocksCutNothingAndAreAssembledOnce) {
+  const auto make = [](bool with_idle) {
+    blocks::BlockGraph g;
+    g.element_begin.assign(1, 0);
+    for (int e = 0; e < 40; ++e) {
+      g.block_size.push_back(6);
+      g.block_kind.push_back(BlockKind::motion);
+      if (with_idle && (e == 0 || e == 17)) g.element_begin.push_back(g.element_begin.back());
+      if (e > 0) g.element_blocks.push_back(e - 1);
+      g.element_blocks.push_back(e);
+      g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
+    }
+    if (with_idle) g.element_begin.push_back(g.element_begin.back());
+    return g;
+  };
+  const tree::Tree bare = tree::make_tree(make(false), {.leaf_size = 4}),
+                   idle = tree::make_tree(make(true), {.leaf_size = 4});
+  EXPECT_EQ(bare.num_fronts(), idle.num_fronts());
+  EXPECT_EQ(bare.front_of_block, idle.front_of_block);
+  EXPECT_EQ(bare.method, idle.method);
+  std::vector<int> order = idle.element_order;
+  std::sort(order.begin(), order.end());
+  ASSERT_EQ(order.size(), 43u);
+  for (int e = 0; e < 43; ++e) EXPECT_EQ(order[at(e)], e);
+  for (int e : {0, 18, 42}) EXPECT_TRUE(idle.subdomains[at(idle.leaf_of_element[at(e)])].is_leaf());
+  blocks::BlockGraph nothing_else;
+  nothing_else.element_begin = {0, 0, 0};
+  EXPECT_EQ(tree::make_tree(nothing_else).num_unknowns(), 0);
+}
+
 TEST(Tree, RefusesGraphsThatAreNotConsistent) {
   blocks::BlockGraph g;
   g.block_size = {6};

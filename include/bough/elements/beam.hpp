@@ -59,8 +59,8 @@ Vec6<S> blend(const double* w, const Vec6<S>* d) {
 }
 
 /// Sectional strain at a strain point, (T(d) d') / L, axial component 1 when unstrained.
-template <class S, int N>
-Vec6<S> eval_strain(const BeamShape<S, N>& b, double length, int point) {
+template <class S, int N, class C>
+Vec6<S> eval_strain(const BeamShape<S, N>& b, const C& length, int point) {
   if constexpr (N == 2) {
     return (1.0 / length) * b.d[1];  // d' is parallel to d, and T(d) d = d
   } else {
@@ -124,9 +124,8 @@ void eval_shape_accelerations(const BeamShape<S, N>& b, const PortMotion<S>* p, 
 }
 
 /// Strain energy [J].
-template <class S, int N>
-S eval_strain_energy(const Beam<N>& beam, const PortMotion<S>* ports) {
-  const BeamShape<S, N> b = eval_shape<S, N>(ports);
+template <class S, int N, class C>
+S eval_strain_energy(const Beam<N, C>& beam, const BeamShape<S, N>& b) {
   S sum(0.0);
   for (int g = 0; g < Beam<N>::num_strain_points; ++g) {
     Vec6<S> e = eval_strain<S, N>(b, beam.length, g);
@@ -134,6 +133,11 @@ S eval_strain_energy(const Beam<N>& beam, const PortMotion<S>* ports) {
     sum = sum + (0.5 * strain_rule<N>().weight[g] * beam.length) * lanes::dot(e, Vec6<S>(beam.stiffness * e));
   }
   return sum;
+}
+
+template <class S, int N>
+S eval_strain_energy(const Beam<N>& beam, const PortMotion<S>* ports) {
+  return eval_strain_energy<S, N>(beam, eval_shape<S, N>(ports));
 }
 
 /// Kinetic energy [J].

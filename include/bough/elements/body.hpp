@@ -5,14 +5,21 @@
 namespace bough::elements {
 
 /// Rigid body about its node's frame.  F = M (a - (R^T g; 0)) - ad(v)^T M v,  M the 6x6 mass about the node [kg, kg m, kg m^2].
+/// A point at the node's origin, M = m (1, 0; 0, 0), v = (u; w), bears no moment:  f = m (u' - R^T g) - (m u) x w.
 template <class C>
 struct RigidBodyOf {
   static constexpr int num_ports = 1;
   static constexpr int num_multipliers = 0;
   PortOf<C> ports[1];
   Mat6<C> mass;
+  bool is_point = false;  ///< mass holds m alone: products with its zeros are left out
 };
 using RigidBody = RigidBodyOf<double>;
+
+template <class S, class C>
+bool is_seen_as_point(const RigidBodyOf<C>& body, const Surroundings<S>& around) {
+  return body.is_point || !around.nodes_turn;
+}
 
 /// 6x6 mass about the frame's origin, from the mass, its centre and the inertia about the centre, in the frame's axes.
 Mat6<double> make_mass_matrix(double mass, const Vec3<double>& center, const Mat3<double>& inertia);
@@ -21,6 +28,18 @@ template <class S, class C>
 void eval_residual(const RigidBodyOf<C>& body, const PortMotion<S>* p, const S*, const Surroundings<S>& around,
                    S* out) {
   const Vec3<S> weight = lanes::transpose_times(p[0].H.R, around.gravity);
+  if (is_seen_as_point(body, around)) {
+    Vec3<S> a = -weight;
+    if (around.has_inertia) a += lanes::linear_part(p[0].a);
+    Vec3<S> f = body.mass(0, 0) * a;
+    if (around.has_inertia && around.nodes_turn)
+      f -= lanes::cross(Vec3<S>(body.mass(0, 0) * lanes::linear_part(p[0].v)), lanes::angular_part(p[0].v));
+    for (int k = 0; k < 3; ++k) {
+      out[k] = f[k];
+      out[3 + k] = S(0.0);
+    }
+    return;
+  }
   Vec6<S> a = lanes::join<S>(-weight, Vec3<S>::zero());
   if (around.has_inertia) a += p[0].a;
   Vec6<S> f = body.mass * a;

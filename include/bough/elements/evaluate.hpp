@@ -115,12 +115,21 @@ void eval_magnitude(const E& e, const FieldOf<S>& field, const S* residual, S* m
   for (int i = 0; i < num_unknowns(e); ++i) magnitude[i] = abs(residual[i]);
   if constexpr (std::is_same_v<E, RigidBodyOf<S>>) {
     const NodeMotionOf<S>& n = field.nodes[e.ports[0].node];
-    Vec6<S> terms[3] = {e.mass * lanes::join(lanes::transpose_times(n.R, field.around.gravity), Vec3<S>::zero()),
-                        Vec6<S>::zero(), Vec6<S>::zero()};
+    const Vec3<S> weight = lanes::transpose_times(n.R, field.around.gravity);
+    PortMotion<S> p{{n.R, n.x.hi + n.x.lo}, n.v, n.a};
+    if (field.around.has_inertia && field.observer != nullptr)
+      add_observer_motion(p, Vec3<S>::zero(), field.observer->twist, field.observer->twist_rate);
+    if (is_seen_as_point(e, field.around)) {
+      Vec3<S> terms[3] = {e.mass(0, 0) * weight, Vec3<S>::zero(), Vec3<S>::zero()};
+      if (field.around.has_inertia) terms[1] = e.mass(0, 0) * lanes::linear_part(p.a);
+      if (field.around.has_inertia && field.around.nodes_turn)
+        terms[2] = lanes::cross(Vec3<S>(e.mass(0, 0) * lanes::linear_part(p.v)), lanes::angular_part(p.v));
+      for (int i = 0; i < 3; ++i)
+        for (const Vec3<S>& t : terms) magnitude[i] = magnitude[i] + abs(t[i]);
+      return;
+    }
+    Vec6<S> terms[3] = {e.mass * lanes::join(weight, Vec3<S>::zero()), Vec6<S>::zero(), Vec6<S>::zero()};
     if (field.around.has_inertia) {
-      PortMotion<S> p{{n.R, n.x.hi + n.x.lo}, n.v, n.a};
-      if (field.observer != nullptr)
-        add_observer_motion(p, Vec3<S>::zero(), field.observer->twist, field.observer->twist_rate);
       terms[1] = e.mass * p.a;
       terms[2] = motion::cross6_transpose_times(p.v, Vec6<S>(e.mass * p.v));
     }
@@ -130,9 +139,9 @@ void eval_magnitude(const E& e, const FieldOf<S>& field, const S* residual, S* m
 }
 
 /// Energies, powers and momentum of one element, all of them those of the inertial frame, momentum and load in the axes of the frame in which
-/// nodes are described.
+/// nodes are described. Without energies, those of joints, springs and bushings are left out: what is watched in every step are powers and loads.
 template <class E>
-Measures measure(const E& e, const Field& field, const double* multipliers, double turns);
+Measures measure(const E& e, const Field& field, const double* multipliers, double turns, bool with_energies = true);
 
 /// d(residual)/dt along the motion with accelerations held: positions, velocities, multipliers' frames and laws move on. Laws come as value
 /// and rate. Joints: forces only.
@@ -144,6 +153,9 @@ void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Tay
 /// derivative of the acceleration's components) of its nodes.  out[row] = {Phi, Phi', Phi''/2, Phi'''/6}.
 void evaluate_constraint_series(const Joint& joint, const Field& field, const Vec6<double>* jerk,
                                 const lanes::Taylor<double, 3>* laws, double turns, lanes::Taylor<double, 3>* out);
+/// The rows and their first time derivatives alone.
+void evaluate_constraint_rates(const Joint& joint, const Field& field, const lanes::Taylor<double, 1>* laws,
+                               double turns, lanes::Taylor<double, 1>* out);
 
 /// Relative motion of a joint's frames, for sensors and the state's count of turns.
 struct JointMotion {

@@ -50,6 +50,14 @@ struct JointOf {
 };
 using Joint = JointOf<double>;
 
+/// Whether an effort damps; else nothing looks at velocities.
+template <class C>
+bool is_damped(const JointOf<C>& joint) {
+  bool damped = false;
+  for (int k = 0; k < joint.num_efforts; ++k) damped = damped || is_present(joint.efforts[k].damping);
+  return damped;
+}
+
 /// theta = turns + atan2(s', c'), (c', s') the rotation about axis 3 seen from the last accepted angle: smooth over any number of turns.
 template <class S, class C>
 S eval_angle(const Mat3<S>& R, const C& turns) {
@@ -110,27 +118,28 @@ S eval_coordinate(Coordinate coordinate, const Frame<S>& H, const C& turns, Vec6
   return eval_row<S, C>(row, H, turns, nullptr, gradient);
 }
 
-/// Effort of the springs, dampers and drives without constraint along one coordinate, on the second body, against the motion.
+/// Effort of the springs, dampers and drives without constraint along one coordinate, on the second body, against the motion. rate: of the
+/// coordinate, nullptr where nothing damps it.
 template <class S, class C>
-S eval_effort(const EffortOf<C>& e, const S& coordinate, const S& rate, const S* laws) {
-  S f = e.stiffness * (coordinate - e.rest) + e.damping * rate;
+S eval_effort(const EffortOf<C>& e, const S& coordinate, const S* rate, const S* laws) {
+  S f = e.stiffness * (coordinate - e.rest);
+  if (rate != nullptr) f = f + e.damping * *rate;
   if (e.law >= 0) f = f - laws[e.law];
   return f;
 }
 
-/// Efforts along all free coordinates, as a wrench on the second port that resists the motion.
+/// Adds the efforts along all free coordinates, as a wrench on the second port that resists the motion.
 template <class S, class C>
-Vec6<S> eval_efforts(const JointOf<C>& joint, const Frame<S>& H, const PortMotion<S>* p, const Surroundings<S>& around,
-                     const C& turns) {
-  Vec6<S> f = Vec6<S>::zero(), gradient;
+void add_efforts(const JointOf<C>& joint, const Frame<S>& H, const PortMotion<S>* p, const Surroundings<S>& around,
+                 const C& turns, Vec6<S>& f) {
+  Vec6<S> gradient;
   for (int k = 0; k < joint.num_efforts; ++k) {
     const S value = eval_coordinate(joint.efforts[k].coordinate, H, turns, gradient);
+    const bool damps = around.has_inertia && is_present(joint.efforts[k].damping);
     S rate(0.0);
-    if (around.has_inertia && is_present(joint.efforts[k].damping))
-      rate = lanes::dot(gradient, p[1].v - motion::inverse_adjoint_times(H, p[0].v));
-    f += eval_effort(joint.efforts[k], value, rate, around.laws) * gradient;
+    if (damps) rate = lanes::dot(gradient, p[1].v - motion::inverse_adjoint_times(H, p[0].v));
+    f += eval_effort(joint.efforts[k], value, damps ? &rate : nullptr, around.laws) * gradient;
   }
-  return f;
 }
 
 template <class S, class C>
@@ -142,13 +151,7 @@ void eval_residual(const JointOf<C>& joint, const PortMotion<S>* p, const S* mul
     out[12 + k] = eval_row(joint.rows[k], H, turns, around.laws, gradient);
     f += multipliers[k] * gradient;
   }
-  for (int k = 0; k < joint.num_efforts; ++k) {
-    const S value = eval_coordinate(joint.efforts[k].coordinate, H, turns, gradient);
-    S rate(0.0);
-    if (around.has_inertia && is_present(joint.efforts[k].damping))
-      rate = lanes::dot(gradient, p[1].v - motion::inverse_adjoint_times(H, p[0].v));
-    f += eval_effort(joint.efforts[k], value, rate, around.laws) * gradient;
-  }
+  add_efforts(joint, H, p, around, turns, f);
   const Vec6<S> first = motion::inverse_adjoint_transpose_times(H, f);
   for (int k = 0; k < 6; ++k) {
     out[k] = -first[k];

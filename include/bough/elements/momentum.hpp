@@ -26,7 +26,8 @@ void eval_momentum(const JointOf<C>& joint, const PortMotion<S>* p, const Surrou
   for (int k = 0; k < 12; ++k) momentum[k] = S(0.0);
   if (force == nullptr) return;
   const Frame<S> H = motion::relative(p[0].H, p[1].H);
-  const Vec6<S> f = eval_efforts(joint, H, p, around, C(turns));
+  Vec6<S> f = Vec6<S>::zero();
+  add_efforts(joint, H, p, around, C(turns), f);
   const Vec6<S> first = motion::inverse_adjoint_transpose_times(H, f);
   for (int k = 0; k < 6; ++k) {
     force[k] = -first[k];

@@ -30,11 +30,11 @@ struct PortOf {
 };
 using Port = PortOf<double>;
 
-/// Whether a constant is worth its terms: packs do not ask, a zero times something finite adds nothing.
+/// Whether a constant is worth its terms: in packs if it is to one lane, to the others a zero times something finite adds nothing.
 inline bool is_present(double x) { return x != 0.0; }
 template <class C>
-bool is_present(const C&) {
-  return true;
+bool is_present(const C& x) {
+  return any(less(C(0.0), abs(x)));
 }
 
 /// Prescribed motion of a frame at one instant: pose, twist in its own axes and the twist's first two derivatives, component by component.
@@ -75,6 +75,8 @@ struct Surroundings {
   Vec3<S> gravity;   ///< acceleration in inertial axes [m/s^2]
   const S* laws;     ///< value of each time function
   bool has_inertia;  ///< false in statics: velocities and accelerations are not looked at
+  bool nodes_turn =
+      true;  ///< false: only origins of nodes move and only they feel forces, so bodies are points without gyroscopic forces
 };
 
 /// Energies [J], power [W] and momentum of one element, for the balances of a run.

@@ -22,12 +22,21 @@ struct NodePlan {
 struct JointPlan {
   std::string name;
   int element = 0;           ///< global element id
-  int block = -1;            ///< multiplier block
+  int block = -1;            ///< multiplier block; -1: no row is an unknown, or the joint holds a node of Plan::held
   int multiplier_begin = 0;  ///< in the array of all multipliers
   /// Its rows that are unknowns, in order; the others hold by themselves in the motions that the scene has, their multipliers are zero.
   std::vector<int> rows;
   bool counts_turns = false;
   std::string what;  ///< "joint", "prescribed motion", "held rotation"
+};
+
+/// A node that joints hold at rest, in the ground or in the observer's frame: it has no unknowns, and these joints have no multipliers among
+/// them. They follow from the balance of the node, W multipliers + (all other forces) = 0.
+struct HeldNode {
+  int node = 0;
+  std::vector<int> joints;  ///< in Plan::joints; of their `rows` there are as many as a node has unknowns
+  /// W^-1, row-major: from a wrench in the unknowns of the node to the multipliers of `rows`, joint after joint.
+  std::vector<double> inverse;
 };
 
 /// Elements of one beam of the scene, in order along its axis.
@@ -120,7 +129,9 @@ struct Plan {
   std::optional<PlanarModel> planar;  ///< where unknowns.motions is planar
   std::vector<Decision> decisions;
   bool took(const std::string& decision) const;
-  blocks::BlockGraph graph;        ///< blocks: nodes, then one per joint that has rows which are unknowns
+  std::vector<HeldNode> held;      ///< empty unless the decision "held" was taken
+  blocks::BlockGraph graph;        ///< blocks: nodes with unknowns, then one per joint that has rows which are unknowns
+  std::vector<int> block_of_node;  ///< -1: held
   double length_scale = 1.0;       ///< [m], size of the structure
   std::vector<std::string> notes;  ///< what the plan chose where the scene leaves it open, in words
 };

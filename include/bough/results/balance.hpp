@@ -2,7 +2,7 @@
 /// Balances of energy and momentum over a run: what the integrator makes of them, apart from the work of loads and drives.
 #include <vector>
 
-#include "bough/step/system.hpp"
+#include "bough/results/energies.hpp"
 
 namespace bough::results {
 
@@ -13,9 +13,6 @@ struct Supply {
   motion::Vec3<double> impulse =
       motion::Vec3<double>::zero();  ///< of gravity, loads and the ground, inertial axes [N s]
 };
-
-/// Sums of energies, powers and momentum over all elements, in a fixed order.
-elements::Measures eval_measures(const step::System& system, const step::State& state);
 
 /// Sums work, dissipation and impulse over the steps. Looks only at elements that do work, take energy or hold on to the ground: these have to
 /// be seen in every step, energies and momentum only where results are wanted.
@@ -63,11 +60,11 @@ class WorkMeter {
 /// What the integrator makes of energy and momentum: their change less what was supplied.
 class Balance {
  public:
-  void begin(const elements::Measures& start);
+  void begin(const Energies& start);
   /// The energy and the momentum of a jump of velocities at a breakpoint are no error.
-  void jump(const elements::Measures& before, const elements::Measures& after);
+  void jump(const Energies& before, const Energies& after);
   /// Where results are wanted.
-  void compare(const elements::Measures& now, const Supply& supply);
+  void compare(const Energies& now, const Supply& supply);
 
   double energy_error() const { return energy_error_; }     ///< largest |energy - work + dissipation - start| seen [J]
   double energy_scale() const { return energy_scale_; }     ///< largest sum of magnitudes seen [J]

@@ -70,6 +70,7 @@ struct Checks {
   double constraint_violation_position = 0.0;  ///< [m] or [rad]
   double constraint_violation_velocity = 0.0;  ///< [m/s] or [rad/s]
   double linear_backward_error_max = 0.0;
+  double linear_rank_error_max = 0.0;  ///< what taking dependent rows for such has cost: solve::SolveReport::rank_error
   /// Local errors of the steps in time (at fixed steps: of some) [-]: of positions and rotations, relative to the size of the structure and
   /// 1 rad, the largest and all added up over the run; of velocities, relative to the largest speeds so far.
   bool local_error_known = false;

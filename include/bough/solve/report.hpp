@@ -32,7 +32,7 @@ struct FactorStatus {
 
 /// Outcome of solve(). Scaled variables: unit-free.
 struct SolveReport {
-  /// Of the part of b that can be met (see inconsistency).
+  /// Of the part of b that can be met, and of A without what was taken for zero (see inconsistency and rank_error).
   double backward_error = std::numeric_limits<double>::quiet_NaN();  ///< |r| / (|A| |x| + |b|), maximum norms, scaled.
   double componentwise_backward_error =
       std::numeric_limits<double>::quiet_NaN();  ///< max_i |r|_i / (|A||x| + |b|)_i [Oettli, Prager 1964].
@@ -40,6 +40,8 @@ struct SolveReport {
   int deficiency = 0;  ///< as in FactorStatus.
   double inconsistency =
       0.0;  ///< |Y^T b| / |b|, Y the left null vectors: 0 when dependent constraints agree with each other.
+  double rank_error =
+      0.0;  ///< |T x| / (|A| |x| + |b|), T the part of A that was taken for zero because its rows depend on others.
   int inconsistent_block = -1;       ///< block with the largest part of Y Y^T b.
   double inconsistent_amount = 0.0;  ///< that part, in the units of the block's right-hand side.
   double growth =

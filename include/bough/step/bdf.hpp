@@ -1,16 +1,18 @@
 #pragma once
-/// Backward differences of third order on the group, index 3.
-///   D = log(H_n^-1 H_{n+1}),  d/dt of local coordinates y(t) = log(H_n^-1 H(t)):  y' = (11/6 D + 3/2 y_{n-1} - 1/3 y_{n-2}) / h
-///   v_{n+1} = T(D) y',   v'_{n+1} = (11/6 v_{n+1} - 3 v_n + 3/2 v_{n-1} - 1/3 v_{n-2}) / h,   R = 0, Phi = 0 at t_{n+1}
+/// Backward differences of second or third order on the group, index 3.
+///   D = log(H_n^-1 H_{n+1}),  d/dt of local coordinates y(t) = log(H_n^-1 H(t)):  y' = (c0 D + c2 y_{n-1} + c3 y_{n-2}) / h
+///   v_{n+1} = T(D) y',   v'_{n+1} = (c0 v_{n+1} + c1 v_n + c2 v_{n-1} + c3 v_{n-2}) / h,   R = 0, Phi = 0 at t_{n+1}
+///   c = (3/2, -2, 1/2, 0) or (11/6, -3, 3/2, -1/3)
 /// y_{n-1} = -D_{n-1}, y_{n-2} = log(exp(-D_{n-1}) exp(-D_{n-2})): earlier poses are carried into the coordinates of each step exactly, so that
-/// the order is that of the linear space. Third order in positions, velocities, accelerations and multipliers; damps vibrations much
-/// faster than the step within a few of them. Stable within 86 degrees of the negative axis: undamped vibrations of some 3 to 12 steps a period grow.
+/// the order is that of the linear space, in positions, velocities, accelerations and multipliers. Vibrations much faster than the step
+/// are damped within a few of them. Order 2 damps all vibrations; order 3 is stable within 86 degrees of the negative axis: undamped
+/// vibrations of some 3 to 12 steps a period grow.
 ///
-/// The iteration's matrix is that of generalized-alpha with slopes 11/(6 h) and their square:  dv = (11/(6 h)) T(6 D / 11)^-1 eta to first order.
+/// The iteration's matrix is that of generalized-alpha with slopes c0 / h and their square:  dv = (c0 / h) T(D / c0)^-1 eta to first order.
 ///
 /// Start: two steps by generalized-alpha in quarters, whose error over so short a time is of third order. Index 3 carries a steady velocity
-/// error in the constraints' normals, -(h^3 / 4) G (v''' + ad(v) v''); the velocities of the start get it, too, or multipliers
-/// would be of lower order in the steps to come. Any change of h is a new start.
+/// error in the constraints' normals, -(h^2 / 3) G (v'' + ad(v) v' / 2) at order 2 and -(h^3 / 4) G (v''' + ad(v) v'') at order 3; the
+/// velocities of the start get it, too, or multipliers would be of lower order in the steps to come. Any change of h is a new start.
 /// Sources: Faltinsen, Marthinsen, Munthe-Kaas 2001 (multistep methods in coordinates of each step); Wieloch, Arnold 2021 (starting values at
 /// index 3).
 #include <vector>
@@ -21,7 +23,8 @@ namespace bough::step {
 
 class Bdf {
  public:
-  explicit Bdf(System& system);
+  /// `order`: 2 or 3.
+  Bdf(System& system, int order);
 
   /// The next step, of size h, starts anew from positions, velocities and dv/dt of a state.
   void restart(double h);
@@ -33,13 +36,21 @@ class Bdf {
  private:
   using Vectors = std::vector<motion::Vec6<double>>;
   static constexpr int start_steps = 2, parts = 4;
+  struct Rule {
+    double c0, c1, c2, c3;
+  };
+  static constexpr Rule second{3.0 / 2.0, -2.0, 1.0 / 2.0, 0.0}, third{11.0 / 6.0, -3.0, 3.0 / 2.0, -1.0 / 3.0};
   StepReport take_start_step(State& state, const StepOptions& options, double end_time);
   [[nodiscard]] std::optional<Trouble> finish_start(const State& state);
   StepReport take_step(State& state, const StepOptions& options, double end_time);
   [[nodiscard]] std::optional<Trouble> follow(State& state) const;
   void predict(State& state);
+  /// Over h: what the rule's velocities are off by in steady motion.
+  void eval_steady_error(const State& point, Vectors& error) const;
 
   System& system_;
+  int order_;
+  Rule c_;
   double h_ = 0.0;
   int done_ = 0;                         ///< starting steps
   State begin_;                          ///< of the present step
@@ -48,7 +59,7 @@ class Bdf {
   Vectors samples_[3];                   ///< v' at parts 2, 5 and 8 of the start
   Vectors increments_, last_, earlier_;  ///< D of the present step, D_{n-1}, D_{n-2}
   Vectors v_now_, v_last_, v_earlier_;   ///< v_n, v_{n-1}, v_{n-2}
-  Vectors y_, rates_;                    ///< 3/2 y_{n-1} - 1/3 y_{n-2}; -3 v_n + 3/2 v_{n-1} - 1/3 v_{n-2}
+  Vectors y_, rates_;                    ///< c2 y_{n-1} + c3 y_{n-2}; c1 v_n + c2 v_{n-1} + c3 v_{n-2}
 };
 
 }  // namespace bough::step

@@ -8,6 +8,7 @@
 
 #include "bough/plan/frames.hpp"
 #include "bough/solve/any_solver.hpp"
+#include "bough/step/cpu_clock.hpp"
 #include "bough/step/motion_tree.hpp"
 #include "bough/step/state.hpp"
 #include "bough/tree/tree.hpp"
@@ -15,11 +16,12 @@
 
 namespace bough::step {
 
-/// CPU seconds of the process by phase, and counts of work.
+/// CPU seconds by phase, all threads of the run, and counts of work.
 struct WorkCounts {
   double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0;
   long factorizations = 0, solutions = 0, evaluations = 0;
   double backward_error_max = 0.0;
+  double rank_error_max = 0.0;
 };
 
 /// Largest entries of a residual or constraint violation, forces and moments, lengths and angles apart.
@@ -28,6 +30,12 @@ struct ResidualSize {
   double force_scale = 0.0, moment_scale = 0.0;  ///< largest sum of |contributions| at a node
   double length = 0.0, angle = 0.0;              ///< constraint violations
   int worst_force_node = -1, worst_moment_node = -1, worst_joint = -1;
+};
+
+/// Largest |Phi| and |Phi'| over all rows of joints, and the same in no unit of length: lengths relative to Plan::length_scale.
+struct Violations {
+  double position = 0.0, relative_position = 0.0;  ///< [m] or [rad], [-]
+  double velocity = 0.0, relative_velocity = 0.0;  ///< [m/s] or [rad/s], [1/s]
 };
 
 /// Buffers of the verbs in advance.hpp, sized once: a step does not allocate.
@@ -50,6 +58,7 @@ class LaneBatches;
 struct SpatialKernels;
 class PlanarSystem;
 class Projection;
+class HeldNodes;
 
 class System {
  public:
@@ -61,6 +70,7 @@ class System {
   solve::AnySolver& solver() { return *solver_; }
   const tree::Walker& walker() const { return walker_; }
   WorkCounts& counts() { return counts_; }
+  CpuClock& clock() { return clock_; }
   Workspace& work() { return work_; }
 
   /// Values of all time functions at t (right or left limit). A value that is not finite is told with its owner and the time.
@@ -71,6 +81,9 @@ class System {
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
   /// By block, unknowns in the order of the solver.
   const std::vector<double>& residual() const { return residual_; }
+  /// Puts an element's matrix, row-major in all of its unknowns, in the place of its tangent, or adds it there.
+  void set_matrix(int element, int num_unknowns, const double* entries);
+  void add_matrix(int element, int num_unknowns, const double* entries);
   /// Of the residual last evaluated.
   ResidualSize residual_size() const;
   /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment.
@@ -110,12 +123,20 @@ class System {
   /// Power of the present residual at the end of the path that apply_along_tree took last with `x`:  sum of residual . d(increment)/d(factor).
   double power_along_tree(const double* x);
 
+  /// Multipliers of joints that hold nodes without unknowns (Plan::held), from the balance of these nodes as they are now; laws of its time are set.
+  /// To be called for every state that is accepted. more: forces by node, own axes, beside those of elements.
+  void recover_multipliers(State& state, const std::vector<motion::Vec6<double>>* more = nullptr) const;
+  /// The largest of these multipliers that inertia asks for where velocities jump by a solution x of [M G^T; G 0].
+  double largest_held_impulse(const State& state, const double* x) const;
+
   /// d(residual)/dt with accelerations and multipliers held. step_size: over which third derivatives of prescribed frames are differenced, 0: they
   /// are left out.
   void evaluate_rate(const State& state, std::vector<double>& rate, double step_size = 0.0);
   /// Constraint rows and their first three time derivatives (jerk may be null: then 0), by multiplier.
   void constraint_series(const State& state, const motion::Vec6<double>* jerk, double step_size,
                          std::vector<lanes::Taylor<double, 3>>& out) const;
+  /// All of the next two at once.
+  Violations constraint_violations(const State& state) const;
   /// Largest |Phi| (order 0) or |Phi'| (order 1) over all rows and the joint it belongs to.
   double constraint_violation(const State& state, int order, int* joint = nullptr) const;
   /// The same in no unit of length: lengths relative to Plan::length_scale, angles as they are [-] (order 0), [1/s] (order 1).
@@ -129,13 +150,19 @@ class System {
   /// "node 'a'" or "joint 'b'": the owner of a block, for messages.
   std::string block_name(int block) const;
   /// The motion of a node in a vector of unknowns, (linear; angular) in its own axes.
+  /// A node without unknowns does not move.
   motion::Vec6<double> node_part(const double* x, int node) const {
-    return plan_.unknowns.expanded(x + block_begin(node), static_cast<std::size_t>(node));
+    const std::int64_t begin = node_begin(node);
+    if (begin < 0) return motion::Vec6<double>::zero();
+    return plan_.unknowns.expanded(x + begin, static_cast<std::size_t>(node));
   }
-  /// Sets the unknowns of a node from a motion, or the entries of a right-hand side from a wrench.
+  /// Sets the unknowns of a node, where it has some, from a motion, or the entries of a right-hand side from a wrench.
   void set_node_part(double* x, int node, const motion::Vec6<double>& eta) const {
-    plan_.unknowns.project(eta, static_cast<std::size_t>(node), x + block_begin(node));
+    const std::int64_t begin = node_begin(node);
+    if (begin >= 0) plan_.unknowns.project(eta, static_cast<std::size_t>(node), x + begin);
   }
+  /// First unknown of a node; -1: it has none.
+  std::int64_t node_begin(int node) const { return node_begin_[static_cast<std::size_t>(node)]; }
   std::int64_t block_begin(int block) const { return tree_->unknown_begin[static_cast<std::size_t>(block)]; }
   std::size_t num_unknowns() const { return static_cast<std::size_t>(tree_->num_unknowns()); }
   const std::vector<double>& law_values() const { return law_values_; }
@@ -154,7 +181,11 @@ class System {
     bool is_finite;
   };
 
+  void place_parts();
+  int num_unknowns_of(std::size_t element) const;
   void find_pairs();
+  void find_unsettled(State& state);
+  void sum_held_node(std::size_t held, ChunkSize& chunk) const;
   void sum_blocks(std::int64_t begin, std::int64_t end);
   double largest_violation(const State& state, int order, double length, int* joint) const;
   void add_multipliers(State& state, const double* x, double factor) const;
@@ -173,22 +204,28 @@ class System {
   std::unique_ptr<LaneBatches<SpatialKernels>> lane_batches_;
   std::unique_ptr<PlanarSystem> planar_;    ///< where the plan has planar elements
   std::unique_ptr<Projection> projection_;  ///< none where a node has six unknowns
+  std::unique_ptr<HeldNodes> held_;         ///< none where all nodes have unknowns
   std::unique_ptr<tree::Tree> tree_;
   std::unique_ptr<solve::AnySolver> solver_;
   tree::Walker walker_;
+  CpuClock clock_;
   WorkCounts counts_;
   Workspace work_;
   solve::SolveReport last_solution_;
   std::vector<double> law_values_, law_rates_, law_accelerations_;
   mutable std::vector<lanes::Taylor<double, 3>> law_series_,
-      row_series_;                           ///< scratch of constraint_series, constraint_violation
+      row_series_;  ///< scratch of constraint_series, constraint_violation
+  mutable std::vector<lanes::Taylor<double, 1>> law_rate_series_;  ///< scratch of constraint_violations
+  mutable std::vector<Violations> violation_parts_;
   std::vector<std::int64_t> element_begin_;  ///< place of an element's residual
   std::vector<double> element_residual_;
   std::vector<double> element_magnitude_;  ///< sum of |terms| of each entry of element_residual_
   std::vector<int> joint_of_element_;      ///< index in plan.joints or -1
   std::vector<int> joint_of_block_;
-  std::vector<std::int64_t> use_begin_;  ///< by block: range in uses_
-  std::vector<std::int64_t> uses_;       ///< places in element_residual_ that add up to the block, fixed order
+  std::vector<int> node_of_block_;        ///< of nodes' blocks, which come first
+  std::vector<std::int64_t> node_begin_;  ///< first unknown of each node, or -1
+  std::vector<std::int64_t> use_begin_;   ///< by block, then by held node: range in uses_
+  std::vector<std::int64_t> uses_;        ///< places in element_residual_ that add up to it, fixed order
   std::vector<double> residual_, magnitude_;
   std::vector<ChunkSize> chunk_sizes_;  ///< of residual_, by chunk of blocks
   std::vector<char> is_length_;         ///< by unknown: whether it is the multiplier of a length, in blocks of joints
@@ -204,7 +241,8 @@ class System {
   mutable plan::FrameMotions series_frames_;  ///< the same with third derivatives of the laws, for starts
   elements::Slopes factored_;
   bool is_factored_ = false;
-  bool is_trusted_ = false;  ///< the present factor gave a solution that needed no refinement
+  bool is_of_matrices_ = false;  ///< the factor is that of the tangents evaluated last
+  bool is_trusted_ = false;      ///< the present factor gave a solution that needed no refinement
   double contraction_ = 1.0;
   bool takes_symmetric_parts_ = false;
   bool as_sensors_ = false;  ///< elements in space, one at a time: the bits that sensors see

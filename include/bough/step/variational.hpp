@@ -48,6 +48,11 @@ class ConstraintRows {
     std::size_t gradient_begin = 0;
   };
   const std::vector<Place>& places() const { return places_; }
+  /// Of an element that has rows; null for others.
+  const Place* place_of(int element) const {
+    const int place = place_of_element_[static_cast<std::size_t>(element)];
+    return place < 0 ? nullptr : &places_[static_cast<std::size_t>(place)];
+  }
   /// Row `k` of a joint: 6 per node.
   const double* gradient(const Place& p, int k) const {
     return gradients_.data() + p.gradient_begin + static_cast<std::size_t>(6 * k * p.num_nodes);
@@ -55,6 +60,7 @@ class ConstraintRows {
 
  private:
   std::vector<Place> places_;
+  std::vector<int> place_of_element_;
   std::vector<double> values_, gradients_;
 };
 
@@ -92,6 +98,7 @@ class Variational {
   std::optional<Trouble> set_momenta(State& state, double h);
   std::optional<Trouble> solve_velocities(State& state, double h);
   std::optional<Trouble> solve_accelerations(State& state, double h);
+  std::optional<Trouble> recover_multipliers(State& state, double h);
   std::optional<Trouble> factor_mass(const State& state, double h);
   std::optional<Trouble> solve_mass(State& moving, std::vector<double>& multipliers, double h, double target);
   double add_solution(State& moving, std::vector<double>& multipliers, double scale);
@@ -99,10 +106,11 @@ class Variational {
   void compare_rates(const State& state, double h);
   double largest(const Vectors& vectors) const;
 
-  motion::Vec6<double> node_part(std::size_t node) const;  ///< of x_
-  std::size_t node_unknown(std::size_t node, int i) const {
-    return static_cast<std::size_t>(system_.block_begin(static_cast<int>(node)) + i);
+  motion::Vec6<double> node_part(std::size_t node) const {
+    return system_.node_part(x_.data(), static_cast<int>(node));
   }
+  bool is_held(std::size_t node) const { return system_.node_begin(static_cast<int>(node)) < 0; }
+  void set_rows_of(int element, double* matrix) const;
   std::size_t row_unknown(const ConstraintRows::Place& p, int k) const {
     return static_cast<std::size_t>(system_.block_begin(p.block) + k);
   }

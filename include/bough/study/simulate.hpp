@@ -18,6 +18,8 @@ struct BeforeStep {
 struct SimulateOptions {
   int threads = 1;           ///< of the tree's tasks, >= 1; results do not depend on it
   bool want_motion = false;  ///< hand out the moving structure even if the scene does not ask for it
+  /// Times that steps of chosen sizes are to meet exactly, beside those of expected figures; steps of equal size meet what they divide.
+  std::vector<double> stops = {};
   /// Asked before every attempt of a step, with the state it starts from; false: stop here (interrupted), the system is no longer used.
   std::function<bool(step::System&, const step::State&, const BeforeStep&)> before_step = {};
   /// The walker that the solver gets instead of the one of the threads: another way of the same walks, a watched one say.

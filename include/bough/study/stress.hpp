@@ -40,6 +40,7 @@ struct StressCase {
   double condition = 0.0;             ///< largest estimate for a tangent in scaled variables [-]; 0: not estimated
   double backward_error = 0.0;        ///< largest normwise backward error of a linear solution [-]
   double lapack_ratio = 0.0;          ///< largest |r| / (|A| |x| n u) of a linear solution [-], see lapack_ratio_limit
+  double rank_error = 0.0;            ///< largest, of what taking dependent rows for such has cost [-]
   double constraint_violation = 0.0;  ///< largest, [m] or [rad]
   long steps = 0, rejected = 0, iterations = 0, factorizations = 0, runs = 0;
 

@@ -101,7 +101,7 @@ struct Tree {
 /// Cut the elements into sub-domains and lay out all fronts. Chains and trees of bodies are cut exactly (one block a cut); other graphs
 /// with METIS if it was built in, otherwise by breadth-first levels. Unconnected parts and loops are fine.
 /// A motion block is eliminated in the lowest front that holds all its elements; a multiplier block where a motion block that it
-/// constrains is eliminated at or below, otherwise it moves up.
+/// constrains is eliminated at or below, otherwise it moves up. Elements without blocks are assembled with the first front.
 /// Preconditions: problems_in(options) is empty; the graph is consistent (checked by require, O(size)). Deterministic. Allocates.
 Tree make_tree(const blocks::BlockGraph& graph, const TreeOptions& options = {});
 

@@ -43,7 +43,8 @@ struct Walker {
   void (*down)(void* context, const Tree& tree, Visit visit) = nullptr;
   void (*each)(void* context, std::int64_t count, std::int64_t grain, Chunk chunk) = nullptr;
   void* context = nullptr;
-  Mark mark = {};  ///< for visits that have stages
+  Mark mark = {};   ///< for visits that have stages
+  int threads = 1;  ///< that may visit at once, at most
 
   void walk_up(const Tree& tree, Visit visit) const { up(context, tree, visit); }
   void walk_down(const Tree& tree, Visit visit) const { down(context, tree, visit); }

@@ -88,6 +88,25 @@ PortMotion<Jet<S, D>> seeded(const PortMotion<S>& p, const NodeOf<S>& node, cons
   return r;
 }
 
+/// Whether an element's forces depend on velocities or accelerations.
+template <class E>
+bool looks_at_rates(const E& e) {
+  if constexpr (requires { e.has_mass; })
+    return e.has_mass || e.has_damping;
+  else if constexpr (requires { e.has_damping; })
+    return e.has_damping;
+  else if constexpr (requires { e.rest_length; })
+    return is_present(e.damping);
+  else if constexpr (requires { e.mass; })
+    return true;
+  else if constexpr (E::num_rows_at_most > 0) {
+    bool damped = false;
+    for (int k = 0; k < e.num_efforts; ++k) damped = damped || is_present(e.efforts[k].effort.damping);
+    return damped;
+  } else
+    return false;  // loads
+}
+
 /// Wrenches at the nodes, ports on the ground left out, then rows.
 template <class E, class T>
 void gather(const E& e, const Vec3<T>* out, const T* rows, T* residual) {
@@ -107,6 +126,16 @@ void eval_magnitude(const E& e, const FieldOf<S>& field, const S* residual, S* m
   if constexpr (std::is_same_v<E, RigidBodyOf<S>>) {
     const NodeOf<S>& n = field.nodes[e.ports[0].node];
     const Vec2<S> weight = motion::conjugate_times(n.turn, field.around.gravity);
+    if (e.is_point) {
+      Vec2<S> terms[3] = {e.mass(0, 0) * weight, Vec2<S>::zero(), Vec2<S>::zero()};
+      if (field.around.has_inertia) {
+        terms[1] = e.mass(0, 0) * motion::plane_part(n.a);
+        terms[2] = n.v[2] * motion::quarter_turn(Vec2<S>(e.mass(0, 0) * motion::plane_part(n.v)));
+      }
+      for (int i = 0; i < 2; ++i)
+        for (const Vec2<S>& t : terms) magnitude[i] = magnitude[i] + abs(t[i]);
+      return;
+    }
     Vec3<S> terms[3] = {e.mass * motion::join(weight, S(0.0)), Vec3<S>::zero(), Vec3<S>::zero()};
     if (field.around.has_inertia) {
       terms[1] = e.mass * n.a;
@@ -135,11 +164,12 @@ void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers,
 
   using T = Jet<S, D>;
   const bool mass_only = field.slopes.mass_only, is_joint = most_rows > 0;
+  const bool has_rates = field.around.has_inertia && looks_at_rates(e);
   PortMotion<T> moved[P];
   for (int k = 0; k < P; ++k) {
     const bool on_ground = e.ports[k].node == ground;
     moved[k] = seeded<D>(nodes[k], field.nodes[on_ground ? 0 : e.ports[k].node], field.slopes,
-                         !on_ground && (!mass_only || is_joint), !on_ground && field.around.has_inertia, 3 * k);
+                         !on_ground && (!mass_only || is_joint), !on_ground && has_rates, 3 * k);
     if (!on_ground) apply_offset(e.ports[k], moved[k]);
   }
   const Surroundings<T> around{
@@ -225,7 +255,9 @@ void visit_numbers(const JointOf<A>& a, JointOf<B>& b, const Visit& visit) {
 /// Terms that an element has, the same for all lanes: whether two agree, and a copy with the laws renumbered from `law` on.
 template <class E>
 bool is_same_kind(const E& a, const E& b) {
-  if constexpr (requires { a.has_mass; })
+  if constexpr (requires { a.is_point; })
+    return a.is_point == b.is_point;
+  else if constexpr (requires { a.has_mass; })
     return a.has_damping == b.has_damping && a.has_mass == b.has_mass;
   else if constexpr (requires { a.has_damping; })
     return a.has_damping == b.has_damping;
@@ -245,6 +277,7 @@ bool is_same_kind(const E& a, const E& b) {
 }
 template <class A, class B>
 void set_kind(const A& a, B& b, int law) {
+  if constexpr (requires { a.is_point; }) b.is_point = a.is_point;
   if constexpr (requires { a.has_mass; }) b.has_mass = a.has_mass;
   if constexpr (requires { a.has_damping; }) b.has_damping = a.has_damping;
   if constexpr (requires { a.follows; }) {

@@ -35,6 +35,7 @@ MemoryRun Bench::try_run(const scene::Scene& scene) {
   // A run that broke off may have met a singular matrix, which is then what it says.
   if (const double n = solver_figure(s, "unknowns"); n > 0.0 && run.ok())
     backward_error(s.checks.linear_backward_error_max, n);
+  result_.rank_error = std::max(result_.rank_error, s.checks.linear_rank_error_max);
   return run;
 }
 

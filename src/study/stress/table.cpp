@@ -184,6 +184,7 @@ std::string stress_json(const std::vector<StressCase>& cases, const StressOption
     json.member("condition", c.condition);
     json.member("backward_error", c.backward_error);
     json.member("lapack_ratio", c.lapack_ratio);
+    json.member("rank_error", c.rank_error);
     json.member("constraint_violation", c.constraint_violation);
     json.member("runs", static_cast<long long>(c.runs));
     json.member("steps", static_cast<long long>(c.steps));

@@ -203,7 +203,7 @@ class Sweep {
 
   void time(SweepRun& run) {
     const int threads = threads_of(result_.spec.grids[run.grid], run);
-    const TimedRun timed = run_timed(scene_of(run), threads, limits_, threads == 1);
+    const TimedRun timed = run_timed(scene_of(run), io::sample_times(result_.spec), threads, limits_, threads == 1);
     if (timed.was_stopped) return;
     run.wall.push_back(timed.wall);
     run.cpu.push_back(timed.cpu);

@@ -74,12 +74,13 @@ class Stopwatch final : public results::Recorder {
 };
 
 /// Runs within the limits; a run that was cut short is a failed one.
-results::Summary run_limited(const scene::Scene& scene, int threads, const RunLimits& limits,
-                             results::Recorder& recorder, bool& was_stopped) {
+results::Summary run_limited(const scene::Scene& scene, const std::vector<double>& sample_times, int threads,
+                             const RunLimits& limits, results::Recorder& recorder, bool& was_stopped) {
   const Clock::time_point start = Clock::now();
   bool is_late = false;
   SimulateOptions options;
   options.threads = threads;
+  options.stops = sample_times;
   options.before_step = [&](step::System&, const step::State&, const BeforeStep&) {
     was_stopped = limits.stop != nullptr && *limits.stop && (*limits.stop)();
     is_late = limits.time_limit > 0.0 && seconds_since(start) > limits.time_limit;
@@ -119,17 +120,18 @@ SampledRun run_sampled(scene::Scene scene, const std::vector<double>& sample_tim
   SampledRun run;
   run.sample_times = sample_times;
   Sampler sampler(run);
-  run.summary = run_limited(scene, threads, limits, sampler, run.was_stopped);
+  run.summary = run_limited(scene, sample_times, threads, limits, sampler, run.was_stopped);
   return run;
 }
 
-TimedRun run_timed(scene::Scene scene, int threads, const RunLimits& limits, bool count_instructions) {
+TimedRun run_timed(scene::Scene scene, const std::vector<double>& sample_times, int threads, const RunLimits& limits,
+                   bool count_instructions) {
   scene.output = {};
   scene.output.checks = false;
   scene.output.stride = no_rows;
   TimedRun run;
   Stopwatch watch(run, count_instructions);
-  run.summary = run_limited(scene, threads, limits, watch, run.was_stopped);
+  run.summary = run_limited(scene, sample_times, threads, limits, watch, run.was_stopped);
   return run;
 }
 

@@ -41,7 +41,8 @@ struct TimedRun {
   bool was_stopped = false;
 };
 
-/// Without rows, checks and pictures.
-TimedRun run_timed(scene::Scene scene, int threads, const RunLimits& limits, bool count_instructions);
+/// Without rows, checks and pictures; the same steps as of a sampled run.
+TimedRun run_timed(scene::Scene scene, const std::vector<double>& sample_times, int threads, const RunLimits& limits,
+                   bool count_instructions);
 
 }  // namespace bough::study

@@ -40,6 +40,7 @@ struct RigidBodyOf {
   static constexpr int num_ports = 1, num_rows_at_most = 0;
   PortOf<C> ports[1];
   Mat3Of<C> mass;
+  bool is_point = false;  ///< as in space
 };
 using RigidBody = RigidBodyOf<double>;
 
@@ -113,6 +114,12 @@ Vec3<S> gyroscopic(const Vec3<S>& v, const Vec3<S>& m) {
 
 template <class S, class C>
 void eval_residual(const RigidBodyOf<C>& e, const PortMotion<S>* p, const Surroundings<S>& around, Vec3<S>* out) {
+  if (e.is_point) {
+    Vec2<S> f = e.mass(0, 0) * motion::plane_part(weighed_acceleration(p[0], around));
+    if (around.has_inertia) f += p[0].v[2] * motion::quarter_turn(Vec2<S>(e.mass(0, 0) * motion::plane_part(p[0].v)));
+    out[0] = join(f, S(0.0));
+    return;
+  }
   Vec3<S> f = e.mass * weighed_acceleration(p[0], around);
   if (around.has_inertia) f += gyroscopic(p[0].v, Vec3<S>(e.mass * p[0].v));
   out[0] = f;
@@ -187,11 +194,10 @@ void eval_joint(const JointOf<C>& e, const PortMotion<S>* p, const Base<S>* mult
   for (int k = 0; k < e.num_efforts; ++k) {
     const RowKind kind = e.efforts[k].coordinate == Coordinate::angle ? RowKind::angle : RowKind::along;
     const S value = eval_coordinate(kind, e.efforts[k].d, H, turns, gradient);
-    S rate(0.0);
-    if (around.has_inertia && is_present(e.efforts[k].effort.damping))
-      rate = lanes::dot(gradient, Vec3<S>(p[1].v - seen_from(H.turn, H.x, p[0].v)));
     const elements::EffortOf<C>& effort = e.efforts[k].effort;
-    S size = effort.stiffness * (value - effort.rest) + effort.damping * rate;
+    S size = effort.stiffness * (value - effort.rest);
+    if (around.has_inertia && is_present(effort.damping))
+      size = size + effort.damping * lanes::dot(gradient, Vec3<S>(p[1].v - seen_from(H.turn, H.x, p[0].v)));
     if (effort.law >= 0) size = size - around.laws[effort.law];
     f += size * gradient;
   }

@@ -1,0 +1,38 @@
+#pragma once
+/// CPU seconds by phase of a run. The kernel's own clocks of CPU time cost some 200 ns a reading, a good part of what a phase of a small scene
+/// takes, so where one thread does all the work they are read rarely.
+#include <cstdint>
+
+namespace bough::step {
+
+/// CPU seconds: of the whole process where a run has several threads; of the calling thread, which has to stay the same one, where it has one.
+/// There they go on with the steady clock for up to 0.2 ms, and are read again when that has passed: a reading is too large by what the
+/// thread had to wait within that time, and stays as it is until that is made up for. Errors do not add up.
+class CpuClock {
+ public:
+  explicit CpuClock(bool has_one_thread) : has_one_thread_(has_one_thread) {}
+  /// [s], from any origin, never less than before. No allocation.
+  double now();
+
+ private:
+  bool has_one_thread_;
+  std::int64_t read_at_ = -1;  ///< of the steady clock [ns]; -1: never
+  double cpu_ = 0.0;           ///< then [s]
+  double told_ = 0.0;          ///< last [s]
+};
+
+/// Adds the CPU seconds of its life to a sum.
+class PhaseTimer {
+ public:
+  PhaseTimer(CpuClock& clock, double& sum) : clock_(clock), sum_(sum), start_(clock.now()) {}
+  ~PhaseTimer() { sum_ += clock_.now() - start_; }
+  PhaseTimer(const PhaseTimer&) = delete;
+  PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+ private:
+  CpuClock& clock_;
+  double& sum_;
+  double start_;
+};
+
+}  // namespace bough::step

@@ -1,0 +1,64 @@
+#pragma once
+/// Makes a LanePlan: which sub-domains go together (lane_plan.cpp), their common fronts (lane_fronts.cpp), and the way of every block into them
+/// (lane_moves.cpp). Internal to solve.
+#include "lane_plan.hpp"
+
+namespace bough::solve {
+
+class LanePlanner {
+ public:
+  LanePlanner(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes, Symmetry symmetry)
+      : graph_(graph), tree_(tree), use_lanes_(use_lanes), is_symmetric_(symmetry == Symmetry::symmetric) {}
+
+  LanePlan run();
+
+ private:
+  static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+  static double flops_of(int eliminated, int boundary) {
+    const double e = eliminated, n = e + boundary;
+    return e * n * n * 2.0 - e * e * n * 2.0 + e * e * e * (2.0 / 3.0) + n * n;
+  }
+  static bool is_empty_lane(const LaneFront& f, int lane) { return f.front[at(lane)] == tree::none; }
+  const tree::Front& front(tree::FrontId f) const { return tree_.fronts[at(f)]; }
+  const tree::Subdomain& subdomain(tree::SubdomainId s) const { return tree_.subdomains[at(s)]; }
+  int count_of(tree::SubdomainId s) const { return subdomain(s).front_end - subdomain(s).front_begin; }
+
+  // groups
+  /// Largest front of every subtree, and whether a sub-domain's own fronts are a path.
+  void measure_subdomains();
+  /// Front of lane s that stands at position k of `count` common fronts, or none. Paths are aligned at their tops.
+  tree::FrontId front_at(tree::SubdomainId s, int k, int count) const;
+  bool fits(tree::SubdomainId a, tree::SubdomainId b) const;
+  /// Makes the group of these sub-domains and, before it, the groups below. `in_lanes`: the parent's group is.
+  int form(std::vector<tree::SubdomainId> subdomains, bool below_lanes, int level);
+  void place_child(tree::SubdomainId s, std::vector<std::vector<tree::SubdomainId>>& classes) const;
+  int close(std::vector<tree::SubdomainId> subdomains, bool in_lanes, const std::vector<int>& children);
+  void set_levels();
+
+  // common fronts
+  int size_of(int element) const;
+  void add_batch(const ElementBatch& batch, int size);
+  void add_fronts(LaneGroup& group, tree::Subdomain& node);
+  void add_unknowns(LaneFront& f);
+  /// Row of the common front for a row of a lane's own.
+  int common_row(const LaneFront& f, int lane, int row) const;
+  void add_elements(LaneFront& f);
+  LaneElement& find_slot(const LaneFront& f, int lane, const std::vector<Place>& places);
+  void add_children(LaneFront& f);
+
+  // ways into them
+  /// Every block of every contributor with its place, in fixed order: what comes first is written, what follows is added, what is left is
+  /// a gap. So no front is cleared as a whole.
+  void add_moves(LaneFront& f);
+  /// Schur complements live until their parent is assembled: first fit in the group's scratch. The top lasts.
+  void place_work(LaneGroup& group);
+
+  const blocks::BlockGraph& graph_;
+  const tree::Tree& tree_;
+  bool use_lanes_, is_symmetric_;
+  std::vector<int> largest_;
+  std::vector<char> is_path_;
+  LanePlan plan_;
+};
+
+}  // namespace bough::solve

@@ -1,0 +1,140 @@
+#include "held_nodes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "system_parts.hpp"
+
+namespace bough::step {
+
+using motion::Vec6;
+
+HeldNodes::HeldNodes(const plan::Plan& plan) : plan_(plan), kind_(plan.directory.size(), Kind::whole) {
+  std::vector<int> joint_of_element(plan.directory.size(), -1), held_of_node(plan.nodes.size(), -1);
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    joint_of_element[static_cast<std::size_t>(plan.joints[j].element)] = static_cast<int>(j);
+  for (std::size_t h = 0; h < plan.held.size(); ++h) {
+    held_of_node[static_cast<std::size_t>(plan.held[h].node)] = static_cast<int>(h);
+    for (int j : plan.held[h].joints)
+      kind_[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(j)].element)] = Kind::holds;
+  }
+  uses_.resize(plan.held.size());
+  for (std::size_t e = 0; e < plan.directory.size(); ++e) {
+    int unknown = 0, part = 0;
+    std::vector<std::int8_t> kept;
+    for_each_part(plan, e, joint_of_element[e], [&](int block, int size, int node) {
+      const int held = node < 0 ? -1 : held_of_node[static_cast<std::size_t>(node)];
+      if (held >= 0 && kind_[e] != Kind::holds) {
+        kind_[e] = Kind::trimmed;
+        uses_[static_cast<std::size_t>(held)].push_back({e, part});
+      }
+      for (int i = 0; i < size; ++i, ++unknown)
+        if (block >= 0) kept.push_back(static_cast<std::int8_t>(unknown));
+      ++part;
+    });
+    if (kind_[e] == Kind::trimmed) kept_.insert(kept_.end(), kept.begin(), kept.end());
+    begin_.push_back(static_cast<std::int64_t>(kept_.size()));
+  }
+}
+
+/// add_forces(use, forces): adds those of an element at the node, in its own axes, to those given.
+template <class AddForces>
+void HeldNodes::balance(std::size_t held, Vec6<double> forces, AddForces&& add_forces, double* multipliers) const {
+  const plan::HeldNode& h = plan_.held[held];
+  for (const Use& use : uses_[held]) add_forces(use, forces);
+  const auto n = static_cast<std::size_t>(plan_.unknowns.count);
+  std::array<double, 6> wrench;
+  plan_.unknowns.project(forces, static_cast<std::size_t>(h.node), wrench.data());
+  for (std::size_t i = 0; i < n; ++i) {
+    multipliers[i] = 0.0;
+    for (std::size_t k = 0; k < n; ++k) multipliers[i] -= h.inverse[i * n + k] * wrench[k];
+  }
+}
+
+namespace {
+
+/// Rows of part `part` of K eta added to `to`, K of an element in six unknowns a node, eta by node.
+template <class E, class Increment>
+void add_product(const E& e, const double* K, int part, Increment&& increment, Vec6<double>& to) {
+  const int n = elements::num_unknowns(e);
+  int column = 0;
+  for (const elements::Port& port : e.ports) {
+    if (port.node == elements::ground) continue;
+    const Vec6<double> eta = increment(port.node);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) to[i] += K[(6 * part + i) * n + column + j] * eta[j];
+    column += 6;
+  }
+}
+
+}  // namespace
+
+void HeldNodes::recover_multipliers(const System& system, State& state, const Vec6List* more) const {
+  const elements::Field field = system.field(state);
+  const bool is_settled = state.unsettled.empty();
+  const auto add_forces = [&](const Use& use, Vec6<double>& forces) {
+    std::array<double, most_unknowns> residual;
+    std::array<double, most_unknowns * most_unknowns> tangent;
+    const int j = system.joint_of_element(static_cast<int>(use.element));
+    const double* multipliers =
+        j < 0 ? nullptr : state.multipliers.data() + plan_.joints[static_cast<std::size_t>(j)].multiplier_begin;
+    plan::with_element(plan_.elements, plan_.directory[use.element], [&](const auto& e) {
+      elements::evaluate(e, field, multipliers, j < 0 ? 0.0 : state.turns[static_cast<std::size_t>(j)], residual.data(),
+                         is_settled ? nullptr : tangent.data());
+      for (int i = 0; i < 6; ++i) forces[i] += residual[static_cast<std::size_t>(6 * use.part + i)];
+      if (!is_settled)
+        add_product(
+            e, tangent.data(), use.part, [&](int node) { return state.unsettled[static_cast<std::size_t>(node)]; },
+            forces);
+    });
+  };
+  auto by_node = [&](std::int64_t begin, std::int64_t end) {
+    for (auto h = static_cast<std::size_t>(begin); h < static_cast<std::size_t>(end); ++h) {
+      std::array<double, 6> multipliers;
+      const Vec6<double> given =
+          more == nullptr ? Vec6<double>::zero() : (*more)[static_cast<std::size_t>(plan_.held[h].node)];
+      balance(h, given, add_forces, multipliers.data());
+      std::size_t k = 0;
+      for (int j : plan_.held[h].joints) {
+        const plan::JointPlan& joint = plan_.joints[static_cast<std::size_t>(j)];
+        for (int row : joint.rows)
+          state.multipliers[static_cast<std::size_t>(joint.multiplier_begin + row)] = multipliers[k++];
+      }
+    }
+  };
+  system.walker().for_each_chunk(static_cast<std::int64_t>(plan_.held.size()), element_grain,
+                                 tree::make_chunk(by_node));
+}
+
+double HeldNodes::largest_impulse(const System& system, const State& state, const double* x) const {
+  const elements::Field field = system.field(state, {0.0, 0.0, true});
+  const auto add_forces = [&](const Use& use, Vec6<double>& forces) {
+    std::array<double, most_unknowns> residual;
+    std::array<double, most_unknowns * most_unknowns> tangent;
+    const int j = system.joint_of_element(static_cast<int>(use.element));
+    const plan::JointPlan* joint = j < 0 ? nullptr : &plan_.joints[static_cast<std::size_t>(j)];
+    plan::with_element(plan_.elements, plan_.directory[use.element], [&](const auto& e) {
+      elements::evaluate(e, field, joint == nullptr ? nullptr : state.multipliers.data() + joint->multiplier_begin,
+                         j < 0 ? 0.0 : state.turns[static_cast<std::size_t>(j)], residual.data(), tangent.data());
+      add_product(
+          e, tangent.data(), use.part, [&](int node) { return system.node_part(x, node); }, forces);
+      if (joint == nullptr || joint->block < 0) return;
+      const int n = elements::num_unknowns(e), first_row = n - elements::num_multipliers(e);
+      for (std::size_t k = 0; k < joint->rows.size(); ++k)
+        for (int i = 0; i < 6; ++i)
+          forces[i] += tangent[static_cast<std::size_t>((6 * use.part + i) * n + first_row + joint->rows[k])] *
+                       x[system.block_begin(joint->block) + static_cast<std::int64_t>(k)];
+    });
+  };
+  double most = 0.0;
+  for (std::size_t h = 0; h < plan_.held.size(); ++h) {
+    std::array<double, 6> impulses;
+    balance(h, Vec6<double>::zero(), add_forces, impulses.data());
+    for (int i = 0; i < plan_.unknowns.count; ++i)
+      most = std::max(most, std::abs(impulses[static_cast<std::size_t>(i)]));
+  }
+  return most;
+}
+
+}  // namespace bough::step

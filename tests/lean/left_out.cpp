@@ -1,0 +1,55 @@
+/// Runs small scenes, with and without one feature each, and has callgrind count the instructions of some steps of each. Run by left_out.py
+/// under valgrind; without it the requests to callgrind do nothing.
+#include <valgrind/callgrind.h>
+
+#include <cstdio>
+
+#include "bough/scene/problems.hpp"
+#include "bough/study/simulate.hpp"
+#include "links.hpp"
+
+namespace {
+
+using namespace bough;
+
+struct Discard : results::Recorder {
+  void begin(const results::HistoryHeader&) override {}
+  void row(const results::HistoryRow&) override {}
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+};
+
+constexpr int first_counted = 2, num_counted = 2;  ///< attempts of steps
+
+/// Counts steps `first_counted` to `first_counted + num_counted` of a run and has callgrind write them under the scene's name.
+bool count_steps(const scene::Scene& scene) {
+  for (const scene::SceneProblem& problem : scene::problems_in(scene)) {
+    std::printf("%s: %s %s\n", scene.name.c_str(), problem.section.c_str(), problem.rule.c_str());
+    return false;
+  }
+  int tried = 0;
+  study::SimulateOptions options;
+  options.before_step = [&](step::System&, const step::State&, const study::BeforeStep&) {
+    if (++tried == first_counted) {
+      CALLGRIND_START_INSTRUMENTATION;
+      CALLGRIND_ZERO_STATS;
+    }
+    if (tried < first_counted + num_counted) return true;
+    CALLGRIND_STOP_INSTRUMENTATION;
+    CALLGRIND_DUMP_STATS_AT(scene.name.c_str());
+    return false;
+  };
+  Discard recorder;
+  const results::Summary summary = study::simulate(scene, options, recorder);
+  if (tried == first_counted + num_counted && summary.steps.accepted > 0) return true;
+  std::printf("%s: only %d steps tried: %s\n", scene.name.c_str(), tried, summary.cause.c_str());
+  return false;
+}
+
+}  // namespace
+
+int main() {
+  bool ok = true;
+  for (const scene::Scene& scene : lean::make_scenes()) ok = count_steps(scene) && ok;
+  return ok ? 0 : 1;
+}
