@@ -1,14 +1,30 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# bough_add_test_objects(name SOURCES a.cpp ... LAYERS layers ... [LIBS targets ...])
+# compiles once what several tests use; they name it under OBJECTS. Tests may be among them.
+function(bough_add_test_objects name)
+  cmake_parse_arguments(PARSE_ARGV 1 OBJECTS "" "" "SOURCES;LAYERS;LIBS")
+  list(TRANSFORM OBJECTS_LAYERS PREPEND bough_)
+  foreach(used IN LISTS OBJECTS_LAYERS)
+    if(NOT TARGET ${used} AND BOUGH_ONLY)
+      return()  # as the tests that use it
+    endif()
+  endforeach()
+  add_library(test_${name} OBJECT ${OBJECTS_SOURCES})
+  target_link_libraries(test_${name} PRIVATE ${OBJECTS_LAYERS} ${OBJECTS_LIBS} bough_base bough_warnings GTest::gtest)
+  target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  set_target_properties(test_${name} PROPERTIES CXX_EXTENSIONS OFF)
+endfunction()
+
 # bough_add_test(name SOURCES a.cpp ... LAYERS layers ... LABEL unit|verification|slow [LIBS targets ...]
-#                [DEFS definitions ...] [TIMEOUT seconds] [NO_TRAPS] [NO_SANITIZERS])
+#                [OBJECTS objects ...] [DEFS definitions ...] [TIMEOUT seconds] [NO_TRAPS] [NO_SANITIZERS])
 # makes one GoogleTest executable and one ctest entry FOLDER/name.Suite.case for each of its tests; the targets
 # tests_LABEL and tests_FOLDER_LABEL build all of them. The main function is ours: it unmasks floating-point traps
 # (tests/support/main.cpp); NO_TRAPS leaves them masked. NO_SANITIZERS leaves the test out of sanitized builds, for
 # tests that replace operator new as the sanitizers do. support/source_dir.hpp tells where data/ lies.
 function(bough_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 TEST "NO_TRAPS;NO_SANITIZERS" "LABEL;TIMEOUT" "SOURCES;LAYERS;LIBS;DEFS")
+  cmake_parse_arguments(PARSE_ARGV 1 TEST "NO_TRAPS;NO_SANITIZERS" "LABEL;TIMEOUT" "SOURCES;LAYERS;LIBS;DEFS;OBJECTS")
   if(TEST_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "bough_add_test(${name}): unknown arguments ${TEST_UNPARSED_ARGUMENTS}")
   endif()
@@ -32,7 +48,8 @@ function(bough_add_test name)
       return()  # needs a layer that was not asked for
     endif()
   endforeach()
-  add_executable(${target} ${TEST_SOURCES})
+  list(TRANSFORM TEST_OBJECTS REPLACE "(.+)" "$<TARGET_OBJECTS:test_\\1>")
+  add_executable(${target} ${TEST_SOURCES} ${TEST_OBJECTS})
   set(main bough_test_main)
   if(TEST_NO_TRAPS)
     set(main bough_test_main_untrapped)
@@ -40,6 +57,11 @@ function(bough_add_test name)
   target_link_libraries(${target} PRIVATE ${TEST_LAYERS} ${TEST_LIBS} bough_base bough_warnings ${main})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_compile_definitions(${target} PRIVATE ${TEST_DEFS})
+  if(TEST_LABEL STREQUAL "unit")
+    # Kernels for scalars that only tests use (complex, Jet, Taylor) take most of the compilation and little of the run.
+    # (-Wno-uninitialized: at -O1 g++ 12 warns about its own AVX-512 header.)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1 -Wno-uninitialized>)
+  endif()
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
   get_filename_component(folder "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
   gtest_discover_tests(${target} TEST_PREFIX "${folder}/${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60

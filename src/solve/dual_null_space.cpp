@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "decompositions.hpp"
 #include "dual_state.hpp"
 
 namespace bough::solve {
@@ -15,10 +16,6 @@ using Vector = Eigen::VectorXd;
 /// Distance to a singular matrix at which motion counts as free: round-off leaves up to some 1e-14 of a sharpened null vector, since the
 /// left-over rows and columns are no orthogonal basis. A structure that close to floating (a static chain of two thousand beams) is refused.
 constexpr double free_motion = 1e-13;
-
-Matrix orthonormal(const Matrix& vectors) {
-  return Eigen::HouseholderQR<Matrix>(vectors).householderQ() * Matrix::Identity(vectors.rows(), vectors.cols());
-}
 }  // namespace
 
 /// With the left-over columns (rows) of the interface problem held at unit vectors in turn: what the whole matrix all but removes.
@@ -81,7 +78,7 @@ void Dual::State::sharpen(const tree::Walker& walker, Matrix& candidates) {
 
 /// How many of the directions that the candidates span the matrix removes: |A z| / |z| by a product with the element matrices themselves.
 int Dual::State::count_null_vectors(const tree::Walker& walker, const Matrix& candidates) {
-  const Matrix Q = orthonormal(candidates.colwise().normalized());
+  const Matrix Q = orthonormal_basis(candidates.colwise().normalized());
   const Eigen::Map<const Vector> row(scales.row.data(), Q.rows()), column(scales.column.data(), Q.rows());
   Matrix image(Q.rows(), Q.cols());
   for (Eigen::Index j = 0; j < Q.cols(); ++j) {
@@ -89,19 +86,15 @@ int Dual::State::count_null_vectors(const tree::Walker& walker, const Matrix& ca
     elements.multiply(walker, x.data(), image.col(j).data());
     image.col(j) = row.cwiseProduct(image.col(j));
   }
-  const Eigen::JacobiSVD<Matrix> svd(Matrix(Eigen::HouseholderQR<Matrix>(image).matrixQR().topRows(Q.cols()))
-                                         .triangularView<Eigen::Upper>()
-                                         .toDenseMatrix(),
-                                     Eigen::ComputeFullV);
+  const RightSingularVectors singular = right_singular_vectors(triangular_factor(image));
   int count = 0;
   for (Eigen::Index j = 0; j < Q.cols(); ++j) {
-    const Vector z = Q * svd.matrixV().col(j);
+    const Vector z = Q * singular.vectors.col(j);
     double motion = 0.0;
     for (Eigen::Index i = 0; i < z.size(); ++i)
       if (is_constraint[at(i)] == 0) motion += z(i) * z(i);
     const bool moves = std::sqrt(motion) > options.null_motion_tolerance;
-    if (!(svd.singularValues()(j) >
-          (moves ? std::max(free_motion, options.singular_tolerance) : options.rank_tolerance)))
+    if (!(singular.values(j) > (moves ? std::max(free_motion, options.singular_tolerance) : options.rank_tolerance)))
       ++count;
   }
   return count;
@@ -130,8 +123,8 @@ void Dual::State::find_null_vectors(const tree::Walker& walker) {
   null_left = left;
   const Eigen::Map<const Vector> weight(scales.weight.data(), null_right.rows());
   null_right = weight.asDiagonal() * null_right;
-  null_right = orthonormal(null_right.colwise().normalized());
-  null_left = orthonormal(null_left.colwise().normalized());
+  null_right = orthonormal_basis(null_right.colwise().normalized());
+  null_left = orthonormal_basis(null_left.colwise().normalized());
   status.deficiency = static_cast<int>(null_right.cols());
   double worst = 0.0;
   std::int64_t unknown = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// All storage of the forms with global multipliers. Internal to solve.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <functional>
 #include <vector>
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "decompositions.hpp"
 #include "dual_state.hpp"
 
 namespace bough::solve {
@@ -181,20 +182,14 @@ double Dual::State::eval_condition() const {
   const int count = num_ties();
   if (count == 0) return 1.0;
   Matrix F = reduced.bottomRightCorner(count, count);
-  const auto basis_of_rest = [&](const Matrix& taken) -> Matrix {  // orthonormal, orthogonal to the columns of `taken`
-    Eigen::ColPivHouseholderQR<Matrix> qr(taken);
-    qr.setThreshold(1e-10);
-    const Matrix Q = qr.householderQ();
-    return Q.rightCols(count - qr.rank());
-  };
   if (waiting > 0) {
-    const Matrix right = basis_of_rest(reduced.topRightCorner(waiting, count).transpose());
-    const Matrix left = basis_of_rest(reduced.bottomLeftCorner(count, waiting));
+    const Matrix right = orthogonal_complement(reduced.topRightCorner(waiting, count).transpose(), 1e-10);
+    const Matrix left = orthogonal_complement(reduced.bottomLeftCorner(count, waiting), 1e-10);
     if (right.cols() != left.cols()) return std::numeric_limits<double>::infinity();
     F = left.transpose() * F * right;
   }
   if (F.size() == 0 || !F.allFinite()) return 1.0;
-  const Vector values = Eigen::JacobiSVD<Matrix>(F).singularValues();
+  const Vector values = singular_values(F);
   Eigen::Index last = values.size() - 1;  // directions that joints hold on both sides have no flexibility
   while (last > 0 && values(last) <= 1e-13 * values(0)) --last;
   return values(last) > 0.0 ? values(0) / values(last) : 1.0;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "decompositions.hpp"
 #include "dual_state.hpp"
 
 namespace bough::solve {
@@ -112,8 +113,8 @@ void Dual::State::assemble_preconditioner() {
     };
     Matrix S = part(tied, tied);
     if (!inside.empty()) {
-      const Eigen::FullPivLU<Matrix> lu(part(inside, inside));
-      if (lu.isInvertible()) S -= part(tied, inside) * lu.solve(part(inside, tied));
+      const std::optional<Matrix> moved = solve_if_regular(part(inside, inside), part(inside, tied));
+      if (moved) S -= part(tied, inside) * *moved;
     }
     for (std::size_t t = 0; t < leaf.ties.size(); ++t)
       for (std::size_t s = 0; s < leaf.ties.size(); ++s) {

@@ -1,8 +1,9 @@
 /// The method's own quantities: interface flexibility, its conditioning, local multipliers, and the textbook condensation through it.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
+#include "decompositions.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
@@ -68,14 +69,12 @@ void Hierarchical::State::condense_through_flexibility(tree::SubdomainId s) {
   const double s2 = options.multiplier_scale * options.multiplier_scale;
   Matrix stiffened = S;
   stiffened.diagonal() += penalty;
-  const Eigen::PartialPivLU<Matrix> lu(stiffened);
-  const Matrix F = s2 * lu.inverse();
-  const Matrix inverse = Eigen::PartialPivLU<Matrix>(F).inverse();
-  if (!F.allFinite() || !inverse.allFinite()) return;
-  S = s2 * inverse;
+  const Matrix F = s2 * inverse(stiffened), stiffness = inverse(F);
+  if (!F.allFinite() || !stiffness.allFinite()) return;
+  S = s2 * stiffness;
   S.diagonal() -= penalty;
   interface.flexibility.assign(F.data(), F.data() + F.size());
-  interface.inverse.assign(inverse.data(), inverse.data() + inverse.size());
+  interface.inverse.assign(stiffness.data(), stiffness.data() + stiffness.size());
   interface.work.resize(at(n));
   interface.used = true;
 }
@@ -168,12 +167,12 @@ std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
         report.penalty_most = std::max(report.penalty_most, penalty);
         motion.push_back(i);
       }
-      const Eigen::FullPivLU<Matrix> lu(stiffened);
-      if (!lu.isInvertible()) {  // rows that are empty here: what they hold is settled further up
+      const std::optional<Matrix> flexibility = solve_if_regular(stiffened, Matrix::Identity(n, n));
+      if (!flexibility) {  // rows that are empty here: what they hold is settled further up
         reports.push_back(report);
         continue;
       }
-      const Matrix F = lu.inverse();
+      const Matrix& F = *flexibility;
       Matrix scaled(motion.size(), motion.size());
       for (std::size_t i = 0; i < motion.size(); ++i)
         for (std::size_t j = 0; j < motion.size(); ++j)
@@ -181,7 +180,7 @@ std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
               F(motion[i], motion[j]) * state.options.penalty_factor *
               std::sqrt(stiffness[at(motion[i])] * stiffness[at(motion[j])]);
       if (!motion.empty() && scaled.allFinite()) {
-        const Eigen::VectorXd values = Eigen::JacobiSVD<Matrix>(scaled).singularValues();
+        const Eigen::VectorXd values = singular_values(scaled);
         Eigen::Index last =
             values.size() - 1;  // directions that joints hold at the interface itself have no flexibility
         while (last > 0 && values(last) <= 1e-13 * values(0)) --last;

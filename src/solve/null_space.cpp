@@ -1,9 +1,10 @@
 /// What is left at the root without a pivot: null vectors, least multipliers, consistency.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "decompositions.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
@@ -138,14 +139,11 @@ void Hierarchical::State::decide_rank() {
   using Matrix = Eigen::MatrixXd;
   const auto rows = static_cast<Eigen::Index>(n);
   const Eigen::Map<const Matrix> Z(null_space.right.data(), rows, m), Y(null_space.left.data(), rows, m);
-  const Eigen::HouseholderQR<Matrix> qr_z(Z), qr_y(Y);
   const Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> T(
       root.a + root.pivots + static_cast<std::ptrdiff_t>(root.pivots) * root.lda, m, m, Eigen::OuterStride<>(root.lda));
-  const auto R_z = qr_z.matrixQR().topRows(m).triangularView<Eigen::Upper>();
-  const auto R_y = qr_y.matrixQR().topRows(m).triangularView<Eigen::Upper>();
-  Matrix core = R_y.transpose().solve(Matrix(T));
-  core = R_z.transpose().solve(Matrix(core.transpose())).transpose();
-  const Matrix basis = Z * Matrix(R_z.solve(Matrix::Identity(m, m)));  // Q_z
+  const Matrix R_z = triangular_factor(Z), R_y = triangular_factor(Y);
+  const Matrix core = solve_triangular_transposed(R_z, solve_triangular_transposed(R_y, T).transpose()).transpose();
+  const Matrix basis = Z * solve_triangular(R_z, Matrix::Identity(m, m));  // Q_z
   const auto motion_share = [&](const Matrix& unit_vectors) {
     double sum = 0.0;
     for (std::size_t i = 0; i < n; ++i)
@@ -164,11 +162,11 @@ void Hierarchical::State::decide_rank() {
   if (core.norm() <= options.rank_tolerance && motion_share(basis) <= options.null_motion_tolerance && all_cancel()) {
     dependent = m;  // the usual case: constraint rows that depend, and nothing else
   } else {
-    const Eigen::JacobiSVD<Matrix> svd(core, Eigen::ComputeFullV);
+    const RightSingularVectors singular = right_singular_vectors(core);
     for (int j = 0; j < m; ++j) {
-      const Eigen::VectorXd z = basis * svd.matrixV().col(j);
+      const Eigen::VectorXd z = basis * singular.vectors.col(j);
       const bool is_of_constraints = motion_share(z) <= options.null_motion_tolerance && cancels(z);
-      if (!(svd.singularValues()(j) > (is_of_constraints ? options.rank_tolerance : options.singular_tolerance)))
+      if (!(singular.values(j) > (is_of_constraints ? options.rank_tolerance : options.singular_tolerance)))
         ++dependent;
     }
   }

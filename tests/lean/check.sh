@@ -1,5 +1,5 @@
 #!/bin/sh
-# check.sh SOURCE MINIMAL SCRATCH COMPILER   builds left_out.cpp with the core library that check_minimal.sh has left under MINIMAL, and has
+# check.sh SOURCE MINIMAL SCRATCH COMPILER   builds left_out.cpp with the core library that consumer/check.sh has left under MINIMAL, and has
 # left_out.py run it under callgrind. That library is not optimised: nothing is inlined, every instruction is charged to the function that
 # asks for it, and none is one that valgrind does not know.
 set -eu

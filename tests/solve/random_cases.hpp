@@ -28,4 +28,7 @@ Case make_case(int number, int unknowns);
 /// Sizes from 1 to 1500, evenly by their logarithm; number 249: 2500, number 499: 5000. Scenes come out near that.
 int unknowns_of_case(int number);
 
+/// How many of them this program is to try: fewer in the unit tests.
+int num_cases();
+
 }  // namespace bough::test

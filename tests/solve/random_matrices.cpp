@@ -143,14 +143,14 @@ void compare(int number, solve::Symmetry symmetry, Tally& tally) {
 
 TEST(RandomMatrices, MatchDenseLuWithinTheirConditionAndSoDoesKlu) {
   Tally tally;
-  for (int number = 0; number < BOUGH_NUM_CASES; ++number) compare(number, solve::Symmetry::general, tally);
+  for (int number = 0; number < num_cases(); ++number) compare(number, solve::Symmetry::general, tally);
   std::printf(
       "  %d cases up to %d unknowns: ratio at most %.2f of 30, difference at most %.3f of its bar; %d bars < 1e-4; %d "
       "without KLU\n",
       tally.cases, tally.largest, tally.ratio, tally.difference, tally.sharp, tally.without_klu);
   for (int f = 0; f < num_case_families; ++f)
     std::printf("  family %d: %d cases in lanes, %d of them left some\n", f, tally.in_lanes[f], tally.left[f]);
-  EXPECT_EQ(tally.cases, BOUGH_NUM_CASES);
+  EXPECT_EQ(tally.cases, num_cases());
   EXPECT_GE(tally.sharp, 9 * tally.cases / 10);  // or the bars would hold nothing
   EXPECT_GE(tally.dependent, tally.cases / 5);
   EXPECT_LE(tally.without_klu, tally.cases / 20);
@@ -163,11 +163,11 @@ TEST(RandomMatrices, MatchDenseLuWithinTheirConditionAndSoDoesKlu) {
 TEST(RandomMatrices, TheirSymmetricPartsMatchDenseLuToo) {
   constexpr int most_unknowns = 1500;  // the dense reference of the others is above, and takes the time
   Tally tally;
-  for (int number = 0; number < BOUGH_NUM_CASES; ++number)
+  for (int number = 0; number < num_cases(); ++number)
     if (unknowns_of_case(number) <= most_unknowns) compare(number, solve::Symmetry::symmetric, tally);
   std::printf("  %d symmetric cases up to %d unknowns: ratio at most %.2f of 30, difference at most %.3f of its bar\n",
               tally.cases, tally.largest, tally.ratio, tally.difference);
-  EXPECT_GE(tally.cases, BOUGH_NUM_CASES / 2);
+  EXPECT_GE(tally.cases, num_cases() / 2);
   EXPECT_GE(tally.dependent, tally.cases / 5);
 }
 

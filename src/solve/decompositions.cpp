@@ -1,0 +1,48 @@
+#include "decompositions.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace bough::solve {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+Matrix inverse(const Matrix& a) { return Eigen::PartialPivLU<Matrix>(a).inverse(); }
+
+std::optional<Matrix> solve_if_regular(const Matrix& a, const Matrix& b) {
+  const Eigen::FullPivLU<Matrix> lu(a);
+  if (!lu.isInvertible()) return std::nullopt;
+  return lu.solve(b);
+}
+
+Vector singular_values(const Matrix& a) { return Eigen::JacobiSVD<Matrix>(a).singularValues(); }
+
+RightSingularVectors right_singular_vectors(const Matrix& a) {
+  const Eigen::JacobiSVD<Matrix> svd(a, Eigen::ComputeFullV);
+  return {svd.singularValues(), svd.matrixV()};
+}
+
+Matrix triangular_factor(const Matrix& a) {
+  return Matrix(Eigen::HouseholderQR<Matrix>(a).matrixQR().topRows(a.cols())).triangularView<Eigen::Upper>();
+}
+
+Matrix solve_triangular(const Matrix& r, const Matrix& b) { return r.triangularView<Eigen::Upper>().solve(b); }
+
+Matrix solve_triangular_transposed(const Matrix& r, const Matrix& b) {
+  return r.triangularView<Eigen::Upper>().transpose().solve(b);
+}
+
+Matrix orthonormal_basis(const Matrix& columns) {
+  return Eigen::HouseholderQR<Matrix>(columns).householderQ() * Matrix::Identity(columns.rows(), columns.cols());
+}
+
+Matrix orthogonal_complement(const Matrix& columns, double threshold) {
+  Eigen::ColPivHouseholderQR<Matrix> qr(columns);
+  qr.setThreshold(threshold);
+  const Matrix Q = qr.householderQ();
+  return Q.rightCols(columns.rows() - qr.rank());
+}
+
+}  // namespace bough::solve
