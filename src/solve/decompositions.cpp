@@ -34,6 +34,10 @@ Matrix solve_triangular_transposed(const Matrix& r, const Matrix& b) {
   return r.triangularView<Eigen::Upper>().transpose().solve(b);
 }
 
+Matrix divide_by_triangular(const Matrix& b, const Matrix& r) {
+  return r.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(b);
+}
+
 Matrix orthonormal_basis(const Matrix& columns) {
   return Eigen::HouseholderQR<Matrix>(columns).householderQ() * Matrix::Identity(columns.rows(), columns.cols());
 }

@@ -23,9 +23,10 @@ RightSingularVectors right_singular_vectors(const Eigen::MatrixXd& a);
 
 /// R of A = Q R, square; A has at least as many rows as columns.
 Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& a);
-/// R^-1 B and R^-T B.
+/// R^-1 B, R^-T B and B R^-1.
 Eigen::MatrixXd solve_triangular(const Eigen::MatrixXd& r, const Eigen::MatrixXd& b);
 Eigen::MatrixXd solve_triangular_transposed(const Eigen::MatrixXd& r, const Eigen::MatrixXd& b);
+Eigen::MatrixXd divide_by_triangular(const Eigen::MatrixXd& b, const Eigen::MatrixXd& r);
 
 /// As many orthonormal vectors as there are columns, which span the columns where these are independent.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);

@@ -13,27 +13,13 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-double dot(const double* a, const double* b, const double* weight, std::size_t n) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i] * (weight != nullptr ? weight[i] * weight[i] : 1.0);
-  return sum;
-}
-
-/// Modified Gram-Schmidt, twice.
-void orthonormalise(std::vector<double>& vectors, int count, std::size_t n, const double* weight) {
-  for (int k = 0; k < count; ++k) {
-    double* v = vectors.data() + at(k) * n;
-    for (int sweep = 0; sweep < 2; ++sweep) {
-      const double before = std::sqrt(dot(v, v, weight, n));
-      for (std::size_t i = 0; i < n; ++i) v[i] /= before;
-      for (int p = 0; p < k; ++p) {
-        const double* q = vectors.data() + at(p) * n;
-        const double c = dot(v, q, weight, n);
-        for (std::size_t i = 0; i < n; ++i) v[i] -= c * q[i];
-      }
-    }
-    const double norm = std::sqrt(dot(v, v, weight, n));
-    for (std::size_t i = 0; i < n; ++i) v[i] /= norm;
+/// Combinations of the columns that are orthonormal after rows are multiplied by `weight`. The second sweep takes out what the condition of the
+/// columns has left in the first.
+void orthonormalise(std::vector<double>& vectors, int count, const Eigen::VectorXd& weight) {
+  Eigen::Map<Eigen::MatrixXd> V(vectors.data(), weight.size(), count);
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    for (int k = 0; k < count; ++k) V.col(k) /= weight.cwiseProduct(V.col(k)).norm();
+    V = divide_by_triangular(V, triangular_factor(weight.asDiagonal() * V));
   }
 }
 
@@ -170,6 +156,7 @@ void Hierarchical::State::decide_rank() {
         ++dependent;
     }
   }
+  if (dependent == m) return;
   std::vector<double> row_weight(at(m)), column_weight(at(m));
   for (int j = 0; j < m; ++j) {
     row_weight[at(j)] = 1.0 / Y.col(j).norm();
@@ -186,9 +173,10 @@ void Hierarchical::State::find_null_space() {
   null_space.dimension = k;
   if (k == 0) return;
   const std::size_t n = at(tree.num_unknowns());
-  eval_null_candidates();
-  orthonormalise(null_space.right, k, n, scales.weight.data());
-  orthonormalise(null_space.left, k, n, nullptr);
+  if (null_space.right.size() != at(k) * n) eval_null_candidates();  // decide_rank() has eliminated some of its own
+  orthonormalise(null_space.right, k,
+                 Eigen::Map<const Eigen::VectorXd>(scales.weight.data(), static_cast<Eigen::Index>(n)));
+  orthonormalise(null_space.left, k, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(n)));
   // A null vector with motion in it: something is held by nothing.
   double worst = 0.0;
   std::size_t unknown = 0;

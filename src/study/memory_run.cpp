@@ -60,7 +60,7 @@ std::string refusal_of(const scene::Scene& scene) {
   return refused;
 }
 
-MemoryRun run_in_memory(const scene::Scene& scene, const SimulateOptions& options) {
+MemoryRun run_in_memory(const scene::Scene& scene, const SimulateOptions& options, const ProgressCallback& progress) {
   MemoryRun out;
   const std::string refused = refusal_of(scene);
   if (!refused.empty()) {
@@ -68,7 +68,7 @@ MemoryRun run_in_memory(const scene::Scene& scene, const SimulateOptions& option
     return out;
   }
   Memory memory(out);
-  simulate(scene, options, memory);
+  simulate(scene, options, memory, progress);
   return out;
 }
 

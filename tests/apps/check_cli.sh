@@ -285,5 +285,16 @@ holds test "$(tail -1 long/history.csv | tr -cd , | wc -c)" -eq 5
 accepted=$(sed -n 's/.*"accepted": \([0-9]*\).*/\1/p' long/summary.json)
 holds test "$(wc -l < long/history.csv)" -eq "$((accepted + 2))"
 
+# Ctrl-C ends a case of the stress table where it is; a case cut short is none
+"$program" stress --out cut --case million_steps_variational > printed 2>&1 &
+process=$!
+sleep 1.5
+kill -INT $process
+seconds=$(date +%s)
+wait $process
+holds test $? -eq 1
+holds test "$(($(date +%s) - seconds))" -le 20
+holds grep -q '"cases": \[\]' cut/stress.json
+
 echo "command line: $((checks - failures)) of $checks checks passed"
 [ "$failures" -eq 0 ]

@@ -1,5 +1,6 @@
 #pragma once
 /// A run kept in memory, for whoever compares runs instead of writing them.
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 namespace bough::study {
 
 struct SimulateOptions;
+using ProgressCallback = std::function<bool(const results::Progress&)>;
 
 /// A run as its recorder saw it; pictures of the motion are not kept.
 struct MemoryRun {
@@ -31,8 +33,9 @@ struct MemoryRun {
 /// What problems_in has against a scene, warnings left out, in one line; empty when nothing.
 std::string refusal_of(const scene::Scene& scene);
 
-/// Runs a scene. One with problems does not run: it is failed, and the cause starts with "refused: ".
+/// Runs a scene, as simulate() does. One with problems does not run: it is failed, and the cause starts with "refused: ".
 MemoryRun run_in_memory(const scene::Scene& scene, int threads = 1);
-MemoryRun run_in_memory(const scene::Scene& scene, const SimulateOptions& options);
+MemoryRun run_in_memory(const scene::Scene& scene, const SimulateOptions& options,
+                        const ProgressCallback& progress = {});
 
 }  // namespace bough::study

@@ -63,8 +63,9 @@ std::vector<std::string> problems_in(const StressOptions& options);
 /// Names of all cases and families, in the order of the table.
 std::vector<std::string> stress_names();
 
-/// Runs the table. on_case is called as cases end, one at a time, from any thread; is_stopped is asked before each case.
-/// What a case throws is its failure, never thrown on. The answer is in the order of the table.
+/// Runs the table. on_case is called as cases end, one at a time, from any thread; is_stopped is asked before each case
+/// and after every step, from any thread; cases that it cuts short are left out. What a case throws is its failure, never thrown on. The
+/// answer is in the order of the table.
 std::vector<StressCase> run_stress(
     const StressOptions& options,
     const std::function<void(const StressCase&, std::size_t done, std::size_t all)>& on_case = {},

@@ -6,6 +6,7 @@
 
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_scene.hpp"
+#include "bough/study/simulate.hpp"
 
 namespace bough::study::stress {
 
@@ -23,7 +24,8 @@ MemoryRun Bench::try_run(const scene::Scene& scene) {
   scene::Scene in_space =
       scene;  // a plane would take away the redundant rows and soft directions that cases are made of
   in_space.without.insert(in_space.without.end(), {"line", "translation", "planar"});
-  MemoryRun run = run_in_memory(in_space);
+  MemoryRun run = run_in_memory(in_space, {}, [&](const results::Progress&) { return !is_stopped_ || !is_stopped_(); });
+  if (run.summary.status == results::RunStatus::interrupted) throw std::runtime_error(run.summary.cause);
   const results::Summary& s = run.summary;
   ++result_.runs;
   result_.steps += s.steps.accepted;

@@ -1,5 +1,6 @@
 #pragma once
 /// What a case of the stress table is written with: it runs scenes and puts down figures.
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -12,7 +13,9 @@ namespace bough::study::stress {
 /// Where a case writes what it measures.
 class Bench {
  public:
-  Bench(StressCase& result, bool is_quick) : result_(result), is_quick_(is_quick) {}
+  /// is_stopped is asked after every step of a run.
+  Bench(StressCase& result, bool is_quick, const std::function<bool()>& is_stopped)
+      : result_(result), is_quick_(is_quick), is_stopped_(is_stopped) {}
 
   bool is_quick() const { return is_quick_; }
   /// `whole`, or `part` of it in a quick table, which is marked as shortened.
@@ -47,6 +50,7 @@ class Bench {
  private:
   StressCase& result_;
   bool is_quick_;
+  const std::function<bool()>& is_stopped_;
 };
 
 /// One row of the table.

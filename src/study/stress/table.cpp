@@ -44,7 +44,7 @@ std::string figures_text(const std::vector<StressFigure>& figures) {
   return failing + (failing.empty() || holding.empty() ? "" : "; ") + holding;
 }
 
-StressCase run_case(const Definition& definition, bool is_quick) {
+StressCase run_case(const Definition& definition, bool is_quick, const std::function<bool()>& is_stopped) {
   StressCase result;
   result.name = definition.name;
   result.family = definition.family;
@@ -52,7 +52,7 @@ StressCase run_case(const Definition& definition, bool is_quick) {
   result.expected = definition.expected;
   result.reason = definition.reason;
   const double begin = thread_seconds();
-  Bench bench(result, is_quick);
+  Bench bench(result, is_quick, is_stopped);
   std::string cause;
   try {
     definition.body(bench);
@@ -132,7 +132,8 @@ std::vector<StressCase> run_stress(
     for (std::size_t place = next++; place < table.size(); place = next++) {
       if (is_stopped && is_stopped()) return;
       const std::size_t k = order[place];
-      results[k] = stress::run_case(table[k], options.quick);
+      results[k] = stress::run_case(table[k], options.quick, is_stopped);
+      if (is_stopped && is_stopped()) return;  // it may have been cut short
       const std::lock_guard<std::mutex> lock(telling);
       is_done[k] = 1;
       if (on_case) on_case(results[k], ++done, table.size());
