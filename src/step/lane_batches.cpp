@@ -1,6 +1,7 @@
 #include "lane_batches.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace bough::step {
 
@@ -50,17 +51,29 @@ void LaneBatches<Kernels>::gather_singles() {
   };
   for (std::size_t b = 0; b < batches_.size(); ++b) {
     solve::ElementBatch& batch = batches_[b];
-    if (batch.stride != 1 || batch.element[0] < 0) continue;
+    std::array<int, solve::lanes_wide> loose = batch.element;
+    const auto end = std::remove_if(loose.begin(), loose.end(), [](int id) { return id < 0; });
+    const auto present = end - loose.begin();
+    if (present == 0 || present >= least_lanes) continue;
+    batch.element.fill(-1);
+    batch.stride = 1;  // its lanes are no longer those of the solver
     std::erase_if(open, [b](const Open& o) { return b - o.batch > near_by; });
-    const plan::ElementPlace place = plan_->directory[static_cast<std::size_t>(batch.element[0])];
-    const auto group = std::find_if(open.begin(), open.end(), [&](const Open& o) { return share(o.first, place); });
-    if (group == open.end()) {
-      open.push_back({b, place});
-      continue;
+    std::size_t staying = 0;
+    for (const int* id = loose.data(); id != loose.data() + present; ++id) {
+      const plan::ElementPlace place = plan_->directory[static_cast<std::size_t>(*id)];
+      const auto group = std::find_if(open.begin(), open.end(), [&](const Open& o) { return share(o.first, place); });
+      if (group == open.end()) {
+        batch.element[staying++] = *id;
+        if (staying == 1)
+          open.push_back({b, place});
+        else if (open.back().batch == b)  // two kinds: one by one
+          open.pop_back();
+        continue;
+      }
+      batches_[group->batch].element[group->count++] = *id;
+      if (group->batch == b) ++staying;
+      if (group->count == solve::lanes_wide) open.erase(group);
     }
-    batches_[group->batch].element[group->count++] = batch.element[0];
-    batch.element[0] = -1;
-    if (group->count == solve::lanes_wide) open.erase(group);
   }
 }
 

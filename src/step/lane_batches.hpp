@@ -59,7 +59,7 @@ class LaneBatches {
  public:
   using Field = typename Kernels::Field;
 
-  /// Batches of the solver; elements that stand alone there are put together with others near by of one kind, each in the place of the first.
+  /// Batches of the solver; elements of those that are all but empty are put together with others near by of one kind, in the place of the first.
   /// A batch goes in lanes if it holds at least `least_lanes` elements and they differ in numbers only.
   /// Joints that hold nodes are in none: nothing of them is asked for.
   void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,

@@ -28,8 +28,20 @@ struct NodeUnknowns {
   bool is_whole() const { return count == 6; }
   bool is_length(int unknown) const { return component[static_cast<std::size_t>(unknown)] < 3; }
 
-  /// P^T x
+  /// P^T x. The planar case, which is met most, is written out: a loop that puts components in places one by one makes what reads
+  /// them next wait for every store.
   motion::Vec6<double> expanded(const double* x, std::size_t node) const {
+    if (motions == Motions::planar) {
+      if (basis.empty())
+        return lanes::join(motion::Vec3<double>{{x[0], x[1], 0.0}}, motion::Vec3<double>{{0.0, 0.0, x[2]}});
+      const motion::Mat3<double>& b = basis[node];
+      motion::Vec6<double> eta;
+      for (int i = 0; i < 3; ++i) {
+        eta[i] = b(i, 0) * x[0] + b(i, 1) * x[1];
+        eta[3 + i] = b(i, 2) * x[2];
+      }
+      return eta;
+    }
     motion::Vec6<double> eta = motion::Vec6<double>::zero();
     for (int i = 0; i < count; ++i) eta[component[static_cast<std::size_t>(i)]] = x[i];
     if (basis.empty()) return eta;
