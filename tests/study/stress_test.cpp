@@ -89,6 +89,17 @@ TEST(StressBench, a_run_counts_its_work_and_a_refusal_has_to_name_its_reason) {
   EXPECT_NE(c.refusal.find("nothing holds"), std::string::npos);
 }
 
+TEST(StressBench, a_run_that_is_stopped_ends_after_its_step_and_is_no_result) {
+  StressCase c;
+  int asked = 0;
+  stress::Bench bench(c, false, [&] { return ++asked == 2; });
+  scene::Scene s = make_cantilever(make_section("s", 1e4, 5e3, 5e3, 100, 100, 100), 1.0, 4, 1);
+  s.analysis.load_steps = 10;
+  EXPECT_THROW((void)bench.try_run(s), std::runtime_error);
+  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(c.runs, 0);
+}
+
 TEST(StressBench, the_ratio_is_that_of_lapack) {
   StressCase c;
   stress::Bench bench(c, false);

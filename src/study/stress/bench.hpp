@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "bough/study/memory_run.hpp"
 #include "bough/study/stress.hpp"
@@ -14,8 +15,8 @@ namespace bough::study::stress {
 class Bench {
  public:
   /// is_stopped is asked after every step of a run.
-  Bench(StressCase& result, bool is_quick, const std::function<bool()>& is_stopped)
-      : result_(result), is_quick_(is_quick), is_stopped_(is_stopped) {}
+  Bench(StressCase& result, bool is_quick, std::function<bool()> is_stopped = {})
+      : result_(result), is_quick_(is_quick), is_stopped_(std::move(is_stopped)) {}
 
   bool is_quick() const { return is_quick_; }
   /// `whole`, or `part` of it in a quick table, which is marked as shortened.
@@ -50,7 +51,7 @@ class Bench {
  private:
   StressCase& result_;
   bool is_quick_;
-  const std::function<bool()>& is_stopped_;
+  std::function<bool()> is_stopped_;
 };
 
 /// One row of the table.
