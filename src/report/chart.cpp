@@ -236,8 +236,14 @@ std::string slope_text(const Chart& chart, const ChartFrame& f, const SlopeLine&
   if (!(a < b)) return {};
   const auto height = [&](double x) { return f.to_y(y0 + line.slope * (x - x0)); };
   std::string text = path_element("guide", move_to(f.to_x(a), height(a)) + move_to(f.to_x(b), height(b), 'L'));
-  // beside the upper end, on the side with room
   const bool rises = line.slope >= 0.0;
+  if (line.is_below && line.slope != 0.0) {
+    constexpr double letters = 10.0, gap = 5.0;  // height of the letters, distance to the line beside them
+    const double per_pixel = (f.to_x(b) - f.to_x(a)) / (height(b) - height(a));
+    const double low = rises ? a : b, y = height(low) - 4.0, x = f.to_x(low) + (y - letters - height(low)) * per_pixel;
+    return text + text_element("tiny soft", rises ? x + gap : x - gap, y, rises ? "start" : "end", line.label);
+  }
+  // beside the upper end, on the side with room
   const double end = rises ? b : a, x = f.to_x(end), y = std::max(height(end), f.top + 4.0);
   const bool has_room = rises && x + 8.0 + character * static_cast<double>(line.label.size()) < f.right;
   if (has_room) return text + text_element("tiny soft", x + 4.0, y + 12.0, "start", line.label);

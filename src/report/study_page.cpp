@@ -93,9 +93,16 @@ class StudyPage {
 
   void advice() {
     page_.section("What to choose", "choose");
-    Table table{{"quantity", "wanted error", "run time [s]", "error", "choice"}, {}};
+    if (std::any_of(r_.advice.begin(), r_.advice.end(),
+                    [](const study::SweepAdvice& a) { return a.errors_of != "all"; }))
+      page_.paragraph(
+          "Errors of time are those of steps and integrator on the mesh of the grid, errors of space those of its "
+          "meshes at equal steps: a run makes "
+          "both, so choose for each.",
+          Tone::soft);
+    Table table{{"quantity", "errors of", "wanted error", "run time [s]", "error", "choice"}, {}};
     for (const study::SweepAdvice& a : r_.advice) {
-      std::vector<Cell> row{{r_.spec.quantities[a.quantity].name}, number_cell(a.wanted)};
+      std::vector<Cell> row{{r_.spec.quantities[a.quantity].name}, {a.errors_of}, number_cell(a.wanted)};
       if (a.run) {
         const SweepRun& run = r_.runs[*a.run];
         row.push_back(number_cell(study::spread_of(run.wall).median, 3, run_pointer(*a.run) + "/seconds/median"));
@@ -175,7 +182,7 @@ class StudyPage {
     if (std::isnan(f.expected) || f.runs.empty()) return;
     const SweepRun& finest = r_.runs[f.runs.back()];
     chart.slopes.push_back({finest.abscissa, 0.5 * finest.errors[q].max, larger_is_finer ? -f.expected : f.expected,
-                            "order " + io::rounded_text(f.expected, 3)});
+                            "order " + io::rounded_text(f.expected, 3), true});
   }
 
   void references(std::size_t g) {

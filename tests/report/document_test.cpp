@@ -105,6 +105,13 @@ TEST(Chart, a_slope_line_is_straight_has_its_slope_and_stays_inside) {
   const double per_decade_x = (f.right - f.left) / (f.x_high - f.x_low),
                per_decade_y = (f.bottom - f.top) / (f.y_high - f.y_low);
   EXPECT_NEAR((y1 - y2) / per_decade_y / ((x2 - x1) / per_decade_x), 2.0, 0.01);
+  chart.slopes.front().is_below = true;  // the label is beneath the lower end then, on the side away from the line
+  const std::string below = chart_svg(chart);
+  std::smatch at;
+  ASSERT_TRUE(
+      std::regex_search(below, at, std::regex(R"rx(<text class="tiny soft" x="([0-9.]+)" y="([0-9.]+)"[^>]*>2<)rx")));
+  EXPECT_GT(std::stod(at[1]), std::stod(m[1]));
+  EXPECT_LT(std::abs(std::stod(at[2]) - std::max(std::stod(m[2]), std::stod(m[4]))), 8.0);
   chart.slopes = {{1e-3, 1e6, 2.0, "far away"}};
   EXPECT_EQ(count_of(chart_svg(chart), "class=\"guide\""), 0u);
 }

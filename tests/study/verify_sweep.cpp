@@ -57,6 +57,7 @@ TEST(Sweep, finds_the_orders_of_both_integrators_against_closed_form_and_finer_s
   const SweepResult r = run_sweep(pendulum_study(), {});
   ASSERT_EQ(r.series.size(), 2u);
   EXPECT_EQ(r.references[0].kinds, (std::vector<std::string>{"table", "computed"}));
+  EXPECT_EQ(r.references[0].errors_of, (std::vector<std::string>{"all", "time"}));
   EXPECT_EQ(r.references[0].uncertainties[0], 0.0);
   EXPECT_GT(r.references[0].uncertainties[1], 0.0);
   EXPECT_LT(r.references[0].uncertainties[1], 1e-5);
@@ -127,7 +128,8 @@ TEST(Sweep, advises_the_quickest_run_that_keeps_an_error) {
   for (const SweepAdvice& a : r.advice) {
     double quickest = HUGE_VAL;
     for (const SweepRun& run : r.runs)
-      if (run.errors[a.quantity].max <= a.wanted) quickest = std::min(quickest, spread_of(run.wall).median);
+      if (r.references[run.grid].errors_of[a.quantity] == a.errors_of && run.errors[a.quantity].max <= a.wanted)
+        quickest = std::min(quickest, spread_of(run.wall).median);
     ASSERT_EQ(a.run.has_value(), std::isfinite(quickest)) << a.wanted;
     if (!a.run) continue;
     EXPECT_LE(r.runs[*a.run].errors[a.quantity].max, a.wanted);

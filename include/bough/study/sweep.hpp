@@ -80,17 +80,21 @@ struct SweepSeries {
 
 /// What runs of one grid are compared with.
 struct SweepReference {
-  std::vector<std::string> kinds;     ///< by quantity: "formula", "table", "computed"
-  std::vector<std::string> sources;   ///< by quantity, in words
+  std::vector<std::string> kinds;    ///< by quantity: "formula", "table", "computed"
+  std::vector<std::string> sources;  ///< by quantity, in words
+  /// By quantity, what an error holds: "all" of a run (formula, table), or only what the computed reference does otherwise: "time" (steps,
+  /// integrator), "space" (meshes), "time and space", "solver".
+  std::vector<std::string> errors_of;
   std::vector<double> uncertainties;  ///< by quantity, in units of its error
   std::vector<double> scales;         ///< by quantity: largest norm, in its unit
   std::string trouble;                ///< why there is none
   bool is_cached = false;             ///< was there from before
 };
 
-/// The quickest choice that keeps an error.
+/// The quickest choice that keeps an error, among runs whose errors hold the same.
 struct SweepAdvice {
   std::size_t quantity = 0;
+  std::string errors_of;  ///< as SweepReference has it
   double wanted = 0.0;
   std::optional<std::size_t> run;  ///< none: no run keeps it
 };

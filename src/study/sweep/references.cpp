@@ -98,6 +98,18 @@ ReferenceRuns plan_references(const io::StudySpec& spec) {
   return plan;
 }
 
+namespace {
+/// What runs differ in from a reference that is made by `overrides` ("/pointer=value"): SweepReference::errors_of.
+std::string errors_seen_by(const std::vector<std::string>& overrides) {
+  const auto sets = [&](std::string_view part) {
+    return std::any_of(overrides.begin(), overrides.end(),
+                       [part](const std::string& o) { return o.starts_with(part); });
+  };
+  const bool time = sets("/analysis/"), space = sets("/beams/");
+  return time && space ? "time and space" : time ? "time" : space ? "space" : "solver";
+}
+}  // namespace
+
 GridReference make_reference(const io::StudySpec& spec, const ReferenceRuns& references, std::size_t grid_index) {
   const io::StudyGrid& grid = spec.grids[grid_index];
   const std::vector<double> times = io::sample_times(spec);
@@ -105,12 +117,13 @@ GridReference make_reference(const io::StudySpec& spec, const ReferenceRuns& ref
   const ReferenceRun* main = nullptr;
   const ReferenceRun* check = nullptr;
   double errors_in_difference = 1.0;
-  std::string about;
+  std::string about, errors_of;
   if (const std::vector<std::size_t>& two = references.which[grid_index]; !two.empty()) {
     main = &references.runs[two[0]];
     check = &references.runs[two[1]];
     const io::StudyReference& asked = *computed_reference(spec, grid);
     about = asked.about;
+    errors_of = errors_seen_by(asked.overrides);
     if (asked.order > 0.0) errors_in_difference = std::pow(asked.ratio, asked.order) - 1.0;
     r.told.is_cached = main->is_cached && check->is_cached;
     for (const ReferenceRun* run : {main, check})
@@ -131,6 +144,7 @@ GridReference make_reference(const io::StudySpec& spec, const ReferenceRuns& ref
       uncertainty = eval_errors(q.kind, check->run.of(q.columns), values, scale).max / errors_in_difference;
     r.told.kinds.emplace_back(computed ? "computed" : q.formula.empty() ? "table" : "formula");
     r.told.sources.push_back(computed ? about : q.source);
+    r.told.errors_of.push_back(computed ? errors_of : "all");
     r.told.uncertainties.push_back(computed && !r.told.trouble.empty() ? unmeasured : uncertainty);
     r.told.scales.push_back(scale);
     r.values.push_back(std::move(values));

@@ -260,20 +260,30 @@ class Sweep {
   }
 
   void advise() {
-    for (std::size_t q = 0; q < result_.spec.quantities.size(); ++q)
-      for (const double wanted : result_.spec.wanted) {
-        SweepAdvice advice{q, wanted, std::nullopt};
-        double quickest = HUGE_VAL;
-        for (std::size_t k = 0; k < result_.runs.size(); ++k) {
-          const SweepRun& run = result_.runs[k];
-          const double seconds = spread_of(run.wall).median;
-          if (run.status != results::RunStatus::ok || std::isnan(seconds) || std::isnan(run.errors[q].max)) continue;
-          if (run.errors[q].max > wanted || seconds >= quickest) continue;
-          quickest = seconds;
-          advice.run = k;
-        }
-        result_.advice.push_back(advice);
+    for (std::size_t q = 0; q < result_.spec.quantities.size(); ++q) {
+      std::vector<std::string> kinds;
+      for (const SweepReference& reference : result_.references)
+        if (std::find(kinds.begin(), kinds.end(), reference.errors_of[q]) == kinds.end())
+          kinds.push_back(reference.errors_of[q]);
+      for (const std::string& kind : kinds) advise(q, kind);
+    }
+  }
+
+  void advise(std::size_t q, const std::string& kind) {
+    for (const double wanted : result_.spec.wanted) {
+      SweepAdvice advice{q, kind, wanted, std::nullopt};
+      double quickest = HUGE_VAL;
+      for (std::size_t k = 0; k < result_.runs.size(); ++k) {
+        const SweepRun& run = result_.runs[k];
+        const double seconds = spread_of(run.wall).median;
+        if (result_.references[run.grid].errors_of[q] != kind) continue;
+        if (run.status != results::RunStatus::ok || std::isnan(seconds) || std::isnan(run.errors[q].max)) continue;
+        if (run.errors[q].max > wanted || seconds >= quickest) continue;
+        quickest = seconds;
+        advice.run = k;
       }
+      result_.advice.push_back(advice);
+    }
   }
 
   SweepOptions options_;

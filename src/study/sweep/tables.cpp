@@ -109,6 +109,7 @@ void write_grids(io::JsonText& json, const SweepResult& r) {
       json.begin_object();
       json.member("kind", std::string_view(reference.kinds[q]));
       json.member("source", std::string_view(reference.sources[q]));
+      json.member("errors_of", std::string_view(reference.errors_of[q]));
       measured(json, "uncertainty", reference.uncertainties[q]);
       json.member("scale", reference.scales[q]);
       json.end_object();
@@ -190,6 +191,7 @@ std::string sweep_json(const SweepResult& r) {
   write_list(json, "advice", r.advice, [&](const SweepAdvice& a) {
     json.begin_object();
     json.member("quantity", std::string_view(r.spec.quantities[a.quantity].name));
+    json.member("errors_of", std::string_view(a.errors_of));
     json.member("wanted", a.wanted);
     json.key("run");
     a.run ? json.value(wide(*a.run)) : json.raw("null");
