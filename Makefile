@@ -16,7 +16,7 @@ help:
 	@echo "make build      install what is missing, build the library and the program in build/release"
 	@echo "make test       build and run the unit and verification tests"
 	@echo "make bench      build and run the benchmarks"
-	@echo "make study      errors against run times of the standing set, one report with an index ($(STUDY)); about ten minutes"
+	@echo "make study      errors against run times of the standing set, one report with an index ($(STUDY)); a minute"
 	@echo "make stress     build and measure the stiff and extreme cases: build/stress/stress.html"
 	@echo "make lint       format, include arrows, file lengths;  make format repairs the first"
 	@echo "make check-all  everything: both compilers, slow tests, sanitizers, coverage, browser (an hour or more)"
