@@ -1,8 +1,10 @@
 /// Nodes that joints hold at rest: what is known of them beforehand needs no unknowns.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "bough/elements/rows.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -13,48 +15,24 @@ using motion::Vec6;
 namespace {
 
 constexpr double closed = 1e-13;      ///< relative gap of a joint that a consistent start leaves as well
-constexpr double least_pivot = 1e-6;  ///< of rows of size 1: below, the rows hold the node hardly
+constexpr double least_pivot = 1e-6;  ///< relative to the largest, rows of size 1: below, the rows hold the node hardly
 
 bool is_to_ground(const elements::Joint& e) {
   return e.ports[0].node == elements::ground || e.ports[1].node == elements::ground;
 }
 
-/// Inverse of a matrix of n rows, row-major, by Gauss and Jordan with row pivots; none where rows nearly depend on each other.
-std::optional<std::vector<double>> invert(std::vector<double> a, int n) {
-  const auto at = [n](int i, int j) { return static_cast<std::size_t>(i * n + j); };
-  std::vector<double> inverse(a.size(), 0.0);
-  for (int i = 0; i < n; ++i) {
-    double most = 0.0;
-    for (int j = 0; j < n; ++j) most = std::max(most, std::abs(a[at(i, j)]));
-    if (!(most > 0.0)) return std::nullopt;
-    for (int j = 0; j < n; ++j) a[at(i, j)] /= most;
-    inverse[at(i, i)] = 1.0 / most;
-  }
-  for (int k = 0; k < n; ++k) {
-    int pivot = k;
-    for (int i = k + 1; i < n; ++i)
-      if (std::abs(a[at(i, k)]) > std::abs(a[at(pivot, k)])) pivot = i;
-    if (std::abs(a[at(pivot, k)]) < least_pivot) return std::nullopt;
-    for (int j = 0; j < n; ++j) {
-      std::swap(a[at(k, j)], a[at(pivot, j)]);
-      std::swap(inverse[at(k, j)], inverse[at(pivot, j)]);
-    }
-    const double one_over = 1.0 / a[at(k, k)];
-    for (int j = 0; j < n; ++j) {
-      a[at(k, j)] *= one_over;
-      inverse[at(k, j)] *= one_over;
-    }
-    for (int i = 0; i < n; ++i) {
-      if (i == k) continue;
-      const double factor = a[at(i, k)];
-      if (factor == 0.0) continue;
-      for (int j = 0; j < n; ++j) {
-        a[at(i, j)] -= factor * a[at(k, j)];
-        inverse[at(i, j)] -= factor * inverse[at(k, j)];
-      }
-    }
-  }
-  return inverse;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 6, 6>;
+
+/// Inverse, row-major; none where rows nearly depend on each other.
+std::optional<std::vector<double>> invert(Matrix a) {
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> scale = a.rowwise().lpNorm<Eigen::Infinity>();
+  if (!(scale.minCoeff() > 0.0)) return std::nullopt;
+  scale = scale.cwiseInverse();
+  Eigen::FullPivLU<Matrix> lu(scale.asDiagonal() * a);
+  lu.setThreshold(least_pivot);
+  if (!lu.isInvertible()) return std::nullopt;
+  a = lu.inverse() * scale.asDiagonal();
+  return std::vector<double>(a.data(), a.data() + a.size());
 }
 
 /// Looks at one node after the other.
@@ -137,7 +115,7 @@ class Holder {
   /// W: by column the wrench on the node of one multiplier of size 1, in the unknowns of the node. It stays as the node does.
   std::optional<std::string> set_inverse(HeldNode& held) const {
     const int n = plan_.unknowns.count;
-    std::vector<double> W(static_cast<std::size_t>(n * n));
+    Matrix W(n, n);
     int column = 0;
     for (int j : held.joints) {
       const elements::Joint& e = joint(j);
@@ -149,20 +127,18 @@ class Holder {
         double unit[elements::max_rows] = {}, out[12 + elements::max_rows];
         unit[row] = 1.0;
         elements::eval_residual(e, p, unit, around, out, 0.0);
-        const bool is_length =
-            e.rows[row].kind == elements::RowKind::along || e.rows[row].kind == elements::RowKind::screw;
-        if (!(std::abs(out[12 + row]) <= closed * (is_length ? plan_.length_scale : 1.0)))
+        if (!(std::abs(out[12 + row]) <= closed * (elements::is_length(e.rows[row].kind) ? plan_.length_scale : 1.0)))
           return "it does not start where it is held";
         Vec6<double> wrench;
         for (int i = 0; i < 6; ++i) wrench[i] = out[6 * side + i];
         if (e.ports[side].has_offset) wrench = motion::inverse_adjoint_transpose_times(e.ports[side].offset, wrench);
         double part[6];
         plan_.unknowns.project(wrench, static_cast<std::size_t>(held.node), part);
-        for (int i = 0; i < n; ++i) W[static_cast<std::size_t>(i * n + column)] = part[i];
+        for (int i = 0; i < n; ++i) W(i, column) = part[i];
         ++column;
       }
     }
-    const auto inverse = invert(W, n);
+    const auto inverse = invert(W);
     if (!inverse) return "its joints do not hold it on all sides";
     held.inverse = *inverse;
     return std::nullopt;

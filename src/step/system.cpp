@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "bough/elements/rows.hpp"
 #include "held_nodes.hpp"
 #include "lane_batches.hpp"
 #include "make_solver.hpp"
@@ -76,7 +77,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   for_each_multiplier(*this, [&](int joint, std::size_t, std::size_t unknown, std::size_t row) {
     const auto& e = plan::array_of<elements::Joint>(plan.elements)[static_cast<std::size_t>(
         plan.directory[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(joint)].element)].index)];
-    is_length_[unknown] = e.rows[row].kind == elements::RowKind::along || e.rows[row].kind == elements::RowKind::screw;
+    is_length_[unknown] = elements::is_length(e.rows[row].kind);
   });
   chunk_sizes_.resize((use_begin_.size() - 1 + block_grain - 1) / block_grain, {{}, true});
   find_pairs();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bough/elements/rows.hpp"
 #include "bough/step/system.hpp"
 #include "held_nodes.hpp"
 #include "projection.hpp"
@@ -29,8 +30,6 @@ void System::find_pairs() {
 
 namespace {
 constexpr std::int64_t joint_grain = 64;
-
-bool is_length(elements::RowKind kind) { return kind == elements::RowKind::along || kind == elements::RowKind::screw; }
 
 Violations largest(const Violations& a, const Violations& b) {
   return {std::max(a.position, b.position), std::max(a.relative_position, b.relative_position),
@@ -228,7 +227,7 @@ Violations System::constraint_violations(const State& state) const {
           joints[static_cast<std::size_t>(plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)].index)];
       elements::evaluate_constraint_rates(e, f, law_rate_series_.data(), state.turns[j], rows);
       for (int row = 0; row < e.num_rows; ++row) {
-        const double length = is_length(e.rows[row].kind) ? plan_.length_scale : 1.0;
+        const double length = elements::is_length(e.rows[row].kind) ? plan_.length_scale : 1.0;
         const double gap = std::abs(rows[row].c[0]), rate = std::abs(rows[row].c[1]);
         most = largest(most, {gap, gap / length, rate, rate / length});
       }
@@ -250,7 +249,8 @@ double System::largest_violation(const State& state, int order, double length, i
         plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)].index)];
     for (int row = 0; row < e.num_rows; ++row) {
       const auto multiplier = static_cast<std::size_t>(plan_.joints[j].multiplier_begin + row);
-      const double value = std::abs(series[multiplier].c[order]) / (is_length(e.rows[row].kind) ? length : 1.0);
+      const double value =
+          std::abs(series[multiplier].c[order]) / (elements::is_length(e.rows[row].kind) ? length : 1.0);
       if (value > most) {
         most = value;
         if (joint != nullptr) *joint = static_cast<int>(j);

@@ -188,11 +188,7 @@ TEST(HeldNodes, are_not_taken_with_a_reason_where_more_has_to_be_known) {
 
 TEST(HeldNodes, at_a_frame_that_moves_are_not_taken_and_in_the_observers_frame_are) {
   const auto on_table = [](scene::Scene& s) {
-    scene::FrameDef frame;
-    frame.name = "table";
-    frame.motion = scene::MovingFrame{};
-    frame.motion->turns.push_back({{{0.0, 0.0, 1.0}}, laws::make_harmonic(0.3, 2.0, 0.0, 0.0)});
-    s.frames.push_back(frame);
+    s.frames.push_back(test::make_turntable({{0.0, 0.0, 1.0}}));
     s.joints[0].first.to = "table";
   };
   EXPECT_EQ(reason(on_table), "'a0': the frame it is fixed to moves");

@@ -7,23 +7,16 @@
 
 #include "bough/schedule/threads.hpp"
 #include "small_scenes.hpp"
+#include "support/rig.hpp"
 
 namespace bough::step {
 namespace {
 
 State run(const scene::Scene& scene, int threads, int steps, double h) {
-  const plan::Plan plan = plan::make_plan(scene);
   const schedule::Threads pool(threads);
-  System system(plan, scene.solver, pool.walker());
-  State state = make_initial_state(plan);
-  const StepOptions options = make_step_options(scene.analysis);
-  EXPECT_TRUE(make_consistent(system, state, true, 1e-3).ok);
-  EXPECT_TRUE(start_alpha(system, state, options, h).ok);
-  for (int k = 1; k <= steps; ++k) {
-    const StepReport report = advance(system, state, options, k * h);
-    EXPECT_TRUE(report.converged) << report.cause;
-  }
-  return state;
+  test::Rig rig(scene, pool.walker());
+  rig.run(steps, h);
+  return rig.state;
 }
 
 TEST(Advance, gives_the_same_bits_on_any_number_of_threads) {

@@ -4,17 +4,18 @@
 #include <cmath>
 #include <random>
 
-#include "bough/schedule/serial.hpp"
 #include "bough/schedule/threads.hpp"
-#include "bough/step/advance.hpp"
 #include "bough/step/bdf.hpp"
 #include "bough/step/variational.hpp"
 #include "small_scenes.hpp"
+#include "support/rig.hpp"
 
 namespace bough::step {
 namespace {
 
 using motion::Vec6;
+using test::expand;
+using test::Rig;
 
 scene::Body block(const std::string& name, double x, double y, double z) {
   scene::Body b;
@@ -67,33 +68,9 @@ scene::Scene varied(int order) {
   return s;
 }
 
-struct Rig {
-  scene::Scene scene;
-  plan::Plan plan;
-  System system;
-  State state;
-  explicit Rig(const scene::Scene& s)
-      : scene(s),
-        plan(plan::make_plan(scene)),
-        system(plan, scene.solver, schedule::make_serial_walker()),
-        state(make_initial_state(plan)) {}
-};
-
 scene::Scene barred(scene::Scene s) {
   s.without.push_back("held");
   return s;
-}
-
-/// A vector of the smaller system in the larger one, what is held zero.
-std::vector<double> expand(const Rig& held, const Rig& whole, const std::vector<double>& x) {
-  std::vector<double> out(whole.system.num_unknowns(), 0.0);
-  for (std::size_t n = 0; n < held.state.nodes.size(); ++n)
-    whole.system.set_node_part(out.data(), static_cast<int>(n), held.system.node_part(x.data(), static_cast<int>(n)));
-  for (std::size_t j = 0; j < held.plan.joints.size(); ++j)
-    for (std::size_t r = 0; r < held.plan.joints[j].rows.size() && held.plan.joints[j].block >= 0; ++r)
-      out[static_cast<std::size_t>(whole.system.block_begin(whole.plan.joints[j].block)) + r] =
-          x[static_cast<std::size_t>(held.system.block_begin(held.plan.joints[j].block)) + r];
-  return out;
 }
 
 double largest(const std::vector<double>& v) {
@@ -280,11 +257,7 @@ TEST(HeldNodes, in_lockstep_move_nothing_else) {
 
 TEST(HeldNodes, in_a_frame_that_turns_move_nothing_else) {
   scene::Scene s = varied(2);
-  scene::FrameDef frame;
-  frame.name = "table";
-  frame.motion = scene::MovingFrame{};
-  frame.motion->turns.push_back({{{0.0, 0.6, 0.8}}, laws::make_harmonic(0.3, 2.0, 0.0, 0.0)});
-  s.frames.push_back(frame);
+  s.frames.push_back(test::make_turntable({{0.0, 0.6, 0.8}}));
   s.joints[0].first.to = "table";
   s.analysis.frame = "table";
   compare_steps(s);
@@ -377,15 +350,10 @@ TEST(HeldNodes, give_the_same_bits_on_any_number_of_threads) {
   s.solver.leaf_size = 3;
   std::vector<State> ends;
   for (int threads : {1, 2, 8}) {
-    const plan::Plan plan = plan::make_plan(s);
     const schedule::Threads pool(threads);
-    System system(plan, s.solver, pool.walker());
-    State state = make_initial_state(plan);
-    const StepOptions options = make_step_options(s.analysis);
-    ASSERT_TRUE(make_consistent(system, state, true, 1e-3).ok);
-    ASSERT_TRUE(start_alpha(system, state, options, 1e-3).ok);
-    for (int k = 1; k <= 10; ++k) ASSERT_TRUE(advance(system, state, options, k * 1e-3).converged);
-    ends.push_back(state);
+    Rig rig(s, pool.walker());
+    rig.run(10, 1e-3);
+    ends.push_back(rig.state);
   }
   for (std::size_t k = 1; k < ends.size(); ++k) {
     EXPECT_EQ(ends[0].multipliers, ends[k].multipliers);

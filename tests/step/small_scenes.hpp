@@ -20,6 +20,15 @@ inline scene::Section make_bar_section() {
   return s;
 }
 
+/// A frame "table" that swings about an axis through the origin.
+inline scene::FrameDef make_turntable(const motion::Vec3<double>& axis) {
+  scene::FrameDef frame;
+  frame.name = "table";
+  frame.motion = scene::MovingFrame{};
+  frame.motion->turns.push_back({axis, laws::make_harmonic(0.3, 2.0, 0.0, 0.0)});
+  return frame;
+}
+
 /// Links of two beam elements hanging by revolute joints about y, from the horizontal.
 inline scene::Scene make_chain(int links, int order = 1) {
   scene::Scene s;

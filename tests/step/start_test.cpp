@@ -2,24 +2,13 @@
 
 #include <cmath>
 
-#include "bough/schedule/serial.hpp"
-#include "bough/step/advance.hpp"
 #include "small_scenes.hpp"
+#include "support/rig.hpp"
 
 namespace bough::step {
 namespace {
 
-struct Rig {
-  scene::Scene scene;
-  plan::Plan plan;
-  System system;
-  State state;
-  explicit Rig(const scene::Scene& s)
-      : scene(s),
-        plan(plan::make_plan(scene)),
-        system(plan, scene.solver, schedule::make_serial_walker()),
-        state(make_initial_state(plan)) {}
-};
+using test::Rig;
 
 TEST(MakeConsistent, closes_positions_velocities_and_accelerations) {
   scene::Scene s = test::make_chain(3);

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "bough/schedule/serial.hpp"
-#include "bough/step/advance.hpp"
+#include "support/rig.hpp"
 #include "support/scenes.hpp"
 
 namespace bough::study {
@@ -13,6 +12,8 @@ namespace {
 
 using motion::Vec3;
 using motion::Vec6;
+using test::expand;
+using test::Rig;
 
 const plan::Decision& decision(const plan::Plan& plan, const std::string& name) {
   for (const plan::Decision& d : plan.decisions)
@@ -70,18 +71,6 @@ scene::Scene flat_scene() {
     "analysis": {"kind": "dynamic", "end_time": 0.1, "step_size": 0.001}})");
 }
 
-struct Rig {
-  scene::Scene scene;
-  plan::Plan plan;
-  step::System system;
-  step::State state;
-  explicit Rig(const scene::Scene& s)
-      : scene(s),
-        plan(plan::make_plan(scene)),
-        system(plan, scene.solver, schedule::make_serial_walker()),
-        state(step::make_initial_state(plan)) {}
-};
-
 /// Motions within the plane of `flat`, the same in both.
 void stir(Rig& flat, Rig& whole) {
   std::mt19937 random(7);
@@ -104,19 +93,6 @@ void stir(Rig& flat, Rig& whole) {
       flat.state.multipliers[static_cast<std::size_t>(flat.plan.joints[j].multiplier_begin + row)] =
           whole.state.multipliers[static_cast<std::size_t>(whole.plan.joints[j].multiplier_begin + row)] =
               10.0 * uniform(random);
-}
-
-/// Unknowns of the whole that stand for those of the reduced one: P^T x, rows that are left out zero.
-std::vector<double> expand(const Rig& flat, const Rig& whole, const std::vector<double>& x) {
-  std::vector<double> out(whole.system.num_unknowns(), 0.0);
-  for (std::size_t n = 0; n < flat.state.nodes.size(); ++n)
-    whole.system.set_node_part(out.data(), static_cast<int>(n), flat.system.node_part(x.data(), static_cast<int>(n)));
-  for (std::size_t j = 0; j < flat.plan.joints.size(); ++j)
-    for (std::size_t r = 0; r < flat.plan.joints[j].rows.size() && flat.plan.joints[j].block >= 0; ++r)
-      out[static_cast<std::size_t>(whole.system.block_begin(whole.plan.joints[j].block) +
-                                   flat.plan.joints[j].rows[r])] =
-          x[static_cast<std::size_t>(flat.system.block_begin(flat.plan.joints[j].block)) + r];
-  return out;
 }
 
 double largest(const std::vector<double>& v) {

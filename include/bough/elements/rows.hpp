@@ -1,0 +1,10 @@
+#pragma once
+/// What rows of joints measure.
+#include "bough/elements/joint.hpp"
+
+namespace bough::elements {
+
+/// Whether a row is a length [m]; else it is an angle or a cosine.
+inline bool is_length(RowKind kind) { return kind == RowKind::along || kind == RowKind::screw; }
+
+}  // namespace bough::elements

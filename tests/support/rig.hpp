@@ -1,0 +1,52 @@
+#pragma once
+/// A scene with its plan, system and state; the same in a system with fewer unknowns.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "bough/schedule/serial.hpp"
+#include "bough/step/advance.hpp"
+
+namespace bough::test {
+
+struct Rig {
+  scene::Scene scene;
+  plan::Plan plan;
+  step::System system;
+  step::State state;
+  explicit Rig(const scene::Scene& s, const tree::Walker& walker = schedule::make_serial_walker())
+      : scene(s),
+        plan(plan::make_plan(scene)),
+        system(plan, scene.solver, walker),
+        state(step::make_initial_state(plan)) {}
+
+  /// A consistent start and steps of generalized-alpha.
+  void run(int steps, double h) {
+    const step::StepOptions options = step::make_step_options(scene.analysis);
+    ASSERT_TRUE(step::make_consistent(system, state, true, 1e-3).ok);
+    ASSERT_TRUE(step::start_alpha(system, state, options, h).ok);
+    for (int k = 1; k <= steps; ++k) {
+      const step::StepReport report = step::advance(system, state, options, k * h);
+      ASSERT_TRUE(report.converged) << report.cause;
+    }
+  }
+};
+
+/// A vector of the system with fewer unknowns in the one of the same scene with more: what is left out is zero.
+inline std::vector<double> expand(const Rig& fewer, const Rig& more, const std::vector<double>& x) {
+  std::vector<double> out(more.system.num_unknowns(), 0.0);
+  for (std::size_t n = 0; n < fewer.state.nodes.size(); ++n)
+    more.system.set_node_part(out.data(), static_cast<int>(n), fewer.system.node_part(x.data(), static_cast<int>(n)));
+  for (std::size_t j = 0; j < fewer.plan.joints.size(); ++j) {
+    const plan::JointPlan &from = fewer.plan.joints[j], &to = more.plan.joints[j];
+    for (std::size_t r = 0; r < from.rows.size() && from.block >= 0; ++r) {
+      const auto row = std::find(to.rows.begin(), to.rows.end(), from.rows[r]) - to.rows.begin();
+      out[static_cast<std::size_t>(more.system.block_begin(to.block) + row)] =
+          x[static_cast<std::size_t>(fewer.system.block_begin(from.block)) + r];
+    }
+  }
+  return out;
+}
+
+}  // namespace bough::test
