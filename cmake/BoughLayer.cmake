@@ -33,6 +33,15 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(bough_warnings INTERFACE -Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow)
 endif()
 
+# g++ copies structs by moves of 16 bytes where the tuning of a processor does not say otherwise, and a register that is loaded from what two
+# narrower stores wrote waits until both have left for the cache. Copies of packs are by whole registers then, as wide as the instruction set has
+# them.
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag("-mmove-max=512 -mstore-max=512" BOUGH_HAS_MOVE_MAX)
+if(BOUGH_HAS_MOVE_MAX)
+  target_compile_options(bough_warnings INTERFACE -mmove-max=512 -mstore-max=512)
+endif()
+
 # Kernels over packs are trees of small functions on structs of several hundred bytes. g++ stops inlining them early and copies such structs
 # by calls of memcpy: with these limits lifted the planar beam takes 0.6 of the instructions. No arithmetic changes.
 # bough_kernels(a.cpp ...): call in the folder of the sources.

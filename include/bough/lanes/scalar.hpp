@@ -12,6 +12,15 @@
 #define BOUGH_INLINE inline
 #endif
 
+// Before a short loop of fixed length over registers, which stay in registers only where it is written out.
+#if defined(__clang__)
+#define BOUGH_UNROLL _Pragma("clang loop unroll(full)")
+#elif defined(__GNUC__)
+#define BOUGH_UNROLL _Pragma("GCC unroll 8")
+#else
+#define BOUGH_UNROLL
+#endif
+
 namespace bough::lanes {
 
 /// Value that decides a branch: the scalar itself, the real part of a complex, the value of a derivative type.

@@ -53,18 +53,29 @@ inline void transpose_square(Real8 (&r)[8]) {
 #endif
 }  // namespace detail
 
+namespace detail {
+/// A register at any address. Not by memcpy, which compilers take apart into narrower moves: a register loaded from what two narrower stores wrote waits.
+template <int N>
+struct Anywhere {
+  typedef double Real __attribute__((vector_size(8 * N), aligned(8), may_alias));
+};
+}  // namespace detail
+
 /// to[i] lane l <- from[l][i] for i < count. The last block of a count that is no multiple overlaps the one before.
 template <int W>
 void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
   constexpr int side = Pack<W>::chunk;
   if constexpr (side >= 4) {
+    using Loose = typename detail::Anywhere<side>::Real;
     if (count >= side) {
       for (int at = 0; at < count; at += side) {
         const int i = at + side <= count ? at : count - side;
         for (int c = 0; c < Pack<W>::chunks; ++c) {
           typename Pack<W>::Real square[side];
-          for (int l = 0; l < side; ++l) __builtin_memcpy(&square[l], from[c * side + l] + i, sizeof square[l]);
+          BOUGH_UNROLL
+          for (int l = 0; l < side; ++l) square[l] = *reinterpret_cast<const Loose*>(from[c * side + l] + i);
           detail::transpose_square(square);
+          BOUGH_UNROLL
           for (int k = 0; k < side; ++k) to[i + k].r[c] = square[k];
         }
       }
@@ -80,14 +91,17 @@ template <int W>
 void scatter_lanes(const Pack<W>* from, int count, double* const (&to)[W]) {
   constexpr int side = Pack<W>::chunk;
   if constexpr (side >= 4) {
+    using Loose = typename detail::Anywhere<side>::Real;
     if (count >= side) {
       for (int at = 0; at < count; at += side) {
         const int i = at + side <= count ? at : count - side;
         for (int c = 0; c < Pack<W>::chunks; ++c) {
           typename Pack<W>::Real square[side];
+          BOUGH_UNROLL
           for (int k = 0; k < side; ++k) square[k] = from[i + k].r[c];
           detail::transpose_square(square);
-          for (int l = 0; l < side; ++l) __builtin_memcpy(to[c * side + l] + i, &square[l], sizeof square[l]);
+          BOUGH_UNROLL
+          for (int l = 0; l < side; ++l) *reinterpret_cast<Loose*>(to[c * side + l] + i) = square[l];
         }
       }
       return;
