@@ -64,9 +64,9 @@ struct Threads::State {
     }
     tbb::task_group children;
     const auto list = tree.children(s);
-    for (std::size_t c = 0; c + 1 < list.size(); ++c)
+    for (std::size_t c = 1; c < list.size(); ++c)
       children.run([this, &tree, id = list[c], visit] { visit_up(tree, id, visit); });
-    visit_up(tree, list.back(), visit);
+    visit_up(tree, list.front(), visit);  // the first, as of chunks: so data mostly stay with one processor
     children.wait();
     delay();
     visit.run(visit.context, top);
@@ -82,9 +82,9 @@ struct Threads::State {
     visit.run(visit.context, top);
     tbb::task_group children;
     const auto list = tree.children(s);
-    for (std::size_t c = 0; c + 1 < list.size(); ++c)
+    for (std::size_t c = 1; c < list.size(); ++c)
       children.run([this, &tree, id = list[c], visit] { visit_down(tree, id, visit); });
-    visit_down(tree, list.back(), visit);
+    visit_down(tree, list.front(), visit);
     children.wait();
   }
 

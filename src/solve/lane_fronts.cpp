@@ -49,7 +49,7 @@ void LanePlanner::add_fronts(LaneGroup& group, tree::Subdomain& node) {
     f.vector = plan_.vector_size;
     plan_.factor_size += f.factor_size();
     plan_.vector_size += f.size();
-    node.flops += flops_of(f.eliminated, f.boundary);
+    node.flops += lanes_wide * flops_of(f.eliminated, f.boundary);
     plan_.fronts.push_back(f);
   }
   place_work(group);

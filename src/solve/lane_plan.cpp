@@ -51,41 +51,71 @@ tree::FrontId LanePlanner::front_at(tree::SubdomainId s, int k, int count) const
   return i < 0 ? tree::none : subdomain(s).front_begin + i;
 }
 
-bool LanePlanner::fits(tree::SubdomainId a, tree::SubdomainId b) const {
-  if (tree_.children(subdomain(a)).size() != tree_.children(subdomain(b)).size()) return false;
+std::optional<LanePlanner::Match> LanePlanner::match(tree::SubdomainId a, tree::SubdomainId b) const {
+  if (tree_.children(subdomain(a)).size() != tree_.children(subdomain(b)).size()) return std::nullopt;
   const int na = count_of(a), nb = count_of(b), count = std::max(na, nb);
-  if (na != nb && !(is_path_[at(a)] && is_path_[at(b)] && subdomain(a).is_leaf())) return false;
-  double common = 0.0, own_a = 0.0, own_b = 0.0;
+  if (na != nb && !(is_path_[at(a)] && is_path_[at(b)] && subdomain(a).is_leaf())) return std::nullopt;
+  Match m{0.0, 0.0, 0.0};
   for (int k = 0; k < count; ++k) {
     const tree::FrontId fa = front_at(a, k, count), fb = front_at(b, k, count);
     int e = 0, bd = 0;
     if (fa != tree::none) {
       e = front(fa).num_eliminated;
       bd = front(fa).num_boundary;
-      own_a += flops_of(e, bd);
+      m.a += flops_of(e, bd);
     }
     if (fb != tree::none) {
       e = std::max(e, front(fb).num_eliminated);
       bd = std::max(bd, front(fb).num_boundary);
-      own_b += flops_of(front(fb).num_eliminated, front(fb).num_boundary);
+      m.b += flops_of(front(fb).num_eliminated, front(fb).num_boundary);
     }
-    common += flops_of(e, bd);
+    m.common += flops_of(e, bd);
     if (na == nb && k + 1 < count &&
         front(fa).parent - subdomain(a).front_begin != front(fb).parent - subdomain(b).front_begin)
-      return false;
+      return std::nullopt;
   }
+  return m;
+}
+
+bool LanePlanner::fits(tree::SubdomainId a, tree::SubdomainId b) const {
+  const auto m = match(a, b);
   // Inner sub-domains are one front each: a poor fit there costs less than to part all that lies below.
-  return common <= (subdomain(a).is_leaf() ? most_padding : most_inner_padding) * std::max(own_a, own_b);
+  return m && m->common <= (subdomain(a).is_leaf() ? most_padding : most_inner_padding) * std::max(m->a, m->b);
+}
+
+/// The last pack of a class may have lanes to spare: they take another class, such as the one leaf at the end of a chain, where the pack grows by less
+/// than one of its own would cost.
+void LanePlanner::fill_packs(Classes& classes) const {
+  for (std::size_t b = 0; b < classes.size();) {
+    const auto takes = [&](const std::vector<tree::SubdomainId>& members) {
+      const std::size_t spare = (lanes_wide - members.size() % lanes_wide) % lanes_wide;
+      if (&members == &classes[b] || classes[b].size() > spare || largest_[at(members.front())] > largest_in_lanes)
+        return false;
+      return std::all_of(classes[b].begin(), classes[b].end(), [&](tree::SubdomainId s) {
+        const auto m = match(members.front(), s);
+        return largest_[at(s)] <= largest_in_lanes && m && m->common <= m->a + m->b;
+      });
+    };
+    const auto host = std::find_if(classes.begin(), classes.end(), takes);
+    if (host == classes.end()) {
+      ++b;
+      continue;
+    }
+    host->insert(host->end(), classes[b].begin(), classes[b].end());
+    classes.erase(classes.begin() + static_cast<std::ptrdiff_t>(b));
+    b = 0;
+  }
 }
 
 int LanePlanner::form(std::vector<tree::SubdomainId> subdomains, bool below_lanes, int level) {
   const tree::SubdomainId first = subdomains.front();
   const bool in_lanes = use_lanes_ && first != tree_.root() &&
                         (below_lanes || subdomains.size() > 1 || largest_[at(first)] <= largest_alone);
-  std::vector<std::vector<tree::SubdomainId>> classes;
+  Classes classes;
   const std::size_t num_children = tree_.children(subdomain(first)).size();
   for (std::size_t c = 0; c < num_children; ++c)
     for (tree::SubdomainId s : subdomains) place_child(tree_.children(subdomain(s))[c], classes);
+  if (use_lanes_) fill_packs(classes);
   std::vector<int> children;
   for (const auto& members : classes)
     for (std::size_t i = 0; i < members.size(); i += lanes_wide) {
@@ -97,7 +127,7 @@ int LanePlanner::form(std::vector<tree::SubdomainId> subdomains, bool below_lane
   return close(std::move(subdomains), in_lanes, children);
 }
 
-void LanePlanner::place_child(tree::SubdomainId s, std::vector<std::vector<tree::SubdomainId>>& classes) const {
+void LanePlanner::place_child(tree::SubdomainId s, Classes& classes) const {
   if (use_lanes_ && largest_[at(s)] <= largest_in_lanes)
     for (auto& members : classes)
       if (largest_[at(members.front())] <= largest_in_lanes && fits(members.front(), s)) {

@@ -1,6 +1,8 @@
 #pragma once
 /// Makes a LanePlan: which sub-domains go together (lane_plan.cpp), their common fronts (lane_fronts.cpp), and the way of every block into them
 /// (lane_moves.cpp). Internal to solve.
+#include <optional>
+
 #include "lane_plan.hpp"
 
 namespace bough::solve {
@@ -28,10 +30,17 @@ class LanePlanner {
   void measure_subdomains();
   /// Front of lane s that stands at position k of `count` common fronts, or none. Paths are aligned at their tops.
   tree::FrontId front_at(tree::SubdomainId s, int k, int count) const;
+  /// Flops of two sub-domains, and of the fronts that fit both; none: their fronts do not correspond.
+  struct Match {
+    double common, a, b;
+  };
+  std::optional<Match> match(tree::SubdomainId a, tree::SubdomainId b) const;
   bool fits(tree::SubdomainId a, tree::SubdomainId b) const;
   /// Makes the group of these sub-domains and, before it, the groups below. `in_lanes`: the parent's group is.
   int form(std::vector<tree::SubdomainId> subdomains, bool below_lanes, int level);
-  void place_child(tree::SubdomainId s, std::vector<std::vector<tree::SubdomainId>>& classes) const;
+  using Classes = std::vector<std::vector<tree::SubdomainId>>;  ///< sub-domains that go together
+  void place_child(tree::SubdomainId s, Classes& classes) const;
+  void fill_packs(Classes& classes) const;
   int close(std::vector<tree::SubdomainId> subdomains, bool in_lanes, const std::vector<int>& children);
   void set_levels();
 
