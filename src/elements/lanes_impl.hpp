@@ -131,6 +131,17 @@ bool may_share_lanes(const E& a, const E& b) {
 }
 
 template <class E>
+bool has_same_numbers(const E& a, const E& b) {
+  if (!may_share_lanes(a, b)) return false;
+  bool is_same = true;
+  E to = b;
+  const auto compare = [&is_same](double x, double y) { is_same = is_same && x == y; };
+  for (int k = 0; k < E::num_ports; ++k) visit_frame(a.ports[k].offset, to.ports[k].offset, compare);
+  visit_numbers(a, to, compare);
+  return is_same;
+}
+
+template <class E>
 LaneElement<E> make_lane_element(const E* const* elements, int count, const int* nodes, int first_law) {
   LaneElement<E> r;
   set_kind(*elements[0], r, first_law);
@@ -160,6 +171,7 @@ void evaluate_lanes(const E& e, const FieldLanes& field, const LanePack* multipl
 /// Instantiates the lane form of one element type.
 #define BOUGH_INSTANTIATE_LANES(E)                                                                                    \
   template bool may_share_lanes(const E&, const E&);                                                                  \
+  template bool has_same_numbers(const E&, const E&);                                                                 \
   template LaneElement<E> make_lane_element(const E* const*, int, const int*, int);                                   \
   template void evaluate_lanes(const LaneElement<E>&, const FieldLanes&, const LanePack*, const LanePack&, LanePack*, \
                                LanePack*, LanePack*);

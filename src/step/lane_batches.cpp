@@ -11,23 +11,38 @@ void LaneBatches<Kernels>::add(const solve::ElementBatch& batch, Slot& slot) {
   using E = typename std::tuple_element_t<I, typename Kernels::Arrays>::value_type;
   const auto& array = std::get<I>(Kernels::arrays(*plan_));
   const E* list[elements::num_lanes];
-  int count = 0;
-  for (int l = 0, filler = -1; l < elements::num_lanes; ++l) {  // a lane that is missing repeats one that is there
-    int id = batch.element[static_cast<std::size_t>(l)];
-    for (int k = 0; id < 0 && filler < 0 && k < elements::num_lanes; ++k)
-      filler = batch.element[static_cast<std::size_t>(k)];
-    if (id < 0) id = filler;
+  for (int l = 0; l < elements::num_lanes; ++l) {  // a lane that is missing repeats one that is there
+    const int own = batch.element[static_cast<std::size_t>(l)];
+    const int id = own >= 0 ? own : batch.element[static_cast<std::size_t>(slot.first)];
     const plan::ElementPlace place = plan_->directory[static_cast<std::size_t>(id)];
     if (place.array != I) return;
-    list[count++] = &array[static_cast<std::size_t>(place.index)];
-    if (!may_share_lanes(*list[0], *list[count - 1])) return;
+    list[l] = &array[static_cast<std::size_t>(place.index)];
+    if (!may_share_lanes(*list[0], *list[l])) return;
   }
+  slot.places = places_.size();
+  for (int p = 0; p < E::num_ports; ++p)
+    for (const E* e : list) places_.push_back(e->ports[p].node);
+  int laws[elements::num_lanes][elements::max_laws];
+  for (int l = 0; l < elements::num_lanes; ++l) slot.num_laws = list_laws(*list[l], laws[l]);
+  for (int k = 0; k < slot.num_laws; ++k)
+    for (const auto& of_lane : laws) places_.push_back(of_lane[k]);
+  slot.num_unknowns = num_unknowns(*list[0]);
+  slot.array = static_cast<int>(I);
+  auto& lanes = std::get<I>(lanes_);
+  const bool is_uniform =
+      std::all_of(std::begin(list), std::end(list), [&](const E* e) { return has_same_numbers(*list[0], *e); });
+  if (is_uniform)
+    for (auto u = uniform_.rbegin(); u != uniform_.rend(); ++u)
+      if (u->array == slot.array && has_same_numbers(array[u->element], *list[0])) {
+        slot.index = u->index;
+        return;
+      }
   int nodes[E::num_ports];
   for (int p = 0; p < E::num_ports; ++p) nodes[p] = p;
-  auto& lanes = std::get<I>(lanes_);
-  slot.array = static_cast<int>(I);
   slot.index = static_cast<int>(lanes.size());
-  lanes.push_back(make_lane_element<E>(list, count, nodes, 0));
+  lanes.push_back(make_lane_element<E>(list, elements::num_lanes, nodes, 0));
+  if (is_uniform && uniform_.size() < most_uniform)
+    uniform_.push_back({slot.array, slot.index, static_cast<std::size_t>(list[0] - array.data())});
 }
 
 template <class Kernels>
@@ -89,18 +104,21 @@ void LaneBatches<Kernels>::make(const plan::Plan& plan, std::span<const solve::E
   gather_singles();
   joint_of_element_ = joint_of_element;
   slots_.assign(batches_.size(), {});
+  uniform_.clear();
   for (std::size_t b = 0; b < batches_.size(); ++b) {
-    int present = 0, first = -1;
-    for (int id : batches_[b].element) {
+    Slot& slot = slots_[b];
+    for (int l = elements::num_lanes - 1; l >= 0; --l) {
+      const int id = batches_[b].element[static_cast<std::size_t>(l)];
       if (id < 0) continue;
-      ++present;
-      slots_[b].is_trimmed |= held != nullptr && held->trims(static_cast<std::size_t>(id));
-      first = first < 0 ? id : first;
+      ++slot.present;
+      slot.first = l;
+      slot.is_trimmed |= held != nullptr && held->trims(static_cast<std::size_t>(id));
     }
-    if (present < least_lanes) continue;
+    if (slot.present < least_lanes) continue;
+    const int first = batches_[b].element[static_cast<std::size_t>(slot.first)];
     const int array = plan.directory[static_cast<std::size_t>(first)].array;
     const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
-      static_cast<void>(((array == static_cast<int>(I) ? (add<I>(batches_[b], slots_[b]), true) : false) || ...));
+      static_cast<void>(((array == static_cast<int>(I) ? (add<I>(batches_[b], slot), true) : false) || ...));
     };
     pick(std::make_index_sequence<std::tuple_size_v<typename Kernels::Arrays>>{});
   }

@@ -77,9 +77,19 @@ class LaneBatches {
 
  private:
   struct Slot {
-    int array = -1;           ///< of plan.elements
-    int index = -1;           ///< in that array's lane elements; -1: not in lanes
+    int array = -1;   ///< of plan.elements
+    int index = -1;   ///< in that array's lane elements; -1: not in lanes
+    int first = -1;   ///< lane that holds an element; lanes that hold none repeat it
+    int present = 0;  ///< lanes that hold one
+    int num_laws = 0;
+    int num_unknowns = 0;     ///< of one element
+    std::size_t places = 0;   ///< in places_: nodes of all lanes port by port, laws of all lanes one by one
     bool is_trimmed = false;  ///< a node of one of them is held
+  };
+  /// A lane element of eight equal ones, which further batches of the same may use: constants of a large structure do not fit into the caches.
+  struct Uniform {
+    int array, index;
+    std::size_t element;  ///< one of them, in the plan's array
   };
   void gather_singles();
   template <std::size_t I>
@@ -89,11 +99,14 @@ class LaneBatches {
                    bool tangent, Result& result) const;
 
   static constexpr int least_lanes = 3;
+  static constexpr std::size_t most_uniform = 64;  ///< that are compared with
   const plan::Plan* plan_ = nullptr;
   const HeldNodes* held_ = nullptr;
   std::vector<solve::ElementBatch> batches_;
   std::span<const int> joint_of_element_;
   std::vector<Slot> slots_;
+  std::vector<Uniform> uniform_;
+  std::vector<int> places_;  ///< here, since elements themselves are large and lie far apart
   typename detail::LaneArraysOf<typename Kernels::Arrays>::Type lanes_;
   std::vector<elements::CarrierLanes> carriers_;
   elements::CarrierLanes observer_;
@@ -121,33 +134,27 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, const S
   using E = typename std::tuple_element_t<I, typename Kernels::Arrays>::value_type;
   constexpr int rows = Kernels::template most_rows<E>, wide = elements::num_lanes,
                 most = Kernels::node_unknowns * E::num_ports + rows;
-  const auto& array = std::get<I>(Kernels::arrays(*plan_));
   const auto& lane_element = std::get<I>(lanes_)[static_cast<std::size_t>(slot.index)];
-  int ids[wide], filler = -1, present = 0;
-  for (int l = 0; l < wide; ++l) {
-    ids[l] = batch.element[static_cast<std::size_t>(l)];
-    if (ids[l] >= 0) filler = ids[l];
-    present += ids[l] >= 0 ? 1 : 0;
-  }
+  int ids[wide];
+  for (int l = 0; l < wide; ++l) ids[l] = batch.element[static_cast<std::size_t>(l)];
+  const int n = slot.num_unknowns;
   typename Kernels::NodeLanes nodes[E::num_ports];
   Pack laws[elements::max_laws], multipliers[rows > 0 ? rows : 1], turns(0.0);
   const double* from[E::num_ports][wide] = {};
-  for (int l = 0; l < wide; ++l) {
-    const auto id = static_cast<std::size_t>(ids[l] >= 0 ? ids[l] : filler);
-    const E& e = array[static_cast<std::size_t>(plan_->directory[id].index)];
-    for (int p = 0; p < E::num_ports; ++p)
-      if (e.ports[p].node != elements::ground)
-        from[p][l] = reinterpret_cast<const double*>(&field.nodes[static_cast<std::size_t>(e.ports[p].node)]);
-    int law_ids[elements::max_laws];
-    const int num_laws = list_laws(e, law_ids);
-    for (int k = 0; k < num_laws; ++k) laws[k].set(l, field.around.laws[law_ids[k]]);
-    if constexpr (rows > 0) {
-      const int j = joint_of_element_[id];
+  const int* place = places_.data() + slot.places;
+  for (int p = 0; p < E::num_ports; ++p)
+    for (int l = 0; l < wide; ++l, ++place)
+      if (*place != elements::ground)
+        from[p][l] = reinterpret_cast<const double*>(&field.nodes[static_cast<std::size_t>(*place)]);
+  for (int k = 0; k < slot.num_laws; ++k)
+    for (int l = 0; l < wide; ++l, ++place) laws[k].set(l, field.around.laws[*place]);
+  if constexpr (rows > 0) {
+    for (int l = 0; l < wide; ++l) {
+      const int j = joint_of_element_[static_cast<std::size_t>(ids[l] >= 0 ? ids[l] : ids[slot.first])];
       if (j < 0) continue;
       const plan::JointPlan& joint = plan_->joints[static_cast<std::size_t>(j)];
-      for (int r = 0; r < num_multipliers(e); ++r)
-        multipliers[r].set(l, state.multipliers[static_cast<std::size_t>(joint.multiplier_begin +
-                                                                         joint.rows[static_cast<std::size_t>(r)])]);
+      for (std::size_t r = 0; r < joint.rows.size(); ++r)
+        multipliers[r].set(l, state.multipliers[static_cast<std::size_t>(joint.multiplier_begin + joint.rows[r])]);
       turns.set(l, state.turns[static_cast<std::size_t>(j)]);
     }
   }
@@ -165,12 +172,11 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, const S
   around.around.has_inertia = field.around.has_inertia;
   Pack residual[most], magnitude[most], spare[most * most];
   const bool is_direct =  // else the empty lanes must stay empty
-      tangent && present == wide && batch.stride == wide && !slot.is_trimmed;
+      tangent && slot.present == wide && batch.stride == wide && !slot.is_trimmed;
   Pack* matrix = nullptr;
   if (is_direct) matrix = reinterpret_cast<Pack*>(result(ids[0]).tangent.first);
   if (tangent && !is_direct) matrix = spare;
   evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
-  const int n = num_unknowns(array[static_cast<std::size_t>(plan_->directory[static_cast<std::size_t>(filler)].index)]);
   double nowhere[most], *to_residual[wide], *to_magnitude[wide];
   for (int l = 0; l < wide; ++l) {
     to_residual[l] = to_magnitude[l] = nowhere;

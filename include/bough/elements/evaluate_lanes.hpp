@@ -57,6 +57,9 @@ int list_laws(const E&, int*) {
 /// prescribed motion that ports stand in, and the terms that are present (mass, damping, rows, efforts, laws, dead or follower loads).
 template <class E>
 bool may_share_lanes(const E& a, const E& b);
+/// Whether they do not even differ in these: all but nodes and laws are the same.
+template <class E>
+bool has_same_numbers(const E& a, const E& b);
 
 /// Constants of `count` elements, 1 <= count <= num_lanes, that may share lanes; the remaining lanes repeat the last one.
 ///   nodes: for each port off the ground, the index its node will have in FieldLanes::nodes; first_law: the index of the first of the

@@ -49,6 +49,9 @@ int list_laws(const E&, int*) {
 
 template <class E>
 bool may_share_lanes(const E& a, const E& b);
+/// Whether they do not even differ in these: all but nodes and laws are the same.
+template <class E>
+bool has_same_numbers(const E& a, const E& b);
 template <class E>
 LaneElement<E> make_lane_element(const E* const* elements, int count, const int* nodes, int first_law);
 template <class E>
