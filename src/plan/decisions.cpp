@@ -69,7 +69,7 @@ void Builder::settle() {
 
   decide(
       "reuse",
-      "a factor serves again, over iterations and steps of one size, while it shrinks the changes at least eightfold; "
+      "a factor serves again, over iterations and steps of one size, while it shrinks the changes to 0.03 of what they were; "
       "tangents are not even evaluated meanwhile. Taken in dynamics with Newton's full iteration",
       dynamic && scene.analysis.newton == scene::Newton::full,
       !dynamic                                         ? "statics takes a new tangent each time"

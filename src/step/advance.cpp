@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "newton.hpp"
+#include "planar_step.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -22,29 +23,24 @@ bool turns_far(const elements::NodeMotion& node) {
   return lanes::dot(turn, turn) > largest_turn * largest_turn;
 }
 
-/// Velocities and accelerations that belong to dq by the integrator's formulas.
+/// A step by the rule from a start, in space or in the plane.
 struct Integrator {
-  AlphaCoefficients c;
-  double h;
+  AlphaRule rule;
   const State& start;
 
-  elements::Slopes slopes() const {
-    return {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false};
-  }
-
-  ///   a_{n+1} = (dq - h v_n) / (beta h^2) - (1/2 - beta)/beta a_n,  v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1}),
-  ///   dv/dt_{n+1} = ((1 - alpha_m) a_{n+1} + alpha_m a_n - alpha_f dv/dt_n) / (1 - alpha_f)
   std::optional<Trouble> follow(const System& system, State& state) const {
-    const double of_dq = 1.0 / (c.beta * h * h), of_a = (0.5 - c.beta) / c.beta, share = 1.0 / (1.0 - c.alpha_f);
+    if (const PlanarStep* plane = system.planar_step(); plane != nullptr && plane->is_under_way()) {
+      const int far = plane->turned_beyond(largest_turn);
+      return far < 0 ? std::nullopt : std::optional(describe_turn(system, static_cast<std::size_t>(far)));
+    }
     std::atomic<bool> turned_far = false;
     auto by_node = [&](std::int64_t begin, std::int64_t end) {
       for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) {
         elements::NodeMotion& node = state.nodes[n];
-        const Vec6<double>&v = start.nodes[n].v, &a = start.nodes[n].a, &algorithmic = start.algorithmic[n];
-        const Vec6<double> next = of_dq * (node.dq - h * v) - of_a * algorithmic;
-        node.v = v + h * ((1.0 - c.gamma) * algorithmic + c.gamma * next);
-        node.a = share * ((1.0 - c.alpha_m) * next + c.alpha_m * algorithmic - c.alpha_f * a);
-        state.algorithmic[n] = next;
+        const auto rates = rule.follow(node.dq, start.nodes[n].v, start.nodes[n].a, start.algorithmic[n]);
+        node.v = rates.v;
+        node.a = rates.a;
+        state.algorithmic[n] = rates.algorithmic;
         if (turns_far(node)) turned_far = true;
       }
     };
@@ -52,17 +48,17 @@ struct Integrator {
                                    tree::make_chunk(by_node));
     if (!turned_far) return std::nullopt;
     const auto far = std::find_if(state.nodes.begin(), state.nodes.end(), turns_far);
-    return Trouble{"'" + system.plan().nodes[static_cast<std::size_t>(far - state.nodes.begin())].name +
-                   "' turns by nearly half a turn in one step"};
+    return describe_turn(system, static_cast<std::size_t>(far - state.nodes.begin()));
   }
 
   /// Predictor: dv/dt changes as it did over the last step, or stays where that would have been nearer; a_{n+1} follows. Multipliers stay:
-  /// the first solution finds them, whatever they were. Writes all of `state` in one pass over the start.
-  void predict(State& state) const {
+  /// the first solution finds them, whatever they were. Writes all of `state`, its nodes in one pass over the start.
+  void predict(System& system, State& state, bool in_plane) const {
     state.step_size = start.step_size;
     state.multipliers = start.multipliers;
-    const double trend = start.follows_trend ? 1.0 : 0.0;
     state.turns = start.turns;
+    if (in_plane) return system.planar_step()->enter(start, rule, system.walker());
+    const double trend = start.follows_trend ? 1.0 : 0.0;
     state.nodes.resize(start.nodes.size());
     state.rotation.resize(start.nodes.size());
     state.algorithmic.resize(start.nodes.size());
@@ -72,17 +68,19 @@ struct Integrator {
       const std::size_t some = std::min(nodes_in_lanes, count - n);
       for (std::size_t i = 0; i < some; ++i) {
         const elements::NodeMotion& from = start.nodes[n + i];
-        const Vec6<double>& algorithmic = start.algorithmic[n + i];
-        const Vec6<double> next =
-            (1.0 / (1.0 - c.alpha_m)) *
-            (from.a + (trend * (1.0 - c.alpha_f)) * start.acceleration_trend[n + i] - c.alpha_m * algorithmic);
-        eta[i] = h * from.v + (h * h) * ((0.5 - c.beta) * algorithmic + c.beta * next);
+        eta[i] = rule.predict(from.v, from.a, start.algorithmic[n + i],
+                              Vec6<double>(trend * start.acceleration_trend[n + i]));
         state.nodes[n + i] = from;
         state.nodes[n + i].dq = eta[i];
         state.rotation[n + i] = start.rotation[n + i];
       }
       move_nodes(state, n, some, eta, false);
     }
+  }
+
+ private:
+  static Trouble describe_turn(const System& system, std::size_t node) {
+    return {"'" + system.plan().nodes[node].name + "' turns by nearly half a turn in one step"};
   }
 };
 
@@ -106,29 +104,32 @@ void note_trend(const System& system, const State& start, State& state) {
 }
 
 Integrator make_rule(const StepOptions& options, const State& start) {
-  return {make_alpha_coefficients(options.spectral_radius), start.step_size, start};
+  return {{make_alpha_coefficients(options.spectral_radius), start.step_size}, start};
 }
 
 /// The predicted state, its laws and velocities.
-std::optional<Trouble> enter(System& system, State& state, const Integrator& rule, double end_time) {
+std::optional<Trouble> enter(System& system, State& state, const Integrator& step, double end_time, bool in_plane) {
   if (auto t = system.set_time(end_time, laws::Side::left)) return t;
-  rule.predict(state);
+  step.predict(system, state, in_plane);
   state.time = end_time;
-  return rule.follow(system, state);
+  return step.follow(system, state);
 }
 
-StepReport try_step(System& system, State& state, const StepOptions& options, const Integrator& rule, double end_time) {
+StepReport try_step(System& system, State& state, const StepOptions& options, const Integrator& step, double end_time) {
   StepReport report;
-  const auto fail = [&report](const Trouble& t) {
+  const auto fail = [&](const Trouble& t) {
+    if (system.planar_step() != nullptr) system.planar_step()->abandon();
     report.converged = false;
     report.cause = t.text;
     return report;
   };
-  if (const auto t = enter(system, state, rule, end_time)) return fail(*t);
-  report = iterate(system, state, options, rule.slopes(), [&](State& s) { return rule.follow(system, s); });
-  if (!report.converged) return report;
+  const bool in_plane = system.planar_step() != nullptr;
+  if (const auto t = enter(system, state, step, end_time, in_plane)) return fail(*t);
+  report = iterate(system, state, options, step.rule.slopes(), [&](State& s) { return step.follow(system, s); });
+  if (!report.converged) return fail({report.cause});
+  if (in_plane) system.planar_step()->leave(step.start, state, system.walker());
   if (const auto t = check_shape(system, state)) return fail(*t);
-  note_trend(system, rule.start, state);
+  note_trend(system, step.start, state);
   system.recover_multipliers(state);
   return report;
 }
@@ -138,9 +139,9 @@ StepReport try_step(System& system, State& state, const StepOptions& options, co
 std::optional<Trouble> predict(System& system, State& state, const StepOptions& options, double end_time,
                                elements::Slopes& slopes) {
   const State start = state;
-  const Integrator rule = make_rule(options, start);
-  slopes = rule.slopes();
-  return enter(system, state, rule, end_time);
+  const Integrator step = make_rule(options, start);
+  slopes = step.rule.slopes();
+  return enter(system, state, step, end_time, false);
 }
 
 StepReport advance(System& system, State& state, const StepOptions& options, double end_time) {

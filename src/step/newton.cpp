@@ -1,14 +1,20 @@
 #include "newton.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace bough::step {
 
-bool is_small(const System& system, const ResidualSize& r, double tolerance) {
+double relative_size(const System& system, const ResidualSize& r) {
   const double arm = system.moment_arm();
-  return r.force <= tolerance * std::max(r.force_scale, r.moment_scale / arm) &&
-         r.moment <= tolerance * std::max(r.moment_scale, r.force_scale * arm) &&
-         r.length <= tolerance * system.plan().length_scale && r.angle <= tolerance;
+  const auto share = [](double part, double whole) { return part > 0.0 ? part / whole : 0.0; };
+  return std::max({share(r.force, std::max(r.force_scale, r.moment_scale / arm)),
+                   share(r.moment, std::max(r.moment_scale, r.force_scale * arm)),
+                   share(r.length, system.plan().length_scale), r.angle});
+}
+
+bool is_small(const System& system, const ResidualSize& r, double tolerance) {
+  return relative_size(system, r) <= tolerance;
 }
 
 bool is_at_floor(const System& system, const State& state, const ResidualSize& r, double tolerance) {
@@ -58,14 +64,17 @@ std::string describe(System& system, const ResidualSize& r, double tolerance) {
 std::optional<Trouble> check_shape(const System& system, const State& state) {
   const plan::Plan& plan = system.plan();
   const elements::Field f = system.field(state);
-  // Of beams, which do not end at the ground.
-  const auto turned = [&state](const elements::Port& a, const elements::Port& b) {
-    const auto R = [&state](const elements::Port& p) {
-      const motion::Mat3<double>& node =
-          p.node == elements::ground ? p.offset.R : state.nodes[static_cast<std::size_t>(p.node)].R;
-      return p.node == elements::ground || !p.has_offset ? node : node * p.offset.R;
+  // R_a^T R_b of two ports: rotations alone, since every element is looked at after every step.
+  const auto relative = [&f](const elements::Port& a, const elements::Port& b) {
+    const auto R = [&f](const elements::Port& p) {
+      if (p.node == elements::ground) return p.carrier >= 0 ? f.carriers[p.carrier].pose.R * p.offset.R : p.offset.R;
+      const motion::Mat3<double>& node = f.nodes[p.node].R;
+      return p.has_offset ? node * p.offset.R : node;
     };
-    const motion::Mat3<double> r = lanes::transpose_times(R(a), R(b));
+    return lanes::transpose_times(R(a), R(b));
+  };
+  const auto turned = [&relative](const elements::Port& a, const elements::Port& b) {
+    const motion::Mat3<double> r = relative(a, b);
     return 0.5 * (r(0, 0) + r(1, 1) + r(2, 2) - 1.0);  // cosine of the angle
   };
   std::optional<Trouble> trouble;
@@ -74,18 +83,20 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
       using E = std::decay_t<decltype(e)>;
       if constexpr (std::is_same_v<E, elements::Joint>) {
         bool flipped = false;
-        const elements::JointMotion m = elements::eval_joint_motion(e, f, 0.0);
+        motion::Mat3<double> R;
+        bool is_known = false;
         for (int k = 0; k < e.num_rows; ++k) {
           if (e.rows[k].kind != elements::RowKind::across) continue;
+          if (!is_known) R = relative(e.ports[0], e.ports[1]);
+          is_known = true;
           const bool by_pairs = e.rows[k].j == (e.rows[k].i + 1) % 3 && k + 2 < e.num_rows && e.rows[k].i == 0 &&
                                 e.rows[k + 1].kind == elements::RowKind::across && e.rows[k + 1].i == 1 &&
                                 e.rows[k + 1].j == 2 && e.rows[k + 2].kind == elements::RowKind::across;
           if (by_pairs) {
-            const motion::Mat3<double>& R = m.relative.R;
             flipped |= R(0, 0) < 0.0 || R(1, 1) < 0.0 || R(2, 2) < 0.0;
             break;
           }
-          if (e.rows[k].j == 2) flipped |= m.relative.R(2, 2) < 0.0;
+          if (e.rows[k].j == 2) flipped |= R(2, 2) < 0.0;
         }
         if (flipped)
           trouble = Trouble{"joint '" + plan.element_owner[id] + "' flipped to the opposite pose within one step"};

@@ -7,9 +7,9 @@ namespace bough::step {
 /// A factor that contracts the changes less than this is made anew: four more solutions cost about as much as a tangent and its factor.
 constexpr double slowest_contraction = 0.03;
 
-/// The change that an iteration may leave, were its contraction to go on, relative to the tolerance: an old factor must come as near as a new
-/// one, short steps turn small changes of positions into large ones of multipliers, and later contractions can be slower than early ones.
-constexpr double left_open = 1e-6;
+/// Residual that an iteration may leave, measured or to be expected from its contraction, relative to the tolerance: of steps that an old factor
+/// ends early the errors add up, and later contractions can be slower than early ones.
+constexpr double left_open = 0.1;
 
 /// Changes whose ratio is above this no longer shrink: what is left may be round-off.
 constexpr double shrinks = 0.3;
@@ -19,7 +19,10 @@ template <class Follow>
 StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes,
                    Follow&& follow);
 
-/// Residual within the tolerance of what makes it, forces, moments, lengths and angles apart.
+/// The largest of forces, moments, lengths and angles of a residual, each relative to what makes it.
+double relative_size(const System& system, const ResidualSize& r);
+
+/// Whether that is within the tolerance.
 bool is_small(const System& system, const ResidualSize& r, double tolerance);
 
 /// Whether what is left of a residual above the tolerance may be round-off.

@@ -14,12 +14,14 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     return report;
   };
   const bool may_reuse = !options.single_solution && options.reuse_factors;
-  double previous = 0.0, rate = system.last_contraction();
+  double previous = 0.0, rate = system.last_contraction(), size = 0.0;
   bool is_own = false;                                    // whether the factor was made in this step
   bool fresh = !may_reuse || !system.has_factor(slopes);  // whether the next solution gets a new factor
   for (int k = 0;; ++k) {
     if (const auto t = system.evaluate(state, slopes, fresh && k == 0)) return fail(*t);
     report.residual = system.residual_size();
+    const double size_before = size;
+    size = relative_size(system, report.residual);
     if (k > 0) {
       if (options.single_solution) {
         report.converged = true;
@@ -28,8 +30,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       if (k > 1) rate = previous > 0.0 ? report.change / previous : 0.0;
       const bool still = report.change < options.tolerance;
       const bool stalled = k > 1 && rate > shrinks && is_own;  // with an old factor: it contracts badly here
-      const bool near = stalled || report.change * rate <= left_open * options.tolerance;
-      if (still && near && is_small(system, report.residual, options.tolerance)) {
+      if (still && size <= (stalled ? 1.0 : left_open) * options.tolerance) {
         report.converged = true;
         if (k > 1) system.set_last_contraction(rate);
         return report;
@@ -60,7 +61,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       if (const auto t = system.factor(k == 0, slopes))
         return fail(k == 0 ? *t : Trouble{"iteration " + std::to_string(k) + " came to a shape at which " + t->text});
     for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
-    if (const auto t = system.solve(rhs.data(), x.data(), k == 0)) return fail(*t);
+    if (const auto t = system.solve(rhs.data(), x.data(), false)) return fail(*t);
     previous = report.change;
     report.change = system.apply(state, x.data());
     if (report.iterations < StepReport::remembered_changes)
@@ -68,10 +69,11 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     ++report.iterations;
     if (!std::isfinite(report.change)) return fail({"the iteration left finite numbers"});
     if (const auto t = follow(state)) return fail(*t);
-    if (k == 0 || options.single_solution || !is_small(system, report.residual, options.tolerance)) continue;
-    // The residual was small before this change answered it: where changes shrink on to nothing, it need not be looked at again.
+    if (k == 0 || options.single_solution || report.change >= options.tolerance) continue;
+    // Where changes and residuals shrink on as they did, the residual that this change leaves need not be looked at.
     rate = previous > 0.0 ? report.change / previous : 0.0;
-    if (rate <= shrinks && report.change < options.tolerance && report.change * rate <= left_open * options.tolerance) {
+    const double contraction = std::max(rate, size_before > 0.0 ? size / size_before : 0.0);
+    if (contraction <= shrinks && contraction * size <= left_open * options.tolerance) {
       report.converged = true;
       system.set_last_contraction(rate);
       return report;

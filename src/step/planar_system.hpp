@@ -24,6 +24,9 @@ class PlanarSystem {
 
   /// Nodes [begin, end) as seen in the plane.
   void set_nodes(const State& state, std::int64_t begin, std::int64_t end);
+  /// What elements are evaluated at, and what a step in the plane moves.
+  std::vector<elements::planar::Node>& nodes() { return nodes_; }
+  const std::vector<elements::planar::Node>& nodes() const { return nodes_; }
   /// Gravity, laws and slopes.
   void set_field(const elements::Field& field);
 

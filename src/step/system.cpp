@@ -8,7 +8,7 @@
 #include "held_nodes.hpp"
 #include "lane_batches.hpp"
 #include "make_solver.hpp"
-#include "planar_system.hpp"
+#include "planar_step.hpp"
 #include "projection.hpp"
 #include "system_parts.hpp"
 
@@ -81,6 +81,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   });
   chunk_sizes_.resize((use_begin_.size() - 1 + block_grain - 1) / block_grain, {{}, true});
   find_pairs();
+  if (planar_ && plan.is_dynamic) planar_step_ = std::make_unique<PlanarStep>(plan, *planar_, node_begin_, pairs_);
 }
 
 System::~System() = default;
@@ -208,8 +209,10 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
                          tangent ? solver_->element(id) : solve::ElementView{}};
   };
   if (planar != nullptr) {
-    auto by_node = [&](std::int64_t begin, std::int64_t end) { planar->set_nodes(state, begin, end); };
-    walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
+    if (!(planar_step_ && planar_step_->is_under_way())) {
+      auto by_node = [&](std::int64_t begin, std::int64_t end) { planar->set_nodes(state, begin, end); };
+      walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
+    }
     planar->set_field(f);
   }
   auto by_batch = [&](std::int64_t begin, std::int64_t end) {
@@ -283,10 +286,11 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
 std::optional<Trouble> System::solve(const double* rhs, double* x, bool check) {
   PhaseTimer timer{clock_, counts_.solve};
   ++counts_.solutions;
-  if (!check && is_trusted_ && solver_->hierarchical() != nullptr) {
+  if (!check && is_trusted_ && solver_->hierarchical() != nullptr && ++unchecked_ < check_every) {
     static_cast<void>(solver_->solve(walker_, rhs, x, false));
     return std::nullopt;  // what is not finite shows in the change that it makes
   }
+  unchecked_ = 0;
   last_solution_ = solver_->solve(walker_, rhs, x);
   is_trusted_ = last_solution_.backward_error <= 1e-14 && last_solution_.refinement_steps == 0;
   if (!last_solution_.interface_converged)

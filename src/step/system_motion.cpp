@@ -6,6 +6,7 @@
 #include "bough/elements/rows.hpp"
 #include "bough/step/system.hpp"
 #include "held_nodes.hpp"
+#include "planar_step.hpp"
 #include "projection.hpp"
 #include "system_parts.hpp"
 
@@ -87,6 +88,11 @@ void System::add_multipliers(State& state, const double* x, double factor) const
 
 double System::apply(State& state, const double* x) {
   PhaseTimer timer{clock_, counts_.update};
+  if (planar_step_ && planar_step_->is_under_way()) {
+    const double size = planar_step_->apply(x, walker_);
+    if (plan_.num_multipliers > 0) add_multipliers(state, x, 1.0);
+    return size;
+  }
   const double change = relative_size(state, x);
   auto by_node = [&](std::int64_t begin, std::int64_t end) {
     Vec6<double> eta[nodes_in_lanes];

@@ -57,8 +57,10 @@ template <class Kernels>
 class LaneBatches;
 struct SpatialKernels;
 class PlanarSystem;
+class PlanarStep;
 class Projection;
 class HeldNodes;
+struct NodePair;
 
 class System {
  public:
@@ -100,8 +102,8 @@ class System {
   /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
   double last_contraction() const { return contraction_; }
   void set_last_contraction(double contraction) { contraction_ = contraction; }
-  /// x <- A^-1 rhs. check: false: its backward error may be left out where a solution with the same factor was found good; then
-  /// last_solution() stays that of the last check.
+  /// x <- A^-1 rhs. check: false: its backward error may be left out, but for every 32nd solution, where one with the same factor was found good;
+  /// then last_solution() stays that of the last check.
   [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x, bool check = true);
   const solve::SolveReport& last_solution() const { return last_solution_; }
 
@@ -170,12 +172,12 @@ class System {
   /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame itself.
   const elements::CarrierMotion* observer() const { return plan_.observer < 0 ? nullptr : &frames_.observer; }
 
+  /// Where steps of generalized-alpha iterate in the plane; null: in space. While one is under way evaluate and apply move and look at its nodes,
+  /// and leave those of the states they are given alone.
+  PlanarStep* planar_step() { return planar_step_.get(); }
+  const PlanarStep* planar_step() const { return planar_step_.get(); }
+
  private:
-  /// Two nodes of an element, a < 0: b alone, against what does not move.
-  struct NodePair {
-    int a, b;
-    double per_length;  ///< 1 / length of the element [1/m]
-  };
   struct ChunkSize {
     ResidualSize size;
     bool is_finite;
@@ -202,7 +204,8 @@ class System {
 
   const plan::Plan& plan_;
   std::unique_ptr<LaneBatches<SpatialKernels>> lane_batches_;
-  std::unique_ptr<PlanarSystem> planar_;    ///< where the plan has planar elements
+  std::unique_ptr<PlanarSystem> planar_;  ///< where the plan has planar elements
+  std::unique_ptr<PlanarStep> planar_step_;
   std::unique_ptr<Projection> projection_;  ///< none where a node has six unknowns
   std::unique_ptr<HeldNodes> held_;         ///< none where all nodes have unknowns
   std::unique_ptr<tree::Tree> tree_;
@@ -242,7 +245,9 @@ class System {
   elements::Slopes factored_;
   bool is_factored_ = false;
   bool is_of_matrices_ = false;  ///< the factor is that of the tangents evaluated last
-  bool is_trusted_ = false;      ///< the present factor gave a solution that needed no refinement
+  static constexpr int check_every = 32;
+  int unchecked_ = 0;        ///< solutions since the last that was checked
+  bool is_trusted_ = false;  ///< the present factor gave a solution that needed no refinement
   double contraction_ = 1.0;
   bool takes_symmetric_parts_ = false;
   bool as_sensors_ = false;  ///< elements in space, one at a time: the bits that sensors see

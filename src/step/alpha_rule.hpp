@@ -1,0 +1,41 @@
+#pragma once
+/// The formulas of a step of generalized-alpha, in all motions or those of a plane. Internal to step.
+#include "bough/elements/evaluate.hpp"
+#include "bough/step/options.hpp"
+
+namespace bough::step {
+
+/// Of a step of size h [s]: velocities and accelerations that belong to its increment dq, and the increment that it starts from. V: a motion
+/// vector, of doubles or packs.
+struct AlphaRule {
+  AlphaCoefficients c;
+  double h;
+
+  template <class V>
+  struct Rates {
+    V v, a, algorithmic;  ///< velocity, its derivative, a_n of the method
+  };
+
+  elements::Slopes slopes() const {
+    return {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false};
+  }
+
+  ///   a_{n+1} = (dq - h v_n) / (beta h^2) - (1/2 - beta)/beta a_n,  v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1}),
+  ///   dv/dt_{n+1} = ((1 - alpha_m) a_{n+1} + alpha_m a_n - alpha_f dv/dt_n) / (1 - alpha_f)
+  template <class V>
+  Rates<V> follow(const V& dq, const V& v, const V& a, const V& algorithmic) const {
+    const double of_dq = 1.0 / (c.beta * h * h), of_a = (0.5 - c.beta) / c.beta, share = 1.0 / (1.0 - c.alpha_f);
+    const V next = of_dq * V(dq - h * v) - of_a * algorithmic;
+    return {v + h * V((1.0 - c.gamma) * algorithmic + c.gamma * next),
+            share * V((1.0 - c.alpha_m) * next + c.alpha_m * algorithmic - c.alpha_f * a), next};
+  }
+
+  /// dq where dv/dt changes by `change`.
+  template <class V>
+  V predict(const V& v, const V& a, const V& algorithmic, const V& change) const {
+    const V next = (1.0 / (1.0 - c.alpha_m)) * V(a + (1.0 - c.alpha_f) * change - c.alpha_m * algorithmic);
+    return h * v + (h * h) * V((0.5 - c.beta) * algorithmic + c.beta * next);
+  }
+};
+
+}  // namespace bough::step
