@@ -66,6 +66,7 @@ void Builder::settle() {
   for (const JointPlan& j : plan.joints) rows += j.rows.size();
   for (const HeldNode& h : plan.held)
     for (int j : h.joints) rows -= plan.joints[static_cast<std::size_t>(j)].rows.size();
+  rows -= plan.driven.size() * static_cast<std::size_t>(plan.unknowns.count);
 
   decide(
       "reuse",

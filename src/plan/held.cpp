@@ -1,10 +1,10 @@
-/// Nodes that joints hold at rest: what is known of them beforehand needs no unknowns.
-#include <Eigen/LU>
+/// Nodes that joints hold at rest, and nodes that they move as prescribed: what is known of them beforehand needs no unknowns.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "bough/elements/rows.hpp"
+#include "bough/plan/small_inverse.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -16,23 +16,10 @@ namespace {
 
 constexpr double closed = 1e-13;      ///< relative gap of a joint that a consistent start leaves as well
 constexpr double least_pivot = 1e-6;  ///< relative to the largest, rows of size 1: below, the rows hold the node hardly
+constexpr const char* loose = "its joints do not hold it on all sides";
 
 bool is_to_ground(const elements::Joint& e) {
   return e.ports[0].node == elements::ground || e.ports[1].node == elements::ground;
-}
-
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 6, 6>;
-
-/// Inverse, row-major; none where rows nearly depend on each other.
-std::optional<std::vector<double>> invert(Matrix a) {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> scale = a.rowwise().lpNorm<Eigen::Infinity>();
-  if (!(scale.minCoeff() > 0.0)) return std::nullopt;
-  scale = scale.cwiseInverse();
-  Eigen::FullPivLU<Matrix> lu(scale.asDiagonal() * a);
-  lu.setThreshold(least_pivot);
-  if (!lu.isInvertible()) return std::nullopt;
-  a = lu.inverse() * scale.asDiagonal();
-  return std::vector<double>(a.data(), a.data() + a.size());
 }
 
 /// Looks at one node after the other.
@@ -64,7 +51,35 @@ class Holder {
 
   /// Fills `held`, or says what stands against it.
   std::optional<std::string> try_to_hold(std::size_t node, const std::vector<int>& joints, HeldNode& held) const {
-    int rows = 0;
+    if (const char* way = mover_among(joints)) return way;
+    if (const char* way = dependence_of(node, joints)) return way;
+    if (starts_moving(node)) return "it starts moving";
+    if (!are_closed(joints)) return "it does not start where it is held";
+    held = {static_cast<int>(node), joints, wrenches(node, joints)};
+    if (!invert_small(held.inverse.data(), plan_.unknowns.count, least_pivot)) return loose;
+    return std::nullopt;
+  }
+
+  /// Whether a node of such joints is at rest where it starts: then what keeps it from being held keeps it from being driven as well.
+  bool rests(std::size_t node, const std::vector<int>& joints) const {
+    return mover_among(joints) == nullptr && !starts_moving(node) && are_closed(joints);
+  }
+
+  /// What stands against eliminating a node that these joints move, if something does.
+  std::optional<std::string> obstacle_to_driving(std::size_t node, const std::vector<int>& joints) const {
+    if (const char* way = dependence_of(node, joints)) return way;
+    std::vector<double> W = wrenches(node, joints);
+    if (!invert_small(W.data(), plan_.unknowns.count, least_pivot)) return loose;
+    return std::nullopt;
+  }
+
+ private:
+  const elements::Joint& joint(int j) const { return joint_of(plan_, plan_.joints[static_cast<std::size_t>(j)]); }
+  const laws::Law& law(int i) const { return plan_.laws[static_cast<std::size_t>(i)].law; }
+  int num_rows(int j) const { return static_cast<int>(plan_.joints[static_cast<std::size_t>(j)].rows.size()); }
+
+  /// What moves a node held by these joints, or gives it forces of their own; null: nothing.
+  const char* mover_among(const std::vector<int>& joints) const {
     for (int j : joints) {
       const elements::Joint& e = joint(j);
       for (const Port& p : e.ports)
@@ -72,21 +87,21 @@ class Holder {
       for (int row : plan_.joints[static_cast<std::size_t>(j)].rows)
         if (e.rows[row].law >= 0 && !law(e.rows[row].law).is_constant()) return "a law moves it";
       if (e.num_efforts > 0) return "a joint that holds it has springs or drives of its own";
-      rows += num_rows(j);
     }
-    if (rows > plan_.unknowns.count) return "it is held more than once";
-    if (const char* way = loop_from(node, joints)) return way;
-    const Vec6<double>& twist = plan_.nodes[node].twist;
-    if (plan_.is_dynamic && lanes::dot(twist, twist) > 0.0) return "it starts moving";
-    held.node = static_cast<int>(node);
-    held.joints = joints;
-    return set_inverse(held);
+    return nullptr;
   }
 
- private:
-  const elements::Joint& joint(int j) const { return joint_of(plan_, plan_.joints[static_cast<std::size_t>(j)]); }
-  const laws::Law& law(int i) const { return plan_.laws[static_cast<std::size_t>(i)].law; }
-  int num_rows(int j) const { return static_cast<int>(plan_.joints[static_cast<std::size_t>(j)].rows.size()); }
+  bool starts_moving(std::size_t node) const {
+    const Vec6<double>& twist = plan_.nodes[node].twist;
+    return plan_.is_dynamic && lanes::dot(twist, twist) > 0.0;
+  }
+
+  /// Why multipliers of the joints that hold a node may not be what they are by the node's balance alone; null: they are.
+  const char* dependence_of(std::size_t node, const std::vector<int>& joints) const {
+    int rows = 0;
+    for (int j : joints) rows += num_rows(j);
+    return rows > plan_.unknowns.count ? "it is held more than once" : loop_from(node, joints);
+  }
 
   /// Over joints other than those that hold the node. Where these lead to the ground or form a loop, rows may depend on each other, and how their
   /// multipliers share a load, by least norm in scales that the node's unknowns take part in, is a matter of all of them. In a tree that is held at this node
@@ -112,36 +127,54 @@ class Holder {
                                         : "joints that it carries form a loop: their rows may depend on each other";
   }
 
-  /// W: by column the wrench on the node of one multiplier of size 1, in the unknowns of the node. It stays as the node does.
-  std::optional<std::string> set_inverse(HeldNode& held) const {
-    const int n = plan_.unknowns.count;
-    Matrix W(n, n);
-    int column = 0;
-    for (int j : held.joints) {
+  /// Residual of a joint at the start, its rows after twelve entries of forces. multipliers: by row, max_rows of them.
+  void eval_at_start(int j, const double* multipliers, double* out) const {
+    const elements::Joint& e = joint(j);
+    elements::PortMotion<double> p[2];
+    for (int k = 0; k < 2; ++k) p[k] = {b_.initial_pose(e.ports[k]), Vec6<double>::zero(), Vec6<double>::zero()};
+    const elements::Surroundings<double> around{motion::Vec3<double>::zero(), laws_.data(), false};
+    elements::eval_residual(e, p, multipliers, around, out, 0.0);
+  }
+
+  /// Rows of joints whose laws are constant.
+  bool are_closed(const std::vector<int>& joints) const {
+    for (int j : joints) {
+      const double none[elements::max_rows] = {};
+      double out[12 + elements::max_rows];
+      eval_at_start(j, none, out);
+      for (int row : plan_.joints[static_cast<std::size_t>(j)].rows)
+        if (!(std::abs(out[12 + row]) <=
+              closed * (elements::is_length(joint(j).rows[row].kind) ? plan_.length_scale : 1.0)))
+          return false;
+    }
+    return true;
+  }
+
+  /// W at the start, row-major: by column the wrench on the node of one multiplier of size 1, in the unknowns of the node. Precondition: as many rows
+  /// as these.
+  std::vector<double> wrenches(std::size_t node, const std::vector<int>& joints) const {
+    const auto n = static_cast<std::size_t>(plan_.unknowns.count);
+    std::vector<double> W(n * n);
+    std::size_t column = 0;
+    for (int j : joints) {
       const elements::Joint& e = joint(j);
-      elements::PortMotion<double> p[2];
-      for (int k = 0; k < 2; ++k) p[k] = {b_.initial_pose(e.ports[k]), Vec6<double>::zero(), Vec6<double>::zero()};
-      const elements::Surroundings<double> around{motion::Vec3<double>::zero(), laws_.data(), false};
-      const int side = e.ports[0].node == held.node ? 0 : 1;
+      const int side = e.ports[0].node == static_cast<int>(node) ? 0 : 1;
+      double none[elements::max_rows] = {}, without[12 + elements::max_rows];
+      eval_at_start(j, none, without);
       for (int row : plan_.joints[static_cast<std::size_t>(j)].rows) {
         double unit[elements::max_rows] = {}, out[12 + elements::max_rows];
         unit[row] = 1.0;
-        elements::eval_residual(e, p, unit, around, out, 0.0);
-        if (!(std::abs(out[12 + row]) <= closed * (elements::is_length(e.rows[row].kind) ? plan_.length_scale : 1.0)))
-          return "it does not start where it is held";
+        eval_at_start(j, unit, out);
         Vec6<double> wrench;
-        for (int i = 0; i < 6; ++i) wrench[i] = out[6 * side + i];
+        for (int i = 0; i < 6; ++i) wrench[i] = out[6 * side + i] - without[6 * side + i];
         if (e.ports[side].has_offset) wrench = motion::inverse_adjoint_transpose_times(e.ports[side].offset, wrench);
         double part[6];
-        plan_.unknowns.project(wrench, static_cast<std::size_t>(held.node), part);
-        for (int i = 0; i < n; ++i) W(i, column) = part[i];
+        plan_.unknowns.project(wrench, node, part);
+        for (std::size_t i = 0; i < n; ++i) W[i * n + column] = part[i];
         ++column;
       }
     }
-    const auto inverse = invert(W);
-    if (!inverse) return "its joints do not hold it on all sides";
-    held.inverse = *inverse;
-    return std::nullopt;
+    return W;
   }
 
   const Builder& b_;
@@ -150,45 +183,78 @@ class Holder {
   std::vector<std::vector<int>> joints_at_;  ///< by node, those with rows
 };
 
+/// What a decision about nodes tells of them: the first that it is taken for, how many more, and why not for the first of the others.
+struct Account {
+  std::string first, obstacle;
+  std::size_t count = 0;
+
+  void take(const std::string& name) {
+    if (count++ == 0) first = "'" + name + "'";
+  }
+  void leave(const std::string& name, const std::string& why) {
+    if (obstacle.empty()) obstacle = "'" + name + "': " + why;
+  }
+  /// "'a' and 2 more do not move: 18 unknowns and 18 rows ...; not 'b': ...".
+  std::string reason(const std::string& none, const std::string& one_does, const std::string& many_do, int unknowns,
+                     const std::string& done) const {
+    if (count == 0) return obstacle.empty() ? none : obstacle;
+    const std::string rows = std::to_string(count * static_cast<std::size_t>(unknowns));
+    return first + (count == 1 ? one_does : " and " + std::to_string(count - 1) + " more" + many_do) + ": " + rows +
+           " unknowns and " + rows + " rows of joints are " + done + (obstacle.empty() ? "" : "; not " + obstacle);
+  }
+};
+
 }  // namespace
 
 void Builder::hold_nodes() {
   const Holder holder(*this);
   std::vector<HeldNode> held;
-  std::string obstacle;
-  std::size_t against = 0;
+  std::vector<DrivenNode> driven;
+  Account of_held, of_driven;
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
     const std::vector<int> joints = holder.joints_that_hold(n);
     if (joints.empty()) continue;
+    const std::string& name = plan.nodes[n].name;
     HeldNode candidate;
-    const auto o = holder.try_to_hold(n, joints, candidate);
-    if (!o)
+    const auto why = holder.try_to_hold(n, joints, candidate);
+    if (!why) {
       held.push_back(candidate);
-    else if (against++ == 0)
-      obstacle = "'" + plan.nodes[n].name + "': " + *o;
+      of_held.take(name);
+      continue;
+    }
+    of_held.leave(name, *why);
+    if (holder.rests(n, joints)) continue;
+    if (const auto obstacle = holder.obstacle_to_driving(n, joints)) {
+      of_driven.leave(name, *obstacle);
+    } else {
+      driven.push_back({static_cast<int>(n), joints});
+      of_driven.take(name);
+    }
   }
-  const std::string rows = std::to_string(held.size() * static_cast<std::size_t>(plan.unknowns.count));
-  std::string reason = "no joint holds a node to the ground on all sides";
-  bool holds = !held.empty();
-  if (holds) {
-    reason = "'" + plan.nodes[static_cast<std::size_t>(held.front().node)].name + "'" +
-             (held.size() == 1 ? " does" : " and " + std::to_string(held.size() - 1) + " more do") +
-             " not move: " + rows + " unknowns and " + rows + " rows of joints are left out";
-    if (against > 0) reason += "; not " + obstacle;
-  } else if (against > 0) {
-    reason = obstacle;
-  }
-  if (holds && held.size() == plan.nodes.size()) {
-    holds = false;
-    reason = "nothing would be left";
-  }
+  const std::string empty = "nothing would be left";
+  bool holds = !held.empty(), leaves = held.size() < plan.nodes.size();
   decide("held",
          "nodes that the ground holds at rest have no unknowns, and the joints that hold them no multipliers in the "
          "system: these follow from the forces on the node. Taken where joints and constant displacements leave a node "
          "no motion, "
          "and other joints neither lead from it to the ground nor form a loop",
-         holds, reason);
+         holds && leaves,
+         leaves ? of_held.reason("no joint holds a node to the ground on all sides", " does not move", " do not move",
+                                 plan.unknowns.count, "left out")
+                : empty);
   if (plan.took("held")) plan.held = std::move(held);
+  holds = !driven.empty();
+  leaves = driven.size() + plan.held.size() < plan.nodes.size();
+  decide("driven",
+         "nodes that joints to the ground or to moving frames move as laws prescribe are eliminated before the linear "
+         "system is factored, with the multipliers of these joints: their motion follows from the rows alone, the "
+         "multipliers from the forces on the node. Taken where as many rows as a node has unknowns prescribe its "
+         "motion, and other joints neither lead from it to the ground nor form a loop",
+         holds && leaves,
+         leaves ? of_driven.reason("no motion is prescribed for a node on all sides", " moves as prescribed",
+                                   " move as prescribed", plan.unknowns.count, "eliminated beforehand")
+                : empty);
+  if (plan.took("driven")) plan.driven = std::move(driven);
 }
 
 }  // namespace bough::plan

@@ -93,7 +93,7 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
 void eval_rates(System& system, const std::vector<Vec6<double>>& d, std::vector<double>& rates) {
   std::vector<double> vector(system.num_unknowns(), 0.0), product(system.num_unknowns());
   for (std::size_t n = 0; n < d.size(); ++n) system.set_node_part(vector.data(), static_cast<int>(n), d[n]);
-  system.solver().multiply(system.walker(), vector.data(), product.data());
+  system.multiply(vector.data(), product.data());
   rates.assign(static_cast<std::size_t>(system.plan().num_multipliers), 0.0);
   for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
     rates[multiplier] = product[unknown];

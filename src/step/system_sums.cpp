@@ -58,8 +58,8 @@ inline void add_parts(const double* parts, const double* terms, const std::int64
 
 /// Where the parts of elements' residuals lie, and which of them add up to a block, or to the forces on a node that is held.
 void System::place_parts() {
-  const auto num_blocks = static_cast<std::size_t>(plan_.graph.num_blocks());
-  std::vector<std::vector<std::int64_t>> uses(num_blocks + plan_.held.size());
+  const auto count = static_cast<std::size_t>(num_blocks());
+  std::vector<std::vector<std::int64_t>> uses(count + plan_.held.size());
   std::vector<std::size_t> held_of_node(plan_.nodes.size(), 0);
   for (std::size_t h = 0; h < plan_.held.size(); ++h) held_of_node[static_cast<std::size_t>(plan_.held[h].node)] = h;
   element_begin_.assign(1, 0);
@@ -70,7 +70,7 @@ void System::place_parts() {
       if (block >= 0)
         uses[static_cast<std::size_t>(block)].push_back(at);
       else if (counts && node >= 0)
-        uses[num_blocks + held_of_node[static_cast<std::size_t>(node)]].push_back(at);
+        uses[count + held_of_node[static_cast<std::size_t>(node)]].push_back(at);
       at += size;
     });
     element_begin_.push_back(at);
@@ -82,17 +82,18 @@ void System::place_parts() {
     uses_.insert(uses_.end(), list.begin(), list.end());
     use_begin_.push_back(static_cast<std::int64_t>(uses_.size()));
   }
+  node_of_block_.assign(count, -1);
   for (std::size_t n = 0; n < plan_.nodes.size(); ++n) {
     const int block = plan_.block_of_node[n];
     node_begin_.push_back(block < 0 ? -1 : block_begin(block));
-    if (block >= 0) node_of_block_.push_back(static_cast<int>(n));
+    if (block >= 0) node_of_block_[static_cast<std::size_t>(block)] = static_cast<int>(n);
   }
 }
 
 /// Forces on a node that is held: balanced by the joints that hold it, they only tell how large forces are.
 void System::sum_held_node(std::size_t held, ChunkSize& chunk) const {
   std::array<double, 6> r, m;
-  const std::size_t use = static_cast<std::size_t>(plan_.graph.num_blocks()) + held;
+  const std::size_t use = static_cast<std::size_t>(num_blocks()) + held;
   add_parts<0>(element_residual_.data(), element_magnitude_.data(), uses_.data() + use_begin_[use],
                uses_.data() + use_begin_[use + 1], plan_.unknowns.count, r.data(), m.data());
   chunk.is_finite &= all_finite(r.data(), plan_.unknowns.count);
@@ -111,8 +112,8 @@ void System::sum_blocks(std::int64_t begin, std::int64_t end) {
       sum_held_node(block - joint_of_block_.size(), chunk);
       continue;
     }
-    const int size = plan_.graph.block_size[block];
-    const auto first = static_cast<std::size_t>(tree_->unknown_begin[block]);
+    const auto first = static_cast<std::size_t>(unknown_begin_[block]);
+    const int size = static_cast<int>(unknown_begin_[block + 1] - unknown_begin_[block]);
     double *r = residual_.data() + first, *m = magnitude_.data() + first;
     const auto add = size == 6 ? add_parts<6> : size == 3 ? add_parts<3> : size == 2 ? add_parts<2> : add_parts<0>;
     add(element_residual_.data(), element_magnitude_.data(), uses_.data() + use_begin_[block],
@@ -162,24 +163,27 @@ ResidualSize System::residual_size() const {
 ResidualSize System::round_off_floor(const State&) const {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   std::vector<double> floor(num_unknowns(), 0.0);
+  std::vector<std::int64_t> unknowns;
+  const auto count = static_cast<std::size_t>(plan_.unknowns.count);
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
-    const int n = num_unknowns_of(e), count = plan_.unknowns.count;
-    const solve::ElementView K = const_cast<solve::AnySolver&>(*solver_).element(static_cast<int>(e));
-    int row = 0, node_columns = 0;
-    for (std::int64_t kb = plan_.graph.element_begin[e]; kb < plan_.graph.element_begin[e + 1]; ++kb)
-      if (joint_of_block(plan_.graph.element_blocks[static_cast<std::size_t>(kb)]) < 0) node_columns += count;
-    for (std::int64_t kb = plan_.graph.element_begin[e]; kb < plan_.graph.element_begin[e + 1]; ++kb) {
-      const int block = plan_.graph.element_blocks[static_cast<std::size_t>(kb)];
-      for (int i = 0; i < plan_.graph.block_size[static_cast<std::size_t>(block)]; ++i, ++row) {
-        double sum = 0.0;
-        for (int col = 0; col < node_columns; ++col)
-          sum += std::abs(K[row * n + col]) * (plan_.unknowns.is_length(col % count) ? element_length_[e] : 1.0);
-        floor[static_cast<std::size_t>(block_begin(block) + i)] += eps * sum;
-      }
+    const solve::ConstElementView K = matrix_of(static_cast<int>(e), unknowns);
+    const int j = joint_of_element_[e];
+    const std::size_t n = unknowns.size(), rows = j < 0 || plan_.joints[static_cast<std::size_t>(j)].block < 0
+                                                      ? 0
+                                                      : plan_.joints[static_cast<std::size_t>(j)].rows.size();
+    const std::size_t node_columns = n - rows;  // which come first
+    for (std::size_t row = 0; row < n; ++row) {
+      if (unknowns[row] < 0) continue;
+      double sum = 0.0;
+      for (std::size_t col = 0; col < node_columns; ++col)
+        if (unknowns[col] >= 0)
+          sum += std::abs(K[static_cast<std::int64_t>(row * n + col)]) *
+                 (plan_.unknowns.is_length(static_cast<int>(col % count)) ? element_length_[e] : 1.0);
+      floor[static_cast<std::size_t>(unknowns[row])] += eps * sum;
     }
   }
   ResidualSize s;
-  for (int b = 0; b < plan_.graph.num_blocks(); ++b) {
+  for (int b = 0; b < num_blocks(); ++b) {
     if (joint_of_block_[static_cast<std::size_t>(b)] >= 0) continue;
     const NodeSize size = size_up(plan_.unknowns.motions, floor.data() + block_begin(b));
     s.force = std::max(s.force, size.force);

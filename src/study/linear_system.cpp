@@ -28,22 +28,16 @@ struct Entry {
 
 /// Columns of the sum of the element matrices; rows ascending, contributions in the order of the elements.
 std::vector<std::vector<Entry>> gather_columns(step::System& system) {
-  const blocks::BlockGraph& g = system.plan().graph;
   std::vector<std::vector<Entry>> columns(system.num_unknowns());
-  std::vector<int> place;
-  for (int e = 0; e < g.num_elements(); ++e) {
-    place.clear();
-    for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k) {
-      const int block = g.element_blocks[at(k)];
-      for (int i = 0; i < g.block_size[at(block)]; ++i)
-        place.push_back(static_cast<int>(system.block_begin(block)) + i);
-    }
-    const solve::ElementView a = system.solver().element(e);
+  std::vector<std::int64_t> place;
+  for (int e = 0; e < system.plan().graph.num_elements(); ++e) {
+    const solve::ConstElementView a = system.matrix_of(e, place);
     const auto n = static_cast<std::int64_t>(place.size());
     for (std::int64_t i = 0; i < n; ++i)
       for (std::int64_t j = 0; j < n; ++j) {
-        columns[at(place[at(j)])].push_back({place[at(i)], a[i * n + j], 0.0});
-        columns[at(place[at(i)])].push_back({place[at(j)], 0.0, a[i * n + j]});
+        if (place[at(i)] < 0 || place[at(j)] < 0) continue;
+        columns[at(place[at(j)])].push_back({static_cast<int>(place[at(i)]), a[i * n + j], 0.0});
+        columns[at(place[at(i)])].push_back({static_cast<int>(place[at(j)]), 0.0, a[i * n + j]});
       }
   }
   for (std::vector<Entry>& list : columns) {
@@ -122,8 +116,8 @@ const char* node_text(plan::Motions motions) {
 std::vector<UnknownBlock> make_blocks(const step::System& system) {
   const plan::Plan& plan = system.plan();
   std::vector<UnknownBlock> out;
-  for (int b = 0; b < plan.graph.num_blocks(); ++b) {
-    UnknownBlock block{system.block_name(b), "", static_cast<int>(system.block_begin(b)), plan.graph.block_size[at(b)]};
+  for (int b = 0; b < system.num_blocks(); ++b) {
+    UnknownBlock block{system.block_name(b), "", static_cast<int>(system.block_begin(b)), system.block_size(b)};
     const int joint = system.joint_of_block(b);
     if (joint < 0) {
       block.components = node_text(plan.unknowns.motions);

@@ -49,7 +49,7 @@ struct Built {
 Effort effort_of(Built& b, const scene::Scene& scene) {
   Effort e;
   const bool reuse = b.plan.took("reuse"), dynamic = b.plan.is_dynamic;
-  e.unknowns = static_cast<std::int64_t>(b.system.num_unknowns());
+  e.unknowns = b.system.tree().num_unknowns();
   e.iterations = reuse ? usual_iterations : dynamic ? 3.0 : 5.0;
   e.factorizations = reuse ? usual_factorizations : e.iterations;
   const double residuals = reuse ? usual_evaluations : 1.0, tangents = e.factorizations;

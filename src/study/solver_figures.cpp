@@ -16,7 +16,7 @@ constexpr int widest_for_condition = 60;  // dense singular values of wider ones
 double norm_of(step::System& system, const solve::Hierarchical& solver) {
   const blocks::BlockGraph& g = system.plan().graph;
   const std::span<const double> rows = solver.row_scale(), columns = solver.column_scale();
-  std::vector<double> sums(system.num_unknowns(), 0.0);
+  std::vector<double> sums(static_cast<std::size_t>(system.tree().num_unknowns()), 0.0);
   std::vector<std::size_t> unknowns;
   for (int e = 0; e < g.num_elements(); ++e) {
     unknowns.clear();
@@ -83,7 +83,7 @@ void look_at_last_factor(step::System& system, results::Summary& summary) {
   if (solver == nullptr || system.counts().factorizations == 0 || !solver->last_status().ok()) return;
   const tree::Tree& tree = system.tree();
   const std::span<const double> rows = solver->row_scale(), columns = solver->column_scale();
-  const std::size_t n = system.num_unknowns();
+  const auto n = static_cast<std::size_t>(tree.num_unknowns());
   std::vector<double> scaled = signs(n), b(n), x(n), product(n);
   const double norm = norm_of(system, *solver);
   summary.levels = make_levels(tree, *solver);

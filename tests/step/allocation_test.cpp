@@ -70,6 +70,18 @@ TEST(Advance, allocates_nothing_after_the_first_step_of_a_chain_that_is_clamped)
   EXPECT_EQ(allocations_of_steps(scene, 20), 0);
 }
 
+TEST(Advance, allocates_nothing_after_the_first_step_of_a_chain_that_is_driven) {
+  for (bool is_planar : {false, true}) {
+    scene::Scene scene = test::make_chain(4, 2);
+    if (!is_planar) scene.without = {"planar"};
+    scene.joints[0].drives.emplace_back();
+    scene.joints[0].drives[0].coordinate = "angle";
+    scene.joints[0].drives[0].law = laws::make_harmonic(0.4, 6.0);
+    ASSERT_EQ(plan::make_plan(scene).driven.size(), 1u);
+    EXPECT_EQ(allocations_of_steps(scene, 20), 0);
+  }
+}
+
 /// Described in a frame that turns, with its last link tied to another one.
 TEST(Advance, allocates_nothing_after_the_first_step_in_moving_frames) {
   scene::Scene scene = test::make_chain(4);

@@ -5,27 +5,19 @@
 #include <random>
 
 #include "bough/schedule/threads.hpp"
-#include "bough/step/bdf.hpp"
-#include "bough/step/variational.hpp"
-#include "small_scenes.hpp"
-#include "support/rig.hpp"
+#include "same_motion.hpp"
 
 namespace bough::step {
 namespace {
 
 using motion::Vec6;
+using test::block;
 using test::expand;
+using test::expect_equal;
+using test::largest;
 using test::Rig;
-
-scene::Body block(const std::string& name, double x, double y, double z) {
-  scene::Body b;
-  b.name = name;
-  b.mass = 0.7;
-  b.inertia = motion::Mat3<double>::identity();
-  b.center_of_mass = {{0.01, 0.02, -0.03}};
-  b.placement.pose.x = {{x, y, z}};
-  return b;
-}
+using test::rounding_of_forces;
+using test::take_steps;
 
 /// Three links, the first clamped; a block fixed to the ground beside its own origin, which carries an arm on a hinge, a spring, a rope to the links
 /// and a load.
@@ -71,12 +63,6 @@ scene::Scene varied(int order) {
 scene::Scene barred(scene::Scene s) {
   s.without.push_back("held");
   return s;
-}
-
-double largest(const std::vector<double>& v) {
-  double most = 0.0;
-  for (double x : v) most = std::max(most, std::abs(x));
-  return most;
 }
 
 void stir(Rig& held, Rig& whole) {
@@ -136,12 +122,6 @@ TEST(HeldNodes, are_struck_out_of_the_equations_and_nothing_else_is) {
     }
 }
 
-/// A place is rounded by eps |x|, and the stiffest element answers with EA / L times that: forces that kernels with other arithmetic
-/// (planar, in lanes) give at the same state differ by as much.
-double rounding_of_forces(const Rig& rig) {
-  return rig.scene.sections.empty() ? 0.0 : 8.4e7 / 0.5 * 2.2e-16 * rig.plan.length_scale;
-}
-
 /// What is left of the forces on the nodes that are held, in the system that has all unknowns, beyond
 /// round-off, over the largest force at a node.
 double unbalanced(const Rig& held, Rig& whole) {
@@ -161,50 +141,6 @@ double unbalanced(const Rig& held, Rig& whole) {
     for (int i = 0; i < 6; ++i) most = std::max(most, std::abs(f[i]));
   }
   return std::max(0.0, most - rounding_of_forces(whole)) / whole.system.residual_size().force_scale;
-}
-
-void expect_equal(const Rig& a, const Rig& b, double tolerance) {
-  double size = 0.0, speed = 0.0;
-  for (const elements::NodeMotion& n : b.state.nodes)
-    for (int i = 0; i < 6; ++i) {
-      speed = std::max(speed, std::abs(n.v[i]));
-      size = std::max(size, std::abs(n.a[i]));
-    }
-  for (std::size_t n = 0; n < a.state.nodes.size(); ++n)
-    for (int i = 0; i < 6; ++i) {
-      if (i < 3) {
-        EXPECT_NEAR(a.state.nodes[n].x.hi[i], b.state.nodes[n].x.hi[i], tolerance);
-      }
-      EXPECT_NEAR(a.state.nodes[n].v[i], b.state.nodes[n].v[i], tolerance * speed);
-      EXPECT_NEAR(a.state.nodes[n].a[i], b.state.nodes[n].a[i], tolerance * size);
-    }
-  const double allowed = tolerance * largest(b.state.multipliers) + rounding_of_forces(b);
-  for (std::size_t m = 0; m < a.state.multipliers.size(); ++m)
-    EXPECT_NEAR(a.state.multipliers[m], b.state.multipliers[m], allowed) << "multiplier " << m;
-}
-
-/// 20 steps by the integrator of the scene.
-void take_steps(Rig& rig, double h) {
-  const StepOptions options = make_step_options(rig.scene.analysis);
-  const bool is_bdf = options.integrator == scene::Integrator::bdf,
-             is_variational = options.integrator == scene::Integrator::variational;
-  std::optional<Variational> variational;
-  Bdf bdf(rig.system, 3);
-  rig.state.step_size = h;
-  bdf.restart(h);
-  if (is_variational) {
-    variational.emplace(rig.system, rig.scene.solver, options.newmark_beta);
-    ASSERT_FALSE(variational->start(rig.state));
-  } else if (!is_bdf) {
-    ASSERT_TRUE(start_alpha(rig.system, rig.state, options, h).ok);
-  }
-  for (int k = 1; k <= 20; ++k) {
-    const StepReport report = is_bdf           ? bdf.advance(rig.state, options, k * h)
-                              : is_variational ? variational->advance(rig.state, options, k * h)
-                                               : advance(rig.system, rig.state, options, k * h);
-    ASSERT_TRUE(report.converged) << report.cause;
-    accept_turns(rig.system, rig.state);
-  }
 }
 
 /// A run with what is held and one without.

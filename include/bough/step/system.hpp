@@ -60,6 +60,7 @@ class PlanarSystem;
 class PlanarStep;
 class Projection;
 class HeldNodes;
+class DrivenNodes;
 struct NodePair;
 
 class System {
@@ -81,7 +82,7 @@ class System {
 
   /// Residual of all elements (and element matrices when `tangent`), then summed over nodes into residual().
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
-  /// By block, unknowns in the order of the solver.
+  /// By block, unknowns in the order of the solver, then those of driven nodes and of the joints that move them.
   const std::vector<double>& residual() const { return residual_; }
   /// Puts an element's matrix, row-major in all of its unknowns, in the place of its tangent, or adds it there.
   void set_matrix(int element, int num_unknowns, const double* entries);
@@ -105,6 +106,10 @@ class System {
   /// x <- A^-1 rhs. check: false: its backward error may be left out, but for every 32nd solution, where one with the same factor was found good;
   /// then last_solution() stays that of the last check.
   [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x, bool check = true);
+  /// y <- A x with the element matrices now present.
+  void multiply(const double* x, double* y);
+  /// An element's matrix now present, row-major, and the unknowns of its rows, -1: of a node at rest, whose rows and columns mean nothing.
+  solve::ConstElementView matrix_of(int element, std::vector<std::int64_t>& unknowns) const;
   const solve::SolveReport& last_solution() const { return last_solution_; }
 
   /// Size of an increment: the largest change of relative motions, of elements' nodes with respect to each other, lengths relative to the
@@ -165,8 +170,11 @@ class System {
   }
   /// First unknown of a node; -1: it has none.
   std::int64_t node_begin(int node) const { return node_begin_[static_cast<std::size_t>(node)]; }
-  std::int64_t block_begin(int block) const { return tree_->unknown_begin[static_cast<std::size_t>(block)]; }
-  std::size_t num_unknowns() const { return static_cast<std::size_t>(tree_->num_unknowns()); }
+  /// Of the graph's blocks and, after them, those of driven nodes and of the joints that move them.
+  int num_blocks() const { return static_cast<int>(unknown_begin_.size()) - 1; }
+  std::int64_t block_begin(int block) const { return unknown_begin_[static_cast<std::size_t>(block)]; }
+  int block_size(int block) const { return static_cast<int>(block_begin(block + 1) - block_begin(block)); }
+  std::size_t num_unknowns() const { return static_cast<std::size_t>(unknown_begin_.back()); }
   const std::vector<double>& law_values() const { return law_values_; }
   const std::vector<double>& law_rates() const { return law_rates_; }
   /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame itself.
@@ -185,6 +193,7 @@ class System {
 
   void place_parts();
   int num_unknowns_of(std::size_t element) const;
+  std::optional<Trouble> solve_free(const double* rhs, double* x, bool check);
   void find_pairs();
   void find_unsettled(State& state);
   void sum_held_node(std::size_t held, ChunkSize& chunk) const;
@@ -207,7 +216,8 @@ class System {
   std::unique_ptr<PlanarSystem> planar_;  ///< where the plan has planar elements
   std::unique_ptr<PlanarStep> planar_step_;
   std::unique_ptr<Projection> projection_;  ///< none where a node has six unknowns
-  std::unique_ptr<HeldNodes> held_;         ///< none where all nodes have unknowns
+  std::unique_ptr<HeldNodes> held_;         ///< none where the solver knows all nodes
+  std::unique_ptr<DrivenNodes> driven_;     ///< none where no node is driven
   std::unique_ptr<tree::Tree> tree_;
   std::unique_ptr<solve::AnySolver> solver_;
   tree::Walker walker_;
@@ -225,10 +235,11 @@ class System {
   std::vector<double> element_magnitude_;  ///< sum of |terms| of each entry of element_residual_
   std::vector<int> joint_of_element_;      ///< index in plan.joints or -1
   std::vector<int> joint_of_block_;
-  std::vector<int> node_of_block_;        ///< of nodes' blocks, which come first
-  std::vector<std::int64_t> node_begin_;  ///< first unknown of each node, or -1
-  std::vector<std::int64_t> use_begin_;   ///< by block, then by held node: range in uses_
-  std::vector<std::int64_t> uses_;        ///< places in element_residual_ that add up to it, fixed order
+  std::vector<int> node_of_block_;           ///< -1: of a joint
+  std::vector<std::int64_t> unknown_begin_;  ///< by block, and the end: first unknown
+  std::vector<std::int64_t> node_begin_;     ///< first unknown of each node, or -1
+  std::vector<std::int64_t> use_begin_;      ///< by block, then by held node: range in uses_
+  std::vector<std::int64_t> uses_;           ///< places in element_residual_ that add up to it, fixed order
   std::vector<double> residual_, magnitude_;
   std::vector<ChunkSize> chunk_sizes_;  ///< of residual_, by chunk of blocks
   std::vector<char> is_length_;         ///< by unknown: whether it is the multiplier of a length, in blocks of joints

@@ -25,7 +25,7 @@ TangentMatrix tangent_matrix(const scene::Scene& scene) {
       return false;
     }
     if (failed(system.evaluate(state, slopes, true)) || failed(system.factor(true, slopes))) return false;
-    const auto n = static_cast<Eigen::Index>(system.num_unknowns());
+    const auto n = static_cast<Eigen::Index>(system.tree().num_unknowns());  // of the solver
     t.matrix.resize(n, n);
     Eigen::VectorXd unit = Eigen::VectorXd::Zero(n);
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -41,8 +41,9 @@ TangentMatrix tangent_matrix(const scene::Scene& scene) {
     t.scaled = t.row_scale.asDiagonal() * t.matrix * t.column_scale.asDiagonal();
     t.rhs = -Eigen::Map<const Eigen::VectorXd>(system.residual().data(), n);
     t.solution.resize(n);
-    if (failed(system.solve(t.rhs.data(), t.solution.data()))) return false;
-    t.backward_error = system.last_solution().backward_error;
+    const solve::SolveReport solved = system.solver().solve(system.walker(), t.rhs.data(), t.solution.data());
+    if (!solved.finite) trouble = "the solution of the linear system is not finite";
+    t.backward_error = solved.backward_error;
     return false;
   };
   const MemoryRun run = run_in_memory(scene, options);

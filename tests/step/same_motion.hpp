@@ -1,0 +1,87 @@
+#pragma once
+/// The same scene with a decision of its plan taken and barred: steps of both, and whether their states agree.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bough/step/bdf.hpp"
+#include "bough/step/variational.hpp"
+#include "small_scenes.hpp"
+#include "support/rig.hpp"
+
+namespace bough::test {
+
+inline scene::Body block(const std::string& name, double x, double y, double z) {
+  scene::Body b;
+  b.name = name;
+  b.mass = 0.7;
+  b.inertia = motion::Mat3<double>::identity();
+  b.center_of_mass = {{0.01, 0.02, -0.03}};
+  b.placement.pose.x = {{x, y, z}};
+  return b;
+}
+
+inline double largest(const std::vector<double>& v) {
+  double most = 0.0;
+  for (double x : v) most = std::max(most, std::abs(x));
+  return most;
+}
+
+/// A place is rounded by eps |x|, and the stiffest element answers with EA / L times that: forces that kernels with other arithmetic
+/// (planar, in lanes) give at the same state differ by as much.
+inline double rounding_of_forces(const Rig& rig) {
+  return rig.scene.sections.empty() ? 0.0 : 8.4e7 / 0.5 * 2.2e-16 * rig.plan.length_scale;
+}
+
+inline void expect_equal(const Rig& a, const Rig& b, double tolerance) {
+  double size = 0.0, speed = 0.0;
+  for (const elements::NodeMotion& n : b.state.nodes)
+    for (int i = 0; i < 6; ++i) {
+      speed = std::max(speed, std::abs(n.v[i]));
+      size = std::max(size, std::abs(n.a[i]));
+    }
+  for (std::size_t n = 0; n < a.state.nodes.size(); ++n)
+    for (int i = 0; i < 6; ++i) {
+      if (i < 3) {
+        EXPECT_NEAR(a.state.nodes[n].x.hi[i], b.state.nodes[n].x.hi[i], tolerance);
+      }
+      EXPECT_NEAR(a.state.nodes[n].v[i], b.state.nodes[n].v[i], tolerance * speed);
+      EXPECT_NEAR(a.state.nodes[n].a[i], b.state.nodes[n].a[i], tolerance * size);
+    }
+  const double allowed = tolerance * largest(b.state.multipliers) + rounding_of_forces(b);
+  for (std::size_t m = 0; m < a.state.multipliers.size(); ++m)
+    EXPECT_NEAR(a.state.multipliers[m], b.state.multipliers[m], allowed) << "multiplier " << m;
+}
+
+/// 20 steps by the integrator of the scene. Returns the iterations that they took.
+inline int take_steps(Rig& rig, double h) {
+  const step::StepOptions options = step::make_step_options(rig.scene.analysis);
+  const bool is_bdf = options.integrator == scene::Integrator::bdf,
+             is_variational = options.integrator == scene::Integrator::variational;
+  std::optional<step::Variational> variational;
+  step::Bdf bdf(rig.system, 3);
+  rig.state.step_size = h;
+  bdf.restart(h);
+  if (is_variational) {
+    variational.emplace(rig.system, rig.scene.solver, options.newmark_beta);
+    EXPECT_FALSE(variational->start(rig.state));
+  } else if (!is_bdf) {
+    EXPECT_TRUE(step::start_alpha(rig.system, rig.state, options, h).ok);
+  }
+  int iterations = 0;
+  for (int k = 1; k <= 20; ++k) {
+    const step::StepReport report = is_bdf           ? bdf.advance(rig.state, options, k * h)
+                                    : is_variational ? variational->advance(rig.state, options, k * h)
+                                                     : step::advance(rig.system, rig.state, options, k * h);
+    EXPECT_TRUE(report.converged) << report.cause;
+    step::accept_turns(rig.system, rig.state);
+    iterations += report.iterations;
+  }
+  return iterations;
+}
+
+}  // namespace bough::test
