@@ -22,6 +22,11 @@ if(CMAKE_CONFIGURATION_TYPES)
     "the loader looks for the variants in one folder below the libraries")
 endif()
 
+# Asked anew whenever CMake runs: compiler flags may have changed.
+foreach(result BOUGH_LOADER_CHOOSES BOUGH_FLAGS_ARE_BASELINE)
+  unset(${result} CACHE)
+endforeach()
+set(CMAKE_REQUIRED_QUIET ON)
 include(CheckCXXCompilerFlag)
 include(CheckCXXSourceCompiles)
 check_cxx_source_compiles("
@@ -51,6 +56,7 @@ foreach(variant IN LISTS BOUGH_VARIANTS)
     message(FATAL_ERROR "BOUGH_DISPATCH needs a compiler that knows -march=${variant} (g++ 11, clang 12)")
   endif()
 endforeach()
+unset(CMAKE_REQUIRED_QUIET)
 set(BUILD_SHARED_LIBS ON)
 
 # A library calls its own copies of what it and others hold: template instances and inline functions have the same names in
