@@ -9,7 +9,7 @@ STUDY ?= build/study
 CTEST := ctest --test-dir build/release --output-on-failure --no-tests=error -j $(JOBS)
 NEED := sh cmake/install_dependencies.sh
 
-.PHONY: help run build test bench study stress check-all install lint format clean
+.PHONY: help run build test bench study stress check-all dispatch install lint format clean
 
 help:
 	@echo "make run        install what is missing, build, simulate $(SCENARIO), write and draw $(RESULTS)"
@@ -20,6 +20,7 @@ help:
 	@echo "make stress     build and measure the stiff and extreme cases: build/stress/stress.html"
 	@echo "make lint       format, include arrows, file lengths;  make format repairs the first"
 	@echo "make check-all  everything: both compilers, slow tests, sanitizers, coverage, browser (an hour or more)"
+	@echo "make dispatch   build one program for every x86-64 (build/dispatch) and test it; three times the time of build"
 	@echo "make install    install into PREFIX ($(PREFIX)), with sudo only if the folder needs it"
 	@echo "make clean      remove build/"
 
@@ -67,6 +68,12 @@ format:
 check-all:
 	@$(NEED) all
 	.ci/check-all
+
+dispatch:
+	@$(NEED) build test
+	cmake --preset dispatch
+	cmake --build build/dispatch --parallel $(JOBS)
+	ctest --test-dir build/dispatch --output-on-failure --no-tests=error -j $(JOBS)
 
 install: build
 	mkdir -p $(PREFIX) 2>/dev/null && test -w $(PREFIX) \

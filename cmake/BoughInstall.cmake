@@ -15,3 +15,13 @@ install(FILES
   cmake/FindKLU.cmake
   cmake/FindMETIS.cmake
   DESTINATION "${_package_dir}")
+
+# Libraries of a BOUGH_DISPATCH build that lie there would be loaded instead of those installed now.
+if(BUILD_SHARED_LIBS AND NOT BOUGH_DISPATCH)
+  install(CODE "
+    file(GLOB older \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/*/libbough_*\")
+    if(older)
+      message(FATAL_ERROR \"This prefix holds libraries of a build with BOUGH_DISPATCH, which the loader would take instead of \"
+        \"these. Remove them first: \${older}\")
+    endif()")
+endif()

@@ -6,7 +6,8 @@ set(BOUGH_LAYERS lanes blocks motion laws scene elements plan tree solve schedul
 #   all of them must give the same bits.
 #   EIGEN_MAX_ALIGN_BYTES: one alignment for all instruction sets, so that public structs keep one layout.
 #   -march (BOUGH_ARCH): the whole library and its users are built for one instruction set. Single files built for a
-#   wider one would leak its instructions into template instances that the linker shares.
+#   wider one would leak its instructions into template instances that the linker shares. Whole libraries for several
+#   are another matter: BoughDispatch.cmake.
 add_library(bough_base INTERFACE)
 add_library(bough::base ALIAS bough_base)
 set_target_properties(bough_base PROPERTIES EXPORT_NAME base)
@@ -57,13 +58,14 @@ function(bough_kernels)
 endfunction()
 
 # bough_add_layer(NAME SOURCES a.cpp ... USES lower layers ... LIBS public targets ... PRIVATE_LIBS targets ...
-#                 PRIVATE_DEFS definitions ... [HEADERS a.hpp ...])
+#                 PRIVATE_DEFS definitions ... PRIVATE_INCLUDES folders ... [HEADERS a.hpp ...])
 # makes the target bough_NAME (alias and export bough::NAME) with the headers of include/bough/NAME (HEADERS: only
 # these of them). Without SOURCES the layer is header-only. Each layer is a library of its own, so that the algebra can be used without the
 # mechanics; BUILD_SHARED_LIBS makes all of them static or all of them shared. Symbols are hidden in static archives
 # and visible in shared libraries: an export macro on every type of fifteen layers would buy little here.
+# With BOUGH_DISPATCH a layer is built again for each of BOUGH_VARIANTS, as bough_NAME-VARIANT; nobody links these but one another.
 function(bough_add_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 LAYER "" "" "SOURCES;USES;LIBS;PRIVATE_LIBS;PRIVATE_DEFS;HEADERS")
+  cmake_parse_arguments(PARSE_ARGV 1 LAYER "" "" "SOURCES;USES;LIBS;PRIVATE_LIBS;PRIVATE_DEFS;PRIVATE_INCLUDES;HEADERS")
   if(LAYER_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "bough_add_layer(${name}): unknown arguments ${LAYER_UNPARSED_ARGUMENTS}")
   endif()
@@ -72,9 +74,8 @@ function(bough_add_layer name)
   endif()
 
   set(target bough_${name})
-  list(TRANSFORM LAYER_USES PREPEND bough_)
   foreach(used IN LISTS LAYER_USES)
-    if(NOT TARGET ${used})
+    if(NOT TARGET bough_${used})
       message(FATAL_ERROR "bough_add_layer(${name}): no layer ${used} below it")
     endif()
   endforeach()
@@ -82,29 +83,45 @@ function(bough_add_layer name)
   if(LAYER_HEADERS)
     list(TRANSFORM LAYER_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/include/bough/${name}/" OUTPUT_VARIABLE headers)
   endif()
-  if(LAYER_SOURCES)
-    add_library(${target} ${LAYER_SOURCES})
-    set(scope PUBLIC)
-    target_link_libraries(${target} PRIVATE ${LAYER_PRIVATE_LIBS} $<BUILD_INTERFACE:bough_warnings>)
-    target_compile_definitions(${target} PRIVATE ${LAYER_PRIVATE_DEFS})
-    add_dependencies(${target} bough_version)
-    set_target_properties(${target} PROPERTIES
-      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-      CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-    if(NOT BUILD_SHARED_LIBS)
-      set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-    endif()
-  else()
-    add_library(${target} INTERFACE)
-    set(scope INTERFACE)
-  endif()
+  bough_add_layer_target(${target} "")
   add_library(bough::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-  target_link_libraries(${target} ${scope} bough_base ${LAYER_USES} ${LAYER_LIBS})
+  set(scope PUBLIC)
+  if(NOT LAYER_SOURCES)
+    set(scope INTERFACE)
+  endif()
   target_sources(${target} ${scope}
     FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/include" FILES ${headers})
   install(TARGETS ${target} EXPORT boughTargets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  foreach(variant IN LISTS BOUGH_VARIANTS)
+    bough_add_layer_target(${target}-${variant} -${variant})
+    bough_make_variant(${target} ${variant})
+  endforeach()
+endfunction()
+
+# The part of bough_add_layer, whose arguments it sees, that is the same for every variant; `suffix` names the variant in targets.
+function(bough_add_layer_target target suffix)
+  list(TRANSFORM LAYER_USES REPLACE "(.+)" "bough_\\1${suffix}" OUTPUT_VARIABLE uses)
+  if(NOT LAYER_SOURCES)
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE bough_base ${uses} ${LAYER_LIBS})
+    return()
+  endif()
+  add_library(${target} ${LAYER_SOURCES})
+  target_link_libraries(${target} PUBLIC bough_base ${uses} ${LAYER_LIBS}
+    PRIVATE ${LAYER_PRIVATE_LIBS} $<BUILD_INTERFACE:bough_warnings>)
+  target_compile_definitions(${target} PRIVATE ${LAYER_PRIVATE_DEFS})
+  target_include_directories(${target} PRIVATE ${LAYER_PRIVATE_INCLUDES})
+  add_dependencies(${target} bough_version)
+  set_target_properties(${target} PROPERTIES
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  if(BOUGH_DISPATCH)
+    bough_bind_to_itself(${target})
+  elseif(NOT BUILD_SHARED_LIBS)
+    set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  endif()
 endfunction()

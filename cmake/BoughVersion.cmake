@@ -7,6 +7,10 @@ set(_flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${_build_type}} -ffp-contract=o
 if(BOUGH_ARCH)
   string(APPEND _flags " -march=${BOUGH_ARCH}")
 endif()
+if(BOUGH_VARIANTS)
+  list(JOIN BOUGH_VARIANTS " or -march=" _variants)
+  string(APPEND _flags ", layers also -march=${_variants}")
+endif()
 string(STRIP "${_flags}" _flags)
 set(_version_command
   "${CMAKE_COMMAND}"

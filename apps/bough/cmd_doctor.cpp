@@ -5,8 +5,8 @@
 
 #include "arguments.hpp"
 #include "bough/io/read_scene.hpp"
-#include "bough/lanes/pack.hpp"
 #include "bough/schedule/threads.hpp"
+#include "bough/step/instruction_set.hpp"
 #include "bough/study/simulate.hpp"
 #include "bough/version.hpp"
 #include "terminal.hpp"
@@ -31,15 +31,17 @@ struct InMemory final : results::Recorder {
 };
 
 std::string instruction_sets() {
-  std::string text = "this program packs " + std::to_string(lanes::register_doubles) + " doubles; the processor offers";
+  const step::InstructionSet used = step::instruction_set();
+  const std::string text =
+      std::string(used.name) + ", " + std::to_string(used.register_doubles) + " doubles to a register";
 #if defined(__x86_64__)
   std::string offered;
   if (__builtin_cpu_supports("avx2")) offered += " AVX2";
   if (__builtin_cpu_supports("fma")) offered += " FMA";
   if (__builtin_cpu_supports("avx512f")) offered += " AVX-512";
-  return text + (offered.empty() ? " SSE2" : offered);
+  return text + "; the processor offers" + (offered.empty() ? " SSE2" : offered);
 #else
-  return "this program packs " + std::to_string(lanes::register_doubles) + " doubles";
+  return text;
 #endif
 }
 

@@ -9,6 +9,7 @@
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/step/instruction_set.hpp"
 
 namespace bough::io {
 namespace {
@@ -205,6 +206,7 @@ std::string summary_text(const results::Summary& summary, std::string_view versi
   json.member("scene", std::string_view(summary.scene));
   json.member("title", std::string_view(summary.title));
   json.member("version", version);
+  json.member("instruction_set", step::instruction_set().name);
   json.member("threads", static_cast<long long>(summary.threads));
   json.key("options");
   json.begin_object();

@@ -275,6 +275,7 @@ class StudyPage {
           {{"compiler"}, {std::string(compiler) + ", " + std::string(compiler_flags)}},
           {{"processor"},
            {machine.processor + ", " + count_text(static_cast<std::size_t>(machine.cores), "core", "cores")}},
+          {{"instruction set"}, {machine.instruction_set}},
           {{"system"}, {machine.system}},
           {{"date"}, {r_.date}},
           {{"repetitions"},

@@ -32,16 +32,15 @@ inline Real load(const double* p) {
 }
 inline void store(double* p, const Real& v) { std::memcpy(p, &v, sizeof v); }
 
-/// c - a b, rounded once: the same bits on every instruction set.
+/// c - a b, rounded once where the instruction set has it, as the products of dense_tiles.hpp. Elsewhere std::fma would be
+/// a call for every number.
 inline Real minus_product(const Real& c, const Real& a, const Real& b) {
 #if defined(__AVX512F__)
   return Real(_mm512_fnmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
 #elif defined(__FMA__) && defined(__AVX__)
   return Real(_mm256_fnmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
 #else
-  Real r;
-  for (int l = 0; l < width; ++l) r[l] = std::fma(-a[l], b[l], c[l]);
-  return r;
+  return c - a * b;
 #endif
 }
 inline Real plus_product(const Real& c, const Real& a, const Real& b) {
@@ -50,9 +49,7 @@ inline Real plus_product(const Real& c, const Real& a, const Real& b) {
 #elif defined(__FMA__) && defined(__AVX__)
   return Real(_mm256_fmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
 #else
-  Real r;
-  for (int l = 0; l < width; ++l) r[l] = std::fma(a[l], b[l], c[l]);
-  return r;
+  return c + a * b;
 #endif
 }
 

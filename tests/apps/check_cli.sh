@@ -264,6 +264,9 @@ expect 0 silence run good.json --out tuned.out --quiet --set "/solver=$(cat solv
 expect 2 . tune good.json --seconds nan
 
 expect 0 'all is well' doctor
+# What doctor says that runs is what a summary records.
+set_of_instructions=$(sed -n 's/^  lanes   \([^,]*\),.*/\1/p' printed)
+holds grep -q "\"instruction_set\": \"${set_of_instructions:-none}\"" tuned.out/summary.json
 
 expect 0 'stress.html' stress --out table --quick --threads 2 --case one_body
 holds grep -q '"name": "one_body"' table/stress.json

@@ -101,6 +101,7 @@ struct SweepAdvice {
 
 struct SweepMachine {
   std::string processor, system;
+  std::string instruction_set;  ///< of the library that ran
   int cores = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_study.hpp"
+#include "bough/step/instruction_set.hpp"
 #include "bough/version.hpp"
 
 namespace bough::study {
@@ -40,7 +41,8 @@ Samples given_values(const io::StudyQuantity& q, const std::vector<double>& time
 
 std::string made_from(const io::StudySpec& spec, const std::vector<std::string>& overrides) {
   std::string text = "bough " + std::string(version) + " " + std::string(commit) + ", " + std::string(compiler) + " " +
-                     std::string(compiler_flags) + "\nsample interval ";
+                     std::string(compiler_flags) + " for " + std::string(step::instruction_set().name) +
+                     "\nsample interval ";
   io::append_number(text, spec.sample_interval);
   return text + "\n" + io::canonical_scene(spec.scene_text, overrides) + "\n";
 }

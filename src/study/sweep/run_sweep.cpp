@@ -9,6 +9,7 @@
 #include <mutex>
 #include <thread>
 
+#include "bough/step/instruction_set.hpp"
 #include "bough/study/errors.hpp"
 #include "bough/study/sweep.hpp"
 #include "references.hpp"
@@ -44,6 +45,7 @@ void for_each_index(std::size_t count, int threads, const F& f) {
 SweepMachine this_machine() {
   SweepMachine machine;
   machine.processor = "unknown";
+  machine.instruction_set = step::instruction_set().name;
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);)
     if (line.starts_with("model name") && line.find(": ") != std::string::npos) {

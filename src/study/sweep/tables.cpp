@@ -75,6 +75,7 @@ void write_environment(io::JsonText& json, const SweepResult& r) {
   json.member("commit", std::string_view(commit));
   json.member("compiler", std::string_view(compiler));
   json.member("options", std::string_view(compiler_flags));
+  json.member("instruction_set", std::string_view(r.machine.instruction_set));
   json.member("processor", std::string_view(r.machine.processor));
   json.member("cores", static_cast<long long>(r.machine.cores));
   json.member("system", std::string_view(r.machine.system));
