@@ -68,14 +68,14 @@ void Builder::settle() {
     for (int j : h.joints) rows -= plan.joints[static_cast<std::size_t>(j)].rows.size();
   rows -= plan.driven.size() * static_cast<std::size_t>(plan.unknowns.count);
 
-  decide(
-      "reuse",
-      "a factor serves again, over iterations and steps of one size, while it shrinks the changes to 0.03 of what they were; "
-      "tangents are not even evaluated meanwhile. Taken in dynamics with Newton's full iteration",
-      dynamic && scene.analysis.newton == scene::Newton::full,
-      !dynamic                                         ? "statics takes a new tangent each time"
-      : scene.analysis.newton == scene::Newton::single ? "one solution a step is asked for, with its own tangent"
-                                                       : "steps of one size give nearly the same matrix");
+  decide("reuse",
+         "a factor serves again, over iterations and steps of one size, while it shrinks the changes to 0.03 of what "
+         "they were; "
+         "tangents are not even evaluated meanwhile. Taken in dynamics with Newton's full iteration",
+         dynamic && scene.analysis.newton == scene::Newton::full,
+         !dynamic                                         ? "statics takes a new tangent each time"
+         : scene.analysis.newton == scene::Newton::single ? "one solution a step is asked for, with its own tangent"
+                                                          : "steps of one size give nearly the same matrix");
   // Followers and dead moments are not conservative; frames that move bring Coriolis terms.
   std::string obstacle;
   int edges = 0;
