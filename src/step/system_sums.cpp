@@ -14,11 +14,9 @@ namespace bough::step {
 namespace {
 
 /// By exponents, which no trap minds and compilers vectorise.
-bool all_finite(const double* a, int count) {
+inline bool is_finite(double a) {
   constexpr std::uint64_t exponent = 0x7ff0000000000000u;
-  bool finite = true;
-  for (int i = 0; i < count; ++i) finite &= (std::bit_cast<std::uint64_t>(a[i]) & exponent) != exponent;
-  return finite;
+  return (std::bit_cast<std::uint64_t>(a) & exponent) != exponent;
 }
 
 double largest_of_three(const double* a) { return std::max(std::max(std::abs(a[0]), std::abs(a[1])), std::abs(a[2])); }
@@ -41,17 +39,25 @@ inline NodeSize size_up(plan::Motions motions, const double* a) {
   return {std::abs(a[0]), 0.0};
 }
 
-/// r = sum of parts, m = sum of terms, of `Size` entries each; Size 0: of `size`.
+/// r = sum of parts, m = sum of terms, of `Size` entries each; Size 0: of `size`. Returns whether r is finite.
 template <int Size>
-inline void add_parts(const double* parts, const double* terms, const std::int64_t* begin, const std::int64_t* end,
-                      int size, double* r, double* m) {
+bool add_parts(const double* parts, const double* terms, const std::int64_t* begin, const std::int64_t* end, int size,
+               double* to_r, double* to_m) {
   const int count = Size > 0 ? Size : size;
+  double r[Size > 0 ? Size : most_unknowns], m[Size > 0 ? Size : most_unknowns];  // not memory that others might share
   for (int i = 0; i < count; ++i) r[i] = m[i] = 0.0;
   for (const std::int64_t* use = begin; use != end; ++use)
     for (int i = 0; i < count; ++i) {
       r[i] += parts[*use + i];
       m[i] += terms[*use + i];
     }
+  bool finite = true;
+  for (int i = 0; i < count; ++i) {
+    to_r[i] = r[i];
+    to_m[i] = m[i];
+    finite &= is_finite(r[i]);
+  }
+  return finite;
 }
 
 }  // namespace
@@ -94,9 +100,8 @@ void System::place_parts() {
 void System::sum_held_node(std::size_t held, ChunkSize& chunk) const {
   std::array<double, 6> r, m;
   const std::size_t use = static_cast<std::size_t>(num_blocks()) + held;
-  add_parts<0>(element_residual_.data(), element_magnitude_.data(), uses_.data() + use_begin_[use],
-               uses_.data() + use_begin_[use + 1], plan_.unknowns.count, r.data(), m.data());
-  chunk.is_finite &= all_finite(r.data(), plan_.unknowns.count);
+  chunk.is_finite &= add_parts<0>(element_residual_.data(), element_magnitude_.data(), uses_.data() + use_begin_[use],
+                                  uses_.data() + use_begin_[use + 1], plan_.unknowns.count, r.data(), m.data());
   const NodeSize held_by = size_up(plan_.unknowns.motions, r.data()), terms = size_up(plan_.unknowns.motions, m.data());
   chunk.size.force_scale = std::max(chunk.size.force_scale, terms.force + held_by.force);
   chunk.size.moment_scale = std::max(chunk.size.moment_scale, terms.moment + held_by.moment);
@@ -116,9 +121,8 @@ void System::sum_blocks(std::int64_t begin, std::int64_t end) {
     const int size = static_cast<int>(unknown_begin_[block + 1] - unknown_begin_[block]);
     double *r = residual_.data() + first, *m = magnitude_.data() + first;
     const auto add = size == 6 ? add_parts<6> : size == 3 ? add_parts<3> : size == 2 ? add_parts<2> : add_parts<0>;
-    add(element_residual_.data(), element_magnitude_.data(), uses_.data() + use_begin_[block],
-        uses_.data() + use_begin_[block + 1], size, r, m);
-    if (!all_finite(r, size)) {
+    if (!add(element_residual_.data(), element_magnitude_.data(), uses_.data() + use_begin_[block],
+             uses_.data() + use_begin_[block + 1], size, r, m)) {
       chunk.is_finite = false;
       continue;
     }
