@@ -11,6 +11,7 @@
 #include "../support/arguments.hpp"
 #include "../support/context.hpp"
 #include "../support/scenes.hpp"
+#include "bough/laws/make_law.hpp"
 #include "bough/study/simulate.hpp"
 
 namespace {
@@ -38,6 +39,15 @@ scene::Scene make_cantilever(int elements) {
   s.beams[0].elements = elements;
   return s;
 }
+/// The same, turned by a law at that end.
+scene::Scene make_swung_beam(int elements) {
+  scene::Scene s = make_chain(1);
+  s.joints[0].drives.emplace_back();
+  s.joints[0].drives[0].coordinate = "angle";
+  s.joints[0].drives[0].law = laws::make_harmonic(0.2, 20.0);
+  s.beams[0].elements = elements;
+  return s;
+}
 scene::Scene make_sprung_lattice(int n) { return make_lattice_2d(n, Support::spring); }
 
 std::vector<LeanCase> make_cases() {
@@ -48,6 +58,8 @@ std::vector<LeanCase> make_cases() {
           {"held", "cantilever_8", 8, 400, make_cantilever},
           {"held", "cantilever_64", 64, 200, make_cantilever},
           {"held", "lattice_20", 20, 20, make_level_lattice},
+          {"driven", "swung_beam_8", 8, 400, make_swung_beam},
+          {"driven", "swung_beam_64", 64, 200, make_swung_beam},
           {"reuse", "chain_128", 128, 50, make_chain},
           {"reuse", "lattice_50", 50, 10, make_level_lattice},
           {"reuse", "lattice_100", 100, 5, make_level_lattice},

@@ -67,6 +67,7 @@ void Builder::settle() {
   for (const HeldNode& h : plan.held)
     for (int j : h.joints) rows -= plan.joints[static_cast<std::size_t>(j)].rows.size();
   rows -= plan.driven.size() * static_cast<std::size_t>(plan.unknowns.count);
+  const bool had_rows = !plan.held.empty() || !plan.driven.empty();
 
   decide("reuse",
          "a factor serves again, over iterations and steps of one size, while it shrinks the changes to 0.03 of what "
@@ -124,8 +125,11 @@ void Builder::settle() {
          dynamic ? "the analysis is dynamic" : "the analysis is static");
   decide("no damping", "no damper's terms are entered. Taken where no section, spring, bushing or joint has one",
          damped == 0, damped == 0 ? "nothing damps" : count_of(damped, "element damps", "elements damp"));
-  decide("no multipliers", "the matrix has no constraint rows. Taken where no joint has a row that can be violated",
-         rows == 0, rows == 0 ? "there are no constraints" : count_of(rows, "constraint row", "constraint rows"));
+  decide("no multipliers", "the matrix has no constraint rows. Taken where no joint has a row that is solved for",
+         rows == 0,
+         rows > 0   ? count_of(rows, "constraint row", "constraint rows")
+         : had_rows ? "the nodes that have constraints are held or driven"
+                    : "there are no constraints");
   decide("no moving frames", "no frame's motion is evaluated. Taken where no frame is driven", plan.frames.empty(),
          plan.frames.empty() ? "all frames are fixed" : count_of(plan.frames.size(), "frame moves", "frames move"));
   decide("no checks", "balances, violations and local errors are not evaluated. Taken with /output/checks false",

@@ -57,7 +57,7 @@ double size_of_sensor(const support::Table& t, const std::string& column) {
   return most;
 }
 
-/// What round-off alone leaves: eps |x| / h in velocities, eps |x| / h^2 in accelerations, eps m |x| / h^2 in forces and eps of the terms of
+/// What round-off alone leaves: eps |x| in positions, eps |x| / h in velocities, eps |x| / h^2 in accelerations, eps m |x| / h^2 in forces and eps of the terms of
 /// energies, whatever their sum is.
 double floor_of(const scene::Scene& s, const plan::Plan& plan, const Outcome& run, const std::string& column) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -71,6 +71,8 @@ double floor_of(const scene::Scene& s, const plan::Plan& plan, const Outcome& ru
   for (const scene::Sensor& sensor : s.sensors) {
     if (column.substr(0, column.rfind('.')) != sensor.name && column != sensor.name) continue;
     switch (sensor.kind) {
+      case scene::SensorKind::position:
+        return eps * plan.length_scale;
       case scene::SensorKind::velocity:
       case scene::SensorKind::joint_rate:
         return eps * plan.length_scale / h;
@@ -88,43 +90,137 @@ double floor_of(const scene::Scene& s, const plan::Plan& plan, const Outcome& ru
   return 0.0;
 }
 
+/// Runs of a scene with all its decisions, and of twins, which tell what round-off alone changes.
+struct Runs {
+  scene::Scene scene;
+  plan::Plan plan;
+  Outcome run;
+  std::vector<Outcome> twins;
+  explicit Runs(const scene::Scene& s) : scene(s), plan(plan::make_plan(s)), run(support::run(s)) {
+    for (int k = 0; k < 3; ++k) twins.push_back(support::run(twin_of(s, k)));  // one alone may happen to come near
+  }
+};
+
+/// The same results without a decision. Returns the run that is without.
+Outcome expect_the_same_without(const Runs& all, const std::string& decision) {
+  scene::Scene s = all.scene;
+  s.without.push_back(decision);
+  Outcome without = support::run(s);
+  EXPECT_TRUE(without.ok()) << decision << ": " << without.summary.cause;
+  for (std::size_t c = 0; c < all.run.history.columns.size(); ++c) {
+    const std::string& column = all.run.history.columns[c];
+    double allowed =
+        std::max(1e-10 * size_of_sensor(all.run.history, column), floor_of(all.scene, all.plan, all.run, column));
+    for (const Outcome& twin : all.twins)
+      allowed = std::max(allowed, 10.0 * difference(all.run.history, twin.history, c));
+    const double found = difference(all.run.history, without.history, c);
+    EXPECT_LE(found, allowed) << decision << ", " << column << " of size " << size_of_sensor(all.run.history, column);
+  }
+  return without;
+}
+
 class EveryScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryScene, has_the_same_results_with_and_without_each_decision) {
   const scene::Scene given = support::gallery(GetParam());
-  const plan::Plan plan = plan::make_plan(given);
-  const Outcome given_run = support::run(given);
-  ASSERT_TRUE(given_run.ok()) << given_run.summary.cause;
+  const Runs as_given(given);
+  ASSERT_TRUE(as_given.run.ok()) << as_given.run.summary.cause;
   // Iterations with old factors end elsewhere within the tolerance: these are compared at one near round-off.
   scene::Scene tight = given;
   tight.analysis.tolerance = 1e-12;
-  const Outcome tight_run = support::run(tight);
-  std::vector<Outcome> given_twins, tight_twins;
-  for (int k = 0; k < 3; ++k) {  // one alone may happen to come near
-    given_twins.push_back(support::run(twin_of(given, k)));
-    tight_twins.push_back(support::run(twin_of(tight, k)));
-  }
-  for (const plan::Decision& d : plan.decisions) {
-    if (!d.taken || !d.can_be_barred) continue;
-    const bool is_tight = d.name == "reuse";
-    const Outcome& all = is_tight ? tight_run : given_run;
-    scene::Scene s = is_tight ? tight : given;
-    s.without = {d.name};
-    const Outcome without = support::run(s);
-    ASSERT_TRUE(without.ok()) << d.name << ": " << without.summary.cause;
-    for (std::size_t c = 0; c < all.history.columns.size(); ++c) {
-      const std::string& column = all.history.columns[c];
-      double allowed = std::max(1e-10 * size_of_sensor(all.history, column), floor_of(given, plan, all, column));
-      for (const Outcome& twin : is_tight ? tight_twins : given_twins)
-        allowed = std::max(allowed, 10.0 * difference(all.history, twin.history, c));
-      const double found = difference(all.history, without.history, c);
-      EXPECT_LE(found, allowed) << d.name << ", " << column << ": " << found / size_of_sensor(all.history, column);
-    }
-  }
+  const Runs at_round_off(tight);
+  for (const plan::Decision& d : as_given.plan.decisions)
+    if (d.taken && d.can_be_barred) expect_the_same_without(d.name == "reuse" ? at_round_off : as_given, d.name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, EveryScene, testing::ValuesIn(gallery_stems()),
                          [](const auto& given) { return given.param; });
+
+/// A beam with a lump at its tip whose root is moved as laws prescribe: by what `drive` adds.
+std::string driven_scene(const std::string& drive, const std::string& analysis) {
+  return R"json({"gravity": [0, 0, -9.81],
+    "sections": [{"name": "bar", "stiffness": {"EA": 8.4e6, "GA2": 2.7e6, "GA3": 2.7e6, "GJ": 180, "EI2": 280, "EI3": 280},
+      "mass": {"mass_per_length": 3.14, "rotary": [2.1e-4, 1.05e-4, 1.05e-4]}, "damping": {"time": 1e-4}}],
+    "nodes": [{"name": "root"}, {"name": "tip", "position": [1, 0, 0]}],
+    "bodies": [{"name": "lump", "mass": 0.5, "inertia": [0.01, 0.02, 0.03], "position": [1, 0, 0]}],
+    "beams": [{"name": "beam", "section": "bar", "start": "root", "end": "tip", "axis_2": [0, 1, 0], "elements": 3, "order": 2}],
+    "sensors": [
+      {"name": "root", "kind": "position", "at": "root"}, {"name": "tip", "kind": "position", "at": "tip"},
+      {"name": "speed", "kind": "velocity", "at": "root"},
+      {"name": "force", "kind": "section_force", "beam": "beam", "station": 0},
+      {"name": "hold", "kind": "joint_reaction", "joint": "hold"}, {"name": "kinetic", "kind": "kinetic_energy"},
+      {"name": "strain", "kind": "strain_energy"}, {"name": "energy", "kind": "total_energy"})json" +
+         drive + R"json({"name": "hold", "kind": "fixed", "first": "tip", "second": "lump", "position": [1, 0, 0]}],
+    "analysis": {)json" +
+         analysis + "}}";
+}
+
+struct DrivenScene {
+  std::string name, drive, analysis;
+};
+
+std::vector<DrivenScene> driven_scenes() {
+  const std::string in_time = R"json("kind": "dynamic", "end_time": 0.5, "step_size": 0.002)json";
+  const std::string in_statics = R"json("kind": "static", "load_steps": 4)json";
+  const std::string reaction = R"json(, {"name": "drive", "kind": "joint_reaction", "joint": "drive"}], )json";
+  const std::string hub = R"json("joints": [{"name": "drive", "kind": "revolute", "first": "ground", "second": "root",
+    "position": [0, 0, 0], "axis": [0, 1, 0], "drives": [{"law": {"expression": "20*t"}, "rate": true}],
+    "forces": [{"damping": 0.3}]}, )json";
+  const std::string slanted = reaction + R"json("joints": [{"name": "drive", "kind": "revolute", "first": "ground",
+    "second": "root", "position": [0, 0, 0], "axis": [0.6, 0, 0.8], "drives": [{"law": {"expression": "0.5*(1 - cos(10*t))"}}]}, )json";
+  const std::string on_table =
+      reaction + R"json("frames": [{"name": "table", "position": [0, 0, {"expression": "0.05*(1 - cos(8*t))"}],
+    "turns": [{"axis": [0, 0, 1], "angle": {"expression": "3*t^2"}}]}],
+    "joints": [{"name": "drive", "kind": "fixed", "first": "table", "second": "root", "position": [0, 0, 0]}, )json";
+  const std::string shaker = R"json(],
+    "motions": [{"name": "shaker", "at": "root", "x": 0, "y": {"expression": "0.01*(1 - cos(30*t))"},
+      "z": {"expression": "0.02*(1 - cos(20*t))"}, "rotation": {"axis": [0, 1, 0], "angle": {"expression": "0.3*(1 - cos(5*t))"}}}],
+    "joints": [)json";
+  return {{"hub_in_a_plane", reaction + hub, in_time},
+          {"hub_in_space", reaction + R"json("without": ["planar"], )json" + hub, in_time},
+          {"slanted_hub", slanted, in_time},
+          {"slanted_hub_by_bdf", slanted, in_time + R"json(, "integrator": "bdf")json"},
+          {"slanted_hub_with_controlled_steps", slanted, in_time + R"json(, "step_control": {"tolerance": 1e-3})json"},
+          {"slanted_hub_in_statics", slanted, in_statics},
+          {"shaken_root", shaker, in_time},
+          {"shaken_root_in_statics", shaker, in_statics},
+          {"root_on_a_frame", on_table, in_time}};
+}
+
+class EveryDrivenScene : public testing::TestWithParam<DrivenScene> {};
+
+TEST_P(EveryDrivenScene, has_the_same_results_iterations_and_work_without_the_decision) {
+  const Runs all(support::scene_of(driven_scene(GetParam().drive, GetParam().analysis)));
+  ASSERT_TRUE(all.run.ok()) << all.run.summary.cause;
+  ASSERT_TRUE(all.plan.took("driven"));
+  const Outcome without = expect_the_same_without(all, "driven");
+  EXPECT_EQ(all.run.summary.steps.accepted, without.summary.steps.accepted);
+  // Round-off decides whether a step takes another iteration, and adds up in balances: as far as twins are apart.
+  const auto apart = [&](auto figure) {
+    double most = 0.0;
+    for (const Outcome& twin : all.twins)
+      most = std::max(most, std::abs(static_cast<double>(figure(twin.summary) - figure(all.run.summary))));
+    return most;
+  };
+  const auto expect_no_more = [&](auto count) {
+    EXPECT_LE(static_cast<double>(count(all.run.summary)), static_cast<double>(count(without.summary)) + apart(count));
+  };
+  expect_no_more([](const results::Summary& s) { return s.steps.newton_iterations; });
+  expect_no_more([](const results::Summary& s) { return s.steps.factorizations; });
+  const auto expect_near = [&](auto figure, double scale) {
+    EXPECT_NEAR(figure(all.run.summary), figure(without.summary), std::max(1e-10 * scale, 10.0 * apart(figure)));
+  };
+  const double energy = without.summary.checks.energy_scale;  // with the work of the drives
+  expect_near([](const results::Summary& s) { return s.checks.energy_scale; }, energy);
+  expect_near([](const results::Summary& s) { return s.checks.energy_balance; }, energy);
+  expect_near([](const results::Summary& s) { return s.checks.momentum_balance; }, 1.0);  // about 1 m/s of some kg
+  expect_near([](const results::Summary& s) { return s.checks.constraint_violation_velocity; }, 1.0);
+}
+
+void PrintTo(const DrivenScene& scene, std::ostream* out) { *out << scene.name; }
+
+INSTANTIATE_TEST_SUITE_P(Driven, EveryDrivenScene, testing::ValuesIn(driven_scenes()),
+                         [](const auto& given) { return given.param.name; });
 
 }  // namespace
 }  // namespace bough::study
