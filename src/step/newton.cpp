@@ -7,7 +7,10 @@ namespace bough::step {
 
 double relative_size(const System& system, const ResidualSize& r) {
   const double arm = system.moment_arm();
-  const auto share = [](double part, double whole) { return part > 0.0 ? part / whole : 0.0; };
+  constexpr double huge = 1e100;  // more says nothing, and must not overflow
+  const auto share = [](double part, double whole) {
+    return part == 0.0 ? 0.0 : whole <= part / huge ? huge : part / whole;
+  };
   return std::max({share(r.force, std::max(r.force_scale, r.moment_scale / arm)),
                    share(r.moment, std::max(r.moment_scale, r.force_scale * arm)),
                    share(r.length, system.plan().length_scale), r.angle});

@@ -7,9 +7,9 @@ namespace bough::step {
 /// A factor that contracts the changes less than this is made anew: four more solutions cost about as much as a tangent and its factor.
 constexpr double slowest_contraction = 0.03;
 
-/// Residual that an iteration may leave, measured or to be expected from its contraction, relative to the tolerance: of steps that an old factor
-/// ends early the errors add up, and later contractions can be slower than early ones.
-constexpr double left_open = 0.1;
+/// Residual that an iteration may leave, measured or to be expected from its contraction, relative to the tolerance: an old factor must come as near
+/// as a new one, since errors of steps add up.
+constexpr double left_open = 1e-2;
 
 /// Changes whose ratio is above this no longer shrink: what is left may be round-off.
 constexpr double shrinks = 0.3;

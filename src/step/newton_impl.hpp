@@ -20,7 +20,6 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
   for (int k = 0;; ++k) {
     if (const auto t = system.evaluate(state, slopes, fresh && k == 0)) return fail(*t);
     report.residual = system.residual_size();
-    const double size_before = size;
     size = relative_size(system, report.residual);
     if (k > 0) {
       if (options.single_solution) {
@@ -70,10 +69,9 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     if (!std::isfinite(report.change)) return fail({"the iteration left finite numbers"});
     if (const auto t = follow(state)) return fail(*t);
     if (k == 0 || options.single_solution || report.change >= options.tolerance) continue;
-    // Where changes and residuals shrink on as they did, the residual that this change leaves need not be looked at.
+    // Where changes shrink on as they did, the residual that this one leaves need not be looked at.
     rate = previous > 0.0 ? report.change / previous : 0.0;
-    const double contraction = std::max(rate, size_before > 0.0 ? size / size_before : 0.0);
-    if (contraction <= shrinks && contraction * size <= left_open * options.tolerance) {
+    if (rate <= shrinks && rate * size <= left_open * options.tolerance) {
       report.converged = true;
       system.set_last_contraction(rate);
       return report;

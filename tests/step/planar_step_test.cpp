@@ -40,27 +40,32 @@ double largest_difference(const std::vector<motion::Vec6<double>>& a, const std:
 }
 
 TEST(PlanarStep, agrees_with_steps_in_space_in_any_plane) {
-  scene::Scene s = make_placed_chain(4, inclined, Vec3<double>::zero());
-  s.analysis.tolerance = 1e-12;
-  test::Rig plane(s);
-  ASSERT_TRUE(plane.plan.planar);
-  s.without = {"planar"};
-  test::Rig space(s);
-  plane.run(30, 2e-3);
-  space.run(30, 2e-3);
-  const State &a = plane.state, &b = space.state;
-  std::vector<motion::Vec6<double>> velocity[2], acceleration[2];
-  for (std::size_t n = 0; n < a.nodes.size(); ++n) {
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a.nodes[n].x.hi[i], b.nodes[n].x.hi[i], 1e-12);
-    for (int i = 0; i < 9; ++i) EXPECT_NEAR(a.nodes[n].R.m[i], b.nodes[n].R.m[i], 1e-12);
-    velocity[0].push_back(a.nodes[n].v);
-    velocity[1].push_back(b.nodes[n].v);
-    acceleration[0].push_back(a.nodes[n].a);
-    acceleration[1].push_back(b.nodes[n].a);
+  for (const bool is_inclined : {false, true}) {
+    scene::Scene s = make_placed_chain(4, is_inclined ? inclined : Mat3<double>::identity(), Vec3<double>::zero());
+    s.analysis.tolerance = 1e-12;
+    test::Rig plane(s);
+    ASSERT_TRUE(plane.plan.planar);
+    s.without = {"planar"};
+    test::Rig space(s);
+    plane.run(30, 2e-3);
+    space.run(30, 2e-3);
+    const State &a = plane.state, &b = space.state;
+    std::vector<motion::Vec6<double>> velocity[2], acceleration[2];
+    for (std::size_t n = 0; n < a.nodes.size(); ++n) {
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(a.nodes[n].x.hi[i], b.nodes[n].x.hi[i], 1e-12);
+      for (int i = 0; i < 9; ++i) EXPECT_NEAR(a.nodes[n].R.m[i], b.nodes[n].R.m[i], 1e-12);
+      velocity[0].push_back(a.nodes[n].v);
+      velocity[1].push_back(b.nodes[n].v);
+      acceleration[0].push_back(a.nodes[n].a);
+      acceleration[1].push_back(b.nodes[n].a);
+    }
+    // Where the plane is inclined, places in it are rounded, by up to EA/L eps |x| = 1.5e-7 N of forces: 1e-3 rad/s^2 of a node's own inertia.
+    const double noise = is_inclined ? 1e-6 : 1e-9;
+    const std::vector<motion::Vec6<double>> still(a.nodes.size(), motion::Vec6<double>::zero());
+    EXPECT_LT(largest_difference(velocity[0], velocity[1]), noise * largest_difference(velocity[1], still));
+    EXPECT_LT(largest_difference(acceleration[0], acceleration[1]), noise * largest_difference(acceleration[1], still));
+    EXPECT_LT(largest_difference(a.algorithmic, b.algorithmic), noise * largest_difference(b.algorithmic, still));
   }
-  EXPECT_LT(largest_difference(velocity[0], velocity[1]), 1e-9);
-  EXPECT_LT(largest_difference(acceleration[0], acceleration[1]), 1e-6);
-  EXPECT_LT(largest_difference(a.algorithmic, b.algorithmic), 1e-6);
 }
 
 TEST(PlanarStep, leaves_nodes_in_space_with_the_digits_that_it_iterated_with) {
