@@ -9,7 +9,7 @@ constexpr double slowest_contraction = 0.03;
 
 /// Residual that an iteration may leave, measured or to be expected from its contraction, relative to the tolerance: an old factor must come as near
 /// as a new one, since errors of steps add up.
-constexpr double left_open = 1e-2;
+constexpr double left_open = 1e-3;
 
 /// Changes whose ratio is above this no longer shrink: what is left may be round-off.
 constexpr double shrinks = 0.3;
