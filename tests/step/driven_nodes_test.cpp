@@ -110,7 +110,7 @@ void compare_iterations(scene::Scene s, scene::Integrator integrator) {
     iterations[barred_too] = take_steps(rig, 1e-3);
     factorizations[barred_too] = rig.system.counts().factorizations;
   }
-  EXPECT_EQ(iterations[0], iterations[1]);
+  EXPECT_NEAR(iterations[0], iterations[1], 2);  // of a hundred: a residual at the bound may fall on either side of it
   EXPECT_EQ(factorizations[0], factorizations[1]);
 }
 
