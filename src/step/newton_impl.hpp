@@ -68,8 +68,8 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     ++report.iterations;
     if (!std::isfinite(report.change)) return fail({"the iteration left finite numbers"});
     if (const auto t = follow(state)) return fail(*t);
-    if (k == 0 || options.single_solution || report.change >= options.tolerance) continue;
-    // Where changes shrink on as they did, the residual that this one leaves need not be looked at.
+    if (k == 0 || options.single_solution || std::max(report.change, size) > options.tolerance) continue;
+    // Where changes shrink on as they did, what this one leaves of a residual that was small already need not be looked at.
     rate = previous > 0.0 ? report.change / previous : 0.0;
     if (rate <= shrinks && rate * size <= left_open * options.tolerance) {
       report.converged = true;
