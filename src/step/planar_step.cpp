@@ -55,6 +55,7 @@ namespace {
 using Pack = elements::LanePack;
 using PlanarNodeLanes = elements::planar::NodeLanes;
 static_assert(elements::num_lanes == static_cast<int>(nodes_in_lanes));
+constexpr double too_far = 1e100;               ///< a change whose square may not be finite: the iteration is lost
 constexpr double nothing[3] = {0.0, 0.0, 0.0};  ///< increment of a node without unknowns
 
 /// A motion of a node in the plane as one in space, its own axes: columns of B along the plane, along the plane, normal.
@@ -184,7 +185,7 @@ double PlanarStep::apply(const double* x, const tree::Walker& walker) {
   return std::sqrt(most);
 }
 
-/// The largest square of a shift or a turn of pairs [begin, end); infinite where its square may not be finite.
+/// The largest square of a shift or a turn of pairs [begin, end); infinite where one is too far.
 double PlanarStep::largest_change(const double* x, std::int64_t begin, std::int64_t end) const {
   const elements::planar::Node* const nodes = system_.nodes().data();
   const auto turned = [&](std::size_t n) {
@@ -204,9 +205,9 @@ double PlanarStep::largest_change(const double* x, std::int64_t begin, std::int6
       change -= motion::join(Vec2<double>(plane_part(other) + other[2] * motion::quarter_turn(arm)), other[2]);
     }
     const Vec2<double> shift = p.per_length * plane_part(change);
-    const double size = std::max(lanes::dot(shift, shift), change[2] * change[2]);
-    if (!(size < std::numeric_limits<double>::max())) return std::numeric_limits<double>::infinity();
-    most = std::max(most, size);
+    const double largest = std::max({std::abs(shift[0]), std::abs(shift[1]), std::abs(change[2])});
+    if (!(largest < too_far)) return std::numeric_limits<double>::infinity();
+    most = std::max({most, lanes::dot(shift, shift), change[2] * change[2]});
   }
   return most;
 }
