@@ -5,7 +5,7 @@
 
 namespace bough::step {
 
-double relative_size(const System& system, const ResidualSize& r) {
+double largest_share(const System& system, const ResidualSize& r) {
   const double arm = system.moment_arm();
   constexpr double huge = 1e100;  // more says nothing, and must not overflow
   const auto share = [](double part, double whole) {
@@ -17,7 +17,7 @@ double relative_size(const System& system, const ResidualSize& r) {
 }
 
 bool is_small(const System& system, const ResidualSize& r, double tolerance) {
-  return relative_size(system, r) <= tolerance;
+  return largest_share(system, r) <= tolerance;
 }
 
 bool is_at_floor(const System& system, const State& state, const ResidualSize& r, double tolerance) {

@@ -20,7 +20,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
                    Follow&& follow);
 
 /// The largest of forces, moments, lengths and angles of a residual, each relative to what makes it.
-double relative_size(const System& system, const ResidualSize& r);
+double largest_share(const System& system, const ResidualSize& r);
 
 /// Whether that is within the tolerance.
 bool is_small(const System& system, const ResidualSize& r, double tolerance);

@@ -20,7 +20,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
   for (int k = 0;; ++k) {
     if (const auto t = system.evaluate(state, slopes, fresh && k == 0)) return fail(*t);
     report.residual = system.residual_size();
-    size = relative_size(system, report.residual);
+    size = largest_share(system, report.residual);
     if (k > 0) {
       if (options.single_solution) {
         report.converged = true;

@@ -55,7 +55,6 @@ namespace {
 using Pack = elements::LanePack;
 using PlanarNodeLanes = elements::planar::NodeLanes;
 static_assert(elements::num_lanes == static_cast<int>(nodes_in_lanes));
-constexpr double too_far = 1e100;               ///< a change whose square may not be finite: the iteration is lost
 constexpr double nothing[3] = {0.0, 0.0, 0.0};  ///< increment of a node without unknowns
 
 /// A motion of a node in the plane as one in space, its own axes: columns of B along the plane, along the plane, normal.

@@ -37,7 +37,6 @@ Violations largest(const Violations& a, const Violations& b) {
           std::max(a.velocity, b.velocity), std::max(a.relative_velocity, b.relative_velocity)};
 }
 
-constexpr double too_far = 1e100;  ///< a change whose square may not be finite: the iteration is lost
 }  // namespace
 
 double System::relative_size(const State& state, const double* x) {

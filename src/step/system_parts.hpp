@@ -10,6 +10,8 @@ namespace bough::step {
 inline constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
 inline constexpr std::int64_t element_grain = 32, block_grain = 128, pair_grain = 512, batch_grain = 8;
 
+inline constexpr double too_far = 1e100;  ///< a change whose square may not be finite: the iteration is lost
+
 /// Calls f(block, size, node) for every part of an element's unknowns, in their order: its nodes, then, with node -1, the rows of a joint
 /// (index in Plan::joints, or -1). block -1: no unknowns of the system.
 template <class F>

@@ -6,15 +6,14 @@
 #include "../step/small_scenes.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/plan/small_inverse.hpp"
+#include "decision_of.hpp"
 
 namespace bough::plan {
 namespace {
 
-const Decision& driven(const Plan& p) {
-  for (const Decision& d : p.decisions)
-    if (d.name == "driven") return d;
-  throw std::runtime_error("no decision");
-}
+using test::joint_to_ground;
+
+const Decision& driven(const Plan& p) { return test::decision_of(p, "driven"); }
 
 void turn_first_hinge(scene::Scene& s) {
   s.joints[0].drives.emplace_back();
@@ -29,14 +28,6 @@ Plan plan_of(const std::function<void(scene::Scene&)>& change) {
   turn_first_hinge(s);
   change(s);
   return make_plan(s);
-}
-
-scene::Joint joint_to_ground(scene::JointKind kind, const std::string& node) {
-  scene::Joint j;
-  j.name = "to ground of " + node;
-  j.kind = kind;
-  j.second.to = node;
-  return j;
 }
 
 TEST(DrivenNodes, stand_beyond_the_graph_with_the_joints_that_move_them) {

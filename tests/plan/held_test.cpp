@@ -4,16 +4,14 @@
 #include <functional>
 
 #include "../step/small_scenes.hpp"
-#include "bough/plan/plan.hpp"
+#include "decision_of.hpp"
 
 namespace bough::plan {
 namespace {
 
-const Decision& held(const Plan& p) {
-  for (const Decision& d : p.decisions)
-    if (d.name == "held") return d;
-  throw std::runtime_error("no decision");
-}
+using test::joint_to_ground;
+
+const Decision& held(const Plan& p) { return test::decision_of(p, "held"); }
 
 /// Three links one after the other, the first clamped, in space.
 scene::Scene clamped() {
@@ -27,14 +25,6 @@ Plan plan_of(const std::function<void(scene::Scene&)>& change) {
   scene::Scene s = clamped();
   change(s);
   return make_plan(s);
-}
-
-scene::Joint joint_to_ground(scene::JointKind kind, const std::string& node) {
-  scene::Joint j;
-  j.name = "to ground of " + node;
-  j.kind = kind;
-  j.second.to = node;
-  return j;
 }
 
 TEST(HeldNodes, have_no_unknowns_and_their_joints_no_multipliers_in_the_system) {

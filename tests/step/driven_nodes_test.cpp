@@ -19,30 +19,9 @@ using test::expand;
 using test::expect_equal;
 using test::largest;
 using test::Rig;
+using test::stir;
 using test::take_steps;
 using test::varied;
-
-/// Poses, velocities, accelerations and multipliers at random, the same in both.
-void stir(Rig& driven, Rig& whole) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const auto any = [&](double size) {
-    Vec6<double> v;
-    for (int i = 0; i < 6; ++i) v[i] = size * uniform(random);
-    return v;
-  };
-  for (std::size_t n = 0; n < driven.state.nodes.size(); ++n) {
-    const Vec6<double> eta = any(0.05), v = any(1.0), a = any(10.0);
-    if (driven.plan.block_of_node[n] < 0) continue;
-    for (Rig* rig : {&driven, &whole}) {
-      move_node(rig->state, n, eta);
-      rig->state.nodes[n].v = v;
-      rig->state.nodes[n].a = a;
-    }
-  }
-  for (std::size_t m = 0; m < driven.state.multipliers.size(); ++m)
-    driven.state.multipliers[m] = whole.state.multipliers[m] = 10.0 * uniform(random);
-}
 
 TEST(DrivenNodes, leave_the_equations_and_their_solution_as_they_are) {
   for (int order : {1, 2, 3})

@@ -34,14 +34,7 @@ inline scene::Scene varied(int order) {
   drive_first_hinge(s, laws::make_harmonic(0.4, 6.0));
   s.bodies = {block("block", 0.0, 1.0, 0.0), block("arm", 0.5, 1.0, 0.2), block("stone", 0.0, 2.0, 0.0)};
   s.motions = {shaker("block")};
-  scene::Joint hinge;
-  hinge.name = "arm's hinge";
-  hinge.kind = scene::JointKind::revolute;
-  hinge.first.to = "block";
-  hinge.second.to = "arm";
-  hinge.first.offset.x = {{0.2, 0.0, 0.0}};
-  hinge.second.offset.x = {{-0.3, 0.0, -0.2}};
-  s.joints.push_back(hinge);
+  s.joints.push_back(make_arm_hinge());
   scene::Joint wall;
   wall.name = "wall";
   wall.kind = scene::JointKind::fixed;

@@ -17,6 +17,7 @@ using test::expect_equal;
 using test::largest;
 using test::Rig;
 using test::rounding_of_forces;
+using test::stir;
 using test::take_steps;
 
 /// Three links, the first clamped; a block fixed to the ground beside its own origin, which carries an arm on a hinge, a spring, a rope to the links
@@ -34,15 +35,8 @@ scene::Scene varied(int order) {
   wall.first.offset.R = s.joints[1].first.offset.R;
   wall.second.offset.x = {{0.1, 1.2, 0.3}};
   wall.second.offset.R = wall.first.offset.R;
-  scene::Joint hinge;
-  hinge.name = "arm's hinge";
-  hinge.kind = scene::JointKind::revolute;
-  hinge.first.to = "block";
-  hinge.second.to = "arm";
-  hinge.first.offset.x = {{0.2, 0.0, 0.0}};
-  hinge.second.offset.x = {{-0.3, 0.0, -0.2}};
   s.joints.push_back(wall);
-  s.joints.push_back(hinge);
+  s.joints.push_back(test::make_arm_hinge());
   scene::Spring rope;
   rope.name = "rope";
   rope.first.to = "block";
@@ -63,27 +57,6 @@ scene::Scene varied(int order) {
 scene::Scene barred(scene::Scene s) {
   s.without.push_back("held");
   return s;
-}
-
-void stir(Rig& held, Rig& whole) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const auto any = [&](double size) {
-    Vec6<double> v;
-    for (int i = 0; i < 6; ++i) v[i] = size * uniform(random);
-    return v;
-  };
-  for (std::size_t n = 0; n < held.state.nodes.size(); ++n) {
-    const Vec6<double> eta = any(0.05), v = any(1.0), a = any(10.0);
-    if (held.plan.block_of_node[n] < 0) continue;
-    for (Rig* rig : {&held, &whole}) {
-      move_node(rig->state, n, eta);
-      rig->state.nodes[n].v = v;
-      rig->state.nodes[n].a = a;
-    }
-  }
-  for (std::size_t m = 0; m < held.state.multipliers.size(); ++m)
-    held.state.multipliers[m] = whole.state.multipliers[m] = 10.0 * uniform(random);
 }
 
 TEST(HeldNodes, are_struck_out_of_the_equations_and_nothing_else_is) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,40 @@ inline scene::Body block(const std::string& name, double x, double y, double z) 
   b.center_of_mass = {{0.01, 0.02, -0.03}};
   b.placement.pose.x = {{x, y, z}};
   return b;
+}
+
+/// The hinge by which a body "block" carries one named "arm".
+inline scene::Joint make_arm_hinge() {
+  scene::Joint hinge;
+  hinge.name = "arm's hinge";
+  hinge.kind = scene::JointKind::revolute;
+  hinge.first.to = "block";
+  hinge.second.to = "arm";
+  hinge.first.offset.x = {{0.2, 0.0, 0.0}};
+  hinge.second.offset.x = {{-0.3, 0.0, -0.2}};
+  return hinge;
+}
+
+/// Poses, velocities, accelerations and multipliers at random, the same in a system and in one with more unknowns.
+inline void stir(Rig& fewer, Rig& whole) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto any = [&](double size) {
+    motion::Vec6<double> v;
+    for (int i = 0; i < 6; ++i) v[i] = size * uniform(random);
+    return v;
+  };
+  for (std::size_t n = 0; n < fewer.state.nodes.size(); ++n) {
+    const motion::Vec6<double> eta = any(0.05), v = any(1.0), a = any(10.0);
+    if (fewer.plan.block_of_node[n] < 0) continue;
+    for (Rig* rig : {&fewer, &whole}) {
+      step::move_node(rig->state, n, eta);
+      rig->state.nodes[n].v = v;
+      rig->state.nodes[n].a = a;
+    }
+  }
+  for (std::size_t m = 0; m < fewer.state.multipliers.size(); ++m)
+    fewer.state.multipliers[m] = whole.state.multipliers[m] = 10.0 * uniform(random);
 }
 
 inline double largest(const std::vector<double>& v) {
