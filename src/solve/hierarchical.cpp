@@ -90,13 +90,15 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
 
 void Hierarchical::State::size_factors() {
   factor_begin.assign(1, 0);
-  counters.factor_flops = 0.0;
+  counters.factor_flops = counters.flops_in_lanes = 0.0;
   for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
     const tree::Front& f = front(id);
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
     const FrontShape shape(f.size(), f.num_eliminated, is_symmetric());
     factor_begin.push_back(factor_begin.back() + (in_lanes ? 0 : shape.factor_size()));
-    counters.factor_flops += is_symmetric() ? 0.5 * f.flops : f.flops;
+    const double flops = is_symmetric() ? 0.5 * f.flops : f.flops;
+    counters.factor_flops += flops;
+    if (in_lanes) counters.flops_in_lanes += flops;
   }
   factor_pool.resize(at(factor_begin.back()));
   lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);

@@ -3,24 +3,16 @@
 #include <algorithm>
 #include <memory>
 
-#include "bough/plan/element_cost.hpp"
 #include "bough/schedule/serial.hpp"
-#include "bough/solve/visits.hpp"
 #include "bough/step/state.hpp"
+#include "bough/step/step_cost.hpp"
 #include "bough/step/system.hpp"
 
 namespace bough::study {
 
 namespace {
 
-constexpr double planar_share = 0.45;  ///< of an element in space
-constexpr double per_sum = 55e-9;      ///< gathering, adding and sizing up, an element and evaluation [s]
-constexpr double per_node = 110e-9;    ///< moving a node with its velocity and acceleration, an iteration [s]
-constexpr double per_front_lanes = 3.5e-6, per_flop_lanes = 3.6e-10;  ///< a visit of eight [s]
-constexpr double per_front = 1.5e-6, per_flop = 1.1e-10;
-constexpr double per_byte = 6e-11;  ///< of factor and element matrices, a solution and its check [s]
-
-constexpr double usual_iterations = 3.8, usual_evaluations = 4.4, usual_factorizations = 0.4;
+constexpr double usual_iterations = 3.1, usual_evaluations = 3.4, usual_factorizations = 0.3;
 constexpr std::int64_t program_bytes = 11'000'000;  ///< resident before a scene is built
 
 std::int64_t bytes_of(const step::System& system) {
@@ -46,49 +38,21 @@ struct Built {
       : plan(plan::make_plan(scene)), system(plan, scene.solver, schedule::make_serial_walker()) {}
 };
 
-Effort effort_of(Built& b, const scene::Scene& scene) {
+Effort effort_of(Built& b) {
   Effort e;
   const bool reuse = b.plan.took("reuse"), dynamic = b.plan.is_dynamic;
   e.unknowns = b.system.tree().num_unknowns();
   e.iterations = reuse ? usual_iterations : dynamic ? 3.0 : 5.0;
   e.factorizations = reuse ? usual_factorizations : e.iterations;
   const double residuals = reuse ? usual_evaluations : 1.0, tangents = e.factorizations;
-  const double share = b.plan.planar ? planar_share : 1.0;
-  for (const solve::ElementBatch& batch : b.system.solver().batches()) {
-    int present = 0, first = -1;
-    for (int id : batch.element) {
-      if (id < 0) continue;
-      ++present;
-      first = first < 0 ? id : first;
-    }
-    if (first < 0) continue;
-    const bool in_lanes = batch.stride == solve::lanes_wide && present >= 3;
-    plan::with_element(b.plan.elements, b.plan.directory[static_cast<std::size_t>(first)], [&](const auto& element) {
-      const plan::ElementCost& c = plan::cost<std::decay_t<decltype(element)>>;
-      const double count = in_lanes ? solve::lanes_wide : present;
-      e.evaluate_seconds +=
-          share * count *
-          (residuals * (in_lanes ? c.lane : c.alone) + tangents * (in_lanes ? c.lane_tangent : c.alone_tangent));
-      e.evaluate_seconds += present * per_sum * (residuals + tangents);
-    });
-  }
-  e.other_seconds = static_cast<double>(b.plan.nodes.size()) * per_node * e.iterations;
-  if (const solve::Hierarchical* solver = b.system.solver().hierarchical()) {
-    const solve::SolveOptions options = step::make_solve_options(b.plan, scene.solver);
-    for (const solve::VisitShape& v : solve::make_visit_shapes(b.plan.graph, b.system.tree(), options).visits) {
-      const double once = v.in_lanes ? v.num_fronts * per_front_lanes + v.flops * per_flop_lanes
-                                     : v.num_fronts * per_front + v.flops * per_flop;
-      e.factor_seconds += e.factorizations * once;
-      e.solve_seconds += e.iterations * per_byte * static_cast<double>(v.factor_bytes + v.element_bytes);
-      e.factor_flops += v.flops * static_cast<double>(v.in_lanes ? v.subdomains.size() : 1);
-    }
-    e.memory_bytes = solver->counters().memory_bytes;
-  } else {
-    e.factor_flops = b.system.tree().subdomains.back().subtree_flops;
-    e.factor_seconds = e.factorizations * e.factor_flops * 10.0 * per_flop;
-    e.memory_bytes = b.system.solver().counters().memory_bytes;
-    e.solve_seconds = e.iterations * per_byte * static_cast<double>(e.memory_bytes);
-  }
+  const step::StepCost cost = step::estimate_step_cost(b.plan, b.system.tree(), b.system.solver());
+  e.evaluate_seconds = residuals * cost.residual + tangents * cost.tangent;
+  e.factor_seconds = e.factorizations * cost.factor;
+  e.solve_seconds = e.iterations * cost.solve;
+  e.other_seconds = e.iterations * cost.update;
+  const solve::SolverCounters counters = b.system.solver().counters();
+  e.factor_flops = counters.factor_flops;
+  e.memory_bytes = counters.memory_bytes;
   e.memory_bytes += bytes_of(b.system);
   return e;
 }
@@ -128,7 +92,7 @@ Outlook look_ahead(const scene::Scene& scene) {
     out.leaves += s.is_leaf() ? 1 : 0;
     out.levels = std::max(out.levels, s.level + 1);
   }
-  out.effort = effort_of(built, scene);
+  out.effort = effort_of(built);
   out.fronts_in_lanes = static_cast<int>(built.system.solver().counters().fronts_in_lanes);
   out.process_bytes = program_bytes + out.effort.memory_bytes;
   out.notes = plan.notes;
@@ -138,7 +102,7 @@ Outlook look_ahead(const scene::Scene& scene) {
       scene::Scene other = scene;
       other.without.push_back(d.name);
       Built without(other);
-      o.without = effort_of(without, other);
+      o.without = effort_of(without);
     }
     out.decisions.push_back(o);
   }

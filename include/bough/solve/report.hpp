@@ -97,6 +97,7 @@ struct SolverCounters {
   std::int64_t enlarged_fronts = 0;        ///< fronts that took delayed pivots, over all factorizations.
   std::int64_t enlarging_allocations = 0;  ///< heap allocations these needed.
   std::int64_t fronts_in_lanes = 0;        ///< fronts of the tree that are factored in lockstep.
+  double flops_in_lanes = 0.0;             ///< of factor_flops, those of these [flop].
   std::int64_t lanes_left = 0;  ///< fronts that left their lane for the pivoted path, over all factorizations.
 };
 

@@ -9,7 +9,7 @@
 
 namespace bough::study {
 
-/// What one step costs, by a model with costs of one machine (plan/element_cost.hpp, outlook.cpp): for comparisons of a scene with itself; on another
+/// What one step costs, by a model with costs of one machine (step/step_cost.hpp): for comparisons of a scene with itself; on another
 /// machine, or busy ones, all seconds are off by one factor.
 struct Effort {
   std::int64_t unknowns = 0;
