@@ -60,6 +60,7 @@ class Run {
   void add_error(double duration, double size);
   std::vector<double> stops_between(double begin, double end) const;
   bool set_step_size(double size);
+  void keep_or_restore(bool is_first_failure);
   step::StepReport advance_to(double target);
   bool start_segment(double step_size, bool is_first);
   bool run_segment(double begin, double end, double& sum_of_cuts);
@@ -78,6 +79,7 @@ class Run {
   step::System system_;
   std::optional<step::Variational> variational_;  ///< when chosen
   step::State state_;
+  step::State tried_;  ///< from which the first try of a step that failed set out
   results::WorkMeter work_meter_;
   results::EnergyMeter energy_meter_;
   results::Summary summary_;

@@ -81,6 +81,7 @@ bool Run::take_controlled_steps(double stop, double total_end) {
         state_ = system_.work().start;
         ++summary_.steps.rejected_for_error;
       }
+      keep_or_restore(rejections == 0);
       count(report, false);
       const double before = size;
       change(report.converged ? controller_->after_rejected(ratio, size) : controller_->after_failure(size));

@@ -64,12 +64,21 @@ step::StepReport Run::advance_to(double target) {
   return step::advance(system_, state_, options_, target);
 }
 
+/// A step that failed is tried again from where its first try set out: each change of size corrects velocities, and where steps resolve nothing,
+/// corrections of corrections grow without bound.
+void Run::keep_or_restore(bool is_first_failure) {
+  if (is_first_failure)
+    tried_ = state_;
+  else
+    state_ = tried_;
+}
+
 /// Steps of equal size from one breakpoint to the next; a step that fails is halved, and the size grows back after four easy steps.
 bool Run::run_segment(double begin, double end, double& total_end) {
   const double wanted = scene_.analysis.step_size;
   const long steps = std::max(1L, static_cast<long>(std::ceil((end - begin) / wanted - 1e-9)));
   const double h = (end - begin) / static_cast<double>(steps);
-  int level = 0, easy = 0;
+  int level = 0, easy = 0, failures = 0;  // these in a row
   long done = 0;  // in units of h / 2^level
   if (!start_segment(h, begin == 0.0)) return false;
   while (done < (steps << level)) {
@@ -86,9 +95,11 @@ bool Run::run_segment(double begin, double end, double& total_end) {
         return fail("the step at time " + std::to_string(state_.time) + " fails down to a step size of " +
                     std::to_string(size) + ": " + report.cause +
                     (vibrations_.seen() ? "; " + std::string(undamped) : ""));
+      keep_or_restore(failures++ == 0);
       done *= 2;
       continue;
     }
+    failures = 0;
     done = next;
     last_step_ = size;
     if (options_.single_solution && summary_.steps.accepted == 1)
