@@ -62,20 +62,23 @@ struct Integrator {
     state.nodes.resize(start.nodes.size());
     state.rotation.resize(start.nodes.size());
     state.algorithmic.resize(start.nodes.size());
-    const std::size_t count = start.nodes.size();
-    Vec6<double> eta[nodes_in_lanes];
-    for (std::size_t n = 0; n < count; n += nodes_in_lanes) {
-      const std::size_t some = std::min(nodes_in_lanes, count - n);
-      for (std::size_t i = 0; i < some; ++i) {
-        const elements::NodeMotion& from = start.nodes[n + i];
-        eta[i] = rule.predict(from.v, from.a, start.algorithmic[n + i],
-                              Vec6<double>(trend * start.acceleration_trend[n + i]));
-        state.nodes[n + i] = from;
-        state.nodes[n + i].dq = eta[i];
-        state.rotation[n + i] = start.rotation[n + i];
+    auto by_node = [&](std::int64_t begin, std::int64_t end) {
+      Vec6<double> eta[nodes_in_lanes];
+      for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); n += nodes_in_lanes) {
+        const std::size_t some = std::min(nodes_in_lanes, static_cast<std::size_t>(end) - n);
+        for (std::size_t i = 0; i < some; ++i) {
+          const elements::NodeMotion& from = start.nodes[n + i];
+          eta[i] = rule.predict(from.v, from.a, start.algorithmic[n + i],
+                                Vec6<double>(trend * start.acceleration_trend[n + i]));
+          state.nodes[n + i] = from;
+          state.nodes[n + i].dq = eta[i];
+          state.rotation[n + i] = start.rotation[n + i];
+        }
+        move_nodes(state, n, some, eta, false);
       }
-      move_nodes(state, n, some, eta, false);
-    }
+    };
+    system.walker().for_each_chunk(static_cast<std::int64_t>(start.nodes.size()), block_grain,
+                                   tree::make_chunk(by_node));
   }
 
  private:
@@ -85,22 +88,34 @@ struct Integrator {
 };
 
 /// What the next predictor goes by. Angular accelerations count by the arm that turns them into linear ones.
-void note_trend(const System& system, const State& start, State& state) {
+void note_trend(System& system, const State& start, State& state) {
   const double arm = system.moment_arm();
-  double from_start = 0.0, from_trend = 0.0;
-  state.acceleration_trend.resize(state.nodes.size());
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
-    const Vec6<double> now = state.nodes[n].a - start.nodes[n].a;
-    const Vec6<double> turn = now - start.acceleration_trend[n];
-    const auto size = [arm](const Vec6<double>& a) {
-      return lanes::dot(lanes::linear_part(a), lanes::linear_part(a)) +
-             arm * arm * lanes::dot(lanes::angular_part(a), lanes::angular_part(a));
-    };
-    from_start += size(now);
-    from_trend += size(turn);
-    state.acceleration_trend[n] = now;
+  std::vector<Workspace::Trend>& parts = system.work().trends;
+  const std::size_t count = state.nodes.size();
+  state.acceleration_trend.resize(count);
+  parts.resize((count + block_grain - 1) / block_grain);
+  auto by_node = [&](std::int64_t begin, std::int64_t end) {
+    Workspace::Trend part;
+    for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) {
+      const Vec6<double> now = state.nodes[n].a - start.nodes[n].a;
+      const Vec6<double> turn = now - start.acceleration_trend[n];
+      const auto size = [arm](const Vec6<double>& a) {
+        return lanes::dot(lanes::linear_part(a), lanes::linear_part(a)) +
+               arm * arm * lanes::dot(lanes::angular_part(a), lanes::angular_part(a));
+      };
+      part.from_start += size(now);
+      part.from_trend += size(turn);
+      state.acceleration_trend[n] = now;
+    }
+    parts[static_cast<std::size_t>(begin / block_grain)] = part;
+  };
+  system.walker().for_each_chunk(static_cast<std::int64_t>(count), block_grain, tree::make_chunk(by_node));
+  Workspace::Trend whole;
+  for (const Workspace::Trend& part : parts) {
+    whole.from_start += part.from_start;
+    whole.from_trend += part.from_trend;
   }
-  state.follows_trend = from_trend < from_start;
+  state.follows_trend = whole.from_trend < whole.from_start;
 }
 
 Integrator make_rule(const StepOptions& options, const State& start) {

@@ -1,7 +1,10 @@
 #include "newton.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
+
+#include "system_parts.hpp"
 
 namespace bough::step {
 
@@ -18,6 +21,28 @@ double largest_share(const System& system, const ResidualSize& r) {
 
 bool is_small(const System& system, const ResidualSize& r, double tolerance) {
   return largest_share(system, r) <= tolerance;
+}
+
+bool is_settled(const System& system, const ResidualSize& r, double tolerance, double share) {
+  const double arm = system.moment_arm();
+  const ResidualSize& noise = system.noise();
+  const auto within = [tolerance, share](double part, double whole, double rounding) {
+    return share * part <= std::max(left_open * tolerance * whole, std::min(tolerance * whole, 1.5 * rounding));
+  };
+  return within(r.force, std::max(r.force_scale, r.moment_scale / arm), noise.force) &&
+         within(r.moment, std::max(r.moment_scale, r.force_scale * arm), noise.moment) &&
+         within(r.length, system.plan().length_scale, 0.0) && within(r.angle, 1.0, 0.0);
+}
+
+void note_noise(System& system, const State& state, const ResidualSize& r, double size, double expected) {
+  constexpr double too_much = 16.0;  // for a contraction that only got worse
+  if (size <= too_much * expected) return;
+  const ResidualSize floor = system.round_off_floor(state);
+  if (r.force <= floor.force && r.moment <= floor.moment) system.note_noise(r);
+}
+
+bool is_closed(const System& system, const ResidualSize& r, double tolerance) {
+  return r.length <= tolerance * system.plan().length_scale && r.angle <= tolerance;
 }
 
 bool is_at_floor(const System& system, const State& state, const ResidualSize& r, double tolerance) {
@@ -64,53 +89,74 @@ std::string describe(System& system, const ResidualSize& r, double tolerance) {
   return text;
 }
 
+namespace {
+
+/// R_a^T R_b of two ports: rotations alone, since every element is looked at after every step.
+motion::Mat3<double> rotation_of(const elements::Field& f, const elements::Port& p) {
+  if (p.node == elements::ground) return p.carrier >= 0 ? f.carriers[p.carrier].pose.R * p.offset.R : p.offset.R;
+  const motion::Mat3<double>& node = f.nodes[p.node].R;
+  return p.has_offset ? node * p.offset.R : node;
+}
+
+/// Whether a joint left its branch.
+bool is_flipped(const elements::Joint& e, const elements::Field& f) {
+  motion::Mat3<double> R;
+  bool is_known = false;
+  for (int k = 0; k < e.num_rows; ++k) {
+    if (e.rows[k].kind != elements::RowKind::across) continue;
+    if (!is_known) R = lanes::transpose_times(rotation_of(f, e.ports[0]), rotation_of(f, e.ports[1]));
+    is_known = true;
+    const bool by_pairs = e.rows[k].j == (e.rows[k].i + 1) % 3 && k + 2 < e.num_rows && e.rows[k].i == 0 &&
+                          e.rows[k + 1].kind == elements::RowKind::across && e.rows[k + 1].i == 1 &&
+                          e.rows[k + 1].j == 2 && e.rows[k + 2].kind == elements::RowKind::across;
+    if (by_pairs) return R(0, 0) < 0.0 || R(1, 1) < 0.0 || R(2, 2) < 0.0;
+    if (e.rows[k].j == 2 && R(2, 2) < 0.0) return true;
+  }
+  return false;
+}
+
+/// Whether a beam turns by nearly half a turn over its length: cos(angle) = (trace(R_a^T R_b) - 1) / 2.
+template <class E>
+bool is_folded(const E& e, const elements::Field& f) {
+  const motion::Mat3<double> first = rotation_of(f, e.ports[0]);
+  for (int i = 1; i < E::num_ports; ++i) {
+    const motion::Mat3<double> other = rotation_of(f, e.ports[i]);
+    double trace = 0.0;
+    for (int k = 0; k < 9; ++k) trace += first.m[k] * other.m[k];
+    if (0.5 * (trace - 1.0) < -0.95) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::optional<Trouble> check_shape(const System& system, const State& state) {
   const plan::Plan& plan = system.plan();
   const elements::Field f = system.field(state);
-  // R_a^T R_b of two ports: rotations alone, since every element is looked at after every step.
-  const auto relative = [&f](const elements::Port& a, const elements::Port& b) {
-    const auto R = [&f](const elements::Port& p) {
-      if (p.node == elements::ground) return p.carrier >= 0 ? f.carriers[p.carrier].pose.R * p.offset.R : p.offset.R;
-      const motion::Mat3<double>& node = f.nodes[p.node].R;
-      return p.has_offset ? node * p.offset.R : node;
-    };
-    return lanes::transpose_times(R(a), R(b));
+  const auto count = static_cast<std::int64_t>(plan.directory.size());
+  std::atomic<std::int64_t> first_bad = count;
+  const auto note = [&first_bad](std::int64_t id) {
+    std::int64_t known = first_bad.load(std::memory_order_relaxed);
+    while (id < known && !first_bad.compare_exchange_weak(known, id, std::memory_order_relaxed)) {
+    }
   };
-  const auto turned = [&relative](const elements::Port& a, const elements::Port& b) {
-    const motion::Mat3<double> r = relative(a, b);
-    return 0.5 * (r(0, 0) + r(1, 1) + r(2, 2) - 1.0);  // cosine of the angle
-  };
-  std::optional<Trouble> trouble;
-  for (std::size_t id = 0; id < plan.directory.size() && !trouble; ++id)
-    plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
-      using E = std::decay_t<decltype(e)>;
-      if constexpr (std::is_same_v<E, elements::Joint>) {
-        bool flipped = false;
-        motion::Mat3<double> R;
-        bool is_known = false;
-        for (int k = 0; k < e.num_rows; ++k) {
-          if (e.rows[k].kind != elements::RowKind::across) continue;
-          if (!is_known) R = relative(e.ports[0], e.ports[1]);
-          is_known = true;
-          const bool by_pairs = e.rows[k].j == (e.rows[k].i + 1) % 3 && k + 2 < e.num_rows && e.rows[k].i == 0 &&
-                                e.rows[k + 1].kind == elements::RowKind::across && e.rows[k + 1].i == 1 &&
-                                e.rows[k + 1].j == 2 && e.rows[k + 2].kind == elements::RowKind::across;
-          if (by_pairs) {
-            flipped |= R(0, 0) < 0.0 || R(1, 1) < 0.0 || R(2, 2) < 0.0;
-            break;
-          }
-          if (e.rows[k].j == 2) flipped |= R(2, 2) < 0.0;
+  auto by_element = [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t id = begin; id < end; ++id)
+      plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>) {
+          if (is_flipped(e, f)) note(id);
+        } else if constexpr (requires { e.reference_strain; }) {
+          if (is_folded(e, f)) note(id);
         }
-        if (flipped)
-          trouble = Trouble{"joint '" + plan.element_owner[id] + "' flipped to the opposite pose within one step"};
-      } else if constexpr (requires { e.reference_strain; }) {
-        for (int i = 1; i < E::num_ports; ++i)
-          if (turned(e.ports[0], e.ports[i]) < -0.95)
-            trouble = Trouble{"an element of beam '" + plan.element_owner[id] +
-                              "' bends by nearly half a turn; use more elements"};
-      }
-    });
-  return trouble;
+      });
+  };
+  system.walker().for_each_chunk(count, element_grain, tree::make_chunk(by_element));
+  if (first_bad == count) return std::nullopt;
+  const auto bad = static_cast<std::size_t>(first_bad.load());
+  const std::string& owner = plan.element_owner[bad];
+  if (system.joint_of_element(static_cast<int>(bad)) >= 0)
+    return Trouble{"joint '" + owner + "' flipped to the opposite pose within one step"};
+  return Trouble{"an element of beam '" + owner + "' bends by nearly half a turn; use more elements"};
 }
 
 void accept_turns(const System& system, State& state) {

@@ -4,15 +4,21 @@
 
 namespace bough::step {
 
-/// A factor that contracts the changes less than this is made anew: four more solutions cost about as much as a tangent and its factor.
+/// Changes that an own factor contracts less than this do not come from a whole tangent of a smooth system.
 constexpr double slowest_contraction = 0.03;
 
-/// Residual that an iteration may leave, measured or to be expected from its contraction, relative to the tolerance: an old factor must come as near
-/// as a new one, since errors of steps add up.
+/// Residual and change that an iteration may leave, measured or to be expected from its contraction, relative to the tolerance: an old factor must
+/// come as near as a new one, since errors of steps add up.
 constexpr double left_open = 1e-3;
+
+/// Changes of relative motions that are round-off at any tolerance.
+constexpr double least_change = 4e-15;
 
 /// Changes whose ratio is above this no longer shrink: what is left may be round-off.
 constexpr double shrinks = 0.3;
+
+/// What was not measured is taken to be this much larger than the last ratio of changes or residuals lets expect.
+constexpr double unseen_growth = 1.2;
 
 /// Repeats: evaluate, stop when converged, factor, solve, apply. `follow` brings velocities and accelerations along with the positions.
 template <class Follow>
@@ -24,6 +30,15 @@ double largest_share(const System& system, const ResidualSize& r);
 
 /// Whether that is within the tolerance.
 bool is_small(const System& system, const ResidualSize& r, double tolerance);
+
+/// Whether `share` of a residual may be left: within left_open of the tolerance, or, below the tolerance, within the round-off that iterations met.
+bool is_settled(const System& system, const ResidualSize& r, double tolerance, double share = 1.0);
+
+/// Remembers a residual that is as small as round-off and much larger than `expected`, as a share of what makes it, for round-off.
+void note_noise(System& system, const State& state, const ResidualSize& r, double size, double expected);
+
+/// Whether the gaps of joints are within the tolerance.
+bool is_closed(const System& system, const ResidualSize& r, double tolerance);
 
 /// Whether what is left of a residual above the tolerance may be round-off.
 bool is_at_floor(const System& system, const State& state, const ResidualSize& r, double tolerance);

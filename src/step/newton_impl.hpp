@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace bough::step {
 
@@ -14,50 +15,66 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     return report;
   };
   const bool may_reuse = !options.single_solution && options.reuse_factors;
-  double previous = 0.0, rate = system.last_contraction(), size = 0.0;
-  bool is_own = false;                                    // whether the factor was made in this step
-  bool fresh = !may_reuse || !system.has_factor(slopes);  // whether the next solution gets a new factor
+  const double tolerance = options.tolerance;
+  const double negligible = std::max(left_open * tolerance, least_change);
+  bool fresh = !may_reuse || !system.has_factor(slopes) || system.is_factor_worn();  // the next solution gets a new one
+  bool is_own = false;                // whether the factor was made in this step
+  int served = 0;                     // solutions in this step with the present factor
+  double previous = 0.0, size = 0.0;  // the change before the last; the residual's largest share
+  double expected = 0.0;              // what the last solution was to leave of that
+  // By how much changes and residuals shrink. A factor that served before contracts as it did; of a new one nothing is known at first.
+  double rate = fresh ? 1.0 : system.last_contraction(), shrunk = 0.0;
+  const auto converge = [&]() {
+    report.converged = true;
+    if (report.iterations > 1) system.set_last_contraction(rate);
+    system.note_service(served);
+    return report;
+  };
   for (int k = 0;; ++k) {
     if (const auto t = system.evaluate(state, slopes, fresh && k == 0)) return fail(*t);
     report.residual = system.residual_size();
-    size = largest_share(system, report.residual);
+    const double before = std::exchange(size, largest_share(system, report.residual));
     if (k > 0) {
       if (options.single_solution) {
         report.converged = true;
         return report;
       }
-      if (k > 1) rate = previous > 0.0 ? report.change / previous : 0.0;
-      const bool still = report.change < options.tolerance;
+      shrunk = size < before ? size / before : 1.0;
+      const bool still = (k > 1 && rate <= shrinks ? unseen_growth * rate : 1.0) * report.change <= negligible;
+      if (k > 1 && report.change < tolerance && size > left_open * tolerance)
+        note_noise(system, state, report.residual, size, expected);
+      if (still && is_settled(system, report.residual, tolerance)) return converge();
       const bool stalled = k > 1 && rate > shrinks && is_own;  // with an old factor: it contracts badly here
-      if (still && size <= (stalled ? 1.0 : left_open) * options.tolerance) {
-        report.converged = true;
-        if (k > 1) system.set_last_contraction(rate);
-        return report;
-      }
-      if (still && (stalled || report.change == 0.0)) {  // is what is left only round-off?
-        if (is_at_floor(system, state, report.residual, options.tolerance)) {
-          report.converged = report.at_floor = true;
-          return report;
+      if (report.change < tolerance && stalled && size <= tolerance) return converge();
+      if (report.change < tolerance && (stalled || report.change == 0.0)) {  // is what is left only round-off?
+        if (is_at_floor(system, state, report.residual, tolerance)) {
+          report.at_floor = true;
+          return converge();
         }
       }
       if (k >= options.max_iterations) {
-        report.cause = "no convergence in " + std::to_string(k) +
-                       " iterations: " + describe(system, report.residual, options.tolerance);
+        report.cause =
+            "no convergence in " + std::to_string(k) + " iterations: " + describe(system, report.residual, tolerance);
         return report;
       }
       if (k >= 4 && report.change > 1e3 * std::max(previous, 1.0)) {
-        report.cause = "the iteration diverges: " + describe(system, report.residual, options.tolerance);
+        report.cause = "the iteration diverges: " + describe(system, report.residual, tolerance);
         return report;
       }
-      const bool is_slow = k > 1 && rate > slowest_contraction;
-      if (is_slow && is_own && system.takes_symmetric_parts()) system.drop_symmetry();  // not the factor's age
-      fresh = !may_reuse || is_slow;
+      // A new factor costs some renewal_cost solutions: it pays where as many with this one would not do.
+      const double left = std::pow(std::min(rate, 1.0), system.renewal_cost());
+      const bool is_slow = k > 1 && (rate > shrinks || left * report.change > negligible ||
+                                     !is_settled(system, report.residual, tolerance, left));
+      if (k > 1 && is_own && rate > slowest_contraction && system.takes_symmetric_parts())
+        system.drop_symmetry();  // not the factor's age
+      fresh = !may_reuse || is_slow || !system.has_factor(slopes);
       if (fresh)
         if (const auto t = system.evaluate(state, slopes, true)) return fail(*t);
     }
     is_own |= fresh;
+    served = fresh ? 1 : served + 1;
     if (fresh)
-      if (const auto t = system.factor(k == 0, slopes))
+      if (const auto t = system.factor(k == 0 && !may_reuse, slopes))
         return fail(k == 0 ? *t : Trouble{"iteration " + std::to_string(k) + " came to a shape at which " + t->text});
     for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
     if (const auto t = system.solve(rhs.data(), x.data(), false)) return fail(*t);
@@ -68,14 +85,16 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     ++report.iterations;
     if (!std::isfinite(report.change)) return fail({"the iteration left finite numbers"});
     if (const auto t = follow(state)) return fail(*t);
-    if (k == 0 || options.single_solution || std::max(report.change, size) > options.tolerance) continue;
-    // Where changes shrink on as they did, what this one leaves of a residual that was small already need not be looked at.
+    if (options.single_solution || k == 0)
+      continue;  // a prediction is not wrong as iterates are: nothing follows from the first change
     rate = previous > 0.0 ? report.change / previous : 0.0;
-    if (rate <= shrinks && rate * size <= left_open * options.tolerance) {
-      report.converged = true;
-      system.set_last_contraction(rate);
-      return report;
-    }
+    // What the solution leaves need not be looked at where changes and residuals shrink on as they did. Gaps have to be seen closed: rows that
+    // contradict each other stay open while changes vanish.
+    const double share = unseen_growth * std::max({rate, shrunk, is_own ? 0.0 : system.last_contraction()});
+    expected = share * size;
+    if (rate <= shrinks && share * report.change <= negligible && is_closed(system, report.residual, tolerance) &&
+        is_settled(system, report.residual, tolerance, share))
+      return converge();
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bough/elements/rows.hpp"
+#include "bough/step/step_cost.hpp"
 #include "driven_nodes.hpp"
 #include "lane_batches.hpp"
 #include "make_solver.hpp"
@@ -55,7 +56,8 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   if (!plan.is_dynamic) motion_tree_ = make_motion_tree(plan);
   if (moment_arm_ == 0.0) moment_arm_ = plan.length_scale;
   residual_.assign(num_unknowns(), 0.0);
-  magnitude_.assign(num_unknowns(), 0.0);
+  magnitude_ = floor_ = residual_;
+  floor_unknowns_.reserve(most_unknowns);
   joint_of_element_.assign(num_elements, -1);
   joint_of_block_.assign(static_cast<std::size_t>(num_blocks()), -1);
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
@@ -86,6 +88,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
         plan.directory[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(joint)].element)].index)];
     is_length_[unknown] = elements::is_length(e.rows[row].kind);
   });
+  renewal_cost_ = estimate_step_cost(plan, *tree_, *solver_).renewal();
   chunk_sizes_.resize((use_begin_.size() - 1 + block_grain - 1) / block_grain, {{}, true});
   find_pairs();
   if (planar_ && plan.is_dynamic) planar_step_ = std::make_unique<PlanarStep>(plan, *planar_, node_begin_, pairs_);
@@ -259,11 +262,23 @@ bool System::has_factor(const elements::Slopes& s) const {
          s.mass_only == factored_.mass_only;
 }
 
+void System::note_service(int solutions) {
+  service_cost_ += solutions;
+  is_worn_ = solutions * ++iterations_served_ >= service_cost_;
+  if (++noise_age_ == noise_lasts) {
+    noise_ = {};
+    noise_age_ = 0;
+  }
+}
+
 std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slopes) {
   PhaseTimer timer{clock_, counts_.factor};
   if (rescale || !has_factor(slopes)) solver_->rescale();
   is_factored_ = is_trusted_ = false;
   contraction_ = 1.0;
+  service_cost_ = renewal_cost_;
+  iterations_served_ = 0;
+  is_worn_ = false;
   ++counts_.factorizations;
   const solve::FactorStatus status = solver_->factor(walker_);
   if (status.ok()) {

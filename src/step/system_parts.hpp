@@ -8,7 +8,7 @@ namespace bough::step {
 
 /// Items a task takes at once; chunks do not depend on the number of threads.
 inline constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
-inline constexpr std::int64_t element_grain = 32, block_grain = 128, pair_grain = 512, batch_grain = 8;
+inline constexpr std::int64_t element_grain = 256, block_grain = 64, pair_grain = 128, batch_grain = 8;
 
 inline constexpr double too_far = 1e100;  ///< a change whose square may not be finite: the iteration is lost
 

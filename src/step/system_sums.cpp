@@ -166,8 +166,9 @@ ResidualSize System::residual_size() const {
 
 ResidualSize System::round_off_floor(const State&) const {
   constexpr double eps = std::numeric_limits<double>::epsilon();
-  std::vector<double> floor(num_unknowns(), 0.0);
-  std::vector<std::int64_t> unknowns;
+  std::vector<double>& floor = floor_;
+  std::vector<std::int64_t>& unknowns = floor_unknowns_;
+  floor.assign(num_unknowns(), 0.0);
   const auto count = static_cast<std::size_t>(plan_.unknowns.count);
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
     const solve::ConstElementView K = matrix_of(static_cast<int>(e), unknowns);

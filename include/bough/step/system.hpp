@@ -43,6 +43,11 @@ struct Workspace {
   std::vector<double> rhs, x;  ///< of the linear system
   State start;                 ///< of a step
   State before;                ///< statics: where an iteration started
+  /// Squares of how far accelerations are from those before, and from what their trend had them be.
+  struct Trend {
+    double from_start = 0.0, from_trend = 0.0;
+  };
+  std::vector<Trend> trends;  ///< by chunk of nodes
 };
 
 /// What a plan and the options of a scene ask of the linear solver.
@@ -91,6 +96,9 @@ class System {
   ResidualSize residual_size() const;
   /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment.
   ResidualSize round_off_floor(const State& state) const;
+  /// Residual that iterations of this run could not make smaller although they contracted: zero until one met it, and again after 64 iterations.
+  const ResidualSize& noise() const { return noise_; }
+  void note_noise(const ResidualSize& r) { noise_ = r; }
 
   /// Whether tangents are replaced by their symmetric parts (plan decision "symmetric"); drop_symmetry: not from now on.
   bool takes_symmetric_parts() const { return takes_symmetric_parts_; }
@@ -103,6 +111,12 @@ class System {
   /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
   double last_contraction() const { return contraction_; }
   void set_last_contraction(double contraction) { contraction_ = contraction; }
+  /// Solutions that a tangent and its factor cost, by estimate_step_cost.
+  double renewal_cost() const { return renewal_cost_; }
+  /// To be called when an iteration has ended that took `solutions` with the present factor. A factor is worn once the last iteration took at least as many solutions as the steps since it was
+  /// made cost on average, the factor included: to go on would raise that average.
+  void note_service(int solutions);
+  bool is_factor_worn() const { return is_worn_; }
   /// x <- A^-1 rhs. check: false: its backward error may be left out, but for every 32nd solution, where one with the same factor was found good;
   /// then last_solution() stays that of the last check.
   [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x, bool check = true);
@@ -241,9 +255,11 @@ class System {
   std::vector<std::int64_t> use_begin_;      ///< by block, then by held node: range in uses_
   std::vector<std::int64_t> uses_;           ///< places in element_residual_ that add up to it, fixed order
   std::vector<double> residual_, magnitude_;
-  std::vector<ChunkSize> chunk_sizes_;  ///< of residual_, by chunk of blocks
-  std::vector<char> is_length_;         ///< by unknown: whether it is the multiplier of a length, in blocks of joints
-  std::vector<NodePair> pairs_;         ///< whose relative motions relative_size looks at
+  mutable std::vector<double> floor_;                 ///< scratch of round_off_floor
+  mutable std::vector<std::int64_t> floor_unknowns_;  ///< scratch of round_off_floor
+  std::vector<ChunkSize> chunk_sizes_;                ///< of residual_, by chunk of blocks
+  std::vector<char> is_length_;  ///< by unknown: whether it is the multiplier of a length, in blocks of joints
+  std::vector<NodePair> pairs_;  ///< whose relative motions relative_size looks at
   std::vector<motion::Vec6<double>>
       turned_;  ///< scratch of relative_size: increments of the nodes in the axes of the ground
   std::vector<double> chunk_max_;
@@ -260,6 +276,13 @@ class System {
   int unchecked_ = 0;        ///< solutions since the last that was checked
   bool is_trusted_ = false;  ///< the present factor gave a solution that needed no refinement
   double contraction_ = 1.0;
+  double renewal_cost_ = 0.0;
+  double service_cost_ = 0.0;  ///< of the present factor: renewal_cost and the solutions of all iterations since
+  int iterations_served_ = 0;
+  ResidualSize noise_;
+  static constexpr int noise_lasts = 64;
+  int noise_age_ = 0;
+  bool is_worn_ = false;
   bool takes_symmetric_parts_ = false;
   bool as_sensors_ = false;  ///< elements in space, one at a time: the bits that sensors see
 };
