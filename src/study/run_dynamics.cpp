@@ -79,7 +79,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
   const long steps = std::max(1L, static_cast<long>(std::ceil((end - begin) / wanted - 1e-9)));
   const double h = (end - begin) / static_cast<double>(steps);
   int level = 0, easy = 0, failures = 0;  // these in a row
-  long done = 0;  // in units of h / 2^level
+  long done = 0;                          // in units of h / 2^level
   if (!start_segment(h, begin == 0.0)) return false;
   while (done < (steps << level)) {
     const double size = h / static_cast<double>(1L << level);
