@@ -11,14 +11,14 @@ struct ElementCost {
 template <class E>
 constexpr ElementCost cost{60e-9, 200e-9, 15e-9, 60e-9};
 template <int N>
-constexpr ElementCost cost<elements::Beam<N>> = N == 2   ? ElementCost{400e-9, 1790e-9, 59e-9, 535e-9}
-                                                : N == 3 ? ElementCost{1180e-9, 5430e-9, 190e-9, 1610e-9}
-                                                         : ElementCost{1800e-9, 8800e-9, 290e-9, 2850e-9};
+inline constexpr ElementCost cost<elements::Beam<N>> = N == 2   ? ElementCost{400e-9, 1790e-9, 59e-9, 535e-9}
+                                                       : N == 3 ? ElementCost{1180e-9, 5430e-9, 190e-9, 1610e-9}
+                                                                : ElementCost{1800e-9, 8800e-9, 290e-9, 2850e-9};
 template <>
-constexpr ElementCost cost<elements::Bushing>{240e-9, 870e-9, 33e-9, 184e-9};
+inline constexpr ElementCost cost<elements::Bushing>{240e-9, 870e-9, 33e-9, 184e-9};
 template <>
-constexpr ElementCost cost<elements::Joint>{250e-9, 900e-9, 40e-9, 190e-9};
+inline constexpr ElementCost cost<elements::Joint>{250e-9, 900e-9, 40e-9, 190e-9};
 template <int N>
-constexpr ElementCost cost<elements::LineLoad<N>>{200e-9 * N, 800e-9 * N, 30e-9 * N, 250e-9 * N};
+inline constexpr ElementCost cost<elements::LineLoad<N>>{200e-9 * N, 800e-9 * N, 30e-9 * N, 250e-9 * N};
 
 }  // namespace bough::plan
