@@ -123,7 +123,9 @@ void eval_internal_blocks(const Beam<N, C>& beam, const BeamRates<S, N>& b, bool
       StrainPoint<S> s;
       eval_strain_point<S, N>(beam, b, viscous, g, s);
       const DualMat<S> T = matrix(s.T), &A = s.bending, G = transpose_jacobian(s.T, s.n);
-      const Mat6<C> K = inverse * beam.stiffness, D = inverse * beam.damping;
+      const Mat6<C> K = inverse * beam.stiffness;
+      Mat6<C> D;
+      if (viscous) D = inverse * beam.damping;
       Mat6<S> n_d = motion_product(K, A), n_y = motion_product(K, T), n_d1, n_y1;
       if (viscous) {
         add_motion_product(n_d, D, jacobian(s.T, s.y1) + second_jacobian(s.T, s.d1, s.y));
