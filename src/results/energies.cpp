@@ -76,11 +76,9 @@ void EnergyMeter::sort(const plan::Plan& plan, Kind<E>& kind) {
 template <class E>
 void EnergyMeter::add_group(const std::vector<E>& array, const Kind<E>& kind, const Group<E>& group,
                             const step::State& state, const elements::Field& field, elements::Energies& sum) const {
-  const auto turns_of = [&state](int i) {
-    if constexpr (std::is_same_v<E, elements::Joint>)
-      return state.turns[static_cast<std::size_t>(i)];  // joints of a plan stand in the order of their elements
-    else
-      return 0.0;
+  const auto turns_of = [&turns_of_joints = state.turns](int i) {
+    // Joints of a plan stand in the order of their elements.
+    return std::is_same_v<E, elements::Joint> ? turns_of_joints[static_cast<std::size_t>(i)] : 0.0;
   };
   if (group.lanes < 0) {
     for (int i = group.first; i < group.first + group.count; ++i)

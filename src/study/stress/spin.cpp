@@ -74,7 +74,8 @@ void precession(Bench& bench) {
     const double exact[3] = {l * sl * std::cos(p * row.time), l * sl * std::sin(p * row.time), l * cl};
     const char* const columns[3] = {"top.x", "top.y", "top.z"};
     for (int i = 0; i < 3; ++i) {
-      const double finer = value_at(runs[1], columns[i], row.time), difference = finer - row.values[i];
+      const double finer = value_at(runs[1], columns[i], row.time),
+                   difference = finer - row.values[static_cast<std::size_t>(i)];
       fine = std::max(fine, std::abs(finer - exact[i]) / l);
       extrapolated = std::max(extrapolated, std::abs(finer + difference / 3.0 - exact[i]) / l);
     }
