@@ -63,9 +63,13 @@ function(bough_optimise_sanitized)
   foreach(target IN LISTS ARGN)
     if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=" AND TARGET ${target})
       target_compile_options(${target} PRIVATE $<$<CONFIG:Debug>:-O1>)
+      set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
     endif()
   endforeach()
 endfunction()
+
+# Of layers in static archives.
+set(BOUGH_LAYER_PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 
 # bough_add_layer(NAME SOURCES a.cpp ... USES lower layers ... LIBS public targets ... PRIVATE_LIBS targets ...
 #                 PRIVATE_DEFS definitions ... PRIVATE_INCLUDES folders ... [HEADERS a.hpp ...])
@@ -132,6 +136,7 @@ function(bough_add_layer_target target suffix)
   if(BOUGH_DISPATCH)
     bough_bind_to_itself(${target})
   elseif(NOT BUILD_SHARED_LIBS)
-    set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    set_target_properties(${target} PROPERTIES ${BOUGH_LAYER_PROPERTIES})
+    bough_precompile(layer ${target})
   endif()
 endfunction()

@@ -1,6 +1,10 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# Kernels for scalars that only tests use (complex, Jet, Taylor) take most of the compilation and little of the run.
+# (-Wno-uninitialized: at -O1 g++ 12 warns about its own AVX-512 header.)
+set(BOUGH_TEST_OPTIONS $<$<CONFIG:Release>:-O1 -Wno-uninitialized>)
+
 # bough_add_test_objects(name SOURCES a.cpp ... LAYERS layers ... [LIBS targets ...])
 # compiles once what several tests use; they name it under OBJECTS. Tests may be among them.
 function(bough_add_test_objects name)
@@ -15,6 +19,7 @@ function(bough_add_test_objects name)
   target_link_libraries(test_${name} PRIVATE ${OBJECTS_LAYERS} ${OBJECTS_LIBS} bough_base bough_warnings GTest::gtest)
   target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   set_target_properties(test_${name} PROPERTIES CXX_EXTENSIONS OFF)
+  bough_precompile(test test_${name})
 endfunction()
 
 # bough_add_test(name SOURCES a.cpp ... LAYERS layers ... LABEL unit|verification|slow [LIBS targets ...]
@@ -57,11 +62,10 @@ function(bough_add_test name)
   target_link_libraries(${target} PRIVATE ${TEST_LAYERS} ${TEST_LIBS} bough_base bough_warnings ${main})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_compile_definitions(${target} PRIVATE ${TEST_DEFS})
-  if(TEST_LABEL STREQUAL "unit")
-    # Kernels for scalars that only tests use (complex, Jet, Taylor) take most of the compilation and little of the run.
-    # (-Wno-uninitialized: at -O1 g++ 12 warns about its own AVX-512 header.)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1 -Wno-uninitialized>)
+  if(NOT TEST_LABEL STREQUAL "slow")
+    target_compile_options(${target} PRIVATE ${BOUGH_TEST_OPTIONS})
   endif()
+  bough_precompile(test ${target})
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
   get_filename_component(folder "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
   gtest_discover_tests(${target} TEST_PREFIX "${folder}/${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
