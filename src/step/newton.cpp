@@ -34,11 +34,12 @@ bool is_settled(const System& system, const ResidualSize& r, double tolerance, d
          within(r.length, system.plan().length_scale, 0.0) && within(r.angle, 1.0, 0.0);
 }
 
-void note_noise(System& system, const State& state, const ResidualSize& r, double size, double expected) {
+bool is_noise(const System& system, const State& state, const ResidualSize& r, double tolerance, double size,
+              double expected) {
   constexpr double too_much = 16.0;  // for a contraction that only got worse
-  if (size <= too_much * expected) return;
+  if (size > tolerance || size <= too_much * expected) return false;
   const ResidualSize floor = system.round_off_floor(state);
-  if (r.force <= floor.force && r.moment <= floor.moment) system.note_noise(r);
+  return r.force <= floor.force && r.moment <= floor.moment;
 }
 
 bool is_closed(const System& system, const ResidualSize& r, double tolerance) {

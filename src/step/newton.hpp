@@ -34,8 +34,9 @@ bool is_small(const System& system, const ResidualSize& r, double tolerance);
 /// Whether `share` of a residual may be left: within left_open of the tolerance, or, below the tolerance, within the round-off that iterations met.
 bool is_settled(const System& system, const ResidualSize& r, double tolerance, double share = 1.0);
 
-/// Remembers a residual that is as small as round-off and much larger than `expected`, as a share of what makes it, for round-off.
-void note_noise(System& system, const State& state, const ResidualSize& r, double size, double expected);
+/// Whether a residual, `size` of what makes it, is much larger than `expected` of it and yet, below the tolerance, as small as round-off can make it.
+bool is_noise(const System& system, const State& state, const ResidualSize& r, double tolerance, double size,
+              double expected);
 
 /// Whether the gaps of joints are within the tolerance.
 bool is_closed(const System& system, const ResidualSize& r, double tolerance);

@@ -41,9 +41,11 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       }
       shrunk = size < before ? size / before : 1.0;
       const bool still = (k > 1 && rate <= shrinks ? unseen_growth * rate : 1.0) * report.change <= negligible;
-      if (k > 1 && report.change < tolerance && size > left_open * tolerance)
-        note_noise(system, state, report.residual, size, expected);
       if (still && is_settled(system, report.residual, tolerance)) return converge();
+      if (k > 1 && report.change < tolerance && is_noise(system, state, report.residual, tolerance, size, expected)) {
+        system.note_noise(report.residual);
+        if (still && is_settled(system, report.residual, tolerance)) return converge();
+      }
       const bool stalled = k > 1 && rate > shrinks && is_own;  // with an old factor: it contracts badly here
       if (report.change < tolerance && stalled && size <= tolerance) return converge();
       if (report.change < tolerance && (stalled || report.change == 0.0)) {  // is what is left only round-off?
@@ -85,8 +87,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     ++report.iterations;
     if (!std::isfinite(report.change)) return fail({"the iteration left finite numbers"});
     if (const auto t = follow(state)) return fail(*t);
-    if (options.single_solution || k == 0)
-      continue;  // a prediction is not wrong as iterates are: nothing follows from the first change
+    if (options.single_solution || k == 0) continue;  // nothing follows from the first: predictions err in other ways
     rate = previous > 0.0 ? report.change / previous : 0.0;
     // What the solution leaves need not be looked at where changes and residuals shrink on as they did. Gaps have to be seen closed: rows that
     // contradict each other stay open while changes vanish.

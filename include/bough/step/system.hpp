@@ -113,8 +113,8 @@ class System {
   void set_last_contraction(double contraction) { contraction_ = contraction; }
   /// Solutions that a tangent and its factor cost, by estimate_step_cost.
   double renewal_cost() const { return renewal_cost_; }
-  /// To be called when an iteration has ended that took `solutions` with the present factor. A factor is worn once the last iteration took at least as many solutions as the steps since it was
-  /// made cost on average, the factor included: to go on would raise that average.
+  /// To be called when an iteration has ended that took `solutions` with the present factor. A factor is worn once the last iteration took at least
+  /// as many solutions as the steps since it was made cost on average, the factor included: to go on would raise that average.
   void note_service(int solutions);
   bool is_factor_worn() const { return is_worn_; }
   /// x <- A^-1 rhs. check: false: its backward error may be left out, but for every 32nd solution, where one with the same factor was found good;
