@@ -42,7 +42,9 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       shrunk = size < before ? size / before : 1.0;
       const bool still = (k > 1 && rate <= shrinks ? unseen_growth * rate : 1.0) * report.change <= negligible;
       if (still && is_settled(system, report.residual, tolerance)) return converge();
-      if (k > 1 && report.change < tolerance && is_noise(system, state, report.residual, tolerance, size, expected)) {
+      const bool lies_still = shrunk > shrinks && report.change <= least_change;
+      if (k > 1 && report.change < tolerance &&
+          is_noise(system, state, report.residual, tolerance, size, lies_still ? 0.0 : expected)) {
         system.note_noise(report.residual);
         if (still && is_settled(system, report.residual, tolerance)) return converge();
       }
