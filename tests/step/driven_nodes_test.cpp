@@ -89,9 +89,11 @@ void compare_iterations(scene::Scene s, scene::Integrator integrator) {
     iterations[barred_too] = take_steps(rig, 1e-3);
     factorizations[barred_too] = rig.system.counts().factorizations;
   }
-  // Of a hundred: a residual at the bound may fall on either side of it, and a factor costs more or less than the solutions it saves.
-  EXPECT_NEAR(iterations[0], iterations[1], 2);
-  EXPECT_LE(std::abs(factorizations[0] - factorizations[1]), 2);
+  // A residual at the bound may fall on either side of it, and a factor costs more or less than the solutions it saves: with some 130 solutions,
+  // three of a hundred and two.
+  const auto work = [&](int k) { return iterations[k] + 1.5 * static_cast<double>(factorizations[k]); };
+  EXPECT_LE(work(0), 1.03 * work(1) + 2.0) << iterations[0] << " and " << factorizations[0] << " instead of "
+                                           << iterations[1] << " and " << factorizations[1];
 }
 
 /// A run with nodes eliminated and one with all unknowns; and that the iteration closes the rows of what is eliminated.
@@ -120,7 +122,7 @@ TEST(DrivenNodes, move_the_others_as_with_multipliers_by_every_integrator) {
   compare_steps(varied(2), scene::Integrator::variational);
 }
 
-TEST(DrivenNodes, take_as_many_iterations_and_factors_as_with_multipliers) {
+TEST(DrivenNodes, take_no_more_iterations_and_factors_than_with_multipliers) {
   for (auto integrator : {scene::Integrator::generalized_alpha, scene::Integrator::bdf, scene::Integrator::variational})
     compare_iterations(varied(2), integrator);
 }
