@@ -57,7 +57,7 @@ function(bough_kernels)
   endif()
 endfunction()
 
-# Sanitized builds compile without optimisation, which takes a third of the time. Arithmetic that would then be waited for is given some back.
+# Sanitized builds compile without optimisation, which spares most of the time that derivative kernels take. Arithmetic that would then be waited for is given some back.
 # bough_optimise_sanitized(target ...)
 function(bough_optimise_sanitized)
   foreach(target IN LISTS ARGN)

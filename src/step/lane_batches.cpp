@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "system_parts.hpp"
+
 namespace bough::step {
 
 template <class Kernels>

@@ -98,7 +98,6 @@ class LaneBatches {
   void evaluate_as(const solve::ElementBatch& batch, const Slot& slot, const State& state, const Field& field,
                    bool tangent, Result& result) const;
 
-  static constexpr int least_lanes = 3;
   static constexpr std::size_t most_uniform = 64;  ///< that are compared with
   const plan::Plan* plan_ = nullptr;
   const HeldNodes* held_ = nullptr;

@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "bough/plan/element_cost.hpp"
+#include "system_parts.hpp"
 
 namespace bough::step {
 
@@ -16,7 +17,6 @@ constexpr double per_front_lanes = 3.5e-6 / solve::lanes_wide, per_flop_lanes = 
 constexpr double per_front = 1.5e-6, per_flop = 1.1e-10;
 constexpr double per_flop_of_others = 10.0 * per_flop;  ///< of monolithic solvers
 constexpr double per_byte = 6e-11;  ///< of factor and element matrices, a solution and its check [s]
-constexpr int least_lanes = 3;      ///< elements that are evaluated as eight
 
 void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, StepCost& cost) {
   int present = 0, first = -1;

@@ -10,6 +10,8 @@ namespace bough::step {
 inline constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
 inline constexpr std::int64_t element_grain = 256, block_grain = 64, pair_grain = 128, batch_grain = 8;
 
+inline constexpr int least_lanes = 3;  ///< elements that are evaluated as eight
+
 inline constexpr double too_far = 1e100;  ///< a change whose square may not be finite: the iteration is lost
 
 /// Calls f(block, size, node) for every part of an element's unknowns, in their order: its nodes, then, with node -1, the rows of a joint

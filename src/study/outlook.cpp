@@ -12,7 +12,7 @@ namespace bough::study {
 
 namespace {
 
-constexpr double usual_iterations = 3.1, usual_evaluations = 3.4, usual_factorizations = 0.3;
+constexpr double usual_iterations = 3.1, usual_evaluations = 3.4, usual_factorizations = 0.46;
 constexpr std::int64_t program_bytes = 11'000'000;  ///< resident before a scene is built
 
 std::int64_t bytes_of(const step::System& system) {
