@@ -53,7 +53,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     symmetry.used = Symmetry::general;
     symmetry.loss = SymmetryLoss::plain_elimination;
   }
-  keeps_all = keep_all || options.elimination == Elimination::plain;
+  keeps_all = keep_all || options.partial || options.elimination == Elimination::plain;
   vector_begin.assign(1, 0);
   index_begin.assign(1, 0);
   own_begin.assign(1, 0);
@@ -91,6 +91,9 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
 void Hierarchical::State::size_factors() {
   factor_begin.assign(1, 0);
   counters.factor_flops = counters.flops_in_lanes = 0.0;
+  group_flops.assign(lanes.groups.size(), 0.0);
+  is_redone.assign(lanes.groups.size(), 0);
+  all_are_due = true;
   for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
     const tree::Front& f = front(id);
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
@@ -98,6 +101,7 @@ void Hierarchical::State::size_factors() {
     factor_begin.push_back(factor_begin.back() + (in_lanes ? 0 : shape.factor_size()));
     const double flops = is_symmetric() ? 0.5 * f.flops : f.flops;
     counters.factor_flops += flops;
+    group_flops[at(lanes.group_of_subdomain[at(f.subdomain)])] += flops;
     if (in_lanes) counters.flops_in_lanes += flops;
   }
   factor_pool.resize(at(factor_begin.back()));
@@ -161,9 +165,10 @@ void Hierarchical::multiply(const tree::Walker& walker, const double* x, double*
   state_->elements.multiply(walker, x, y);
 }
 
-FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, const double* rhs) {
+FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, const double* rhs, Changed changed) {
   State& s = *state_;
-  s.status = {};
+  const FactorStatus before = std::exchange(s.status, {});
+  if (s.scales_wanted || !s.options.partial || changed.empty() || !before.ok()) s.all_are_due = true;
   if (rhs != nullptr) std::copy(rhs, rhs + s.rhs.size(), s.rhs.begin());
   s.visit_rhs = rhs != nullptr ? s.rhs.data() : nullptr;
   if (s.scales_wanted) {
@@ -175,7 +180,13 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   }
   s.scales_wanted = false;
   s.factor_walker = walker;
-  auto visit = [&s, &prepare](int group) { s.factor_group(group, prepare); };
+  auto visit = [&s, &prepare, changed](int group) {
+    s.is_redone[at(group)] = s.is_due(group, changed) ? 1 : 0;
+    if (s.is_redone[at(group)] != 0)
+      s.factor_group(group, prepare);
+    else
+      s.leave_group(group);
+  };
   s.mark = walker.mark;
   walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
   if (s.is_symmetric()) {
@@ -185,7 +196,11 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
       walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
     }
   }
+  s.all_are_due = false;
   ++s.counters.factorizations;
+  for (std::size_t g = 0; g < s.is_redone.size(); ++g)
+    if (s.is_redone[g] != 0) s.counters.flops_done += s.group_flops[g];
+  if (s.is_redone.back() == 0) return s.status = before;  // nor has the root: nothing is new
   for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
   for (std::size_t i = 0; i < s.scalar_lanes.size(); ++i)
     for (int l = 0; s.scalar_lanes[i] != 0 && l < lanes_wide; ++l)

@@ -92,6 +92,9 @@ struct Hierarchical::State {
   SymmetryReport symmetry;
   std::vector<Asymmetry> asymmetries;  ///< by group: the first that the visit found
   bool keeps_all = false;
+  bool all_are_due = true;          ///< the next factorization leaves nothing alone
+  std::vector<char> is_redone;      ///< by group: whether the factorization at hand visits it
+  std::vector<double> group_flops;  ///< of one visit
   LaneDoubles factor_pool, schur_pool;
   std::vector<double> vector_pool, scratch_pool;
   std::vector<int> index_pool;
@@ -118,6 +121,8 @@ struct Hierarchical::State {
   tree::Walker factor_walker;         ///< of the factorization at hand: shares out large fronts
 
   // lane_walks.cpp: visits of groups
+  bool is_due(int group, Changed changed) const;
+  void leave_group(int group);
   void factor_group(int group, const Prepare& prepare);
   void forward_group(int group);
   void backward_group(int group);

@@ -27,8 +27,16 @@ class AnySolver {
   void rescale() {
     std::visit([](auto& s) { s.rescale(); }, solver_);
   }
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}) {
-    return std::visit([&](auto& s) { return s.factor(walker, prepare); }, solver_);
+  /// changed: for solvers that can leave the rest as it is; the others do everything anew.
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, Changed changed = {}) {
+    return std::visit(
+        [&](auto& s) {
+          if constexpr (requires { s.factor(walker, prepare, nullptr, changed); })
+            return s.factor(walker, prepare, nullptr, changed);
+          else
+            return s.factor(walker, prepare);
+        },
+        solver_);
   }
   /// factor() and, where that went well, solve(): in one sweep where the solver can.
   [[nodiscard]] FactorStatus factor_and_solve(const tree::Walker& walker, Prepare prepare, const double* rhs, double* x,

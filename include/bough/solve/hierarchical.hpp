@@ -42,7 +42,10 @@ class Hierarchical {
 
   /// Assemble, factor and condense all sub-domains. Allocates only where delayed pivots enlarge a front, or rows are dependent.
   /// With `rhs` (num_unknowns) the right-hand side is condensed in the same visits, while a front is in the cache; finish() then solves.
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, const double* rhs = nullptr);
+  /// SolveOptions::partial: sub-domains in which nothing `changed`, nor below them, stay as they are, and no Prepare is called for them; all bits are
+  /// those of a whole factorization. After rescale() and after a failure everything is done anew.
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, const double* rhs = nullptr,
+                                    Changed changed = {});
 
   /// Solve for the right-hand side that factor() took along: what is left of solve(). Precondition: factor(.., rhs) ok, nothing solved since.
   [[nodiscard]] SolveReport finish(const tree::Walker& walker, double* x);

@@ -30,6 +30,8 @@ struct SolveOptions {
   /// Symmetric: half the work, less memory (flat elimination only). Every factorization looks at every element matrix; where one differs
   /// from its transpose the solver goes over to general for good and says so in Hierarchical::symmetry().
   Symmetry symmetry = Symmetry::general;
+  /// Schur complements of all sub-domains last, so that factor() may leave alone what has not changed; more memory.
+  bool partial = false;
   bool lanes = true;  ///< equal sub-domains are factored in lockstep, eight to a pack (flat elimination only).
   double penalty_factor =
       1.0;  ///< P = factor x the interface's own stiffness diagonal [-], > 0. Flat: only in what is reported.

@@ -91,6 +91,7 @@ struct InterfaceReport {
 struct SolverCounters {
   std::int64_t memory_bytes = 0;  ///< numeric storage.
   double factor_flops = 0.0;      ///< estimate of one factorization without delays [flop].
+  double flops_done = 0.0;  ///< the same over all factorizations, without sub-domains that were left alone [flop].
   std::int64_t factorizations = 0;
   std::int64_t solutions = 0;
   std::int64_t delayed_pivots = 0;         ///< over all factorizations.
@@ -100,6 +101,9 @@ struct SolverCounters {
   double flops_in_lanes = 0.0;             ///< of factor_flops, those of these [flop].
   std::int64_t lanes_left = 0;  ///< fronts that left their lane for the pivoted path, over all factorizations.
 };
+
+/// By element: whether its matrix is another than that factored last. Empty: all are.
+using Changed = std::span<const char>;
 
 /// Called at the start of a visit, before the elements are assembled, so that one task evaluates and eliminates them.
 /// begin, end: positions in Hierarchical::batches(). Must not throw. May run concurrently for different visits.
