@@ -69,6 +69,10 @@ struct TimedWalker::State {
 
   template <class Walk>
   void watch(const tree::Tree& tree, tree::Visit given, bool is_upward, Walk&& walk) {
+    if (!is_on) {
+      walk(given);
+      return;
+    }
     is_walking = true;
     if (given.work == tree::Work::other) {
       walk(given);
@@ -183,7 +187,7 @@ struct TimedWalker::State {
   }
 
   void watch_chunks(std::int64_t count, std::int64_t grain, tree::Chunk given) {
-    if (count <= 0 || is_walking) {
+    if (count <= 0 || is_walking || !is_on) {
       inner.for_each_chunk(count, grain, given);
       return;
     }
@@ -221,6 +225,7 @@ struct TimedWalker::State {
   std::vector<Busy> busy;
   std::vector<TimedEvent> events;  ///< in ticks
   std::int64_t events_left_out = 0;
+  bool is_on = true;
   bool keeps_events = false;
   bool is_walking = false;  ///< chunks that visits share out are part of these visits: not watched on their own
   // Of the walk at hand.
@@ -253,6 +258,8 @@ tree::Walker TimedWalker::walker() {
           tree::Mark{&State::run_mark, state_.get()},
           state_->inner.threads};
 }
+
+void TimedWalker::watch(bool on) { state_->is_on = on; }
 
 void TimedWalker::keep_events(bool keep) {
   state_->keeps_events = keep;

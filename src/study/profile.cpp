@@ -165,9 +165,9 @@ void fill_events(const WatchedRun& run, results::Profile& out) {
 /// Means of the steps of a run, the start left out.
 results::StepProfile mean_step(const WatchedRun& run, std::size_t num_visits) {
   results::StepProfile s;
-  const auto n = static_cast<double>(std::max<std::size_t>(run.steps.size(), 1));
+  const auto n = static_cast<double>(std::max<std::size_t>(run.watched.size(), 1));
   double sum = 0.0;
-  for (double seconds : run.steps) sum += seconds;
+  for (double seconds : run.watched) sum += seconds;
   s.total = median(run.steps);
   const TreeTimes *end = walked_tree(run.times, num_visits), *begin = walked_tree(run.start, num_visits);
   const auto wall = [&](Work w) {
@@ -266,8 +266,10 @@ results::Profile profile(const scene::Scene& given, const ProfileOptions& option
     out.is_dynamic = system.plan().is_dynamic;
     draw_parts(system.plan(), found.tree, out);
   };
-  const WatchedRun run =
-      watch_run(scene, {.threads = out.threads, .steps = options.steps, .keep_events = true}, recorder, progress, look);
+  const WatchedRun run = watch_run(
+      scene,
+      {.threads = out.threads, .steps = options.steps, .stride = watch_stride(options.steps), .keep_events = true},
+      recorder, progress, look);
   if (run.summary.status == results::RunStatus::failed) out.trouble = run.summary.cause;
   out.steps = run.summary.steps.accepted;
   out.factorizations = run.summary.steps.factorizations;
@@ -297,8 +299,8 @@ results::Profile profile(const scene::Scene& given, const ProfileOptions& option
   WatchedRun alone;
   const auto go_on = [&progress](const results::Progress& p) { return !progress || progress(p); };
   const auto run_on = [&](int threads) {
-    return watch_run(scene, {.threads = threads, .steps = std::min(options.steps, options.steps_for_speed)}, nobody,
-                     go_on);
+    const long steps = std::min(options.steps, options.steps_for_speed);
+    return watch_run(scene, {.threads = threads, .steps = steps, .stride = watch_stride(steps)}, nobody, go_on);
   };
   if (out.threads != 1) alone = run_on(1);
   const WatchedRun& one = out.threads == 1 ? run : alone;

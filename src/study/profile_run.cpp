@@ -14,6 +14,7 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
   std::uint64_t mark_begin = 0;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> marks;  // begin and end of steps
   long tried = 0;
+  bool is_watched = true;
   const long first_kept = options.steps >= 3 ? 3 : 1;  // the first steps find caches and pages cold
   SimulateOptions simulate_options;
   simulate_options.threads = options.threads;
@@ -25,7 +26,10 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
   simulate_options.before_step = [&](step::System&, const step::State&, const BeforeStep& attempt) {
     if (attempt.number > options.steps) return false;
     if (tried++ == 0) run.start = watch->times();
-    if (options.keep_events && attempt.number >= first_kept) {
+    is_watched =
+        options.stride == 1 || (attempt.number >= first_kept && (attempt.number - first_kept) % options.stride == 0);
+    watch->watch(is_watched);
+    if (options.keep_events && is_watched && attempt.number >= first_kept) {
       watch->keep_events(true);
       mark_begin = watch->now();
     }
@@ -41,7 +45,8 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
   };
   const auto on_step = [&](const results::Progress& p) {
     run.steps.push_back(std::chrono::duration<double>(Clock::now() - step_begin).count());
-    if (options.keep_events && p.step >= first_kept && marks.size() < 1000)
+    if (is_watched) run.watched.push_back(run.steps.back());
+    if (options.keep_events && is_watched && p.step >= first_kept && marks.size() < 1000)
       marks.emplace_back(mark_begin, watch->now());
     return progress ? progress(p) : true;
   };

@@ -11,9 +11,10 @@ namespace bough::study {
 
 struct WatchedRun {
   results::Summary summary;
-  schedule::WalkTimes start;  ///< what was watched before the first step: consistent start, first accelerations
-  schedule::WalkTimes times;  ///< in all
-  std::vector<double> steps;  ///< wall time of each accepted step [s]
+  schedule::WalkTimes start;    ///< what was watched before the first step: consistent start, first accelerations
+  schedule::WalkTimes times;    ///< in all
+  std::vector<double> steps;    ///< wall time of each accepted step [s]
+  std::vector<double> watched;  ///< of those whose visits were watched
   struct StepMark {
     double begin, seconds;  ///< since the watch began [s]
   };
@@ -22,7 +23,10 @@ struct WatchedRun {
 
 struct WatchedRunOptions {
   int threads = 1;
-  long steps = 200;          ///< most accepted steps
+  long steps = 200;  ///< most accepted steps
+  /// Visits are watched in every so many steps, from the third on: what a watch costs is a share of small steps. Odd, as factors are often renewed in
+  /// every second. 1: in all.
+  long stride = 1;
   bool keep_events = false;  ///< from the third step on, or from the first where there are fewer
   bool want_motion = false;
 };
@@ -30,6 +34,9 @@ struct WatchedRunOptions {
 /// Runs a scene. `look` is called once after the last step.
 WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, results::Recorder& recorder,
                      const ProgressCallback& progress, const std::function<void(step::System&)>& look = {});
+
+/// The stride with which so many steps give enough samples for medians.
+constexpr long watch_stride(long steps) { return steps >= 100 ? 7 : 1; }
 
 /// A recorder that keeps nothing.
 class NullRecorder final : public results::Recorder {

@@ -73,6 +73,8 @@ class TimedWalker {
 
   /// Valid while this object lives.
   tree::Walker walker();
+  /// Between false and true walks and chunks are passed on as they are. All are watched at first.
+  void watch(bool on);
   /// Events are kept only between true and false. They are not at first.
   void keep_events(bool keep);
   /// Ticks since the watch began, for events of one's own; WalkTimes::seconds_per_tick tells their length in the end.
