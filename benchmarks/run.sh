@@ -24,7 +24,7 @@ if [ -x "$folder/bench_start" ]; then
   "$folder/bench_start" --benchmark_display_aggregates_only=true --benchmark_out="$build/start.json" --benchmark_out_format=json
 fi
 for program in "$folder"/bench_*; do
-  case "$program" in *.json | */bench_solve | */bench_step | */bench_motion | */bench_start) continue ;; esac
+  case "$program" in *.json | */bench_solve | */bench_step | */bench_lean | */bench_motion | */bench_start) continue ;; esac
   [ -x "$program" ] || continue
   found=1
   "$program" --benchmark_min_time=0.2 --benchmark_out="$program.json" --benchmark_out_format=json

@@ -15,6 +15,7 @@
 #include "../support/arguments.hpp"
 #include "../support/context.hpp"
 #include "../support/scenes.hpp"
+#include "bough/solve/visits.hpp"
 #include "bough/study/simulate.hpp"
 
 namespace {
@@ -65,10 +66,23 @@ scene::Scene make_scene(const StepCase& c, scene::SolverKind kind, int steps) {
   return s;
 }
 
-results::Summary simulate(const scene::Scene& s, int threads, const study::ProgressCallback& progress = {}) {
+/// What one factorization computes and what one solution reads: all factors once, L upward and U downward. 0: not the hierarchical solver's.
+struct Loads {
+  double factor_flops = 0.0, factor_bytes = 0.0;
+};
+
+results::Summary simulate(const scene::Scene& s, int threads, const study::ProgressCallback& progress = {},
+                          Loads* loads = nullptr) {
   NoRecorder recorder;
   study::SimulateOptions options;
   options.threads = threads;
+  options.after_run = [loads](step::System& system, const step::State&) {
+    if (loads == nullptr || system.solver().hierarchical() == nullptr) return;
+    loads->factor_flops = system.solver().counters().factor_flops;
+    const solve::VisitShapes shapes = solve::make_visit_shapes(
+        system.plan().graph, system.tree(), step::make_solve_options(system.plan(), scene::Solver{}));
+    for (const solve::VisitShape& v : shapes.visits) loads->factor_bytes += static_cast<double>(v.factor_bytes);
+  };
   return study::simulate(s, options, recorder, progress);
 }
 
@@ -78,14 +92,18 @@ void run_steps(benchmark::State& state, const StepCase& c, scene::SolverKind kin
                std::optional<results::Summary>& start) {
   const scene::Scene one = make_scene(c, kind, 1), all = make_scene(c, kind, c.steps + 1);
   results::Summary end;
+  Loads loads;
   while (state.KeepRunningBatch(c.steps)) {
     state.PauseTiming();
     if (!start) start = simulate(one, threads);
-    end = simulate(all, threads, [&](const results::Progress& p) {
-      if (p.step == 1) state.ResumeTiming();
-      if (p.step == c.steps + 1) state.PauseTiming();
-      return true;
-    });
+    end = simulate(
+        all, threads,
+        [&](const results::Progress& p) {
+          if (p.step == 1) state.ResumeTiming();
+          if (p.step == c.steps + 1) state.PauseTiming();
+          return true;
+        },
+        &loads);
     state.ResumeTiming();
     if (start->status != results::RunStatus::ok || end.status != results::RunStatus::ok || end.steps.rejected > 0) {
       state.SkipWithError(("the run failed or rejected steps: " + end.cause).c_str());
@@ -101,6 +119,14 @@ void run_steps(benchmark::State& state, const StepCase& c, scene::SolverKind kin
   state.counters["output_ms"] = 1e3 * per_step([](const S& s) { return s.times.output; });
   state.counters["iterations_a_step"] = per_step([](const S& s) { return s.steps.newton_iterations; });
   state.counters["factorizations_a_step"] = per_step([](const S& s) { return s.steps.factorizations; });
+  if (loads.factor_flops == 0.0) return;
+  const auto rate = [&](const char* of, double amount) {  // in CPU time; nothing where the phase takes none
+    const double seconds = 1e-3 * state.counters[of].value;
+    return seconds > 1e-9 ? 1e-9 * amount / seconds : 0.0;
+  };
+  state.counters["factor_gflops"] =
+      rate("factor_ms", loads.factor_flops * state.counters["factorizations_a_step"].value);
+  state.counters["solve_gbytes"] = rate("solve_ms", loads.factor_bytes * state.counters["iterations_a_step"].value);
 }
 
 void add_step_row(const std::string& solver, const StepCase& c, scene::SolverKind kind, int threads) {
