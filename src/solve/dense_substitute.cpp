@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "dense.hpp"
 #include "dense_tiles.hpp"
@@ -16,51 +17,73 @@ using tiles::store;
 using tiles::take_product;
 using tiles::width;
 
-constexpr int block = 4;  ///< columns that go together, so that a vector is read once for four
+constexpr int block = 8;  ///< most columns that go together: a vector is read once for all, and the memory is kept busy
 
-/// f[0, n) -= columns of a times y, four of them.
+/// Calls f with C = count as a constant, 1 <= count <= block.
+template <class F>
+void with_count(int count, F&& f) {
+  const auto pick = [&]<int... C>(std::integer_sequence<int, C...>) {
+    static_cast<void>(((C + 1 == count ? (f(std::integral_constant<int, C + 1>{}), true) : false) || ...));
+  };
+  pick(std::make_integer_sequence<int, block>{});
+}
+
+/// f[0, n) -= C columns of a times y.
+template <int C>
 void take_columns(int n, const double* a, std::ptrdiff_t lda, const double* y, double* f) {
-  const double *a0 = a, *a1 = a + lda, *a2 = a + 2 * lda, *a3 = a + 3 * lda;
-  const Lanes y0 = all(y[0]), y1 = all(y[1]), y2 = all(y[2]), y3 = all(y[3]);
+  Lanes factor[C];
+  for (int c = 0; c < C; ++c) factor[c] = all(y[c]);
   int i = 0;
   for (; i + width <= n; i += width) {
     Lanes v = load(f + i);
-    v = take_product(load(a0 + i), y0, v);
-    v = take_product(load(a1 + i), y1, v);
-    v = take_product(load(a2 + i), y2, v);
-    store(f + i, take_product(load(a3 + i), y3, v));
+    for (int c = 0; c < C; ++c) v = take_product(load(a + c * lda + i), factor[c], v);
+    store(f + i, v);
   }
-  for (; i < n; ++i) {
-    double v = take_product(a0[i], y[0], f[i]);
-    v = take_product(a1[i], y[1], v);
-    v = take_product(a2[i], y[2], v);
-    f[i] = take_product(a3[i], y[3], v);
-  }
+  for (; i < n; ++i)
+    for (int c = 0; c < C; ++c) f[i] = take_product(a[c * lda + i], y[c], f[i]);
 }
 
 /// f[0, n) -= a y, k columns.
 void take_product_with(int n, int k, const double* a, std::ptrdiff_t lda, const double* y, double* f) {
-  int j = 0;
-  for (; j + block <= k; j += block) take_columns(n, a + j * lda, lda, y + j, f);
-  for (; j < k; ++j) tiles::take_column(n, a + j * lda, y[j], f);
+  for (int j = 0; j < k; j += block)
+    with_count(std::min(block, k - j),
+               [&](auto count) { take_columns<decltype(count)::value>(n, a + j * lda, lda, y + j, f); });
 }
 
-/// Eight partial sums, whatever the width of the registers.
-double sum_products(int n, const double* a, const double* x) {
+/// Products of C columns with x, each in eight partial sums, whatever the width of the registers: columns that go together keep the memory busy.
+template <int C>
+void sum_products(int n, const double* a, std::ptrdiff_t lda, const double* x, double* to) {
   constexpr int registers = 8 / width;
-  Lanes sum[registers] = {};
+  Lanes sum[C][registers] = {};
   int i = 0;
   for (; i + 8 <= n; i += 8)
-    for (int r = 0; r < registers; ++r) sum[r] = add_product(load(a + i + r * width), load(x + i + r * width), sum[r]);
-  double parts[8];
-  for (int r = 0; r < registers; ++r) store(parts + r * width, sum[r]);
-  for (int l = 0; i < n; ++i, ++l) parts[l] = add_product(a[i], x[i], parts[l]);
-  return ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]));
+    for (int r = 0; r < registers; ++r) {
+      const Lanes xr = load(x + i + r * width);
+      for (int c = 0; c < C; ++c) sum[c][r] = add_product(load(a + c * lda + i + r * width), xr, sum[c][r]);
+    }
+  for (int c = 0; c < C; ++c) {
+    double parts[8];
+    for (int r = 0; r < registers; ++r) store(parts + r * width, sum[c][r]);
+    for (int k = i, l = 0; k < n; ++k, ++l) parts[l] = add_product(a[c * lda + k], x[k], parts[l]);
+    to[c] = ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]));
+  }
 }
 
 /// x[0, k) = L11^-T (x - L21^T x_B), L unit lower, its n rows in the first k columns of a.
 void substitute_transposed(int n, int k, const double* a, std::ptrdiff_t lda, double* x) {
-  for (int j = k; j-- > 0;) x[j] -= sum_products(n - j - 1, a + j * lda + j + 1, x + j + 1);
+  for (int end = k; end > 0;) {
+    const int count = (end - 1) % block + 1, begin = end - count;
+    const double* const first = a + begin * lda;
+    double product[block];
+    with_count(count, [&](auto columns) {
+      sum_products<decltype(columns)::value>(n - end, first + end, lda, x + end, product);
+    });
+    for (int j = count; j-- > 0;) {
+      x[begin + j] -= product[j];
+      for (int i = 0; i < j; ++i) product[i] = add_product(first[i * lda + begin + j], x[begin + j], product[i]);
+    }
+    end = begin;
+  }
 }
 
 }  // namespace
@@ -111,7 +134,11 @@ void substitute_backward(const FrontMatrix& front, int pivots, double* x) {
 
 void substitute_backward_left(const FrontMatrix& front, int pivots, double* z) {
   const FrontParts v(front);
-  for (int k = pivots; k-- > 0;) z[k] = -sum_products(v.size - k - 1, v.a + k * v.lda + k + 1, z + k + 1);
+  for (int k = pivots; k-- > 0;) {
+    double product = 0.0;
+    sum_products<1>(v.size - k - 1, v.a + k * v.lda + k + 1, v.lda, z + k + 1, &product);
+    z[k] = -product;
+  }
 }
 
 }  // namespace bough::solve
