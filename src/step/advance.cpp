@@ -143,7 +143,7 @@ StepReport try_step(System& system, State& state, const StepOptions& options, co
   report = iterate(system, state, options, step.rule.slopes(), [&](State& s) { return step.follow(system, s); });
   if (!report.converged) return fail({report.cause});
   if (in_plane) system.planar_step()->leave(step.start, state, system.walker());
-  if (const auto t = check_shape(system, state)) return fail(*t);
+  if (const auto t = in_plane ? check_shape_in_plane(system, state) : check_shape(system, state)) return fail(*t);
   note_trend(system, step.start, state);
   system.recover_multipliers(state);
   return report;

@@ -1,9 +1,9 @@
 #include "newton.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 
+#include "planar_step.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -124,9 +124,23 @@ bool is_folded(const E& e, const elements::Field& f) {
     const motion::Mat3<double> other = rotation_of(f, e.ports[i]);
     double trace = 0.0;
     for (int k = 0; k < 9; ++k) trace += first.m[k] * other.m[k];
-    if (0.5 * (trace - 1.0) < -0.95) return true;
+    if (0.5 * (trace - 1.0) < folded) return true;
   }
   return false;
+}
+
+}  // namespace
+
+namespace {
+
+/// The trouble with the first bad element.
+std::optional<Trouble> describe_shape(const System& system, std::int64_t bad) {
+  const plan::Plan& plan = system.plan();
+  if (bad == static_cast<std::int64_t>(plan.directory.size())) return std::nullopt;
+  const std::string& owner = plan.element_owner[static_cast<std::size_t>(bad)];
+  if (system.joint_of_element(static_cast<int>(bad)) >= 0)
+    return Trouble{"joint '" + owner + "' flipped to the opposite pose within one step"};
+  return Trouble{"an element of beam '" + owner + "' bends by nearly half a turn; use more elements"};
 }
 
 }  // namespace
@@ -135,29 +149,31 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
   const plan::Plan& plan = system.plan();
   const elements::Field f = system.field(state);
   const auto count = static_cast<std::int64_t>(plan.directory.size());
-  std::atomic<std::int64_t> first_bad = count;
-  const auto note = [&first_bad](std::int64_t id) {
-    std::int64_t known = first_bad.load(std::memory_order_relaxed);
-    while (id < known && !first_bad.compare_exchange_weak(known, id, std::memory_order_relaxed)) {
-    }
-  };
+  FirstBad first_bad(count);
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t id = begin; id < end; ++id)
       plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
         if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>) {
-          if (is_flipped(e, f)) note(id);
+          if (is_flipped(e, f)) first_bad.note(id);
         } else if constexpr (requires { e.reference_strain; }) {
-          if (is_folded(e, f)) note(id);
+          if (is_folded(e, f)) first_bad.note(id);
         }
       });
   };
   system.walker().for_each_chunk(count, element_grain, tree::make_chunk(by_element));
-  if (first_bad == count) return std::nullopt;
-  const auto bad = static_cast<std::size_t>(first_bad.load());
-  const std::string& owner = plan.element_owner[bad];
-  if (system.joint_of_element(static_cast<int>(bad)) >= 0)
-    return Trouble{"joint '" + owner + "' flipped to the opposite pose within one step"};
-  return Trouble{"an element of beam '" + owner + "' bends by nearly half a turn; use more elements"};
+  return describe_shape(system, first_bad.get());
+}
+
+std::optional<Trouble> check_shape_in_plane(const System& system, const State& state) {
+  const plan::Plan& plan = system.plan();
+  const elements::Field f = system.field(state);
+  FirstBad first_bad(system.planar_step()->first_folded(system.walker()));
+  for (const int id : system.planar_step()->joints_with_angles())
+    plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
+        if (is_flipped(e, f)) first_bad.note(id);
+    });
+  return describe_shape(system, first_bad.get());
 }
 
 void accept_turns(const System& system, State& state) {

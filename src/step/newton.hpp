@@ -44,6 +44,9 @@ bool is_closed(const System& system, const ResidualSize& r, double tolerance);
 /// Whether what is left of a residual above the tolerance may be round-off.
 bool is_at_floor(const System& system, const State& state, const ResidualSize& r, double tolerance);
 
+/// check_shape of a state that the PlanarStep has just left: beams by its nodes, and of joints only those that could flip.
+std::optional<Trouble> check_shape_in_plane(const System& system, const State& state);
+
 /// Names the part of the residual that is worst, for a message.
 std::string describe(System& system, const ResidualSize& r, double tolerance);
 

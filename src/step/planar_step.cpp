@@ -110,6 +110,13 @@ PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::
     : plan_(plan), system_(system), node_begin_(node_begin), pairs_(pairs), starts_(plan.nodes.size()) {
   chunk_max_.resize((pairs.size() + pair_grain - 1) / pair_grain);
   turn_max_.resize((starts_.size() + block_grain - 1) / block_grain);
+  for (std::size_t id = 0; id < plan.directory.size(); ++id)
+    plan::with_element(plan.planar->elements, plan.directory[id], [&](const auto& e) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::planar::Joint>)
+        if (std::any_of(e.rows, e.rows + e.num_rows,
+                        [](const auto& row) { return row.kind != elements::RowKind::along; }))
+          joints_with_angles_.push_back(static_cast<int>(id));
+    });
 }
 
 void PlanarStep::enter(const State& start, const AlphaRule& rule, const tree::Walker& walker) {
@@ -234,6 +241,29 @@ int PlanarStep::turned_beyond(double angle) const {
   const auto far = std::find_if(nodes.begin(), nodes.end(),
                                 [angle](const elements::planar::Node& n) { return std::abs(n.dq[2]) > angle; });
   return far == nodes.end() ? -1 : static_cast<int>(far - nodes.begin());
+}
+
+std::int64_t PlanarStep::first_folded(const tree::Walker& walker) const {
+  const auto count = static_cast<std::int64_t>(plan_.directory.size());
+  FirstBad first_bad(count);
+  const std::vector<elements::planar::Node>& nodes = system_.nodes();
+  const auto turn_of = [&nodes](const elements::planar::Port& p) {
+    if (p.node == elements::ground) return p.turn;
+    const Vec2<double>& node = nodes[static_cast<std::size_t>(p.node)].turn;
+    return p.has_offset ? motion::complex_times(node, p.turn) : node;
+  };
+  auto by_element = [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t id = begin; id < end; ++id)
+      plan::with_element(plan_.planar->elements, plan_.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
+        if constexpr (requires { e.reference_strain; }) {
+          const Vec2<double> first = turn_of(e.ports[0]);
+          for (int i = 1; i < std::decay_t<decltype(e)>::num_ports; ++i)
+            if (lanes::dot(first, turn_of(e.ports[i])) < folded) return first_bad.note(id);
+        }
+      });
+  };
+  walker.for_each_chunk(count, element_grain, tree::make_chunk(by_element));
+  return first_bad.get();
 }
 
 void PlanarStep::leave(const State& start, State& state, const tree::Walker& walker) {

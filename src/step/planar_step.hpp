@@ -33,6 +33,10 @@ class PlanarStep {
   double apply(const double* x, const tree::Walker& walker);
   /// A node that turns further than `angle` [rad] in the step, or -1.
   int turned_beyond(double angle) const;
+  /// The first element that is a beam folded as check_shape forbids, or the number of elements.
+  std::int64_t first_folded(const tree::Walker& walker) const;
+  /// Joints that can flip in the plane, as elements. All others have no rows of angles there.
+  const std::vector<int>& joints_with_angles() const { return joints_with_angles_; }
   /// Writes the nodes of `state`, which is the end of the step from `start`.
   void leave(const State& start, State& state, const tree::Walker& walker);
   void abandon() { is_under_way_ = false; }
@@ -61,6 +65,7 @@ class PlanarStep {
   const std::vector<NodePair>& pairs_;
   AlphaRule rule_{};
   std::vector<StartNode<double>> starts_;
+  std::vector<int> joints_with_angles_;
   std::vector<double> chunk_max_;  ///< of increments, by chunk of pairs
   std::vector<double> turn_max_;   ///< of |dq_w|, by chunk of nodes [rad]
   bool is_under_way_ = false;

@@ -273,7 +273,9 @@ void System::note_service(int solutions) {
 
 std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slopes) {
   PhaseTimer timer{clock_, counts_.factor};
-  if (rescale || !has_factor(slopes)) solver_->rescale();
+  const bool is_like_the_last = !rescale && has_factor(slopes);
+  if (!is_like_the_last) solver_->rescale();
+  const bool was_trusted = is_trusted_ && is_like_the_last && last_solution_.backward_error <= 1e-15;
   is_factored_ = is_trusted_ = false;
   contraction_ = 1.0;
   service_cost_ = renewal_cost_;
@@ -288,6 +290,7 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
                        "' do not hold it on all sides there"};
     factored_ = slopes;
     is_factored_ = is_of_matrices_ = true;
+    is_trusted_ = was_trusted && status.delayed_pivots == 0 && status.deficiency == 0;
     return std::nullopt;
   }
   if (status.outcome == solve::FactorOutcome::not_finite) return Trouble{"a tangent is not finite"};

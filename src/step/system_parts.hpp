@@ -1,5 +1,6 @@
 #pragma once
 /// Shared by the files of System.
+#include <atomic>
 #include <cstdint>
 
 #include "bough/step/system.hpp"
@@ -11,6 +12,24 @@ inline constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of 
 inline constexpr std::int64_t element_grain = 256, block_grain = 64, pair_grain = 128, batch_grain = 8;
 
 inline constexpr int least_lanes = 3;  ///< elements that are evaluated as eight
+
+inline constexpr double folded =
+    -0.95;  ///< cosine of the angle between the ends of a beam element, below which it is bent too far
+
+/// The smallest of the numbers that threads note.
+class FirstBad {
+ public:
+  explicit FirstBad(std::int64_t none) : first_(none) {}
+  void note(std::int64_t id) {
+    std::int64_t known = first_.load(std::memory_order_relaxed);
+    while (id < known && !first_.compare_exchange_weak(known, id, std::memory_order_relaxed)) {
+    }
+  }
+  std::int64_t get() const { return first_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::int64_t> first_;
+};
 
 inline constexpr double too_far = 1e100;  ///< a change whose square may not be finite: the iteration is lost
 

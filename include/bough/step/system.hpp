@@ -117,8 +117,8 @@ class System {
   /// as many solutions as the steps since it was made cost on average, the factor included: to go on would raise that average.
   void note_service(int solutions);
   bool is_factor_worn() const { return is_worn_; }
-  /// x <- A^-1 rhs. check: false: its backward error may be left out, but for every 32nd solution, where one with the same factor was found good;
-  /// then last_solution() stays that of the last check.
+  /// x <- A^-1 rhs. check: false: its backward error may be left out, but for every 32nd solution, where one with this factor, or one before it with the same
+  /// scales and slopes, was found good (the latter with a digit to spare) and no pivot had to wait since; then last_solution() stays that of the last check.
   [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x, bool check = true);
   /// y <- A x with the element matrices now present.
   void multiply(const double* x, double* y);
@@ -274,7 +274,7 @@ class System {
   bool is_of_matrices_ = false;  ///< the factor is that of the tangents evaluated last
   static constexpr int check_every = 32;
   int unchecked_ = 0;        ///< solutions since the last that was checked
-  bool is_trusted_ = false;  ///< the present factor gave a solution that needed no refinement
+  bool is_trusted_ = false;  ///< the present factor, or one like it, gave a solution that needed no refinement
   double contraction_ = 1.0;
   double renewal_cost_ = 0.0;
   double service_cost_ = 0.0;  ///< of the present factor: renewal_cost and the solutions of all iterations since
