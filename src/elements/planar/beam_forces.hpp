@@ -60,11 +60,11 @@ void eval_beam_rates(const Beam<N, C>& e, const PortMotion<S>* p, const Surround
   }
 }
 
-/// Strain L e + ... at a point of integration: n = C (T y / L - e0) + D (T y / L)'.
+/// At a point of integration of strains: n = C (T y / L - e0) + D (T y / L)', with y = d'(s).
 template <class S>
 struct StrainPoint {
   PlaneMotion<S> T;
-  Vec3<S> y, d1, y1, n;  ///< d d/ds; rates of d and of y; sectional forces
+  Vec3<S> y, d1, y1, n;  ///< y; rates of d and of y; sectional force
 };
 template <class S, int N, class C>
 void eval_strain_point(const Beam<N, C>& e, const BeamRates<S, N>& b, bool viscous, const ShapeRule<N, N - 1>& rule,

@@ -4,7 +4,7 @@
 
 namespace bough::elements::planar {
 
-/// y -> (c y_u + t y_w; b y_w), and its upper rows alone: a map into displacements.
+/// y -> c y_u + t y_w, a map into displacements, and y -> (c y_u + t y_w; b y_w).
 template <class S>
 struct UpperRows {
   Vec2<S> c, t;
@@ -31,7 +31,7 @@ BOUGH_INLINE Vec2<S> subtract_complex(const Vec2<S>& x, const Vec2<S>& a, const 
   return {{multiply_add(a[1], b[1], negative_multiply_add(a[0], b[0], x[0])),
            negative_multiply_add(a[1], b[0], negative_multiply_add(a[0], b[1], x[1]))}};
 }
-/// x + a b, a a real number or a pair of one with each part.
+/// The same of a real number a.
 template <class A, class S>
 BOUGH_INLINE Vec2<S> add_scaled(const Vec2<S>& x, const A& a, const Vec2<S>& b) {
   using lanes::multiply_add;
@@ -90,13 +90,13 @@ template <class S>
 BOUGH_INLINE PlaneMap<S> inverse_map(const Vec2<S>& h, const Vec2<S>& ku) {
   return {conjugate(h), -motion::conjugate_times(h, ku), S(1.0)};
 }
-/// The latter of a motion that is no logarithm: with 1/f = conj(f) / |f|^2 and |f|^2 = 2 c_2, half the sum of nothing but its own series.
+/// T(d)^-1 of a motion that is no logarithm. Its h comes from the series at hand: 1/f = conj(f) / |f|^2, |f|^2 = 2 c_2, f = (c_1, theta c_2).
 template <class S>
 BOUGH_INLINE PlaneMap<S> inverse_tangent_map(const Vec3<S>& d) {
   const PlaneMotion<S> m(d);
   return inverse_map(Vec2<S>{{0.5 * m.series.f[0] / m.series.k[1], -0.5 * m.theta}}, m.ku);
 }
-/// ad(d), ad(d) x and what ad(v) makes of a further increment, a ad(v).
+/// ad(d), ad(d) x and a ad(v).
 template <class S>
 BOUGH_INLINE PlaneMap<S> bracket_map(const Vec3<S>& d) {
   const S o(0.0);
