@@ -3,8 +3,10 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bough/elements/evaluate_lanes.hpp"
+#include "bough/elements/planar/evaluate.hpp"
 
 namespace {
 
@@ -135,6 +137,72 @@ void lanes(benchmark::State& state, const E& element) {
   set_rate(state, num_lanes);
 }
 
+/// A planar beam between nodes in motion, bent.
+template <int N>
+struct PlanarCase {
+  planar::Beam<N> beam;
+  planar::Node nodes[N];
+  explicit PlanarCase(bool is_damped) {
+    beam.length = 0.25;
+    beam.stiffness = plane_diagonal({{8.4e7, 2.7e7, 2.8e3}});
+    beam.damping = is_damped ? plane_diagonal({{8.4e3, 2.7e3, 0.28}}) : Mat3<double>::zero();
+    beam.mass = plane_diagonal({{3.14, 3.14, 1e-4}});
+    beam.has_mass = true;
+    beam.has_damping = is_damped;
+    for (auto& strain : beam.reference_strain) strain = {{1, 0, 0}};
+    for (int k = 0; k < N; ++k) {
+      const double s = static_cast<double>(k) / (N - 1);
+      beam.ports[k].node = k;
+      nodes[k] = {{{std::cos(0.03 * s), std::sin(0.03 * s)}},
+                  {{{0.25 * s, 0.002 * s}}, {{0, 0}}},
+                  {{1, 2, 0.3}},
+                  {{3, 2, 0.2}},
+                  {{1e-3, 2e-3, 1e-4}}};
+    }
+  }
+  static Mat3<double> plane_diagonal(const Vec3<double>& d) { return {{d[0], 0, 0, 0, d[1], 0, 0, 0, d[2]}}; }
+};
+
+template <int N>
+void planar_alone(benchmark::State& state, const PlanarCase<N>& c) {
+  const bool with_tangent = state.range(1) != 0;
+  const planar::Field field{c.nodes, {{{0, -9.81}}, nullptr, state.range(0) != 0}, slopes};
+  constexpr int n = 3 * N;
+  double residual[n], magnitude[n], tangent[n * n];
+  for (auto _ : state) {
+    planar::evaluate(c.beam, field, nullptr, 0.0, residual, magnitude, with_tangent ? tangent : nullptr);
+    benchmark::DoNotOptimize(residual);
+    benchmark::DoNotOptimize(tangent);
+  }
+  set_rate(state, 1);
+}
+
+template <int N>
+void planar_lanes(benchmark::State& state, const PlanarCase<N>& c) {
+  const bool with_tangent = state.range(1) != 0;
+  const planar::Beam<N>* elements[1] = {&c.beam};
+  int ports[N];
+  planar::NodeLanes nodes[N];
+  for (int k = 0; k < N; ++k) {
+    ports[k] = k;
+    const auto* from = reinterpret_cast<const double*>(&c.nodes[k]);
+    auto* to = reinterpret_cast<LanePack*>(&nodes[k]);
+    for (int i = 0; i < planar::numbers_of_node; ++i) to[i] = LanePack(from[i]);
+  }
+  const auto e = planar::make_lane_element(elements, 1, ports, 0);
+  const planar::FieldLanes field{nodes, {{{0.0, -9.81}}, nullptr, state.range(0) != 0}, slopes};
+  constexpr int n = 3 * N;
+  const LanePack turns(0.0);
+  LanePack residual[n], magnitude[n], tangent[n * n];
+  for (auto _ : state) {
+    planar::evaluate_lanes<planar::LaneElement<planar::Beam<N>>>(e, field, nullptr, turns, residual, magnitude,
+                                                                 with_tangent ? tangent : nullptr);
+    benchmark::DoNotOptimize(residual);
+    benchmark::DoNotOptimize(tangent);
+  }
+  set_rate(state, num_lanes);
+}
+
 }  // namespace
 
 #define BOUGH_BENCHMARK_ELEMENT(name, element)                                                              \
@@ -148,3 +216,11 @@ BOUGH_BENCHMARK_ELEMENT(spring, make_spring())
 BOUGH_BENCHMARK_ELEMENT(bushing, make_bushing())
 BOUGH_BENCHMARK_ELEMENT(revolute, make_revolute())
 BOUGH_BENCHMARK_ELEMENT(sprung_revolute, make_sprung_revolute())
+
+#define BOUGH_BENCHMARK_PLANAR(name, sample)                                                                      \
+  BENCHMARK_CAPTURE(planar_alone, name, sample)->ArgNames({"dynamic", "tangent"})->ArgsProduct({{0, 1}, {0, 1}}); \
+  BENCHMARK_CAPTURE(planar_lanes, name, sample)->ArgNames({"dynamic", "tangent"})->ArgsProduct({{0, 1}, {0, 1}});
+BOUGH_BENCHMARK_PLANAR(beam2, PlanarCase<2>(false))
+BOUGH_BENCHMARK_PLANAR(damped_beam2, PlanarCase<2>(true))
+BOUGH_BENCHMARK_PLANAR(beam3, PlanarCase<3>(false))
+BOUGH_BENCHMARK_PLANAR(beam4, PlanarCase<4>(false))

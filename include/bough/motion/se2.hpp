@@ -67,10 +67,10 @@ lanes::Jet<S, N> half_cotangent(const lanes::Jet<S, N>& x) {
   return lanes::chain(x, S(S(1.0) - x.a * k.k), S(-k.k - x.a * k.dk));
 }
 
-/// f and k at an angle, with their derivatives by it.
+/// f and k at an angle, with their first (d) and second (dd) derivatives by it.
 template <class S>
 struct PlaneSeries {
-  Vec2<S> f, k, df, dk;
+  Vec2<S> f, k, df, dk, ddf, ddk;
 };
 template <class S>
 PlaneSeries<S> eval_plane_series(const S& theta) {
@@ -79,8 +79,11 @@ PlaneSeries<S> eval_plane_series(const S& theta) {
   PlaneSeries<S> r;
   r.f = {{c[1], theta * c[2]}};
   r.k = {{theta * c[3], c[2]}};
-  r.df = {{theta * (c[3] - c[2]), c[1] - c[2]}};              // (theta c_2)' = c_1 - c_2
-  r.dk = {{c[2] - 2.0 * c[3], theta * (2.0 * c[4] - c[3])}};  // (theta c_3)' = c_2 - 2 c_3
+  // (theta c_n)' = c_{n-1} - (n - 1) c_n,  c_n' = theta (n c_{n+2} - c_{n+1})
+  r.df = {{theta * (c[3] - c[2]), c[1] - c[2]}};
+  r.dk = {{c[2] - 2.0 * c[3], theta * (2.0 * c[4] - c[3])}};
+  r.ddf = {{2.0 * (c[2] - c[3]) - c[1], theta * (2.0 * (c[3] - c[4]) - c[2])}};
+  r.ddk = {{theta * (4.0 * c[4] - 6.0 * c[5] - c[3]), 4.0 * c[3] - 6.0 * c[4] - c[2]}};
   return r;
 }
 

@@ -1,4 +1,4 @@
-#include "evaluate_impl.hpp"
+#include "lanes_impl.hpp"
 
 namespace bough::elements::planar {
 

@@ -1,5 +1,6 @@
 #pragma once
 /// Bodies of planar/evaluate.hpp; included in the files that instantiate them.
+#include "beam_tangent.hpp"
 #include "bough/elements/planar/evaluate.hpp"
 
 namespace bough::elements::planar {
@@ -146,29 +147,18 @@ void eval_magnitude(const E& e, const FieldOf<S>& field, const S* residual, S* m
   }
 }
 
+/// The tangent from the kernel's own source, run on jets.
 template <class E, class S>
-void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers, const S& turns, S* residual,
-                      S* tangent) {
+void eval_tangent_on_jets(const E& e, const FieldOf<S>& field, const S* multipliers, const S& turns, S* tangent) {
   constexpr int P = E::num_ports, D = 3 * P, most_rows = E::num_rows_at_most;
-  PortMotion<S> nodes[P], p[P];
-  const PairOf<S> anchor = *anchor_of(e, field.nodes);
-  for (int k = 0; k < P; ++k) {
-    p[k] = nodes[k] = node_motion(e, k, field, anchor);
-    if (e.ports[k].node != ground) apply_offset(e.ports[k], p[k]);
-  }
-  Vec3<S> out[P];
-  S rows[most_rows + 1];
-  eval_kernel<E, S, S>(e, p, multipliers, turns, field.around, out, rows);
-  gather<E, S>(e, out, rows, residual);
-  if (tangent == nullptr) return;
-
   using T = Jet<S, D>;
   const bool mass_only = field.slopes.mass_only, is_joint = most_rows > 0;
   const bool has_rates = field.around.has_inertia && looks_at_rates(e);
+  const PairOf<S> anchor = *anchor_of(e, field.nodes);
   PortMotion<T> moved[P];
   for (int k = 0; k < P; ++k) {
     const bool on_ground = e.ports[k].node == ground;
-    moved[k] = seeded<D>(nodes[k], field.nodes[on_ground ? 0 : e.ports[k].node], field.slopes,
+    moved[k] = seeded<D>(node_motion(e, k, field, anchor), field.nodes[on_ground ? 0 : e.ports[k].node], field.slopes,
                          !on_ground && (!mass_only || is_joint), !on_ground && has_rates, 3 * k);
     if (!on_ground) apply_offset(e.ports[k], moved[k]);
   }
@@ -192,6 +182,73 @@ void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers,
     for (int j = forces; j < n; ++j) tangent[i * n + j] = S(0.0);
 }
 
+/// How the ports of an element follow the unknowns of their nodes.
+template <class E, class S>
+void eval_port_slopes(const E& e, const FieldOf<S>& field, PortSlopes<S>* ports) {
+  const bool has_rates = field.around.has_inertia && looks_at_rates(e);
+  for (int k = 0; k < E::num_ports; ++k) {
+    const PortOf<S>& port = e.ports[k];
+    ports[k].moves = !field.slopes.mass_only;
+    if (port.node == ground || !has_rates || field.slopes.mass_only) {
+      ports[k].velocity = ports[k].acceleration = PlaneMap<S>::zero();
+      if (port.node != ground && has_rates) ports[k].acceleration.c[0] = ports[k].acceleration.b = S(1.0);
+      continue;
+    }
+    Vec3<S> dq = field.nodes[port.node].dq;
+    if (port.has_offset) dq = seen_from(port.turn, port.x, dq);
+    const PlaneMap<S> inverse = inverse_tangent_map(dq);
+    ports[k].velocity = scaled(field.slopes.velocity, inverse);
+    ports[k].acceleration = scaled(field.slopes.acceleration, inverse);
+  }
+}
+
+/// Elements whose tangents have a closed form.
+template <class E>
+inline constexpr bool has_closed_tangent = false;
+template <int N, class C>
+inline constexpr bool has_closed_tangent<Beam<N, C>> = true;
+
+/// Wrenches and blocks by ports' increments carried to the nodes, F_node = J^T F, K_node = J^T K J with J = Ad(offset^-1).
+template <class E, class S>
+void eval_closed_tangent(const E& e, const FieldOf<S>& field, const PortMotion<S>* p, Vec3<S>* out, S* tangent) {
+  constexpr int P = E::num_ports;
+  PortSlopes<S> ports[P];
+  eval_port_slopes(e, field, ports);
+  int to[P], n = 0;
+  for (int k = 0; k < P; ++k) to[k] = e.ports[k].node == ground ? -1 : 3 * n++;
+  const int size = 3 * n;
+  eval_tangent(e, p, ports, field.around, out, [&](int i, int j, Mat3<S> block) {
+    if (to[i] < 0 || to[j] < 0) return;
+    if (e.ports[j].has_offset) block = matrix_product(block, offset_map(e.ports[j]));
+    if (e.ports[i].has_offset) block = transposed_product(offset_map(e.ports[i]), block);
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) tangent[(to[i] + k) * size + to[j] + l] = block(k, l);
+  });
+}
+
+template <class E, class S>
+void evaluate_element(const E& e, const FieldOf<S>& field, const S* multipliers, const S& turns, S* residual,
+                      S* tangent) {
+  const PairOf<S> anchor = *anchor_of(e, field.nodes);
+  PortMotion<S> p[E::num_ports];
+  for (int k = 0; k < E::num_ports; ++k) {
+    p[k] = node_motion(e, k, field, anchor);
+    if (e.ports[k].node != ground) apply_offset(e.ports[k], p[k]);
+  }
+  Vec3<S> out[E::num_ports];
+  S rows[E::num_rows_at_most + 1];
+  if constexpr (has_closed_tangent<E>) {
+    if (tangent != nullptr) {
+      eval_closed_tangent(e, field, p, out, tangent);
+      return gather<E, S>(e, out, rows, residual);
+    }
+  }
+  eval_kernel<E, S, S>(e, p, multipliers, turns, field.around, out, rows);
+  gather<E, S>(e, out, rows, residual);
+  if constexpr (!has_closed_tangent<E>)
+    if (tangent != nullptr) eval_tangent_on_jets(e, field, multipliers, turns, tangent);
+}
+
 template <class E>
 void evaluate(const E& e, const Field& field, const double* multipliers, double turns, double* residual,
               double* magnitude, double* tangent) {
@@ -199,162 +256,4 @@ void evaluate(const E& e, const Field& field, const double* multipliers, double 
   eval_magnitude<E, double>(e, field, residual, magnitude);
 }
 
-/// Numbers that may differ between lanes, as visit(number of the first, number of the second).
-template <class A, class B, int N, class Visit>
-void visit_all(const lanes::Vec<A, N>& a, lanes::Vec<B, N>& b, const Visit& visit) {
-  for (int i = 0; i < N; ++i) visit(a[i], b[i]);
-}
-template <class A, class B, class Visit>
-void visit_all(const Mat3<A>& a, Mat3<B>& b, const Visit& visit) {
-  for (int i = 0; i < 9; ++i) visit(a.m[i], b.m[i]);
-}
-template <int N, class A, class B, class Visit>
-void visit_numbers(const Beam<N, A>& a, Beam<N, B>& b, const Visit& visit) {
-  visit(a.length, b.length);
-  visit_all(a.stiffness, b.stiffness, visit);
-  visit_all(a.damping, b.damping, visit);
-  visit_all(a.mass, b.mass, visit);
-  for (int g = 0; g < N - 1; ++g) visit_all(a.reference_strain[g], b.reference_strain[g], visit);
-}
-template <int N, class A, class B, class Visit>
-void visit_numbers(const LineLoad<N, A>& a, LineLoad<N, B>& b, const Visit& visit) {
-  visit(a.length, b.length);
-  visit_all(a.wrench, b.wrench, visit);
-}
-template <class A, class B, class Visit>
-void visit_numbers(const RigidBodyOf<A>& a, RigidBodyOf<B>& b, const Visit& visit) {
-  visit_all(a.mass, b.mass, visit);
-}
-template <class A, class B, class Visit>
-void visit_numbers(const PointLoadOf<A>& a, PointLoadOf<B>& b, const Visit& visit) {
-  visit_all(a.wrench, b.wrench, visit);
-}
-template <class A, class B, class Visit>
-void visit_numbers(const SpringOf<A>& a, SpringOf<B>& b, const Visit& visit) {
-  visit(a.stiffness, b.stiffness);
-  visit(a.rest_length, b.rest_length);
-  visit(a.damping, b.damping);
-}
-template <class A, class B, class Visit>
-void visit_numbers(const BushingOf<A>& a, BushingOf<B>& b, const Visit& visit) {
-  visit_all(a.stiffness, b.stiffness, visit);
-  visit_all(a.damping, b.damping, visit);
-  visit_all(a.rest, b.rest, visit);
-}
-template <class A, class B, class Visit>
-void visit_numbers(const JointOf<A>& a, JointOf<B>& b, const Visit& visit) {
-  for (int k = 0; k < a.num_rows; ++k) visit_all(a.rows[k].d, b.rows[k].d, visit);
-  for (int k = 0; k < a.num_efforts; ++k) {
-    visit_all(a.efforts[k].d, b.efforts[k].d, visit);
-    visit(a.efforts[k].effort.stiffness, b.efforts[k].effort.stiffness);
-    visit(a.efforts[k].effort.rest, b.efforts[k].effort.rest);
-    visit(a.efforts[k].effort.damping, b.efforts[k].effort.damping);
-  }
-}
-
-/// Terms that an element has, the same for all lanes: whether two agree, and a copy with the laws renumbered from `law` on.
-template <class E>
-bool is_same_kind(const E& a, const E& b) {
-  if constexpr (requires { a.is_point; })
-    return a.is_point == b.is_point;
-  else if constexpr (requires { a.has_mass; })
-    return a.has_damping == b.has_damping && a.has_mass == b.has_mass;
-  else if constexpr (requires { a.has_damping; })
-    return a.has_damping == b.has_damping;
-  else if constexpr (requires { a.follows; })
-    return a.follows == b.follows;
-  else if constexpr (E::num_rows_at_most > 0) {
-    if (a.num_rows != b.num_rows || a.num_efforts != b.num_efforts) return false;
-    for (int k = 0; k < a.num_rows; ++k)
-      if (a.rows[k].kind != b.rows[k].kind || (a.rows[k].law < 0) != (b.rows[k].law < 0)) return false;
-    for (int k = 0; k < a.num_efforts; ++k)
-      if (a.efforts[k].coordinate != b.efforts[k].coordinate ||
-          (a.efforts[k].effort.law < 0) != (b.efforts[k].effort.law < 0))
-        return false;
-    return true;
-  } else
-    return true;
-}
-template <class A, class B>
-void set_kind(const A& a, B& b, int law) {
-  if constexpr (requires { a.is_point; }) b.is_point = a.is_point;
-  if constexpr (requires { a.has_mass; }) b.has_mass = a.has_mass;
-  if constexpr (requires { a.has_damping; }) b.has_damping = a.has_damping;
-  if constexpr (requires { a.follows; }) {
-    b.follows = a.follows;
-    b.law = law;
-  }
-  if constexpr (A::num_rows_at_most > 0) {
-    b.num_rows = a.num_rows;
-    b.num_efforts = a.num_efforts;
-    for (int k = 0; k < a.num_rows; ++k) {
-      b.rows[k].kind = a.rows[k].kind;
-      b.rows[k].law = a.rows[k].law < 0 ? -1 : law++;
-    }
-    for (int k = 0; k < a.num_efforts; ++k) {
-      b.efforts[k].coordinate = a.efforts[k].coordinate;
-      b.efforts[k].effort.coordinate = a.efforts[k].coordinate;
-      b.efforts[k].effort.law = a.efforts[k].effort.law < 0 ? -1 : law++;
-    }
-  }
-}
-
-template <class E>
-bool may_share_lanes(const E& a, const E& b) {
-  for (int k = 0; k < E::num_ports; ++k)
-    if ((a.ports[k].node == ground) != (b.ports[k].node == ground) || a.ports[k].has_offset != b.ports[k].has_offset)
-      return false;
-  return is_same_kind(a, b);
-}
-
-template <class E>
-bool has_same_numbers(const E& a, const E& b) {
-  if (!may_share_lanes(a, b)) return false;
-  bool is_same = true;
-  E to = b;
-  const auto compare = [&is_same](double x, double y) { is_same = is_same && x == y; };
-  for (int k = 0; k < E::num_ports; ++k) {
-    visit_all(a.ports[k].turn, to.ports[k].turn, compare);
-    visit_all(a.ports[k].x, to.ports[k].x, compare);
-  }
-  visit_numbers(a, to, compare);
-  return is_same;
-}
-
-template <class E>
-LaneElement<E> make_lane_element(const E* const* elements, int count, const int* nodes, int first_law) {
-  LaneElement<E> r;
-  set_kind(*elements[0], r, first_law);
-  for (int k = 0; k < E::num_ports; ++k) {
-    r.ports[k].node = elements[0]->ports[k].node == ground ? ground : nodes[k];
-    r.ports[k].has_offset = elements[0]->ports[k].has_offset;
-  }
-  for (int lane = 0; lane < num_lanes; ++lane) {
-    const E& e = *elements[lane < count ? lane : count - 1];
-    const auto set = [lane](double from, LanePack& to) { to.set(lane, from); };
-    for (int k = 0; k < E::num_ports; ++k) {
-      visit_all(e.ports[k].turn, r.ports[k].turn, set);
-      visit_all(e.ports[k].x, r.ports[k].x, set);
-    }
-    visit_numbers(e, r, set);
-  }
-  return r;
-}
-
-template <class E>
-void evaluate_lanes(const E& e, const FieldLanes& field, const LanePack* multipliers, const LanePack& turns,
-                    LanePack* residual, LanePack* magnitude, LanePack* tangent) {
-  evaluate_element<E, LanePack>(e, field, multipliers, turns, residual, tangent);
-  if (magnitude != nullptr) eval_magnitude<E, LanePack>(e, field, residual, magnitude);
-}
-
 }  // namespace bough::elements::planar
-
-/// Instantiates all forms of one element type.
-#define BOUGH_INSTANTIATE_PLANAR(E)                                                                                   \
-  template void evaluate(const E&, const Field&, const double*, double, double*, double*, double*);                   \
-  template bool may_share_lanes(const E&, const E&);                                                                  \
-  template bool has_same_numbers(const E&, const E&);                                                                 \
-  template LaneElement<E> make_lane_element(const E* const*, int, const int*, int);                                   \
-  template void evaluate_lanes(const LaneElement<E>&, const FieldLanes&, const LanePack*, const LanePack&, LanePack*, \
-                               LanePack*, LanePack*);

@@ -1,6 +1,6 @@
 #pragma once
 /// From planar nodes to residuals and tangents in three unknowns a node, alone and eight at a time: as evaluate.hpp and
-/// evaluate_lanes.hpp, tangents from the residual's own source run on jets.
+/// evaluate_lanes.hpp, tangents of beams in closed form, of all else from the residual's own source run on jets.
 #include "bough/elements/evaluate_lanes.hpp"
 #include "bough/elements/planar/kernels.hpp"
 
