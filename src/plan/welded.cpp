@@ -208,8 +208,8 @@ class Welder {
       if (goes_[j]) tie(j);
   }
 
-  /// The node of a part where most elements meet, the first of these: they keep their ports as they are, offsets cost a little in every evaluation.
-  /// Bodies do not count, their masses become those of the node.
+  /// The node of a part where most elements and joints of it meet, the first of these: their ports stay as they are, and hubs of one kind look alike to
+  /// lanes. Bodies do not count, their masses become those of the node.
   void choose_roots() {
     std::vector<std::size_t> meets(plan_.nodes.size(), 0), best(plan_.nodes.size(), none);
     for_each_other([&](const auto& e, const std::string&) {
@@ -217,6 +217,9 @@ class Welder {
         for (const Port& p : e.ports)
           if (p.node != elements::ground) ++meets[static_cast<std::size_t>(p.node)];
     });
+    for (std::size_t j = 0; j < goes_.size(); ++j)
+      if (goes_[j])
+        for (const Port& p : joint(j).ports) ++meets[static_cast<std::size_t>(p.node)];
     for (std::size_t n = 0; n < meets.size(); ++n)
       if (std::size_t& root = best[parts_.of(n)]; root == none || meets[n] > meets[root]) root = n;
     for (std::size_t n = 0; n < meets.size(); ++n) {
