@@ -208,6 +208,28 @@ TEST(WeldedNodes, stay_in_the_plane_and_may_be_symmetric_about_it_together) {
   EXPECT_TRUE(pair.took("planar")) << test::decision_of(pair, "planar").reason;
 }
 
+/// Beams lie on a line: their plane is that of the lump, which has no node.
+TEST(WeldedNodes, stay_in_an_oblique_plane_that_only_their_offsets_tell) {
+  const auto oblique = [](Scene& s) {
+    s.without.clear();
+    s.joints.erase(s.joints.begin());
+    const motion::Mat3<double> axes{{0, 1, 0, -0.8, 0, 0.6, 0.6, 0, 0.8}};  // the first along the normal
+    for (scene::Joint& j : s.joints) j.first.offset = j.second.offset = {axes, Vec3<double>::zero()};
+    s.joints.back().first.offset.x = {{0.0, 0.3, 0.4}};
+    s.gravity = {{0.0, -6.0, -8.0}};
+    s.bodies[0].placement.pose.x = {{3.0, 0.3, 0.4}};
+    for (int i = 0; i < 3; ++i) s.bodies[0].inertia(i, i) = 0.1;
+  };
+  const Plan without = plan_of([&](Scene& s) {
+    oblique(s);
+    s.without = {"welded"};
+  });
+  EXPECT_TRUE(without.took("planar")) << test::decision_of(without, "planar").reason;
+  const Plan p = plan_of(oblique);
+  EXPECT_TRUE(welded(p).taken);
+  EXPECT_TRUE(p.took("planar")) << test::decision_of(p, "planar").reason;
+}
+
 TEST(WeldedNodes, are_held_where_one_of_them_is) {
   const Plan p = plan_of([](Scene& s) {
     scene::Joint clamp = test::joint_to_ground(scene::JointKind::fixed, "lump");

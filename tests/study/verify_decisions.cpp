@@ -386,5 +386,48 @@ TEST(WeldedBodies, tumble_as_the_one_body_they_are) {
   EXPECT_LT(found.summary.checks.energy_balance, 1e-4 * found.summary.checks.energy_scale);
 }
 
+/// The last picture of a run.
+class LastPicture final : public results::Recorder {
+ public:
+  void begin(const results::HistoryHeader&) override {}
+  void row(const results::HistoryRow&) override {}
+  void motion(const results::MotionFrame& f) override { frame = f; }
+  void end(const results::Summary&) override {}
+  results::MotionFrame frame;
+};
+
+TEST(WeldedBodies, are_shown_as_the_bodies_they_are) {
+  scene::Scene s =
+      support::scene_of(frame_scene(true, "", R"json(, "analysis": {"kind": "dynamic", "end_time": 0.02})json"));
+  s.output.motion = true;
+  LastPicture with, without;
+  ASSERT_EQ(study::simulate(s, {}, with).status, results::RunStatus::ok);
+  s.without.push_back("welded");
+  ASSERT_EQ(study::simulate(s, {}, without).status, results::RunStatus::ok);
+  const auto expect_near = [](const auto& a, const auto& b, const std::string& what) {
+    for (std::size_t i = 0; i < std::size(a); ++i) EXPECT_NEAR(a[i], b[i], 1e-8) << what;
+  };
+  const std::vector<results::BodyPose>&a = with.frame.bodies, &b = without.frame.bodies;
+  ASSERT_EQ(a.size(), 3u);
+  ASSERT_EQ(b.size(), 3u);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].name, b[i].name);
+    expect_near(a[i].position, b[i].position, a[i].name);
+    expect_near(a[i].center, b[i].center, a[i].name);
+    expect_near(a[i].axes, b[i].axes, a[i].name);
+    ASSERT_EQ(a[i].attachments.size(), b[i].attachments.size());
+    for (std::size_t k = 0; k < a[i].attachments.size(); ++k)
+      expect_near(a[i].attachments[k], b[i].attachments[k], a[i].name);
+  }
+  ASSERT_EQ(with.frame.links.size(), without.frame.links.size());
+  for (const results::Link& link : without.frame.links) {
+    const auto same = std::find_if(with.frame.links.begin(), with.frame.links.end(),
+                                   [&](const results::Link& other) { return other.name == link.name; });
+    ASSERT_NE(same, with.frame.links.end()) << link.name;
+    expect_near(same->first, link.first, link.name);
+    expect_near(same->second, link.second, link.name);
+  }
+}
+
 }  // namespace
 }  // namespace bough::study
