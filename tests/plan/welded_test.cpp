@@ -347,6 +347,24 @@ TEST(WeldedNodes, are_not_taken_where_a_loop_of_joints_shares_a_load_that_is_ask
               })).taken);
 }
 
+TEST(WeldedNodes, beside_such_a_loop_are_taken) {
+  const Plan p = plan_of([](Scene& s) {
+    for (std::size_t l : {1u, 2u}) s.joints[l].kind = scene::JointKind::revolute;
+    for (const char* node : {"lump", "b2"}) {
+      s.joints.push_back(test::joint_to_ground(scene::JointKind::spherical, node));
+      s.joints.back().first.offset.x = {{3.0, 0.0, node[0] == 'l' ? -0.5 : 0.0}};
+    }
+    s.bodies.push_back(body("knob", {{3.0, 0.4, -0.5}}));
+    s.joints.push_back(fixed("stud", "lump", "knob"));
+    s.joints.back().first.offset.x = {{0.0, 0.4, 0.0}};
+    s.sensors.push_back(reaction_of("to ground of b2"));
+  });
+  EXPECT_EQ(
+      welded(p).reason,
+      "'knob' becomes part of 'lump': 1 node and 1 fixed joint are left out; not joint 'hold': it is in a loop with "
+      "'to ground of b2', whose reaction is asked for: rows may share a load");
+}
+
 /// A loop that does not close is that of its joints' rows alone; a part beside it is taken all the same.
 TEST(WeldedNodes, leave_a_loop_that_does_not_close_as_it_is) {
   const Plan p = plan_of([](Scene& s) {

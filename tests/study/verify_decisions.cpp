@@ -256,8 +256,6 @@ TEST_P(EveryWeldedScene, has_the_same_results_without_the_decision) {
   EXPECT_NEAR(all.run.summary.checks.momentum_balance, other.summary.checks.momentum_balance, 1e-9);
 }
 
-void PrintTo(const WeldedScene& scene, std::ostream* out) { *out << scene.name; }
-
 INSTANTIATE_TEST_SUITE_P(Welded, EveryWeldedScene, testing::ValuesIn(welded_scenes()),
                          [](const auto& given) { return given.param.name; });
 

@@ -1,5 +1,6 @@
 #pragma once
 /// Frames of beams and bodies tied by fixed joints, as JSON text.
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,7 @@ inline std::string frame_scene(bool bends, const std::string& held, const std::s
 struct WeldedScene {
   std::string name, text;
 };
+inline void PrintTo(const WeldedScene& scene, std::ostream* out) { *out << scene.name; }
 
 inline std::vector<WeldedScene> welded_scenes() {
   const auto analysis = [](const std::string& more, const std::string& kind = "") {
