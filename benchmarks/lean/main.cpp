@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include <chrono>
+#include <map>
 #include <regex>
 #include <string>
 #include <vector>
@@ -48,6 +49,32 @@ scene::Scene make_swung_beam(int elements) {
   s.beams[0].elements = elements;
   return s;
 }
+/// Links joined by fixed joints instead of hinges, the first on its hinge: one long beam, put together of parts.
+scene::Scene make_tied_chain(int links) {
+  scene::Scene s = make_chain(links);
+  for (std::size_t l = 1; l < s.joints.size(); ++l) s.joints[l].kind = scene::JointKind::fixed;
+  return s;
+}
+/// The lattice as assembled of bars: each has nodes of its own, which fixed joints tie to the crossings.
+scene::Scene make_tied_lattice(int n) {
+  scene::Scene s = make_level_lattice(n);
+  std::map<std::string, scene::Vec3> crossings;
+  for (const scene::Node& node : s.nodes) crossings[node.name] = node.placement.pose.x;
+  for (scene::Beam& beam : s.beams)
+    for (std::string* end : {&beam.start, &beam.end}) {
+      scene::Node node;
+      node.name = (end == &beam.start ? "start of " : "end of ") + beam.name;
+      node.placement.pose.x = crossings.at(*end);
+      s.nodes.push_back(node);
+      scene::Joint tie;
+      tie.name = "tie at " + node.name;
+      tie.kind = scene::JointKind::fixed;
+      tie.first.to = *end;
+      tie.second.to = *end = node.name;
+      s.joints.push_back(tie);
+    }
+  return s;
+}
 scene::Scene make_sprung_lattice(int n) { return make_lattice_2d(n, Support::spring); }
 
 std::vector<LeanCase> make_cases() {
@@ -55,6 +82,10 @@ std::vector<LeanCase> make_cases() {
           {"planar", "rigid_chain_128", 128, 100, make_rigid_chain},
           {"planar", "lattice_20", 20, 20, make_hanging_lattice},
           {"planar", "lattice_50", 50, 10, make_hanging_lattice},
+          {"welded", "tied_chain_32", 32, 100, make_tied_chain},
+          {"welded", "tied_chain_128", 128, 50, make_tied_chain},
+          {"welded", "tied_lattice_10", 10, 20, make_tied_lattice},
+          {"welded", "tied_lattice_20", 20, 10, make_tied_lattice},
           {"held", "cantilever_8", 8, 400, make_cantilever},
           {"held", "cantilever_64", 64, 200, make_cantilever},
           {"held", "lattice_20", 20, 20, make_level_lattice},

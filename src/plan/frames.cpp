@@ -189,8 +189,9 @@ Port Builder::port_at(const std::string& to, const Frame<double>& offset) const 
     return port;
   }
   port.node = node_of.at(to);
-  port.offset = offset;
-  port.has_offset = !is_identity(offset);
+  const auto part = part_offset.find(to);
+  port.offset = part == part_offset.end() ? offset : motion::compose(part->second, offset);
+  port.has_offset = !is_identity(port.offset);
   return port;
 }
 Port Builder::port_at(const scene::Attachment& a) const { return port_at(a.to, a.offset); }

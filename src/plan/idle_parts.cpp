@@ -1,31 +1,13 @@
 /// Parts of a scene that nothing moves, or that cannot move: recognised and said, for they cost as much as others.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "plan_builder.hpp"
+#include "sets.hpp"
 
 namespace bough::plan {
 
 namespace {
-
-/// Sets of nodes that touch each other; the ground is the last one.
-class Sets {
- public:
-  explicit Sets(std::size_t nodes) : parent_(nodes + 1) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t ground() const { return parent_.size() - 1; }
-  std::size_t of(std::size_t node) {
-    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-    return node;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
-  std::size_t index(const elements::Port& port) const {
-    return port.node == elements::ground ? ground() : static_cast<std::size_t>(port.node);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 bool is_zero(const motion::Vec6<double>& v) { return lanes::dot(v, v) == 0.0; }
 
@@ -37,12 +19,11 @@ bool is_rigid(const elements::Joint& e) {
 }
 
 /// "'a', 'b', 'c' and 4 more"
-std::string names_of(const Plan& plan, const std::vector<std::size_t>& nodes) {
+std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 3;
   std::string text;
-  for (std::size_t i = 0; i < std::min(most, nodes.size()); ++i)
-    text += (i > 0 ? ", '" : "'") + plan.nodes[nodes[i]].name + "'";
-  return nodes.size() > most ? text + " and " + std::to_string(nodes.size() - most) + " more" : text;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i > 0 ? ", '" : "'") + names[i] + "'";
+  return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
 }
 
 }  // namespace
@@ -84,20 +65,24 @@ void Builder::say_idle_parts() {
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t n = 0; n < count; ++n) members[parts.of(n)].push_back(n);
   for (const auto& [part, nodes] : members)
-    if (std::none_of(nodes.begin(), nodes.end(), [&](std::size_t n) { return is_moved[n]; }))
+    if (std::none_of(nodes.begin(), nodes.end(), [&](std::size_t n) { return is_moved[n]; })) {
+      std::vector<std::string> names;
+      for (std::size_t n : nodes) names.push_back(plan.nodes[n].name);
+      for (const auto& [name, offset] : part_offset)
+        if (parts.of(static_cast<std::size_t>(node_of.at(name))) == part) names.push_back(name);
       plan.notes.push_back(
-          names_of(plan, nodes) + (nodes.size() == 1 ? ": nothing moves it" : ": nothing moves them") +
+          listed(names) + (names.size() == 1 ? ": nothing moves it" : ": nothing moves them") +
           " (no load, weight, drive, tension or initial velocity): left out of the scene, the rest would "
           "be the same");
-  std::vector<std::size_t> held;
-  for (int body : plan.body_nodes)  // bodies alone: a clamped node of a beam is how beams are held
-    if (rigid.of(static_cast<std::size_t>(body)) == rigid.of(rigid.ground()))
-      held.push_back(static_cast<std::size_t>(body));
+    }
+  std::vector<std::string> held;
+  for (const BodyPlan& body : plan.bodies)  // bodies alone: a clamped node of a beam is how beams are held
+    if (rigid.of(static_cast<std::size_t>(body.frame.node)) == rigid.of(rigid.ground())) held.push_back(body.name);
   if (members.size() > 1)
     plan.notes.push_back("the scene falls into " + std::to_string(members.size()) +
                          " parts that do not feel each other");
   if (!held.empty())
-    plan.notes.push_back(names_of(plan, held) + (held.size() == 1 ? " cannot move: it is" : " cannot move: they are") +
+    plan.notes.push_back(listed(held) + (held.size() == 1 ? " cannot move: it is" : " cannot move: they are") +
                          " fixed to the ground; beams and joints may take hold of the ground itself");
 }
 

@@ -58,8 +58,7 @@ void Builder::add_bodies() {
     body.ports[0].node = id;
     body.mass = elements::make_mass_matrix(b.mass, b.center_of_mass, b.inertia);
     add(body, b.name);
-    plan.body_nodes.push_back(id);
-    plan.body_centers.push_back(b.center_of_mass);
+    plan.bodies.push_back({b.name, body.ports[0], b.center_of_mass, {}});
   }
 }
 
@@ -269,6 +268,35 @@ void Builder::number_elements() {
   }
 }
 
+/// By kind, as pictures have shown them: joints, springs and bushings, then the ends of beams.
+void Builder::list_attachments() {
+  std::vector<int> body_at(plan.nodes.size(), -1);
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b)
+    body_at[static_cast<std::size_t>(plan.bodies[b].frame.node)] = static_cast<int>(b);
+  const auto attach = [&](const Port& port) {
+    const int body = port.node == elements::ground ? -1 : body_at[static_cast<std::size_t>(port.node)];
+    if (body >= 0) plan.bodies[static_cast<std::size_t>(body)].attachments.push_back(port);
+  };
+  for_each_array(plan.elements, [&](const auto& array) {
+    using E = typename std::decay_t<decltype(array)>::value_type;
+    if constexpr (std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> ||
+                  std::is_same_v<E, elements::Bushing>)
+      for (const E& e : array)
+        for (const Port& p : e.ports) attach(p);
+  });
+  for (const BeamPlan& beam : plan.beams) {
+    if (beam.elements.empty()) continue;
+    for_each_array(plan.elements, [&](const auto& array) {
+      using E = typename std::decay_t<decltype(array)>::value_type;
+      if constexpr (requires(const E& e) { e.reference_strain; })
+        if (E::num_ports == beam.order + 1) {
+          attach(*std::begin(array[static_cast<std::size_t>(beam.elements.front())].ports));
+          attach(*std::prev(std::end(array[static_cast<std::size_t>(beam.elements.back())].ports)));
+        }
+    });
+  }
+}
+
 /// Diagonal of the box around all nodes and all places where elements take hold [m]; radius of gyration of the largest body where that is
 /// larger; 1 where nothing has a size.
 double Builder::size_of_structure() const {
@@ -348,9 +376,11 @@ Plan make_plan(const scene::Scene& scene) {
   b.hold_point_masses();
   b.add_initial_velocities();
   b.stop_spins();
+  b.plan.length_scale = b.size_of_structure();
+  b.list_attachments();
+  b.weld_nodes();
   b.mark_points();
   b.number_elements();
-  b.plan.length_scale = b.size_of_structure();
   b.choose_unknowns();
   b.hold_nodes();
   b.settle();

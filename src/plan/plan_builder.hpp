@@ -48,6 +48,7 @@ struct Builder {
   std::map<std::string, int> carrier_of;                     ///< frames that move in the ground, in Plan::frames
   std::map<std::string, motion::Frame<double>> frame_start;  ///< pose of every frame in the ground
   FrameMotions start_motions;
+  std::map<std::string, motion::Frame<double>> part_offset;    ///< from the node that a thing of this name is part of
   std::vector<std::pair<int, motion::Vec3<double>>> spinless;  ///< nodes and the line they do not spin about, own axes
 
   template <class E>
@@ -80,6 +81,8 @@ struct Builder {
   void keep_from_spinning(std::size_t body, const std::vector<motion::Vec3<double>>& met);
   void add_initial_velocities();
   void stop_spins();
+  void list_attachments();
+  void weld_nodes();
   /// Tells bodies that are points at their origins by the mass that they have in the end.
   void mark_points();
   void number_elements();

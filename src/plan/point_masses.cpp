@@ -47,7 +47,7 @@ void Builder::hold_point_masses() {
     }
   });
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const int node = plan.body_nodes[b];
+    const int node = plan.bodies[b].frame.node;
     if (!scene.bodies[b].is_point_mass || feels[static_cast<std::size_t>(node)]) continue;
     if (!met[static_cast<std::size_t>(node)].empty()) {
       keep_from_spinning(b, met[static_cast<std::size_t>(node)]);
@@ -76,9 +76,10 @@ void Builder::keep_from_spinning(std::size_t body, const std::vector<Vec3<double
     if (lanes::dot(beside, beside) > 1e-24 * lanes::dot(line, line) * lanes::dot(x, x)) return;  // held by its points
   }
   if (!plan.is_dynamic) return;
-  spinless.emplace_back(plan.body_nodes[body], (1.0 / std::sqrt(lanes::dot(line, line))) * line);
+  const int node = plan.bodies[body].frame.node;
+  spinless.emplace_back(node, (1.0 / std::sqrt(lanes::dot(line, line))) * line);
   for (elements::RigidBody& e : array_of<elements::RigidBody>(plan.elements)) {
-    if (e.ports[0].node != plan.body_nodes[body]) continue;
+    if (e.ports[0].node != node) continue;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) e.mass(3 + i, 3 + j) += e.mass(0, 0) * line[i] * line[j];
   }

@@ -319,7 +319,8 @@ Verdict judge(const Builder& b, const Motion& motion) {
   return v;
 }
 
-/// Normals that the plane of a scene may have: the ground's axes, the axes of its joints, the normal of its nodes.
+/// Normals that the plane of a scene may have: the ground's axes, the axes of its joints, the normal of its nodes and of
+/// what is at them.
 std::vector<Vec3<double>> normals(const Builder& b) {
   std::vector<Vec3<double>> list;
   const auto add = [&list](const Vec3<double>& n) {
@@ -332,22 +333,37 @@ std::vector<Vec3<double>> normals(const Builder& b) {
     if (!is_known) list.push_back(unit);
   };
   for (int i : {2, 1, 0}) add(Vec3<double>::unit(i));
-  const Vec3<double> first = b.plan.nodes.front().pose.x;
-  Vec3<double> far = Vec3<double>::zero(), normal = far;
-  for (const NodePlan& node : b.plan.nodes) {
-    const Vec3<double> r = node.pose.x - first;
-    if (lanes::dot(r, r) > lanes::dot(far, far)) far = r;
+  std::vector<Vec3<double>> places;
+  const auto add_normal_of_places = [&] {
+    Vec3<double> far = Vec3<double>::zero(), normal = far;
+    for (const Vec3<double>& x : places) {
+      const Vec3<double> r = x - places.front();
+      if (lanes::dot(r, r) > lanes::dot(far, far)) far = r;
+    }
+    for (const Vec3<double>& x : places) {
+      const Vec3<double> n = lanes::cross(far, Vec3<double>(x - places.front()));
+      if (lanes::dot(n, n) > lanes::dot(normal, normal)) normal = n;
+    }
+    if (length_of(normal) > 1e-6 * lanes::dot(far, far)) add(normal);
+  };
+  for (const NodePlan& node : b.plan.nodes) places.push_back(node.pose.x);
+  add_normal_of_places();
+  if (!b.plan.welds.empty()) {  // what is left of nodes that are parts of others
+    for (const BodyPlan& body : b.plan.bodies) places.push_back(b.initial_pose(body.frame).x);
+    for_each_array(b.plan.elements, [&](const auto& array) {
+      for (const auto& e : array)
+        for (const Port& p : e.ports)
+          if (p.node != elements::ground && p.has_offset) places.push_back(b.initial_pose(p).x);
+    });
+    add_normal_of_places();
   }
-  for (const NodePlan& node : b.plan.nodes) {
-    const Vec3<double> n = lanes::cross(far, Vec3<double>(node.pose.x - first));
-    if (lanes::dot(n, n) > lanes::dot(normal, normal)) normal = n;
-  }
-  if (length_of(normal) > 1e-6 * lanes::dot(far, far)) add(normal);
-  for (const elements::Joint& e : array_of<elements::Joint>(b.plan.elements)) {
-    if (list.size() > 6) break;
-    const Mat3<double>& axes = b.initial_pose(e.ports[0]).R;
+  const auto add_axis_of = [&](const Port& first) {
+    if (list.size() > 6) return;
+    const Mat3<double> axes = b.initial_pose(first).R;
     add({{axes(0, 2), axes(1, 2), axes(2, 2)}});
-  }
+  };
+  for (const elements::Joint& e : array_of<elements::Joint>(b.plan.elements)) add_axis_of(e.ports[0]);
+  for (const WeldPlan& weld : b.plan.welds) add_axis_of(weld.first);
   return list;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 #include "bough/results/balance.hpp"
@@ -324,17 +323,20 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
       });
     frame.curves.push_back(std::move(curve));
   }
-  for (std::size_t b = 0; b < plan.body_nodes.size(); ++b) {
-    const auto node = static_cast<std::size_t>(plan.body_nodes[b]);
+  for (const plan::BodyPlan& body : plan.bodies) {
+    const PointMotion p = motion_of_port(body.frame, f);
     BodyPose pose;
-    pose.name = plan.nodes[node].name;
-    const Vec3<double> x = state.nodes[node].x.hi;
-    const Vec3<double> c = x + state.nodes[node].R * plan.body_centers[b];
+    pose.name = body.name;
+    const Vec3<double> c = motion::transform(p.pose, body.center);
     for (int i = 0; i < 3; ++i) {
-      pose.position[i] = x[i];
+      pose.position[i] = p.pose.x[i];
       pose.center[i] = c[i];
     }
-    for (int i = 0; i < 9; ++i) pose.axes[i] = state.nodes[node].R.m[i];
+    for (int i = 0; i < 9; ++i) pose.axes[i] = p.pose.R.m[i];
+    for (const Port& port : body.attachments) {
+      const Vec3<double> x = position_of(f, state, port);
+      pose.attachments.push_back({x[0], x[1], x[2]});
+    }
     frame.bodies.push_back(pose);
   }
   const auto add_link = [&](const std::string& name, const Port& first, const Port& second) {
@@ -347,30 +349,14 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
     }
     frame.links.push_back(link);
   };
-  std::vector<int> body_of(plan.nodes.size(), -1);
-  for (std::size_t b = 0; b < plan.body_nodes.size(); ++b)
-    body_of[static_cast<std::size_t>(plan.body_nodes[b])] = static_cast<int>(b);
-  const auto attach = [&](const Port& port) {
-    const int body = port.node == elements::ground ? -1 : body_of[static_cast<std::size_t>(port.node)];
-    if (body < 0) return;
-    const Vec3<double> x = position_of(f, state, port);
-    frame.bodies[static_cast<std::size_t>(body)].attachments.push_back({x[0], x[1], x[2]});
-  };
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
       if constexpr (std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> ||
-                    std::is_same_v<E, elements::Bushing>) {
+                    std::is_same_v<E, elements::Bushing>)
         add_link(plan.element_owner[id], e.ports[0], e.ports[1]);
-        attach(e.ports[0]);
-        attach(e.ports[1]);
-      }
     });
-  for (const plan::BeamPlan& beam : plan.beams) {
-    if (beam.elements.empty()) continue;
-    with_beam_element(plan, beam.elements.front(), [&](const auto& e) { attach(*std::begin(e.ports)); });
-    with_beam_element(plan, beam.elements.back(), [&](const auto& e) { attach(*std::prev(std::end(e.ports))); });
-  }
+  for (const plan::WeldPlan& weld : plan.welds) add_link(weld.name, weld.first, weld.second);
   return frame;
 }
 

@@ -13,7 +13,7 @@
 namespace bough::plan {
 
 struct NodePlan {
-  std::string name;            ///< of the scene's node or body, or `<beam>.<k>`
+  std::string name;            ///< of the scene's node or body, or `<beam>.<k>`; of a rigid part: of one of its nodes
   motion::Frame<double> pose;  ///< at the start
   motion::Vec6<double> twist;  ///< at the start, own axes, as given (not yet consistent)
 };
@@ -45,6 +45,20 @@ struct HeldNode {
 struct DrivenNode {
   int node = 0;
   std::vector<int> joints;  ///< in Plan::joints
+};
+
+/// A body of the scene: its frame is that of a node, or stands at an offset from one that it is part of.
+struct BodyPlan {
+  std::string name;
+  elements::Port frame;
+  motion::Vec3<double> center;              ///< of mass, in the body's frame [m]
+  std::vector<elements::Port> attachments;  ///< ends of beams, joints, springs and bushings at it, for pictures
+};
+
+/// A fixed joint whose two sides are one node (decision "welded"): no element, but pictures show it.
+struct WeldPlan {
+  std::string name;
+  elements::Port first, second;
 };
 
 /// Elements of one beam of the scene, in order along its axis.
@@ -131,8 +145,8 @@ struct Plan {
   int observer = -1;  ///< in frames: where nodes, ground and results are described; -1: the inertial frame
   std::vector<TurnedLawPlan> turned_laws;
   std::vector<SensorPlan> sensors;
-  std::vector<int> body_nodes;  ///< nodes of the scene's bodies, in its order
-  std::vector<motion::Vec3<double>> body_centers;
+  std::vector<BodyPlan> bodies;  ///< in the scene's order
+  std::vector<WeldPlan> welds;   ///< empty unless the decision "welded" was taken
   NodeUnknowns unknowns;
   std::optional<PlanarModel> planar;  ///< where unknowns.motions is planar
   std::vector<Decision> decisions;
