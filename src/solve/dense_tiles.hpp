@@ -91,6 +91,39 @@ inline void add_to(int n, const double* a, double* c) {
 #endif
 }
 
+/// c[0, n) += scale[0, n) a[0, n) factor.
+inline void add_scaled(int n, const double* scale, const double* a, double factor, double* c) {
+#if defined(__AVX512F__)
+  const __m512d by = _mm512_set1_pd(factor);
+  for (int i = 0; i < n; i += width) {
+    const auto some = static_cast<__mmask8>(n - i < width ? (1u << (n - i)) - 1u : 0xffu);
+    const __m512d scaled = _mm512_mul_pd(_mm512_maskz_loadu_pd(some, scale + i), _mm512_maskz_loadu_pd(some, a + i));
+    const __m512d sum = _mm512_add_pd(_mm512_maskz_loadu_pd(some, c + i), _mm512_mul_pd(scaled, by));
+    _mm512_mask_storeu_pd(c + i, some, sum);
+  }
+#else
+  for (int i = 0; i < n; ++i) c[i] += scale[i] * a[i] * factor;
+#endif
+}
+
+/// The first n < width entries, zeros after them; and back.
+inline Lanes load_some(int n, const double* p) {
+#if defined(__AVX512F__)
+  return Lanes(_mm512_maskz_loadu_pd(static_cast<__mmask8>((1u << n) - 1u), p));
+#else
+  Lanes v = {};
+  std::memcpy(&v, p, sizeof(double) * static_cast<std::size_t>(n));
+  return v;
+#endif
+}
+inline void store_some(int n, double* p, const Lanes& v) {
+#if defined(__AVX512F__)
+  _mm512_mask_storeu_pd(p, static_cast<__mmask8>((1u << n) - 1u), __m512d(v));
+#else
+  std::memcpy(p, &v, sizeof(double) * static_cast<std::size_t>(n));
+#endif
+}
+
 /// A panel of b, k rows of `width` entries, one for each group of columns: group g begins at g k width.
 inline double* group_of(double* packed, int k, int group) {
   return packed + static_cast<std::ptrdiff_t>(group) * k * width;
