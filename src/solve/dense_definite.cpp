@@ -61,8 +61,11 @@ inline void reduce_tile(int depth, const double* x, const double* b, Lanes (&t)[
 }
 
 /// L of m rows, at most registers x width, in the columns [0, columns) of a panel, in place; x: room for L D of them, packed.
+/// reduction: what each row's diagonal loses by these pivots.
 template <int registers>
-inline void solve_rows(int m, int columns, const Square& square, double* a, std::ptrdiff_t lda, double* x) {
+inline void solve_rows(int m, int columns, const Square& square, double* a, std::ptrdiff_t lda, double* x,
+                       double* reduction) {
+  Lanes lost[registers] = {};
   for (int k0 = 0; k0 < columns; k0 += width) {
     const double* b = square.group(k0 / width);
     const int wide = std::min(width, columns - k0);
@@ -85,10 +88,12 @@ inline void solve_rows(int m, int columns, const Square& square, double* a, std:
       for (int r = 0; r < registers; ++r) {
         store(x + ((k0 + k) * registers + r) * width, t[k][r]);
         l[r] = t[k][r] * inverse;
+        lost[r] = add_product(t[k][r], l[r], lost[r]);
       }
       store_rows<registers>(m, l, a + (k0 + k) * lda);
     }
   }
+  for (int r = 0; r < registers; ++r) store(reduction + r * width, lost[r]);
 }
 
 /// Whether a pivot is finite and not below a positive bar. Compared as bits: NaN traps nothing.
@@ -100,11 +105,11 @@ bool holds(double pivot, double least) {
 
 /// L D L^T of a square in place, `width` rows after the other. least: of each pivot. Returns the pivots that hold.
 int eliminate_square(double* a, std::ptrdiff_t lda, const double* least, double* d, Square& square) {
-  alignas(64) double x[width * deepest];
+  alignas(64) double x[width * deepest], reduction[width];
   for (int k0 = 0; k0 < square.depth; k0 += width) {
     const int m = std::min(width, square.depth - k0);
     double *rows = a + k0, *b = square.group(k0 / width);
-    solve_rows<1>(m, k0, square, rows, lda, x);
+    solve_rows<1>(m, k0, square, rows, lda, x, reduction);
     for (int p = 0; p < k0; ++p) store(b + p * width, load(x + p * width) * all(square.inverse[p]));
     Lanes t[width][1];
     for (int j = 0; j < width; ++j) load_rows<1>(m, rows + (k0 + std::min(j, m - 1)) * lda, t[j]);
@@ -126,13 +131,6 @@ int eliminate_square(double* a, std::ptrdiff_t lda, const double* least, double*
   return square.depth;
 }
 
-/// What is not finite in rows of the boundary shows on the diagonal of the Schur complement.
-bool has_finite_diagonal(const FrontParts& v) {
-  for (int j = v.full; j < v.size; ++j)
-    if (!std::isfinite(v.bottom(j)[j - v.full])) return false;
-  return true;
-}
-
 }  // namespace
 
 int eliminate_definite(FrontMatrix& f, const PivotRule& rule, const tree::Walker* walker) {
@@ -148,23 +146,25 @@ int eliminate_definite(FrontMatrix& f, const PivotRule& rule, const tree::Walker
     square.depth = end - k;
     const int held = eliminate_square(v.top(k) + k, v.lda, least, f.d + 2 * k, square);
     if (k + held < end) return k + held;
-    alignas(64) double x[tile_rows * deepest];
+    alignas(64) double x[tile_rows * deepest], reduction[tile_rows];
     for (int i = end; i < f.size; i += tile_rows) {
       const int m = std::min(tile_rows, f.size - i);
       double* rows = v.top(k) + i;
       if (m > 2 * width) {
-        solve_rows<3>(m, square.depth, square, rows, v.lda, x);
+        solve_rows<3>(m, square.depth, square, rows, v.lda, x, reduction);
       } else if (m > width) {
-        solve_rows<2>(m, square.depth, square, rows, v.lda, x);
+        solve_rows<2>(m, square.depth, square, rows, v.lda, x, reduction);
       } else {
-        solve_rows<1>(m, square.depth, square, rows, v.lda, x);
+        solve_rows<1>(m, square.depth, square, rows, v.lda, x, reduction);
       }
+      for (int r = 0; r < m; ++r)
+        if (!holds(1.0 / rule.threshold, reduction[r])) return k;
     }
     const auto update = [&](int first, int last) { catch_up_symmetric(v, f.d, k, end, first, last); };
     for_chunks_of_columns(end, f.full, f.size, 1.0 * (end - k) * (f.size - end), walker, update);
     k = end;
   }
-  return has_finite_diagonal(v) ? f.full : 0;
+  return f.full;
 }
 
 }  // namespace bough::solve

@@ -93,17 +93,20 @@ inline void add_to(int n, const double* a, double* c) {
 
 /// c[0, n) += scale[0, n) a[0, n) factor.
 inline void add_scaled(int n, const double* scale, const double* a, double factor, double* c) {
-#if defined(__AVX512F__)
-  const __m512d by = _mm512_set1_pd(factor);
-  for (int i = 0; i < n; i += width) {
-    const auto some = static_cast<__mmask8>(n - i < width ? (1u << (n - i)) - 1u : 0xffu);
-    const __m512d scaled = _mm512_mul_pd(_mm512_maskz_loadu_pd(some, scale + i), _mm512_maskz_loadu_pd(some, a + i));
-    const __m512d sum = _mm512_add_pd(_mm512_maskz_loadu_pd(some, c + i), _mm512_mul_pd(scaled, by));
-    _mm512_mask_storeu_pd(c + i, some, sum);
-  }
-#else
-  for (int i = 0; i < n; ++i) c[i] += scale[i] * a[i] * factor;
-#endif
+  typedef double Four __attribute__((vector_size(32)));
+  typedef double Two __attribute__((vector_size(16)));
+  const auto add = [&](auto lanes, int i) {
+    decltype(lanes) s, v, sum;
+    std::memcpy(&s, scale + i, sizeof s);
+    std::memcpy(&v, a + i, sizeof v);
+    std::memcpy(&sum, c + i, sizeof sum);
+    sum += s * v * factor;
+    std::memcpy(c + i, &sum, sizeof sum);
+  };
+  int i = 0;
+  for (; i + 4 <= n; i += 4) add(Four{}, i);
+  for (; i + 2 <= n; i += 2) add(Two{}, i);
+  for (; i < n; ++i) c[i] += scale[i] * a[i] * factor;
 }
 
 /// The first n < width entries, zeros after them; and back.

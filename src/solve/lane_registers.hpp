@@ -226,11 +226,12 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
   return refused;
 }
 
-/// L of R rows below the block, and the largest of each column, rows scaled. Symmetric: L D to `products`, row by row, six packs a row.
+/// L of R rows below the block, and the largest of each column, rows scaled; definite: the most that is taken off a diagonal, scaled. Symmetric: L D to `products`, row by row, six packs a row.
 template <int K, Symmetry symmetry, int R>
 inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld, const double* row_scale, Real* largest,
                            [[maybe_unused]] double* products) {
   Real l[K][R];
+  [[maybe_unused]] Real lost[R] = {};
   for (int k = 0; k < K; ++k)
     for (int i = 0; i < R; ++i) l[k][i] = load(rows + k * ld + i * wide);
   for (int k = 0; k < K; ++k) {
@@ -241,12 +242,20 @@ inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld,
     const Real inverse = load(block + k * ld + k * wide);
     for (int i = 0; i < R; ++i) {
       if constexpr (symmetry != Symmetry::general) store(products + (i * panel_width + k) * wide, l[k][i]);
+      const Real product = l[k][i];
       l[k][i] *= inverse;
       store(rows + k * ld + i * wide, l[k][i]);
-      if constexpr (symmetry != Symmetry::definite)
+      if constexpr (symmetry == Symmetry::definite)
+        lost[i] = plus_product(lost[i], product, l[k][i]);
+      else
         largest[k] = greater_of(largest[k], magnitude(l[k][i] * load(row_scale + i * wide)));
     }
   }
+  if constexpr (symmetry == Symmetry::definite)
+    for (int i = 0; i < R; ++i) {
+      const Real scale = load(row_scale + i * wide);
+      largest[0] = greater_of(largest[0], lost[i] * scale * scale);
+    }
 }
 
 /// The columns of a panel: their block, and L below. What is refused is neutralised and answered.
@@ -269,14 +278,18 @@ inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale,
   for (; i + 4 <= f.n; i += 4) rows(i, std::integral_constant<int, 4>{});
   for (; i + 2 <= f.n; i += 2) rows(i, std::integral_constant<int, 2>{});
   for (; i < f.n; ++i) rows(i, std::integral_constant<int, 1>{});
-  if constexpr (symmetry == Symmetry::definite) return refused;
-  // A pivot is small against its column where an entry of L, rows scaled, is above 1 / threshold.
+  // A pivot is small against its column where an entry of L, rows scaled, is above 1 / threshold; definite: where more is taken off a diagonal.
   Flag good = ~Flag{};
-  for (int k = 0; k < K; ++k)
-    good &= bits_of(rule.threshold * largest[k]) <= bits_of(load(row_scale + (k0 + k) * wide));
+  if constexpr (symmetry == Symmetry::definite)
+    good = bits_of(rule.threshold * largest[0]) <= bits_of(Real{} + 1.0);
+  else
+    for (int k = 0; k < K; ++k)
+      good &= bits_of(rule.threshold * largest[k]) <= bits_of(load(row_scale + (k0 + k) * wide));
   unsigned grown = 0;
   for (int l = 0; l < width; ++l) grown |= good[l] == 0 ? 1u << l : 0u;
   if (grown != 0) neutralise(f, grown);
+  for (int l = 0; symmetry != Symmetry::general && l < width; ++l)  // or updates would bring back what was not finite
+    for (int r = 0; (grown >> l & 1u) != 0 && r < (f.n - k0 - K) * panel_width; ++r) products[r * wide + l] = 0.0;
   return refused | grown;
 }
 

@@ -69,19 +69,6 @@ void eval_bars(const Front& f, const double* scale, const double* inverse_scale,
   }
 }
 
-/// What is not finite in rows of the boundary shows on the diagonal of the Schur complement.
-unsigned find_infinite(const Front& f) {
-  const int b = f.n - f.e;
-  Flag good = ~Flag{};
-  for (int j = 0; j < b; ++j)
-    good &=
-        bits_of(magnitude(load(f.schur + static_cast<std::ptrdiff_t>(j) * (b + 1) * wide))) < Flag{} + infinite_bits;
-  unsigned found = 0;
-  for (int l = 0; l < width; ++l) found |= good[l] == 0 ? 1u << l : 0u;
-  if (found != 0) neutralise(f, found);
-  return found;
-}
-
 /// y = L^-T y for K rows, L unit.
 template <int K>
 inline void backward_triangle(const double* l, std::ptrdiff_t ld, double* v) {
@@ -111,8 +98,7 @@ LaneSet eliminate_lanes_definite(double* factor, double* schur, int n, int e, co
   for (int l = 0; l < wide; l += width) {
     const Front f = register_of(factor, schur, n, e, l, Symmetry::definite);
     eval_bars(f, scale + l, inverse_scale + l, rule.least, bar);
-    const unsigned refused = eliminate_register<Symmetry::definite>(f, scale + l, bar, rule);
-    failed |= (refused | find_infinite(f)) << l;
+    failed |= eliminate_register<Symmetry::definite>(f, scale + l, bar, rule) << l;
   }
   return static_cast<LaneSet>(failed);
 }

@@ -239,7 +239,7 @@ TEST(DenseKernels, SymmetricUnknownsWithoutAPivotWait) {
 
 MatrixXd definite(std::mt19937& random, int n) {
   const MatrixXd a = uniform(random, n, n);
-  return a * a.transpose() + 0.1 * MatrixXd::Identity(n, n);
+  return a * a.transpose() / n + 0.1 * MatrixXd::Identity(n, n);
 }
 
 TEST(DenseKernels, DefiniteFactorsReproduceTheFrontForEverySizeAndSplit) {
@@ -277,13 +277,16 @@ TEST(DenseKernels, DefiniteFactorsStopAtAPivotThatIsNotPositiveOrLostAllItsDigit
       a = 1e6 * MatrixXd::Identity(n, n);
       a(k, 0) = a(0, k) = 1e6 * (1.0 - 1e-12);
       SymmetricFront cancelled(a, full);
-      EXPECT_EQ(solve::eliminate_definite(cancelled.matrix, {.threshold = 0.01, .least = 1e-10}), k) << n;
+      EXPECT_EQ(solve::eliminate_definite(cancelled.matrix, {.threshold = 1e-8, .least = 1e-10}), k) << n;
     }
     if (full == n) continue;
     MatrixXd a = definite(random, n);
     a(last, 3) = nan;  // in a row of the boundary
     SymmetricFront f(a, full);
     EXPECT_LT(solve::eliminate_definite(f.matrix, {}), full);
+    a(last, 3) = 100.0;  // all pivots are positive, but this row has no such diagonal
+    SymmetricFront grown(a, full);
+    EXPECT_LT(solve::eliminate_definite(grown.matrix, {.threshold = 1e-3, .least = 1e-10}), full);
   }
 }
 
