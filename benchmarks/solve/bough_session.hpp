@@ -27,7 +27,9 @@ struct BoughStorage {
   explicit BoughStorage(const Problem& p)
       : tree(tree::make_tree(p.graph)),
         solver(p.graph, tree,
-               {.symmetry = p.is_symmetric() ? solve::Symmetry::symmetric : solve::Symmetry::general,
+               {.symmetry = !p.is_symmetric()   ? solve::Symmetry::general
+                            : p.has_multipliers ? solve::Symmetry::symmetric
+                                                : solve::Symmetry::definite,
                 .check = solve::SolveCheck::none,
                 .refinement_steps = 0}) {
     write_elements(p, solver);

@@ -45,6 +45,33 @@ std::string count_of(std::size_t n, const std::string& one, const std::string& m
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
+/// What speaks against a matrix that is positive definite: rows of constraints, a node that neither has mass nor, in statics, any support.
+std::string obstacle_to_definite(const Plan& plan, std::size_t rows) {
+  if (rows > 0) return "joints have multipliers: " + count_of(rows, "constraint row", "constraint rows");
+  bool is_supported = !plan.held.empty() || !plan.driven.empty();
+  std::vector<bool> has_mass(plan.nodes.size(), false);
+  for_each_array(plan.elements, [&](const auto& array) {
+    using E = typename std::decay_t<decltype(array)>::value_type;
+    for (const E& e : array) {
+      bool is_mass = std::is_same_v<E, elements::RigidBody>;
+      if constexpr (requires { e.has_mass; }) is_mass = e.has_mass;
+      for (const Port& p : e.ports) {
+        if (p.node != elements::ground) {
+          if (is_mass) has_mass[static_cast<std::size_t>(p.node)] = true;
+        } else if (std::is_same_v<E, elements::Spring> || std::is_same_v<E, elements::Bushing>) {
+          is_supported = true;
+        }
+      }
+    }
+  });
+  if (!plan.is_dynamic) return is_supported ? "" : "no node is held and no spring leads to the ground";
+  for (const HeldNode& h : plan.held) has_mass[static_cast<std::size_t>(h.node)] = true;  // not in the matrix
+  for (const DrivenNode& d : plan.driven) has_mass[static_cast<std::size_t>(d.node)] = true;
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n)
+    if (!has_mass[n]) return "'" + plan.nodes[n].name + "' has no mass";
+  return "";
+}
+
 }  // namespace
 
 void Builder::settle() {
@@ -107,6 +134,16 @@ void Builder::settle() {
          "frame moves and "
          "loops make factorizations heavy; given up in a run where Newton's iteration suffers",
          conservative && loops >= loops_of_lattices, conservative ? text : obstacle);
+  obstacle = plan.took("symmetric") ? obstacle_to_definite(plan, rows) : "tangents are not taken as symmetric";
+  decide("definite",
+         "the symmetric parts are factored as those of a positive definite matrix: no search for pivots; a part of it "
+         "that is not, since forces take its stiffness away, is factored by pivoting. Taken where symmetric parts are, "
+         "no joint has a row that is solved for, and in dynamics every node has mass, in statics a node is held or a "
+         "spring leads to the ground",
+         obstacle.empty(),
+         !obstacle.empty() ? obstacle
+         : dynamic         ? "every node has mass, and there are no constraint rows"
+                           : "the structure is supported, and there are no constraint rows");
   const bool one_matrix = scene.solver.kind == scene::SolverKind::monolithic;
   std::snprintf(text, sizeof text,
                 "one evaluation of the elements is about %.0f us of work; lanes are worth filling above %.0f us",

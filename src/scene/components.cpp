@@ -64,8 +64,8 @@ const std::vector<std::string>& coordinates_of(JointKind kind) {
 }
 
 const std::vector<std::string>& decision_names() {
-  static const std::vector<std::string> names{"welded", "line",      "translation", "planar", "held",
-                                              "driven", "symmetric", "reuse",       "lanes",  "small"};
+  static const std::vector<std::string> names{"welded",    "line",     "translation", "planar", "held", "driven",
+                                              "symmetric", "definite", "reuse",       "lanes",  "small"};
   return names;
 }
 

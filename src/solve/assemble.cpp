@@ -13,6 +13,8 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Columns that are cleared and added to in one go: they stay in the cache nearest to the core but one.
 constexpr int doubles_in_cache = 1 << 16;
+/// Symmetric fronts from this size on are cleared below the diagonal alone; of shorter columns that would cost more than it saves.
+constexpr int cleared_by_columns = 160;
 /// Reading, adding and writing an entry takes as long as so many operations of an elimination.
 constexpr double flops_of_an_entry = 8.0;
 
@@ -56,7 +58,13 @@ void Hierarchical::State::fill_columns(tree::FrontId f, int first, int last) {
     const auto clear = [&](double* part, std::ptrdiff_t ld) {
       if (ld > 0) std::memset(part, 0, sizeof(double) * at(ld * (end - begin)));
     };
-    if (begin < d.full) {
+    if (d.is_symmetric() && d.size >= cleared_by_columns) {  // nothing above the diagonal is read
+      for (int j = begin; j < end; ++j) {
+        const int row = (j < d.full ? j : j - d.full) & ~7;  // from the line of the diagonal on
+        double* column = j < d.full ? parts.top(j) : parts.bottom(j);
+        std::memset(column + row, 0, sizeof(double) * at((j < d.full ? d.size : d.size - d.full) - row));
+      }
+    } else if (begin < d.full) {
       clear(parts.top(begin), parts.lda);
     } else {
       if (!d.is_symmetric()) clear(parts.top(begin), parts.ldu);
@@ -131,6 +139,8 @@ void Hierarchical::State::add_element(int position, FrontData& d) {
   const ConstElementView matrix = elements.view(e);
   const auto& block_size = elements.graph().block_size;
   const FrontParts parts(d.matrix());
+  // Where a matrix is its own mirror image its rows, which lie together, serve as columns.
+  const bool is_contiguous = d.is_symmetric() && matrix.stride == 1;
   for (int q = 0, j0 = 0; q < count; ++q) {
     const int bj = blocks[q], nj = block_size[at(bj)];
     const double* column_scale = scales.column.data() + tree.unknown_begin[at(bj)];
@@ -141,8 +151,13 @@ void Hierarchical::State::add_element(int position, FrontData& d) {
         for (int j = 0; j < nj; ++j) {
           const int column = d.delayed_in + rows[q] + j;
           double* to = row < d.full ? parts.top(column) + row : parts.bottom(column) + (row - d.full);
-          for (int i = 0; i < ni; ++i)
-            to[i] += row_scale[i] * matrix[static_cast<std::int64_t>(i0 + i) * n + j0 + j] * column_scale[j];
+          if (is_contiguous) {
+            tiles::add_scaled(ni, row_scale, matrix.first + static_cast<std::int64_t>(j0 + j) * n + i0, column_scale[j],
+                              to);
+          } else {
+            for (int i = 0; i < ni; ++i)
+              to[i] += row_scale[i] * matrix[static_cast<std::int64_t>(i0 + i) * n + j0 + j] * column_scale[j];
+          }
         }
       i0 += ni;
     }

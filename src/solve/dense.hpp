@@ -66,6 +66,11 @@ int eliminate_with_threshold(FrontMatrix& front, const PivotRule& rule, const tr
 /// [Duff, Reid 1983].
 int eliminate_symmetric(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
 
+/// The same where it is expected to be positive definite: no search, no exchange, D diagonal. Stops at a pivot that is not finite, below `least`, or
+/// below `least` times what it was before, and where a panel takes more than 1 / threshold off a diagonal below it: no definite matrix does whose
+/// diagonal is about one, and no entry grows by more. Returns the number of pivots: below `full` the front is spoilt, to be assembled once more.
+int eliminate_definite(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
+
 /// Goes on from `pivots` up to `most` with complete pivoting over the remaining fully summed block (precondition: no boundary), as long as
 /// the largest entry reaches `least`. row_weight, column_weight: one factor for each remaining row and column by which entries are
 /// compared, permuted along; or null for ones. Returns the number of pivots reached.

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "bough/tree/walker.hpp"
+#include "dense.hpp"
 #include "dense_tiles.hpp"
 
 namespace bough::solve {
@@ -46,5 +47,8 @@ void for_chunks_of_columns(int begin, int full, int size, double flops, const tr
     walker->for_each_chunk(count, 1, tree::make_chunk(run));
   }
 }
+
+/// Symmetric: columns [first, last), at most a chunk and all on one side of `full`, catch up with the pivots [begin, k), whose D is d.
+void catch_up_symmetric(const FrontParts& front, const double* d, int begin, int k, int first, int last);
 
 }  // namespace bough::solve

@@ -27,8 +27,8 @@ void pack_rows(int m, int k, const double* a, std::ptrdiff_t lda, double* packed
   }
 }
 
-/// m x n entries of c, at most registers x width by width.
-template <int registers>
+/// m x n entries of c, at most registers x width by width; columns of a stand `step` apart.
+template <int registers, int step>
 inline void run_tile(int m, int n, int k, const double* a, const double* b, double* c, std::ptrdiff_t ldc) {
   constexpr int high = registers * width;
   Lanes sum[width][registers] = {};
@@ -38,7 +38,7 @@ inline void run_tile(int m, int n, int k, const double* a, const double* b, doub
   for (int p = 0; p < k; ++p) {
     Lanes left[registers];
 #pragma GCC unroll 3
-    for (int r = 0; r < registers; ++r) left[r] = load(a + p * high + r * width);
+    for (int r = 0; r < registers; ++r) left[r] = load(a + p * step + r * width);
 #pragma GCC unroll 8
     for (int j = 0; j < width; ++j) {
       const Lanes right = all(b[p * width + j]);
@@ -74,14 +74,26 @@ inline void run_tile(int m, int n, int k, const double* a, const double* b, doub
   }
 }
 
+/// From column `diagonal` on, registers that stand above the diagonal are left out.
 template <int registers>
 void run_row_of_tiles(int m, int n, int k, const double* a, std::ptrdiff_t lda, const double* packed, double* c,
-                      std::ptrdiff_t ldc) {
-  alignas(64) double left[registers * width * deepest];
+                      std::ptrdiff_t ldc, int diagonal) {
+  constexpr int step = registers * width;
+  alignas(64) double left[step * deepest];
   pack_rows<registers>(m, k, a, lda, left);
-  for (int j = 0; j < n; j += width)
-    run_tile<registers>(m, std::min(width, n - j), k, left, packed + static_cast<std::ptrdiff_t>(j) * k, c + j * ldc,
-                        ldc);
+  for (int j = 0; j < n; j += width) {
+    const int wide = std::min(width, n - j);
+    const double* b = packed + static_cast<std::ptrdiff_t>(j) * k;
+    double* columns = c + j * ldc;
+    if (j < diagonal + width) {
+      run_tile<registers, step>(m, wide, k, left, b, columns, ldc);
+    } else if (registers > 2 && j < diagonal + 2 * width) {
+      run_tile<std::max(1, registers - 1), step>(m - width, wide, k, left + width, b, columns + width, ldc);
+    } else {
+      constexpr int above = (registers - 1) * width;
+      run_tile<1, step>(m - above, wide, k, left + above, b, columns + above, ldc);
+    }
+  }
 }
 
 }  // namespace
@@ -89,13 +101,13 @@ void run_row_of_tiles(int m, int n, int k, const double* a, std::ptrdiff_t lda, 
 void subtract_packed(int m, int n, int k, const double* a, std::ptrdiff_t lda, const double* packed, double* c,
                      std::ptrdiff_t ldc, bool lower) {
   for (int i = 0; i < m; i += tile_rows) {
-    const int high = std::min(tile_rows, m - i), wide = lower ? std::min(n, i + high) : n;
+    const int high = std::min(tile_rows, m - i), wide = lower ? std::min(n, i + high) : n, diagonal = lower ? i : n;
     if (high > 2 * width) {
-      run_row_of_tiles<3>(high, wide, k, a + i, lda, packed, c + i, ldc);
+      run_row_of_tiles<3>(high, wide, k, a + i, lda, packed, c + i, ldc, diagonal);
     } else if (high > width) {
-      run_row_of_tiles<2>(high, wide, k, a + i, lda, packed, c + i, ldc);
+      run_row_of_tiles<2>(high, wide, k, a + i, lda, packed, c + i, ldc, diagonal);
     } else {
-      run_row_of_tiles<1>(high, wide, k, a + i, lda, packed, c + i, ldc);
+      run_row_of_tiles<1>(high, wide, k, a + i, lda, packed, c + i, ldc, diagonal);
     }
   }
 }

@@ -142,8 +142,9 @@ void pack_scaled(const FrontParts& v, const double* d, int from, int to, int fir
   }
 }
 
-/// Columns [first, last), at most a chunk and all on one side of `full`, catch up with pivots [begin, k).
-void catch_up(const FrontParts& v, const double* d, int begin, int k, int first, int last) {
+}  // namespace
+
+void catch_up_symmetric(const FrontParts& v, const double* d, int begin, int k, int first, int last) {
   using namespace tiles;
   alignas(64) double packed[deepest * chunk];
   const int n = last - first;
@@ -157,8 +158,6 @@ void catch_up(const FrontParts& v, const double* d, int begin, int k, int first,
   }
 }
 
-}  // namespace
-
 int eliminate_symmetric(FrontMatrix& f, const PivotRule& rule, const tree::Walker* walker) {
   const FrontParts v(f);
   int k = 0, tried = 0;  // unknowns [k, tried) were refused by earlier panels and go along with the next one
@@ -169,11 +168,11 @@ int eliminate_symmetric(FrontMatrix& f, const PivotRule& rule, const tree::Walke
       k = eliminate_panel(v, f, rule, k, inner_end);
       if (k < 0) return -1;
       for (int j = inner_end; k > inner_begin && j < end; j += tiles::chunk)
-        catch_up(v, f.d, inner_begin, k, j, std::min(end, j + tiles::chunk));
+        catch_up_symmetric(v, f.d, inner_begin, k, j, std::min(end, j + tiles::chunk));
       tried = inner_end;
     }
     if (k == begin) continue;
-    const auto update = [&](int first, int last) { catch_up(v, f.d, begin, k, first, last); };
+    const auto update = [&](int first, int last) { catch_up_symmetric(v, f.d, begin, k, first, last); };
     for_chunks_of_columns(end, f.full, f.size, 1.0 * (k - begin) * (f.size - k), walker, update);
   }
   return k;

@@ -91,6 +91,42 @@ inline void add_to(int n, const double* a, double* c) {
 #endif
 }
 
+/// c[0, n) += scale[0, n) a[0, n) factor.
+inline void add_scaled(int n, const double* scale, const double* a, double factor, double* c) {
+  typedef double Four __attribute__((vector_size(32)));
+  typedef double Two __attribute__((vector_size(16)));
+  const auto add = [&](auto lanes, int i) {
+    decltype(lanes) s, v, sum;
+    std::memcpy(&s, scale + i, sizeof s);
+    std::memcpy(&v, a + i, sizeof v);
+    std::memcpy(&sum, c + i, sizeof sum);
+    sum += s * v * factor;
+    std::memcpy(c + i, &sum, sizeof sum);
+  };
+  int i = 0;
+  for (; i + 4 <= n; i += 4) add(Four{}, i);
+  for (; i + 2 <= n; i += 2) add(Two{}, i);
+  for (; i < n; ++i) c[i] += scale[i] * a[i] * factor;
+}
+
+/// The first n < width entries, zeros after them; and back.
+inline Lanes load_some(int n, const double* p) {
+#if defined(__AVX512F__)
+  return Lanes(_mm512_maskz_loadu_pd(static_cast<__mmask8>((1u << n) - 1u), p));
+#else
+  Lanes v = {};
+  std::memcpy(&v, p, sizeof(double) * static_cast<std::size_t>(n));
+  return v;
+#endif
+}
+inline void store_some(int n, double* p, const Lanes& v) {
+#if defined(__AVX512F__)
+  _mm512_mask_storeu_pd(p, static_cast<__mmask8>((1u << n) - 1u), __m512d(v));
+#else
+  std::memcpy(p, &v, sizeof(double) * static_cast<std::size_t>(n));
+#endif
+}
+
 /// A panel of b, k rows of `width` entries, one for each group of columns: group g begins at g k width.
 inline double* group_of(double* packed, int k, int group) {
   return packed + static_cast<std::ptrdiff_t>(group) * k * width;

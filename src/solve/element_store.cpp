@@ -307,8 +307,22 @@ std::vector<ElementBatch> ElementStore::single_batches() const {
   return batches;
 }
 
+namespace {
+
+/// Bit by bit: what has been made symmetric is found so in a fraction of the time that differences take.
+bool is_mirrored(const ConstElementView& a, int n) {
+  std::uint64_t differ = 0;
+  for (std::int64_t i = 1; i < n; ++i)
+    for (std::int64_t j = 0; j < i; ++j)
+      differ |= std::bit_cast<std::uint64_t>(a[i * n + j]) ^ std::bit_cast<std::uint64_t>(a[j * n + i]);
+  return differ == 0;
+}
+
+}  // namespace
+
 double ElementStore::asymmetry_of(int e, const Scales& scales) const {
   const ConstElementView a = view(e);
+  if (is_mirrored(a, size_of(e))) return 0.0;
   const std::int64_t step = a.stride, n = size_of(e) * step;
   const int* blocks = blocks_of(e);
   const int count = num_blocks_of(e);

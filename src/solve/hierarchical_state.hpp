@@ -35,10 +35,11 @@ struct FrontData {
   int* columns = nullptr;
   int* row_from = nullptr;  ///< full: row before pivoting
   int size = 0, full = 0, pivots = 0;
-  int delayed_in = 0;      ///< unknowns that children could not eliminate: they come first
-  int delayed_to = 0;      ///< row of the parent of the first that it could not eliminate itself
-  bool failed = false;     ///< not finite here or below
-  bool allocated = false;  ///< the enlarging took heap memory in this factorization
+  int delayed_in = 0;          ///< unknowns that children could not eliminate: they come first
+  int delayed_to = 0;          ///< row of the parent of the first that it could not eliminate itself
+  bool failed = false;         ///< not finite here or below
+  bool is_indefinite = false;  ///< declared definite, and a pivot was not
+  bool allocated = false;      ///< the enlarging took heap memory in this factorization
   int num_delayed() const { return full - pivots; }
   bool is_symmetric() const { return d != nullptr; }
   void set_parts(const FrontShape& shape, double* factor, double* schur);
@@ -134,7 +135,7 @@ struct Hierarchical::State {
   LaneSet lanes_to_leave(const LaneFront& f) const;
   double* vector_of(const LaneFront& f) { return lane_vectors.data() + f.vector * lanes_wide; }
   void factor_lane_front(int index);
-  void factor_lane_alone(int index, int lane);
+  void factor_lane_alone(int index, int lane, bool is_indefinite);
   void forward_lane_front(int index);
   void backward_lane_front(int index);
   void backward_left_lane_front(int index, std::vector<double>& left);
@@ -152,7 +153,8 @@ struct Hierarchical::State {
   void for_boundary(tree::FrontId f, Body&& body) const;  ///< body(row of the boundary, unknown)
 
   void size_factors();
-  bool is_symmetric() const { return symmetry.used == Symmetry::symmetric; }
+  bool is_symmetric() const { return symmetry.used != Symmetry::general; }
+  bool is_definite() const { return symmetry.used == Symmetry::definite; }
   void lose_symmetry(const Asymmetry& found);
   void check_all_symmetric();
   void check_visits_symmetric();

@@ -58,7 +58,8 @@ unsigned eliminate_register(const Front& f, const double* row_scale, const doubl
   for (int k0 = 0; k0 < f.e;) {
     const int k = std::min(panel_width, f.e - k0);
     with_size(k, [&](auto size) {
-      failed |= eliminate_panel<decltype(size)::value, false>(f, k0, row_scale, inverse_column_scale, rule, nullptr);
+      failed |= eliminate_panel<decltype(size)::value, Symmetry::general>(f, k0, row_scale, inverse_column_scale, rule,
+                                                                          nullptr);
     });
     for_columns(k0 + k, f.e, [&](int j, auto c) { update_left<decltype(c)::value>(f, k0, k0 + k, j); });
     for_columns(0, f.n - f.e, [&](int j, auto c) { update_right<decltype(c)::value>(f, k0, k0 + k, j); });

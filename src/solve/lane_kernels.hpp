@@ -31,6 +31,10 @@ LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const doubl
 /// (unit) below the diagonal, the inverse of D on it, the Schur complement on and below its diagonal; above stands nothing of meaning.
 LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, const double* scale,
                                   const double* inverse_scale, const LanePivotRule& rule);
+/// The same where they are expected to be positive definite: pivots are to be positive, at least `least`, scaled, and `least` times
+/// what they were, and no panel may take more than 1 / threshold, scaled, off a diagonal below.
+LaneSet eliminate_lanes_definite(double* factor, double* schur, int n, int e, const double* scale,
+                                 const double* inverse_scale, const LanePivotRule& rule);
 constexpr int most_lane_rows = 2 * lanes_wide * lanes_wide;  ///< no front in lanes has more rows
 
 /// Identity in the eliminated part and 0 elsewhere, for the lanes of the set.

@@ -10,7 +10,7 @@ namespace bough::solve {
 class LanePlanner {
  public:
   LanePlanner(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes, Symmetry symmetry)
-      : graph_(graph), tree_(tree), use_lanes_(use_lanes), is_symmetric_(symmetry == Symmetry::symmetric) {}
+      : graph_(graph), tree_(tree), use_lanes_(use_lanes), is_symmetric_(symmetry != Symmetry::general) {}
 
   LanePlan run();
 

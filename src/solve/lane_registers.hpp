@@ -188,8 +188,9 @@ inline void with_size(int k, const Triangle& triangle) {
 constexpr int panel_width = 6;  ///< pivots of one update
 
 /// LU of the K x K block at (k0, k0), in place; the inverse pivots on the diagonal. `refused`: lanes whose pivot is tiny, not finite, or small
-/// against the block's part of its column. Symmetric: only what is not above the diagonal is read.
-template <int K, bool is_symmetric>
+/// against the block's part of its column. Symmetric: only what is not above the diagonal is read. Definite: `inverse_column_scale` holds what each
+/// pivot has to reach.
+template <int K, Symmetry symmetry>
 inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
                                 const LanePivotRule& rule) {
   const std::ptrdiff_t ld = f.ld();
@@ -198,14 +199,18 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
   Real a[K][K];
   for (int j = 0; j < K; ++j)
     for (int i = 0; i < K; ++i)
-      a[j][i] = is_symmetric && i < j ? load(block + i * ld + j * wide) : load(block + j * ld + i * wide);
+      a[j][i] =
+          symmetry != Symmetry::general && i < j ? load(block + i * ld + j * wide) : load(block + j * ld + i * wide);
   for (int k = 0; k < K; ++k) {
-    Real largest = {};
-    for (int i = k + 1; i < K; ++i)
-      largest = greater_of(largest, magnitude(a[k][i] * load(row_scale + (k0 + i) * wide)));
-    const Real size = magnitude(a[k][k] * load(row_scale + (k0 + k) * wide));
-    // Compared as bits: a NaN or infinity on either side refuses, and traps nothing.
-    const Real least = greater_of(rule.threshold * largest, rule.least * load(inverse_column_scale + (k0 + k) * wide));
+    // Compared as bits: a NaN or infinity on either side refuses, and traps nothing; so does a sign.
+    Real size = a[k][k], least = load(inverse_column_scale + (k0 + k) * wide);
+    if constexpr (symmetry != Symmetry::definite) {
+      Real largest = {};
+      for (int i = k + 1; i < K; ++i)
+        largest = greater_of(largest, magnitude(a[k][i] * load(row_scale + (k0 + i) * wide)));
+      size = magnitude(size * load(row_scale + (k0 + k) * wide));
+      least = greater_of(rule.threshold * largest, rule.least * least);
+    }
     const Flag taken = (bits_of(size) >= bits_of(least)) & (bits_of(size) < Flag{} + infinite_bits);
     good &= taken;
     const Real inverse = 1.0 / (taken ? a[k][k] : Real{} + 1.0);
@@ -221,11 +226,12 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
   return refused;
 }
 
-/// L of R rows below the block, and the largest of each column, rows scaled. Symmetric: L D to `products`, row by row, six packs a row.
-template <int K, bool is_symmetric, int R>
+/// L of R rows below the block, and the largest of each column, rows scaled; definite: the most that is taken off a diagonal, scaled. Symmetric: L D to `products`, row by row, six packs a row.
+template <int K, Symmetry symmetry, int R>
 inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld, const double* row_scale, Real* largest,
                            [[maybe_unused]] double* products) {
   Real l[K][R];
+  [[maybe_unused]] Real lost[R] = {};
   for (int k = 0; k < K; ++k)
     for (int i = 0; i < R; ++i) l[k][i] = load(rows + k * ld + i * wide);
   for (int k = 0; k < K; ++k) {
@@ -235,20 +241,29 @@ inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld,
     }
     const Real inverse = load(block + k * ld + k * wide);
     for (int i = 0; i < R; ++i) {
-      if constexpr (is_symmetric) store(products + (i * panel_width + k) * wide, l[k][i]);
+      if constexpr (symmetry != Symmetry::general) store(products + (i * panel_width + k) * wide, l[k][i]);
+      const Real product = l[k][i];
       l[k][i] *= inverse;
       store(rows + k * ld + i * wide, l[k][i]);
-      largest[k] = greater_of(largest[k], magnitude(l[k][i] * load(row_scale + i * wide)));
+      if constexpr (symmetry == Symmetry::definite)
+        lost[i] = plus_product(lost[i], product, l[k][i]);
+      else
+        largest[k] = greater_of(largest[k], magnitude(l[k][i] * load(row_scale + i * wide)));
     }
   }
+  if constexpr (symmetry == Symmetry::definite)
+    for (int i = 0; i < R; ++i) {
+      const Real scale = load(row_scale + i * wide);
+      largest[0] = greater_of(largest[0], lost[i] * scale * scale);
+    }
 }
 
 /// The columns of a panel: their block, and L below. What is refused is neutralised and answered.
-template <int K, bool is_symmetric>
+template <int K, Symmetry symmetry>
 inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
                                 const LanePivotRule& rule, double* products) {
   const std::ptrdiff_t ld = f.ld();
-  unsigned refused = eliminate_block<K, is_symmetric>(f, k0, row_scale, inverse_column_scale, rule);
+  unsigned refused = eliminate_block<K, symmetry>(f, k0, row_scale, inverse_column_scale, rule);
   if (refused != 0) neutralise(f, refused);
   const double* block = f.left + k0 * ld + k0 * wide;
   Real largest[K];
@@ -256,20 +271,25 @@ inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale,
   int i = k0 + K;
   double* left = f.left + k0 * ld;
   const auto rows = [&](int first, auto count) {
-    double* of_rows = is_symmetric ? products + (first - k0 - K) * panel_width * wide : nullptr;
-    eliminate_rows<K, is_symmetric, decltype(count)::value>(block, left + first * wide, ld, row_scale + first * wide,
-                                                            largest, of_rows);
+    double* of_rows = symmetry != Symmetry::general ? products + (first - k0 - K) * panel_width * wide : nullptr;
+    eliminate_rows<K, symmetry, decltype(count)::value>(block, left + first * wide, ld, row_scale + first * wide,
+                                                        largest, of_rows);
   };
   for (; i + 4 <= f.n; i += 4) rows(i, std::integral_constant<int, 4>{});
   for (; i + 2 <= f.n; i += 2) rows(i, std::integral_constant<int, 2>{});
   for (; i < f.n; ++i) rows(i, std::integral_constant<int, 1>{});
-  // A pivot is small against its column where an entry of L, rows scaled, is above 1 / threshold.
+  // A pivot is small against its column where an entry of L, rows scaled, is above 1 / threshold; definite: where more is taken off a diagonal.
   Flag good = ~Flag{};
-  for (int k = 0; k < K; ++k)
-    good &= bits_of(rule.threshold * largest[k]) <= bits_of(load(row_scale + (k0 + k) * wide));
+  if constexpr (symmetry == Symmetry::definite)
+    good = bits_of(rule.threshold * largest[0]) <= bits_of(Real{} + 1.0);
+  else
+    for (int k = 0; k < K; ++k)
+      good &= bits_of(rule.threshold * largest[k]) <= bits_of(load(row_scale + (k0 + k) * wide));
   unsigned grown = 0;
   for (int l = 0; l < width; ++l) grown |= good[l] == 0 ? 1u << l : 0u;
   if (grown != 0) neutralise(f, grown);
+  for (int l = 0; symmetry != Symmetry::general && l < width; ++l)  // or updates would bring back what was not finite
+    for (int r = 0; (grown >> l & 1u) != 0 && r < (f.n - k0 - K) * panel_width; ++r) products[r * wide + l] = 0.0;
   return refused | grown;
 }
 

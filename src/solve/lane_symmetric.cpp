@@ -42,15 +42,15 @@ inline void update(const Front& f, int k0, int k1, int column, const double* pro
   subtract_columns<C>(f.n - column - C, k1 - k0, l + C * wide, ld, u, of_row, target + C * wide, step);
 }
 
-/// One register of lanes.
-unsigned eliminate_register(const Front& f, const double* scale, const double* inverse_scale,
-                            const LanePivotRule& rule) {
+/// One register of lanes. bar: the inverse scales; definite: what each pivot has to reach.
+template <Symmetry symmetry>
+unsigned eliminate_register(const Front& f, const double* scale, const double* bar, const LanePivotRule& rule) {
   alignas(64) double products[most_lane_rows * panel_width * wide];
   unsigned failed = 0;
   for (int k0 = 0; k0 < f.e;) {
     const int k1 = std::min(k0 + panel_width, f.e);
     with_size(k1 - k0, [&](auto size) {
-      failed |= eliminate_panel<decltype(size)::value, true>(f, k0, scale, inverse_scale, rule, products);
+      failed |= eliminate_panel<decltype(size)::value, symmetry>(f, k0, scale, bar, rule, products);
     });
     const auto catch_up = [&](int j, auto c) { update<decltype(c)::value>(f, k0, k1, j, products); };
     for_columns(k1, f.e, catch_up);
@@ -58,6 +58,15 @@ unsigned eliminate_register(const Front& f, const double* scale, const double* i
     k0 = k1;
   }
   return failed;
+}
+
+/// Definite: what the pivots have to reach, against the unknown's scale and against its diagonal before the front is eliminated.
+void eval_bars(const Front& f, const double* scale, const double* inverse_scale, double least, double* bar) {
+  for (int k = 0; k < f.e; ++k) {
+    const Real diagonal = load(f.left + k * (f.ld() + wide));
+    const Real of_scale = load(inverse_scale + k * wide) / load(scale + k * wide);
+    store(bar + k * wide, least * greater_of(diagonal, of_scale));
+  }
 }
 
 /// y = L^-T y for K rows, L unit.
@@ -75,10 +84,22 @@ inline void backward_triangle(const double* l, std::ptrdiff_t ld, double* v) {
 LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, const double* scale,
                                   const double* inverse_scale, const LanePivotRule& rule) {
   unsigned failed = 0;
-  for (int l = 0; l < wide; l += width)
-    failed |=
-        eliminate_register(register_of(factor, schur, n, e, l, Symmetry::symmetric), scale + l, inverse_scale + l, rule)
-        << l;
+  for (int l = 0; l < wide; l += width) {
+    const Front f = register_of(factor, schur, n, e, l, Symmetry::symmetric);
+    failed |= eliminate_register<Symmetry::symmetric>(f, scale + l, inverse_scale + l, rule) << l;
+  }
+  return static_cast<LaneSet>(failed);
+}
+
+LaneSet eliminate_lanes_definite(double* factor, double* schur, int n, int e, const double* scale,
+                                 const double* inverse_scale, const LanePivotRule& rule) {
+  alignas(64) double bar[most_lane_rows * wide];
+  unsigned failed = 0;
+  for (int l = 0; l < wide; l += width) {
+    const Front f = register_of(factor, schur, n, e, l, Symmetry::definite);
+    eval_bars(f, scale + l, inverse_scale + l, rule.least, bar);
+    failed |= eliminate_register<Symmetry::definite>(f, scale + l, bar, rule) << l;
+  }
   return static_cast<LaneSet>(failed);
 }
 

@@ -202,13 +202,15 @@ void Hierarchical::State::factor_lane_front(int index) {
   if (alone != 0) neutralise_lanes(factor, schur, n, e, alone, symmetry.used);
   mark(tree::Stage::assemble);
   const LanePivotRule rule{options.pivot_threshold, options.tiny_pivot};
-  const LaneSet refused = (f.is_symmetric ? eliminate_lanes_symmetric : eliminate_lanes)(
-      factor, schur, n, e, lane_row_scales.data() + f.vector * wide,
-      lane_inverse_column_scales.data() + f.vector * wide, rule);
+  const auto eliminate = is_definite()    ? eliminate_lanes_definite
+                         : f.is_symmetric ? eliminate_lanes_symmetric
+                                          : eliminate_lanes;
+  const LaneSet refused = eliminate(factor, schur, n, e, lane_row_scales.data() + f.vector * wide,
+                                    lane_inverse_column_scales.data() + f.vector * wide, rule);
   alone = static_cast<LaneSet>(alone | refused);
   scalar_lanes[at(index)] = alone;
   for (int l = 0; alone != 0 && l < wide; ++l)
-    if ((alone >> l & 1) != 0) factor_lane_alone(index, l);
+    if ((alone >> l & 1) != 0) factor_lane_alone(index, l, is_definite() && (refused >> l & 1) != 0);
   mark(tree::Stage::eliminate);
 }
 
@@ -229,10 +231,11 @@ LaneSet Hierarchical::State::lanes_to_leave(const LaneFront& f) const {
 }
 
 /// The pivoted scalar path for one lane; its Schur complement goes back into the lane where no unknown waits.
-void Hierarchical::State::factor_lane_alone(int index, int lane) {
+void Hierarchical::State::factor_lane_alone(int index, int lane, bool is_indefinite) {
   const LaneFront& f = lanes.fronts[at(index)];
   const tree::FrontId id = f.front[at(lane)];
   size_front(id);
+  data(id).is_indefinite = is_indefinite;
   assemble_front(id);
   eliminate_front(id);
   const FrontData& d = data(id);

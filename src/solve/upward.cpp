@@ -27,7 +27,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   const tree::Front& shape = front(f);
   FrontData& d = data(f);
   d.delayed_in = 0;
-  d.failed = d.allocated = false;
+  d.failed = d.allocated = d.is_indefinite = false;
   for (tree::FrontId c : tree.children(shape)) {
     if (!is_scalar(c)) continue;
     d.delayed_in += data(c).num_delayed();
@@ -87,6 +87,13 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
   // At the root the easy pivots go first, then the others by complete pivoting down to what decide_rank() must look at.
   const PivotRule rule{is_root ? std::max(options.pivot_threshold, 0.1) : options.pivot_threshold,
                        is_root ? 1e-2 : options.tiny_pivot};
+  if (is_definite() && !d.is_indefinite && d.delayed_in == 0) {
+    // At the root as well: pivots that are all positive are those of a definite matrix, whose rank there is nothing to decide about.
+    d.pivots = eliminate_definite(matrix, {options.pivot_threshold, options.tiny_pivot}, &factor_walker);
+    if (d.pivots == d.full) return;
+    d.is_indefinite = true;
+    assemble_front(f);
+  }
   if (d.is_symmetric()) {
     d.pivots = eliminate_symmetric(matrix, {rule.threshold, is_root ? suspect_pivot : rule.least}, &factor_walker);
     if (d.pivots >= 0 && d.pivots < d.full && is_root) {  // the rank is decided on rows and columns apart

@@ -58,7 +58,7 @@ VisitShapes make_visit_shapes(const blocks::BlockGraph& graph, const tree::Tree&
         const tree::Front& front = tree.fronts[at(f)];
         add_front(shape, front.num_eliminated, front.num_boundary);
         shape.factor_bytes +=
-            FrontShape(front.size(), front.num_eliminated, symmetry == Symmetry::symmetric).factor_size() *
+            FrontShape(front.size(), front.num_eliminated, symmetry != Symmetry::general).factor_size() *
             static_cast<std::int64_t>(sizeof(double));
       }
     }

@@ -23,6 +23,7 @@ solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solv
   options.penalty_factor = given.penalty_factor;
   options.lanes = plan.took("lanes");
   if (plan.took("symmetric")) options.symmetry = solve::Symmetry::symmetric;
+  if (plan.took("definite")) options.symmetry = solve::Symmetry::definite;
   return options;
 }
 

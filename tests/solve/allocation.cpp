@@ -40,7 +40,9 @@ TEST(Allocation, NothingAllocatesAfterTheFirstFactorAndSolve) {
   for (Scene& scene : make_all_families(5)) {
     cases.emplace_back(scene, solve::Symmetry::general);
     for (Eigen::MatrixXd& a : scene.elements) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
-    cases.emplace_back(std::move(scene), solve::Symmetry::symmetric);
+    cases.emplace_back(scene, solve::Symmetry::symmetric);
+    cases.emplace_back(scene, solve::Symmetry::definite);  // which it is not
+    cases.emplace_back(make_definite(std::move(scene)), solve::Symmetry::definite);
   }
   for (const auto& [scene, symmetry] : cases) {
     Solved s(scene, {.leaf_size = 3}, {.symmetry = symmetry});

@@ -141,6 +141,17 @@ Scene SceneMaker::finish(std::string name) {
   return scene_;
 }
 
+Scene make_definite(Scene scene) {
+  for (blocks::BlockKind& kind : scene.graph.block_kind) kind = blocks::BlockKind::motion;
+  for (MatrixXd& a : scene.elements) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(MatrixXd(0.5 * (a + a.transpose())));
+    const MatrixXd b =
+        modes.eigenvectors() * modes.eigenvalues().cwiseAbs().asDiagonal() * modes.eigenvectors().transpose();
+    a = 0.5 * (b + b.transpose());
+  }
+  return scene;
+}
+
 Scene make_chain(unsigned seed, int links, int beams_per_link, double step) {
   SceneMaker m(seed, step);
   int end = m.add_node();

@@ -53,6 +53,9 @@ class SceneMaker {
   Scene scene_;
 };
 
+/// The same graph with every element matrix Q |L| Q^T instead of its symmetric part Q L Q^T: positive definite. Multipliers become motion.
+Scene make_definite(Scene scene);
+
 /// Scenes of the families: chain, tree, loop, star, lattice, parts (several unconnected), rigid chain, with joints sprinkled in.
 Scene make_chain(unsigned seed, int links, int beams_per_link, double step = 1e-3);
 Scene make_tree_of_bodies(unsigned seed, int bodies, double step = 1e-3);

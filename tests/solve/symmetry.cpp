@@ -146,5 +146,103 @@ TEST(Symmetry, HasNoVerdictOnWhatIsNotFinite) {
   }
 }
 
+TEST(Definite, ValuesThatAreGiveTheSolutionOfGeneralOnesWithoutAFrontThatPivots) {
+  for (Scene& given : make_symmetric_families()) {
+    const Scene scene = make_definite(std::move(given));
+    for (const bool lanes : {true, false}) {
+      Solved s(scene, {}, {.symmetry = Symmetry::definite, .lanes = lanes}), general(scene, {}, {.lanes = lanes});
+      ASSERT_TRUE(s.factor().ok()) << scene.name;
+      ASSERT_TRUE(general.factor().ok()) << scene.name;
+      EXPECT_EQ(s.solver.symmetry().used, Symmetry::definite) << scene.name;
+      EXPECT_EQ(s.solver.counters().indefinite_fronts, 0) << scene.name;
+      EXPECT_EQ(s.solver.counters().lanes_left, 0) << scene.name;
+      const Eigen::VectorXd b = s.random_rhs(3), x = s.solve(b), y = general.solve(b);
+      EXPECT_LE(s.report.backward_error, 1e-14) << scene.name;
+      EXPECT_LE(s.scaled_difference(x, y), 1e-9) << scene.name;
+    }
+  }
+}
+
+TEST(Definite, ValuesThatAreNotAreSolvedByPivotingAndCounted) {
+  for (const Scene& scene : make_symmetric_families())
+    for (const bool lanes : {true, false}) {
+      Solved s(scene, {}, {.symmetry = Symmetry::definite, .lanes = lanes}), general(scene, {}, {.lanes = lanes});
+      ASSERT_TRUE(s.factor().ok()) << scene.name;
+      ASSERT_TRUE(general.factor().ok()) << scene.name;
+      EXPECT_EQ(s.solver.symmetry().used, Symmetry::definite) << scene.name;
+      EXPECT_GT(s.solver.counters().indefinite_fronts, 0) << scene.name;  // multipliers
+      const auto first = s.solver.counters().indefinite_fronts;
+      ASSERT_TRUE(s.factor().ok());
+      EXPECT_EQ(s.solver.counters().indefinite_fronts, 2 * first) << scene.name;
+      const Eigen::VectorXd b = s.random_rhs(3), x = s.solve(b), y = general.solve(b);
+      EXPECT_LE(s.report.backward_error, 1e-14) << scene.name;
+      EXPECT_LE(s.scaled_difference(x, y), 1e-9) << scene.name;
+    }
+}
+
+TEST(Definite, OneFrontThatIsNotLeavesTheOthersAsTheyAre) {
+  const Scene chain = make_chain(4, 64, 4), lattice = make_lattice(4, 12, 12);
+  for (const Scene* given : {&chain, &lattice}) {
+    const Scene definite = make_definite(*given), *scene = &definite;
+    Solved s(*scene, {}, {.symmetry = Symmetry::definite}), general(*scene, {}, {});
+    for (Solved* solved : {&s, &general}) {
+      ASSERT_TRUE(solved->factor().ok());
+      // the first node's own diagonal, turned over
+      const int element = find_stiff(*given, true);
+      const solve::ElementView view = solved->solver.element(element);
+      const auto n = scene->elements[static_cast<std::size_t>(element)].rows();
+      for (int i = 0; i < 3; ++i) view[i * n + i] *= -30.0;
+      ASSERT_TRUE(solved->factor().ok());
+    }
+    EXPECT_GE(s.solver.counters().indefinite_fronts, 1) << scene->name;
+    EXPECT_LE(s.solver.counters().indefinite_fronts, 12) << scene->name;  // it, and those above it
+    const Eigen::VectorXd b = s.random_rhs(3), x = s.solve(b), y = general.solve(b);
+    EXPECT_LE(s.report.backward_error, 1e-14) << scene->name;
+    EXPECT_LE(s.scaled_difference(x, y), 1e-9) << scene->name;
+  }
+}
+
+TEST(Definite, ASingularMatrixIsToldAsBefore) {
+  SceneMaker floating(3, 0.0);
+  std::vector<int> nodes;
+  for (int i = 0; i < 9; ++i) nodes.push_back(floating.add_node());
+  for (int i = 0; i + 1 < 9; ++i)
+    floating.add_beam({nodes[static_cast<std::size_t>(i)], nodes[static_cast<std::size_t>(i) + 1]}, 0.0);
+  const Scene beam = floating.finish("floating beam");
+  Solved s(beam, {}, {.symmetry = Symmetry::definite}), general(beam, {}, {});
+  const solve::FactorStatus status = s.factor(), expected = general.factor();
+  EXPECT_EQ(status.outcome, solve::FactorOutcome::singular);
+  EXPECT_EQ(status.outcome, expected.outcome);
+  EXPECT_EQ(status.deficiency, expected.deficiency);
+}
+
+TEST(Definite, UnsymmetricValuesAreFactoredAsIfNothingHadBeenDeclared) {
+  const Scene given = make_lattice(4, 8, 8), scene = make_definite(given);
+  const int element = find_stiff(given, false);
+  Solved s(scene, {.leaf_size = 3}, {.symmetry = Symmetry::definite}), general(scene, {.leaf_size = 3}, {});
+  for (Solved* solved : {&s, &general}) {
+    spoil(*solved, element, true);
+    ASSERT_TRUE(solved->factor().ok());
+  }
+  EXPECT_EQ(s.solver.symmetry().declared, Symmetry::definite);
+  EXPECT_EQ(s.solver.symmetry().used, Symmetry::general);
+  const Eigen::VectorXd b = s.random_rhs(3);
+  EXPECT_TRUE(same_bits(s.solve(b), general.solve(b)));
+}
+
+TEST(Definite, WhatIsNotFiniteIsTold) {
+  const Scene scene = make_definite(make_lattice(4, 8, 8));
+  for (const bool lanes : {true, false}) {
+    Solved s(scene, {}, {.symmetry = Symmetry::definite, .lanes = lanes});
+    ASSERT_TRUE(s.factor().ok());
+    for (const int entry : {0, 1, 12}) {
+      s.solver.element(20)[entry] = std::numeric_limits<double>::quiet_NaN();
+      EXPECT_EQ(s.factor().outcome, solve::FactorOutcome::not_finite);
+      s.solver.element(20)[entry] = scene.elements[20].data()[entry];  // symmetric: the order does not matter
+      EXPECT_TRUE(s.factor().ok());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bough::test

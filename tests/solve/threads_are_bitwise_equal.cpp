@@ -46,8 +46,9 @@ TEST(Threads, GiveTheSameBitsForAnyCountAndAnyTiming) {
 
 TEST(Threads, ShareLargeFrontsAndGiveTheSameBits) {
   Scene scene = make_lattice(9, 40, 40);
-  for (const solve::Symmetry symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric}) {
-    if (symmetry == solve::Symmetry::symmetric)
+  using solve::Symmetry;
+  for (const Symmetry symmetry : {Symmetry::general, Symmetry::symmetric, Symmetry::definite, Symmetry::definite}) {
+    if (symmetry == Symmetry::symmetric)
       for (Eigen::MatrixXd& a : scene.elements) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
     const auto serial = run(scene, schedule::make_serial_walker(), 0, symmetry);
     for (int count : {2, 3}) {
@@ -56,6 +57,7 @@ TEST(Threads, ShareLargeFrontsAndGiveTheSameBits) {
       threads.set_random_delay(20, static_cast<unsigned>(count));
       EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), 0, symmetry))) << "delayed " << count;
     }
+    if (symmetry == Symmetry::definite) scene = make_definite(std::move(scene));  // first it is not
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "../step/lattice_scene.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/scene/components.hpp"
 #include "support/scenes.hpp"
@@ -335,6 +336,66 @@ TEST(WeldedBodies, are_shown_as_the_bodies_they_are) {
     expect_near(same->first, link.first, link.name);
     expect_near(same->second, link.second, link.name);
   }
+}
+
+/// A lattice of the size from which symmetric parts are taken, one edge clamped, measured at the far corner.
+scene::Scene clamped_lattice(scene::AnalysisKind kind) {
+  scene::Scene s = test::make_lattice(kind);
+  for (int i = 0; i < 10; ++i) {
+    scene::Joint clamp;
+    clamp.name = "clamp " + std::to_string(i);
+    clamp.kind = scene::JointKind::fixed;
+    clamp.first.offset.x = {{0.0, 0.5 * i, 0.0}};
+    clamp.second.to = "0," + std::to_string(i);
+    s.joints.push_back(clamp);
+  }
+  scene::Sensor corner;
+  corner.name = "corner";
+  corner.at.to = "9,9";
+  s.sensors.push_back(corner);
+  scene::Sensor force;
+  force.name = "force";
+  force.kind = scene::SensorKind::section_force;
+  force.beam = "0,4 to 1,4";
+  s.sensors.push_back(force);
+  return s;
+}
+
+double indefinite_fronts(const Outcome& run) {
+  for (const auto& [name, value] : run.summary.solver)
+    if (name == "indefinite_fronts") return value;
+  return -1.0;
+}
+
+TEST(Definite, a_lattice_has_the_same_results_without_the_decision) {
+  for (const auto kind : {scene::AnalysisKind::dynamics, scene::AnalysisKind::statics}) {
+    scene::Scene given = clamped_lattice(kind);
+    if (kind == scene::AnalysisKind::statics)
+      given.gravity = {{0.0, 0.0, -0.5}};  // in one step: iterates need not be near an equilibrium
+    const Runs all(given);
+    ASSERT_TRUE(all.run.ok()) << all.run.summary.cause;
+    ASSERT_TRUE(all.plan.took("definite"));
+    EXPECT_EQ(indefinite_fronts(all.run), 0.0);
+    EXPECT_EQ(indefinite_fronts(expect_the_same_without(all, "definite")), -1.0);
+    expect_the_same_without(all, "symmetric");
+  }
+}
+
+TEST(Definite, a_lattice_pressed_beyond_buckling_has_the_same_results_without_the_decision) {
+  scene::Scene s = clamped_lattice(scene::AnalysisKind::statics);
+  s.gravity = scene::Vec3::zero();
+  for (int i = 0; i < 10; ++i) {  // in its plane, where it stays: ten beams of 4.5 m buckle at 340 N each
+    scene::PointLoad load;
+    load.name = "load " + std::to_string(i);
+    load.at.to = "9," + std::to_string(i);
+    load.force = {{-2000.0, 0.0, 0.0}};
+    s.point_loads.push_back(load);
+  }
+  const Runs all(s);
+  ASSERT_TRUE(all.run.ok()) << all.run.summary.cause;
+  ASSERT_TRUE(all.plan.took("definite"));
+  EXPECT_GT(indefinite_fronts(all.run), 0.0);
+  expect_the_same_without(all, "definite");
 }
 
 }  // namespace

@@ -23,12 +23,14 @@ enum class SolveCheck {
 enum class Symmetry {
   general,    ///< structure symmetric, values not: L U.
   symmetric,  ///< every element matrix is symmetric, definite or not: L D L^T.
+  definite,   ///< the same, and their sum is expected to be positive definite: L D L^T without a search for pivots.
 };
 
 struct SolveOptions {
   Elimination elimination = Elimination::flat;
   /// Symmetric: half the work, less memory (flat elimination only). Every factorization looks at every element matrix; where one differs
-  /// from its transpose the solver goes over to general for good and says so in Hierarchical::symmetry().
+  /// from its transpose the solver goes over to general for good and says so in Hierarchical::symmetry(). Definite: a front with a pivot that is
+  /// not positive, or below tiny_pivot, is factored as a symmetric one; the declaration stays (SolverCounters::indefinite_fronts).
   Symmetry symmetry = Symmetry::general;
   /// Schur complements of all sub-domains last, so that factor() may leave alone what has not changed; more memory.
   bool partial = false;

@@ -100,6 +100,8 @@ struct SolverCounters {
   std::int64_t fronts_in_lanes = 0;        ///< fronts of the tree that are factored in lockstep.
   double flops_in_lanes = 0.0;             ///< of factor_flops, those of these [flop].
   std::int64_t lanes_left = 0;  ///< fronts that left their lane for the pivoted path, over all factorizations.
+  /// Declared definite: fronts with a pivot that was not positive or too small, factored by pivoting instead, over all factorizations.
+  std::int64_t indefinite_fronts = 0;
 };
 
 /// By element: whether its matrix is another than that factored last. Empty: all are.
