@@ -108,7 +108,8 @@ TEST(Partial, SymmetricFrontsAreTheSameBitByBit) {
   for (const bool lanes : {true, false})
     for (Scene scene : {make_chain(3, 24, 4), make_lattice(4, 10, 10), make_star(5, 5, 6)}) {
       for (Eigen::MatrixXd& a : scene.elements) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
-      for (const Symmetry symmetry : {Symmetry::symmetric, Symmetry::definite})  // with multipliers: fronts that are not
+      for (const Symmetry symmetry :
+           {Symmetry::symmetric, Symmetry::definite})  // with multipliers: fronts that are not
         compare_rounds(scene, {.symmetry = symmetry, .lanes = lanes}, 12);
     }
 }
