@@ -106,6 +106,8 @@ void Hierarchical::State::size_factors() {
   }
   factor_pool.resize(at(factor_begin.back()));
   lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);
+  constexpr std::size_t last_cache = std::size_t{16} << 20;  ///< bytes of it that a run may hope for
+  streams_factors = sizeof(double) * lane_factors.size() > last_cache;
 }
 
 void Hierarchical::State::lose_symmetry(const Asymmetry& found) {

@@ -113,7 +113,8 @@ struct Hierarchical::State {
   std::vector<SolutionSizes> sizes;   ///< by group
   std::unique_ptr<Hierarchical> twin;  ///< the same without lanes, for reports that need every front whole
   std::int64_t twin_factorization = -1, twin_solution = -1;  ///< what it holds
-  double norm = 0.0;                                         ///< of the scaled matrix, rows, when the scales were taken
+  bool streams_factors = false;  ///< factors of lanes are written past the caches, into which they do not fit
+  double norm = 0.0;             ///< of the scaled matrix, rows, when the scales were taken
 
   FactorStatus status;
   SolverCounters counters;
@@ -134,9 +135,10 @@ struct Hierarchical::State {
   double* factor_of(const LaneFront& f) { return lane_factors.data() + f.factor * lanes_wide; }
   LaneSet lanes_to_leave(const LaneFront& f) const;
   double* vector_of(const LaneFront& f) { return lane_vectors.data() + f.vector * lanes_wide; }
-  void factor_lane_front(int index);
+  void factor_lanes_aside(const LaneGroup& group);
+  void factor_lane_front(int index, double* factor);
   void factor_lane_alone(int index, int lane, bool is_indefinite);
-  void forward_lane_front(int index);
+  void forward_lane_front(int index, const double* factor);
   void backward_lane_front(int index);
   void backward_left_lane_front(int index, std::vector<double>& left);
   void residual_lane_front(int index);

@@ -207,6 +207,15 @@ double largest_scaled(const double* v, const double* scale, int count) {
   return largest;
 }
 
+void write_past_caches(const double* from, std::int64_t count, double* to) {
+#if defined(__AVX512F__)
+  for (std::int64_t i = 0; i < count; i += 8) _mm512_stream_pd(to + i, _mm512_load_pd(from + i));
+#else
+  for (std::int64_t i = 0; i < count; i += 2) _mm_stream_pd(to + i, _mm_load_pd(from + i));
+#endif
+  _mm_sfence();
+}
+
 void add_packs(const double* from, int count, double* to) {
   for (int i = 0; i < count * wide; i += width) store(to + i, load(to + i) + load(from + i));
 }

@@ -42,18 +42,31 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   mark(tree::Stage::evaluate);
   if (is_symmetric()) check_group_symmetric(index);
   if (group.in_lanes) {
-    for (int f = group.front_begin; f < group.front_end; ++f) {
-      factor_lane_front(f);
-      if (visit_rhs == nullptr) continue;
-      forward_lane_front(f);
-      mark(tree::Stage::forward);
-    }
+    if (streams_factors) return factor_lanes_aside(group);
+    for (int f = group.front_begin; f < group.front_end; ++f) factor_lane_front(f, factor_of(lanes.fronts[at(f)]));
     return;
   }
   factor_subdomain(group.subdomains.front());
   if (visit_rhs == nullptr || group.subdomains.front() == tree.root()) return;
   forward_group(index);
   mark(tree::Stage::forward);
+}
+
+/// Fronts are made in a place that stays in the cache, and written to memory past it: there they would have to be read before they are
+/// written, which is half of the traffic where factors do not fit into any cache.
+void Hierarchical::State::factor_lanes_aside(const LaneGroup& group) {
+  constexpr std::int64_t room = 1 << 15;
+  alignas(64) double aside[room];
+  for (int index = group.front_begin; index < group.front_end; ++index) {
+    const LaneFront& f = lanes.fronts[at(index)];
+    const std::int64_t size = f.factor_size() * wide;
+    if (size > room) {
+      factor_lane_front(index, factor_of(f));
+      continue;
+    }
+    factor_lane_front(index, aside);
+    write_past_caches(aside, size, factor_of(f));
+  }
 }
 
 /// Looks at the element matrices of a visit: values that are symmetric once need not stay so.
@@ -86,7 +99,7 @@ void Hierarchical::State::check_group_symmetric(int index) {
 void Hierarchical::State::forward_group(int index) {
   const LaneGroup& group = lanes.groups[at(index)];
   if (group.in_lanes) {
-    for (int f = group.front_begin; f < group.front_end; ++f) forward_lane_front(f);
+    for (int f = group.front_begin; f < group.front_end; ++f) forward_lane_front(f, factor_of(lanes.fronts[at(f)]));
     return;
   }
   const tree::SubdomainId s = group.subdomains.front();
@@ -165,10 +178,11 @@ void Hierarchical::State::set_lane_scales() {
   }
 }
 
-void Hierarchical::State::factor_lane_front(int index) {
+/// Factors a front, and condenses the right-hand side of the walk where there is one. factor: where the factor is to stand.
+void Hierarchical::State::factor_lane_front(int index, double* factor) {
   const LaneFront& f = lanes.fronts[at(index)];
   const int n = f.size(), e = f.eliminated;
-  double *factor = factor_of(f), *schur = schur_of(f);
+  double* schur = schur_of(f);
   for (int i = f.gap_begin; i < f.gap_end; ++i) {
     const LaneGap& gap = lanes.gaps[at(i)];
     std::memset((gap.in_schur ? schur : factor) + gap.target * wide, 0, sizeof(double) * wide * at(gap.count));
@@ -212,6 +226,9 @@ void Hierarchical::State::factor_lane_front(int index) {
   for (int l = 0; alone != 0 && l < wide; ++l)
     if ((alone >> l & 1) != 0) factor_lane_alone(index, l, is_definite() && (refused >> l & 1) != 0);
   mark(tree::Stage::eliminate);
+  if (visit_rhs == nullptr) return;
+  forward_lane_front(index, factor);
+  mark(tree::Stage::forward);
 }
 
 /// Lanes with unknowns that wait, or a failure below: these can only be taken over on the scalar path.
@@ -272,7 +289,7 @@ void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent)
   });
 }
 
-void Hierarchical::State::forward_lane_front(int index) {
+void Hierarchical::State::forward_lane_front(int index, const double* factor) {
   const LaneFront& f = lanes.fronts[at(index)];
   double* v = vector_of(f);
   const int* unknown = lanes.unknowns.data() + f.unknown;
@@ -294,7 +311,7 @@ void Hierarchical::State::forward_lane_front(int index) {
       }
     }
   }
-  forward_lanes(lane_factors.data() + f.factor * wide, f.size(), f.eliminated, v);
+  forward_lanes(factor, f.size(), f.eliminated, v);
   const LaneSet alone = scalar_lanes[at(index)];
   for (int l = 0; alone != 0 && l < wide; ++l) {
     if ((alone >> l & 1) == 0) continue;
