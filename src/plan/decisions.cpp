@@ -154,7 +154,7 @@ void Builder::settle() {
          "few sub-domains leave most lanes empty",
          !one_matrix && work >= lanes_break_even, one_matrix ? "the solver is monolithic" : text);
   std::snprintf(text, sizeof text, "one evaluation of the elements is about %.0f us of work; tasks pay above %.0f us",
-                1e-3 * work, 1e-3 * lanes_break_even);
+                1e-3 * work, 1e-3 * task_break_even);
   decide("small", "one thread, no tasks. Taken where the work of an evaluation is below a measured break-even",
          work < task_break_even, text);
 

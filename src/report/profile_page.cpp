@@ -171,8 +171,8 @@ void add_step(Document& page, const Profile& p) {
         number_cell(s.evaluations, 3, "/step/evaluations"), number_cell(s.factorizations, 3, "/step/factorizations"),
         number_cell(s.solutions, 3, "/step/solutions")}}};
   table.caption =
-      "One step: the median, then where the mean goes (wall time; rest: all that runs outside of the walks, recording "
-      "included).";
+      "One step: the median, the means of what its walks take (wall time), and the rest, which is what these leave of "
+      "the median: all that runs outside of the walks, recording included.";
   page.table(table);
 }
 

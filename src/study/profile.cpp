@@ -162,12 +162,10 @@ void fill_events(const WatchedRun& run, results::Profile& out) {
   }
 }
 
-/// Means of the steps of a run, the start left out.
+/// Means over the steps that were watched, the start left out; total and rest are those of medians.
 results::StepProfile mean_step(const WatchedRun& run, std::size_t num_visits) {
   results::StepProfile s;
   const auto n = static_cast<double>(std::max<std::size_t>(run.watched.size(), 1));
-  double sum = 0.0;
-  for (double seconds : run.watched) sum += seconds;
   s.total = median(run.steps);
   const TreeTimes *end = walked_tree(run.times, num_visits), *begin = walked_tree(run.start, num_visits);
   const auto wall = [&](Work w) {
@@ -189,7 +187,8 @@ results::StepProfile mean_step(const WatchedRun& run, std::size_t num_visits) {
         (run.times.chunks[w].wall_sum - run.start.chunks[w].wall_sum) / n;
   s.evaluations =
       static_cast<double>(run.times.chunks[of(Work::evaluate)].count - run.start.chunks[of(Work::evaluate)].count) / n;
-  s.rest = std::max(0.0, sum / n - s.evaluate - s.other_chunks - s.factor - s.forward - s.backward - s.residual);
+  s.rest =
+      std::max(0.0, median(run.watched) - s.evaluate - s.other_chunks - s.factor - s.forward - s.backward - s.residual);
   return s;
 }
 
