@@ -37,13 +37,11 @@ const char* style_of(const ProfileEvent& e) {
   return "s5 solid";
 }
 
-/// End of the window: two whole steps, one where those after it were not watched, fewer where these hold too many bars.
+/// End of the window: two whole steps, fewer where these hold too many bars.
 double window_end(const std::vector<const ProfileEvent*>& steps, const std::vector<const ProfileEvent*>& bars) {
   double end = bars.back()->begin + bars.back()->seconds;
   if (!steps.empty()) {
-    const ProfileEvent& first = *steps.front();
-    const bool has_next = steps.size() > 1 && steps[1]->begin < first.begin + 2.0 * first.seconds;
-    const ProfileEvent& last = has_next ? *steps[1] : first;
+    const ProfileEvent& last = *steps[std::min<std::size_t>(1, steps.size() - 1)];
     end = std::min(end, last.begin + last.seconds);
   }
   if (bars.size() > most_bars) end = std::min(end, bars[most_bars]->begin);

@@ -265,10 +265,8 @@ results::Profile profile(const scene::Scene& given, const ProfileOptions& option
     out.is_dynamic = system.plan().is_dynamic;
     draw_parts(system.plan(), found.tree, out);
   };
-  const WatchedRun run = watch_run(
-      scene,
-      {.threads = out.threads, .steps = options.steps, .stride = watch_stride(options.steps), .keep_events = true},
-      recorder, progress, look);
+  const WatchedRun run =
+      watch_run(scene, {.threads = out.threads, .steps = options.steps, .keep_events = true}, recorder, progress, look);
   if (run.summary.status == results::RunStatus::failed) out.trouble = run.summary.cause;
   out.steps = run.summary.steps.accepted;
   out.factorizations = run.summary.steps.factorizations;
@@ -298,8 +296,8 @@ results::Profile profile(const scene::Scene& given, const ProfileOptions& option
   WatchedRun alone;
   const auto go_on = [&progress](const results::Progress& p) { return !progress || progress(p); };
   const auto run_on = [&](int threads) {
-    const long steps = std::min(options.steps, options.steps_for_speed);
-    return watch_run(scene, {.threads = threads, .steps = steps, .stride = watch_stride(steps)}, nobody, go_on);
+    return watch_run(scene, {.threads = threads, .steps = std::min(options.steps, options.steps_for_speed)}, nobody,
+                     go_on);
   };
   if (out.threads != 1) alone = run_on(1);
   const WatchedRun& one = out.threads == 1 ? run : alone;

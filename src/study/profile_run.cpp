@@ -5,6 +5,8 @@
 
 namespace bough::study {
 
+constexpr long all_watched = 16, watched_stride = 7;
+
 WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, results::Recorder& recorder,
                      const ProgressCallback& progress, const std::function<void(step::System&)>& look) {
   using Clock = std::chrono::steady_clock;
@@ -26,8 +28,7 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
   simulate_options.before_step = [&](step::System&, const step::State&, const BeforeStep& attempt) {
     if (attempt.number > options.steps) return false;
     if (tried++ == 0) run.start = watch->times();
-    is_watched =
-        options.stride == 1 || (attempt.number >= first_kept && (attempt.number - first_kept) % options.stride == 0);
+    is_watched = attempt.number <= all_watched || attempt.number % watched_stride == 0;
     watch->watch(is_watched);
     if (options.keep_events && is_watched && attempt.number >= first_kept) {
       watch->keep_events(true);

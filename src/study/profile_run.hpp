@@ -23,20 +23,15 @@ struct WatchedRun {
 
 struct WatchedRunOptions {
   int threads = 1;
-  long steps = 200;  ///< most accepted steps
-  /// Visits are watched in every so many steps, from the third on: what a watch costs is a share of small steps. Odd, as factors are often renewed in
-  /// every second. 1: in all.
-  long stride = 1;
+  long steps = 200;          ///< most accepted steps
   bool keep_events = false;  ///< from the third step on, or from the first where there are fewer
   bool want_motion = false;
 };
 
-/// Runs a scene. `look` is called once after the last step.
+/// Runs a scene. Visits are watched in the first 16 steps, and in every seventh after them: what a watch costs is a share of small steps, and medians ask
+/// for no more. (An odd number, as factors are often renewed in every second step.) `look` is called once after the last step.
 WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, results::Recorder& recorder,
                      const ProgressCallback& progress, const std::function<void(step::System&)>& look = {});
-
-/// The stride with which so many steps give enough samples for medians.
-constexpr long watch_stride(long steps) { return steps >= 100 ? 7 : 1; }
 
 /// A recorder that keeps nothing.
 class NullRecorder final : public results::Recorder {
