@@ -2,6 +2,7 @@
 /// Memory that begins on a cache line, so that a pack of eight doubles never straddles two; what is large on large pages, so that columns
 /// of a front are not one miss of the page table each. Internal to solve.
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -16,19 +17,36 @@ struct LineAllocator {
   template <class U>
   LineAllocator(const LineAllocator<U>&) {}  // NOLINT(google-explicit-constructor): as the standard asks
   T* allocate(std::size_t n) {
-    void* p = ::operator new(n * sizeof(T), alignment_of(n));
 #if defined(__linux__)
-    if (is_large(n)) (void)::madvise(p, n * sizeof(T), MADV_HUGEPAGE);  // a wish: nothing is lost where it is not met
+    if (is_large(n)) return static_cast<T*>(map_large_pages(bytes_of(n)));
 #endif
-    return static_cast<T*>(p);
+    return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{line}));
   }
-  void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment_of(n)); }
+  void deallocate(T* p, std::size_t n) {
+#if defined(__linux__)
+    if (is_large(n)) return static_cast<void>(::munmap(p, bytes_of(n)));
+#endif
+    ::operator delete (p, std::align_val_t{line});
+  }
   bool operator==(const LineAllocator&) const { return true; }
 
  private:
   static constexpr std::size_t line = 64, large_page = std::size_t{1} << 21;
   static bool is_large(std::size_t n) { return n * sizeof(T) >= 2 * large_page; }
-  static std::align_val_t alignment_of(std::size_t n) { return std::align_val_t{is_large(n) ? large_page : line}; }
+  static std::size_t bytes_of(std::size_t n) { return (n * sizeof(T) + large_page - 1) / large_page * large_page; }
+#if defined(__linux__)
+  /// From the system itself: what a heap hands out again stands on the small pages that it was first written on.
+  static void* map_large_pages(std::size_t bytes) {
+    void* room = ::mmap(nullptr, bytes + large_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (room == MAP_FAILED) throw std::bad_alloc();
+    char* begin = static_cast<char*>(room);
+    const std::size_t before = (large_page - reinterpret_cast<std::uintptr_t>(begin) % large_page) % large_page;
+    if (before > 0) (void)::munmap(begin, before);
+    (void)::munmap(begin + before + bytes, large_page - before);
+    (void)::madvise(begin + before, bytes, MADV_HUGEPAGE);  // a wish: nothing is lost where it is not met
+    return begin + before;
+  }
+#endif
 };
 
 }  // namespace bough::solve
