@@ -77,7 +77,6 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   if (options.elimination == Elimination::plain) plain.resize(at(tree.num_subdomains()));
   for (LaneDoubles* pool : {&lane_vectors, &lane_residuals, &lane_row_scales, &lane_inverse_column_scales})
     pool->assign(at(lanes.vector_size * lanes_wide), 0.0);
-  lane_scratch.assign(at(lanes.scratch_size * lanes_wide), 0.0);
   lane_tops.assign(at(lanes.top_size * lanes_wide), 0.0);
   scalar_lanes.assign(lanes.fronts.size(), 0);
   sizes.resize(lanes.groups.size());
@@ -106,8 +105,17 @@ void Hierarchical::State::size_factors() {
   }
   factor_pool.resize(at(factor_begin.back()));
   lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);
+  std::int64_t scratch = 0;
+  for (const LaneGroup& group : lanes.groups)
+    if (group.scratch * lanes_wide > room_of_scratch) scratch += group.scratch * lanes_wide;
+  lane_scratch.assign(at(scratch), 0.0);
+  group_scratch.assign(lanes.groups.size(), nullptr);
+  for (std::size_t g = 0; g < lanes.groups.size(); ++g)
+    if (lanes.groups[g].scratch * lanes_wide > room_of_scratch)
+      group_scratch[g] = lane_scratch.data() + (scratch -= lanes.groups[g].scratch * lanes_wide);
   constexpr std::size_t last_cache = std::size_t{16} << 20;  ///< bytes of it that a run may hope for
   streams_factors = sizeof(double) * lane_factors.size() > last_cache;
+  reads_ahead = sizeof(double) * (lane_factors.size() + at(lanes.num_values)) > last_cache;
 }
 
 void Hierarchical::State::lose_symmetry(const Asymmetry& found) {

@@ -74,6 +74,9 @@ struct SolutionSizes {
   double residual = 0.0, rhs = 0.0, x = 0.0;
 };
 
+/// Doubles of Schur complements that a visit has on its stack.
+constexpr std::int64_t room_of_scratch = 1 << 14;
+
 struct Hierarchical::State {
   /// keep_all: all Schur complements last until the next factorization, for reports.
   State(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options, bool keep_all);
@@ -109,10 +112,12 @@ struct Hierarchical::State {
   // Sub-domains in lockstep: packs of eight lanes.
   LaneDoubles lane_scratch, lane_tops, lane_factors, lane_vectors, lane_residuals, lane_row_scales,
       lane_inverse_column_scales;
+  std::vector<double*> group_scratch;  ///< by group: where Schur complements stand that do not outlast its visit
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
   std::vector<SolutionSizes> sizes;   ///< by group
   std::unique_ptr<Hierarchical> twin;  ///< the same without lanes, for reports that need every front whole
   std::int64_t twin_factorization = -1, twin_solution = -1;  ///< what it holds
+  bool reads_ahead = false;      ///< matrices and factors do not stay in the caches from one walk to the next
   bool streams_factors = false;  ///< factors of lanes are written past the caches, into which they do not fit
   double norm = 0.0;             ///< of the scaled matrix, rows, when the scales were taken
 
@@ -129,13 +134,18 @@ struct Hierarchical::State {
   void forward_group(int group);
   void backward_group(int group);
   void residual_group(int group);
-  void check_group_symmetric(int group);
+  void check_front_symmetric(const LaneFront& f);
+  void check_element_symmetric(int group, int element);
   void set_lane_scales();
-  double* schur_of(const LaneFront& f) { return (f.is_top ? lane_tops : lane_scratch).data() + f.schur * lanes_wide; }
+  double* schur_of(const LaneFront& f) {
+    return (f.is_top ? lane_tops.data() : group_scratch[static_cast<std::size_t>(f.group)]) + f.schur * lanes_wide;
+  }
   double* factor_of(const LaneFront& f) { return lane_factors.data() + f.factor * lanes_wide; }
   LaneSet lanes_to_leave(const LaneFront& f) const;
   double* vector_of(const LaneFront& f) { return lane_vectors.data() + f.vector * lanes_wide; }
-  void factor_lanes_aside(const LaneGroup& group);
+  void factor_lanes(int group);
+  void prefetch_front(int front) const;
+  void prefetch_factor(int front) const;
   void factor_lane_front(int index, double* factor);
   void factor_lane_alone(int index, int lane, bool is_indefinite);
   void forward_lane_front(int index, const double* factor);

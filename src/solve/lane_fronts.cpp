@@ -30,6 +30,7 @@ void LanePlanner::add_fronts(LaneGroup& group, tree::Subdomain& node) {
   for (int k = 0; k < count; ++k) {
     LaneFront f;
     f.is_symmetric = is_symmetric_;
+    f.group = static_cast<int>(plan_.groups.size());
     f.front.fill(tree::none);
     for (std::size_t l = 0; l < group.subdomains.size(); ++l) {
       const tree::FrontId id = front_at(group.subdomains[l], k, count);

@@ -14,41 +14,48 @@ namespace {
 
 using namespace packs;
 
-/// U of C columns for pivots [k0, k1): rows [k0, k1) of `head`, whose columns are `step` doubles apart.
-template <int C>
-inline void update_head(const double* l, std::ptrdiff_t ld, int k0, int k1, double* head, std::ptrdiff_t step) {
-  for (int p = k0; p + 1 < k1; ++p) {
-    Real u[C];
-    for (int j = 0; j < C; ++j) u[j] = load(head + j * step + p * wide);
-    for (int i = p + 1; i < k1; ++i) {
+/// U = L^-1 of C columns, the K x K triangle of L at `l`, unit.
+template <int K, int C>
+inline void update_head(const double* l, std::ptrdiff_t ld, double* head, std::ptrdiff_t step) {
+  Real u[C][K];
+#pragma GCC unroll 8
+  for (int j = 0; j < C; ++j)
+#pragma GCC unroll 8
+    for (int i = 0; i < K; ++i) u[j][i] = load(head + j * step + i * wide);
+#pragma GCC unroll 8
+  for (int p = 0; p + 1 < K; ++p)
+#pragma GCC unroll 8
+    for (int i = p + 1; i < K; ++i) {
       const Real factor = load(l + p * ld + i * wide);
-      for (int j = 0; j < C; ++j) {
-        double* c = head + j * step + i * wide;
-        store(c, minus_product(load(c), factor, u[j]));
-      }
+#pragma GCC unroll 8
+      for (int j = 0; j < C; ++j) u[j][i] = minus_product(u[j][i], factor, u[j][p]);
     }
-  }
+#pragma GCC unroll 8
+  for (int j = 0; j < C; ++j)
+#pragma GCC unroll 8
+    for (int i = 1; i < K; ++i) store(head + j * step + i * wide, u[j][i]);
 }
 
-template <int C>
-inline void update_left(const Front& f, int k0, int k1, int column) {
+/// Columns [column, column + C) of the left part catch up with the K pivots from k0.
+template <int K, int C>
+inline void update_left(const Front& f, int k0, int column) {
   const std::ptrdiff_t ld = f.ld();
+  const int k1 = k0 + K;
   double* head = f.left + column * ld;
-  update_head<C>(f.left, ld, k0, k1, head, ld);
-  subtract_columns<C>(f.n - k1, k1 - k0, f.left + k0 * ld + k1 * wide, ld, head + k0 * wide, ld, head + k1 * wide, ld);
+  update_head<K, C>(f.left + k0 * (ld + wide), ld, head + k0 * wide, ld);
+  subtract_columns<C>(f.n - k1, K, f.left + k0 * ld + k1 * wide, ld, head + k0 * wide, ld, head + k1 * wide, ld);
 }
 
-template <int C>
-inline void update_right(const Front& f, int k0, int k1, int column) {
-  const int b = f.n - f.e;
+/// The same of U12 and the Schur complement.
+template <int K, int C>
+inline void update_right(const Front& f, int k0, int column) {
+  const int b = f.n - f.e, k1 = k0 + K;
   const std::ptrdiff_t ld = f.ld(), step = static_cast<std::ptrdiff_t>(f.e) * wide;
   double* head = f.upper + column * step;
-  update_head<C>(f.left, ld, k0, k1, head, step);
-  subtract_columns<C>(f.e - k1, k1 - k0, f.left + k0 * ld + k1 * wide, ld, head + k0 * wide, step, head + k1 * wide,
-                      step);
+  update_head<K, C>(f.left + k0 * (ld + wide), ld, head + k0 * wide, step);
+  subtract_columns<C>(f.e - k1, K, f.left + k0 * ld + k1 * wide, ld, head + k0 * wide, step, head + k1 * wide, step);
   const std::ptrdiff_t tail = static_cast<std::ptrdiff_t>(b) * wide;
-  subtract_columns<C>(b, k1 - k0, f.left + k0 * ld + f.e * wide, ld, head + k0 * wide, step, f.schur + column * tail,
-                      tail);
+  subtract_columns<C>(b, K, f.left + k0 * ld + f.e * wide, ld, head + k0 * wide, step, f.schur + column * tail, tail);
 }
 
 /// One register of lanes.
@@ -58,11 +65,11 @@ unsigned eliminate_register(const Front& f, const double* row_scale, const doubl
   for (int k0 = 0; k0 < f.e;) {
     const int k = std::min(panel_width, f.e - k0);
     with_size(k, [&](auto size) {
-      failed |= eliminate_panel<decltype(size)::value, Symmetry::general>(f, k0, row_scale, inverse_column_scale, rule,
-                                                                          nullptr);
+      constexpr int pivots = decltype(size)::value;
+      failed |= eliminate_panel<pivots, Symmetry::general>(f, k0, row_scale, inverse_column_scale, rule, nullptr);
+      for_columns(k0 + pivots, f.e, [&](int j, auto c) { update_left<pivots, decltype(c)::value>(f, k0, j); });
+      for_columns(0, f.n - f.e, [&](int j, auto c) { update_right<pivots, decltype(c)::value>(f, k0, j); });
     });
-    for_columns(k0 + k, f.e, [&](int j, auto c) { update_left<decltype(c)::value>(f, k0, k0 + k, j); });
-    for_columns(0, f.n - f.e, [&](int j, auto c) { update_right<decltype(c)::value>(f, k0, k0 + k, j); });
     k0 += k;
   }
   return failed;
@@ -174,8 +181,27 @@ void multiply_block_lanes(const double* element, int stride, int p, int q, const
     accumulate_rows<true>(p, element + l, static_cast<std::ptrdiff_t>(stride) * wide, wide, q, x + l, y + l);
 }
 
+namespace {
+
+/// Whether every entry has the bits of its mirror image, in all lanes.
+bool is_its_transpose(const double* element, int size) {
+  const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(size) * wide;
+  Flag different = {};
+  for (int l = 0; l < wide; l += width)
+    for (int i = 1; i < size; ++i) {
+      const double *row = element + i * step + l, *column = element + i * wide + l;
+      for (int j = 0; j < i; ++j) different |= bits_of(load(row + j * wide)) ^ bits_of(load(column + j * step));
+    }
+  long long any = 0;
+  for (int l = 0; l < width; ++l) any |= different[l];
+  return any == 0;
+}
+
+}  // namespace
+
 double largest_asymmetry_lanes(const double* element, int size, const Place* places, int count,
                                const double* row_scale) {
+  if (is_its_transpose(element, size)) return 0.0;
   double largest = 0.0;
   for (int l = 0; l < wide; l += width) {
     Real most = {};
@@ -207,14 +233,19 @@ double largest_scaled(const double* v, const double* scale, int count) {
   return largest;
 }
 
+void prefetch_packs(const double* packs, int count) {
+  for (int i = 0; i < count * wide; i += 8) __builtin_prefetch(packs + i, 0, 2);
+}
+
 void write_past_caches(const double* from, std::int64_t count, double* to) {
 #if defined(__AVX512F__)
   for (std::int64_t i = 0; i < count; i += 8) _mm512_stream_pd(to + i, _mm512_load_pd(from + i));
 #else
   for (std::int64_t i = 0; i < count; i += 2) _mm_stream_pd(to + i, _mm_load_pd(from + i));
 #endif
-  _mm_sfence();
 }
+
+void end_writes_past_caches() { _mm_sfence(); }
 
 void add_packs(const double* from, int count, double* to) {
   for (int i = 0; i < count * wide; i += width) store(to + i, load(to + i) + load(from + i));

@@ -61,9 +61,13 @@ double largest_asymmetry_lanes(const double* element, int size, const Place* pla
 /// Largest of |v_i| scale_i over `count` packs and all lanes; not a number comes out as infinity or NaN.
 double largest_scaled(const double* v, const double* scale, int count);
 
-/// Copies numbers (a multiple of a pack, lines of cache from their beginning) without reading what they replace; they are in memory for all threads
-/// when it returns.
+/// Asks for `count` packs to be brought to the second cache.
+void prefetch_packs(const double* packs, int count);
+
+/// Copies numbers (a multiple of a pack, lines of cache from their beginning) without reading what they replace. They are in memory for all
+/// threads after end_writes_past_caches(), which holds up the stores that follow it.
 void write_past_caches(const double* from, std::int64_t count, double* to);
+void end_writes_past_caches();
 
 /// to += from, `count` packs; with `from_lane` lane l of `to` takes lane from_lane[l], or nothing where that is negative.
 void add_packs(const double* from, int count, double* to);

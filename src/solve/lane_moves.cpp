@@ -122,9 +122,9 @@ void LanePlanner::place_work(LaneGroup& group) {
     for (; it != live.end() && it->begin < place + size; ++it) place = it->end;
     live.insert(it, {place, place + size, reader[at(i - begin)]});
     most = std::max(most, place + size);
-    f.schur = group.scratch + place;
+    f.schur = place;
   }
-  plan_.scratch_size += most;
+  group.scratch = most;
 }
 
 }  // namespace bough::solve

@@ -143,7 +143,6 @@ int LanePlanner::close(std::vector<tree::SubdomainId> subdomains, bool in_lanes,
   group.in_lanes = in_lanes;
   group.front_begin = static_cast<int>(plan_.fronts.size());
   group.element_begin = static_cast<int>(plan_.batches.size());
-  group.scratch = plan_.scratch_size;
   for (tree::SubdomainId s : subdomains) plan_.group_of_subdomain[at(s)] = id;
   group.subdomains = std::move(subdomains);
   tree::Subdomain node;

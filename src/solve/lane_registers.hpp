@@ -80,8 +80,8 @@ inline Real greater_of(const Real& a, const Real& b) {
 
 /// c(R x C) -= a(R x k) b(k x C)
 template <int R, int C>
-inline void subtract_tile(int k, const double* a, std::ptrdiff_t la, const double* b, std::ptrdiff_t lb, double* c,
-                          std::ptrdiff_t lc) {
+[[gnu::always_inline]] inline void subtract_tile(int k, const double* a, std::ptrdiff_t la, const double* b,
+                                                 std::ptrdiff_t lb, double* c, std::ptrdiff_t lc) {
   Real sum[C][R];
   for (int j = 0; j < C; ++j)
     for (int i = 0; i < R; ++i) sum[j][i] = load(c + j * lc + i * wide);
@@ -100,10 +100,10 @@ inline void subtract_tile(int k, const double* a, std::ptrdiff_t la, const doubl
 template <int C>
 inline void subtract_columns(int m, int k, const double* a, std::ptrdiff_t la, const double* b, std::ptrdiff_t lb,
                              double* c, std::ptrdiff_t lc) {
-  constexpr int rows = 6;
   int i = 0;
-  for (; i + rows <= m; i += rows) subtract_tile<rows, C>(k, a + i * wide, la, b, lb, c + i * wide, lc);
-  for (; i + 3 <= m; i += 3) subtract_tile<3, C>(k, a + i * wide, la, b, lb, c + i * wide, lc);
+  for (; i + 6 <= m; i += 6) subtract_tile<6, C>(k, a + i * wide, la, b, lb, c + i * wide, lc);
+  for (; i + 4 <= m; i += 4) subtract_tile<4, C>(k, a + i * wide, la, b, lb, c + i * wide, lc);
+  for (; i + 2 <= m; i += 2) subtract_tile<2, C>(k, a + i * wide, la, b, lb, c + i * wide, lc);
   for (; i < m; ++i) subtract_tile<1, C>(k, a + i * wide, la, b, lb, c + i * wide, lc);
 }
 
@@ -197,29 +197,42 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
   double* block = f.left + k0 * ld + k0 * wide;
   Flag good = ~Flag{};
   Real a[K][K];
+#pragma GCC unroll 8
   for (int j = 0; j < K; ++j)
+#pragma GCC unroll 8
     for (int i = 0; i < K; ++i)
       a[j][i] =
           symmetry != Symmetry::general && i < j ? load(block + i * ld + j * wide) : load(block + j * ld + i * wide);
+#pragma GCC unroll 8
   for (int k = 0; k < K; ++k) {
-    // Compared as bits: a NaN or infinity on either side refuses, and traps nothing; so does a sign.
+    // Compared as bits: a NaN or infinity on either side refuses, and traps nothing; so does a sign. What the pivot is to its column
+    // is decided beside the division, which would else wait for it.
     Real size = a[k][k], least = load(inverse_column_scale + (k0 + k) * wide);
     if constexpr (symmetry != Symmetry::definite) {
+      size = magnitude(size * load(row_scale + (k0 + k) * wide));
+      least = rule.least * least;
+    }
+    const Flag divides = (bits_of(size) >= bits_of(least)) & (bits_of(size) < Flag{} + infinite_bits);
+    good &= divides;
+    const Real inverse = 1.0 / (divides ? a[k][k] : Real{} + 1.0);
+    if constexpr (symmetry != Symmetry::definite) {
       Real largest = {};
+#pragma GCC unroll 8
       for (int i = k + 1; i < K; ++i)
         largest = greater_of(largest, magnitude(a[k][i] * load(row_scale + (k0 + i) * wide)));
-      size = magnitude(size * load(row_scale + (k0 + k) * wide));
-      least = greater_of(rule.threshold * largest, rule.least * least);
+      good &= bits_of(size) >= bits_of(rule.threshold * largest);
     }
-    const Flag taken = (bits_of(size) >= bits_of(least)) & (bits_of(size) < Flag{} + infinite_bits);
-    good &= taken;
-    const Real inverse = 1.0 / (taken ? a[k][k] : Real{} + 1.0);
+#pragma GCC unroll 8
     for (int i = k + 1; i < K; ++i) a[k][i] *= inverse;
+#pragma GCC unroll 8
     for (int j = k + 1; j < K; ++j)
+#pragma GCC unroll 8
       for (int i = k + 1; i < K; ++i) a[j][i] = minus_product(a[j][i], a[k][i], a[j][k]);
     a[k][k] = inverse;
   }
+#pragma GCC unroll 8
   for (int j = 0; j < K; ++j)
+#pragma GCC unroll 8
     for (int i = 0; i < K; ++i) store(block + j * ld + i * wide, a[j][i]);
   unsigned refused = 0;
   for (int l = 0; l < width; ++l) refused |= good[l] == 0 ? 1u << l : 0u;
@@ -232,14 +245,20 @@ inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld,
                            [[maybe_unused]] double* products) {
   Real l[K][R];
   [[maybe_unused]] Real lost[R] = {};
+#pragma GCC unroll 8
   for (int k = 0; k < K; ++k)
+#pragma GCC unroll 8
     for (int i = 0; i < R; ++i) l[k][i] = load(rows + k * ld + i * wide);
+#pragma GCC unroll 8
   for (int k = 0; k < K; ++k) {
+#pragma GCC unroll 8
     for (int p = 0; p < k; ++p) {
       const Real u = load(block + k * ld + p * wide);
+#pragma GCC unroll 8
       for (int i = 0; i < R; ++i) l[k][i] = minus_product(l[k][i], l[p][i], u);
     }
     const Real inverse = load(block + k * ld + k * wide);
+#pragma GCC unroll 8
     for (int i = 0; i < R; ++i) {
       if constexpr (symmetry != Symmetry::general) store(products + (i * panel_width + k) * wide, l[k][i]);
       const Real product = l[k][i];
@@ -252,6 +271,7 @@ inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld,
     }
   }
   if constexpr (symmetry == Symmetry::definite)
+#pragma GCC unroll 8
     for (int i = 0; i < R; ++i) {
       const Real scale = load(row_scale + i * wide);
       largest[0] = greater_of(largest[0], lost[i] * scale * scale);

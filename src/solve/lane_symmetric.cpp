@@ -29,17 +29,17 @@ inline void subtract_corner(int k, const double* a, std::ptrdiff_t la, const dou
     for (int i = j; i < C; ++i) store(c + j * lc + i * wide, sum[j][i]);
 }
 
-/// Columns [column, column + C) of the front, from the diagonal down, catch up with the pivots [k0, k1). products: L D of the rows from k1.
-template <int C>
-inline void update(const Front& f, int k0, int k1, int column, const double* products) {
+/// Columns [column, column + C) of the front, from the diagonal down, catch up with the K pivots from k0. products: L D of the rows below them.
+template <int K, int C>
+inline void update(const Front& f, int k0, int column, const double* products) {
   const std::ptrdiff_t ld = f.ld(), of_row = static_cast<std::ptrdiff_t>(panel_width) * wide;
   const bool is_own = column < f.e;
   const std::ptrdiff_t step = is_own ? ld : static_cast<std::ptrdiff_t>(f.n - f.e) * wide;
   double* target = is_own ? f.left + column * ld + column * wide : f.schur + (column - f.e) * (step + wide);
   const double* l = f.left + k0 * ld + column * wide;
-  const double* u = products + (column - k1) * of_row;
-  subtract_corner<C>(k1 - k0, l, ld, u, of_row, target, step);
-  subtract_columns<C>(f.n - column - C, k1 - k0, l + C * wide, ld, u, of_row, target + C * wide, step);
+  const double* u = products + (column - k0 - K) * of_row;
+  subtract_corner<C>(K, l, ld, u, of_row, target, step);
+  subtract_columns<C>(f.n - column - C, K, l + C * wide, ld, u, of_row, target + C * wide, step);
 }
 
 /// One register of lanes. bar: the inverse scales; definite: what each pivot has to reach.
@@ -50,11 +50,12 @@ unsigned eliminate_register(const Front& f, const double* scale, const double* b
   for (int k0 = 0; k0 < f.e;) {
     const int k1 = std::min(k0 + panel_width, f.e);
     with_size(k1 - k0, [&](auto size) {
-      failed |= eliminate_panel<decltype(size)::value, symmetry>(f, k0, scale, bar, rule, products);
+      constexpr int pivots = decltype(size)::value;
+      failed |= eliminate_panel<pivots, symmetry>(f, k0, scale, bar, rule, products);
+      const auto catch_up = [&](int j, auto c) { update<pivots, decltype(c)::value>(f, k0, j, products); };
+      for_columns(k1, f.e, catch_up);
+      for_columns(f.e, f.n, catch_up);
     });
-    const auto catch_up = [&](int j, auto c) { update<decltype(c)::value>(f, k0, k1, j, products); };
-    for_columns(k1, f.e, catch_up);
-    for_columns(f.e, f.n, catch_up);
     k0 = k1;
   }
   return failed;

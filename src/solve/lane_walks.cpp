@@ -40,60 +40,84 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   if (prepare.run != nullptr && group.element_begin < group.element_end)
     prepare.run(prepare.context, index, group.element_begin, group.element_end);
   mark(tree::Stage::evaluate);
-  if (is_symmetric()) check_group_symmetric(index);
-  if (group.in_lanes) {
-    if (streams_factors) return factor_lanes_aside(group);
-    for (int f = group.front_begin; f < group.front_end; ++f) factor_lane_front(f, factor_of(lanes.fronts[at(f)]));
-    return;
-  }
+  asymmetries[at(index)] = {};
+  if (group.in_lanes) return factor_lanes(index);
+  for (int b = group.element_begin; is_symmetric() && b < group.element_end; ++b)
+    check_element_symmetric(index, lanes.batches[at(b)].element[0]);
   factor_subdomain(group.subdomains.front());
   if (visit_rhs == nullptr || group.subdomains.front() == tree.root()) return;
   forward_group(index);
   mark(tree::Stage::forward);
 }
 
-/// Fronts are made in a place that stays in the cache, and written to memory past it: there they would have to be read before they are
-/// written, which is half of the traffic where factors do not fit into any cache.
-void Hierarchical::State::factor_lanes_aside(const LaneGroup& group) {
+/// Schur complements that the visit alone needs stand on its stack, which stays in the cache. So does a front where factors do not fit into any
+/// cache; it is written to memory past them: there it would have to be read before it is written, which is half of the traffic.
+void Hierarchical::State::factor_lanes(int index) {
+  const LaneGroup& group = lanes.groups[at(index)];
+  alignas(64) double scratch[room_of_scratch];
+  if (group.scratch * wide <= room_of_scratch) group_scratch[at(index)] = scratch;
   constexpr std::int64_t room = 1 << 15;
   alignas(64) double aside[room];
-  for (int index = group.front_begin; index < group.front_end; ++index) {
-    const LaneFront& f = lanes.fronts[at(index)];
+  for (int k = group.front_begin; k < group.front_end; ++k) {
+    const LaneFront& f = lanes.fronts[at(k)];
     const std::int64_t size = f.factor_size() * wide;
-    if (size > room) {
-      factor_lane_front(index, factor_of(f));
-      continue;
+    if (streams_factors && size <= room) {
+      factor_lane_front(k, aside);
+      write_past_caches(aside, size, factor_of(f));
+    } else {
+      factor_lane_front(k, factor_of(f));
     }
-    factor_lane_front(index, aside);
-    write_past_caches(aside, size, factor_of(f));
+  }
+  if (streams_factors) end_writes_past_caches();
+}
+
+/// What the next front of a walk up reads, on its way to the cache while this one is eliminated: where a factorization does not fit
+/// into the caches, waiting for lines of memory would take half of its time.
+void Hierarchical::State::prefetch_front(int index) const {
+  const LaneFront& f = lanes.fronts[at(index)];
+  for (int i = f.element_begin; i < f.element_end; ++i) {
+    const LaneElement& element = lanes.elements[at(i)];
+    prefetch_packs(elements.values() + element.values, element.size * element.size);
+  }
+  prefetch_packs(lane_row_scales.data() + f.vector * wide, f.size());
+  prefetch_packs(lane_inverse_column_scales.data() + f.vector * wide, f.eliminated);
+  if (visit_rhs == nullptr) return;
+  prefetch_packs(lane_vectors.data() + f.vector * wide, f.size());
+  const int* unknown = lanes.unknowns.data() + f.unknown;
+  prefetch_packs(reinterpret_cast<const double*>(unknown + f.eliminated * wide),
+                 f.eliminated / 2 + 1);  // of the front after it
+  for (int l = 0; l < wide; ++l)
+    if (unknown[l] >= 0) __builtin_prefetch(visit_rhs + unknown[l]);
+}
+
+/// The same for a walk down.
+void Hierarchical::State::prefetch_factor(int index) const {
+  const LaneFront& f = lanes.fronts[at(index)];
+  const double* factor = lane_factors.data() + f.factor * wide;
+  const std::int64_t n = f.size(), e = f.eliminated;
+  if (f.is_symmetric) return prefetch_packs(factor, static_cast<int>(n * e));
+  for (std::int64_t k = 0; k < e; ++k) prefetch_packs(factor + k * n * wide, static_cast<int>(k + 1));
+  prefetch_packs(factor + n * e * wide, static_cast<int>(e * f.boundary));
+  prefetch_packs(lane_vectors.data() + f.vector * wide, f.eliminated);
+}
+
+/// Looks at the element matrices of a front, just before it takes them: values that are symmetric once need not stay so.
+void Hierarchical::State::check_front_symmetric(const LaneFront& f) {
+  for (int i = f.element_begin; i < f.element_end; ++i) {
+    const LaneElement& element = lanes.elements[at(i)];
+    const double most = largest_asymmetry_lanes(
+        elements.values() + element.values, element.size, lanes.places.data() + element.place_begin,
+        static_cast<int>(element.place_end - element.place_begin), lane_row_scales.data() + f.vector * wide);
+    if (!Asymmetry::shows(most)) continue;
+    for (int e : element.element)
+      if (e >= 0) check_element_symmetric(f.group, e);
   }
 }
 
-/// Looks at the element matrices of a visit: values that are symmetric once need not stay so.
-void Hierarchical::State::check_group_symmetric(int index) {
-  const LaneGroup& group = lanes.groups[at(index)];
-  Asymmetry& found = asymmetries[at(index)];
-  found = {};
-  const auto look_at = [&](int e) {
-    const double difference = elements.asymmetry_of(e, scales);
-    if (found.element < 0 && Asymmetry::shows(difference)) found = {e, difference};
-  };
-  if (!group.in_lanes) {
-    for (int b = group.element_begin; b < group.element_end; ++b) look_at(lanes.batches[at(b)].element[0]);
-    return;
-  }
-  for (int k = group.front_begin; k < group.front_end; ++k) {
-    const LaneFront& f = lanes.fronts[at(k)];
-    for (int i = f.element_begin; i < f.element_end; ++i) {
-      const LaneElement& element = lanes.elements[at(i)];
-      const double most = largest_asymmetry_lanes(
-          elements.values() + element.values, element.size, lanes.places.data() + element.place_begin,
-          static_cast<int>(element.place_end - element.place_begin), lane_row_scales.data() + f.vector * wide);
-      if (!Asymmetry::shows(most)) continue;
-      for (int e : element.element)
-        if (e >= 0) look_at(e);
-    }
-  }
+void Hierarchical::State::check_element_symmetric(int group, int element) {
+  Asymmetry& found = asymmetries[at(group)];
+  const double difference = elements.asymmetry_of(element, scales);
+  if (found.element < 0 && Asymmetry::shows(difference)) found = {element, difference};
 }
 
 void Hierarchical::State::forward_group(int index) {
@@ -183,6 +207,7 @@ void Hierarchical::State::factor_lane_front(int index, double* factor) {
   const LaneFront& f = lanes.fronts[at(index)];
   const int n = f.size(), e = f.eliminated;
   double* schur = schur_of(f);
+  if (is_symmetric()) check_front_symmetric(f);
   for (int i = f.gap_begin; i < f.gap_end; ++i) {
     const LaneGap& gap = lanes.gaps[at(i)];
     std::memset((gap.in_schur ? schur : factor) + gap.target * wide, 0, sizeof(double) * wide * at(gap.count));
@@ -215,6 +240,7 @@ void Hierarchical::State::factor_lane_front(int index, double* factor) {
         factor[static_cast<std::int64_t>(k / wide) * (n + 1) * wide + k % wide] = 1.0;
   if (alone != 0) neutralise_lanes(factor, schur, n, e, alone, symmetry.used);
   mark(tree::Stage::assemble);
+  if (reads_ahead && index + 1 < static_cast<int>(lanes.fronts.size())) prefetch_front(index + 1);
   const LanePivotRule rule{options.pivot_threshold, options.tiny_pivot};
   const auto eliminate = is_definite()    ? eliminate_lanes_definite
                          : f.is_symmetric ? eliminate_lanes_symmetric
@@ -356,6 +382,7 @@ void Hierarchical::State::hand_down(tree::FrontId f) {
 void Hierarchical::State::backward_lane_front(int index) {
   const LaneFront& f = lanes.fronts[at(index)];
   double* v = vector_of(f);
+  if (reads_ahead && index > 0) prefetch_factor(index - 1);
   (f.is_symmetric ? backward_lanes_symmetric : backward_lanes)(lane_factors.data() + f.factor * wide, f.size(),
                                                                f.eliminated, v);
   const int* unknown = lanes.unknowns.data() + f.unknown;
