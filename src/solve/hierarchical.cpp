@@ -114,6 +114,8 @@ void Hierarchical::State::size_factors() {
     if (lanes.groups[g].scratch * lanes_wide > room_of_scratch)
       group_scratch[g] = lane_scratch.data() + (scratch -= lanes.groups[g].scratch * lanes_wide);
   constexpr std::size_t last_cache = std::size_t{16} << 20;  ///< bytes of it that a run may hope for
+  constexpr std::size_t second_cache = std::size_t{2} << 20;
+  reads_factors_ahead = sizeof(double) * lane_factors.size() > second_cache;
   streams_factors = sizeof(double) * lane_factors.size() > last_cache;
   reads_ahead = sizeof(double) * (lane_factors.size() + at(lanes.num_values)) > last_cache;
 }

@@ -117,9 +117,10 @@ struct Hierarchical::State {
   std::vector<SolutionSizes> sizes;   ///< by group
   std::unique_ptr<Hierarchical> twin;  ///< the same without lanes, for reports that need every front whole
   std::int64_t twin_factorization = -1, twin_solution = -1;  ///< what it holds
-  bool reads_ahead = false;      ///< matrices and factors do not stay in the caches from one walk to the next
-  bool streams_factors = false;  ///< factors of lanes are written past the caches, into which they do not fit
-  double norm = 0.0;             ///< of the scaled matrix, rows, when the scales were taken
+  bool reads_ahead = false;          ///< matrices and factors do not stay in the caches from one walk to the next
+  bool reads_factors_ahead = false;  ///< nor do factors alone in the nearer ones
+  bool streams_factors = false;      ///< factors of lanes are written past the caches, into which they do not fit
+  double norm = 0.0;                 ///< of the scaled matrix, rows, when the scales were taken
 
   FactorStatus status;
   SolverCounters counters;
@@ -141,17 +142,19 @@ struct Hierarchical::State {
     return (f.is_top ? lane_tops.data() : group_scratch[static_cast<std::size_t>(f.group)]) + f.schur * lanes_wide;
   }
   double* factor_of(const LaneFront& f) { return lane_factors.data() + f.factor * lanes_wide; }
-  LaneSet lanes_to_leave(const LaneFront& f) const;
   double* vector_of(const LaneFront& f) { return lane_vectors.data() + f.vector * lanes_wide; }
   void factor_lanes(int group);
   void prefetch_front(int front) const;
-  void prefetch_factor(int front) const;
+  void prefetch_factor(int front, bool downward) const;
   void factor_lane_front(int index, double* factor);
-  void factor_lane_alone(int index, int lane, bool is_indefinite);
   void forward_lane_front(int index, const double* factor);
   void backward_lane_front(int index);
   void backward_left_lane_front(int index, std::vector<double>& left);
   void residual_lane_front(int index);
+
+  // lane_handover.cpp
+  LaneSet lanes_to_leave(const LaneFront& f) const;
+  void factor_lane_alone(int index, int lane, bool is_indefinite);
   void add_lane_child(tree::FrontId child, FrontData& parent);
   void add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent) const;
   void hand_down(tree::FrontId f);

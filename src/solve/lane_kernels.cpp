@@ -154,6 +154,63 @@ void backward_left_lanes(const double* factor, int n, int e, double* v) {
     }
 }
 
+namespace {
+
+/// N packs, one after the other, to places that are `step` doubles apart: written, or added to what is there.
+template <int N, bool is_first>
+inline void move_packs(const double* from, double* to, std::ptrdiff_t step) {
+  for (int l = 0; l < wide; l += width) {
+    Real pack[N];
+#pragma GCC unroll 8
+    for (int i = 0; i < N; ++i) {
+      pack[i] = load(from + i * wide + l);
+      if constexpr (!is_first) pack[i] += load(to + i * step + l);
+    }
+#pragma GCC unroll 8
+    for (int i = 0; i < N; ++i) store(to + i * step + l, pack[i]);
+  }
+}
+
+template <bool is_first>
+inline void move_run(const double* from, int count, double* to, std::ptrdiff_t step) {
+  for (; count >= 6; count -= 6, from += 6 * wide, to += 6 * step) move_packs<6, is_first>(from, to, step);
+  if (count > 0) with_size(count, [&](auto n) { move_packs<decltype(n)::value, is_first>(from, to, step); });
+}
+
+/// Lanes of a pack in the order in which another one takes them: lane from_lane[l] comes to lane l, zero where that is negative.
+class LaneChoice {
+ public:
+  explicit LaneChoice(const std::int8_t* from_lane) {
+    for (int l = 0; l < wide; ++l) {
+      from_[l] = from_lane[l] < 0 ? 0 : from_lane[l];
+      if (from_lane[l] >= 0) taken_ |= 1u << l;
+    }
+  }
+  template <bool is_first>
+  void move(const double* from, int count, double* to) const {
+#if defined(__AVX512F__)
+    const __m512i order = _mm512_loadu_si512(from_);
+    const auto mask = static_cast<__mmask8>(taken_);
+    for (int i = 0; i < count; ++i) {
+      const __m512d moved = _mm512_maskz_permutexvar_pd(mask, order, _mm512_loadu_pd(from + i * wide));
+      _mm512_storeu_pd(to + i * wide, is_first ? moved : _mm512_add_pd(_mm512_loadu_pd(to + i * wide), moved));
+    }
+#else
+    for (int i = 0; i < count; ++i)
+      for (int l = 0; l < wide; ++l) {
+        const double moved = (taken_ >> l & 1u) != 0 ? from[i * wide + from_[l]] : 0.0;
+        to[i * wide + l] = is_first ? moved : to[i * wide + l] + moved;
+      }
+#endif
+  }
+
+ private:
+  long long from_[wide];
+  unsigned taken_ = 0;
+};
+
+}  // namespace
+
 void move_block(const double* source, const LaneMove& move, double* target) {
   // The source is read in the order in which it lies; the target's few lines stay in the nearest cache.
   const bool by_row = move.column_step == 1;
@@ -162,17 +219,26 @@ void move_block(const double* source, const LaneMove& move, double* target) {
   const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(move.target_step) * wide;
   const std::ptrdiff_t to_step = by_row ? wide : column, to_inner = by_row ? column : wide;
   for (int j = 0; j < outer; ++j) {
-    const double* from = source + j * from_step;
-    double* to = target + j * to_step;
     const int begin = move.is_triangle && !by_row ? j : 0, end = move.is_triangle && by_row ? j + 1 : inner;
-    if (move.is_first) {
-      for (int i = begin; i < end; ++i)
-        for (int l = 0; l < wide; l += width) store(to + i * to_inner + l, load(from + i * wide + l));
-    } else {
-      for (int i = begin; i < end; ++i)
-        for (int l = 0; l < wide; l += width)
-          store(to + i * to_inner + l, load(to + i * to_inner + l) + load(from + i * wide + l));
-    }
+    const double* from = source + j * from_step + begin * wide;
+    double* to = target + j * to_step + begin * to_inner;
+    if (move.is_first)
+      move_run<true>(from, end - begin, to, to_inner);
+    else
+      move_run<false>(from, end - begin, to, to_inner);
+  }
+}
+
+void move_block(const double* source, const LaneMove& move, const std::int8_t* from_lane, double* target) {
+  const LaneChoice choice(from_lane);
+  for (int j = 0; j < move.columns; ++j) {
+    const int above = move.is_triangle ? j : 0;
+    const double* from = source + (static_cast<std::ptrdiff_t>(j) * move.column_step + above) * wide;
+    double* to = target + (static_cast<std::ptrdiff_t>(j) * move.target_step + above) * wide;
+    if (move.is_first)
+      choice.move<true>(from, move.rows - above, to);
+    else
+      choice.move<false>(from, move.rows - above, to);
   }
 }
 
@@ -252,23 +318,7 @@ void add_packs(const double* from, int count, double* to) {
 }
 
 void add_packs(const double* from, int count, double* to, const std::int8_t* from_lane) {
-#if defined(__AVX512F__)
-  long long index[wide];
-  __mmask8 mask = 0;
-  for (int l = 0; l < wide; ++l) {
-    index[l] = from_lane[l] < 0 ? 0 : from_lane[l];
-    if (from_lane[l] >= 0) mask = static_cast<__mmask8>(mask | 1u << l);
-  }
-  const __m512i order = _mm512_loadu_si512(index);
-  for (int i = 0; i < count; ++i) {
-    const __m512d moved = _mm512_maskz_permutexvar_pd(mask, order, _mm512_loadu_pd(from + i * wide));
-    _mm512_storeu_pd(to + i * wide, _mm512_add_pd(_mm512_loadu_pd(to + i * wide), moved));
-  }
-#else
-  for (int i = 0; i < count; ++i)
-    for (int l = 0; l < wide; ++l)
-      if (from_lane[l] >= 0) to[i * wide + l] += from[i * wide + from_lane[l]];
-#endif
+  LaneChoice(from_lane).move<false>(from, count, to);
 }
 
 }  // namespace bough::solve

@@ -49,6 +49,8 @@ void backward_left_lanes(const double* factor, int n, int e, double* v);
 
 /// target (+)= the block of a move: rows x columns packs, or of a triangle what is not above the diagonal.
 void move_block(const double* source, const LaneMove& move, double* target);
+/// The same of a child's Schur complement whose lane from_lane[l] goes to lane l, or nothing where that is negative.
+void move_block(const double* source, const LaneMove& move, const std::int8_t* from_lane, double* target);
 
 /// y_i += sum_j element_ij x_j for a block as above.
 void multiply_block_lanes(const double* element, int stride, int p, int q, const double* x, double* y);

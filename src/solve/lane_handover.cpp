@@ -1,0 +1,101 @@
+/// The hand-over between lanes and the scalar path: fronts that leave a lane, and what lanes and single fronts give each other.
+#include <array>
+
+#include "hierarchical_state.hpp"
+
+namespace bough::solve {
+
+namespace {
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr int wide = lanes_wide;
+}  // namespace
+
+/// Lanes with unknowns that wait, or a failure below: these can only be taken over on the scalar path.
+LaneSet Hierarchical::State::lanes_to_leave(const LaneFront& f) const {
+  unsigned leave = 0;
+  for (int c = f.child_begin; c < f.child_end; ++c) {
+    const LaneChild& child = lanes.children[at(c)];
+    if (scalar_lanes[at(child.front)] == 0) continue;
+    for (int l = 0; l < wide; ++l) {
+      const int lane = child.from[at(l)];
+      if (lane < 0 || (scalar_lanes[at(child.front)] >> lane & 1) == 0) continue;
+      const FrontData& d = data(lanes.fronts[at(child.front)].front[at(lane)]);
+      if (d.num_delayed() > 0 || d.failed) leave |= 1u << l;
+    }
+  }
+  return static_cast<LaneSet>(leave);
+}
+
+/// The pivoted scalar path for one lane; its Schur complement goes back into the lane where no unknown waits.
+void Hierarchical::State::factor_lane_alone(int index, int lane, bool is_indefinite) {
+  const LaneFront& f = lanes.fronts[at(index)];
+  const tree::FrontId id = f.front[at(lane)];
+  size_front(id);
+  data(id).is_indefinite = is_indefinite;
+  assemble_front(id);
+  eliminate_front(id);
+  const FrontData& d = data(id);
+  if (d.failed || d.num_delayed() > 0) return;
+  double* schur = schur_of(f);
+  for_boundary(id, [&](int j, std::size_t column) {
+    for_boundary(id, [&](int i, std::size_t row) {
+      if (d.is_symmetric() && i < j) return;
+      schur[(static_cast<std::int64_t>(j) * f.boundary + i) * wide + lane] =
+          d.s[static_cast<std::int64_t>(j) * d.lds + i] / (scales.row[row] * scales.column[column]);
+    });
+  });
+}
+
+/// Adds the Schur complement that a lane holds to a front on the scalar path, scaled.
+void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent) {
+  const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
+  const int lane = lanes.lane[at(child)];
+  const double* schur = schur_of(f);
+  std::array<int, most_lane_rows> to;
+  for (std::int64_t r = run_begin[at(child)]; r < run_begin[at(child) + 1]; ++r)
+    for (int i = 0; i < runs[at(r)].length; ++i) to[at(runs[at(r)].from + i)] = parent.delayed_in + runs[at(r)].to + i;
+  const FrontParts parts(parent.matrix());
+  for_boundary(child, [&](int j, std::size_t column) {
+    double *top = parts.top(to[at(j)]), *bottom = parts.bottom(to[at(j)]) - parent.full;
+    for_boundary(child, [&](int i, std::size_t row) {
+      const int k = to[at(i)];
+      if (parent.is_symmetric() && k < to[at(j)]) return;
+      const bool is_mirrored = f.is_symmetric && i < j;  // the root, where its rank is decided
+      const std::int64_t entry =
+          is_mirrored ? static_cast<std::int64_t>(i) * f.boundary + j : static_cast<std::int64_t>(j) * f.boundary + i;
+      (k < parent.full ? top : bottom)[k] += scales.row[row] * schur[entry * wide + lane] * scales.column[column];
+    });
+  });
+}
+
+/// Adds the condensed right-hand side that a lane holds to a front on the scalar path, scaled.
+void Hierarchical::State::add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent) const {
+  const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
+  const double* g = lane_vectors.data() + (f.vector + f.eliminated) * wide + lanes.lane[at(child)];
+  std::int64_t r = run_begin[at(child)];
+  for_boundary(child, [&](int i, std::size_t u) {
+    while (i >= runs[at(r)].from + runs[at(r)].length) ++r;
+    gathered[parent.delayed_in + runs[at(r)].to + i - runs[at(r)].from] += scales.row[u] * g[i * wide];
+  });
+}
+
+/// The solution at a front's boundary (and its own unknowns) into its lane.
+void Hierarchical::State::fill_lane_vector(tree::FrontId id, bool with_own) {
+  const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(id)])];
+  const int lane = lanes.lane[at(id)];
+  double* v = vector_of(f);
+  for_boundary(id, [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + lane] = x[u]; });
+  if (!with_own) return;
+  for (int k = 0; k < f.eliminated; ++k) {
+    const int u = lanes.unknowns[at(f.unknown + k * wide + lane)];
+    if (u >= 0) v[k * wide + lane] = x[at(u)];
+  }
+}
+
+/// From a front on the scalar path to its children in lanes.
+void Hierarchical::State::hand_down(tree::FrontId f) {
+  for (tree::FrontId c : tree.children(front(f)))
+    if (lanes.lane_front[at(c)] >= 0) fill_lane_vector(c, false);
+}
+
+}  // namespace bough::solve
