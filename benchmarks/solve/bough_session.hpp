@@ -48,6 +48,7 @@ class BoughSession final : public Session {
     x.resize(problem_.rhs.size());
     return storage_->solver.finish(walker, x.data()).finite;
   }
+  void iterate(const std::function<void()>& iterations) override { threads_.keep_together(iterations); }
 
  private:
   const Problem& problem_;

@@ -17,11 +17,15 @@ using namespace bough::bench;
 
 void run_row(benchmark::State& state, const Problem& problem, Entrant& entrant) {
   std::vector<double> x;
-  for (auto _ : state)
-    if (!entrant.session->refactor_and_solve(x)) {
-      state.SkipWithError("the solver failed");
-      return;
-    }
+  bool ok = true;
+  entrant.session->iterate([&] {
+    for (auto _ : state)
+      if (!(ok = entrant.session->refactor_and_solve(x))) {
+        state.SkipWithError("the solver failed");
+        return;
+      }
+  });
+  if (!ok) return;
   state.counters["backward_error"] = eval_backward_error(problem.matrix, x, problem.rhs);
   state.counters["unknowns"] = problem.matrix.n;
   state.counters["entries"] = problem.matrix.num_entries();

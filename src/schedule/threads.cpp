@@ -8,9 +8,11 @@
 
 #include "bough/schedule/serial.hpp"
 #ifdef BOUGH_HAS_TBB
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 #endif
@@ -92,10 +94,13 @@ struct Threads::State {
     const std::int64_t chunks = (count_items + grain - 1) / grain;
     // Isolated: who waits here inside of a visit takes no other visit meanwhile.
     tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(std::int64_t{0}, chunks, [&](std::int64_t c) {
-        delay();
-        chunk.run(chunk.context, c * grain, std::min((c + 1) * grain, count_items));
-      });
+      const auto run = [&](const tbb::blocked_range<std::int64_t>& range) {
+        for (std::int64_t c = range.begin(); c < range.end(); ++c) {
+          delay();
+          chunk.run(chunk.context, c * grain, std::min((c + 1) * grain, count_items));
+        }
+      };
+      tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, chunks), run, tbb::simple_partitioner{});
     });
   }
 #endif
@@ -151,6 +156,13 @@ tree::Walker Threads::walker() const {
   if (state_->count > 1) return make_walker(state_.get());
 #endif
   return make_serial_walker();
+}
+
+void Threads::keep_together(const std::function<void()>& body) const {
+#ifdef BOUGH_HAS_TBB
+  if (state_->count > 1) return state_->started().execute(body);
+#endif
+  body();
 }
 
 void Threads::set_random_delay(unsigned microseconds, unsigned seed) {

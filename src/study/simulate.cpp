@@ -61,10 +61,12 @@ Summary Run::run() {
   const auto start = std::chrono::steady_clock::now();
   recorder_.begin(summary_.header);
   summary_.status = RunStatus::failed;
-  if (scene_.analysis.kind == scene::AnalysisKind::statics)
-    (void)(options_.arc_length ? run_path() : run_statics());
-  else
-    run_dynamics();
+  threads_.keep_together([&] {
+    if (scene_.analysis.kind == scene::AnalysisKind::statics)
+      (void)(options_.arc_length ? run_path() : run_statics());
+    else
+      run_dynamics();
+  });
   summary_.times.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   finish();
   recorder_.end(summary_);

@@ -1,5 +1,6 @@
 #pragma once
 /// Task-parallel walk. The only place that knows TBB (if it was not built in, the walk is serial).
+#include <functional>
 #include <memory>
 
 #include "bough/tree/walker.hpp"
@@ -21,6 +22,10 @@ class Threads {
   int count() const;
   /// Valid while this object lives and stays where it is (moving keeps it valid: the state is on the heap).
   tree::Walker walker() const;
+
+  /// Runs `body()` so that the threads stay together between its walks. Without it every walk calls them anew, which takes some microseconds: as long
+  /// as a walk over a hundred bodies.
+  void keep_together(const std::function<void()>& body) const;
 
   /// For tests: every task and chunk first spins for a pseudo-random time below `microseconds`. 0 turns it off.
   void set_random_delay(unsigned microseconds, unsigned seed);
