@@ -95,6 +95,23 @@ TEST(Walks, ChunksCoverEverythingOnceAtTheSameCuts) {
   for (int count : {1, 2, 5}) expect_chunks(schedule::Threads(count).walker());
 }
 
+TEST(Walks, KeepTheirOrdersWhereThreadsAreKeptTogether) {
+  const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
+  for (int count : {1, 2, 3}) {
+    const schedule::Threads threads(count, 0.0);
+    int runs = 0;
+    threads.keep_together([&] {
+      ++runs;
+      expect_orders(t, threads.walker());
+      expect_chunks(threads.walker());
+      threads.keep_together([&] { ++runs; });
+    });
+    EXPECT_EQ(runs, 2);
+    EXPECT_THROW(threads.keep_together([] { throw std::runtime_error("out"); }), std::runtime_error);
+    expect_orders(t, threads.walker());
+  }
+}
+
 TEST(Walks, RefuseNoThreads) {
   EXPECT_THROW(schedule::Threads(0), std::invalid_argument);
   EXPECT_THROW(schedule::Threads(2, -1.0), std::invalid_argument);
