@@ -169,7 +169,7 @@ void run_case(benchmark::State& state, const LeanCase& c, bool barred, int threa
 int main(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
   const std::regex wanted(take_option(arguments, "case", ".*"));
-  std::vector<std::string> defaults{"--benchmark_repetitions=5", "--benchmark_enable_random_interleaving=true",
+  std::vector<std::string> defaults{"--benchmark_repetitions=3", "--benchmark_enable_random_interleaving=true",
                                     "--benchmark_min_time=0.05"};
   for (std::string& d : defaults) arguments.insert(arguments.begin() + 1, d.data());
   int count = static_cast<int>(arguments.size());
