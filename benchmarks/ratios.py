@@ -7,8 +7,8 @@ prints, for every case,
 bough ms: the better of one and two threads. Ratio: best rival over bough; the rivals are those that the bar names. Steps: bough's step over
 KLU's refactorization and solution of the same chain (smaller is better). A figure that misses its bar is marked with '<' (or '>' for
 steps). Medians over the repetitions, wall time. CPU ratio: the same ratio in CPU time, bough on one thread: it says more where the machine
-was busy. Second thread: what it gains on chains over one thread, and the most that it could, 2 x the time of one thread alone over that of two
-side by side, each with work of its own; of bare arithmetic and reading from benchmarks/bench_machine.json. Motions: CPU nanoseconds of one
+was busy. Second thread: what it gains on chains over one thread, and the bound of that but for caches, 2 x the time of one thread alone over that
+of two side by side, each with work of its own; of bare arithmetic and reading from benchmarks/bench_machine.json. Motions: CPU nanoseconds of one
 motion and Eigen's time over bough's. Exit 0 whatever the figures are, 2 where no file can be read.
 """
 import json
@@ -134,7 +134,7 @@ def print_scaling(path):
 
 
 def second_thread_rows(paths):
-    """What a second thread gains, and the most that it could gain: medians of the counters of rows second_thread/WORK."""
+    """What a second thread gains, and the bound of that but for caches: medians of the counters of rows second_thread/WORK."""
     rows = []
     for path in paths:
         if not os.path.exists(path):
