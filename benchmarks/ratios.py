@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""ratios.py FOLDER   reads FOLDER/solve.json, step.json, scaling.json, motion.json and start.json, those that are there, and prints, for every case,
+"""ratios.py FOLDER   reads FOLDER/solve.json, step.json, scaling.json, second_thread.json, motion.json and start.json, those that are there, and
+prints, for every case,
 
     case | bough ms | best peer ms (which) | ratio | bar | 2-thread speed-up | CPU ratio
 
 bough ms: the better of one and two threads. Ratio: best rival over bough; the rivals are those that the bar names. Steps: bough's step over
 KLU's refactorization and solution of the same chain (smaller is better). A figure that misses its bar is marked with '<' (or '>' for
 steps). Medians over the repetitions, wall time. CPU ratio: the same ratio in CPU time, bough on one thread: it says more where the machine
-was busy. Motions: CPU nanoseconds of one motion and Eigen's time over bough's. Exit 0 whatever the figures are, 2 where no file can be read.
+was busy. Second thread: what it gains on chains over one thread, and the bound of that but for caches, 2 x the time of one thread alone over that
+of two side by side, each with work of its own; of bare arithmetic and reading from benchmarks/bench_machine.json. Motions: CPU nanoseconds of one
+motion and Eigen's time over bough's. Exit 0 whatever the figures are, 2 where no file can be read.
 """
 import json
 import os
@@ -130,6 +133,27 @@ def print_scaling(path):
     print(f"most over least: {max(costs) / min(costs):.2f} (bar 1.5)")
 
 
+def second_thread_rows(paths):
+    """What a second thread gains, and the bound of that but for caches: medians of the counters of rows second_thread/WORK."""
+    rows = []
+    for path in paths:
+        if not os.path.exists(path):
+            continue
+        with open(path, encoding="utf-8") as file:
+            found = json.load(file)["benchmarks"]
+        for row in found:
+            match = re.match(r"second_thread/(\w+(?:/KiB:\d+)?)", row["run_name"])
+            if match and row.get("aggregate_name") == "median" and not row.get("error_occurred"):
+                gained, bound = row.get("gained"), row["bound"]
+                rows.append((match[1], number(row["alone"], 4), number(row["side_by_side"], 4), number(row.get("together"), 4),
+                             number(gained, 2), number(bound, 2), number(gained / bound if gained else None, 2)))
+
+    def order(row):
+        return row[4] == "-", [int(size) for size in re.findall(r"\d+", row[0])]
+
+    return sorted(rows, key=order)
+
+
 def motion_rows(path):
     """CPU time of one motion, by bough in double, in a lane of eight, and by Eigen."""
     with open(path, encoding="utf-8") as file:
@@ -167,7 +191,7 @@ def main():
         print(__doc__, file=sys.stderr)
         return 2
     found = False
-    paths = {name: os.path.join(sys.argv[1], name + ".json") for name in ("solve", "step", "scaling", "motion", "start")}
+    paths = {name: os.path.join(sys.argv[1], name + ".json") for name in ("solve", "step", "scaling", "second_thread", "motion", "start")}
     for name, path in paths.items():
         if not os.path.exists(path):
             continue
@@ -184,6 +208,10 @@ def main():
                          "CPU ratio"), step_rows(read_medians(path)))
             print_table(("1 thread, CPU ms a step", "evaluate", "factor", "solve", "update", "output", "iterations",
                          "factorizations"), split_rows(path))
+        elif name == "second_thread":
+            machine = os.path.join(sys.argv[1], "benchmarks", "bench_machine.json")
+            print_table(("second thread", "alone ms", "side by side ms", "together ms", "gained", "bound", "gained / bound"),
+                        second_thread_rows((path, machine)))
         elif name == "motion":
             print_table(("motion", "bough ns", "a lane ns", "eigen ns", "eigen/bough", "eigen/lane"), motion_rows(path))
         elif name == "start":
@@ -191,7 +219,7 @@ def main():
         else:
             print_scaling(path)
     if not found:
-        print(f"ratios.py: no solve.json, step.json, scaling.json, motion.json or start.json in {sys.argv[1]}; `make bench` writes all but scaling.json", file=sys.stderr)
+        print(f"ratios.py: none of {', '.join(n + '.json' for n in paths)} in {sys.argv[1]}; `make bench` writes all but scaling.json", file=sys.stderr)
         return 2
     return 0
 

@@ -1,6 +1,7 @@
 #!/bin/sh
 # run.sh BUILD_FOLDER   runs all benchmarks: micro (JSON beside the programs), solve (BUILD_FOLDER/solve.json) and
-# step (BUILD_FOLDER/step.json), motion (BUILD_FOLDER/motion.json), start (BUILD_FOLDER/start.json), then prints the tables of ratios.
+# step (BUILD_FOLDER/step.json), lean (BUILD_FOLDER/lean.json), what a second thread can gain (BUILD_FOLDER/second_thread.json), motion
+# (BUILD_FOLDER/motion.json), start (BUILD_FOLDER/start.json), then prints the tables of ratios.
 set -eu
 build=$1
 folder=$build/benchmarks
@@ -14,6 +15,10 @@ for name in solve step lean; do
   "$program" --benchmark_out="$build/$name.json" --benchmark_out_format=json --benchmark_display_aggregates_only=true
   sed -i 's|/real_time||g' "$build/$name.json"   # the rows are SOLVER/CASE/threads:N
 done
+if [ -x "$folder/bench_solve" ]; then
+  "$folder/bench_solve" --side_by_side=yes --benchmark_repetitions=9 --benchmark_display_aggregates_only=true \
+    --benchmark_out="$build/second_thread.json" --benchmark_out_format=json
+fi
 if [ -x "$folder/bench_motion" ]; then
   found=1
   "$folder/bench_motion" --benchmark_min_time=0.05 --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true \
@@ -27,7 +32,7 @@ for program in "$folder"/bench_*; do
   case "$program" in *.json | */bench_solve | */bench_step | */bench_lean | */bench_motion | */bench_start) continue ;; esac
   [ -x "$program" ] || continue
   found=1
-  "$program" --benchmark_min_time=0.2 --benchmark_out="$program.json" --benchmark_out_format=json
+  "$program" --benchmark_min_time=0.1 --benchmark_out="$program.json" --benchmark_out_format=json
 done
 [ "$found" -eq 1 ] || { echo "no benchmarks in $folder" >&2; exit 1; }
 python3 "$here/ratios.py" "$build"

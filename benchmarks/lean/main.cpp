@@ -141,7 +141,7 @@ void run_case(benchmark::State& state, const LeanCase& c, bool barred, int threa
     return true;
   };
   const bool of_factors = is_of_factors(c);
-  for (auto _ : state) {
+  while (state.KeepRunningBatch(c.steps)) {  // a run is that many iterations: the least time is one of all its steps
     double seconds = 0.0;
     std::chrono::steady_clock::time_point start;
     end = study::simulate(s, options, recorder, [&](const results::Progress& p) {
@@ -154,9 +154,9 @@ void run_case(benchmark::State& state, const LeanCase& c, bool barred, int threa
       state.SkipWithError(("the run failed or rejected steps: " + end.cause).c_str());
       return;
     }
-    state.SetIterationTime(of_factors ? (end.times.factor - first_factor) /
+    state.SetIterationTime(of_factors ? c.steps * (end.times.factor - first_factor) /
                                             static_cast<double>(end.steps.factorizations - first_factorizations)
-                                      : seconds / c.steps);
+                                      : seconds);
   }
   state.counters["iterations_a_step"] =
       static_cast<double>(end.steps.newton_iterations) / static_cast<double>(end.steps.accepted);
@@ -169,8 +169,8 @@ void run_case(benchmark::State& state, const LeanCase& c, bool barred, int threa
 int main(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
   const std::regex wanted(take_option(arguments, "case", ".*"));
-  std::vector<std::string> defaults{"--benchmark_repetitions=5", "--benchmark_enable_random_interleaving=true",
-                                    "--benchmark_min_time=0.01"};
+  std::vector<std::string> defaults{"--benchmark_repetitions=3", "--benchmark_enable_random_interleaving=true",
+                                    "--benchmark_min_time=0.05"};
   for (std::string& d : defaults) arguments.insert(arguments.begin() + 1, d.data());
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());

@@ -1,11 +1,12 @@
 /// What the machine can do on one thread, to set beside the counters of bench_step: fused multiply-adds in registers, and reading from each cache
-/// and from memory. Gflop/s and GB/s are the counters `flops` and `bytes`.
+/// and from memory. Gflop/s and GB/s are the counters `flops` and `bytes`. Rows second_thread/...: the same by one thread alone and by two side by side.
 #include <benchmark/benchmark.h>
 
 #include <vector>
 
 #include "../../src/solve/lane_registers.hpp"
 #include "../../src/solve/line_allocator.hpp"
+#include "../support/side_by_side.hpp"
 
 namespace {
 
@@ -13,31 +14,84 @@ using namespace bough::solve;
 using packs::load;
 using packs::Real;
 
+using Data = std::vector<double, LineAllocator<double>>;
+
 /// As many sums as a tile of the kernels has, so that none waits for itself.
+constexpr int many_sums = 24, rounds = 1024;
+template <int sums>
+void multiply_and_add() {
+  Real sum[sums] = {};
+  const Real factor = Real{} + 0.5, term = Real{} + 1.0;
+  for (int k = 0; k < rounds; ++k)
+    for (Real& s : sum) s = packs::plus_product(term, s, factor);
+  for (Real& s : sum) benchmark::DoNotOptimize(s);
+}
+
+void read_all(const Data& data) {
+  Real sum[8] = {};
+  for (std::size_t i = 0; i < data.size(); i += 8 * packs::width)
+    for (std::size_t j = 0; j < 8; ++j) sum[j] += load(data.data() + i + j * packs::width);
+  for (Real& s : sum) benchmark::DoNotOptimize(s);
+}
+
+Data make_data(std::int64_t kibibytes) { return Data(static_cast<std::size_t>(kibibytes) * 128, 1.0); }
+
 void multiply_adds(benchmark::State& state) {
-  constexpr int sums = 24, rounds = 1024;
-  Real sum[sums] = {}, factor = Real{} + 0.5, term = Real{} + 1.0;
-  for (auto _ : state) {
-    for (int k = 0; k < rounds; ++k)
-      for (Real& s : sum) s = packs::plus_product(term, s, factor);
-    for (Real& s : sum) benchmark::DoNotOptimize(s);
-  }
+  for (auto _ : state) multiply_and_add<many_sums>();
   state.counters["flops"] =
-      benchmark::Counter(2.0 * packs::width * sums * rounds, benchmark::Counter::kIsIterationInvariantRate);
+      benchmark::Counter(2.0 * packs::width * many_sums * rounds, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(multiply_adds);
 
 void read(benchmark::State& state) {
-  const std::vector<double, LineAllocator<double>> data(static_cast<std::size_t>(state.range(0)) * 128, 1.0);
-  for (auto _ : state) {
-    Real sum[8] = {};
-    for (std::size_t i = 0; i < data.size(); i += 8 * packs::width)
-      for (std::size_t j = 0; j < 8; ++j) sum[j] += load(data.data() + i + j * packs::width);
-    for (Real& s : sum) benchmark::DoNotOptimize(s);
-  }
+  const Data data = make_data(state.range(0));
+  for (auto _ : state) read_all(data);
   state.counters["bytes"] =
       benchmark::Counter(8.0 * static_cast<double>(data.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(read)->ArgName("KiB")->Arg(16)->Arg(256)->Arg(4096)->Arg(262144);
+
+template <class Work>
+void run_side_by_side(benchmark::State& state, long repeats, Work work) {
+  bough::bench::SideBySide times;
+  while (state.KeepRunningBatch(repeats)) times.add(state, repeats, work);
+  times.report(state);
+}
+
+/// One sum waits for itself and leaves most of a core idle: two threads of one core do twice as much of these, but no more of multiply_adds.
+template <int sums>
+void side_by_side_multiply_adds(benchmark::State& state) {
+  run_side_by_side(state, 120000 / (sums + 4), [](int) { multiply_and_add<sums>(); });
+}
+
+void side_by_side_read(benchmark::State& state) {
+  const Data data[2] = {make_data(state.range(0)), make_data(state.range(0))};
+  const auto in_4_gib = static_cast<long>((std::int64_t{1} << 22) / state.range(0));
+  run_side_by_side(state, in_4_gib, [&data](int k) { read_all(data[k]); });
+}
+
+constexpr int repetitions = 9;  // whose median is read: what else the host does comes and goes
+BENCHMARK(side_by_side_multiply_adds<1>)
+    ->Name("second_thread/dependent_multiply_adds")
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(0.05)
+    ->Repetitions(repetitions);
+BENCHMARK(side_by_side_multiply_adds<many_sums>)
+    ->Name("second_thread/multiply_adds")
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(0.05)
+    ->Repetitions(repetitions);
+BENCHMARK(side_by_side_read)
+    ->Name("second_thread/read")
+    ->ArgName("KiB")
+    ->Arg(256)
+    ->Arg(4096)
+    ->Arg(262144)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(0.05)
+    ->Repetitions(repetitions);
 
 }  // namespace

@@ -1,5 +1,6 @@
-/// bench_solve [--case=REGEX] [--solver=REGEX] [options of Google Benchmark]
-/// Numeric refactorization plus one solution, symbolic work reused: bough and its peers on the same matrices.
+/// bench_solve [--case=REGEX] [--solver=REGEX] [--side_by_side=yes] [options of Google Benchmark]
+/// Numeric refactorization plus one solution, symbolic work reused: bough and its peers on the same matrices. --side_by_side=yes: instead of these, what a
+/// second thread gains on chains and what two do that share no work (second_thread.hpp).
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include "../support/arguments.hpp"
 #include "../support/context.hpp"
 #include "cases.hpp"
+#include "second_thread.hpp"
 
 namespace {
 
@@ -38,13 +40,21 @@ int main(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
   const std::regex wanted_case(take_option(arguments, "case", ".*"));
   const std::regex wanted_solver(take_option(arguments, "solver", ".*"));
+  const bool side_by_side = take_option(arguments, "side_by_side", "no") == "yes";
   std::vector<std::string> defaults{"--benchmark_repetitions=5", "--benchmark_enable_random_interleaving=true",
-                                    "--benchmark_min_time=0.05"};
+                                    "--benchmark_min_time=0.03"};
   for (std::string& d : defaults) arguments.insert(arguments.begin() + 1, d.data());
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
   add_context();
+  if (side_by_side) {
+    const auto rows =
+        add_second_thread_rows([&](const std::string& name) { return std::regex_match(name, wanted_case); });
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return 0;
+  }
 
   std::vector<Peer> peers;
   for (Peer& p : make_peers())

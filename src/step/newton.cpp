@@ -8,6 +8,17 @@
 
 namespace bough::step {
 
+namespace {
+
+/// Round-off is never twice the same: residuals within this many times what was met as such are it, too.
+constexpr double noise_spread = 1.5;
+
+/// sum |K| eps |coordinates| counts one rounding of each coordinate, a residual makes several (poses, relative motions, sums over elements): up to so
+/// many of them may be left above the tolerance.
+constexpr double roundings = 16.0;
+
+}  // namespace
+
 double largest_share(const System& system, const ResidualSize& r) {
   const double arm = system.moment_arm();
   constexpr double huge = 1e100;  // more says nothing, and must not overflow
@@ -27,7 +38,8 @@ bool is_settled(const System& system, const ResidualSize& r, double tolerance, d
   const double arm = system.moment_arm();
   const ResidualSize& noise = system.noise();
   const auto within = [tolerance, share](double part, double whole, double rounding) {
-    return share * part <= std::max(left_open * tolerance * whole, std::min(tolerance * whole, 1.5 * rounding));
+    return share * part <=
+           std::max(left_open * tolerance * whole, std::min(tolerance * whole, noise_spread * rounding));
   };
   return within(r.force, std::max(r.force_scale, r.moment_scale / arm), noise.force) &&
          within(r.moment, std::max(r.moment_scale, r.force_scale * arm), noise.moment) &&
@@ -48,8 +60,8 @@ bool is_closed(const System& system, const ResidualSize& r, double tolerance) {
 
 bool is_at_floor(const System& system, const State& state, const ResidualSize& r, double tolerance) {
   const ResidualSize floor = system.round_off_floor(state);
-  return r.force <= std::max(16.0 * floor.force, tolerance * r.force_scale) &&
-         r.moment <= std::max(16.0 * floor.moment, tolerance * r.moment_scale) &&
+  return r.force <= std::max(roundings * floor.force, tolerance * r.force_scale) &&
+         r.moment <= std::max(roundings * floor.moment, tolerance * r.moment_scale) &&
          r.length <= std::max(floor.length, tolerance * system.plan().length_scale) &&
          r.angle <= std::max(floor.angle, tolerance);
 }

@@ -183,6 +183,23 @@ TEST(Profile, sums_of_the_tree_agree) {
   }
 }
 
+TEST(Profile, watches_all_of_the_first_16_steps_and_every_seventh_after_them) {
+  scene::Scene statics = make_scene(4);  // tied to one cantilever
+  for (scene::Joint& j : statics.joints) j.kind = scene::JointKind::fixed;
+  statics.analysis.kind = scene::AnalysisKind::statics;
+  statics.analysis.load_steps = 10;
+  scene::Scene in_time = make_scene(4);
+  in_time.analysis.end_time = 0.04;
+  const auto watched = [](const scene::Scene& s) {
+    study::NullRecorder nobody;
+    const study::WatchedRun run = study::watch_run(s, {}, nobody, {});
+    EXPECT_EQ(run.summary.status, results::RunStatus::ok) << run.summary.cause;
+    return std::pair(run.steps.size(), run.watched.size());
+  };
+  EXPECT_EQ(watched(statics), (std::pair<std::size_t, std::size_t>(10, 10)));
+  EXPECT_EQ(watched(in_time), (std::pair<std::size_t, std::size_t>(40, 16 + 3)));  // 21, 28, 35
+}
+
 TEST(Profile, files_are_json_and_hold_what_they_name) {
   Profile p = profile_of(make_scene(12, 2));
   p.scene = "a \"quoted\" name";

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "../step/lattice_scene.hpp"
 #include "bough/plan/plan.hpp"
@@ -137,6 +138,14 @@ TEST_P(EveryScene, has_the_same_results_with_and_without_each_decision) {
   for (const plan::Decision& d : as_given.plan.decisions)
     if (d.taken && d.can_be_barred)
       expect_the_same_without(d.name == "reuse" || d.name == "welded" ? at_round_off : as_given, d.name);
+}
+
+TEST(Gallery, has_a_scene_for_every_decision) {
+  std::set<std::string> taken = {"line", "translation"};  // of springs alone, not of structures: test_reduced has them
+  for (const std::string& stem : gallery_stems())
+    for (const plan::Decision& d : plan::make_plan(support::gallery(stem)).decisions)
+      if (d.taken) taken.insert(d.name);
+  for (const std::string& name : scene::decision_names()) EXPECT_TRUE(taken.contains(name)) << name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, EveryScene, testing::ValuesIn(gallery_stems()),
