@@ -65,6 +65,15 @@ JointMotion eval_joint_motion(const Joint& joint, const Field& field, double tur
   return m;
 }
 
+double eval_joint_angle(const Joint& joint, const Field& field, double turns) {
+  const auto rotation_of = [&field](const auto& port) {
+    if (port.node != ground)
+      return port.has_offset ? field.nodes[port.node].R * port.offset.R : field.nodes[port.node].R;
+    return port.carrier >= 0 ? field.carriers[port.carrier].pose.R * port.offset.R : port.offset.R;
+  };
+  return eval_angle(lanes::transpose_times(rotation_of(joint.ports[0]), rotation_of(joint.ports[1])), turns);
+}
+
 BOUGH_INSTANTIATE_ELEMENT(RigidBody)
 BOUGH_INSTANTIATE_ELEMENT(PointLoad)
 BOUGH_INSTANTIATE_ELEMENT(Spring)

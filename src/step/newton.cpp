@@ -191,14 +191,18 @@ std::optional<Trouble> check_shape_in_plane(const System& system, const State& s
 void accept_turns(const System& system, State& state) {
   const plan::Plan& plan = system.plan();
   const elements::Field f = system.field(state);
-  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
-    if (!plan.joints[j].counts_turns) continue;
-    plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(plan.joints[j].element)],
-                       [&](const auto& e) {
-                         if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
-                           state.turns[j] = elements::eval_joint_motion(e, f, state.turns[j]).angle;
-                       });
-  }
+  auto by_joint = [&](std::int64_t begin, std::int64_t end) {
+    for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
+      if (!plan.joints[j].counts_turns) continue;
+      plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(plan.joints[j].element)],
+                         [&](const auto& e) {
+                           if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
+                             state.turns[j] = elements::eval_joint_angle(e, f, state.turns[j]);
+                         });
+    }
+  };
+  system.walker().for_each_chunk(static_cast<std::int64_t>(plan.joints.size()), element_grain,
+                                 tree::make_chunk(by_joint));
 }
 
 }  // namespace bough::step
