@@ -7,7 +7,8 @@ prints, for every case,
 bough ms: the better of one and two threads. Ratio: best rival over bough; the rivals are those that the bar names. Steps: bough's step over
 KLU's refactorization and solution of the same chain (smaller is better). A figure that misses its bar is marked with '<' (or '>' for
 steps). Medians over the repetitions, wall time. CPU ratio: the same ratio in CPU time, bough on one thread: it says more where the machine
-was busy. Second thread: what it gains on chains over one thread, and the bound of that but for caches, 2 x the time of one thread alone over that
+was busy. Memory: all that bough's solver holds, matrices included, over 8 bytes for each nonzero of L and U in the best ordering of a peer
+that tells them (KLU, MUMPS), unsymmetric cases. Second thread: what it gains on chains over one thread, and the bound of that but for caches, 2 x the time of one thread alone over that
 of two side by side, each with work of its own; of bare arithmetic and reading from benchmarks/bench_machine.json. Motions: CPU nanoseconds of one
 motion and Eigen's time over bough's. Exit 0 whatever the figures are, 2 where no file can be read.
 """
@@ -19,6 +20,7 @@ import sys
 LATTICE_RIVALS = ("cholmod", "umfpack", "mumps", "superlu")
 STEP_BARS = {"chain_128": 0.27, "chain_512": 0.26, "chain_2048": 0.32}
 SPEED_UP_BAR = 1.7
+MEMORY_BAR = 2.5  # all that the solver holds over 8 bytes for each nonzero of L and U in the best ordering seen
 VERSION_BAR, RUN_BAR = 4.0, 5.0  # milliseconds of `bough --version`, and of a run of ten unknowns beyond that
 
 
@@ -58,6 +60,20 @@ def read_medians(path):
         return ("us".find(parts[3]), parts[1], int(parts[2])) if parts else (9, case, 0)
 
     return {case: table[case] for case in sorted(table, key=order)}
+
+
+def memory_of(path):
+    """{case: (bough's bytes, least nonzeros of L and U among the peers that tell them)} of unsymmetric cases."""
+    with open(path, encoding="utf-8") as file:
+        data = json.load(file)
+    found = {}
+    for row in data["benchmarks"]:
+        case = row["run_name"].split("/")[1]
+        if row.get("aggregate_name") != "median" or not case.endswith("_u"):
+            continue
+        memory, entries = found.get(case, (0.0, float("inf")))
+        found[case] = row.get("memory_bytes", memory), min(entries, row.get("factor_entries", entries))
+    return {case: of for case, of in found.items() if of[0] > 0.0 and of[1] < float("inf")}
 
 
 def speed_up_text(times, case, solver="bough"):
@@ -203,6 +219,12 @@ def main():
         if name == "solve":
             print_table(("case", "bough ms", "best peer ms (which)", "ratio", "bar", "2-thread speed-up", "CPU ratio"),
                         solve_rows(read_medians(path)))
+            memory = memory_of(path)
+            rows = [(case, f"{memory[case][0] / 1e6:.2f}", f"{memory[case][1] / 1e6:.3f}",
+                     f"{memory[case][0] / (8.0 * memory[case][1]):.2f}"
+                     + (" >" if memory[case][0] > MEMORY_BAR * 8.0 * memory[case][1] else ""))
+                    for case in read_medians(path) if case in memory]
+            print_table(("memory", "bough MB", "million nonzeros of L+U", "MB / 8 bytes of each"), rows)
         elif name == "step":
             print_table(("step of", "bough ms", "bough_klu ms", "klu solve ms", "ratio", "bar", "2-thread speed-up",
                          "CPU ratio"), step_rows(read_medians(path)))

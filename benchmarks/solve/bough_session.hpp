@@ -48,6 +48,7 @@ class BoughSession final : public Session {
     x.resize(problem_.rhs.size());
     return storage_->solver.finish(walker, x.data()).finite;
   }
+  double memory_bytes() const override { return static_cast<double>(storage_->solver.counters().memory_bytes); }
   void iterate(const std::function<void()>& iterations) override { threads_.keep_together(iterations); }
 
  private:

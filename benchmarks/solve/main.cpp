@@ -31,6 +31,9 @@ void run_row(benchmark::State& state, const Problem& problem, Entrant& entrant) 
   state.counters["backward_error"] = eval_backward_error(problem.matrix, x, problem.rhs);
   state.counters["unknowns"] = problem.matrix.n;
   state.counters["entries"] = problem.matrix.num_entries();
+  if (const double entries = entrant.session->factor_entries(); entries > 0.0)
+    state.counters["factor_entries"] = entries;
+  if (const double bytes = entrant.session->memory_bytes(); bytes > 0.0) state.counters["memory_bytes"] = bytes;
   state.SetLabel(entrant.ordering);
 }
 

@@ -36,6 +36,9 @@ class KluSession final : public Session {
     x = rhs_;
     return klu_solve(symbolic_, numeric_, a_.n, 1, x.data(), &common_) != 0;
   }
+  double factor_entries() const override {
+    return static_cast<double>(numeric_->lnz) + numeric_->unz + symbolic_->nzoff - a_.n;
+  }
 
  private:
   int* begin() const { return const_cast<int*>(a_.column_begin.data()); }  // KLU takes no const

@@ -49,6 +49,11 @@ class MumpsSession final : public Session {
     id_.rhs = x.data();
     return run(5);
   }
+  /// INFOG(29), in millions where it is negative. Symmetric: of L alone.
+  double factor_entries() const override {
+    const double entries = id_.infog[28];
+    return entries < 0.0 ? -1e6 * entries : entries;
+  }
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
