@@ -62,20 +62,6 @@ def read_medians(path):
     return {case: table[case] for case in sorted(table, key=order)}
 
 
-def memory_of(path):
-    """{case: (bough's bytes, least nonzeros of L and U among the peers that tell them)} of unsymmetric cases."""
-    with open(path, encoding="utf-8") as file:
-        data = json.load(file)
-    found = {}
-    for row in data["benchmarks"]:
-        case = row["run_name"].split("/")[1]
-        if row.get("aggregate_name") != "median" or not case.endswith("_u"):
-            continue
-        memory, entries = found.get(case, (0.0, float("inf")))
-        found[case] = row.get("memory_bytes", memory), min(entries, row.get("factor_entries", entries))
-    return {case: of for case, of in found.items() if of[0] > 0.0 and of[1] < float("inf")}
-
-
 def speed_up_text(times, case, solver="bough"):
     if (solver, 1) not in times or (solver, 2) not in times:
         return "-"
@@ -111,6 +97,24 @@ def solve_rows(table):
         which = "-" if best[0] is None else f"{best[1]:.3f} ({best[0][0]}" + (", 2 threads)" if best[0][1] == 2 else ")")
         rows.append((case, number(own), which, number(ratio, 2) + (" <" if ratio and ratio < bar else ""), f"{bar:g}",
                      speed_up_text(times, case), number(cpu_ratio, 2)))
+    return rows
+
+
+def memory_rows(path):
+    """Unsymmetric cases: what bough holds, and the least nonzeros of L and U among the peers that tell them."""
+    with open(path, encoding="utf-8") as file:
+        data = json.load(file)
+    found = {}
+    for row in data["benchmarks"]:
+        case = row["run_name"].split("/")[1]
+        if row.get("aggregate_name") == "median" and case.endswith("_u"):
+            memory, entries = found.get(case, (0.0, float("inf")))
+            found[case] = row.get("memory_bytes", memory), min(entries, row.get("factor_entries", entries))
+    rows = []
+    for case, (memory, entries) in sorted(found.items(), key=lambda of: of[1][1]):
+        if memory > 0.0 and entries < float("inf"):
+            ratio = memory / (8.0 * entries)
+            rows.append((case, f"{memory / 1e6:.2f}", f"{entries / 1e6:.3f}", f"{ratio:.2f}" + (" >" if ratio > MEMORY_BAR else "")))
     return rows
 
 
@@ -219,12 +223,7 @@ def main():
         if name == "solve":
             print_table(("case", "bough ms", "best peer ms (which)", "ratio", "bar", "2-thread speed-up", "CPU ratio"),
                         solve_rows(read_medians(path)))
-            memory = memory_of(path)
-            rows = [(case, f"{memory[case][0] / 1e6:.2f}", f"{memory[case][1] / 1e6:.3f}",
-                     f"{memory[case][0] / (8.0 * memory[case][1]):.2f}"
-                     + (" >" if memory[case][0] > MEMORY_BAR * 8.0 * memory[case][1] else ""))
-                    for case in read_medians(path) if case in memory]
-            print_table(("memory", "bough MB", "million nonzeros of L+U", "MB / 8 bytes of each"), rows)
+            print_table(("memory", "bough MB", "million nonzeros of L+U", "MB / 8 bytes of each"), memory_rows(path))
         elif name == "step":
             print_table(("step of", "bough ms", "bough_klu ms", "klu solve ms", "ratio", "bar", "2-thread speed-up",
                          "CPU ratio"), step_rows(read_medians(path)))

@@ -66,12 +66,8 @@ JointMotion eval_joint_motion(const Joint& joint, const Field& field, double tur
 }
 
 double eval_joint_angle(const Joint& joint, const Field& field, double turns) {
-  const auto rotation_of = [&field](const auto& port) {
-    if (port.node != ground)
-      return port.has_offset ? field.nodes[port.node].R * port.offset.R : field.nodes[port.node].R;
-    return port.carrier >= 0 ? field.carriers[port.carrier].pose.R * port.offset.R : port.offset.R;
-  };
-  return eval_angle(lanes::transpose_times(rotation_of(joint.ports[0]), rotation_of(joint.ports[1])), turns);
+  const Mat3<double> a = eval_port_rotation(joint.ports[0], field), b = eval_port_rotation(joint.ports[1], field);
+  return eval_angle(lanes::transpose_times(a, b), turns);
 }
 
 BOUGH_INSTANTIATE_ELEMENT(RigidBody)

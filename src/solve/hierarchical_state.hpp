@@ -112,7 +112,8 @@ struct Hierarchical::State {
   // Sub-domains in lockstep: packs of eight lanes.
   LaneDoubles lane_scratch, lane_tops, lane_factors, lane_vectors, lane_residuals, lane_row_scales,
       lane_inverse_column_scales;
-  std::vector<double*> group_scratch;  ///< by group: where Schur complements stand that do not outlast its visit
+  std::vector<double*>
+      group_scratch;  ///< by group, during its visit: where Schur complements stand that do not outlast it
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
   std::vector<SolutionSizes> sizes;   ///< by group
   std::unique_ptr<Hierarchical> twin;  ///< the same without lanes, for reports that need every front whole

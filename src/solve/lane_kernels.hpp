@@ -63,7 +63,7 @@ double largest_asymmetry_lanes(const double* element, int size, const Place* pla
 /// Largest of |v_i| scale_i over `count` packs and all lanes; not a number comes out as infinity or NaN.
 double largest_scaled(const double* v, const double* scale, int count);
 
-/// Asks for `count` packs to be brought to the second cache.
+/// Asks for `count` packs to be brought to the second cache. Not inline: g++ takes a function that only prefetches for pure, and drops calls of it.
 void prefetch_packs(const double* packs, int count);
 
 /// Copies numbers (a multiple of a pack, lines of cache from their beginning) without reading what they replace. They are in memory for all

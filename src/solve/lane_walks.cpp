@@ -68,6 +68,7 @@ void Hierarchical::State::factor_lanes(int index) {
     }
   }
   if (streams_factors) end_writes_past_caches();
+  if (group_scratch[at(index)] == scratch) group_scratch[at(index)] = nullptr;
 }
 
 /// What the next front of a walk up reads, on its way to the cache while this one is eliminated: where a factorization does not fit

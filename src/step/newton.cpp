@@ -104,20 +104,13 @@ std::string describe(System& system, const ResidualSize& r, double tolerance) {
 
 namespace {
 
-/// R_a^T R_b of two ports: rotations alone, since every element is looked at after every step.
-motion::Mat3<double> rotation_of(const elements::Field& f, const elements::Port& p) {
-  if (p.node == elements::ground) return p.carrier >= 0 ? f.carriers[p.carrier].pose.R * p.offset.R : p.offset.R;
-  const motion::Mat3<double>& node = f.nodes[p.node].R;
-  return p.has_offset ? node * p.offset.R : node;
-}
-
 /// Whether a joint left its branch.
 bool is_flipped(const elements::Joint& e, const elements::Field& f) {
   motion::Mat3<double> R;
   bool is_known = false;
   for (int k = 0; k < e.num_rows; ++k) {
     if (e.rows[k].kind != elements::RowKind::across) continue;
-    if (!is_known) R = lanes::transpose_times(rotation_of(f, e.ports[0]), rotation_of(f, e.ports[1]));
+    if (!is_known) R = lanes::transpose_times(eval_port_rotation(e.ports[0], f), eval_port_rotation(e.ports[1], f));
     is_known = true;
     const bool by_pairs = e.rows[k].j == (e.rows[k].i + 1) % 3 && k + 2 < e.num_rows && e.rows[k].i == 0 &&
                           e.rows[k + 1].kind == elements::RowKind::across && e.rows[k + 1].i == 1 &&
@@ -131,9 +124,9 @@ bool is_flipped(const elements::Joint& e, const elements::Field& f) {
 /// Whether a beam turns by nearly half a turn over its length: cos(angle) = (trace(R_a^T R_b) - 1) / 2.
 template <class E>
 bool is_folded(const E& e, const elements::Field& f) {
-  const motion::Mat3<double> first = rotation_of(f, e.ports[0]);
+  const motion::Mat3<double> first = eval_port_rotation(e.ports[0], f);
   for (int i = 1; i < E::num_ports; ++i) {
-    const motion::Mat3<double> other = rotation_of(f, e.ports[i]);
+    const motion::Mat3<double> other = eval_port_rotation(e.ports[i], f);
     double trace = 0.0;
     for (int k = 0; k < 9; ++k) trace += first.m[k] * other.m[k];
     if (0.5 * (trace - 1.0) < folded) return true;

@@ -86,6 +86,14 @@ PortMotion<S> eval_port(const PortOf<S>& port, const NodeMotionOf<S>* nodes, con
   return p;
 }
 
+/// The rotation of a port alone, for what is asked of every element after every step.
+inline motion::Mat3<double> eval_port_rotation(const Port& port, const Field& field) {
+  if (port.node == ground)
+    return port.carrier >= 0 ? field.carriers[port.carrier].pose.R * port.offset.R : port.offset.R;
+  const motion::Mat3<double>& node = field.nodes[port.node].R;
+  return port.has_offset ? node * port.offset.R : node;
+}
+
 /// Unknowns of an element: 6 per port off the ground, then its multipliers.
 template <class E>
 int num_multipliers(const E& e) {
