@@ -123,9 +123,9 @@ ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, con
         r[row] = sum;
         const double scale = scales.row[at(row)];
         const double residual = std::abs(sum);
-        most[0] = residual * scale <= most[0] ? most[0] : residual * scale;  // NaN goes through
-        most[1] = std::max(most[1], norm * scale);
-        most[2] = std::max(most[2], std::abs(b[row]) * scale);
+        most[0] = larger(most[0], residual * scale);
+        most[1] = larger(most[1], norm * scale);
+        most[2] = larger(most[2], std::abs(b[row]) * scale);
         if (magnitude > 0.0) *worst = std::max(*worst, residual / magnitude);
       }
     }
@@ -134,12 +134,12 @@ ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, con
   double residual = 0.0, norm = 0.0, rhs = 0.0, size = 0.0;
   Errors errors;
   for (std::size_t c = 0; c + 3 < chunk_.size(); c += 4) {
-    residual = chunk_[c] <= residual ? residual : chunk_[c];
-    norm = std::max(norm, chunk_[c + 1]);
-    rhs = std::max(rhs, chunk_[c + 2]);
+    residual = larger(residual, chunk_[c]);
+    norm = larger(norm, chunk_[c + 1]);
+    rhs = larger(rhs, chunk_[c + 2]);
     errors.componentwise = std::max(errors.componentwise, chunk_[c + 3]);
   }
-  for (std::size_t i = 0; i < scales.column.size(); ++i) size = std::max(size, std::abs(x[i]) / scales.column[i]);
+  for (std::size_t i = 0; i < scales.column.size(); ++i) size = larger(size, std::abs(x[i]) / scales.column[i]);
   errors.finite = std::isfinite(residual) && std::isfinite(size);
   errors.size = norm * size + rhs;
   errors.normwise = errors.size > 0.0 ? residual / errors.size : residual;
@@ -385,8 +385,8 @@ void ElementStore::eval_rows(const Scales& scales, std::span<const int> blocks, 
     });
     for (std::int64_t u = first; u < end; ++u) {
       const double size = std::abs(r[u]) * scales.row[at(u)];
-      most[0] = size <= most[0] ? most[0] : size;  // NaN goes through
-      most[1] = std::max(most[1], std::abs(b[u]) * scales.row[at(u)]);
+      most[0] = larger(most[0], size);
+      most[1] = larger(most[1], std::abs(b[u]) * scales.row[at(u)]);
     }
   }
 }

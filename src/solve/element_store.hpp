@@ -33,6 +33,9 @@ struct Asymmetry {
   static bool shows(double difference) { return !std::isfinite(difference) || difference > 1e-9; }
 };
 
+/// Of two magnitudes; what is not a number comes out on top, and stays there.
+inline double larger(double a, double b) { return std::islessequal(b, a) || std::isnan(a) ? a : b; }
+
 class ElementStore {
  public:
   /// Element matrices one after the other, by leaf.

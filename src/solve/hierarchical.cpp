@@ -75,8 +75,8 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   scratch_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));
   if (options.elimination == Elimination::plain) plain.resize(at(tree.num_subdomains()));
-  for (LaneDoubles* pool : {&lane_vectors, &lane_residuals, &lane_row_scales, &lane_inverse_column_scales})
-    pool->assign(at(lanes.vector_size * lanes_wide), 0.0);
+  for (LaneDoubles* pool : {&lane_vectors, &lane_inverse_column_scales}) pool->assign(lanes.unknowns.size(), 0.0);
+  lane_row_scales.assign(at(lanes.scale_size * lanes_wide), 0.0);
   lane_tops.assign(at(lanes.top_size * lanes_wide), 0.0);
   scalar_lanes.assign(lanes.fronts.size(), 0);
   sizes.resize(lanes.groups.size());
@@ -341,8 +341,8 @@ SolverCounters Hierarchical::counters() const {
   std::size_t doubles = s.factor_pool.size() + s.schur_pool.size() + 2 * s.vector_pool.size() + 7 * s.x.size() +
                         s.null_space.left.capacity() + s.null_space.right.capacity();
   for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
-  for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors, &s.lane_residuals,
-                                  &s.lane_row_scales, &s.lane_inverse_column_scales})
+  for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors, &s.lane_row_scales,
+                                  &s.lane_inverse_column_scales})
     doubles += pool->size();
   c.memory_bytes = static_cast<std::int64_t>(doubles * sizeof(double) + s.index_pool.size() * sizeof(int)) +
                    s.elements.memory_bytes();

@@ -10,6 +10,7 @@
 #include "front_storage.hpp"
 #include "lane_kernels.hpp"
 #include "lane_plan.hpp"
+#include "transfers.hpp"
 
 namespace bough::solve {
 
@@ -74,7 +75,7 @@ struct SolutionSizes {
   double residual = 0.0, rhs = 0.0, x = 0.0;
 };
 
-/// Doubles of Schur complements that a visit has on its stack.
+/// Doubles of Schur complements and vectors that a visit has on its stack.
 constexpr std::int64_t room_of_scratch = 1 << 14;
 
 struct Hierarchical::State {
@@ -110,10 +111,11 @@ struct Hierarchical::State {
   std::vector<double> x, rhs, residual, correction;
 
   // Sub-domains in lockstep: packs of eight lanes.
-  LaneDoubles lane_scratch, lane_tops, lane_factors, lane_vectors, lane_residuals, lane_row_scales,
-      lane_inverse_column_scales;
+  LaneDoubles lane_scratch, lane_tops, lane_factors, lane_row_scales;
+  LaneDoubles lane_vectors,
+      lane_inverse_column_scales;  ///< of eliminated unknowns; vectors: what forward substitution leaves
   std::vector<double*>
-      group_scratch;  ///< by group, during its visit: where Schur complements stand that do not outlast it
+      group_scratch;  ///< by group, during its visit: where Schur complements and vectors stand that do not outlast it
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
   std::vector<SolutionSizes> sizes;   ///< by group
   std::unique_ptr<Hierarchical> twin;  ///< the same without lanes, for reports that need every front whole
@@ -143,21 +145,24 @@ struct Hierarchical::State {
     return (f.is_top ? lane_tops.data() : group_scratch[static_cast<std::size_t>(f.group)]) + f.schur * lanes_wide;
   }
   double* factor_of(const LaneFront& f) { return lane_factors.data() + f.factor * lanes_wide; }
-  double* vector_of(const LaneFront& f) { return lane_vectors.data() + f.vector * lanes_wide; }
+  /// On the way up the right-hand side, condensed, on the way down the solution: eliminated unknowns, then the boundary.
+  double* vector_of(const LaneFront& f) { return schur_of(f) + f.schur_size() * lanes_wide; }
+  template <class Visit>
+  void with_scratch(int group, Visit&& visit);
   void factor_lanes(int group);
-  void prefetch_front(int front) const;
+  void fetch_front(int front, Transfers& transfers) const;
   void prefetch_factor(int front, bool downward) const;
-  void factor_lane_front(int index, double* factor);
+  void factor_lane_front(int index, double* factor, Transfers& transfers);
   void forward_lane_front(int index, const double* factor);
   void backward_lane_front(int index);
   void backward_left_lane_front(int index, std::vector<double>& left);
-  void residual_lane_front(int index);
+  void residual_lane_front(int index, SolutionSizes& most);
 
   // lane_handover.cpp
   LaneSet lanes_to_leave(const LaneFront& f) const;
   void factor_lane_alone(int index, int lane, bool is_indefinite);
   void add_lane_child(tree::FrontId child, FrontData& parent);
-  void add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent) const;
+  void add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent);
   void hand_down(tree::FrontId f);
   void fill_lane_vector(tree::FrontId f, bool with_own);
   bool is_scalar(tree::FrontId f) const {

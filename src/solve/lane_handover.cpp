@@ -69,9 +69,9 @@ void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent)
 }
 
 /// Adds the condensed right-hand side that a lane holds to a front on the scalar path, scaled.
-void Hierarchical::State::add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent) const {
+void Hierarchical::State::add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent) {
   const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
-  const double* g = lane_vectors.data() + (f.vector + f.eliminated) * wide + lanes.lane[at(child)];
+  const double* g = vector_of(f) + f.eliminated * wide + lanes.lane[at(child)];
   std::int64_t r = run_begin[at(child)];
   for_boundary(child, [&](int i, std::size_t u) {
     while (i >= runs[at(r)].from + runs[at(r)].length) ++r;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "element_store.hpp"
 #include "lane_registers.hpp"
 
 namespace bough::solve {
@@ -60,15 +61,22 @@ inline void update_right(const Front& f, int k0, int column) {
 
 /// One register of lanes.
 unsigned eliminate_register(const Front& f, const double* row_scale, const double* inverse_column_scale,
-                            const LanePivotRule& rule) {
+                            const LanePivotRule& rule, Transfers& beside) {
   unsigned failed = 0;
   for (int k0 = 0; k0 < f.e;) {
     const int k = std::min(panel_width, f.e - k0);
     with_size(k, [&](auto size) {
       constexpr int pivots = decltype(size)::value;
-      failed |= eliminate_panel<pivots, Symmetry::general>(f, k0, row_scale, inverse_column_scale, rule, nullptr);
-      for_columns(k0 + pivots, f.e, [&](int j, auto c) { update_left<pivots, decltype(c)::value>(f, k0, j); });
-      for_columns(0, f.n - f.e, [&](int j, auto c) { update_right<pivots, decltype(c)::value>(f, k0, j); });
+      failed |=
+          eliminate_panel<pivots, Symmetry::general>(f, k0, row_scale, inverse_column_scale, rule, nullptr, beside);
+      for_columns(k0 + pivots, f.e, [&](int j, auto c) {
+        beside.step();
+        update_left<pivots, decltype(c)::value>(f, k0, j);
+      });
+      for_columns(0, f.n - f.e, [&](int j, auto c) {
+        beside.step();
+        update_right<pivots, decltype(c)::value>(f, k0, j);
+      });
     });
     k0 += k;
   }
@@ -78,13 +86,25 @@ unsigned eliminate_register(const Front& f, const double* row_scale, const doubl
 }  // namespace
 
 LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const double* row_scale,
-                        const double* inverse_column_scale, const LanePivotRule& rule) {
+                        const double* inverse_column_scale, const LanePivotRule& rule, Transfers& beside) {
   unsigned failed = 0;
   for (int l = 0; l < wide; l += width)
     failed |= eliminate_register(register_of(factor, schur, n, e, l, Symmetry::general), row_scale + l,
-                                 inverse_column_scale + l, rule)
+                                 inverse_column_scale + l, rule, beside)
               << l;
   return static_cast<LaneSet>(failed);
+}
+
+int elimination_steps(int n, int e) {
+  int steps = 0;
+  const auto count = [&](int, auto) { ++steps; };
+  for (int k0 = 0; k0 < e; k0 += panel_width) {
+    const int k1 = std::min(k0 + panel_width, e);
+    for_columns(k1, n, count);  // rows below the panel
+    for_columns(k1, e, count);
+    for_columns(e, n, count);
+  }
+  return steps * (wide / width);
 }
 
 void neutralise_lanes(double* factor, double* schur, int n, int e, LaneSet lanes, Symmetry symmetry) {
@@ -295,23 +315,13 @@ double largest_scaled(const double* v, const double* scale, int count) {
   Real most = {};
   for (int i = 0; i < count * wide; i += width) most = greater_of(most, magnitude(load(v + i) * load(scale + i)));
   double largest = 0.0;
-  for (int l = 0; l < width; ++l) largest = most[l] <= largest ? largest : most[l];
+  for (int l = 0; l < width; ++l) largest = larger(largest, most[l]);
   return largest;
 }
 
 void prefetch_packs(const double* packs, int count) {
   for (int i = 0; i < count * wide; i += 8) __builtin_prefetch(packs + i, 0, 2);
 }
-
-void write_past_caches(const double* from, std::int64_t count, double* to) {
-#if defined(__AVX512F__)
-  for (std::int64_t i = 0; i < count; i += 8) _mm512_stream_pd(to + i, _mm512_load_pd(from + i));
-#else
-  for (std::int64_t i = 0; i < count; i += 2) _mm_stream_pd(to + i, _mm_load_pd(from + i));
-#endif
-}
-
-void end_writes_past_caches() { _mm_sfence(); }
 
 void add_packs(const double* from, int count, double* to) {
   for (int i = 0; i < count * wide; i += width) store(to + i, load(to + i) + load(from + i));

@@ -11,6 +11,7 @@ namespace bough::solve {
 
 struct LaneMove;
 struct Place;
+class Transfers;
 
 /// Bit l: lane l.
 using LaneSet = std::uint8_t;
@@ -24,17 +25,19 @@ struct LanePivotRule {
 /// Eliminates the first e of n unknowns. factor: e columns of n entries, then n - e columns of e entries; schur: the other columns' rows below.
 /// After: L (unit) below the diagonal, the inverse pivots on it, U above and in the further columns, the Schur complement.
 /// row_scale: n packs, inverse_column_scale: e packs. Lanes with a pivot against the rule are answered; they hold an identity from there on.
+/// beside: steps elimination_steps(n, e) times.
 LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const double* row_scale,
-                        const double* inverse_column_scale, const LanePivotRule& rule);
+                        const double* inverse_column_scale, const LanePivotRule& rule, Transfers& beside);
 
 /// The same for symmetric fronts, L D L^T. factor: e columns of n entries, schur as above; of both only what is not above the diagonal is read. After: L
 /// (unit) below the diagonal, the inverse of D on it, the Schur complement on and below its diagonal; above stands nothing of meaning.
 LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, const double* scale,
-                                  const double* inverse_scale, const LanePivotRule& rule);
+                                  const double* inverse_scale, const LanePivotRule& rule, Transfers& beside);
 /// The same where they are expected to be positive definite: pivots are to be positive, at least `least`, scaled, and `least` times
 /// what they were, and no panel may take more than 1 / threshold, scaled, off a diagonal below.
 LaneSet eliminate_lanes_definite(double* factor, double* schur, int n, int e, const double* scale,
-                                 const double* inverse_scale, const LanePivotRule& rule);
+                                 const double* inverse_scale, const LanePivotRule& rule, Transfers& beside);
+int elimination_steps(int n, int e);
 constexpr int most_lane_rows = 2 * lanes_wide * lanes_wide;  ///< no front in lanes has more rows
 
 /// Identity in the eliminated part and 0 elsewhere, for the lanes of the set.
@@ -65,11 +68,6 @@ double largest_scaled(const double* v, const double* scale, int count);
 
 /// Asks for `count` packs to be brought to the second cache. Not inline: g++ takes a function that only prefetches for pure, and drops calls of it.
 void prefetch_packs(const double* packs, int count);
-
-/// Copies numbers (a multiple of a pack, lines of cache from their beginning) without reading what they replace. They are in memory for all
-/// threads after end_writes_past_caches(), which holds up the stores that follow it.
-void write_past_caches(const double* from, std::int64_t count, double* to);
-void end_writes_past_caches();
 
 /// to += from, `count` packs; with `from_lane` lane l of `to` takes lane from_lane[l], or nothing where that is negative.
 void add_packs(const double* from, int count, double* to);

@@ -110,7 +110,7 @@ void LanePlanner::place_work(LaneGroup& group) {
   std::int64_t most = 0;
   for (int i = begin; i < end; ++i) {
     LaneFront& f = plan_.fronts[at(i)];
-    const std::int64_t size = static_cast<std::int64_t>(f.boundary) * f.boundary;
+    const std::int64_t size = f.schur_size() + f.size();
     if (f.is_top) {
       f.schur = plan_.top_size;
       plan_.top_size += size;

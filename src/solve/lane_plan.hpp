@@ -70,14 +70,16 @@ struct LaneFront {
   int child_begin = 0, child_end = 0;           ///< LanePlan::children
   int move_begin = 0, move_end = 0;             ///< LanePlan::moves
   int gap_begin = 0, gap_end = 0;               ///< LanePlan::gaps
-  std::int64_t schur = 0;  ///< first pack of the Schur complement: in the group's scratch, or lasting where it is a top
+  std::int64_t schur =
+      0;  ///< first pack of the Schur complement, then the vector: in the group's scratch, or lasting where it is a top
   std::int64_t factor = 0;    ///< first pack of the factor: e columns of all n rows, then the b columns of U12
-  std::int64_t vector = 0;    ///< first pack of the right-hand side and solution
+  std::int64_t scale = 0;     ///< first of n packs of row scales
   std::int64_t unknown = 0;   ///< first of 8 x eliminated unknowns (-1: padding), lanes innermost
   bool is_symmetric = false;  ///< no U12; blocks above the diagonal have no place
   int group = 0;              ///< LanePlan::groups
   bool is_top = false;        ///< its Schur complement lasts until the parent group is visited
   int size() const { return eliminated + boundary; }
+  std::int64_t schur_size() const { return static_cast<std::int64_t>(boundary) * boundary; }
   std::int64_t factor_size() const {
     return static_cast<std::int64_t>(eliminated) * (size() + (is_symmetric ? 0 : boundary));
   }
@@ -89,7 +91,7 @@ struct LaneGroup {
   bool in_lanes = false;
   int front_begin = 0, front_end = 0;      ///< LanePlan::fronts, children first; in lanes only
   int element_begin = 0, element_end = 0;  ///< positions in LanePlan::batches
-  std::int64_t scratch = 0;                ///< packs of Schur complements that are needed during the visit alone
+  std::int64_t scratch = 0;  ///< packs of Schur complements and vectors that are needed during the visit alone
 };
 
 struct LanePlan {
@@ -106,11 +108,11 @@ struct LanePlan {
   std::vector<int> lane_front;        ///< by front of the tree: index in fronts, -1 on the scalar path
   std::vector<std::int8_t> lane;      ///< by front of the tree
   std::vector<int> group_of_subdomain;
-  tree::Tree walk;                                              ///< the groups as sub-domains, for walkers
-  std::int64_t top_size = 0, factor_size = 0, vector_size = 0;  ///< packs
-  std::int64_t num_values = 0;                                  ///< doubles of the element store
-  std::vector<std::int64_t> element_first;                      ///< by element
-  std::vector<int> element_stride;                              ///< by element
+  tree::Tree walk;                                             ///< the groups as sub-domains, for walkers
+  std::int64_t top_size = 0, factor_size = 0, scale_size = 0;  ///< packs
+  std::int64_t num_values = 0;                                 ///< doubles of the element store
+  std::vector<std::int64_t> element_first;                     ///< by element
+  std::vector<int> element_stride;                             ///< by element
 };
 
 /// Groups the sub-domains of a tree. A function of graph and tree alone, batches and places in the element store whatever the symmetry.

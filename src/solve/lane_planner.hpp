@@ -59,7 +59,8 @@ class LanePlanner {
   /// Every block of every contributor with its place, in fixed order: what comes first is written, what follows is added, what is left is
   /// a gap. So no front is cleared as a whole.
   void add_moves(LaneFront& f);
-  /// Schur complements live until their parent is assembled: first fit in the group's scratch. The top lasts.
+  /// Schur complements and vectors live until the parent has taken them on the way up, and vectors from there on the way down: first fit in
+  /// the group's scratch. Those of the top last.
   void place_work(LaneGroup& group);
 
   const blocks::BlockGraph& graph_;

@@ -9,6 +9,7 @@
 #include "bough/lanes/pack.hpp"
 #include "lane_kernels.hpp"
 #include "lane_plan.hpp"
+#include "transfers.hpp"
 
 namespace bough::solve {
 
@@ -278,10 +279,10 @@ inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld,
     }
 }
 
-/// The columns of a panel: their block, and L below. What is refused is neutralised and answered.
+/// The columns of a panel: their block, and L below. What is refused is neutralised and answered. beside: a step for every four rows or rest.
 template <int K, Symmetry symmetry>
 inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
-                                const LanePivotRule& rule, double* products) {
+                                const LanePivotRule& rule, double* products, Transfers& beside) {
   const std::ptrdiff_t ld = f.ld();
   unsigned refused = eliminate_block<K, symmetry>(f, k0, row_scale, inverse_column_scale, rule);
   if (refused != 0) neutralise(f, refused);
@@ -292,6 +293,7 @@ inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale,
   double* left = f.left + k0 * ld;
   const auto rows = [&](int first, auto count) {
     double* of_rows = symmetry != Symmetry::general ? products + (first - k0 - K) * panel_width * wide : nullptr;
+    beside.step();
     eliminate_rows<K, symmetry, decltype(count)::value>(block, left + first * wide, ld, row_scale + first * wide,
                                                         largest, of_rows);
   };

@@ -44,15 +44,19 @@ inline void update(const Front& f, int k0, int column, const double* products) {
 
 /// One register of lanes. bar: the inverse scales; definite: what each pivot has to reach.
 template <Symmetry symmetry>
-unsigned eliminate_register(const Front& f, const double* scale, const double* bar, const LanePivotRule& rule) {
+unsigned eliminate_register(const Front& f, const double* scale, const double* bar, const LanePivotRule& rule,
+                            Transfers& beside) {
   alignas(64) double products[most_lane_rows * panel_width * wide];
   unsigned failed = 0;
   for (int k0 = 0; k0 < f.e;) {
     const int k1 = std::min(k0 + panel_width, f.e);
     with_size(k1 - k0, [&](auto size) {
       constexpr int pivots = decltype(size)::value;
-      failed |= eliminate_panel<pivots, symmetry>(f, k0, scale, bar, rule, products);
-      const auto catch_up = [&](int j, auto c) { update<pivots, decltype(c)::value>(f, k0, j, products); };
+      failed |= eliminate_panel<pivots, symmetry>(f, k0, scale, bar, rule, products, beside);
+      const auto catch_up = [&](int j, auto c) {
+        beside.step();
+        update<pivots, decltype(c)::value>(f, k0, j, products);
+      };
       for_columns(k1, f.e, catch_up);
       for_columns(f.e, f.n, catch_up);
     });
@@ -83,23 +87,23 @@ inline void backward_triangle(const double* l, std::ptrdiff_t ld, double* v) {
 }  // namespace
 
 LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, const double* scale,
-                                  const double* inverse_scale, const LanePivotRule& rule) {
+                                  const double* inverse_scale, const LanePivotRule& rule, Transfers& beside) {
   unsigned failed = 0;
   for (int l = 0; l < wide; l += width) {
     const Front f = register_of(factor, schur, n, e, l, Symmetry::symmetric);
-    failed |= eliminate_register<Symmetry::symmetric>(f, scale + l, inverse_scale + l, rule) << l;
+    failed |= eliminate_register<Symmetry::symmetric>(f, scale + l, inverse_scale + l, rule, beside) << l;
   }
   return static_cast<LaneSet>(failed);
 }
 
 LaneSet eliminate_lanes_definite(double* factor, double* schur, int n, int e, const double* scale,
-                                 const double* inverse_scale, const LanePivotRule& rule) {
+                                 const double* inverse_scale, const LanePivotRule& rule, Transfers& beside) {
   alignas(64) double bar[most_lane_rows * wide];
   unsigned failed = 0;
   for (int l = 0; l < wide; l += width) {
     const Front f = register_of(factor, schur, n, e, l, Symmetry::definite);
     eval_bars(f, scale + l, inverse_scale + l, rule.least, bar);
-    failed |= eliminate_register<Symmetry::definite>(f, scale + l, bar, rule) << l;
+    failed |= eliminate_register<Symmetry::definite>(f, scale + l, bar, rule, beside) << l;
   }
   return static_cast<LaneSet>(failed);
 }

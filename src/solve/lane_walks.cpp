@@ -40,7 +40,7 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
     prepare.run(prepare.context, index, group.element_begin, group.element_end);
   mark(tree::Stage::evaluate);
   asymmetries[at(index)] = {};
-  if (group.in_lanes) return factor_lanes(index);
+  if (group.in_lanes) return with_scratch(index, [&] { factor_lanes(index); });
   for (int b = group.element_begin; is_symmetric() && b < group.element_end; ++b)
     check_element_symmetric(index, lanes.batches[at(b)].element[0]);
   factor_subdomain(group.subdomains.front());
@@ -49,56 +49,68 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   mark(tree::Stage::forward);
 }
 
-/// Schur complements that the visit alone needs stand on its stack, which stays in the cache. So does a front where factors do not fit into any
-/// cache; it is written to memory past them: there it would have to be read before it is written, which is half of the traffic.
-void Hierarchical::State::factor_lanes(int index) {
-  const LaneGroup& group = lanes.groups[at(index)];
+/// Schur complements and vectors that the visit alone needs stand on its stack, which stays in the cache.
+template <class Visit>
+void Hierarchical::State::with_scratch(int index, Visit&& visit) {
+  const bool fits = lanes.groups[at(index)].scratch * wide <= room_of_scratch;
   alignas(64) double scratch[room_of_scratch];
-  if (group.scratch * wide <= room_of_scratch) group_scratch[at(index)] = scratch;
-  constexpr std::int64_t room = 1 << 15;
-  alignas(64) double aside[room];
-  for (int k = group.front_begin; k < group.front_end; ++k) {
-    const LaneFront& f = lanes.fronts[at(k)];
-    const std::int64_t size = f.factor_size() * wide;
-    if (streams_factors && size <= room) {
-      factor_lane_front(k, aside);
-      write_past_caches(aside, size, factor_of(f));
-    } else {
-      factor_lane_front(k, factor_of(f));
-    }
-  }
-  if (streams_factors) end_writes_past_caches();
-  if (group_scratch[at(index)] == scratch) group_scratch[at(index)] = nullptr;
+  if (fits) group_scratch[at(index)] = scratch;
+  visit();
+  if (fits) group_scratch[at(index)] = nullptr;
 }
 
-/// What the next front of a walk up reads, on its way to the cache while this one is eliminated: where a factorization does not fit
-/// into the caches, waiting for lines of memory would take half of its time.
-void Hierarchical::State::prefetch_front(int index) const {
+/// Where factors do not fit into any cache a front is eliminated aside and then written to memory past the caches, while the next one is
+/// eliminated: there it would have to be read before it is written, which is half of the traffic.
+void Hierarchical::State::factor_lanes(int index) {
+  const LaneGroup& group = lanes.groups[at(index)];
+  constexpr std::int64_t room = 1 << 11;  // packs
+  alignas(64) double aside[2][room * wide];
+  Transfers transfers;
+  for (int k = group.front_begin; k < group.front_end; ++k) {
+    const LaneFront& f = lanes.fronts[at(k)];
+    const bool is_aside = streams_factors && f.factor_size() <= room;
+    double* factor = is_aside ? aside[k % 2] : factor_of(f);
+    factor_lane_front(k, factor, transfers);
+    transfers.finish();
+    if (is_aside) transfers.write(factor, f.factor_size(), factor_of(f));
+  }
+  transfers.finish();
+  if (streams_factors) Transfers::end_writes();
+}
+
+/// What the next front of a walk up reads: where a factorization does not fit into the caches, waiting for lines of memory would take
+/// half of its time.
+void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
   const LaneFront& f = lanes.fronts[at(index)];
   for (int i = f.element_begin; i < f.element_end; ++i) {
     const LaneElement& element = lanes.elements[at(i)];
-    prefetch_packs(elements.values() + element.values, element.size * element.size);
+    transfers.fetch(elements.values() + element.values, static_cast<std::int64_t>(element.size) * element.size);
   }
-  prefetch_packs(lane_row_scales.data() + f.vector * wide, f.size());
-  prefetch_packs(lane_inverse_column_scales.data() + f.vector * wide, f.eliminated);
+  transfers.fetch(lane_row_scales.data() + f.scale * wide, f.size());
+  transfers.fetch(lane_inverse_column_scales.data() + f.unknown, f.eliminated);
   if (visit_rhs == nullptr) return;
-  prefetch_packs(lane_vectors.data() + f.vector * wide, f.size());
+  transfers.fetch(lane_vectors.data() + f.unknown, f.eliminated);
   const int* unknown = lanes.unknowns.data() + f.unknown;
-  prefetch_packs(reinterpret_cast<const double*>(unknown + f.eliminated * wide),
-                 f.eliminated / 2 + 1);  // of the front after it
+  transfers.fetch(reinterpret_cast<const double*>(unknown + f.eliminated * wide),
+                  f.eliminated / 2 + 1);  // of the front after it
   for (int l = 0; l < wide; ++l)
     if (unknown[l] >= 0) __builtin_prefetch(visit_rhs + unknown[l]);
 }
 
-/// The same for the substitutions of a solution: what they read of the factor of a front, and its vector.
+/// The same for the substitutions of a solution: what they read of the factor of a front, in the order in which they do, its vector, and the unknowns
+/// that it is gathered from or scattered to.
 void Hierarchical::State::prefetch_factor(int index, bool downward) const {
   const LaneFront& f = lanes.fronts[at(index)];
   const double* factor = lane_factors.data() + f.factor * wide;
   const std::int64_t n = f.size(), e = f.eliminated;
-  prefetch_packs(lane_vectors.data() + f.vector * wide, f.eliminated);
+  prefetch_packs(lane_vectors.data() + f.unknown, f.eliminated);
+  const int* unknown = lanes.unknowns.data() + f.unknown;
+  const double* whole = downward ? x.data() : visit_rhs;
+  for (int l = 0; l < wide; ++l)
+    if (unknown[l] >= 0) __builtin_prefetch(whole + unknown[l]);
   if (f.is_symmetric || !downward) return prefetch_packs(factor, static_cast<int>(n * e));
-  for (std::int64_t k = 0; k < e; ++k) prefetch_packs(factor + k * n * wide, static_cast<int>(k + 1));
   prefetch_packs(factor + n * e * wide, static_cast<int>(e * f.boundary));
+  for (std::int64_t k = e; k-- > 0;) prefetch_packs(factor + k * n * wide, static_cast<int>(k + 1));
 }
 
 /// Looks at the element matrices of a front, just before it takes them: values that are symmetric once need not stay so.
@@ -107,7 +119,7 @@ void Hierarchical::State::check_front_symmetric(const LaneFront& f) {
     const LaneElement& element = lanes.elements[at(i)];
     const double most = largest_asymmetry_lanes(
         elements.values() + element.values, element.size, lanes.places.data() + element.place_begin,
-        static_cast<int>(element.place_end - element.place_begin), lane_row_scales.data() + f.vector * wide);
+        static_cast<int>(element.place_end - element.place_begin), lane_row_scales.data() + f.scale * wide);
     if (!Asymmetry::shows(most)) continue;
     for (int e : element.element)
       if (e >= 0) check_element_symmetric(f.group, e);
@@ -122,13 +134,13 @@ void Hierarchical::State::check_element_symmetric(int group, int element) {
 
 void Hierarchical::State::forward_group(int index) {
   const LaneGroup& group = lanes.groups[at(index)];
-  if (group.in_lanes) {
-    for (int f = group.front_begin; f < group.front_end; ++f) {
-      if (reads_factors_ahead && f + 1 < static_cast<int>(lanes.fronts.size())) prefetch_factor(f + 1, false);
-      forward_lane_front(f, factor_of(lanes.fronts[at(f)]));
-    }
-    return;
-  }
+  if (group.in_lanes)
+    return with_scratch(index, [&] {
+      for (int f = group.front_begin; f < group.front_end; ++f) {
+        if (reads_factors_ahead && f + 1 < static_cast<int>(lanes.fronts.size())) prefetch_factor(f + 1, false);
+        forward_lane_front(f, factor_of(lanes.fronts[at(f)]));
+      }
+    });
   const tree::SubdomainId s = group.subdomains.front();
   for (tree::FrontId f = tree.subdomains[at(s)].front_begin; f < tree.subdomains[at(s)].front_end; ++f)
     forward_front(f);
@@ -137,10 +149,10 @@ void Hierarchical::State::forward_group(int index) {
 
 void Hierarchical::State::backward_group(int index) {
   const LaneGroup& group = lanes.groups[at(index)];
-  if (group.in_lanes) {
-    for (int f = group.front_end; f-- > group.front_begin;) backward_lane_front(f);
-    return;
-  }
+  if (group.in_lanes)
+    return with_scratch(index, [&] {
+      for (int f = group.front_end; f-- > group.front_begin;) backward_lane_front(f);
+    });
   const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
   for (tree::FrontId f = s.front_end; f-- > s.front_begin;) {
     backward_front(f);
@@ -152,22 +164,10 @@ void Hierarchical::State::residual_group(int index) {
   const LaneGroup& group = lanes.groups[at(index)];
   SolutionSizes& size = sizes[at(index)];
   size = {};
-  if (group.in_lanes) {
-    for (int f = group.front_begin; f < group.front_end; ++f) residual_lane_front(f);
-    for (int i = group.front_begin; i < group.front_end; ++i) {
-      const LaneFront& f = lanes.fronts[at(i)];
-      const double* scale = lane_row_scales.data() + f.vector * wide;
-      size.residual =
-          std::max(size.residual, largest_scaled(lane_residuals.data() + f.vector * wide, scale, f.eliminated));
-      size.x = std::max(
-          size.x, largest_scaled(vector_of(f), lane_inverse_column_scales.data() + f.vector * wide, f.eliminated));
-      for (int k = 0; k < f.eliminated * wide; ++k) {
-        const int u = lanes.unknowns[at(f.unknown + k)];
-        if (u >= 0) size.rhs = std::max(size.rhs, std::abs(visit_rhs[u]) * scale[k]);
-      }
-    }
-    return;
-  }
+  if (group.in_lanes)
+    return with_scratch(index, [&] {
+      for (int f = group.front_begin; f < group.front_end; ++f) residual_lane_front(f, size);
+    });
   const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
   double most[2] = {0.0, 0.0};
   for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) {
@@ -175,21 +175,20 @@ void Hierarchical::State::residual_group(int index) {
     elements.eval_rows(scales, own, x.data(), visit_rhs, residual.data(), most);
     for (int b : own)
       for (std::size_t u = at(tree.unknown_begin[at(b)]); u < at(tree.unknown_begin[at(b) + 1]); ++u) {
-        const double value = std::abs(x[u]) / scales.column[u];
-        size.x = value <= size.x ? size.x : value;
+        size.x = larger(size.x, std::abs(x[u]) / scales.column[u]);
       }
   }
   size.residual = most[0];
   size.rhs = most[1];
 }
 
-/// Row and inverse column scales of every front, in lanes; 1 for padding.
+/// Row scales of every front and inverse column scales of what it eliminates, in lanes; 1 for padding.
 void Hierarchical::State::set_lane_scales() {
   std::fill(lane_row_scales.begin(), lane_row_scales.end(), 1.0);
   std::fill(lane_inverse_column_scales.begin(), lane_inverse_column_scales.end(), 1.0);
   for (const LaneFront& f : lanes.fronts) {
-    double* row = lane_row_scales.data() + f.vector * wide;
-    double* column = lane_inverse_column_scales.data() + f.vector * wide;
+    double* row = lane_row_scales.data() + f.scale * wide;
+    double* column = lane_inverse_column_scales.data() + f.unknown;
     for (int k = 0; k < f.eliminated * wide; ++k) {
       const int u = lanes.unknowns[at(f.unknown + k)];
       if (u < 0) continue;
@@ -198,24 +197,27 @@ void Hierarchical::State::set_lane_scales() {
     }
     for (int l = 0; l < wide; ++l)
       if (f.front[at(l)] != tree::none)
-        for_boundary(f.front[at(l)], [&](int i, std::size_t u) {
-          row[(f.eliminated + i) * wide + l] = scales.row[u];
-          column[(f.eliminated + i) * wide + l] = 1.0 / scales.column[u];
-        });
+        for_boundary(f.front[at(l)], [&](int i, std::size_t u) { row[(f.eliminated + i) * wide + l] = scales.row[u]; });
   }
 }
 
-/// Factors a front, and condenses the right-hand side of the walk where there is one. factor: where the factor is to stand.
-void Hierarchical::State::factor_lane_front(int index, double* factor) {
+/// Factors a front, and condenses the right-hand side of the walk where there is one. factor: where the factor is to stand. transfers:
+/// done meanwhile, together with what the next front reads.
+void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers& transfers) {
   const LaneFront& f = lanes.fronts[at(index)];
   const int n = f.size(), e = f.eliminated;
   double* schur = schur_of(f);
+  if (reads_ahead) {
+    if (index + 1 < static_cast<int>(lanes.fronts.size())) fetch_front(index + 1, transfers);
+    transfers.spread(f.move_end - f.move_begin + elimination_steps(n, e));
+  }
   if (is_symmetric()) check_front_symmetric(f);
   for (int i = f.gap_begin; i < f.gap_end; ++i) {
     const LaneGap& gap = lanes.gaps[at(i)];
     std::memset((gap.in_schur ? schur : factor) + gap.target * wide, 0, sizeof(double) * wide * at(gap.count));
   }
   for (int i = f.move_begin; i < f.move_end; ++i) {
+    transfers.step();
     const LaneMove& move = lanes.moves[at(i)];
     double* target = (move.to_schur ? schur : factor) + move.target * wide;
     if (move.child < 0) {
@@ -236,13 +238,12 @@ void Hierarchical::State::factor_lane_front(int index, double* factor) {
         factor[static_cast<std::int64_t>(k / wide) * (n + 1) * wide + k % wide] = 1.0;
   if (alone != 0) neutralise_lanes(factor, schur, n, e, alone, symmetry.used);
   mark(tree::Stage::assemble);
-  if (reads_ahead && index + 1 < static_cast<int>(lanes.fronts.size())) prefetch_front(index + 1);
   const LanePivotRule rule{options.pivot_threshold, options.tiny_pivot};
   const auto eliminate = is_definite()    ? eliminate_lanes_definite
                          : f.is_symmetric ? eliminate_lanes_symmetric
                                           : eliminate_lanes;
-  const LaneSet refused = eliminate(factor, schur, n, e, lane_row_scales.data() + f.vector * wide,
-                                    lane_inverse_column_scales.data() + f.vector * wide, rule);
+  const LaneSet refused = eliminate(factor, schur, n, e, lane_row_scales.data() + f.scale * wide,
+                                    lane_inverse_column_scales.data() + f.unknown, rule, transfers);
   alone = static_cast<LaneSet>(alone | refused);
   scalar_lanes[at(index)] = alone;
   for (int l = 0; alone != 0 && l < wide; ++l)
@@ -276,6 +277,7 @@ void Hierarchical::State::forward_lane_front(int index, const double* factor) {
     }
   }
   forward_lanes(factor, f.size(), f.eliminated, v);
+  std::memcpy(lane_vectors.data() + f.unknown, v, sizeof(double) * wide * at(f.eliminated));
   const LaneSet alone = scalar_lanes[at(index)];
   for (int l = 0; alone != 0 && l < wide; ++l) {
     if ((alone >> l & 1) == 0) continue;
@@ -290,6 +292,7 @@ void Hierarchical::State::forward_lane_front(int index, const double* factor) {
 void Hierarchical::State::backward_lane_front(int index) {
   const LaneFront& f = lanes.fronts[at(index)];
   double* v = vector_of(f);
+  std::memcpy(v, lane_vectors.data() + f.unknown, sizeof(double) * wide * at(f.eliminated));
   if (reads_factors_ahead && index > 0) prefetch_factor(index - 1, true);
   (f.is_symmetric ? backward_lanes_symmetric : backward_lanes)(lane_factors.data() + f.factor * wide, f.size(),
                                                                f.eliminated, v);
@@ -325,7 +328,7 @@ void Hierarchical::State::backward_lane_front(int index) {
 /// Left vectors, for null spaces: gathers its boundary from `left`, unscaled, and puts its own part there.
 void Hierarchical::State::backward_left_lane_front(int index, std::vector<double>& left) {
   const LaneFront& f = lanes.fronts[at(index)];
-  double* v = vector_of(f);
+  alignas(64) double v[most_lane_rows * wide];
   std::memset(v, 0, sizeof(double) * wide * at(f.size()));
   for (int l = 0; l < wide; ++l)
     if (f.front[at(l)] != tree::none)
@@ -338,14 +341,21 @@ void Hierarchical::State::backward_left_lane_front(int index, std::vector<double
 }
 
 /// b - A x in the rows eliminated here; the elements' part in the boundary goes to the parent, like a condensed right-hand side.
-void Hierarchical::State::residual_lane_front(int index) {
+void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
   const LaneFront& f = lanes.fronts[at(index)];
-  const double* v = vector_of(f);
-  double* r = lane_residuals.data() + f.vector * wide;
+  const int* unknown = lanes.unknowns.data() + f.unknown;
+  alignas(64) double v[most_lane_rows * wide];
+  std::memset(v, 0, sizeof(double) * wide * at(f.size()));
+  for (int k = 0; k < f.eliminated * wide; ++k)
+    if (unknown[k] >= 0) v[k] = x[at(unknown[k])];
+  for (int l = 0; l < wide; ++l)
+    if (f.front[at(l)] != tree::none)
+      for_boundary(f.front[at(l)], [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + l] = x[u]; });
+  double* r = vector_of(f);
   std::memset(r, 0, sizeof(double) * wide * at(f.size()));
   for (int c = f.child_begin; c < f.child_end; ++c) {
     const LaneChild& child = lanes.children[at(c)];
-    const double* g = lane_residuals.data() + lanes.fronts[at(child.front)].vector * wide;
+    const double* g = vector_of(lanes.fronts[at(child.front)]);
     for (auto p = child.run_begin; p < child.run_end; ++p) {
       const LaneRun& rows = lanes.runs[at(p)];
       if (child.is_identity) {
@@ -365,7 +375,7 @@ void Hierarchical::State::residual_lane_front(int index) {
         multiply_block_lanes(values + static_cast<std::int64_t>(i0 * element.size + j0) * wide, element.size,
                              places[p].length, places[q].length, v + places[q].row * wide, r + places[p].row * wide);
   }
-  const int* unknown = lanes.unknowns.data() + f.unknown;
+  const double* scale = lane_row_scales.data() + f.scale * wide;
   for (int k = 0; k < f.eliminated * wide; ++k) {
     const int u = unknown[k];
     if (u < 0) {
@@ -374,7 +384,10 @@ void Hierarchical::State::residual_lane_front(int index) {
     }
     r[k] = visit_rhs[u] - r[k];
     residual[at(u)] = r[k];
+    most.rhs = larger(most.rhs, std::abs(visit_rhs[u]) * scale[k]);
   }
+  most.residual = larger(most.residual, largest_scaled(r, scale, f.eliminated));
+  most.x = larger(most.x, largest_scaled(v, lane_inverse_column_scales.data() + f.unknown, f.eliminated));
 }
 
 }  // namespace bough::solve

@@ -75,7 +75,7 @@ void Hierarchical::State::eval_null_candidates() {
       const std::size_t u = at(root.columns[root.pivots + i]);
       x[u] = i == v ? scales.column[u] : 0.0;
     }
-    for (const LaneFront& f : lanes.fronts) std::fill(vector_of(f), vector_of(f) + f.eliminated * lanes_wide, 0.0);
+    std::fill(lane_vectors.begin(), lane_vectors.end(), 0.0);
     for (auto g = static_cast<int>(lanes.groups.size()); g-- > 0;) backward_group(g);
     double* right = null_space.right.data() + at(v) * n;
     for (std::size_t i = 0; i < n; ++i) right[i] = x[i] / scales.column[i];

@@ -78,9 +78,9 @@ ElementStore::Errors Hierarchical::State::eval_residual(const tree::Walker& walk
   walker.walk_up(lanes.walk, tree::make_visit(visit, tree::Work::residual));
   SolutionSizes most;
   for (const SolutionSizes& s : sizes) {
-    most.residual = s.residual <= most.residual ? most.residual : s.residual;  // NaN goes through
-    most.rhs = std::max(most.rhs, s.rhs);
-    most.x = s.x <= most.x ? most.x : s.x;
+    most.residual = larger(most.residual, s.residual);
+    most.rhs = larger(most.rhs, s.rhs);
+    most.x = larger(most.x, s.x);
   }
   ElementStore::Errors errors;
   errors.finite = std::isfinite(most.residual) && std::isfinite(most.x);
@@ -92,13 +92,13 @@ ElementStore::Errors Hierarchical::State::eval_residual(const tree::Walker& walk
 
 double Hierarchical::State::largest_x() const {
   double size = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) size = std::max(size, std::abs(x[i]) / scales.column[i]);
+  for (std::size_t i = 0; i < x.size(); ++i) size = larger(size, std::abs(x[i]) / scales.column[i]);
   return size;
 }
 
 double Hierarchical::State::largest_rhs() const {
   double size = 0.0;
-  for (std::size_t i = 0; i < rhs.size(); ++i) size = std::max(size, std::abs(rhs[i]) * scales.row[i]);
+  for (std::size_t i = 0; i < rhs.size(); ++i) size = larger(size, std::abs(rhs[i]) * scales.row[i]);
   return size;
 }
 

@@ -7,7 +7,9 @@
 
 #include "../../src/solve/dense.hpp"
 #include "../../src/solve/lane_kernels.hpp"
+#include "../../src/solve/transfers.hpp"
 #include "solving.hpp"
+#include "support/untrapped.hpp"
 
 namespace bough::test {
 namespace {
@@ -44,7 +46,8 @@ struct Fronts {
     alone[static_cast<std::size_t>(lane)][static_cast<std::size_t>(j * n + i)] = value;
   }
   solve::LaneSet eliminate() {
-    return solve::eliminate_lanes(factor.data(), schur.data(), n, e, ones.data(), ones.data(), {});
+    solve::Transfers none;
+    return solve::eliminate_lanes(factor.data(), schur.data(), n, e, ones.data(), ones.data(), {}, none);
   }
   /// One lane's front by the scalar kernel, without exchanges (the diagonal dominates).
   std::vector<double> eliminated_alone(int lane) const {
@@ -83,7 +86,8 @@ TEST(Lanes, symmetric_kernels_give_the_factor_of_general_ones_and_read_nothing_a
           }
       ASSERT_EQ(general.eliminate(), 0);
       const double* ones = general.ones.data();
-      ASSERT_EQ(solve::eliminate_lanes_symmetric(factor.data(), schur.data(), n, e, ones, ones, {}), 0);
+      solve::Transfers none;
+      ASSERT_EQ(solve::eliminate_lanes_symmetric(factor.data(), schur.data(), n, e, ones, ones, {}, none), 0);
       for (int l = 0; l < lanes_wide; ++l)
         for (int j = 0; j < n; ++j)
           for (int i = j; i < n; ++i) {
@@ -159,10 +163,12 @@ struct SymmetricFronts {
   }
   double& diagonal(int lane, int k) { return factor[static_cast<std::size_t>(k * (n + 1) * lanes_wide + lane)]; }
   solve::LaneSet eliminate_symmetric() {
-    return solve::eliminate_lanes_symmetric(factor.data(), schur.data(), n, e, ones.data(), ones.data(), {});
+    solve::Transfers none;
+    return solve::eliminate_lanes_symmetric(factor.data(), schur.data(), n, e, ones.data(), ones.data(), {}, none);
   }
   solve::LaneSet eliminate_definite() {
-    return solve::eliminate_lanes_definite(factor.data(), schur.data(), n, e, ones.data(), ones.data(), {});
+    solve::Transfers none;
+    return solve::eliminate_lanes_definite(factor.data(), schur.data(), n, e, ones.data(), ones.data(), {}, none);
   }
 };
 
@@ -211,6 +217,28 @@ TEST(Lanes, long_chains_go_in_lanes_and_give_the_solution_of_the_scalar_path) {
     EXPECT_LE(with.report.backward_error, 1e-14);
     EXPECT_LE(with.scaled_difference(x, y), 1e-9);
   }
+}
+
+TEST(Lanes, what_is_not_a_number_is_found_wherever_it_stands) {
+  const Untrapped untrapped;
+  const std::vector<double> ones(static_cast<std::size_t>(3 * lanes_wide), 1.0);
+  for (std::size_t i = 0; i < ones.size(); ++i) {
+    std::vector<double> v = ones;
+    v[i] = std::nan("");
+    EXPECT_FALSE(std::isfinite(solve::largest_scaled(v.data(), ones.data(), 3))) << i;
+  }
+  const Scene scene = make_parts(2, 9);  // not connected: the others' solutions stay finite
+  for (bool lanes : {true, false})
+    for (auto check : {solve::SolveCheck::backward_error, solve::SolveCheck::componentwise}) {
+      Solved s(scene, {.leaf_size = 3}, {.lanes = lanes, .check = check, .refinement_steps = 0});
+      ASSERT_TRUE(s.factor().ok());
+      for (Eigen::Index i = 0; i < scene.num_unknowns(); i += 5) {
+        Eigen::VectorXd b = s.random_rhs(3);
+        b[i] = std::nan("");
+        (void)s.solve(b);
+        EXPECT_FALSE(s.report.finite) << i;
+      }
+    }
 }
 
 TEST(Lanes, a_right_hand_side_condensed_with_the_factor_gives_the_same_bits) {
