@@ -33,6 +33,7 @@ struct BoughStorage {
                 .check = solve::SolveCheck::none,
                 .refinement_steps = 0}) {
     write_elements(p, solver);
+    solver.trust_symmetry(p.is_symmetric());  // peers read one triangle, too
   }
 };
 

@@ -168,6 +168,7 @@ Hierarchical& Hierarchical::operator=(Hierarchical&&) noexcept = default;
 ElementView Hierarchical::element(int id) { return state_->elements.view(id); }
 ConstElementView Hierarchical::element(int id) const { return std::as_const(state_->elements).view(id); }
 void Hierarchical::rescale() { state_->scales_wanted = true; }
+void Hierarchical::trust_symmetry(bool mirrored) { state_->trusts_symmetry = mirrored; }
 const SymmetryReport& Hierarchical::symmetry() const { return state_->symmetry; }
 const FactorStatus& Hierarchical::last_status() const { return state_->status; }
 std::span<const double> Hierarchical::column_scale() const { return state_->scales.column; }

@@ -95,6 +95,7 @@ struct Hierarchical::State {
   std::vector<std::int64_t> factor_begin, schur_begin, vector_begin, index_begin, run_begin,
       own_begin;  ///< by front, into the pools
   SymmetryReport symmetry;
+  bool trusts_symmetry = false;
   std::vector<Asymmetry> asymmetries;  ///< by group: the first that the visit found
   bool keeps_all = false;
   bool all_are_due = true;          ///< the next factorization leaves nothing alone
@@ -131,7 +132,7 @@ struct Hierarchical::State {
   tree::Mark mark;                    ///< of the walk at hand
   tree::Walker factor_walker;         ///< of the factorization at hand: shares out large fronts
 
-  // lane_walks.cpp: visits of groups
+  // lane_walks.cpp, residual_walks.cpp: visits of groups
   bool is_due(int group, Changed changed) const;
   void leave_group(int group);
   void factor_group(int group, const Prepare& prepare);
@@ -175,6 +176,7 @@ struct Hierarchical::State {
 
   void size_factors();
   bool is_symmetric() const { return symmetry.used != Symmetry::general; }
+  bool compares_triangles() const { return is_symmetric() && !trusts_symmetry; }
   bool is_definite() const { return symmetry.used == Symmetry::definite; }
   void lose_symmetry(const Asymmetry& found);
   void check_all_symmetric();
@@ -218,6 +220,16 @@ struct Hierarchical::State {
   FrontData& data(tree::FrontId f) { return fronts[static_cast<std::size_t>(f)]; }
   const FrontData& data(tree::FrontId f) const { return fronts[static_cast<std::size_t>(f)]; }
 };
+
+/// Schur complements and vectors that the visit alone needs stand on its stack, which stays in the cache.
+template <class Visit>
+void Hierarchical::State::with_scratch(int index, Visit&& visit) {
+  const bool fits = lanes.groups[static_cast<std::size_t>(index)].scratch * lanes_wide <= room_of_scratch;
+  alignas(64) double scratch[room_of_scratch];
+  if (fits) group_scratch[static_cast<std::size_t>(index)] = scratch;
+  visit();
+  if (fits) group_scratch[static_cast<std::size_t>(index)] = nullptr;
+}
 
 template <class Body>
 void Hierarchical::State::for_boundary(tree::FrontId f, Body&& body) const {

@@ -41,22 +41,12 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   mark(tree::Stage::evaluate);
   asymmetries[at(index)] = {};
   if (group.in_lanes) return with_scratch(index, [&] { factor_lanes(index); });
-  for (int b = group.element_begin; is_symmetric() && b < group.element_end; ++b)
+  for (int b = group.element_begin; compares_triangles() && b < group.element_end; ++b)
     check_element_symmetric(index, lanes.batches[at(b)].element[0]);
   factor_subdomain(group.subdomains.front());
   if (visit_rhs == nullptr || group.subdomains.front() == tree.root()) return;
   forward_group(index);
   mark(tree::Stage::forward);
-}
-
-/// Schur complements and vectors that the visit alone needs stand on its stack, which stays in the cache.
-template <class Visit>
-void Hierarchical::State::with_scratch(int index, Visit&& visit) {
-  const bool fits = lanes.groups[at(index)].scratch * wide <= room_of_scratch;
-  alignas(64) double scratch[room_of_scratch];
-  if (fits) group_scratch[at(index)] = scratch;
-  visit();
-  if (fits) group_scratch[at(index)] = nullptr;
 }
 
 /// Where factors do not fit into any cache a front is eliminated aside and then written to memory past the caches, while the next one is
@@ -82,9 +72,18 @@ void Hierarchical::State::factor_lanes(int index) {
 /// half of its time.
 void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
   const LaneFront& f = lanes.fronts[at(index)];
-  for (int i = f.element_begin; i < f.element_end; ++i) {
-    const LaneElement& element = lanes.elements[at(i)];
-    transfers.fetch(elements.values() + element.values, static_cast<std::int64_t>(element.size) * element.size);
+  if (f.is_symmetric && trusts_symmetry) {  // one triangle
+    for (int i = f.move_begin; i < f.move_end; ++i) {
+      const LaneMove& move = lanes.moves[at(i)];
+      for (int row = 0; move.child < 0 && row < move.rows; ++row)
+        transfers.fetch(elements.values() + (move.source + static_cast<std::int64_t>(row) * move.row_step) * wide,
+                        move.is_triangle ? row + 1 : move.columns);
+    }
+  } else {
+    for (int i = f.element_begin; i < f.element_end; ++i) {
+      const LaneElement& element = lanes.elements[at(i)];
+      transfers.fetch(elements.values() + element.values, static_cast<std::int64_t>(element.size) * element.size);
+    }
   }
   transfers.fetch(lane_row_scales.data() + f.scale * wide, f.size());
   transfers.fetch(lane_inverse_column_scales.data() + f.unknown, f.eliminated);
@@ -160,28 +159,6 @@ void Hierarchical::State::backward_group(int index) {
   }
 }
 
-void Hierarchical::State::residual_group(int index) {
-  const LaneGroup& group = lanes.groups[at(index)];
-  SolutionSizes& size = sizes[at(index)];
-  size = {};
-  if (group.in_lanes)
-    return with_scratch(index, [&] {
-      for (int f = group.front_begin; f < group.front_end; ++f) residual_lane_front(f, size);
-    });
-  const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
-  double most[2] = {0.0, 0.0};
-  for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) {
-    const auto own = tree.blocks(front(f)).first(at(front(f).num_eliminated_blocks));
-    elements.eval_rows(scales, own, x.data(), visit_rhs, residual.data(), most);
-    for (int b : own)
-      for (std::size_t u = at(tree.unknown_begin[at(b)]); u < at(tree.unknown_begin[at(b) + 1]); ++u) {
-        size.x = larger(size.x, std::abs(x[u]) / scales.column[u]);
-      }
-  }
-  size.residual = most[0];
-  size.rhs = most[1];
-}
-
 /// Row scales of every front and inverse column scales of what it eliminates, in lanes; 1 for padding.
 void Hierarchical::State::set_lane_scales() {
   std::fill(lane_row_scales.begin(), lane_row_scales.end(), 1.0);
@@ -211,7 +188,7 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
     if (index + 1 < static_cast<int>(lanes.fronts.size())) fetch_front(index + 1, transfers);
     transfers.spread(f.move_end - f.move_begin + elimination_steps(n, e));
   }
-  if (is_symmetric()) check_front_symmetric(f);
+  if (compares_triangles()) check_front_symmetric(f);
   for (int i = f.gap_begin; i < f.gap_end; ++i) {
     const LaneGap& gap = lanes.gaps[at(i)];
     std::memset((gap.in_schur ? schur : factor) + gap.target * wide, 0, sizeof(double) * wide * at(gap.count));
@@ -338,56 +315,6 @@ void Hierarchical::State::backward_left_lane_front(int index, std::vector<double
     const int u = lanes.unknowns[at(f.unknown + k)];
     if (u >= 0 && (scalar_lanes[at(index)] >> (k % wide) & 1) == 0) left[at(u)] = v[k];
   }
-}
-
-/// b - A x in the rows eliminated here; the elements' part in the boundary goes to the parent, like a condensed right-hand side.
-void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
-  const LaneFront& f = lanes.fronts[at(index)];
-  const int* unknown = lanes.unknowns.data() + f.unknown;
-  alignas(64) double v[most_lane_rows * wide];
-  std::memset(v, 0, sizeof(double) * wide * at(f.size()));
-  for (int k = 0; k < f.eliminated * wide; ++k)
-    if (unknown[k] >= 0) v[k] = x[at(unknown[k])];
-  for (int l = 0; l < wide; ++l)
-    if (f.front[at(l)] != tree::none)
-      for_boundary(f.front[at(l)], [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + l] = x[u]; });
-  double* r = vector_of(f);
-  std::memset(r, 0, sizeof(double) * wide * at(f.size()));
-  for (int c = f.child_begin; c < f.child_end; ++c) {
-    const LaneChild& child = lanes.children[at(c)];
-    const double* g = vector_of(lanes.fronts[at(child.front)]);
-    for (auto p = child.run_begin; p < child.run_end; ++p) {
-      const LaneRun& rows = lanes.runs[at(p)];
-      if (child.is_identity) {
-        add_packs(g + rows.from * wide, rows.length, r + rows.to * wide);
-      } else {
-        add_packs(g + rows.from * wide, rows.length, r + rows.to * wide, child.from.data());
-      }
-    }
-  }
-  for (int i = f.element_begin; i < f.element_end; ++i) {
-    const LaneElement& element = lanes.elements[at(i)];
-    const double* values = elements.values() + element.values;
-    const Place* places = lanes.places.data() + element.place_begin;
-    const auto count = static_cast<int>(element.place_end - element.place_begin);
-    for (int p = 0, i0 = 0; p < count; i0 += places[p++].length)
-      for (int q = 0, j0 = 0; q < count; j0 += places[q++].length)
-        multiply_block_lanes(values + static_cast<std::int64_t>(i0 * element.size + j0) * wide, element.size,
-                             places[p].length, places[q].length, v + places[q].row * wide, r + places[p].row * wide);
-  }
-  const double* scale = lane_row_scales.data() + f.scale * wide;
-  for (int k = 0; k < f.eliminated * wide; ++k) {
-    const int u = unknown[k];
-    if (u < 0) {
-      r[k] = 0.0;
-      continue;
-    }
-    r[k] = visit_rhs[u] - r[k];
-    residual[at(u)] = r[k];
-    most.rhs = larger(most.rhs, std::abs(visit_rhs[u]) * scale[k]);
-  }
-  most.residual = larger(most.residual, largest_scaled(r, scale, f.eliminated));
-  most.x = larger(most.x, largest_scaled(v, lane_inverse_column_scales.data() + f.unknown, f.eliminated));
 }
 
 }  // namespace bough::solve

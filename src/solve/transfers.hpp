@@ -29,7 +29,7 @@ class Transfers {
     double* to;  ///< null: fetched only
     std::int64_t count;
   };
-  static constexpr int room = 32;
+  static constexpr int room = 64;
 
   void add(const double* from, double* to, std::int64_t count);
   void move(std::int64_t count);

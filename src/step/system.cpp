@@ -174,6 +174,7 @@ void System::evaluate_projected(const E& e, std::size_t id, const elements::Fiel
 }
 
 void System::set_matrix(int element, int num_unknowns, const double* entries) {
+  solver_->trust_symmetry(false);
   const solve::ElementView view = solver_->element(element);
   for_each_kept(held_.get(), static_cast<std::size_t>(element), num_unknowns,
                 [&](std::int64_t place, int i) { view[place] = entries[i]; });
@@ -182,6 +183,7 @@ void System::set_matrix(int element, int num_unknowns, const double* entries) {
 }
 
 void System::add_matrix(int element, int num_unknowns, const double* entries) {
+  solver_->trust_symmetry(false);
   const solve::ElementView view = solver_->element(element);
   for_each_kept(held_.get(), static_cast<std::size_t>(element), num_unknowns,
                 [&](std::int64_t place, int i) { view[place] += entries[i]; });
@@ -213,6 +215,7 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   PhaseTimer timer{clock_, counts_.assemble};
   ++counts_.evaluations;
   if (tangent) is_of_matrices_ = false;
+  if (tangent) solver_->trust_symmetry(takes_symmetric_parts_);
   const elements::Field f = field(state, slopes);
   PlanarSystem* const planar = as_sensors_ ? nullptr : planar_.get();
   const std::span<const solve::ElementBatch> batches = planar != nullptr ? planar->batches()

@@ -96,6 +96,32 @@ TEST(Symmetry, ValuesThatAreNotAreNamedAndFactoredAsIfNothingHadBeenDeclared) {
     }
 }
 
+TEST(Symmetry, TrustedValuesGiveTheSameBitsAndAreComparedWhereScalesAreTaken) {
+  for (const Scene& scene : make_symmetric_families())
+    for (const bool lanes : {true, false}) {
+      const int element = find_stiff(scene, true);
+      const solve::SolveOptions options{.symmetry = Symmetry::symmetric, .lanes = lanes, .refinement_steps = 0};
+      Solved s(scene, {.leaf_size = 3}, options), compared(scene, {.leaf_size = 3}, options);
+      s.solver.trust_symmetry(true);
+      ASSERT_TRUE(s.factor().ok()) << scene.name;
+      ASSERT_TRUE(s.factor().ok()) << scene.name;
+      ASSERT_TRUE(compared.factor().ok()) << scene.name;
+      const Eigen::VectorXd b = s.random_rhs(3);
+      EXPECT_TRUE(same_bits(s.solve(b), compared.solve(b))) << scene.name;
+      spoil(s, element, true);  // a broken promise is not noticed
+      ASSERT_TRUE(s.factor().ok()) << scene.name;
+      EXPECT_EQ(s.solver.symmetry().loss, SymmetryLoss::none) << scene.name;
+      s.solver.rescale();
+      ASSERT_TRUE(s.factor().ok()) << scene.name;
+      EXPECT_EQ(s.solver.symmetry().loss, SymmetryLoss::values) << scene.name;
+      EXPECT_EQ(s.solver.symmetry().element, element) << scene.name;
+      spoil(compared, element, true);
+      compared.solver.trust_symmetry(false);
+      ASSERT_TRUE(compared.factor().ok()) << scene.name;
+      EXPECT_EQ(compared.solver.symmetry().loss, SymmetryLoss::values) << scene.name;
+    }
+}
+
 TEST(Symmetry, IsLookedAtInEveryFactorizationAndMatricesAreEvaluatedOnce) {
   for (const Scene& scene : make_symmetric_families())
     for (const bool first : {true, false})

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bough/schedule/threads.hpp"
+#include "lattice_scene.hpp"
 #include "small_scenes.hpp"
 #include "support/rig.hpp"
 
@@ -17,6 +18,22 @@ State run(const scene::Scene& scene, int threads, int steps, double h) {
   test::Rig rig(scene, pool.walker());
   rig.run(steps, h);
   return rig.state;
+}
+
+/// What the solver is told where the plan takes symmetric parts, so that it compares nothing.
+TEST(Advance, symmetric_parts_are_mirror_images_bit_by_bit) {
+  test::Rig rig(test::make_lattice(scene::AnalysisKind::dynamics));
+  ASSERT_TRUE(rig.system.takes_symmetric_parts());
+  rig.run(3, 1e-3);
+  ASSERT_TRUE(rig.system.takes_symmetric_parts());
+  std::vector<std::int64_t> unknowns;
+  for (int e = 0; e < rig.plan.graph.num_elements(); ++e) {
+    const solve::ConstElementView a = rig.system.matrix_of(e, unknowns);
+    const auto n = static_cast<std::int64_t>(unknowns.size());
+    for (std::int64_t i = 0; i < n; ++i)
+      for (std::int64_t j = 0; j < i; ++j)
+        ASSERT_EQ(a[i * n + j], a[j * n + i]) << rig.plan.element_owner[static_cast<std::size_t>(e)];
+  }
 }
 
 TEST(Advance, gives_the_same_bits_on_any_number_of_threads) {

@@ -27,6 +27,9 @@ class AnySolver {
   void rescale() {
     std::visit([](auto& s) { s.rescale(); }, solver_);
   }
+  void trust_symmetry(bool mirrored) {
+    if (auto* s = std::get_if<Hierarchical>(&solver_)) s->trust_symmetry(mirrored);
+  }
   /// changed: for solvers that can leave the rest as it is; the others do everything anew.
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, Changed changed = {}) {
     return std::visit(

@@ -40,6 +40,10 @@ class Hierarchical {
   /// those of the matrices present before it runs, so call rescale() after the element matrices have been evaluated once.
   void rescale();
 
+  /// Where symmetry is declared. mirrored: whoever wrote the element matrices wrote every entry and its mirror image with the same bits; factorizations then
+  /// read one of the two and compare none, except those that take scales. False (the default): every factorization compares.
+  void trust_symmetry(bool mirrored);
+
   /// Assemble, factor and condense all sub-domains. Allocates only where delayed pivots enlarge a front, or rows are dependent.
   /// With `rhs` (num_unknowns) the right-hand side is condensed in the same visits, while a front is in the cache; finish() then solves.
   /// SolveOptions::partial: sub-domains in which nothing `changed`, nor below them, stay as they are, and no Prepare is called for them; all bits are

@@ -28,8 +28,8 @@ enum class Symmetry {
 
 struct SolveOptions {
   Elimination elimination = Elimination::flat;
-  /// Symmetric: half the work, less memory (flat elimination only). Every factorization looks at every element matrix; where one differs
-  /// from its transpose the solver goes over to general for good and says so in Hierarchical::symmetry(). Definite: a front with a pivot that is
+  /// Symmetric: half the work, less memory (flat elimination only). Every factorization looks at every element matrix (unless
+  /// Hierarchical::trust_symmetry()); where one differs from its transpose the solver goes over to general for good and says so in Hierarchical::symmetry(). Definite: a front with a pivot that is
   /// not positive, or below tiny_pivot, is factored as a symmetric one; the declaration stays (SolverCounters::indefinite_fronts).
   Symmetry symmetry = Symmetry::general;
   /// Schur complements of all sub-domains last, so that factor() may leave alone what has not changed; more memory.

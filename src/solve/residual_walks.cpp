@@ -1,0 +1,87 @@
+/// Residuals of solutions, in the visits of a walk up.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "hierarchical_state.hpp"
+
+namespace bough::solve {
+
+namespace {
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr int wide = lanes_wide;
+}  // namespace
+
+void Hierarchical::State::residual_group(int index) {
+  const LaneGroup& group = lanes.groups[at(index)];
+  SolutionSizes& size = sizes[at(index)];
+  size = {};
+  if (group.in_lanes)
+    return with_scratch(index, [&] {
+      for (int f = group.front_begin; f < group.front_end; ++f) residual_lane_front(f, size);
+    });
+  const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
+  double most[2] = {0.0, 0.0};
+  for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) {
+    const auto own = tree.blocks(front(f)).first(at(front(f).num_eliminated_blocks));
+    elements.eval_rows(scales, own, x.data(), visit_rhs, residual.data(), most);
+    for (int b : own)
+      for (std::size_t u = at(tree.unknown_begin[at(b)]); u < at(tree.unknown_begin[at(b) + 1]); ++u) {
+        size.x = larger(size.x, std::abs(x[u]) / scales.column[u]);
+      }
+  }
+  size.residual = most[0];
+  size.rhs = most[1];
+}
+
+/// b - A x in the rows eliminated here; the elements' part in the boundary goes to the parent, like a condensed right-hand side.
+void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
+  const LaneFront& f = lanes.fronts[at(index)];
+  const int* unknown = lanes.unknowns.data() + f.unknown;
+  alignas(64) double v[most_lane_rows * wide];
+  std::memset(v, 0, sizeof(double) * wide * at(f.size()));
+  for (int k = 0; k < f.eliminated * wide; ++k)
+    if (unknown[k] >= 0) v[k] = x[at(unknown[k])];
+  for (int l = 0; l < wide; ++l)
+    if (f.front[at(l)] != tree::none)
+      for_boundary(f.front[at(l)], [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + l] = x[u]; });
+  double* r = vector_of(f);
+  std::memset(r, 0, sizeof(double) * wide * at(f.size()));
+  for (int c = f.child_begin; c < f.child_end; ++c) {
+    const LaneChild& child = lanes.children[at(c)];
+    const double* g = vector_of(lanes.fronts[at(child.front)]);
+    for (auto p = child.run_begin; p < child.run_end; ++p) {
+      const LaneRun& rows = lanes.runs[at(p)];
+      if (child.is_identity) {
+        add_packs(g + rows.from * wide, rows.length, r + rows.to * wide);
+      } else {
+        add_packs(g + rows.from * wide, rows.length, r + rows.to * wide, child.from.data());
+      }
+    }
+  }
+  for (int i = f.element_begin; i < f.element_end; ++i) {
+    const LaneElement& element = lanes.elements[at(i)];
+    const double* values = elements.values() + element.values;
+    const Place* places = lanes.places.data() + element.place_begin;
+    const auto count = static_cast<int>(element.place_end - element.place_begin);
+    for (int p = 0, i0 = 0; p < count; i0 += places[p++].length)
+      for (int q = 0, j0 = 0; q < count; j0 += places[q++].length)
+        multiply_block_lanes(values + static_cast<std::int64_t>(i0 * element.size + j0) * wide, element.size,
+                             places[p].length, places[q].length, v + places[q].row * wide, r + places[p].row * wide);
+  }
+  const double* scale = lane_row_scales.data() + f.scale * wide;
+  for (int k = 0; k < f.eliminated * wide; ++k) {
+    const int u = unknown[k];
+    if (u < 0) {
+      r[k] = 0.0;
+      continue;
+    }
+    r[k] = visit_rhs[u] - r[k];
+    residual[at(u)] = r[k];
+    most.rhs = larger(most.rhs, std::abs(visit_rhs[u]) * scale[k]);
+  }
+  most.residual = larger(most.residual, largest_scaled(r, scale, f.eliminated));
+  most.x = larger(most.x, largest_scaled(v, lane_inverse_column_scales.data() + f.unknown, f.eliminated));
+}
+
+}  // namespace bough::solve
