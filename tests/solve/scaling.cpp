@@ -96,6 +96,29 @@ TEST(Scaling, ScalesArePowersOfTwoAndLeaveDiagonalsAndRowsNearOne) {
   }
 }
 
+/// A hinge on the ground whose axes are a little out of line with those of its node must not look like a lever of its unknowns: scaled by what they
+/// drag on, pivots would fail that are as good as those of an exact one.
+TEST(Scaling, AJointToTheGroundOutOfLineScalesItsNodeLikeOneInLine) {
+  const auto scales = [](double angle) {
+    SceneMaker m(4);
+    const int node = m.add_node(), other = m.add_node();
+    m.add_beam({node, other});
+    m.add_joint({node}, 5);
+    Scene scene = m.finish("hinge");
+    Eigen::MatrixXd& joint = scene.elements.back();
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Identity(5, 6);
+    for (int i = 0; i < 5; ++i) rows(i, (i + 1) % 6) = angle;
+    joint.setZero();
+    joint.bottomLeftCorner(5, 6) = rows;
+    joint.topRightCorner(6, 5) = rows.transpose();
+    Solved s(scene, {}, {});
+    EXPECT_TRUE(s.factor().ok());
+    return std::vector<double>(s.solver.column_scale().begin(), s.solver.column_scale().end());
+  };
+  const std::vector<double> in_line = scales(0.0);
+  for (const double angle : {1e-9, 1e-6, 1e-4}) EXPECT_EQ(scales(angle), in_line) << angle;
+}
+
 TEST(Scaling, ASecondFactorKeepsTheScalesUntilAskedOtherwise) {
   Scene scene = make_chain(1, 2, 2);
   Solved s(scene, {}, {});
