@@ -80,9 +80,7 @@ double System::relative_size(const State& state, const double* x) {
 }
 
 void System::add_multipliers(State& state, const double* x, double factor) const {
-  for_each_multiplier(*this, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
-    state.multipliers[multiplier] += factor * x[unknown];
-  });
+  for (const MultiplierPlace& at : multiplier_places_) state.multipliers[at.multiplier] += factor * x[at.unknown];
 }
 
 double System::apply(State& state, const double* x) {
