@@ -110,7 +110,8 @@ void System::settle(State& state) {
 }
 
 void System::recover_multipliers(State& state, const std::vector<Vec6<double>>* more) const {
-  if (held_) held_->recover_multipliers(*this, state, more);
+  // In statics by elements in space, as sensors see them: what is unsettled belongs to their residuals.
+  if (held_) held_->recover_multipliers(*this, state, more, plan_.is_dynamic ? planar_.get() : nullptr);
 }
 
 double System::largest_held_impulse(const State& state, const double* x) const {
