@@ -110,8 +110,12 @@ void note_trend(System& system, const State& start, State& state) {
     parts[static_cast<std::size_t>(begin / block_grain)] = part;
   };
   system.walker().for_each_chunk(static_cast<std::int64_t>(count), block_grain, tree::make_chunk(by_node));
+}
+
+/// Whether the last step was nearer to its trend, once Workspace::trends tell of all chunks.
+void choose_trend(System& system, State& state) {
   Workspace::Trend whole;
-  for (const Workspace::Trend& part : parts) {
+  for (const Workspace::Trend& part : system.work().trends) {
     whole.from_start += part.from_start;
     whole.from_trend += part.from_trend;
   }
@@ -142,9 +146,11 @@ StepReport try_step(System& system, State& state, const StepOptions& options, co
   if (const auto t = enter(system, state, step, end_time, in_plane)) return fail(*t);
   report = iterate(system, state, options, step.rule.slopes(), [&](State& s) { return step.follow(system, s); });
   if (!report.converged) return fail({report.cause});
-  if (in_plane) system.planar_step()->leave(step.start, state, system.walker());
+  if (in_plane)
+    system.planar_step()->leave(step.start, state, system.moment_arm(), system.work().trends, system.walker());
   if (const auto t = in_plane ? check_shape_in_plane(system, state) : check_shape(system, state)) return fail(*t);
-  note_trend(system, step.start, state);
+  if (!in_plane) note_trend(system, step.start, state);
+  choose_trend(system, state);
   system.recover_multipliers(state);
   return report;
 }

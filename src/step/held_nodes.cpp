@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "planar_system.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -20,6 +21,7 @@ HeldNodes::HeldNodes(const plan::Plan& plan) : plan_(plan), kind_(plan.directory
       kind_[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(j)].element)] = Kind::holds;
   }
   uses_.resize(plan.held.size());
+  std::vector<char> is_near(plan.nodes.size(), 0);
   for (std::size_t e = 0; e < plan.directory.size(); ++e) {
     int unknown = 0, part = 0;
     std::vector<std::int8_t> kept;
@@ -34,16 +36,20 @@ HeldNodes::HeldNodes(const plan::Plan& plan) : plan_(plan), kind_(plan.directory
         if (block >= 0 && block < plan.graph.num_blocks()) kept.push_back(static_cast<std::int8_t>(unknown));
       ++part;
     });
+    if (kind_[e] == Kind::trimmed)
+      for_each_part(plan, e, -1, [&](int, int, int node) { is_near[static_cast<std::size_t>(node)] = 1; });
     if (kind_[e] == Kind::trimmed) kept_.insert(kept_.end(), kept.begin(), kept.end());
     begin_.push_back(static_cast<std::int64_t>(kept_.size()));
   }
+  for (std::size_t n = 0; n < is_near.size(); ++n)
+    if (is_near[n] != 0) near_.push_back(static_cast<int>(n));
 }
 
-/// add_forces(use, forces): adds those of an element at the node, in its own axes, to those given.
+/// add_forces(use, node, forces): adds those of an element at the node, in its own axes, to those given.
 template <class AddForces>
 void HeldNodes::balance(std::size_t held, Vec6<double> forces, AddForces&& add_forces, double* multipliers) const {
   const plan::HeldNode& h = plan_.held[held];
-  for (const Use& use : uses_[held]) add_forces(use, forces);
+  for (const Use& use : uses_[held]) add_forces(use, h.node, forces);
   const auto n = static_cast<std::size_t>(plan_.unknowns.count);
   std::array<double, 6> wrench;
   plan_.unknowns.project(forces, static_cast<std::size_t>(h.node), wrench.data());
@@ -71,11 +77,21 @@ void add_product(const E& e, const double* K, int part, Increment&& increment, V
 
 }  // namespace
 
-void HeldNodes::recover_multipliers(const System& system, State& state, const Vec6List* more) const {
+void HeldNodes::recover_multipliers(const System& system, State& state, const Vec6List* more,
+                                    PlanarSystem* planar) const {
   const elements::Field field = system.field(state);
   const bool is_settled = state.unsettled.empty();
-  const auto add_forces = [&](const Use& use, Vec6<double>& forces) {
-    std::array<double, most_unknowns> residual;
+  if (planar != nullptr) {
+    planar->set_field(field);
+    for (const int node : near_) planar->set_nodes(state, node, node + 1);
+  }
+  const auto add_forces = [&](const Use& use, int node, Vec6<double>& forces) {
+    std::array<double, most_unknowns> residual, magnitude;
+    if (planar != nullptr) {
+      planar->evaluate_alone(use.element, state, residual.data(), magnitude.data(), nullptr);
+      forces += plan_.unknowns.expanded(residual.data() + 3 * use.part, static_cast<std::size_t>(node));
+      return;
+    }
     std::array<double, most_unknowns * most_unknowns> tangent;
     const int j = system.joint_of_element(static_cast<int>(use.element));
     const double* multipliers =
@@ -86,7 +102,7 @@ void HeldNodes::recover_multipliers(const System& system, State& state, const Ve
       for (int i = 0; i < 6; ++i) forces[i] += residual[static_cast<std::size_t>(6 * use.part + i)];
       if (!is_settled)
         add_product(
-            e, tangent.data(), use.part, [&](int node) { return state.unsettled[static_cast<std::size_t>(node)]; },
+            e, tangent.data(), use.part, [&](int other) { return state.unsettled[static_cast<std::size_t>(other)]; },
             forces);
     });
   };
@@ -110,7 +126,7 @@ void HeldNodes::recover_multipliers(const System& system, State& state, const Ve
 
 double HeldNodes::largest_impulse(const System& system, const State& state, const double* x) const {
   const elements::Field field = system.field(state, {0.0, 0.0, true});
-  const auto add_forces = [&](const Use& use, Vec6<double>& forces) {
+  const auto add_forces = [&](const Use& use, int, Vec6<double>& forces) {
     std::array<double, most_unknowns> residual;
     std::array<double, most_unknowns * most_unknowns> tangent;
     const int j = system.joint_of_element(static_cast<int>(use.element));

@@ -29,6 +29,7 @@ void LaneBatches<Kernels>::add(const solve::ElementBatch& batch, Slot& slot) {
   for (int k = 0; k < slot.num_laws; ++k)
     for (const auto& of_lane : laws) places_.push_back(of_lane[k]);
   slot.num_unknowns = num_unknowns(*list[0]);
+  if constexpr (Kernels::template most_rows < E >> 0) place_rows(batch, slot);
   slot.array = static_cast<int>(I);
   auto& lanes = std::get<I>(lanes_);
   const bool is_uniform =
@@ -45,6 +46,22 @@ void LaneBatches<Kernels>::add(const solve::ElementBatch& batch, Slot& slot) {
   lanes.push_back(make_lane_element<E>(list, elements::num_lanes, nodes, 0));
   if (is_uniform && uniform_.size() < most_uniform)
     uniform_.push_back({slot.array, slot.index, static_cast<std::size_t>(list[0] - array.data())});
+}
+
+template <class Kernels>
+void LaneBatches<Kernels>::place_rows(const solve::ElementBatch& batch, Slot& slot) {
+  int joints[elements::num_lanes];
+  for (std::size_t l = 0; l < elements::num_lanes; ++l) {
+    const int id = batch.element[l] >= 0 ? batch.element[l] : batch.element[static_cast<std::size_t>(slot.first)];
+    joints[l] = joint_of_element_[static_cast<std::size_t>(id)];
+  }
+  slot.num_rows = static_cast<int>(plan_->joints[static_cast<std::size_t>(joints[0])].rows.size());
+  for (int r = 0; r < slot.num_rows; ++r)
+    for (const int j : joints) {
+      const plan::JointPlan& joint = plan_->joints[static_cast<std::size_t>(j)];
+      places_.push_back(static_cast<int>(joint.multiplier_begin) + joint.rows[static_cast<std::size_t>(r)]);
+    }
+  places_.insert(places_.end(), std::begin(joints), std::end(joints));
 }
 
 template <class Kernels>
@@ -104,6 +121,9 @@ void LaneBatches<Kernels>::make(const plan::Plan& plan, std::span<const solve::E
     for (int& id : batch.element)
       if (id >= 0 && held != nullptr && held->leaves_out(static_cast<std::size_t>(id))) id = -1;
   gather_singles();
+  std::erase_if(batches_, [](const solve::ElementBatch& b) {
+    return std::all_of(b.element.begin(), b.element.end(), [](int id) { return id < 0; });
+  });
   joint_of_element_ = joint_of_element;
   slots_.assign(batches_.size(), {});
   uniform_.clear();
@@ -131,6 +151,72 @@ void LaneBatches<Kernels>::set_frames(const plan::FrameMotions& frames) {
   carriers_.resize(frames.in_ground.size());
   for (std::size_t i = 0; i < carriers_.size(); ++i) elements::set_all_lanes(carriers_[i], frames.in_ground[i]);
   elements::set_all_lanes(observer_, frames.observer);
+}
+
+template <class Kernels>
+void LaneBatches<Kernels>::evaluate(std::size_t batch, const State& state, const Field& field,
+                                    const ElementResults& to) const {
+  const Slot& slot = slots_[batch];
+  const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    static_cast<void>((
+        (slot.array == static_cast<int>(I) ? (evaluate_as<I>(batches_[batch], slot, state, field, to), true) : false) ||
+        ...));
+  };
+  pick(std::make_index_sequence<std::tuple_size_v<typename Kernels::Arrays>>{});
+}
+
+template <class Kernels>
+template <std::size_t I>
+void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, const Slot& slot, const State& state,
+                                       const Field& field, const ElementResults& to) const {
+  using Pack = elements::LanePack;
+  using E = typename std::tuple_element_t<I, typename Kernels::Arrays>::value_type;
+  constexpr int rows = Kernels::template most_rows<E>, wide = elements::num_lanes,
+                most = Kernels::node_unknowns * E::num_ports + rows;
+  const auto& lane_element = std::get<I>(lanes_)[static_cast<std::size_t>(slot.index)];
+  const int n = slot.num_unknowns;
+  typename Kernels::NodeLanes nodes[E::num_ports];
+  Pack laws[elements::max_laws], multipliers[rows > 0 ? rows : 1], turns(0.0);
+  const int* place = places_.data() + slot.places;
+  for (int p = 0; p < E::num_ports; ++p, place += wide) {
+    if (place[0] == elements::ground) continue;
+    const double* from[wide];
+    for (int l = 0; l < wide; ++l) from[l] = reinterpret_cast<const double*>(field.nodes + place[l]);
+    lanes::gather_lanes(from, Kernels::node_numbers, reinterpret_cast<Pack*>(&nodes[p]));
+  }
+  for (int k = 0; k < slot.num_laws; ++k, place += wide) laws[k] = lanes::load_lanes<wide>(field.around.laws, place);
+  if constexpr (rows > 0) {
+    for (int r = 0; r < slot.num_rows; ++r, place += wide)
+      multipliers[r] = lanes::load_lanes<wide>(state.multipliers.data(), place);
+    turns = lanes::load_lanes<wide>(state.turns.data(), place);
+  }
+  typename Kernels::FieldLanes around;
+  around.nodes = nodes;
+  around.slopes = field.slopes;
+  if constexpr (requires { field.carriers; }) {
+    if (field.carriers != nullptr) around.carriers = carriers_.data();
+    if (field.observer != nullptr) around.observer = &observer_;
+  }
+  for (int i = 0; i < field.around.gravity.size(); ++i) around.around.gravity[i] = Pack(field.around.gravity[i]);
+  around.around.laws = laws;
+  around.around.has_inertia = field.around.has_inertia;
+  Pack residual[most], magnitude[most], parts[2 * most], spare[most * most];
+  const bool is_direct =  // else the empty lanes must stay empty
+      to.want_tangents() && slot.present == wide && batch.stride == wide && !slot.is_trimmed;
+  Pack* matrix = nullptr;
+  if (is_direct) matrix = reinterpret_cast<Pack*>(to.tangent_of(batch.element[0]).first);
+  if (to.want_tangents() && !is_direct) matrix = spare;
+  evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
+  join_parts(Kernels::node_unknowns, n, slot.num_rows, residual, magnitude, parts);
+  double nowhere[2 * most], *to_parts[wide];
+  for (int l = 0; l < wide; ++l) {
+    const int id = batch.element[static_cast<std::size_t>(l)];
+    to_parts[l] = id < 0 ? nowhere : to.parts_of(id);
+    if (to.want_tangents() && !is_direct && id >= 0)
+      write_matrix(
+          held_, static_cast<std::size_t>(id), n, [&](int i) { return spare[i][l]; }, to.tangent_of(id));
+  }
+  lanes::scatter_lanes(parts, 2 * n, to_parts);
 }
 
 template class LaneBatches<SpatialKernels>;

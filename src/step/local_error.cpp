@@ -9,15 +9,15 @@ using motion::Vec6;
 
 namespace {
 
-double largest_of(const Vec6<double>& v, int begin) {
-  return std::max({std::abs(v[begin]), std::abs(v[begin + 1]), std::abs(v[begin + 2])});
-}
-
-/// to = max(to, factor * lengths of `v`), linear and angular apart.
-void include(double& linear, double& angular, const Vec6<double>& v, double factor) {
-  linear = std::max(linear, factor * largest_of(v, 0));
-  angular = std::max(angular, factor * largest_of(v, 3));
-}
+/// The largest magnitudes of each of six entries.
+struct Largest {
+  Vec6<double> most = Vec6<double>::zero();
+  void include(const Vec6<double>& v) {
+    for (int i = 0; i < 6; ++i) most[i] = std::max(most[i], std::abs(v[i]));
+  }
+  double linear() const { return std::max({most[0], most[1], most[2]}); }
+  double angular() const { return std::max({most[3], most[4], most[5]}); }
+};
 
 }  // namespace
 
@@ -50,9 +50,10 @@ Vec6<double> LocalError::unfiltered_of(const State& start, const State& after, s
 double LocalError::unfiltered(System& system, const State& after) const {
   const State& start = system.work().start;
   const double h3 = after.step_size * after.step_size * after.step_size;
-  double length = 0.0, angle = 0.0;
-  for (std::size_t n = 0; n < after.nodes.size(); ++n) include(length, angle, unfiltered_of(start, after, n), h3);
-  return std::max(length / (least_.position + allowance_.position), angle / (least_.rotation + allowance_.rotation));
+  Largest error;
+  for (std::size_t n = 0; n < after.nodes.size(); ++n) error.include(unfiltered_of(start, after, n));
+  return std::max(h3 * error.linear() / (least_.position + allowance_.position),
+                  h3 * error.angular() / (least_.rotation + allowance_.rotation));
 }
 
 std::optional<Trouble> LocalError::measure(System& system, const State& after) {
@@ -68,16 +69,15 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   if (auto t = system.evaluate(shifted_, {}, false)) return t;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = c2 * (rhs[i] + system.residual()[i]);
   if (auto t = system.solve(rhs.data(), x.data())) return t;
-  parts_ = {};
-  step_ = h;
-  const double between = 0.5 * (h + previous_step_);
+  Largest error, change;
   for (std::size_t n = 0; n < now_.size(); ++n) {
     now_[n] = (1.0 / h) * system.node_part(x.data(), static_cast<int>(n));
-    include(parts_.position, parts_.rotation, now_[n], h3);
-    if (has_previous_)
-      include(parts_.velocity, parts_.angular_velocity, now_[n] - previous_[n],
-              h3 * std::abs(constants_.velocity / constants_.position) / between);
+    error.include(now_[n]);
+    if (has_previous_) change.include(now_[n] - previous_[n]);
   }
+  step_ = h;
+  const double of_change = h3 * std::abs(constants_.velocity / constants_.position) / (0.5 * (h + previous_step_));
+  parts_ = {h3 * error.linear(), h3 * error.angular(), of_change * change.linear(), of_change * change.angular()};
   return std::nullopt;
 }
 
@@ -85,7 +85,10 @@ void LocalError::accept(const State& after) {
   std::swap(now_, previous_);
   previous_step_ = step_;
   has_previous_ = true;
-  for (const elements::NodeMotion& n : after.nodes) include(speed_, spin_, n.v, 1.0);
+  Largest velocity;
+  for (const elements::NodeMotion& n : after.nodes) velocity.include(n.v);
+  speed_ = std::max(speed_, velocity.linear());
+  spin_ = std::max(spin_, velocity.angular());
 }
 
 double LocalError::relative_motion() const {

@@ -84,7 +84,8 @@ std::string partners(System& system, int joint) {
 
 }  // namespace
 
-std::string describe(System& system, const ResidualSize& r, double tolerance) {
+std::string describe(System& system, ResidualSize r, double tolerance) {
+  if (r.worst_force_node < 0 && r.worst_moment_node < 0 && r.worst_joint < 0) system.name_worst(r);
   char text[200];
   const double length = system.plan().length_scale;
   if ((r.length > tolerance * length || r.angle > tolerance) && r.worst_joint >= 0) {

@@ -48,7 +48,7 @@ bool is_at_floor(const System& system, const State& state, const ResidualSize& r
 std::optional<Trouble> check_shape_in_plane(const System& system, const State& state);
 
 /// Names the part of the residual that is worst, for a message.
-std::string describe(System& system, const ResidualSize& r, double tolerance);
+std::string describe(System& system, ResidualSize r, double tolerance);
 
 }  // namespace bough::step
 

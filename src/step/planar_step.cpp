@@ -16,46 +16,28 @@ using motion::Vec2;
 using motion::Vec3;
 using motion::Vec6;
 
-/// Where a node stands, and where it stood when the step began.
-template <class S>
-struct PlanarStep::PlanarMover {
-  Vec2<S> turn;
-  elements::planar::PairOf<S> x;
-  S angle;  ///< since the start
-
-  /// H <- H exp(eta)
-  void move(const Vec3<S>& eta) {
-    const Vec<S, 8> c = motion::eval_stumpff(S(eta[2] * eta[2]));
-    const Vec2<S> e{{c[0], eta[2] * c[1]}}, f{{c[1], eta[2] * c[2]}};
-    const Vec2<S> step = motion::complex_times(turn, motion::complex_times(f, plane_part(eta)));
-    for (int i = 0; i < 2; ++i) {
-      S s, error;
-      motion::two_sum(x.hi[i], step[i], s, error);
-      motion::two_sum(s, S(x.lo[i] + error), x.hi[i], x.lo[i]);
-    }
-    turn = motion::complex_times(turn, e);
-    turn = S(1.5 - 0.5 * lanes::dot(turn, turn)) * turn;  // back to size one, to first order
-    angle += eta[2];
-  }
-  /// log(H_start^-1 H); the angle is known beyond half a turn.
-  Vec3<S> increment(const Vec2<S>& start_turn, const elements::planar::PairOf<S>& start_x) const {
-    Vec2<S> way;
-    for (int i = 0; i < 2; ++i) {
-      S s, error;
-      motion::two_sum(x.hi[i], S(-start_x.hi[i]), s, error);
-      way[i] = s + (error + (x.lo[i] - start_x.lo[i]));
-    }
-    const Vec2<S> inverse{{motion::half_cotangent(S(angle * angle)), -0.5 * angle}};
-    return motion::join(motion::complex_times(inverse, motion::conjugate_times(start_turn, way)), angle);
-  }
-};
-
 namespace {
 
 using Pack = elements::LanePack;
 using PlanarNodeLanes = elements::planar::NodeLanes;
 static_assert(elements::num_lanes == static_cast<int>(nodes_in_lanes));
-constexpr double nothing[3] = {0.0, 0.0, 0.0};  ///< increment of a node without unknowns
+constexpr std::int64_t group_grain = block_grain / static_cast<std::int64_t>(nodes_in_lanes);
+constexpr std::int64_t pair_group_grain = pair_grain / static_cast<std::int64_t>(nodes_in_lanes);
+constexpr double nothing[4] = {};  ///< increment of a node without unknowns; what is read of a node where there is none
+
+/// Increments of eight nodes by their first unknowns, -1: none.
+Vec3<Pack> gather_increments(const double* x, const std::int64_t* unknown) {
+  const double* from[nodes_in_lanes];
+  for (std::size_t l = 0; l < nodes_in_lanes; ++l) from[l] = unknown[l] < 0 ? nothing : x + unknown[l];
+  Vec3<Pack> eta;
+  lanes::gather_lanes(from, 3, &eta[0]);
+  return eta;
+}
+
+/// Of a port in its node's axes, or on the ground.
+Vec2<double> own_turn(const elements::planar::Port& p) {
+  return p.node == elements::ground || p.has_offset ? p.turn : Vec2<double>{{1.0, 0.0}};
+}
 
 /// A motion of a node in the plane as one in space, its own axes: columns of B along the plane, along the plane, normal.
 Vec6<Pack> in_space(const Mat3<Pack>& B, const Vec3<Pack>& z) {
@@ -66,6 +48,12 @@ Vec6<Pack> in_space(const Mat3<Pack>& B, const Vec3<Pack>& z) {
   }
   return v;
 }
+Pack larger(const Pack& a, const Pack& b) { return select(less(a, b), b, a); }
+double largest_of(const Pack& a) {
+  double most = a[0];
+  for (int l = 1; l < elements::num_lanes; ++l) most = std::max(most, a[l]);
+  return most;
+}
 Vec3<Pack> in_plane(const Mat3<Pack>& B, const Vec6<Pack>& v) {
   const auto along = [&B](int column, const Pack* x) {
     return B(0, column) * x[0] + (B(1, column) * x[1] + B(2, column) * x[2]);
@@ -73,18 +61,19 @@ Vec3<Pack> in_plane(const Mat3<Pack>& B, const Vec6<Pack>& v) {
   return {{along(0, v.v), along(1, v.v), along(2, v.v + 3)}};
 }
 
-/// Addresses of what lies at nodes [begin, begin + count), one to a lane; spare lanes repeat the last.
+/// Addresses of `Item`s [begin, begin + count), one to a lane, of a number within them; spare lanes repeat the last.
 template <class Item, class Number>
 struct LanesOf {
   Number* at[nodes_in_lanes];
-  LanesOf(Item* items, std::size_t begin, std::size_t count) {
+  LanesOf(Item* items, std::size_t begin, std::size_t count, std::size_t number = 0) {
     for (std::size_t l = 0; l < nodes_in_lanes; ++l)
-      at[l] = reinterpret_cast<Number*>(items + begin + std::min(l, count - 1));
+      at[l] = reinterpret_cast<Number*>(items + begin + std::min(l, count - 1)) + number;
   }
 };
+/// Numbers of an item from `number` on.
 template <class Item>
-void gather(const Item* items, std::size_t begin, std::size_t count, int numbers, Pack* to) {
-  lanes::gather_lanes(LanesOf<const Item, const double>(items, begin, count).at, numbers, to);
+void gather(const Item* items, std::size_t begin, std::size_t count, int numbers, Pack* to, std::size_t number = 0) {
+  lanes::gather_lanes(LanesOf<const Item, const double>(items, begin, count, number).at, numbers, to);
 }
 /// Spare lanes hold what the last does, so they may write it as well.
 template <class Item>
@@ -94,145 +83,195 @@ void scatter(const Pack* from, int numbers, Item* items, std::size_t begin, std:
 
 using SpaceLanes = elements::NodeMotionOf<Pack>;
 constexpr int numbers_of_motion = 33, numbers_before_increment = 27;
+constexpr std::size_t numbers_before_place = 9;
 static_assert(sizeof(elements::NodeMotion) == numbers_of_motion * sizeof(double) &&
               sizeof(SpaceLanes) == numbers_of_motion * sizeof(Pack));
-
-Mat3<Pack> gather_basis(const plan::Plan& plan, std::size_t begin, std::size_t count) {
-  Mat3<Pack> B = Mat3<Pack>::identity();
-  if (!plan.unknowns.basis.empty()) gather(plan.unknowns.basis.data(), begin, count, 9, B.m);
-  return B;
-}
 
 }  // namespace
 
 PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::vector<std::int64_t>& node_begin,
                        const std::vector<NodePair>& pairs)
-    : plan_(plan), system_(system), node_begin_(node_begin), pairs_(pairs), starts_(plan.nodes.size()) {
-  chunk_max_.resize((pairs.size() + pair_grain - 1) / pair_grain);
-  turn_max_.resize((starts_.size() + block_grain - 1) / block_grain);
+    : plan_(plan), system_(system) {
+  place_pairs(pairs, node_begin);
+  const std::size_t groups = (plan.nodes.size() + nodes_in_lanes - 1) / nodes_in_lanes;
+  bases_.assign(groups, Mat3<Pack>::identity());
+  if (!plan.unknowns.basis.empty())
+    for (std::size_t g = 0; g < groups; ++g)
+      gather(plan.unknowns.basis.data(), g * nodes_in_lanes, count_of(g), 9, bases_[g].m);
+  starts_.resize(groups);
+  movers_.resize(groups);
+  unknowns_ = node_begin;
+  unknowns_.resize(groups * nodes_in_lanes, node_begin.empty() ? -1 : node_begin.back());
+  turn_max_.resize((groups + group_grain - 1) / group_grain);
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.planar->elements, plan.directory[id], [&](const auto& e) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::planar::Joint>)
+      using E = std::decay_t<decltype(e)>;
+      if constexpr (std::is_same_v<E, elements::planar::Joint>)
         if (std::any_of(e.rows, e.rows + e.num_rows,
                         [](const auto& row) { return row.kind != elements::RowKind::along; }))
           joints_with_angles_.push_back(static_cast<int>(id));
+      if constexpr (requires { e.reference_strain; })
+        for (int i = 1; i < E::num_ports; ++i)
+          beam_ends_.push_back({static_cast<std::int64_t>(id), e.ports[0].node, e.ports[i].node,
+                                motion::conjugate_times(own_turn(e.ports[0]), own_turn(e.ports[i]))});
     });
+}
+
+void PlanarStep::place_pairs(const std::vector<NodePair>& pairs, const std::vector<std::int64_t>& node_begin) {
+  pairs_.resize((pairs.size() + nodes_in_lanes - 1) / nodes_in_lanes);
+  chunk_max_.resize((pairs_.size() + pair_group_grain - 1) / pair_group_grain);
+  const auto place = [&](PairLanes::Side& side, std::size_t lane, int node) {
+    const auto n = static_cast<std::size_t>(node);
+    side.node[lane] = node < 0 ? nothing : &system_.nodes()[n].turn[0];
+    side.unknown[lane] = node < 0 ? -1 : node_begin[n];
+  };
+  for (std::size_t g = 0; g < pairs_.size(); ++g)
+    for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
+      const NodePair& pair = pairs[std::min(g * nodes_in_lanes + l, pairs.size() - 1)];
+      place(pairs_[g].a, l, pair.a);
+      place(pairs_[g].b, l, pair.b);
+      pairs_[g].per_length.set(static_cast<int>(l), pair.per_length);
+    }
+}
+
+/// H <- H exp(eta)
+void PlanarStep::MoverLanes::move(const Vec3<Pack>& eta) {
+  const Vec<Pack, 8> c = motion::eval_stumpff(Pack(eta[2] * eta[2]));
+  const Vec2<Pack> e{{c[0], eta[2] * c[1]}}, f{{c[1], eta[2] * c[2]}};
+  const Vec2<Pack> step = motion::complex_times(turn, motion::complex_times(f, plane_part(eta)));
+  for (int i = 0; i < 2; ++i) {
+    Pack s, error;
+    motion::two_sum(x.hi[i], step[i], s, error);
+    motion::two_sum(s, Pack(x.lo[i] + error), x.hi[i], x.lo[i]);
+  }
+  turn = motion::complex_times(turn, e);
+  turn = Pack(1.5 - 0.5 * lanes::dot(turn, turn)) * turn;  // back to size one, to first order
+}
+
+/// dq <- log(H_start^-1 H) after the angle, which is known beyond half a turn, has grown by eta_w.
+void PlanarStep::MoverLanes::follow(const StartLanes& start, const Pack& eta_w) {
+  Vec2<Pack> way;
+  for (int i = 0; i < 2; ++i) {
+    Pack s, error;
+    motion::two_sum(x.hi[i], Pack(-start.x.hi[i]), s, error);
+    way[i] = s + (error + (x.lo[i] - start.x.lo[i]));
+  }
+  const Pack angle = dq[2] + eta_w;
+  const Vec2<Pack> inverse{{motion::half_cotangent(Pack(angle * angle)), -0.5 * angle}};
+  dq = motion::join(motion::complex_times(inverse, motion::conjugate_times(start.turn, way)), angle);
+}
+
+/// Of nodes in a group.
+std::size_t PlanarStep::count_of(std::size_t group) const {
+  return std::min(nodes_in_lanes, plan_.nodes.size() - group * nodes_in_lanes);
 }
 
 void PlanarStep::enter(const State& start, const AlphaRule& rule, const tree::Walker& walker) {
   rule_ = rule;
   is_under_way_ = true;
-  auto by_node = [&](std::int64_t begin, std::int64_t end) { enter_nodes(start, begin, end); };
-  walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), block_grain, tree::make_chunk(by_node));
+  auto by_group = [&](std::int64_t begin, std::int64_t end) {
+    Pack turned(0.0);
+    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g)
+      enter_nodes(start, g, turned);
+    turn_max_[static_cast<std::size_t>(begin / group_grain)] = largest_of(turned);
+  };
+  walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
 }
 
-void PlanarStep::enter_nodes(const State& start, std::int64_t begin, std::int64_t end) {
-  turn_max_[static_cast<std::size_t>(begin / block_grain)] = 0.0;
+void PlanarStep::enter_nodes(const State& start, std::size_t group, Pack& turned) {
   const Mat3<double>& axes = plan_.planar->axes;
   const Vec3<double>& origin = plan_.planar->origin;
-  for (std::int64_t first = begin; first < end; first += nodes_in_lanes) {
-    const auto from = static_cast<std::size_t>(first);
-    const auto count = static_cast<std::size_t>(std::min<std::int64_t>(nodes_in_lanes, end - first));
-    SpaceLanes node;
-    Vec6<Pack> algorithmic, trend = Vec6<Pack>::zero();
-    gather(start.nodes.data(), from, count, numbers_before_increment, node.R.m);
-    gather(start.algorithmic.data(), from, count, 6, algorithmic.v);
-    if (start.follows_trend) gather(start.acceleration_trend.data(), from, count, 6, trend.v);
-    const Mat3<Pack> B = gather_basis(plan_, from, count);
-    // As PlanarSystem::set_nodes.
-    StartNode<Pack> s;
-    const Vec3<Pack> axis = node.R * lanes::column(B, 0);
-    Vec3<Pack> hi, lo;
-    for (int i = 0; i < 3; ++i) {
-      motion::two_sum(node.x.hi[i], Pack(-origin[i]), hi[i], lo[i]);
-      lo[i] = lo[i] + node.x.lo[i];
-    }
-    for (int i = 0; i < 2; ++i) {
-      const Vec3<Pack> along = lanes::cast<Pack>(lanes::column(axes, i));
-      s.turn[i] = lanes::dot(along, axis);
-      s.x.hi[i] = lanes::dot(along, hi);
-      s.x.lo[i] = lanes::dot(along, lo);
-    }
-    s.v = in_plane(B, node.v);
-    s.a = in_plane(B, node.a);
-    s.algorithmic = in_plane(B, algorithmic);
-    scatter(&s.turn[0], numbers_of_start, starts_.data(), from, count);
-    move_nodes(from, count, s, PlanarMover<Pack>{s.turn, s.x, Pack(0.0)},
-               rule_.predict(s.v, s.a, s.algorithmic, in_plane(B, trend)), true);
+  const std::size_t from = group * nodes_in_lanes, count = count_of(group);
+  SpaceLanes node;
+  Vec6<Pack> algorithmic, trend;
+  gather(start.nodes.data(), from, count, numbers_before_increment, node.R.m);
+  gather(start.algorithmic.data(), from, count, 6, algorithmic.v);
+  gather(start.acceleration_trend.data(), from, count, 6, trend.v);
+  const Mat3<Pack>& B = bases_[group];
+  // As PlanarSystem::set_nodes.
+  StartLanes& s = starts_[group];
+  const Vec3<Pack> axis = node.R * lanes::column(B, 0);
+  Vec3<Pack> hi, lo;
+  for (int i = 0; i < 3; ++i) {
+    motion::two_sum(node.x.hi[i], Pack(-origin[i]), hi[i], lo[i]);
+    lo[i] = lo[i] + node.x.lo[i];
   }
+  for (int i = 0; i < 2; ++i) {
+    const Vec3<Pack> along = lanes::cast<Pack>(lanes::column(axes, i));
+    s.turn[i] = lanes::dot(along, axis);
+    s.x.hi[i] = lanes::dot(along, hi);
+    s.x.lo[i] = lanes::dot(along, lo);
+  }
+  s.v = in_plane(B, node.v);
+  s.a = in_plane(B, node.a);
+  s.algorithmic = in_plane(B, algorithmic);
+  s.trend = in_plane(B, trend);
+  const Vec3<Pack> eta = rule_.predict(s.v, s.a, s.algorithmic, start.follows_trend ? s.trend : Vec3<Pack>::zero());
+  MoverLanes& mover = movers_[group];
+  mover = {s.turn, s.x, eta};
+  mover.move(eta);
+  show_nodes(group, turned);
 }
 
 double PlanarStep::apply(const double* x, const tree::Walker& walker) {
   auto by_pair = [&](std::int64_t begin, std::int64_t end) {
-    chunk_max_[static_cast<std::size_t>(begin / pair_grain)] = largest_change(x, begin, end);
+    chunk_max_[static_cast<std::size_t>(begin / pair_group_grain)] = largest_change(x, begin, end);
   };
-  walker.for_each_chunk(static_cast<std::int64_t>(pairs_.size()), pair_grain, tree::make_chunk(by_pair));
-  auto by_node = [&](std::int64_t begin, std::int64_t end) {
-    turn_max_[static_cast<std::size_t>(begin / block_grain)] = 0.0;
-    for (std::int64_t first = begin; first < end; first += nodes_in_lanes) {
-      const auto count = static_cast<std::size_t>(std::min<std::int64_t>(nodes_in_lanes, end - first));
-      const auto from = static_cast<std::size_t>(first);
-      Vec3<Pack> eta;
-      for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
-        const std::int64_t at = node_begin_[from + std::min(l, count - 1)];
-        const double* const increment = at < 0 ? nothing : x + at;
-        for (int i = 0; i < 3; ++i) eta[i].set(static_cast<int>(l), increment[i]);
-      }
-      StartNode<Pack> start;
-      gather(starts_.data(), from, count, numbers_of_start, &start.turn[0]);
-      PlanarNodeLanes node;
-      gather(system_.nodes().data(), from, count, elements::planar::numbers_of_node, &node.turn[0]);
-      move_nodes(from, count, start, PlanarMover<Pack>{node.turn, node.x, node.dq[2]}, eta, false);
+  walker.for_each_chunk(static_cast<std::int64_t>(pairs_.size()), pair_group_grain, tree::make_chunk(by_pair));
+  auto by_group = [&](std::int64_t begin, std::int64_t end) {
+    Pack turned(0.0);
+    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
+      const Vec3<Pack> eta = gather_increments(x, unknowns_.data() + g * nodes_in_lanes);
+      MoverLanes& mover = movers_[g];
+      mover.move(eta);
+      mover.follow(starts_[g], eta[2]);
+      show_nodes(g, turned);
     }
+    turn_max_[static_cast<std::size_t>(begin / group_grain)] = largest_of(turned);
   };
-  walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), block_grain, tree::make_chunk(by_node));
+  walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
   double most = 0.0;
   for (const double size : chunk_max_) most = std::max(most, size);
   return std::sqrt(most);
 }
 
-/// The largest square of a shift or a turn of pairs [begin, end); infinite where one is too far.
+/// The largest square of a shift or a turn of pairs [8 begin, 8 end); infinite where one is too far.
 double PlanarStep::largest_change(const double* x, std::int64_t begin, std::int64_t end) const {
-  const elements::planar::Node* const nodes = system_.nodes().data();
-  const auto turned = [&](std::size_t n) {
-    const std::int64_t at = node_begin_[n];
-    const double* const eta = at < 0 ? nothing : x + at;
-    return motion::join(motion::complex_times(nodes[n].turn, Vec2<double>{{eta[0], eta[1]}}), eta[2]);
+  struct Moving {
+    Vec2<Pack> turn, x;
+    Vec3<Pack> change;  ///< turned into the plane's axes
   };
-  double most = 0.0;
-  for (std::int64_t k = begin; k < end; ++k) {
-    const NodePair& p = pairs_[static_cast<std::size_t>(k)];
-    const auto b = static_cast<std::size_t>(p.b);
-    Vec3<double> change = turned(b);
-    if (p.a >= 0) {
-      const auto a = static_cast<std::size_t>(p.a);
-      const Vec3<double> other = turned(a);
-      const Vec2<double> arm = nodes[b].x.hi - nodes[a].x.hi;
-      change -= motion::join(Vec2<double>(plane_part(other) + other[2] * motion::quarter_turn(arm)), other[2]);
-    }
-    const Vec2<double> shift = p.per_length * plane_part(change);
-    const double largest = std::max({std::abs(shift[0]), std::abs(shift[1]), std::abs(change[2])});
-    if (!(largest < too_far)) return std::numeric_limits<double>::infinity();
-    most = std::max({most, lanes::dot(shift, shift), change[2] * change[2]});
+  const auto look_at = [x](const PairLanes::Side& side) {
+    Moving m;
+    lanes::gather_lanes(side.node, 4, &m.turn[0]);
+    const Vec3<Pack> eta = gather_increments(x, side.unknown);
+    m.change = motion::join(motion::complex_times(m.turn, plane_part(eta)), eta[2]);
+    return m;
+  };
+  const Pack far(too_far);
+  Pack most(0.0);
+  lanes::Mask<elements::num_lanes> near = less(most, far);  // in no lane where something is not a number
+  for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
+    const PairLanes& p = pairs_[g];
+    const Moving a = look_at(p.a), b = look_at(p.b);
+    const Vec2<Pack> swing = a.change[2] * motion::quarter_turn(Vec2<Pack>(b.x - a.x));
+    const Vec3<Pack> change = b.change - motion::join(Vec2<Pack>(plane_part(a.change) + swing), a.change[2]);
+    const Vec2<Pack> shift = p.per_length * plane_part(change);
+    for (const Pack& size : {shift[0], shift[1], change[2]}) near = near & less(lanes::abs(size), far);
+    most = larger(most, larger(lanes::dot(shift, shift), change[2] * change[2]));
   }
-  return most;
+  return all(near) ? largest_of(most) : std::numeric_limits<double>::infinity();
 }
 
-/// Nodes [begin, begin + count), one to a lane, 1 <= count <= nodes_in_lanes.
-void PlanarStep::move_nodes(std::size_t begin, std::size_t count, const StartNode<Pack>& start, PlanarMover<Pack> mover,
-                            const Vec3<Pack>& eta, bool is_first) {
-  mover.move(eta);
-  PlanarNodeLanes n;
-  n.dq = is_first ? eta : mover.increment(start.turn, start.x);
-  const AlphaRule::Rates<Vec3<Pack>> rates = rule_.follow(n.dq, start.v, start.a, start.algorithmic);
-  n.turn = mover.turn;
-  n.x = mover.x;
-  n.v = rates.v;
-  n.a = rates.a;
-  std::vector<elements::planar::Node>& nodes = system_.nodes();
-  scatter(&n.turn[0], elements::planar::numbers_of_node, nodes.data(), begin, count);
-  double& most = turn_max_[begin / static_cast<std::size_t>(block_grain)];
-  for (std::size_t l = 0; l < count; ++l) most = std::max(most, std::abs(nodes[begin + l].dq[2]));
+/// The nodes of a group as elements see them, with velocities and accelerations by the rule. turned: the largest |dq_w| so far, by lane.
+void PlanarStep::show_nodes(std::size_t group, Pack& turned) {
+  const StartLanes& start = starts_[group];
+  const MoverLanes& mover = movers_[group];
+  const AlphaRule::Rates<Vec3<Pack>> rates = rule_.follow(mover.dq, start.v, start.a, start.algorithmic);
+  const PlanarNodeLanes n{mover.turn, mover.x, rates.v, rates.a, mover.dq};
+  scatter(&n.turn[0], elements::planar::numbers_of_node, system_.nodes().data(), group * nodes_in_lanes,
+          count_of(group));
+  turned = larger(turned, lanes::abs(mover.dq[2]));
 }
 
 int PlanarStep::turned_beyond(double angle) const {
@@ -244,72 +283,81 @@ int PlanarStep::turned_beyond(double angle) const {
 }
 
 std::int64_t PlanarStep::first_folded(const tree::Walker& walker) const {
-  const auto count = static_cast<std::int64_t>(plan_.directory.size());
-  FirstBad first_bad(count);
-  const std::vector<elements::planar::Node>& nodes = system_.nodes();
-  const auto turn_of = [&nodes](const elements::planar::Port& p) {
-    if (p.node == elements::ground) return p.turn;
-    const Vec2<double>& node = nodes[static_cast<std::size_t>(p.node)].turn;
-    return p.has_offset ? motion::complex_times(node, p.turn) : node;
+  FirstBad first_bad(static_cast<std::int64_t>(plan_.directory.size()));
+  const auto turn_of = [this](int node) {
+    return node == elements::ground ? Vec2<double>{{1.0, 0.0}} : system_.nodes()[static_cast<std::size_t>(node)].turn;
   };
-  auto by_element = [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t id = begin; id < end; ++id)
-      plan::with_element(plan_.planar->elements, plan_.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
-        if constexpr (requires { e.reference_strain; }) {
-          const Vec2<double> first = turn_of(e.ports[0]);
-          for (int i = 1; i < std::decay_t<decltype(e)>::num_ports; ++i)
-            if (lanes::dot(first, turn_of(e.ports[i])) < folded) return first_bad.note(id);
-        }
-      });
+  auto by_ends = [&](std::int64_t begin, std::int64_t end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      const BeamEnds& e = beam_ends_[k];
+      if (lanes::dot(turn_of(e.a), motion::complex_times(turn_of(e.b), e.between)) < folded)
+        return first_bad.note(e.element);
+    }
   };
-  walker.for_each_chunk(count, element_grain, tree::make_chunk(by_element));
+  walker.for_each_chunk(static_cast<std::int64_t>(beam_ends_.size()), element_grain, tree::make_chunk(by_ends));
   return first_bad.get();
 }
 
-void PlanarStep::leave(const State& start, State& state, const tree::Walker& walker) {
+void PlanarStep::leave(const State& start, State& state, double arm, std::vector<Workspace::Trend>& trends,
+                       const tree::Walker& walker) {
   is_under_way_ = false;
-  state.nodes.resize(starts_.size());
-  state.rotation.resize(starts_.size());
-  state.algorithmic.resize(starts_.size());
-  const Mat3<double>& axes = plan_.planar->axes;
-  auto by_node = [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t first = begin; first < end; first += nodes_in_lanes) {
-      const auto from = static_cast<std::size_t>(first);
-      const auto count = static_cast<std::size_t>(std::min<std::int64_t>(nodes_in_lanes, end - first));
-      PlanarNodeLanes node;
-      StartNode<Pack> s;
-      SpaceLanes to;
-      Pack turn[4];
-      gather(system_.nodes().data(), from, count, elements::planar::numbers_of_node, &node.turn[0]);
-      gather(starts_.data(), from, count, numbers_of_start, &s.turn[0]);
-      gather(start.nodes.data(), from, count, 15, to.R.m);  // and the place, which stands next
-      gather(start.rotation.data(), from, count, 4, turn);
-      const Mat3<Pack> B = gather_basis(plan_, from, count);
-      to.v = in_space(B, node.v);
-      to.a = in_space(B, node.a);
-      to.dq = in_space(B, node.dq);
-      const Vec6<Pack> algorithmic = in_space(B, rule_.follow(node.dq, s.v, s.a, s.algorithmic).algorithmic);
-      const motion::Quaternion<Pack> q =
-          motion::normalise(motion::multiply(motion::Quaternion<Pack>{turn[0], {{turn[1], turn[2], turn[3]}}},
-                                             motion::exp_quaternion(lanes::angular_part(to.dq))));
-      to.R = motion::rotation_of(q);
-      turn[0] = q.w;
-      for (int i = 0; i < 3; ++i) turn[1 + i] = q.v[i];
-      // The place itself goes into space as a displacement, so that its digits beyond a double stay.
-      Vec2<Pack> hi, lo;
-      for (int i = 0; i < 2; ++i) {
-        motion::two_sum(node.x.hi[i], Pack(-s.x.hi[i]), hi[i], lo[i]);
-        lo[i] = lo[i] + (node.x.lo[i] - s.x.lo[i]);
-      }
-      const Vec3<Pack> along[2] = {lanes::cast<Pack>(lanes::column(axes, 0)),
-                                   lanes::cast<Pack>(lanes::column(axes, 1))};
-      for (const Vec2<Pack>& part : {hi, lo}) to.x.add(part[0] * along[0] + part[1] * along[1]);
-      scatter(to.R.m, numbers_of_motion, state.nodes.data(), from, count);
-      scatter(turn, 4, state.rotation.data(), from, count);
-      scatter(algorithmic.v, 6, state.algorithmic.data(), from, count);
-    }
+  const std::size_t count = plan_.nodes.size();
+  state.nodes.resize(count);
+  state.rotation.resize(count);
+  state.algorithmic.resize(count);
+  state.acceleration_trend.resize(count);
+  trends.resize(turn_max_.size());
+  auto by_group = [&](std::int64_t begin, std::int64_t end) {
+    Workspace::Trend trend;
+    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g)
+      leave_nodes(start, state, arm, g, trend);
+    trends[static_cast<std::size_t>(begin / group_grain)] = trend;
   };
-  walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), block_grain, tree::make_chunk(by_node));
+  walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
+}
+
+void PlanarStep::leave_nodes(const State& start, State& state, double arm, std::size_t group,
+                             Workspace::Trend& trend) const {
+  const std::size_t from = group * nodes_in_lanes, count = count_of(group);
+  const StartLanes& s = starts_[group];
+  const MoverLanes& node = movers_[group];
+  const Mat3<Pack>& B = bases_[group];
+  SpaceLanes to;
+  Pack turn[4];
+  gather(start.nodes.data(), from, count, 8, &to.x.hi[0], numbers_before_place);  // and two that are written below
+  gather(start.rotation.data(), from, count, 4, turn);
+  const AlphaRule::Rates<Vec3<Pack>> rates = rule_.follow(node.dq, s.v, s.a, s.algorithmic);
+  to.v = in_space(B, rates.v);
+  to.a = in_space(B, rates.a);
+  to.dq = in_space(B, node.dq);
+  const motion::Quaternion<Pack> q =
+      motion::normalise(motion::multiply(motion::Quaternion<Pack>{turn[0], {{turn[1], turn[2], turn[3]}}},
+                                         motion::exp_quaternion(lanes::angular_part(to.dq))));
+  to.R = motion::rotation_of(q);
+  turn[0] = q.w;
+  for (int i = 0; i < 3; ++i) turn[1 + i] = q.v[i];
+  // The place itself goes into space as a displacement, so that its digits beyond a double stay.
+  Vec2<Pack> hi, lo;
+  for (int i = 0; i < 2; ++i) {
+    motion::two_sum(node.x.hi[i], Pack(-s.x.hi[i]), hi[i], lo[i]);
+    lo[i] = lo[i] + (node.x.lo[i] - s.x.lo[i]);
+  }
+  const Mat3<double>& axes = plan_.planar->axes;
+  const Vec3<Pack> along[2] = {lanes::cast<Pack>(lanes::column(axes, 0)), lanes::cast<Pack>(lanes::column(axes, 1))};
+  for (const Vec2<Pack>& part : {hi, lo}) to.x.add(part[0] * along[0] + part[1] * along[1]);
+  const Vec3<Pack> change = rates.a - s.a, bend = change - s.trend;
+  const auto size = [arm](const Vec3<Pack>& a) {
+    return Pack(lanes::dot(plane_part(a), plane_part(a)) + arm * arm * a[2] * a[2]);
+  };
+  const Pack from_start = size(change), from_trend = size(bend);
+  for (std::size_t l = 0; l < count; ++l) {
+    trend.from_start += from_start[static_cast<int>(l)];
+    trend.from_trend += from_trend[static_cast<int>(l)];
+  }
+  scatter(to.R.m, numbers_of_motion, state.nodes.data(), from, count);
+  scatter(turn, 4, state.rotation.data(), from, count);
+  scatter(in_space(B, rates.algorithmic).v, 6, state.algorithmic.data(), from, count);
+  scatter(in_space(B, change).v, 6, state.acceleration_trend.data(), from, count);
 }
 
 }  // namespace bough::step

@@ -1,11 +1,11 @@
 #pragma once
 /// A step of generalized-alpha that iterates in the plane: nodes move by three numbers instead of six, eight at a time, and go back to space
-/// once the iteration has ended. Internal to step.
+/// once the iteration has ended. What only the step looks at stays in lanes meanwhile. Internal to step.
 #include <cstdint>
 #include <vector>
 
 #include "alpha_rule.hpp"
-#include "bough/step/state.hpp"
+#include "bough/step/system.hpp"
 #include "bough/tree/walker.hpp"
 #include "planar_system.hpp"
 
@@ -19,7 +19,7 @@ struct NodePair {
 
 class PlanarStep {
  public:
-  /// node_begin: first unknown of each node, or -1. All are read while steps are taken.
+  /// node_begin: first unknown of each node, or -1. Plan and system are read while steps are taken.
   PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::vector<std::int64_t>& node_begin,
              const std::vector<NodePair>& pairs);
 
@@ -37,36 +37,62 @@ class PlanarStep {
   std::int64_t first_folded(const tree::Walker& walker) const;
   /// Joints that can flip in the plane, as elements. All others have no rows of angles there.
   const std::vector<int>& joints_with_angles() const { return joints_with_angles_; }
-  /// Writes the nodes of `state`, which is the end of the step from `start`.
-  void leave(const State& start, State& state, const tree::Walker& walker);
+  /// Writes the nodes of `state`, which is the end of the step from `start`, and its acceleration_trend; trends: by chunk of nodes, angular
+  /// accelerations counted by `arm` [m].
+  void leave(const State& start, State& state, double arm, std::vector<Workspace::Trend>& trends,
+             const tree::Walker& walker);
   void abandon() { is_under_way_ = false; }
 
  private:
-  /// Where a step starts: turn, position [m], velocity, its derivative, a_n.
-  template <class S>
-  struct StartNode {
-    motion::Vec2<S> turn;
-    elements::planar::PairOf<S> x;
-    motion::Vec3<S> v, a, algorithmic;
+  using Pack = elements::LanePack;
+  /// Where a step starts: turn, position [m], velocity, its derivative and the change of that over the last step, a_n.
+  struct StartLanes {
+    motion::Vec2<Pack> turn;
+    elements::planar::PairOf<Pack> x;
+    motion::Vec3<Pack> v, a, trend, algorithmic;
   };
-  static constexpr int numbers_of_start = 15;
-  static_assert(sizeof(StartNode<double>) == numbers_of_start * sizeof(double));
-  template <class S>
-  struct PlanarMover;
-
-  void enter_nodes(const State& start, std::int64_t begin, std::int64_t end);
-  void move_nodes(std::size_t begin, std::size_t count, const StartNode<elements::LanePack>& start,
-                  PlanarMover<elements::LanePack> mover, const motion::Vec3<elements::LanePack>& eta, bool is_first);
+  /// Where nodes stand, and how far they moved in the step.
+  struct MoverLanes {
+    motion::Vec2<Pack> turn;
+    elements::planar::PairOf<Pack> x;
+    motion::Vec3<Pack> dq;
+    void move(const motion::Vec3<Pack>& eta);
+    void follow(const StartLanes& start, const Pack& eta_w);
+  };
+  void place_pairs(const std::vector<NodePair>& pairs, const std::vector<std::int64_t>& node_begin);
+  std::size_t count_of(std::size_t group) const;
+  void enter_nodes(const State& start, std::size_t group, Pack& turned);
+  void show_nodes(std::size_t group, Pack& turned);
+  void leave_nodes(const State& start, State& state, double arm, std::size_t group, Workspace::Trend& trend) const;
   double largest_change(const double* x, std::int64_t begin, std::int64_t end) const;
+
+  /// Eight pairs of nodes: the first four numbers of each node, its turn and its place to the digits of a double, and its first unknown, -1: at rest.
+  struct PairLanes {
+    struct Side {
+      const double* node[nodes_in_lanes];
+      std::int64_t unknown[nodes_in_lanes];
+    } a, b;
+    Pack per_length;
+  };
+  /// What turns with two nodes of a beam element, -1: the ground, and by how much more the second is turned as the element is made.
+  struct BeamEnds {
+    std::int64_t element;
+    int a, b;
+    motion::Vec2<double> between;
+  };
 
   const plan::Plan& plan_;
   PlanarSystem& system_;
-  const std::vector<std::int64_t>& node_begin_;
-  const std::vector<NodePair>& pairs_;
   AlphaRule rule_{};
-  std::vector<StartNode<double>> starts_;
+  // By eight nodes; spare lanes of the last eight repeat its last node.
+  std::vector<motion::Mat3<Pack>> bases_;
+  std::vector<StartLanes> starts_;
+  std::vector<MoverLanes> movers_;
+  std::vector<std::int64_t> unknowns_;  ///< the first of each node, lane by lane, -1: at rest
+  std::vector<PairLanes> pairs_;        ///< spare lanes of the last repeat its last pair
+  std::vector<BeamEnds> beam_ends_;
   std::vector<int> joints_with_angles_;
-  std::vector<double> chunk_max_;  ///< of increments, by chunk of pairs
+  std::vector<double> chunk_max_;  ///< squares of changes, by chunk of pairs
   std::vector<double> turn_max_;   ///< of |dq_w|, by chunk of nodes [rad]
   bool is_under_way_ = false;
 };

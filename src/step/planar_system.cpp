@@ -54,7 +54,8 @@ void PlanarSystem::set_field(const elements::Field& field) {
   field_.slopes = field.slopes;
 }
 
-void PlanarSystem::evaluate_alone(std::size_t id, const State& state, bool tangent, const ElementResult& to) const {
+PlanarSystem::Counts PlanarSystem::evaluate_alone(std::size_t id, const State& state, double* residual,
+                                                  double* magnitude, double* tangent) const {
   std::array<double, elements::max_rows> multipliers;
   const int j = joint_of_element_[id];
   double turns = 0.0;
@@ -64,17 +65,28 @@ void PlanarSystem::evaluate_alone(std::size_t id, const State& state, bool tange
       multipliers[r] = state.multipliers[static_cast<std::size_t>(joint.multiplier_begin + joint.rows[r])];
     turns = state.turns[static_cast<std::size_t>(j)];
   }
+  Counts counts{};
   plan::with_element(plan_.planar->elements, plan_.directory[id], [&](const auto& e) {
-    std::array<double, most_unknowns * most_unknowns> entries;
-    const bool is_direct = to.tangent.stride == 1 && !(held_ != nullptr && held_->trims(id));
-    elements::planar::evaluate(e, field_, multipliers.data(), turns, to.residual, to.magnitude,
-                               !tangent    ? nullptr
-                               : is_direct ? to.tangent.first
-                                           : entries.data());
-    if (!tangent || is_direct) return;
-    write_matrix(
-        held_, id, num_unknowns(e), [&](int i) { return entries[static_cast<std::size_t>(i)]; }, to.tangent);
+    elements::planar::evaluate(e, field_, multipliers.data(), turns, residual, magnitude, tangent);
+    counts = {num_unknowns(e), num_multipliers(e)};
   });
+  return counts;
+}
+
+void PlanarSystem::place_alone(std::size_t id, const State& state, const ElementResults& to) const {
+  const auto element = static_cast<int>(id);
+  const solve::ElementView view = to.want_tangents() ? to.tangent_of(element) : solve::ElementView{};
+  const bool is_direct = view.stride == 1 && !(held_ != nullptr && held_->trims(id));
+  std::array<double, most_unknowns * most_unknowns> entries;
+  std::array<double, most_unknowns> residual, magnitude;
+  const Counts counts = evaluate_alone(id, state, residual.data(), magnitude.data(),
+                                       !to.want_tangents() ? nullptr
+                                       : is_direct         ? view.first
+                                                           : entries.data());
+  join_parts(3, counts.unknowns, counts.rows, residual.data(), magnitude.data(), to.parts_of(element));
+  if (!to.want_tangents() || is_direct) return;
+  write_matrix(
+      held_, id, counts.unknowns, [&](int i) { return entries[static_cast<std::size_t>(i)]; }, view);
 }
 
 }  // namespace bough::step

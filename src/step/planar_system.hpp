@@ -31,15 +31,21 @@ class PlanarSystem {
   void set_field(const elements::Field& field);
 
   /// Residuals, magnitudes and (where wanted) tangents of all elements of a batch, as LaneBatches::evaluate.
-  template <class Result>
-  void evaluate(std::size_t batch, const State& state, bool tangent, Result&& result) const {
-    if (lanes_.holds(batch)) return lanes_.evaluate(batch, state, field_, tangent, result);
+  void evaluate(std::size_t batch, const State& state, const ElementResults& to) const {
+    if (lanes_.holds(batch)) return lanes_.evaluate(batch, state, field_, to);
     for (int id : batches()[batch].element)
-      if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, tangent, result(id));
+      if (id >= 0) place_alone(static_cast<std::size_t>(id), state, to);
   }
 
+  /// Of one element.
+  struct Counts {
+    int unknowns, rows;
+  };
+  /// Its residual, magnitude and tangent (null: not wanted), as elements::planar::evaluate.
+  Counts evaluate_alone(std::size_t id, const State& state, double* residual, double* magnitude, double* tangent) const;
+
  private:
-  void evaluate_alone(std::size_t id, const State& state, bool tangent, const ElementResult& to) const;
+  void place_alone(std::size_t id, const State& state, const ElementResults& to) const;
 
   const plan::Plan& plan_;
   const HeldNodes* held_;

@@ -56,7 +56,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   if (!plan.is_dynamic) motion_tree_ = make_motion_tree(plan);
   if (moment_arm_ == 0.0) moment_arm_ = plan.length_scale;
   residual_.assign(num_unknowns(), 0.0);
-  magnitude_ = floor_ = residual_;
+  floor_ = residual_;
   floor_unknowns_.reserve(most_unknowns);
   joint_of_element_.assign(num_elements, -1);
   joint_of_block_.assign(static_cast<std::size_t>(num_blocks()), -1);
@@ -83,13 +83,14 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   work_.rhs.assign(num_unknowns(), 0.0);
   work_.x = work_.rhs;
   is_length_.assign(num_unknowns(), 0);
-  for_each_multiplier(*this, [&](int joint, std::size_t, std::size_t unknown, std::size_t row) {
+  for_each_multiplier(*this, [&](int joint, std::size_t multiplier, std::size_t unknown, std::size_t row) {
+    multiplier_places_.push_back({multiplier, unknown});
     const auto& e = plan::array_of<elements::Joint>(plan.elements)[static_cast<std::size_t>(
         plan.directory[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(joint)].element)].index)];
     is_length_[unknown] = elements::is_length(e.rows[row].kind);
   });
   renewal_cost_ = estimate_step_cost(plan, *tree_, *solver_).renewal();
-  chunk_sizes_.resize((use_begin_.size() - 1 + block_grain - 1) / block_grain, {{}, true});
+  chunk_sizes_.resize((sums_.size() + block_grain - 1) / block_grain, {{}, true});
   find_pairs();
   if (planar_ && plan.is_dynamic) planar_step_ = std::make_unique<PlanarStep>(plan, *planar_, node_begin_, pairs_);
 }
@@ -139,12 +140,12 @@ void System::evaluate_alone(std::size_t id, const State& state, const elements::
     turns = state.turns[static_cast<std::size_t>(j)];
   }
   plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
-    double* residual = element_residual_.data() + element_begin_[id];
     if (projection_) return evaluate_projected(e, id, f, multipliers, turns, tangent);
+    std::array<double, most_unknowns> residual, magnitude;
     std::array<double, most_unknowns * most_unknowns> tangent_entries;
     const solve::ElementView view = solver_->element(static_cast<int>(id));
     const bool is_direct = view.stride == 1 && !(held_ && held_->trims(id));
-    elements::evaluate(e, f, multipliers, turns, residual,
+    elements::evaluate(e, f, multipliers, turns, residual.data(),
                        !tangent    ? nullptr
                        : is_direct ? view.first
                                    : tangent_entries.data());
@@ -152,7 +153,8 @@ void System::evaluate_alone(std::size_t id, const State& state, const elements::
       write_matrix(
           held_.get(), id, elements::num_unknowns(e),
           [&](int i) { return tangent_entries[static_cast<std::size_t>(i)]; }, view);
-    elements::eval_magnitude(e, f, residual, element_magnitude_.data() + element_begin_[id]);
+    elements::eval_magnitude(e, f, residual.data(), magnitude.data());
+    set_parts(id, residual.data(), magnitude.data());
   });
 }
 
@@ -161,11 +163,12 @@ template <class E>
 void System::evaluate_projected(const E& e, std::size_t id, const elements::Field& f, const double* multipliers,
                                 double turns, bool tangent) {
   std::array<double, most_unknowns * most_unknowns> entries, reduced;
-  std::array<double, most_unknowns> residual, magnitude;
+  std::array<double, most_unknowns> residual, magnitude, projected, sizes;
   elements::evaluate(e, f, multipliers, turns, residual.data(), tangent ? entries.data() : nullptr);
   elements::eval_magnitude(e, f, residual.data(), magnitude.data());
-  projection_->project_vector(id, residual.data(), element_residual_.data() + element_begin_[id]);
-  projection_->project_sizes(id, magnitude.data(), element_magnitude_.data() + element_begin_[id]);
+  projection_->project_vector(id, residual.data(), projected.data());
+  projection_->project_sizes(id, magnitude.data(), sizes.data());
+  set_parts(id, projected.data(), sizes.data());
   if (!tangent) return;
   const int n = projection_->project_matrix(id, entries.data(), reduced.data());
   write_matrix(
@@ -221,11 +224,7 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   const std::span<const solve::ElementBatch> batches = planar != nullptr ? planar->batches()
                                                        : projection_     ? solver_->batches()
                                                                          : lane_batches_->batches();
-  const auto result = [&](int id) {
-    const auto begin = static_cast<std::size_t>(element_begin_[static_cast<std::size_t>(id)]);
-    return ElementResult{element_residual_.data() + begin, element_magnitude_.data() + begin,
-                         tangent ? solver_->element(id) : solve::ElementView{}};
-  };
+  const ElementResults results{parts_.data(), element_begin_.data(), tangent ? solver_.get() : nullptr};
   if (planar != nullptr) {
     if (!(planar_step_ && planar_step_->is_under_way())) {
       auto by_node = [&](std::int64_t begin, std::int64_t end) { planar->set_nodes(state, begin, end); };
@@ -237,9 +236,9 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
     for (std::int64_t k = begin; k < end; ++k) {
       const auto batch = static_cast<std::size_t>(k);
       if (planar != nullptr)
-        planar->evaluate(batch, state, tangent, result);
+        planar->evaluate(batch, state, results);
       else if (lane_batches_->holds(batch))
-        lane_batches_->evaluate(batch, state, f, tangent, result);
+        lane_batches_->evaluate(batch, state, f, results);
       else
         for (int id : batches[batch].element)
           if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, f, tangent);
@@ -248,13 +247,13 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   };
   walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain,
                          tree::make_chunk(by_batch, tree::Work::evaluate));
-  auto by_block = [&](std::int64_t begin, std::int64_t end) { sum_blocks(begin, end); };
-  walker_.for_each_chunk(static_cast<std::int64_t>(use_begin_.size()) - 1, block_grain, tree::make_chunk(by_block));
+  auto by_sum = [&](std::int64_t begin, std::int64_t end) { sum_parts(begin, end); };
+  walker_.for_each_chunk(static_cast<std::int64_t>(sums_.size()), block_grain, tree::make_chunk(by_sum));
   if (std::all_of(chunk_sizes_.begin(), chunk_sizes_.end(), [](const ChunkSize& c) { return c.is_finite; }))
     return std::nullopt;
   for (std::size_t e = 0; e < plan_.directory.size(); ++e)
-    for (std::int64_t i = element_begin_[e]; i < element_begin_[e + 1]; ++i)
-      if (!std::isfinite(element_residual_[static_cast<std::size_t>(i)]))
+    for (std::int64_t i = 2 * element_begin_[e]; i < 2 * element_begin_[e + 1]; ++i)
+      if (!std::isfinite(parts_[static_cast<std::size_t>(i)]))
         return Trouble{"the forces of '" + plan_.element_owner[e] + "' are not finite at time " +
                        std::to_string(time_)};
   return Trouble{"a sum of forces is not finite at time " + std::to_string(time_)};

@@ -80,9 +80,7 @@ double System::relative_size(const State& state, const double* x) {
 }
 
 void System::add_multipliers(State& state, const double* x, double factor) const {
-  for_each_multiplier(*this, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
-    state.multipliers[multiplier] += factor * x[unknown];
-  });
+  for (const MultiplierPlace& at : multiplier_places_) state.multipliers[at.multiplier] += factor * x[at.unknown];
 }
 
 double System::apply(State& state, const double* x) {
@@ -112,7 +110,8 @@ void System::settle(State& state) {
 }
 
 void System::recover_multipliers(State& state, const std::vector<Vec6<double>>* more) const {
-  if (held_) held_->recover_multipliers(*this, state, more);
+  // In statics by elements in space, as sensors see them: what is unsettled belongs to their residuals.
+  if (held_) held_->recover_multipliers(*this, state, more, plan_.is_dynamic ? planar_.get() : nullptr);
 }
 
 double System::largest_held_impulse(const State& state, const double* x) const {

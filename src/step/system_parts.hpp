@@ -47,6 +47,17 @@ void for_each_part(const plan::Plan& plan, std::size_t element, int joint, F&& f
   if (!j.rows.empty()) f(j.block, static_cast<int>(j.rows.size()), -1);
 }
 
+/// Entries of an element's residual and of its magnitude in the order of System::parts_: for its nodes, of `node_unknowns` each, and its rows.
+template <class S>
+void join_parts(int node_unknowns, int num_unknowns, int num_rows, const S* residual, const S* magnitude, S* parts) {
+  const int forces = num_unknowns - num_rows;
+  for (int begin = 0, end = 0; begin < num_unknowns; begin = end) {
+    end = begin < forces ? begin + node_unknowns : num_unknowns;
+    for (int i = begin; i < end; ++i) *parts++ = residual[i];
+    for (int i = begin; i < end; ++i) *parts++ = magnitude[i];
+  }
+}
+
 /// Calls f(joint, multiplier, unknown, row) for every multiplier that is an unknown: its place in State::multipliers and in the solver's
 /// vectors, and its number among the rows of the joint.
 template <class F>

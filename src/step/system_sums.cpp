@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bough/lanes/pack.hpp"
 #include "bough/step/system.hpp"
 #include "held_nodes.hpp"
 #include "system_parts.hpp"
@@ -13,11 +14,35 @@ namespace bough::step {
 
 namespace {
 
-/// By exponents, which no trap minds and compilers vectorise.
-inline bool is_finite(double a) {
-  constexpr std::uint64_t exponent = 0x7ff0000000000000u;
-  return (std::bit_cast<std::uint64_t>(a) & exponent) != exponent;
-}
+/// The bits of sizes are ordered as the sizes are, with those of what is not finite above all others, and no trap minds to compare them.
+constexpr std::int64_t all_but_sign = 0x7fffffffffffffff, bits_of_infinity = 0x7ff0000000000000;
+inline std::int64_t size_bits(double a) { return std::bit_cast<std::int64_t>(a) & all_but_sign; }
+
+/// `Size` numbers that are added up, or looked at for the largest of each.
+template <int Size>
+struct Registers {
+  static constexpr int wide = Size % 4 == 0 ? 4 : 2, count = Size / wide;
+  using Pack = lanes::Pack<wide>;
+  using Bits = typename lanes::Mask<wide>::Flag;
+  Pack sum[count];
+  Bits most[count][Pack::chunks] = {};
+
+  void begin() {
+    for (Pack& s : sum) s = Pack(0.0);
+  }
+  void add(const double* part) {
+    for (int k = 0; k < count; ++k) sum[k] = sum[k] + Pack::load(part + k * wide);
+  }
+  double operator[](int i) const { return sum[i / wide][i % wide]; }
+  void note_sizes() {
+    for (int k = 0; k < count; ++k)
+      for (int c = 0; c < Pack::chunks; ++c) {
+        const Bits now = __builtin_bit_cast(Bits, sum[k].r[c]) & (Bits{} + all_but_sign);
+        most[k][c] = now > most[k][c] ? now : most[k][c];
+      }
+  }
+  std::array<std::int64_t, Size> largest() const { return __builtin_bit_cast(std::array<std::int64_t, Size>, most); }
+};
 
 double largest_of_three(const double* a) { return std::max(std::max(std::abs(a[0]), std::abs(a[1])), std::abs(a[2])); }
 
@@ -39,30 +64,9 @@ inline NodeSize size_up(plan::Motions motions, const double* a) {
   return {std::abs(a[0]), 0.0};
 }
 
-/// r = sum of parts, m = sum of terms, of `Size` entries each; Size 0: of `size`. Returns whether r is finite.
-template <int Size>
-bool add_parts(const double* parts, const double* terms, const std::int64_t* begin, const std::int64_t* end, int size,
-               double* to_r, double* to_m) {
-  const int count = Size > 0 ? Size : size;
-  double r[Size > 0 ? Size : most_unknowns], m[Size > 0 ? Size : most_unknowns];  // not memory that others might share
-  for (int i = 0; i < count; ++i) r[i] = m[i] = 0.0;
-  for (const std::int64_t* use = begin; use != end; ++use)
-    for (int i = 0; i < count; ++i) {
-      r[i] += parts[*use + i];
-      m[i] += terms[*use + i];
-    }
-  bool finite = true;
-  for (int i = 0; i < count; ++i) {
-    to_r[i] = r[i];
-    to_m[i] = m[i];
-    finite &= is_finite(r[i]);
-  }
-  return finite;
-}
-
 }  // namespace
 
-/// Where the parts of elements' residuals lie, and which of them add up to a block, or to the forces on a node that is held.
+/// Where the parts of elements lie, and which of them add up to a block, or to the forces on a node that is held.
 void System::place_parts() {
   const auto count = static_cast<std::size_t>(num_blocks());
   std::vector<std::vector<std::int64_t>> uses(count + plan_.held.size());
@@ -74,76 +78,118 @@ void System::place_parts() {
     const bool counts = !held_ || !held_->leaves_out(e);
     for_each_part(plan_, e, joint_of_element_[e], [&](int block, int size, int node) {
       if (block >= 0)
-        uses[static_cast<std::size_t>(block)].push_back(at);
+        uses[static_cast<std::size_t>(block)].push_back(2 * at);
       else if (counts && node >= 0)
-        uses[count + held_of_node[static_cast<std::size_t>(node)]].push_back(at);
+        uses[count + held_of_node[static_cast<std::size_t>(node)]].push_back(2 * at);
       at += size;
     });
     element_begin_.push_back(at);
   }
-  element_residual_.assign(static_cast<std::size_t>(element_begin_.back()), 0.0);
-  element_magnitude_ = element_residual_;
-  use_begin_.assign(1, 0);
-  for (const auto& list : uses) {
-    uses_.insert(uses_.end(), list.begin(), list.end());
-    use_begin_.push_back(static_cast<std::int64_t>(uses_.size()));
-  }
+  parts_.assign(static_cast<std::size_t>(2 * element_begin_.back()), 0.0);
   node_of_block_.assign(count, -1);
   for (std::size_t n = 0; n < plan_.nodes.size(); ++n) {
     const int block = plan_.block_of_node[n];
     node_begin_.push_back(block < 0 ? -1 : block_begin(block));
     if (block >= 0) node_of_block_[static_cast<std::size_t>(block)] = static_cast<int>(n);
   }
+  const auto add = [&](const std::vector<std::int64_t>& list, std::int64_t unknown, int size, int owner) {
+    const auto begin = static_cast<std::int64_t>(uses_.size());
+    uses_.insert(uses_.end(), list.begin(), list.end());
+    sums_.push_back({begin, static_cast<std::int64_t>(uses_.size()), unknown, size, owner});
+  };
+  for (const std::vector<int>* owner : {&node_of_block_, &joint_of_block_}) {
+    for (std::size_t b = 0; b < count; ++b)
+      if ((*owner)[b] >= 0) add(uses[b], unknown_begin_[b], block_size(static_cast<int>(b)), (*owner)[b]);
+    (owner == &node_of_block_ ? num_node_sums_ : num_row_sums_) = static_cast<std::int64_t>(sums_.size());
+  }
+  num_row_sums_ -= num_node_sums_;
+  for (std::size_t h = 0; h < plan_.held.size(); ++h)
+    add(uses[count + h], -1, plan_.unknowns.count, plan_.held[h].node);
+}
+
+/// Of an element that is evaluated alone.
+void System::set_parts(std::size_t element, const double* residual, const double* magnitude) {
+  const int j = joint_of_element_[element];
+  const auto size = static_cast<int>(element_begin_[element + 1] - element_begin_[element]);
+  const int rows = j < 0 ? 0 : static_cast<int>(plan_.joints[static_cast<std::size_t>(j)].rows.size());
+  join_parts(plan_.unknowns.count, size, rows, residual, magnitude, parts_.data() + 2 * element_begin_[element]);
+}
+
+/// Adds up parts of nodes that have unknowns, in a fixed order.
+template <int Count>
+System::ChunkSize System::sum_nodes(std::size_t begin, std::size_t end) {
+  Registers<2 * Count> sums;
+  for (std::size_t k = begin; k < end; ++k) {
+    const Sum& to = sums_[k];
+    sums.begin();
+    for (std::int64_t use = to.use_begin; use < to.use_end; ++use)
+      sums.add(parts_.data() + uses_[static_cast<std::size_t>(use)]);
+    sums.note_sizes();
+    double* const r = residual_.data() + to.unknown;
+    for (int i = 0; i < Count; ++i) r[i] = sums[i];
+  }
+  const std::array<std::int64_t, 2 * Count> most = sums.largest();
+  double sum_of[6] = {}, terms_of[6] = {};
+  ChunkSize chunk{{}, true};
+  for (int i = 0; i < Count; ++i) {
+    const auto sum = static_cast<std::size_t>(i), terms = static_cast<std::size_t>(Count + i);
+    chunk.is_finite &= most[sum] < bits_of_infinity;
+    sum_of[i] = std::bit_cast<double>(most[sum]);
+    terms_of[i] = std::bit_cast<double>(most[terms]);
+  }
+  if (!chunk.is_finite) return chunk;
+  const NodeSize left = size_up(plan_.unknowns.motions, sum_of), terms = size_up(plan_.unknowns.motions, terms_of);
+  chunk.size.force = left.force;
+  chunk.size.moment = left.moment;
+  chunk.size.force_scale = terms.force;
+  chunk.size.moment_scale = terms.moment;
+  return chunk;
+}
+
+/// Rows are those of one joint each: nothing is added up.
+void System::copy_rows(std::size_t begin, std::size_t end, ChunkSize& chunk) {
+  std::int64_t most[2] = {0, 0};  // of angles, of lengths
+  for (std::size_t k = begin; k < end; ++k) {
+    const Sum& to = sums_[k];
+    const double* const from = parts_.data() + uses_[static_cast<std::size_t>(to.use_begin)];
+    double* const r = residual_.data() + to.unknown;
+    const char* const is_length = is_length_.data() + to.unknown;
+    for (int i = 0; i < to.size; ++i) {
+      r[i] = from[i];
+      std::int64_t& size = most[static_cast<std::size_t>(is_length[i])];
+      size = std::max(size, size_bits(r[i]));
+    }
+  }
+  chunk.is_finite &= std::max(most[0], most[1]) < bits_of_infinity;
+  chunk.size.angle = std::bit_cast<double>(most[0]);
+  chunk.size.length = std::bit_cast<double>(most[1]);
 }
 
 /// Forces on a node that is held: balanced by the joints that hold it, they only tell how large forces are.
-void System::sum_held_node(std::size_t held, ChunkSize& chunk) const {
-  std::array<double, 6> r, m;
-  const std::size_t use = static_cast<std::size_t>(num_blocks()) + held;
-  chunk.is_finite &= add_parts<0>(element_residual_.data(), element_magnitude_.data(), uses_.data() + use_begin_[use],
-                                  uses_.data() + use_begin_[use + 1], plan_.unknowns.count, r.data(), m.data());
-  const NodeSize held_by = size_up(plan_.unknowns.motions, r.data()), terms = size_up(plan_.unknowns.motions, m.data());
+void System::sum_held_node(const Sum& sum, ChunkSize& chunk) const {
+  std::array<double, 12> total{};
+  for (std::int64_t use = sum.use_begin; use < sum.use_end; ++use)
+    for (int i = 0; i < 2 * sum.size; ++i)
+      total[static_cast<std::size_t>(i)] += parts_[static_cast<std::size_t>(uses_[static_cast<std::size_t>(use)] + i)];
+  for (int i = 0; i < sum.size; ++i)
+    chunk.is_finite &= size_bits(total[static_cast<std::size_t>(i)]) < bits_of_infinity;
+  const NodeSize held_by = size_up(plan_.unknowns.motions, total.data()),
+                 terms = size_up(plan_.unknowns.motions, total.data() + sum.size);
   chunk.size.force_scale = std::max(chunk.size.force_scale, terms.force + held_by.force);
   chunk.size.moment_scale = std::max(chunk.size.moment_scale, terms.moment + held_by.moment);
 }
 
-/// Adds the parts of blocks [begin, end), a chunk, in a fixed order, and sizes up the sums. Nodes that are held come after the blocks.
-void System::sum_blocks(std::int64_t begin, std::int64_t end) {
-  ChunkSize chunk{{}, true};
-  ResidualSize& s = chunk.size;
-  for (std::int64_t b = begin; b < end; ++b) {
-    const auto block = static_cast<std::size_t>(b);
-    if (block >= joint_of_block_.size()) {
-      sum_held_node(block - joint_of_block_.size(), chunk);
-      continue;
-    }
-    const auto first = static_cast<std::size_t>(unknown_begin_[block]);
-    const int size = static_cast<int>(unknown_begin_[block + 1] - unknown_begin_[block]);
-    double *r = residual_.data() + first, *m = magnitude_.data() + first;
-    const auto add = size == 6 ? add_parts<6> : size == 3 ? add_parts<3> : size == 2 ? add_parts<2> : add_parts<0>;
-    if (!add(element_residual_.data(), element_magnitude_.data(), uses_.data() + use_begin_[block],
-             uses_.data() + use_begin_[block + 1], size, r, m)) {
-      chunk.is_finite = false;
-      continue;
-    }
-    const int joint = joint_of_block_[block];
-    if (joint < 0) {
-      const NodeSize now = size_up(plan_.unknowns.motions, r), terms = size_up(plan_.unknowns.motions, m);
-      if (now.force > s.force) s.worst_force_node = node_of_block_[block];
-      if (now.moment > s.moment) s.worst_moment_node = node_of_block_[block];
-      s.force = std::max(s.force, now.force);
-      s.moment = std::max(s.moment, now.moment);
-      s.force_scale = std::max(s.force_scale, terms.force);
-      s.moment_scale = std::max(s.moment_scale, terms.moment);
-      continue;
-    }
-    for (int i = 0; i < size; ++i) {
-      const double value = std::abs(r[i]);
-      if (value > std::max(s.length, s.angle)) s.worst_joint = joint;
-      double& most = is_length_[first + static_cast<std::size_t>(i)] != 0 ? s.length : s.angle;
-      most = std::max(most, value);
-    }
-  }
+/// Sums [begin, end), a chunk, and how large they are.
+void System::sum_parts(std::int64_t begin, std::int64_t end) {
+  const auto until = [begin, end](std::int64_t last) { return static_cast<std::size_t>(std::clamp(last, begin, end)); };
+  const std::size_t nodes_end = until(num_node_sums_), rows_end = until(num_node_sums_ + num_row_sums_);
+  auto k = static_cast<std::size_t>(begin);
+  const int count = plan_.unknowns.count;
+  ChunkSize chunk = count == 6   ? sum_nodes<6>(k, nodes_end)
+                    : count == 3 ? sum_nodes<3>(k, nodes_end)
+                                 : sum_nodes<1>(k, nodes_end);
+  copy_rows(nodes_end, rows_end, chunk);
+  for (k = rows_end; k < static_cast<std::size_t>(end); ++k) sum_held_node(sums_[k], chunk);
   chunk_sizes_[static_cast<std::size_t>(begin / block_grain)] = chunk;
 }
 
@@ -151,9 +197,6 @@ ResidualSize System::residual_size() const {
   ResidualSize s;
   for (const ChunkSize& chunk : chunk_sizes_) {
     const ResidualSize& c = chunk.size;
-    if (c.force > s.force) s.worst_force_node = c.worst_force_node;
-    if (c.moment > s.moment) s.worst_moment_node = c.worst_moment_node;
-    if (std::max(c.length, c.angle) > std::max(s.length, s.angle)) s.worst_joint = c.worst_joint;
     s.force = std::max(s.force, c.force);
     s.moment = std::max(s.moment, c.moment);
     s.force_scale = std::max(s.force_scale, c.force_scale);
@@ -162,6 +205,27 @@ ResidualSize System::residual_size() const {
     s.angle = std::max(s.angle, c.angle);
   }
   return s;
+}
+
+void System::name_worst(ResidualSize& size) const {
+  ResidualSize most;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(num_node_sums_ + num_row_sums_); ++k) {
+    const Sum& sum = sums_[k];
+    const double* const r = residual_.data() + sum.unknown;
+    if (k < static_cast<std::size_t>(num_node_sums_)) {
+      const NodeSize now = size_up(plan_.unknowns.motions, r);
+      if (now.force > most.force) size.worst_force_node = sum.owner;
+      if (now.moment > most.moment) size.worst_moment_node = sum.owner;
+      most.force = std::max(most.force, now.force);
+      most.moment = std::max(most.moment, now.moment);
+      continue;
+    }
+    for (int i = 0; i < sum.size; ++i) {
+      if (std::abs(r[i]) <= most.length) continue;
+      most.length = std::abs(r[i]);
+      size.worst_joint = sum.owner;
+    }
+  }
 }
 
 ResidualSize System::round_off_floor(const State&) const {

@@ -156,5 +156,14 @@ TYPED_TEST(PackOf, arrays_turn_into_packs_and_back) {
   }
 }
 
+TYPED_TEST(PackOf, lanes_are_loaded_from_where_they_lie) {
+  using P = TypeParam;
+  const std::vector<double> from{0.5, 1.5, 2.5, 3.5, 4.5};
+  int at[P::width];
+  for (int l = 0; l < P::width; ++l) at[l] = (3 * l + 1) % 5;
+  const P p = load_lanes<P::width>(from.data(), at);
+  for (int l = 0; l < P::width; ++l) EXPECT_EQ(p[l], 0.5 + at[l]);
+}
+
 }  // namespace
 }  // namespace bough::lanes

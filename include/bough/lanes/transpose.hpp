@@ -1,6 +1,9 @@
 #pragma once
 /// Between W plain arrays and one array of packs, entry by entry: to[i] lane l = from[l][i] and back. Registers of eight or four doubles are
 /// turned as square blocks, since single lanes that are written and then read as a whole stall the processor.
+#include <cstddef>
+#include <utility>
+
 #include "bough/lanes/pack.hpp"
 
 namespace bough::lanes {
@@ -59,15 +62,73 @@ template <int N>
 struct Anywhere {
   typedef double Real __attribute__((vector_size(8 * N), aligned(8), may_alias));
 };
+
+#if BOUGH_REGISTER_DOUBLES >= 4
+/// The first `count` of four doubles, 1 <= count <= 4; what lies behind them is not read.
+inline Real4 load_some(const double* from, int count) {
+  if (count == 4) return *reinterpret_cast<const Anywhere<4>::Real*>(from);
+  static constexpr long long wanted[8] = {-1, -1, -1, -1, 0, 0, 0, 0};
+  const __m256i mask = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(wanted + 4 - count));
+  return Real4(_mm256_maskload_pd(from, mask));
+}
+
+/// Arrays of fewer numbers than a register of eight holds, and all of them where it holds four: squares of four.
+template <int W>
+void gather_by_fours(const double* const (&from)[W], int count, Pack<W>* to) {
+  constexpr int groups = W / 4;
+  for (int at = 0; at < count; at += 4) {
+    const int some = count < 4 ? count : 4, i = at + some <= count ? at : count - some;
+    Real4 square[groups][4];
+    BOUGH_UNROLL
+    for (int g = 0; g < groups; ++g) {
+      BOUGH_UNROLL
+      for (int l = 0; l < 4; ++l) square[g][l] = load_some(from[4 * g + l] + i, some);
+      transpose_square(square[g]);
+    }
+    for (int k = 0; k < some; ++k)
+      for (int c = 0; c < Pack<W>::chunks; ++c) {
+        if constexpr (Pack<W>::chunk == 4)
+          to[i + k].r[c] = square[c][k];
+        else  // whole registers, since two halves that are written and then read as a whole stall as well
+          to[i + k].r[c] = __builtin_shufflevector(square[2 * c][k], square[2 * c + 1][k], 0, 1, 2, 3, 4, 5, 6, 7);
+      }
+  }
+}
+template <int W>
+void scatter_by_fours(const Pack<W>* from, int count, double* const (&to)[W]) {
+  using Loose = typename Anywhere<4>::Real;
+  constexpr int groups = W / 4;
+  for (int at = 0; at < count; at += 4) {
+    const int i = at + 4 <= count ? at : count - 4;
+    BOUGH_UNROLL
+    for (int g = 0; g < groups; ++g) {
+      Real4 square[4];
+      BOUGH_UNROLL
+      for (int k = 0; k < 4; ++k) {
+        if constexpr (Pack<W>::chunk == 4) {
+          square[k] = from[i + k].r[g];
+        } else {
+          const auto whole = from[i + k].r[g / 2];
+          square[k] = g % 2 == 0 ? __builtin_shufflevector(whole, whole, 0, 1, 2, 3)
+                                 : __builtin_shufflevector(whole, whole, 4, 5, 6, 7);
+        }
+      }
+      transpose_square(square);
+      BOUGH_UNROLL
+      for (int l = 0; l < 4; ++l) *reinterpret_cast<Loose*>(to[4 * g + l] + i) = square[l];
+    }
+  }
+}
+#endif
 }  // namespace detail
 
 /// to[i] lane l <- from[l][i] for i < count. The last block of a count that is no multiple overlaps the one before.
 template <int W>
 void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
   constexpr int side = Pack<W>::chunk;
-  if constexpr (side >= 4) {
-    using Loose = typename detail::Anywhere<side>::Real;
+  if constexpr (side == 8) {
     if (count >= side) {
+      using Loose = typename detail::Anywhere<side>::Real;
       for (int at = 0; at < count; at += side) {
         const int i = at + side <= count ? at : count - side;
         for (int c = 0; c < Pack<W>::chunks; ++c) {
@@ -82,6 +143,9 @@ void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
       return;
     }
   }
+#if BOUGH_REGISTER_DOUBLES >= 4
+  if constexpr (side >= 4) return detail::gather_by_fours(from, count, to);
+#endif
   for (int i = 0; i < count; ++i)
     for (int l = 0; l < W; ++l) to[i].set(l, from[l][i]);
 }
@@ -90,9 +154,9 @@ void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
 template <int W>
 void scatter_lanes(const Pack<W>* from, int count, double* const (&to)[W]) {
   constexpr int side = Pack<W>::chunk;
-  if constexpr (side >= 4) {
-    using Loose = typename detail::Anywhere<side>::Real;
+  if constexpr (side == 8) {
     if (count >= side) {
+      using Loose = typename detail::Anywhere<side>::Real;
       for (int at = 0; at < count; at += side) {
         const int i = at + side <= count ? at : count - side;
         for (int c = 0; c < Pack<W>::chunks; ++c) {
@@ -107,8 +171,27 @@ void scatter_lanes(const Pack<W>* from, int count, double* const (&to)[W]) {
       return;
     }
   }
+#if BOUGH_REGISTER_DOUBLES >= 4
+  if constexpr (side >= 4)
+    if (count >= 4) return detail::scatter_by_fours(from, count, to);
+#endif
   for (int i = 0; i < count; ++i)
     for (int l = 0; l < W; ++l) to[l][i] = from[i][l];
+}
+
+namespace detail {
+template <int W, class Place, std::size_t... I>
+Pack<W> load_lanes(const double* from, const Place* at, std::index_sequence<I...>) {
+  Pack<W> p;
+  for (int c = 0; c < Pack<W>::chunks; ++c)
+    p.r[c] = typename Pack<W>::Real{from[at[c * Pack<W>::chunk + static_cast<int>(I)]]...};
+  return p;
+}
+}  // namespace detail
+/// Lane l <- from[at[l]], no lane through memory.
+template <int W, class Place>
+Pack<W> load_lanes(const double* from, const Place* at) {
+  return detail::load_lanes<W>(from, at, std::make_index_sequence<static_cast<std::size_t>(Pack<W>::chunk)>());
 }
 
 }  // namespace BOUGH_REGISTER_NAMESPACE

@@ -92,8 +92,9 @@ class System {
   /// Puts an element's matrix, row-major in all of its unknowns, in the place of its tangent, or adds it there.
   void set_matrix(int element, int num_unknowns, const double* entries);
   void add_matrix(int element, int num_unknowns, const double* entries);
-  /// Of the residual last evaluated.
+  /// Of the residual last evaluated, without the worst nodes and joint: name_worst looks for these, for messages.
   ResidualSize residual_size() const;
+  void name_worst(ResidualSize& size) const;
   /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment.
   ResidualSize round_off_floor(const State& state) const;
   /// Residual that iterations of this run could not make smaller although they contracted: zero until one met it, and again after 64 iterations.
@@ -205,13 +206,25 @@ class System {
     bool is_finite;
   };
 
+  /// A sum of parts of elements: of a block or, after all blocks, of the forces on a node that is held.
+  struct Sum {
+    std::int64_t use_begin, use_end;  ///< in uses_
+    std::int64_t unknown;             ///< the first
+    int size;
+    int owner;  ///< node or joint
+  };
+
   void place_parts();
+  void set_parts(std::size_t element, const double* residual, const double* magnitude);
   int num_unknowns_of(std::size_t element) const;
   std::optional<Trouble> solve_free(const double* rhs, double* x, bool check);
   void find_pairs();
   void find_unsettled(State& state);
-  void sum_held_node(std::size_t held, ChunkSize& chunk) const;
-  void sum_blocks(std::int64_t begin, std::int64_t end);
+  template <int Count>
+  ChunkSize sum_nodes(std::size_t begin, std::size_t end);
+  void copy_rows(std::size_t begin, std::size_t end, ChunkSize& chunk);
+  void sum_held_node(const Sum& sum, ChunkSize& chunk) const;
+  void sum_parts(std::int64_t begin, std::int64_t end);
   double largest_violation(const State& state, int order, double length, int* joint) const;
   void add_multipliers(State& state, const double* x, double factor) const;
   void set_frames();
@@ -244,21 +257,27 @@ class System {
       row_series_;  ///< scratch of constraint_series, constraint_violation
   mutable std::vector<lanes::Taylor<double, 1>> law_rate_series_;  ///< scratch of constraint_violations
   mutable std::vector<Violations> violation_parts_;
-  std::vector<std::int64_t> element_begin_;  ///< place of an element's residual
-  std::vector<double> element_residual_;
-  std::vector<double> element_magnitude_;  ///< sum of |terms| of each entry of element_residual_
-  std::vector<int> joint_of_element_;      ///< index in plan.joints or -1
+  std::vector<std::int64_t> element_begin_;  ///< unknowns of the elements before it
+  /// Parts of an element, from 2 element_begin_ on: of each of its nodes, then of its rows, entries of the residual and then the sums of |terms| of
+  /// these.
+  std::vector<double> parts_;
+  std::vector<int> joint_of_element_;  ///< index in plan.joints or -1
   std::vector<int> joint_of_block_;
   std::vector<int> node_of_block_;           ///< -1: of a joint
   std::vector<std::int64_t> unknown_begin_;  ///< by block, and the end: first unknown
   std::vector<std::int64_t> node_begin_;     ///< first unknown of each node, or -1
-  std::vector<std::int64_t> use_begin_;      ///< by block, then by held node: range in uses_
-  std::vector<std::int64_t> uses_;           ///< places in element_residual_ that add up to it, fixed order
-  std::vector<double> residual_, magnitude_;
+  std::vector<Sum> sums_;                    ///< nodes, then joints, then held nodes, each in the order of blocks
+  std::int64_t num_node_sums_ = 0, num_row_sums_ = 0;
+  std::vector<std::int64_t> uses_;  ///< places in parts_ that add up, fixed order
+  std::vector<double> residual_;
   mutable std::vector<double> floor_;                 ///< scratch of round_off_floor
   mutable std::vector<std::int64_t> floor_unknowns_;  ///< scratch of round_off_floor
-  std::vector<ChunkSize> chunk_sizes_;                ///< of residual_, by chunk of blocks
+  std::vector<ChunkSize> chunk_sizes_;                ///< of residual_, by chunk of sums
   std::vector<char> is_length_;  ///< by unknown: whether it is the multiplier of a length, in blocks of joints
+  struct MultiplierPlace {
+    std::size_t multiplier, unknown;
+  };
+  std::vector<MultiplierPlace> multiplier_places_;
   std::vector<NodePair> pairs_;  ///< whose relative motions relative_size looks at
   std::vector<motion::Vec6<double>>
       turned_;  ///< scratch of relative_size: increments of the nodes in the axes of the ground
