@@ -97,6 +97,7 @@ void LanePlanner::add_elements(LaneFront& f) {
     }
   }
   f.element_end = static_cast<int>(plan_.elements.size());
+  f.values = plan_.num_values / lanes_wide;
   for (int i = f.element_begin; i < f.element_end; ++i) {
     LaneElement& slot = plan_.elements[at(i)];
     slot.values = plan_.num_values;

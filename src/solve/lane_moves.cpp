@@ -70,7 +70,7 @@ void LanePlanner::add_moves(LaneFront& f) {
              .columns = columns.length,
              .row_step = 1,
              .column_step = from.boundary,
-             .child = c},
+             .child = c - f.child_begin},
             rows.to, columns.to);
       }
   }
@@ -80,7 +80,7 @@ void LanePlanner::add_moves(LaneFront& f) {
     for (auto p = element.place_begin; p < element.place_end; ++p) {
       int column = 0;
       for (auto q = element.place_begin; q < element.place_end; ++q) {
-        add({.source = element.values / lanes_wide + static_cast<std::int64_t>(row) * element.size + column,
+        add({.source = element.values / lanes_wide - f.values + static_cast<std::int64_t>(row) * element.size + column,
              .rows = plan_.places[at(p)].length,
              .columns = plan_.places[at(q)].length,
              .row_step = element.size,
@@ -94,6 +94,29 @@ void LanePlanner::add_moves(LaneFront& f) {
   fill_gaps(0, 0, n, n);
   f.move_end = static_cast<int>(plan_.moves.size());
   f.gap_end = static_cast<int>(plan_.gaps.size());
+  share_moves(f);
+}
+
+/// Takes the lists of one of the last fronts whose lists were new, where they are the same.
+void LanePlanner::share_moves(LaneFront& f) {
+  constexpr std::size_t remembered = 32;
+  const auto same = [](const auto& list, int begin_a, int end_a, int begin_b, int end_b) {
+    return std::equal(list.begin() + begin_a, list.begin() + end_a, list.begin() + begin_b, list.begin() + end_b);
+  };
+  for (const MoveLists& known : move_lists_) {
+    if (!same(plan_.moves, f.move_begin, f.move_end, known.move_begin, known.move_end) ||
+        !same(plan_.gaps, f.gap_begin, f.gap_end, known.gap_begin, known.gap_end))
+      continue;
+    plan_.moves.resize(at(f.move_begin));
+    plan_.gaps.resize(at(f.gap_begin));
+    f.move_begin = known.move_begin;
+    f.move_end = known.move_end;
+    f.gap_begin = known.gap_begin;
+    f.gap_end = known.gap_end;
+    return;
+  }
+  if (move_lists_.size() == remembered) move_lists_.erase(move_lists_.begin());
+  move_lists_.push_back({f.move_begin, f.move_end, f.gap_begin, f.gap_end});
 }
 
 void LanePlanner::place_work(LaneGroup& group) {

@@ -26,17 +26,19 @@ struct Place {
   int length;  ///< unknowns
 };
 
-/// One block of an element or of a child's Schur complement on its way into a front; offsets and steps in packs.
+/// One block of an element or of a child's Schur complement on its way into a front; offsets and steps in packs. Fronts that are put together
+/// alike share their moves and gaps, which are read with every front.
 struct LaneMove {
-  std::int64_t source = 0;  ///< from the element store, or from the child's Schur complement
+  std::int64_t source = 0;  ///< from LaneFront::values, or from the child's Schur complement
   std::int64_t target = 0;  ///< from the factor, or from the Schur complement of the front
   int rows = 0, columns = 0;
   int row_step = 0, column_step = 0;  ///< of the source
   int target_step = 0;                ///< between columns of the target
-  int child = -1;                     ///< index in LanePlan::children; -1: an element
+  int child = -1;                     ///< index from LaneFront::child_begin on; -1: an element
   bool to_schur = false;
   bool is_triangle = false;  ///< a block of the diagonal of a symmetric front: what stands above is left out
   bool is_first = false;     ///< nothing is there yet: written, not added
+  bool operator==(const LaneMove&) const = default;
 };
 
 /// A run of packs that no element and no child reaches.
@@ -44,6 +46,7 @@ struct LaneGap {
   std::int64_t target;
   int count;
   bool in_schur;
+  bool operator==(const LaneGap&) const = default;
 };
 
 /// Rows of a child's boundary that go to adjacent rows of the parent.
@@ -70,8 +73,8 @@ struct LaneFront {
   int child_begin = 0, child_end = 0;           ///< LanePlan::children
   int move_begin = 0, move_end = 0;             ///< LanePlan::moves
   int gap_begin = 0, gap_end = 0;               ///< LanePlan::gaps
-  std::int64_t schur =
-      0;  ///< first pack of the Schur complement, then the vector: in the group's scratch, or lasting where it is a top
+  std::int64_t values = 0;  ///< first pack of its element matrices, in the element store
+  std::int64_t schur = 0;   ///< first pack of the Schur complement, then of the vector: in the group's scratch; of a top where it lasts
   std::int64_t factor = 0;    ///< first pack of the factor: e columns of all n rows, then the b columns of U12
   std::int64_t scale = 0;     ///< first of n packs of row scales
   std::int64_t unknown = 0;   ///< first of 8 x eliminated unknowns (-1: padding), lanes innermost

@@ -59,6 +59,7 @@ class LanePlanner {
   /// Every block of every contributor with its place, in fixed order: what comes first is written, what follows is added, what is left is
   /// a gap. So no front is cleared as a whole.
   void add_moves(LaneFront& f);
+  void share_moves(LaneFront& f);
   /// Schur complements and vectors live until the parent has taken them on the way up, and vectors from there on the way down: first fit in
   /// the group's scratch. Those of the top last.
   void place_work(LaneGroup& group);
@@ -68,6 +69,10 @@ class LanePlanner {
   bool use_lanes_, is_symmetric_;
   std::vector<int> largest_;
   std::vector<char> is_path_;
+  struct MoveLists {
+    int move_begin, move_end, gap_begin, gap_end;
+  };
+  std::vector<MoveLists> move_lists_;  ///< the last that were new
   LanePlan plan_;
 };
 

@@ -76,7 +76,7 @@ void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
     for (int i = f.move_begin; i < f.move_end; ++i) {
       const LaneMove& move = lanes.moves[at(i)];
       for (int row = 0; move.child < 0 && row < move.rows; ++row)
-        transfers.fetch(elements.values() + (move.source + static_cast<std::int64_t>(row) * move.row_step) * wide,
+        transfers.fetch(elements.values() + (f.values + move.source + static_cast<std::int64_t>(row) * move.row_step) * wide,
                         move.is_triangle ? row + 1 : move.columns);
     }
   } else {
@@ -198,10 +198,10 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
     const LaneMove& move = lanes.moves[at(i)];
     double* target = (move.to_schur ? schur : factor) + move.target * wide;
     if (move.child < 0) {
-      move_block(elements.values() + move.source * wide, move, target);
+      move_block(elements.values() + (f.values + move.source) * wide, move, target);
       continue;
     }
-    const LaneChild& child = lanes.children[at(move.child)];
+    const LaneChild& child = lanes.children[at(f.child_begin + move.child)];
     const double* source = schur_of(lanes.fronts[at(child.front)]) + move.source * wide;
     if (child.is_identity)
       move_block(source, move, target);
