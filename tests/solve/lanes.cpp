@@ -1,12 +1,14 @@
 /// Sub-domains in lockstep: the kernels of eight fronts against one front at a time, and whole solutions with and without lanes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include "../../src/solve/dense.hpp"
 #include "../../src/solve/lane_kernels.hpp"
+#include "../../src/solve/line_allocator.hpp"
 #include "../../src/solve/transfers.hpp"
 #include "solving.hpp"
 #include "support/untrapped.hpp"
@@ -216,6 +218,58 @@ TEST(Lanes, long_chains_go_in_lanes_and_give_the_solution_of_the_scalar_path) {
     const Eigen::VectorXd b = with.random_rhs(5), x = with.solve(b), y = without.solve(b);
     EXPECT_LE(with.report.backward_error, 1e-14);
     EXPECT_LE(with.scaled_difference(x, y), 1e-9);
+  }
+}
+
+/// Written past the caches from 16 MB of factors on, which the other scenes of this file do not have.
+TEST(Lanes, factors_that_exceed_the_caches_are_those_of_the_scalar_path_as_well) {
+  Scene scene = make_chain(6, 3600, 4);
+  for (const auto symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric}) {
+    if (symmetry == solve::Symmetry::symmetric)
+      for (Eigen::MatrixXd& a : scene.elements) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
+    Solved with(scene, {}, {.symmetry = symmetry, .refinement_steps = 0});
+    Solved without(scene, {}, {.symmetry = symmetry, .lanes = false, .refinement_steps = 0});
+    ASSERT_TRUE(with.factor().ok());
+    ASSERT_TRUE(without.factor().ok());
+    EXPECT_GT(with.solver.counters().memory_bytes, 60 << 20);
+    const Eigen::VectorXd b = with.random_rhs(5), x = with.solve(b), y = without.solve(b);
+    EXPECT_LE(with.report.backward_error, 1e-14);
+    EXPECT_LE(with.scaled_difference(x, y), 1e-8);
+    with.solver.trust_symmetry(symmetry != solve::Symmetry::general);
+    Eigen::VectorXd again(b.size());
+    ASSERT_TRUE(with.solver.factor(schedule::make_serial_walker(), {}, b.data()).ok());
+    (void)with.solver.finish(schedule::make_serial_walker(), again.data());
+    EXPECT_EQ(x, again);
+  }
+}
+
+/// Whatever is asked for between two steps, and however much waits.
+TEST(Lanes, transfers_copy_all_that_waits_and_nothing_else) {
+  constexpr std::int64_t packs = 700;
+  std::vector<double, solve::LineAllocator<double>> from(packs * lanes_wide), to;
+  for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<double>(i + 1);
+  std::mt19937 random(3);
+  for (int round = 0; round < 50; ++round) {
+    to.assign(from.size(), 0.0);
+    std::vector<double> expected(from.size(), 0.0);
+    solve::Transfers transfers;
+    for (std::int64_t at = 0; at < packs;) {
+      const std::int64_t count = std::min<std::int64_t>(random() % 17, packs - at);  // none, now and then
+      const double* source = from.data() + at * lanes_wide;
+      if (random() % 3 == 0) {
+        transfers.fetch(source, count);
+      } else {
+        transfers.write(source, count, to.data() + at * lanes_wide);
+        std::copy(source, source + count * lanes_wide, expected.begin() + at * lanes_wide);
+      }
+      at += count;
+      if (random() % 5 == 0) transfers.spread(1 + static_cast<int>(random() % 9));
+      if (random() % 2 == 0) transfers.step();
+      if (random() % 40 == 0) transfers.finish();
+    }
+    transfers.finish();
+    solve::Transfers::end_writes();
+    EXPECT_TRUE(std::equal(to.begin(), to.end(), expected.begin())) << round;
   }
 }
 
