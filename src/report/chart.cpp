@@ -77,7 +77,9 @@ struct Tick {
 std::vector<Tick> ticks_of(double low, double high, Scale scale, int wanted) {
   std::vector<Tick> ticks;
   if (scale == Scale::linear) {
-    for (const double t : round_ticks(low, high, wanted)) ticks.push_back({t, io::rounded_text(t, 6)});
+    const std::vector<double> places = round_ticks(low, high, wanted);
+    const std::vector<std::string> labels = tick_labels(places);
+    for (std::size_t k = 0; k < places.size(); ++k) ticks.push_back({places[k], labels[k]});
     return ticks;
   }
   const int first = static_cast<int>(std::floor(low)), last = static_cast<int>(std::ceil(high));

@@ -49,13 +49,19 @@ std::string column_path(const io::History& history, std::size_t column, const Sc
 
 std::string axes(const Scale& scale, std::string_view time_label) {
   std::string text;
-  for (const double y : round_ticks(scale.y.low, scale.y.high, 5)) {
-    text += line_element("grid", left, scale.to_y(y), right, scale.to_y(y));
-    text += text_element("tiny soft", left - 6.0, scale.to_y(y) + 4.0, "end", io::rounded_text(y, 6));
+  const std::vector<double> levels = round_ticks(scale.y.low, scale.y.high, 5);
+  const std::vector<std::string> of_levels = tick_labels(levels);
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const double y = scale.to_y(levels[k]);
+    text += line_element("grid", left, y, right, y);
+    text += text_element("tiny soft", left - 6.0, y + 4.0, "end", of_levels[k]);
   }
-  for (const double x : round_ticks(scale.x.low, scale.x.high, 6)) {
-    text += line_element("axis", scale.to_x(x), bottom, scale.to_x(x), bottom + 4.0);
-    text += text_element("tiny soft", scale.to_x(x), bottom + 17.0, "middle", io::rounded_text(x, 6));
+  const std::vector<double> times = round_ticks(scale.x.low, scale.x.high, 6);
+  const std::vector<std::string> of_times = tick_labels(times);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double x = scale.to_x(times[k]);
+    text += line_element("axis", x, bottom, x, bottom + 4.0);
+    text += text_element("tiny soft", x, bottom + 17.0, "middle", of_times[k]);
   }
   return text + line_element("axis", left, bottom, right, bottom) +
          text_element("tiny soft", right, height - 6.0, "end", time_label);
@@ -72,6 +78,19 @@ std::vector<double> round_ticks(double low, double high, int wanted) {
   const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
   for (double k = first; k <= last && ticks.size() < 20; k += 1.0) ticks.push_back(k * step);
   return ticks;
+}
+
+std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
+  std::vector<std::string> labels(ticks.size());
+  std::transform(ticks.begin(), ticks.end(), labels.begin(), [](double t) { return io::rounded_text(t, 6); });
+  if (std::adjacent_find(labels.begin(), labels.end()) == labels.end()) return labels;
+  const double roundest = *std::min_element(ticks.begin(), ticks.end(), [](double a, double b) {
+    return io::rounded_text(a, 12).size() < io::rounded_text(b, 12).size();
+  });
+  for (std::size_t k = 0; k < ticks.size(); ++k)
+    if (ticks[k] != roundest)
+      labels[k] = (ticks[k] > roundest ? "+" : "") + io::rounded_text(ticks[k] - roundest, 3);
+  return labels;
 }
 
 Plot make_plot(const io::History& history, const std::string& title, const std::vector<std::size_t>& columns,

@@ -78,9 +78,12 @@ std::string panel(const io::SplitTable& table, const io::SplitSeries& series, co
     text += line_element("grid", left, scale.to_y(y), x_end, scale.to_y(y));
     text += text_element("tiny soft", left - 6.0, scale.to_y(y) + 4.0, "end", io::rounded_text(y, 6));
   }
-  for (const double x : x_ticks(table, scale)) {
-    text += line_element("axis", scale.to_x(x), y_end, scale.to_x(x), y_end + 4.0);
-    text += text_element("tiny soft", scale.to_x(x), y_end + 17.0, "middle", io::rounded_text(x, 6));
+  const std::vector<double> places = x_ticks(table, scale);
+  const std::vector<std::string> labels = tick_labels(places);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const double x = scale.to_x(places[k]);
+    text += line_element("axis", x, y_end, x, y_end + 4.0);
+    text += text_element("tiny soft", x, y_end + 17.0, "middle", labels[k]);
   }
   text += line_element("axis", left, y_end, x_end, y_end);
   text += text_element("tiny soft", x_end, scale.height - 6.0, "end", label_of(table.abscissa));

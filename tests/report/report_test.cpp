@@ -132,6 +132,13 @@ TEST(Plot, ticks_are_round_and_inside) {
   }
 }
 
+TEST(Plot, labels_of_neighbours_differ) {
+  using Labels = std::vector<std::string>;
+  EXPECT_EQ(tick_labels({0.0, 0.5, 1.0}), (Labels{"0", "0.5", "1"}));
+  EXPECT_EQ(tick_labels({0.2499999, 0.25, 0.2500001, 0.2500002}), (Labels{"-1e-07", "0.25", "+1e-07", "+2e-07"}));
+  EXPECT_EQ(tick_labels({4.0, 4.0 + 1e-12}), (Labels{"4", "+1e-12"}));
+}
+
 TEST(Plot, of_many_rows_is_small_and_keeps_its_peak) {
   io::History history;
   history.header.columns = {"a"};
