@@ -88,8 +88,7 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
     return io::rounded_text(a, 12).size() < io::rounded_text(b, 12).size();
   });
   for (std::size_t k = 0; k < ticks.size(); ++k)
-    if (ticks[k] != roundest)
-      labels[k] = (ticks[k] > roundest ? "+" : "") + io::rounded_text(ticks[k] - roundest, 3);
+    if (ticks[k] != roundest) labels[k] = (ticks[k] > roundest ? "+" : "") + io::rounded_text(ticks[k] - roundest, 3);
   return labels;
 }
 

@@ -73,8 +73,9 @@ struct LaneFront {
   int child_begin = 0, child_end = 0;           ///< LanePlan::children
   int move_begin = 0, move_end = 0;             ///< LanePlan::moves
   int gap_begin = 0, gap_end = 0;               ///< LanePlan::gaps
-  std::int64_t values = 0;  ///< first pack of its element matrices, in the element store
-  std::int64_t schur = 0;   ///< first pack of the Schur complement, then of the vector: in the group's scratch; of a top where it lasts
+  std::int64_t values = 0;                      ///< first pack of its element matrices, in the element store
+  std::int64_t schur =
+      0;  ///< first pack of the Schur complement, then of the vector: in the group's scratch; of a top where it lasts
   std::int64_t factor = 0;    ///< first pack of the factor: e columns of all n rows, then the b columns of U12
   std::int64_t scale = 0;     ///< first of n packs of row scales
   std::int64_t unknown = 0;   ///< first of 8 x eliminated unknowns (-1: padding), lanes innermost

@@ -76,8 +76,9 @@ void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
     for (int i = f.move_begin; i < f.move_end; ++i) {
       const LaneMove& move = lanes.moves[at(i)];
       for (int row = 0; move.child < 0 && row < move.rows; ++row)
-        transfers.fetch(elements.values() + (f.values + move.source + static_cast<std::int64_t>(row) * move.row_step) * wide,
-                        move.is_triangle ? row + 1 : move.columns);
+        transfers.fetch(
+            elements.values() + (f.values + move.source + static_cast<std::int64_t>(row) * move.row_step) * wide,
+            move.is_triangle ? row + 1 : move.columns);
     }
   } else {
     for (int i = f.element_begin; i < f.element_end; ++i) {
@@ -240,7 +241,7 @@ void Hierarchical::State::forward_lane_front(int index, const double* factor) {
   } else {
     for (int k = 0; k < f.eliminated * wide; ++k) v[k] = visit_rhs[unknown[k]];
   }
-  std::memset(v + f.eliminated * wide, 0, sizeof(double) * at(f.boundary) * wide);
+  std::fill_n(v + f.eliminated * wide, f.boundary * wide, 0.0);
   for (int c = f.child_begin; c < f.child_end; ++c) {
     const LaneChild& child = lanes.children[at(c)];
     const double* g = vector_of(lanes.fronts[at(child.front)]);
@@ -254,7 +255,7 @@ void Hierarchical::State::forward_lane_front(int index, const double* factor) {
     }
   }
   forward_lanes(factor, f.size(), f.eliminated, v);
-  std::memcpy(lane_vectors.data() + f.unknown, v, sizeof(double) * wide * at(f.eliminated));
+  std::copy_n(v, f.eliminated * wide, lane_vectors.data() + f.unknown);
   const LaneSet alone = scalar_lanes[at(index)];
   for (int l = 0; alone != 0 && l < wide; ++l) {
     if ((alone >> l & 1) == 0) continue;
@@ -269,7 +270,7 @@ void Hierarchical::State::forward_lane_front(int index, const double* factor) {
 void Hierarchical::State::backward_lane_front(int index) {
   const LaneFront& f = lanes.fronts[at(index)];
   double* v = vector_of(f);
-  std::memcpy(v, lane_vectors.data() + f.unknown, sizeof(double) * wide * at(f.eliminated));
+  std::copy_n(lane_vectors.data() + f.unknown, f.eliminated * wide, v);
   if (reads_factors_ahead && index > 0) prefetch_factor(index - 1, true);
   (f.is_symmetric ? backward_lanes_symmetric : backward_lanes)(lane_factors.data() + f.factor * wide, f.size(),
                                                                f.eliminated, v);

@@ -46,7 +46,7 @@ void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
     if (f.front[at(l)] != tree::none)
       for_boundary(f.front[at(l)], [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + l] = x[u]; });
   double* r = vector_of(f);
-  std::memset(r, 0, sizeof(double) * wide * at(f.size()));
+  std::fill_n(r, f.size() * wide, 0.0);
   for (int c = f.child_begin; c < f.child_end; ++c) {
     const LaneChild& child = lanes.children[at(c)];
     const double* g = vector_of(lanes.fronts[at(child.front)]);
