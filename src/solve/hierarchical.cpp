@@ -77,7 +77,8 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   if (options.elimination == Elimination::plain) plain.resize(at(tree.num_subdomains()));
   for (LaneDoubles* pool : {&lane_vectors, &lane_inverse_column_scales}) pool->assign(lanes.unknowns.size(), 0.0);
   lane_row_scales.assign(at(lanes.scale_size * lanes_wide), 0.0);
-  lane_tops.assign(at(lanes.top_size * lanes_wide), 0.0);
+  lane_tops.assign(at(std::max<std::int64_t>(lanes.top_size, 1) * lanes_wide),
+                   0.0);  // tops without unknowns, too, point into it
   scalar_lanes.assign(lanes.fronts.size(), 0);
   sizes.resize(lanes.groups.size());
   asymmetries.resize(lanes.groups.size());
