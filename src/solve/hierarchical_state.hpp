@@ -154,6 +154,7 @@ struct Hierarchical::State {
   void fetch_front(int front, Transfers& transfers) const;
   void prefetch_factor(int front, bool downward) const;
   void factor_lane_front(int index, double* factor, Transfers& transfers);
+  void add_children_vectors(const LaneFront& f, double* v);
   void forward_lane_front(int index, const double* factor);
   void backward_lane_front(int index);
   void backward_left_lane_front(int index, std::vector<double>& left);

@@ -232,16 +232,8 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
   mark(tree::Stage::forward);
 }
 
-void Hierarchical::State::forward_lane_front(int index, const double* factor) {
-  const LaneFront& f = lanes.fronts[at(index)];
-  double* v = vector_of(f);
-  const int* unknown = lanes.unknowns.data() + f.unknown;
-  if (f.has_padding) {
-    for (int k = 0; k < f.eliminated * wide; ++k) v[k] = unknown[k] < 0 ? 0.0 : visit_rhs[unknown[k]];
-  } else {
-    for (int k = 0; k < f.eliminated * wide; ++k) v[k] = visit_rhs[unknown[k]];
-  }
-  std::fill_n(v + f.eliminated * wide, f.boundary * wide, 0.0);
+/// What the visits of a walk up have left in the boundaries of the children.
+void Hierarchical::State::add_children_vectors(const LaneFront& f, double* v) {
   for (int c = f.child_begin; c < f.child_end; ++c) {
     const LaneChild& child = lanes.children[at(c)];
     const double* g = vector_of(lanes.fronts[at(child.front)]);
@@ -254,6 +246,19 @@ void Hierarchical::State::forward_lane_front(int index, const double* factor) {
       }
     }
   }
+}
+
+void Hierarchical::State::forward_lane_front(int index, const double* factor) {
+  const LaneFront& f = lanes.fronts[at(index)];
+  double* v = vector_of(f);
+  const int* unknown = lanes.unknowns.data() + f.unknown;
+  if (f.has_padding) {
+    for (int k = 0; k < f.eliminated * wide; ++k) v[k] = unknown[k] < 0 ? 0.0 : visit_rhs[unknown[k]];
+  } else {
+    for (int k = 0; k < f.eliminated * wide; ++k) v[k] = visit_rhs[unknown[k]];
+  }
+  std::fill_n(v + f.eliminated * wide, f.boundary * wide, 0.0);
+  add_children_vectors(f, v);
   forward_lanes(factor, f.size(), f.eliminated, v);
   std::copy_n(v, f.eliminated * wide, lane_vectors.data() + f.unknown);
   const LaneSet alone = scalar_lanes[at(index)];

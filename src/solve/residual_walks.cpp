@@ -47,18 +47,7 @@ void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
       for_boundary(f.front[at(l)], [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + l] = x[u]; });
   double* r = vector_of(f);
   std::fill_n(r, f.size() * wide, 0.0);
-  for (int c = f.child_begin; c < f.child_end; ++c) {
-    const LaneChild& child = lanes.children[at(c)];
-    const double* g = vector_of(lanes.fronts[at(child.front)]);
-    for (auto p = child.run_begin; p < child.run_end; ++p) {
-      const LaneRun& rows = lanes.runs[at(p)];
-      if (child.is_identity) {
-        add_packs(g + rows.from * wide, rows.length, r + rows.to * wide);
-      } else {
-        add_packs(g + rows.from * wide, rows.length, r + rows.to * wide, child.from.data());
-      }
-    }
-  }
+  add_children_vectors(f, r);
   for (int i = f.element_begin; i < f.element_end; ++i) {
     const LaneElement& element = lanes.elements[at(i)];
     const double* values = elements.values() + element.values;
