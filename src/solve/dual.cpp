@@ -23,7 +23,7 @@ Dual::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const D
       batches(elements.single_batches()),
       fronts(elements, t),
       buffers(at(t.num_unknowns())) {
-  for (auto* v : {&scales.row, &scales.column, &scales.weight, &scales.given}) v->assign(at(tree.num_unknowns()), 1.0);
+  for (auto* v : {&scales.row, &scales.column, &scales.weight}) v->assign(at(tree.num_unknowns()), 1.0);
   is_constraint.assign(at(tree.num_unknowns()), 0);
   for (int b = 0; b < graph.num_blocks(); ++b)
     for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u)
@@ -101,7 +101,7 @@ void Dual::State::solve_scaled(const tree::Walker& walker, const double* b, doub
 FactorStatus Dual::factor(const tree::Walker& walker, Prepare prepare) {
   State& s = *state_;
   s.status = {};
-  if (s.scales_wanted) s.elements.eval_scales(s.scales);
+  if (s.scales_wanted) s.elements.eval_scales(s.scales, s.buffers.residual);
   s.scales_wanted = false;
   run_prepare(s.tree, walker, prepare);
   ++s.counters.factorizations;

@@ -20,7 +20,6 @@ struct Scales {
   std::vector<double> row, column;
   std::vector<double>
       weight;  ///< column / exact column scale, in [2^-1/2, 2^1/2]: measures multipliers free of the rounding
-  std::vector<double> given;        ///< scratch: sums of |diagonal| before rows lend any
   std::int64_t empty_unknown = -1;  ///< first unknown whose row or column is zero, or -1
   bool finite = true;
 };
@@ -70,8 +69,8 @@ class ElementStore {
   /// r = b - A x and the backward errors of x in scaled variables.
   Errors eval_residual(const tree::Walker& walker, const Scales& scales, const double* x, const double* b, double* r);
 
-  /// Serial, one pass over the element matrices. No allocation.
-  void eval_scales(Scales& scales) const;
+  /// Serial, one pass over the element matrices. No allocation. scratch: num_unknowns numbers, overwritten.
+  void eval_scales(Scales& scales, std::vector<double>& scratch) const;
   /// Largest entry of D (A - A^T) D of one element, D the scales of columns; infinity or NaN where A is not finite.
   double asymmetry_of(int element, const Scales& scales) const;
   /// Largest row sum of magnitudes of the scaled matrix. Serial.

@@ -41,7 +41,6 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   scales.row.assign(n, 1.0);
   scales.column.assign(n, 1.0);
   scales.weight.assign(n, 1.0);
-  scales.given.assign(n, 0.0);
   is_constraint = std::make_unique<bool[]>(n);
   for (int b = 0; b < graph.num_blocks(); ++b)
     for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u)
@@ -82,10 +81,8 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   scalar_lanes.assign(lanes.fronts.size(), 0);
   sizes.resize(lanes.groups.size());
   asymmetries.resize(lanes.groups.size());
-  x.assign(n, 0.0);
-  rhs.assign(n, 0.0);
   residual.assign(n, 0.0);
-  correction.assign(n, 0.0);
+  if (options.check != SolveCheck::none && options.refinement_steps > 0) correction.assign(n, 0.0);
 }
 
 void Hierarchical::State::size_factors() {
@@ -183,10 +180,9 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   State& s = *state_;
   const FactorStatus before = std::exchange(s.status, {});
   if (s.scales_wanted || !s.options.partial || changed.empty() || !before.ok()) s.all_are_due = true;
-  if (rhs != nullptr) std::copy(rhs, rhs + s.rhs.size(), s.rhs.begin());
-  s.visit_rhs = rhs != nullptr ? s.rhs.data() : nullptr;
+  s.visit_rhs = s.given = rhs;
   if (s.scales_wanted) {
-    s.elements.eval_scales(s.scales);
+    s.elements.eval_scales(s.scales, s.residual);
     s.check_all_symmetric();
     if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal but for the order of a sum
     s.norm = s.elements.eval_norm(s.scales);
@@ -267,65 +263,72 @@ void Hierarchical::State::count_front(tree::FrontId f) {
 
 SolveReport Hierarchical::finish(const tree::Walker& walker, double* x) {
   State& s = *state_;
-  s.visit_rhs = s.rhs.data();
+  s.take(s.given, x, s.checks());
   if (s.null_space.dimension > 0) {  // its vectors were found with the storage of the condensed right-hand side
-    s.solve_into_x(walker, s.rhs.data());
+    s.solve_into_x(walker, s.given);
   } else {
+    s.visit_rhs = s.given;
     s.forward_group(static_cast<int>(s.lanes.groups.size()) - 1);
     s.back_substitute(walker);
   }
-  return s.check_solution(walker, x);
+  return s.check_solution(walker);
 }
 
 SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, double* x) {
   State& s = *state_;
-  std::copy(rhs, rhs + s.rhs.size(), s.rhs.begin());
-  s.solve_into_x(walker, s.rhs.data());
-  return s.check_solution(walker, x);
+  s.take(rhs, x, s.checks());
+  s.solve_into_x(walker, rhs);
+  return s.check_solution(walker);
 }
 
 SolveReport Hierarchical::solve_unchecked(const tree::Walker& walker, const double* rhs, double* x) {
   State& s = *state_;
   if (s.null_space.dimension > 0) return solve(walker, rhs, x);
-  std::copy(rhs, rhs + s.rhs.size(), s.rhs.begin());
-  s.solve_into_x(walker, s.rhs.data());
+  s.take(rhs, x, false);
+  s.solve_into_x(walker, rhs);
   ++s.counters.solutions;
-  std::copy(s.x.begin(), s.x.end(), x);
   return {};
 }
 
-/// The solution in x with its backward error, refined where asked for.
-SolveReport Hierarchical::State::check_solution(const tree::Walker& walker, double* x_out) {
-  const std::size_t n = x.size();
+/// The solution goes straight to x_out. The right-hand side is copied only where it is changed, or overwritten before it is looked at again.
+void Hierarchical::State::take(const double* b, double* x_out, bool looks_again) {
+  given = b;
+  x = x_out;
+  if (null_space.dimension == 0 && !(looks_again && b == x_out)) return;
+  rhs.assign(b, b + residual.size());
+  given = rhs.data();
+}
+
+/// The backward error of the solution in x, which is refined where asked for.
+SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
+  const std::size_t n = residual.size();
   SolveReport report;
   report.deficiency = null_space.dimension;
   ++counters.solutions;
-  std::copy(x.begin(), x.end(), x_out);
-  eval_inconsistency(rhs.data(), report);
+  eval_inconsistency(given, report);
   // Dependent rows that disagree have no solution: what was solved, and is checked, is the nearest right-hand side that has one.
   if (null_space.dimension > 0)
     for (std::size_t i = 0; i < n; ++i) rhs[i] -= correction[i] / scales.row[i];
   if (options.check == SolveCheck::none) return report;
   ElementStore::Errors errors;
   if (null_space.dimension > 0) {  // multipliers were made least after the walk: the lanes do not hold them
-    errors = eval_met_residual(walker, x_out, report);
+    errors = eval_met_residual(walker, report);
     set_growth(largest_x(), largest_rhs(), report);
   } else {
-    errors = eval_residual(walker, rhs.data(), report);
+    errors = eval_residual(walker, given, report);
     if (options.check == SolveCheck::componentwise)
-      errors = elements.eval_residual(walker, scales, x_out, rhs.data(), residual.data());
+      errors = elements.eval_residual(walker, scales, x, given, residual.data());
   }
   while (errors.finite && errors.normwise > options.refinement_above &&
          report.refinement_steps < options.refinement_steps) {
-    std::copy(x_out, x_out + n, correction.begin());
+    std::copy(x, x + n, correction.begin());
     solve_into_x(walker, residual.data());
-    for (std::size_t i = 0; i < n; ++i) x_out[i] = x[i] += correction[i];
+    for (std::size_t i = 0; i < n; ++i) x[i] += correction[i];
     const double rank_error = report.rank_error;
-    const ElementStore::Errors refined = eval_met_residual(walker, x_out, report);
+    const ElementStore::Errors refined = eval_met_residual(walker, report);
     if (!(refined.normwise < errors.normwise)) {  // as good as it gets: keep the better one
       report.rank_error = rank_error;
-      std::copy(correction.begin(), correction.end(), x_out);
-      std::copy(correction.begin(), correction.end(), x.begin());
+      std::copy(correction.begin(), correction.end(), x);
       break;
     }
     errors = refined;
@@ -340,8 +343,11 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker, doub
 SolverCounters Hierarchical::counters() const {
   const State& s = *state_;
   SolverCounters c = s.counters;
-  std::size_t doubles = s.factor_pool.size() + s.schur_pool.size() + 2 * s.vector_pool.size() + 7 * s.x.size() +
+  std::size_t doubles = s.factor_pool.size() + s.schur_pool.size() + 2 * s.vector_pool.size() +
                         s.null_space.left.capacity() + s.null_space.right.capacity();
+  for (const std::vector<double>* v :
+       {&s.scales.row, &s.scales.column, &s.scales.weight, &s.rhs, &s.residual, &s.correction})
+    doubles += v->capacity();
   for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
   for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors, &s.lane_row_scales,
                                   &s.lane_inverse_column_scales})
@@ -357,7 +363,7 @@ std::span<const ElementBatch> Hierarchical::batches() const { return state_->lan
 
 std::vector<int> Hierarchical::blocks_not_unique() const {
   const State& s = *state_;
-  const std::size_t n = s.x.size();
+  const std::size_t n = s.residual.size();
   std::vector<int> blocks;
   for (int b = 0; b < s.elements.graph().num_blocks(); ++b) {
     double largest = 0.0;

@@ -109,7 +109,11 @@ struct Hierarchical::State {
   std::vector<tree::FrontId> scalar_fronts;  ///< that are never in lanes
   std::vector<PlainInterface> plain;         ///< by sub-domain; empty unless elimination is plain
   NullSpace null_space;
-  std::vector<double> x, rhs, residual, correction;
+  double* x = nullptr;            ///< of the solution at hand: the caller's array
+  const double* given = nullptr;  ///< its right-hand side
+  std::vector<double> rhs;        ///< of its own, where the caller's would not last
+  std::vector<double> residual;   ///< and scratch
+  std::vector<double> correction;
 
   // Sub-domains in lockstep: packs of eight lanes.
   LaneDoubles lane_scratch, lane_tops, lane_factors, lane_row_scales;
@@ -120,7 +124,7 @@ struct Hierarchical::State {
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
   std::vector<SolutionSizes> sizes;   ///< by group
   std::unique_ptr<Hierarchical> twin;  ///< the same without lanes, for reports that need every front whole
-  std::int64_t twin_factorization = -1, twin_solution = -1;  ///< what it holds
+  std::int64_t twin_factorization = -1;  ///< what it holds
   bool reads_ahead = false;          ///< matrices and factors do not stay in the caches from one walk to the next
   bool reads_factors_ahead = false;  ///< nor do factors alone in the nearer ones
   bool streams_factors = false;      ///< factors of lanes are written past the caches, into which they do not fit
@@ -199,7 +203,9 @@ struct Hierarchical::State {
   // solve_walks.cpp
   void forward_front(tree::FrontId f);
   void backward_front(tree::FrontId f);
-  SolveReport check_solution(const tree::Walker& walker, double* x_out);
+  bool checks() const { return options.check != SolveCheck::none; }
+  void take(const double* b, double* x_out, bool looks_again);
+  SolveReport check_solution(const tree::Walker& walker);
   void back_substitute(const tree::Walker& walker);
   void solve_into_x(const tree::Walker& walker, const double* b);
   ElementStore::Errors eval_residual(const tree::Walker& walker, const double* b, SolveReport& report);
@@ -210,7 +216,7 @@ struct Hierarchical::State {
   void eval_null_candidates();
   void backward_left_front(tree::FrontId f, std::vector<double>& left);
   void project_multipliers();
-  ElementStore::Errors eval_met_residual(const tree::Walker& walker, const double* x_out, SolveReport& report);
+  ElementStore::Errors eval_met_residual(const tree::Walker& walker, SolveReport& report);
   void eval_inconsistency(const double* b, SolveReport& report);
   // interfaces.cpp
   void condense_through_flexibility(tree::SubdomainId s);

@@ -110,9 +110,9 @@ tree::Walker serial_walker() {
 
 /// Only factors are kept, not the Schur complements that reports look at: these come from a factorization of the same matrices and
 /// scales that keeps them, without lanes, made when first asked for.
-const Hierarchical::State& Hierarchical::reporting_state() const {
+const Hierarchical& Hierarchical::reporting_solver() const {
   State& s = *state_;
-  if (s.keeps_all || s.counters.factorizations == 0) return s;
+  if ((s.keeps_all && s.lanes.fronts.empty()) || s.counters.factorizations == 0) return *this;
   if (s.twin == nullptr) {
     SolveOptions options = s.options;
     options.lanes = false;
@@ -131,18 +131,12 @@ const Hierarchical::State& Hierarchical::reporting_state() const {
     twin.scales_wanted = false;
     (void)s.twin->factor(serial_walker());
     s.twin_factorization = s.counters.factorizations;
-    s.twin_solution = -1;
   }
-  if (s.twin_solution != s.counters.solutions && s.counters.solutions > 0 && twin.status.ok()) {
-    std::vector<double> solution(s.x.size());
-    (void)s.twin->solve(serial_walker(), s.rhs.data(), solution.data());
-    s.twin_solution = s.counters.solutions;
-  }
-  return twin;
+  return *s.twin;
 }
 
 std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
-  const State& state = reporting_state();
+  const State& state = *reporting_solver().state_;
   std::vector<InterfaceReport> reports;
   for (tree::SubdomainId s = 0; s < state.tree.root(); ++s) {
     const tree::Subdomain& sub = state.tree.subdomains[at(s)];
@@ -192,20 +186,23 @@ std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
   return reports;
 }
 
-std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s) const {
-  const State& state = reporting_state();
+std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s, const double* rhs) const {
+  State& state = *reporting_solver().state_;
+  std::vector<double> solution(state.residual.size());
+  state.take(rhs, solution.data(), false);
+  state.solve_into_x(serial_walker(), rhs);
   const FrontData& d = state.data(state.tree.subdomains[at(s)].top());
   const tree::Front& top = state.front(state.tree.subdomains[at(s)].top());
   const int n = d.size - d.full;
   Eigen::VectorXd x(d.size - d.pivots);  // unknowns that wait, then the boundary
   for (int i = d.pivots; i < d.full; ++i)
-    x(i - d.pivots) = state.x[at(d.columns[i])] / state.scales.column[at(d.columns[i])];
+    x(i - d.pivots) = solution[at(d.columns[i])] / state.scales.column[at(d.columns[i])];
   std::vector<std::size_t> unknowns;
   for (int b : state.tree.boundary_blocks(top))
     for (std::int64_t u = state.tree.unknown_begin[at(b)]; u < state.tree.unknown_begin[at(b) + 1]; ++u)
       unknowns.push_back(at(u));
   for (int i = 0; i < n; ++i)
-    x(d.full - d.pivots + i) = state.x[unknowns[at(i)]] / state.scales.column[unknowns[at(i)]];
+    x(d.full - d.pivots + i) = solution[unknowns[at(i)]] / state.scales.column[unknowns[at(i)]];
   Matrix S(n, d.size - d.pivots);
   S.leftCols(d.num_delayed()) = ConstMap(d.a + d.full + static_cast<std::ptrdiff_t>(d.pivots) * d.lda, n,
                                          d.num_delayed(), Eigen::OuterStride<>(d.lda));

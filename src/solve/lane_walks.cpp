@@ -105,7 +105,7 @@ void Hierarchical::State::prefetch_factor(int index, bool downward) const {
   const std::int64_t n = f.size(), e = f.eliminated;
   prefetch_packs(lane_vectors.data() + f.unknown, f.eliminated);
   const int* unknown = lanes.unknowns.data() + f.unknown;
-  const double* whole = downward ? x.data() : visit_rhs;
+  const double* whole = downward ? x : visit_rhs;
   for (int l = 0; l < wide; ++l)
     if (unknown[l] >= 0) __builtin_prefetch(whole + unknown[l]);
   if (f.is_symmetric || !downward) return prefetch_packs(factor, static_cast<int>(n * e));

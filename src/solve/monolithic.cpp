@@ -62,7 +62,7 @@ struct Monolithic::State {
 Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
     : tree(t), options(o), elements(graph, t), batches(elements.single_batches()) {
   const std::size_t n = at(tree.num_unknowns());
-  for (auto* v : {&scales.row, &scales.column, &scales.weight, &scales.given}) v->assign(n, 1.0);
+  for (auto* v : {&scales.row, &scales.column, &scales.weight}) v->assign(n, 1.0);
   for (auto* v : {&rhs, &residual, &work, &x_scaled}) v->assign(n, 0.0);
   const auto is_motion = [&](int b) { return graph.block_kind[at(b)] == blocks::BlockKind::motion; };
   std::vector<std::vector<int>> neighbours(at(graph.num_blocks()));
@@ -224,7 +224,7 @@ FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
     s.status.outcome = FactorOutcome::backend;
     return s.status;
   }
-  if (s.scales_wanted) s.elements.eval_scales(s.scales);
+  if (s.scales_wanted) s.elements.eval_scales(s.scales, s.residual);
   s.scales_wanted = false;
   run_prepare(s.tree, walker, prepare);
   s.assemble(0.0);

@@ -69,6 +69,8 @@ void Hierarchical::State::eval_null_candidates() {
   const std::size_t n = at(tree.num_unknowns());
   null_space.right.assign(at(k) * n, 0.0);
   null_space.left.assign(at(k) * n, 0.0);
+  correction.resize(n);
+  x = correction.data();
   for (FrontData& d : fronts) std::fill(d.vector, d.vector + d.pivots, 0.0);
   for (int v = 0; v < k; ++v) {
     for (int i = 0; i < k; ++i) {
@@ -216,9 +218,8 @@ void Hierarchical::State::project_multipliers() {
 /// solutions are those of A but for T x in the left-over rows. The residual is that of A_k; |T x|, what deciding on the rank has
 /// cost, is told apart. T is the singular value that was taken for zero, times the lengths of the null vectors in units of the left-over
 /// rows and columns, which are long where a direction hardly lives in these.
-ElementStore::Errors Hierarchical::State::eval_met_residual(const tree::Walker& walker, const double* x_out,
-                                                            SolveReport& report) {
-  ElementStore::Errors errors = elements.eval_residual(walker, scales, x_out, rhs.data(), residual.data());
+ElementStore::Errors Hierarchical::State::eval_met_residual(const tree::Walker& walker, SolveReport& report) {
+  ElementStore::Errors errors = elements.eval_residual(walker, scales, x, given, residual.data());
   if (null_space.dimension == 0 || !errors.finite || !(errors.size > 0.0)) return errors;
   const FrontData& root = fronts.back();
   const int k = root.num_delayed();
@@ -227,7 +228,7 @@ ElementStore::Errors Hierarchical::State::eval_met_residual(const tree::Walker& 
     double sum = 0.0;
     for (int j = 0; j < k; ++j) {
       const auto column = at(root.columns[root.pivots + j]);
-      sum += root.a[root.pivots + i + static_cast<std::ptrdiff_t>(root.pivots + j) * root.lda] * x_out[column] /
+      sum += root.a[root.pivots + i + static_cast<std::ptrdiff_t>(root.pivots + j) * root.lda] * x[column] /
              scales.column[column];
     }
     const auto row = at(root.rows[root.pivots + i]);
@@ -244,7 +245,7 @@ void Hierarchical::State::eval_inconsistency(const double* b, SolveReport& repor
   if (null_space.dimension == 0) return;
   const std::size_t n = at(tree.num_unknowns());
   std::vector<double>& part = correction;  // Y Y^T b
-  std::fill(part.begin(), part.end(), 0.0);
+  part.assign(n, 0.0);
   double whole = 0.0, left = 0.0;
   for (std::size_t i = 0; i < n; ++i) whole += std::pow(scales.row[i] * b[i], 2);
   for (int v = 0; v < null_space.dimension; ++v) {

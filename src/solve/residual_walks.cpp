@@ -24,7 +24,7 @@ void Hierarchical::State::residual_group(int index) {
   double most[2] = {0.0, 0.0};
   for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) {
     const auto own = tree.blocks(front(f)).first(at(front(f).num_eliminated_blocks));
-    elements.eval_rows(scales, own, x.data(), visit_rhs, residual.data(), most);
+    elements.eval_rows(scales, own, x, visit_rhs, residual.data(), most);
     for (int b : own)
       for (std::size_t u = at(tree.unknown_begin[at(b)]); u < at(tree.unknown_begin[at(b) + 1]); ++u) {
         size.x = larger(size.x, std::abs(x[u]) / scales.column[u]);

@@ -77,7 +77,7 @@ bool ElementStore::lend_diagonals(Lending lending, const std::vector<double>& gi
   return has_lent;
 }
 
-/// Strictly once: rows that couple in other ratios would raise each other without end. Bare nodes borrow from nothing, so only once each;
+/// given: the sums of |diagonal| before rows lend any. Strictly once: rows that couple in other ratios would raise each other without end. Bare nodes borrow from nothing, so only once each;
 /// what has borrowed lends on.
 void ElementStore::lift_weak_diagonals(std::vector<double>& given, std::vector<double>& diagonal) const {
   given = diagonal;
@@ -86,7 +86,7 @@ void ElementStore::lift_weak_diagonals(std::vector<double>& given, std::vector<d
   }
 }
 
-void ElementStore::eval_scales(Scales& s) const {
+void ElementStore::eval_scales(Scales& s, std::vector<double>& scratch) const {
   const std::size_t n = at(tree_.num_unknowns());
   std::vector<double>& exact_row = s.row;
   std::vector<double>& exact_column = s.column;
@@ -113,7 +113,7 @@ void ElementStore::eval_scales(Scales& s) const {
       }
     }
   }
-  lift_weak_diagonals(s.given, exact_row);
+  lift_weak_diagonals(scratch, exact_row);
   s.empty_unknown = -1;
   const auto empty = [&](std::size_t i) {
     if (s.empty_unknown < 0 || static_cast<std::int64_t>(i) < s.empty_unknown)

@@ -54,7 +54,7 @@ void Hierarchical::State::backward_front(tree::FrontId f) {
   for (int i = 0; i < d.pivots; ++i) x[at(d.columns[i])] = scales.column[at(d.columns[i])] * y[i];
 }
 
-/// x = solution of A x = b; unknowns left over at the root (dependent rows) are zero, then multipliers are made least.
+/// x = solution of A x = b, which may be the same array; unknowns left over at the root (dependent rows) are zero, then multipliers are made least.
 void Hierarchical::State::solve_into_x(const tree::Walker& walker, const double* b) {
   visit_rhs = b;
   auto forward = [this](int group) { forward_group(group); };
@@ -92,13 +92,13 @@ ElementStore::Errors Hierarchical::State::eval_residual(const tree::Walker& walk
 
 double Hierarchical::State::largest_x() const {
   double size = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) size = larger(size, std::abs(x[i]) / scales.column[i]);
+  for (std::size_t i = 0; i < residual.size(); ++i) size = larger(size, std::abs(x[i]) / scales.column[i]);
   return size;
 }
 
 double Hierarchical::State::largest_rhs() const {
   double size = 0.0;
-  for (std::size_t i = 0; i < rhs.size(); ++i) size = larger(size, std::abs(rhs[i]) * scales.row[i]);
+  for (std::size_t i = 0; i < residual.size(); ++i) size = larger(size, std::abs(given[i]) * scales.row[i]);
   return size;
 }
 
@@ -108,7 +108,7 @@ void Hierarchical::State::set_growth(double x_size, double rhs_size, SolveReport
   constexpr double suspicious = 1e10;  // below it nobody asks which unknown is the largest
   if (report.growth < suspicious) return;
   std::size_t largest = 0;
-  for (std::size_t i = 0; i < x.size(); ++i)
+  for (std::size_t i = 0; i < residual.size(); ++i)
     if (std::abs(x[i]) / scales.column[i] > std::abs(x[largest]) / scales.column[largest]) largest = i;
   const auto next =
       std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), static_cast<std::int64_t>(largest));

@@ -159,7 +159,7 @@ FactorStatus SparseOracle::factor(const tree::Walker& walker, Prepare prepare) {
     s.status.outcome = FactorOutcome::backend;
     return s.status;
   }
-  if (s.scales_wanted) s.elements.eval_scales(s.scales);
+  if (s.scales_wanted) s.elements.eval_scales(s.scales, s.buffers.residual);
   s.scales_wanted = false;
   run_prepare(s.tree, walker, prepare);
   ++s.counters.factorizations;

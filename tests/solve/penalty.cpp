@@ -73,7 +73,8 @@ TEST(Penalty, LocalMultipliersAreTheForcesBetweenSubdomains) {
   const int first = scene.first_unknown()[static_cast<std::size_t>(shared[0])];
   b.segment(first, 6).setZero();
   const Eigen::VectorXd x = s.solve(b);
-  const auto l0 = s.solver.local_multipliers(children[0]), l1 = s.solver.local_multipliers(children[1]);
+  const auto l0 = s.solver.local_multipliers(children[0], b.data()),
+             l1 = s.solver.local_multipliers(children[1], b.data());
   // Oracle: the residual of the elements of one side alone at the shared node.
   Eigen::VectorXd force = Eigen::VectorXd::Zero(6);
   for (int e : s.tree.elements(s.tree.subdomains[static_cast<std::size_t>(children[0])])) {

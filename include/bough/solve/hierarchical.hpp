@@ -45,7 +45,7 @@ class Hierarchical {
   void trust_symmetry(bool mirrored);
 
   /// Assemble, factor and condense all sub-domains. Allocates only where delayed pivots enlarge a front, or rows are dependent.
-  /// With `rhs` (num_unknowns) the right-hand side is condensed in the same visits, while a front is in the cache; finish() then solves.
+  /// With `rhs` (num_unknowns) the right-hand side is condensed in the same visits, while a front is in the cache; finish() then solves, until when it must last.
   /// SolveOptions::partial: sub-domains in which nothing `changed`, nor below them, stay as they are, and no Prepare is called for them; all bits are
   /// those of a whole factorization. After rescale() and after a failure everything is done anew.
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, const double* rhs = nullptr,
@@ -72,9 +72,9 @@ class Hierarchical {
   /// Interfaces of all sub-domains but the root, in order; computes condition numbers (dense singular values: for reports, allocates) of
   /// those with at most `widest` unknowns, NaN for others. flops: of the sub-domain's own fronts; seconds are not measured here.
   std::vector<InterfaceReport> interfaces(int widest = std::numeric_limits<int>::max()) const;
-  /// Local multipliers l_i of a sub-domain after solve(): generalised interface forces in the units of the right-hand side (times 1/s),
+  /// Local multipliers l_i of a sub-domain in the solution for a right-hand side (num_unknowns; solved for anew): generalised interface forces in the units of the right-hand side (times 1/s),
   /// one per unknown of its boundary blocks, in that order.
-  std::vector<double> local_multipliers(tree::SubdomainId subdomain) const;
+  std::vector<double> local_multipliers(tree::SubdomainId subdomain, const double* rhs) const;
   /// Blocks whose multipliers are not unique (they take part in a null vector), ascending. Empty without deficiency.
   std::vector<int> blocks_not_unique() const;
   /// Scale of every unknown and of every row (powers of two): scaled A = row_scale A column_scale.
@@ -84,7 +84,7 @@ class Hierarchical {
 
  private:
   struct State;
-  const State& reporting_state() const;
+  const Hierarchical& reporting_solver() const;
   std::unique_ptr<State> state_;
 };
 
