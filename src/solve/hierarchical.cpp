@@ -36,7 +36,8 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
       options(o),
       lanes(make_lane_plan(graph, t, o.lanes && o.elimination == Elimination::flat,
                            o.elimination == Elimination::flat ? o.symmetry : Symmetry::general)),
-      elements(graph, t, lanes.element_first, lanes.element_stride, lanes.num_values) {
+      elements(graph, t, lanes.element_first, lanes.element_stride, lanes.num_values),
+      lane_scales(lanes) {
   const std::size_t n = at(tree.num_unknowns()), num_fronts = at(tree.num_fronts());
   scales.row.assign(n, 1.0);
   scales.column.assign(n, 1.0);
@@ -74,8 +75,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   scratch_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));
   if (options.elimination == Elimination::plain) plain.resize(at(tree.num_subdomains()));
-  for (LaneDoubles* pool : {&lane_vectors, &lane_inverse_column_scales}) pool->assign(lanes.unknowns.size(), 0.0);
-  lane_row_scales.assign(at(lanes.scale_size * lanes_wide), 0.0);
+  lane_vectors.assign(lanes.unknowns.size(), 0.0);
   lane_tops.assign(at(std::max<std::int64_t>(lanes.top_size, 1) * lanes_wide),
                    0.0);  // tops without unknowns, too, point into it
   scalar_lanes.assign(lanes.fronts.size(), 0);
@@ -186,7 +186,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
     s.check_all_symmetric();
     if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal but for the order of a sum
     s.norm = s.elements.eval_norm(s.scales);
-    s.set_lane_scales();
+    s.lane_scales.set(s.lanes, s.tree, s.scales);
   }
   s.scales_wanted = false;
   s.factor_walker = walker;
@@ -349,11 +349,10 @@ SolverCounters Hierarchical::counters() const {
        {&s.scales.row, &s.scales.column, &s.scales.weight, &s.rhs, &s.residual, &s.correction})
     doubles += v->capacity();
   for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
-  for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors, &s.lane_row_scales,
-                                  &s.lane_inverse_column_scales})
+  for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors})
     doubles += pool->size();
   c.memory_bytes = static_cast<std::int64_t>(doubles * sizeof(double) + s.index_pool.size() * sizeof(int)) +
-                   s.elements.memory_bytes();
+                   s.elements.memory_bytes() + s.lane_scales.memory_bytes();
   for (const LaneFront& f : s.lanes.fronts)
     for (tree::FrontId id : f.front) c.fronts_in_lanes += id != tree::none ? 1 : 0;
   return c;

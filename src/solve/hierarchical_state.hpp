@@ -10,12 +10,10 @@
 #include "front_storage.hpp"
 #include "lane_kernels.hpp"
 #include "lane_plan.hpp"
+#include "lane_scales.hpp"
 #include "transfers.hpp"
 
 namespace bough::solve {
-
-/// Doubles on the boundary of a cache line.
-using LaneDoubles = std::vector<double, LineAllocator<double>>;
 
 /// A run of boundary rows that goes to adjacent rows of the parent front.
 struct Run {
@@ -116,19 +114,19 @@ struct Hierarchical::State {
   std::vector<double> correction;
 
   // Sub-domains in lockstep: packs of eight lanes.
-  LaneDoubles lane_scratch, lane_tops, lane_factors, lane_row_scales;
-  LaneDoubles lane_vectors,
-      lane_inverse_column_scales;  ///< of eliminated unknowns; vectors: what forward substitution leaves
+  LaneDoubles lane_scratch, lane_tops, lane_factors;
+  LaneDoubles lane_vectors;  ///< of eliminated unknowns: what forward substitution leaves
+  LaneScales lane_scales;
   std::vector<double*>
       group_scratch;  ///< by group, during its visit: where Schur complements and vectors stand that do not outlast it
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
   std::vector<SolutionSizes> sizes;   ///< by group
-  std::unique_ptr<Hierarchical> twin;  ///< the same without lanes, for reports that need every front whole
+  std::unique_ptr<Hierarchical> twin;    ///< the same without lanes, for reports that need every front whole
   std::int64_t twin_factorization = -1;  ///< what it holds
-  bool reads_ahead = false;          ///< matrices and factors do not stay in the caches from one walk to the next
-  bool reads_factors_ahead = false;  ///< nor do factors alone in the nearer ones
-  bool streams_factors = false;      ///< factors of lanes are written past the caches, into which they do not fit
-  double norm = 0.0;                 ///< of the scaled matrix, rows, when the scales were taken
+  bool reads_ahead = false;              ///< matrices and factors do not stay in the caches from one walk to the next
+  bool reads_factors_ahead = false;      ///< nor do factors alone in the nearer ones
+  bool streams_factors = false;          ///< factors of lanes are written past the caches, into which they do not fit
+  double norm = 0.0;                     ///< of the scaled matrix, rows, when the scales were taken
 
   FactorStatus status;
   SolverCounters counters;
@@ -143,9 +141,8 @@ struct Hierarchical::State {
   void forward_group(int group);
   void backward_group(int group);
   void residual_group(int group);
-  void check_front_symmetric(const LaneFront& f);
+  void check_front_symmetric(int index);
   void check_element_symmetric(int group, int element);
-  void set_lane_scales();
   double* schur_of(const LaneFront& f) {
     return (f.is_top ? lane_tops.data() : group_scratch[static_cast<std::size_t>(f.group)]) + f.schur * lanes_wide;
   }

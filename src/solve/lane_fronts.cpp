@@ -47,9 +47,7 @@ void LanePlanner::add_fronts(LaneGroup& group, tree::Subdomain& node) {
     f.is_top = k + 1 == count;
     add_moves(f);
     f.factor = plan_.factor_size;
-    f.scale = plan_.scale_size;
     plan_.factor_size += f.factor_size();
-    plan_.scale_size += f.size();
     node.flops += lanes_wide * flops_of(f.eliminated, f.boundary);
     plan_.fronts.push_back(f);
   }

@@ -77,7 +77,6 @@ struct LaneFront {
   std::int64_t schur =
       0;  ///< first pack of the Schur complement, then of the vector: in the group's scratch; of a top where it lasts
   std::int64_t factor = 0;    ///< first pack of the factor: e columns of all n rows, then the b columns of U12
-  std::int64_t scale = 0;     ///< first of n packs of row scales
   std::int64_t unknown = 0;   ///< first of 8 x eliminated unknowns (-1: padding), lanes innermost
   bool is_symmetric = false;  ///< no U12; blocks above the diagonal have no place
   int group = 0;              ///< LanePlan::groups
@@ -112,11 +111,11 @@ struct LanePlan {
   std::vector<int> lane_front;        ///< by front of the tree: index in fronts, -1 on the scalar path
   std::vector<std::int8_t> lane;      ///< by front of the tree
   std::vector<int> group_of_subdomain;
-  tree::Tree walk;                                             ///< the groups as sub-domains, for walkers
-  std::int64_t top_size = 0, factor_size = 0, scale_size = 0;  ///< packs
-  std::int64_t num_values = 0;                                 ///< doubles of the element store
-  std::vector<std::int64_t> element_first;                     ///< by element
-  std::vector<int> element_stride;                             ///< by element
+  tree::Tree walk;                             ///< the groups as sub-domains, for walkers
+  std::int64_t top_size = 0, factor_size = 0;  ///< packs
+  std::int64_t num_values = 0;                 ///< doubles of the element store
+  std::vector<std::int64_t> element_first;     ///< by element
+  std::vector<int> element_stride;             ///< by element
 };
 
 /// Groups the sub-domains of a tree. A function of graph and tree alone, batches and places in the element store whatever the symmetry.

@@ -86,8 +86,7 @@ void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
       transfers.fetch(elements.values() + element.values, static_cast<std::int64_t>(element.size) * element.size);
     }
   }
-  transfers.fetch(lane_row_scales.data() + f.scale * wide, f.size());
-  transfers.fetch(lane_inverse_column_scales.data() + f.unknown, f.eliminated);
+  transfers.fetch(lane_scales.row(index), f.size() + f.eliminated);
   if (visit_rhs == nullptr) return;
   transfers.fetch(lane_vectors.data() + f.unknown, f.eliminated);
   const int* unknown = lanes.unknowns.data() + f.unknown;
@@ -114,12 +113,13 @@ void Hierarchical::State::prefetch_factor(int index, bool downward) const {
 }
 
 /// Looks at the element matrices of a front, just before it takes them: values that are symmetric once need not stay so.
-void Hierarchical::State::check_front_symmetric(const LaneFront& f) {
+void Hierarchical::State::check_front_symmetric(int index) {
+  const LaneFront& f = lanes.fronts[at(index)];
   for (int i = f.element_begin; i < f.element_end; ++i) {
     const LaneElement& element = lanes.elements[at(i)];
     const double most = largest_asymmetry_lanes(
         elements.values() + element.values, element.size, lanes.places.data() + element.place_begin,
-        static_cast<int>(element.place_end - element.place_begin), lane_row_scales.data() + f.scale * wide);
+        static_cast<int>(element.place_end - element.place_begin), lane_scales.row(index));
     if (!Asymmetry::shows(most)) continue;
     for (int e : element.element)
       if (e >= 0) check_element_symmetric(f.group, e);
@@ -160,25 +160,6 @@ void Hierarchical::State::backward_group(int index) {
   }
 }
 
-/// Row scales of every front and inverse column scales of what it eliminates, in lanes; 1 for padding.
-void Hierarchical::State::set_lane_scales() {
-  std::fill(lane_row_scales.begin(), lane_row_scales.end(), 1.0);
-  std::fill(lane_inverse_column_scales.begin(), lane_inverse_column_scales.end(), 1.0);
-  for (const LaneFront& f : lanes.fronts) {
-    double* row = lane_row_scales.data() + f.scale * wide;
-    double* column = lane_inverse_column_scales.data() + f.unknown;
-    for (int k = 0; k < f.eliminated * wide; ++k) {
-      const int u = lanes.unknowns[at(f.unknown + k)];
-      if (u < 0) continue;
-      row[k] = scales.row[at(u)];
-      column[k] = 1.0 / scales.column[at(u)];
-    }
-    for (int l = 0; l < wide; ++l)
-      if (f.front[at(l)] != tree::none)
-        for_boundary(f.front[at(l)], [&](int i, std::size_t u) { row[(f.eliminated + i) * wide + l] = scales.row[u]; });
-  }
-}
-
 /// Factors a front, and condenses the right-hand side of the walk where there is one. factor: where the factor is to stand. transfers:
 /// done meanwhile, together with what the next front reads.
 void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers& transfers) {
@@ -189,7 +170,7 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
     if (index + 1 < static_cast<int>(lanes.fronts.size())) fetch_front(index + 1, transfers);
     transfers.spread(f.move_end - f.move_begin + elimination_steps(n, e));
   }
-  if (compares_triangles()) check_front_symmetric(f);
+  if (compares_triangles()) check_front_symmetric(index);
   for (int i = f.gap_begin; i < f.gap_end; ++i) {
     const LaneGap& gap = lanes.gaps[at(i)];
     std::memset((gap.in_schur ? schur : factor) + gap.target * wide, 0, sizeof(double) * wide * at(gap.count));
@@ -220,8 +201,8 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
   const auto eliminate = is_definite()    ? eliminate_lanes_definite
                          : f.is_symmetric ? eliminate_lanes_symmetric
                                           : eliminate_lanes;
-  const LaneSet refused = eliminate(factor, schur, n, e, lane_row_scales.data() + f.scale * wide,
-                                    lane_inverse_column_scales.data() + f.unknown, rule, transfers);
+  const LaneSet refused =
+      eliminate(factor, schur, n, e, lane_scales.row(index), lane_scales.inverse_column(f, index), rule, transfers);
   alone = static_cast<LaneSet>(alone | refused);
   scalar_lanes[at(index)] = alone;
   for (int l = 0; alone != 0 && l < wide; ++l)

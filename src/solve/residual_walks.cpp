@@ -58,7 +58,7 @@ void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
         multiply_block_lanes(values + static_cast<std::int64_t>(i0 * element.size + j0) * wide, element.size,
                              places[p].length, places[q].length, v + places[q].row * wide, r + places[p].row * wide);
   }
-  const double* scale = lane_row_scales.data() + f.scale * wide;
+  const double* scale = lane_scales.row(index);
   for (int k = 0; k < f.eliminated * wide; ++k) {
     const int u = unknown[k];
     if (u < 0) {
@@ -70,7 +70,7 @@ void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
     most.rhs = larger(most.rhs, std::abs(visit_rhs[u]) * scale[k]);
   }
   most.residual = larger(most.residual, largest_scaled(r, scale, f.eliminated));
-  most.x = larger(most.x, largest_scaled(v, lane_inverse_column_scales.data() + f.unknown, f.eliminated));
+  most.x = larger(most.x, largest_scaled(v, lane_scales.inverse_column(f, index), f.eliminated));
 }
 
 }  // namespace bough::solve
