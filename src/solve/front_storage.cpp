@@ -1,7 +1,7 @@
 #include "front_storage.hpp"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
 namespace bough::solve {
 
@@ -32,60 +32,130 @@ FrontShape::FrontShape(int size, int full, bool symmetric) : is_symmetric(symmet
   s = static_cast<std::int64_t>(lds) * boundary;
 }
 
-std::int64_t plan_schur(const tree::Tree& tree, const std::vector<int>& in_lanes, bool keep_all,
-                        std::vector<std::int64_t>& begin) {
-  const std::size_t count = at(tree.num_fronts());
-  const auto schur = [&](tree::FrontId f) {
-    const tree::Front& front = tree.fronts[at(f)];
-    return in_lanes[at(f)] >= 0 ? 0 : FrontShape(front.size(), front.num_eliminated, false).s;
-  };
-  begin.assign(count, 0);
-  std::int64_t total = 0;
-  if (keep_all) {
+namespace {
+
+/// A front with those of its descendants whose depth has the same parity needs one region, those of the other parity another.
+class SchurPlanner {
+ public:
+  SchurPlanner(const tree::Tree& tree, const std::vector<int>& in_lanes, bool is_symmetric)
+      : tree_(tree), schur_(at(tree.num_fronts()), 0), room_(schur_.size(), 0), need_(schur_.size()) {
     for (tree::FrontId f = 0; f < tree.num_fronts(); ++f) {
-      begin[at(f)] = total;
-      total += schur(f);
+      if (in_lanes[at(f)] >= 0) continue;
+      schur_[at(f)] = FrontShape(front(f).size(), front(f).num_eliminated, false).s;
+      room_[at(f)] = FrontShape(front(f).size(), front(f).num_eliminated, is_symmetric).factor_size();
     }
-    return total;
+    places_.begin.assign(schur_.size(), 0);
+    places_.host.assign(schur_.size(), tree::none);
   }
-  // By front: [its own place and those of its descendants of the same parity of depth, those of the other parity]
-  std::vector<std::array<std::int64_t, 2>> size(count), offset(count);
-  const auto is_sequential = [&](tree::FrontId f) {
-    for (tree::FrontId c : tree.children(tree.fronts[at(f)]))
-      if (tree.fronts[at(c)].subdomain != tree.fronts[at(f)].subdomain) return false;
-    return true;
+
+  SchurPlaces keep_all() {
+    for (std::size_t f = 0; f < schur_.size(); ++f) {
+      places_.begin[f] = places_.pool;
+      places_.pool += schur_[f];
+    }
+    return std::move(places_);
+  }
+
+  SchurPlaces share() {
+    for (tree::FrontId f = 0; f < tree_.num_fronts(); ++f) measure(f);  // postorder
+    for (tree::FrontId f = tree_.num_fronts(); f-- > 0;) place(f);
+    return std::move(places_);
+  }
+
+ private:
+  struct Place {
+    tree::FrontId host = tree::none;
+    std::int64_t begin = 0;
   };
-  for (tree::FrontId f = 0; f < tree.num_fronts(); ++f) {  // postorder
-    std::int64_t same = 0, other = 0, waiting = 0;
-    const bool sequential = is_sequential(f);
-    for (tree::FrontId c : tree.children(tree.fronts[at(f)])) {
-      const auto [own, below] = size[at(c)];
-      if (sequential) {
-        same = std::max(same, below);
-        other = std::max(other, waiting + own);
-        waiting += schur(c);
-      } else {
-        same += below;
-        other += own;
-      }
-    }
-    size[at(f)] = {std::max(same, schur(f)), other};
+  struct Need {
+    std::int64_t own = 0, other = 0;    ///< sizes of its region and of that of the other parity
+    Place own_place, other_place;
+    bool is_hosted = false;             ///< its own region is in the factor of its grandparent
+  };
+
+  const tree::Front& front(tree::FrontId f) const { return tree_.fronts[at(f)]; }
+  auto children(tree::FrontId f) const { return tree_.children(front(f)); }
+  bool is_sequential(tree::FrontId f) const {
+    for (tree::FrontId c : children(f))
+      if (front(c).subdomain != front(f).subdomain) return false;
+    return true;
   }
-  for (tree::FrontId f = tree.num_fronts(); f-- > 0;) {
-    if (tree.fronts[at(f)].parent == tree::none) {
-      offset[at(f)] = {total, total + size[at(f)][0]};
-      total += size[at(f)][0] + size[at(f)][1];
-    }
-    begin[at(f)] = offset[at(f)][0];
-    auto [same, other] = offset[at(f)];
-    const bool sequential = is_sequential(f);
-    for (tree::FrontId c : tree.children(tree.fronts[at(f)])) {
-      offset[at(c)] = {other, same};
-      other += sequential ? schur(c) : size[at(c)][0];
-      same += sequential ? 0 : size[at(c)][1];
+
+  /// Regions of grandchildren in the factor, the large ones first: all that they hold has been read when it is written.
+  void host_grandchildren(tree::FrontId f) {
+    std::vector<tree::FrontId> grandchildren;
+    for (tree::FrontId c : children(f))
+      for (tree::FrontId g : children(c)) grandchildren.push_back(g);
+    std::stable_sort(grandchildren.begin(), grandchildren.end(),
+                     [&](tree::FrontId a, tree::FrontId b) { return need_[at(a)].own > need_[at(b)].own; });
+    std::int64_t taken = 0;
+    for (tree::FrontId g : grandchildren) {
+      Need& need = need_[at(g)];
+      if (need.own == 0 || taken + need.own > room_[at(f)]) continue;
+      need.is_hosted = true;
+      need.own_place = {f, taken};
+      taken += need.own;
     }
   }
-  return total;
+
+  /// Calls visit(child, where its own region begins in the region of children); answers how long that is.
+  template <class Visit>
+  std::int64_t for_children(tree::FrontId f, Visit&& visit) const {
+    const bool sequential = is_sequential(f);
+    std::int64_t size = 0, waiting = 0;
+    for (tree::FrontId c : children(f)) {
+      visit(c, waiting);
+      const Need& need = need_[at(c)];
+      if (need.is_hosted) continue;
+      size = std::max(size, waiting + need.own);
+      waiting += sequential ? schur_[at(c)] : need.own;
+    }
+    return size;
+  }
+
+  void measure(tree::FrontId f) {
+    host_grandchildren(f);
+    const bool sequential = is_sequential(f);
+    std::int64_t below = 0;
+    for (tree::FrontId c : children(f)) {
+      std::int64_t& other = need_[at(c)].other;
+      other = for_children(c, [](tree::FrontId, std::int64_t) {});  // without those that are hosted now
+      below = sequential ? std::max(below, other) : below + other;
+    }
+    need_[at(f)].own = std::max(schur_[at(f)], below);
+    need_[at(f)].other = for_children(f, [](tree::FrontId, std::int64_t) {});
+  }
+
+  void place(tree::FrontId f) {
+    Need& need = need_[at(f)];
+    if (front(f).parent == tree::none) {
+      need.own_place = {tree::none, places_.pool};
+      need.other_place = {tree::none, places_.pool + need.own};
+      places_.pool += need.own + need.other;
+    }
+    places_.host[at(f)] = need.own_place.host;
+    places_.begin[at(f)] = need.own_place.begin;
+    const bool sequential = is_sequential(f);
+    Place below = need.own_place;
+    for_children(f, [&](tree::FrontId c, std::int64_t begin) {
+      Need& child = need_[at(c)];
+      if (!child.is_hosted) child.own_place = {need.other_place.host, need.other_place.begin + begin};
+      child.other_place = below;
+      if (!sequential) below.begin += child.other;
+    });
+  }
+
+  const tree::Tree& tree_;
+  std::vector<std::int64_t> schur_, room_;  ///< by front: sizes of Schur complement and factor
+  std::vector<Need> need_;                  ///< by front
+  SchurPlaces places_;
+};
+
+}  // namespace
+
+SchurPlaces plan_schur(const tree::Tree& tree, const std::vector<int>& in_lanes, bool keep_all, bool is_symmetric) {
+  SchurPlanner planner(tree, in_lanes, is_symmetric);
+  return keep_all ? planner.keep_all() : planner.share();
 }
 
 }  // namespace bough::solve

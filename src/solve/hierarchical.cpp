@@ -70,7 +70,8 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     run_begin.push_back(static_cast<std::int64_t>(runs.size()));
   }
   size_factors();
-  schur_pool.resize(at(plan_schur(tree, lanes.lane_front, keeps_all, schur_begin)));
+  schur_places = plan_schur(tree, lanes.lane_front, keeps_all, is_symmetric());
+  schur_pool.resize(at(schur_places.pool));
   vector_pool.resize(at(vector_begin.back()));
   scratch_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));

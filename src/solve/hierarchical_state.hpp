@@ -90,7 +90,7 @@ struct Hierarchical::State {
 
   std::vector<FrontData> fronts;
   std::vector<Enlarged> enlarged;  ///< by front
-  std::vector<std::int64_t> factor_begin, schur_begin, vector_begin, index_begin, run_begin,
+  std::vector<std::int64_t> factor_begin, vector_begin, index_begin, run_begin,
       own_begin;  ///< by front, into the pools
   SymmetryReport symmetry;
   bool trusts_symmetry = false;
@@ -99,6 +99,7 @@ struct Hierarchical::State {
   bool all_are_due = true;          ///< the next factorization leaves nothing alone
   std::vector<char> is_redone;      ///< by group: whether the factorization at hand visits it
   std::vector<double> group_flops;  ///< of one visit
+  SchurPlaces schur_places;
   LaneDoubles factor_pool, schur_pool;
   std::vector<double> vector_pool, scratch_pool;
   std::vector<int> index_pool;
@@ -191,6 +192,7 @@ struct Hierarchical::State {
   // upward.cpp, assemble.cpp: factor
   void factor_subdomain(tree::SubdomainId s);
   void size_front(tree::FrontId f);
+  double* schur_place(tree::FrontId f);
   void assemble_front(tree::FrontId f);
   void add_element(int position, FrontData& d);
   void fill_columns(tree::FrontId f, int first, int last);

@@ -42,7 +42,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
     d.vector = vector_pool.data() + vector_begin[at(f)];
     d.rows = index_pool.data() + index_begin[at(f)];
     d.set_parts(FrontShape(d.size, d.full, is_symmetric), factor_pool.data() + factor_begin[at(f)],
-                schur_pool.data() + schur_begin[at(f)]);
+                schur_place(f));
   } else {
     Enlarged& own = enlarged[at(f)];
     const FrontShape parts(d.size, d.full, is_symmetric);
@@ -64,6 +64,13 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   }
   d.columns = d.rows + d.full;
   d.row_from = d.columns + d.full;
+}
+
+/// Where its Schur complement stands until its parent has been eliminated.
+double* Hierarchical::State::schur_place(tree::FrontId f) {
+  const tree::FrontId host = schur_places.host[at(f)];
+  return (host == tree::none ? schur_pool.data() : factor_pool.data() + factor_begin[at(host)]) +
+         schur_places.begin[at(f)];
 }
 
 void FrontData::set_parts(const FrontShape& shape, double* factor, double* schur) {
