@@ -7,8 +7,8 @@ prints, for every case,
 bough ms: the better of one and two threads. Ratio: best rival over bough; the rivals are those that the bar names. Steps: bough's step over
 KLU's refactorization and solution of the same chain (smaller is better). A figure that misses its bar is marked with '<' (or '>' for
 steps). Medians over the repetitions, wall time. CPU ratio: the same ratio in CPU time, bough on one thread: it says more where the machine
-was busy. Memory: all that bough's solver holds, matrices included, over 8 bytes for each nonzero of L and U in the best ordering of a peer
-that tells them (KLU, MUMPS), unsymmetric cases. Second thread: what it gains on chains over one thread, and the bound of that but for caches, 2 x the time of one thread alone over that
+was busy. Memory: all that bough's solver holds, with and without the matrices it is given, over 8 bytes for each nonzero of L and U in the best
+ordering of a peer that tells them (KLU, MUMPS), unsymmetric cases. Second thread: what it gains on chains over one thread, and the bound of that but for caches, 2 x the time of one thread alone over that
 of two side by side, each with work of its own; of bare arithmetic and reading from benchmarks/bench_machine.json. Motions: CPU nanoseconds of one
 motion and Eigen's time over bough's. Exit 0 whatever the figures are, 2 where no file can be read.
 """
@@ -108,13 +108,16 @@ def memory_rows(path):
     for row in data["benchmarks"]:
         case = row["run_name"].split("/")[1]
         if row.get("aggregate_name") == "median" and case.endswith("_u"):
-            memory, entries = found.get(case, (0.0, float("inf")))
-            found[case] = row.get("memory_bytes", memory), min(entries, row.get("factor_entries", entries))
+            memory, matrix, entries = found.get(case, (0.0, 0.0, float("inf")))
+            found[case] = (row.get("memory_bytes", memory), row.get("matrix_bytes", matrix),
+                           min(entries, row.get("factor_entries", entries)))
     rows = []
-    for case, (memory, entries) in sorted(found.items(), key=lambda of: of[1][1]):
+    def share(count, entries):
+        ratio = count / (8.0 * entries)
+        return f"{ratio:.2f}" + (" >" if ratio > MEMORY_BAR else "")
+    for case, (memory, matrix, entries) in sorted(found.items(), key=lambda of: of[1][2]):
         if memory > 0.0 and entries < float("inf"):
-            ratio = memory / (8.0 * entries)
-            rows.append((case, f"{memory / 1e6:.2f}", f"{entries / 1e6:.3f}", f"{ratio:.2f}" + (" >" if ratio > MEMORY_BAR else "")))
+            rows.append((case, f"{memory / 1e6:.2f}", f"{entries / 1e6:.3f}", share(memory, entries), share(memory - matrix, entries)))
     return rows
 
 
@@ -223,7 +226,7 @@ def main():
         if name == "solve":
             print_table(("case", "bough ms", "best peer ms (which)", "ratio", "bar", "2-thread speed-up", "CPU ratio"),
                         solve_rows(read_medians(path)))
-            print_table(("memory", "bough MB", "million nonzeros of L+U", "MB / 8 bytes of each"), memory_rows(path))
+            print_table(("memory", "bough MB", "million nonzeros of L+U", "MB / 8 bytes of each", "without the matrix"), memory_rows(path))
         elif name == "step":
             print_table(("step of", "bough ms", "bough_klu ms", "klu solve ms", "ratio", "bar", "2-thread speed-up",
                          "CPU ratio"), step_rows(read_medians(path)))

@@ -33,7 +33,12 @@ void run_row(benchmark::State& state, const Problem& problem, Entrant& entrant) 
   state.counters["entries"] = problem.matrix.num_entries();
   if (const double entries = entrant.session->factor_entries(); entries > 0.0)
     state.counters["factor_entries"] = entries;
-  if (const double bytes = entrant.session->memory_bytes(); bytes > 0.0) state.counters["memory_bytes"] = bytes;
+  if (const double bytes = entrant.session->memory_bytes(); bytes > 0.0) {
+    state.counters["memory_bytes"] = bytes;
+    std::size_t numbers = 0;
+    for (const std::vector<double>& a : problem.elements) numbers += a.size();
+    state.counters["matrix_bytes"] = static_cast<double>(sizeof(double) * numbers);
+  }
   state.SetLabel(entrant.ordering);
 }
 

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "../support/side_by_side.hpp"
 #include "cases.hpp"
@@ -18,6 +19,14 @@ bool is_sound(const Problem& problem, Session& session) {
          eval_backward_error(problem.matrix, x, problem.rhs) <= largest_backward_error;
 }
 
+/// Chains and lattices that ask for a second thread.
+bool is_one_of_the_rows(const Case& c) {
+  if (c.values != Values::unsymmetric) return false;
+  if (c.family == Family::chain) return c.size >= 128 && c.size <= 2048;
+  return (c.family == Family::lattice_2d && c.size >= 50 && c.size <= 100) ||
+         (c.family == Family::lattice_3d && c.size == 12);
+}
+
 /// Empty where a solver fails.
 std::unique_ptr<SecondThreadCase> make_case(const Case& c) {
   auto out = std::make_unique<SecondThreadCase>();
@@ -29,7 +38,9 @@ std::unique_ptr<SecondThreadCase> make_case(const Case& c) {
   out->together = std::make_unique<BoughSession>(p, first, 2);
   for (Session* s : {out->alone[0].get(), out->alone[1].get(), out->together.get()})
     if (!is_sound(p, *s)) return nullptr;
-  out->rounds = std::max(1, 20000 / c.size);  // 1.5 us a link
+  std::vector<double> x;
+  const auto once = [&](int) { out->alone[0]->refactor_and_solve(x); };
+  out->rounds = std::max(1L, std::lround(0.03 / eval_rounds(1, 1, once)));
   return out;
 }
 
@@ -59,9 +70,7 @@ std::vector<std::unique_ptr<SecondThreadCase>> add_second_thread_rows(
     const std::function<bool(const std::string&)>& is_wanted) {
   std::vector<std::unique_ptr<SecondThreadCase>> rows;
   for (const Case& c : make_cases()) {
-    const bool is_here =
-        c.family == Family::chain && c.values == Values::unsymmetric && c.size >= 128 && c.size <= 2048;
-    if (!is_here || !is_wanted(c.name)) continue;
+    if (!is_one_of_the_rows(c) || !is_wanted(c.name)) continue;
     std::unique_ptr<SecondThreadCase> made = make_case(c);
     if (made == nullptr) {
       benchmark::AddCustomContext("left out second_thread/" + c.name, "the solver failed");

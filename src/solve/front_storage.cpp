@@ -68,9 +68,9 @@ class SchurPlanner {
     std::int64_t begin = 0;
   };
   struct Need {
-    std::int64_t own = 0, other = 0;    ///< sizes of its region and of that of the other parity
+    std::int64_t own = 0, other = 0;  ///< sizes of its region and of that of the other parity
     Place own_place, other_place;
-    bool is_hosted = false;             ///< its own region is in the factor of its grandparent
+    bool is_hosted = false;  ///< its own region is in the factor of its grandparent
   };
 
   const tree::Front& front(tree::FrontId f) const { return tree_.fronts[at(f)]; }

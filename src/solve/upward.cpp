@@ -41,8 +41,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   if (d.delayed_in == 0 && lanes.lane_front[at(f)] < 0) {
     d.vector = vector_pool.data() + vector_begin[at(f)];
     d.rows = index_pool.data() + index_begin[at(f)];
-    d.set_parts(FrontShape(d.size, d.full, is_symmetric), factor_pool.data() + factor_begin[at(f)],
-                schur_place(f));
+    d.set_parts(FrontShape(d.size, d.full, is_symmetric), factor_pool.data() + factor_begin[at(f)], schur_place(f));
   } else {
     Enlarged& own = enlarged[at(f)];
     const FrontShape parts(d.size, d.full, is_symmetric);
