@@ -1,0 +1,105 @@
+/// Right-hand sides are read where they are and solutions written where they are asked for: the same bits whether these are one array or two, and
+/// whatever the solver looks at afterwards.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "solving.hpp"
+
+namespace bough::test {
+namespace {
+
+/// Links of beams on hinges; `twice`: every third hinge is said once more, so that rows depend.
+Scene make_links(bool twice) {
+  SceneMaker m(7);
+  int end = m.add_node();
+  m.add_joint({end}, 6);
+  for (int l = 0; l < 20; ++l) {
+    const int next = m.add_node();
+    m.add_beam({end, next});
+    end = m.add_node();
+    m.add_joint({next, end}, 5);
+    if (twice && l % 3 == 1) m.add_joint_again(m.last_element());
+    m.add_body(end, 0.1);
+  }
+  return m.finish(twice ? "dependent rows" : "links");
+}
+
+bool has_same_bits(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
+}
+
+/// By their bits: what was not measured is not a number.
+void expect_same(const solve::SolveReport& a, const solve::SolveReport& b) {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  EXPECT_EQ(bits(a.backward_error), bits(b.backward_error));
+  EXPECT_EQ(bits(a.componentwise_backward_error), bits(b.componentwise_backward_error));
+  EXPECT_EQ(bits(a.inconsistency), bits(b.inconsistency));
+  EXPECT_EQ(bits(a.inconsistent_amount), bits(b.inconsistent_amount));
+  EXPECT_EQ(bits(a.rank_error), bits(b.rank_error));
+  EXPECT_EQ(bits(a.growth), bits(b.growth));
+  EXPECT_EQ(a.refinement_steps, b.refinement_steps);
+  EXPECT_EQ(a.finite, b.finite);
+}
+
+void expect_same_in_place(const Scene& scene, const tree::TreeOptions& tree_options,
+                          const solve::SolveOptions& options) {
+  SCOPED_TRACE(scene.name + ", leaves of " + std::to_string(tree_options.leaf_size) + ", check " +
+               std::to_string(static_cast<int>(options.check)) + ", refined " +
+               std::to_string(options.refinement_steps));
+  const tree::Walker walker = schedule::make_serial_walker();
+  Solved s(scene, tree_options, options);
+  ASSERT_TRUE(s.factor().ok());
+  const Eigen::VectorXd b = s.random_rhs(3);  // of no solution where rows depend
+  const Eigen::VectorXd apart = s.solve(b);
+  const solve::SolveReport report = s.report;
+  EXPECT_TRUE(apart.allFinite());
+
+  Eigen::VectorXd both = b;
+  expect_same(s.solver.solve(walker, both.data(), both.data()), report);
+  EXPECT_TRUE(has_same_bits(both, apart));
+  both = b;
+  (void)s.solver.solve_unchecked(walker, both.data(), both.data());
+  if (options.refinement_steps == 0) {
+    EXPECT_TRUE(has_same_bits(both, apart));
+  }
+
+  Eigen::VectorXd x(b.size());
+  ASSERT_TRUE(s.solver.factor(walker, {}, b.data()).ok());
+  expect_same(s.solver.finish(walker, x.data()), report);
+  EXPECT_TRUE(has_same_bits(x, apart));
+  both = b;
+  ASSERT_TRUE(s.solver.factor(walker, {}, both.data()).ok());
+  expect_same(s.solver.finish(walker, both.data()), report);
+  EXPECT_TRUE(has_same_bits(both, apart));
+}
+
+TEST(InPlace, SolutionsAndReportsAreTheSame) {
+  for (const bool twice : {false, true})
+    for (const int leaf : {1, 8, 1000})
+      for (const bool lanes : {false, true})
+        for (const auto check :
+             {solve::SolveCheck::none, solve::SolveCheck::backward_error, solve::SolveCheck::componentwise})
+          for (const int refinements : {0, 2})
+            expect_same_in_place(
+                make_links(twice), {.leaf_size = leaf},
+                {.lanes = lanes, .check = check, .refinement_steps = refinements, .refinement_above = 0.0});
+}
+
+TEST(InPlace, MultipliersOfInterfacesAskForTheSolutionAnew) {
+  const Scene scene = make_links(false);
+  Solved s(scene, {.leaf_size = 8}, {});
+  ASSERT_TRUE(s.factor().ok());
+  const Eigen::VectorXd b = s.random_rhs(4), x = s.solve(b);
+  const std::vector<double> before = s.solver.local_multipliers(0, b.data());
+  (void)s.solve(s.random_rhs(5));
+  EXPECT_EQ(s.solver.local_multipliers(0, b.data()), before);
+  EXPECT_TRUE(has_same_bits(s.solve(b), x));
+}
+
+}  // namespace
+}  // namespace bough::test
