@@ -128,7 +128,8 @@ void Builder::settle() {
   const bool conservative = obstacle.empty();
   std::snprintf(text, sizeof text, "%d loops, symmetric parts pay from %d on", std::max(0, loops), loops_of_lattices);
   decide("symmetric",
-         "the symmetric parts of tangents are factored, L D L^T: half the work of L U, factors of half the size. Tangents in body "
+         "the symmetric parts of tangents are factored, L D L^T: half the work of L U, factors of half the size. "
+         "Tangents in body "
          "increments are "
          "symmetric at equilibrium, but for gyroscopic terms. Taken where no load follows, no dead moment acts, no "
          "frame moves and "
