@@ -129,11 +129,9 @@ void Builder::settle() {
   std::snprintf(text, sizeof text, "%d loops, symmetric parts pay from %d on", std::max(0, loops), loops_of_lattices);
   decide("symmetric",
          "the symmetric parts of tangents are factored, L D L^T: half the work of L U, factors of half the size. "
-         "Tangents in body "
-         "increments are "
-         "symmetric at equilibrium, but for gyroscopic terms. Taken where no load follows, no dead moment acts, no "
-         "frame moves and "
-         "loops make factorizations heavy; given up in a run where Newton's iteration suffers",
+         "Tangents in body increments are symmetric at equilibrium, but for gyroscopic terms. Taken where no load "
+         "follows, no dead moment acts, no frame moves and loops make factorizations heavy; given up in a run where "
+         "Newton's iteration suffers",
          conservative && loops >= loops_of_lattices, conservative ? text : obstacle);
   obstacle = plan.took("symmetric") ? obstacle_to_definite(plan, rows) : "tangents are not taken as symmetric";
   decide("definite",
