@@ -114,6 +114,21 @@ TEST(Partial, SymmetricFrontsAreTheSameBitByBit) {
     }
 }
 
+/// In lanes no front stands whole: what reports look at comes from elsewhere, as without `partial`.
+TEST(Partial, InterfacesAreReportedAsOfAWholeFactorization) {
+  const Scene scene = make_chain(4, 64, 4);
+  Twins twins(scene, {}, {}, 1);
+  twins.compare(false, scene.name);
+  ASSERT_GT(twins.parts().counters().fronts_in_lanes, 100);
+  const std::vector<solve::InterfaceReport> whole = twins.whole().interfaces(), parts = twins.parts().interfaces();
+  ASSERT_EQ(whole.size(), parts.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_GT(parts[i].num_unknowns, 0) << i;
+    EXPECT_EQ(parts[i].num_unknowns, whole[i].num_unknowns) << i;
+    EXPECT_EQ(parts[i].condition, whole[i].condition) << i;
+  }
+}
+
 /// Dependent rows, delayed pivots, lanes that leave: what is left alone keeps them.
 TEST(Partial, HardCasesAreTheSameBitByBit) {
   for (int number = 0; number < 20; ++number)
