@@ -113,22 +113,26 @@ class SchurPlanner {
     return size;
   }
 
+  std::int64_t region_of_children(tree::FrontId f) const {
+    return for_children(f, [](tree::FrontId, std::int64_t) {});
+  }
+
+  /// What its own region needs, and the other one of each of its children.
   void measure(tree::FrontId f) {
     host_grandchildren(f);
     const bool sequential = is_sequential(f);
     std::int64_t below = 0;
     for (tree::FrontId c : children(f)) {
-      std::int64_t& other = need_[at(c)].other;
-      other = for_children(c, [](tree::FrontId, std::int64_t) {});  // without those that are hosted now
+      const std::int64_t other = need_[at(c)].other = region_of_children(c);  // without those that are hosted now
       below = sequential ? std::max(below, other) : below + other;
     }
     need_[at(f)].own = std::max(schur_[at(f)], below);
-    need_[at(f)].other = for_children(f, [](tree::FrontId, std::int64_t) {});
   }
 
   void place(tree::FrontId f) {
     Need& need = need_[at(f)];
     if (front(f).parent == tree::none) {
+      need.other = region_of_children(f);
       need.own_place = {tree::none, places_.pool};
       need.other_place = {tree::none, places_.pool + need.own};
       places_.pool += need.own + need.other;

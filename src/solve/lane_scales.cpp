@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <functional>
+#include <string_view>
 
 namespace bough::solve {
 
@@ -11,14 +13,9 @@ namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 
-/// Fowler, Noll, Vo: FNV-1a, by whole numbers.
-std::uint64_t hash_of(const double* values, std::int64_t count) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (std::int64_t i = 0; i < count; ++i) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(values[i])) * 0x100000001b3u;
-    hash ^= hash >> 32;  // powers of two differ in their upper bits alone
-  }
-  return hash;
+std::size_t hash_of(const double* values, std::int64_t count) {
+  const std::string_view bytes(reinterpret_cast<const char*>(values), at(count) * sizeof(double));
+  return std::hash<std::string_view>{}(bytes);
 }
 
 /// Of its row and inverse column scales.

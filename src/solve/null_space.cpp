@@ -70,7 +70,7 @@ void Hierarchical::State::eval_null_candidates() {
   null_space.right.assign(at(k) * n, 0.0);
   null_space.left.assign(at(k) * n, 0.0);
   correction.resize(n);
-  x = correction.data();
+  x = correction.data();  // no solution is at hand
   for (FrontData& d : fronts) std::fill(d.vector, d.vector + d.pivots, 0.0);
   for (int v = 0; v < k; ++v) {
     for (int i = 0; i < k; ++i) {

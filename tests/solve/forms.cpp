@@ -109,18 +109,7 @@ TEST(Forms, SolveStructuresWhoseSubdomainsFloat) {
 TEST(Forms, DependentRowsWithinAndAcrossSubdomains) {
   for (const DualForm form : both_forms)
     for (const int leaf : {1, 3, 1000}) {
-      SceneMaker m(71);
-      int end = m.add_node();
-      m.add_joint({end}, 6);
-      for (int l = 0; l < 6; ++l) {
-        const int next = m.add_node();
-        m.add_beam({end, next});
-        end = m.add_node();
-        m.add_joint({next, end}, 5);
-        if (l % 2 == 1) m.add_joint_again(m.last_element());
-        m.add_body(end, 0.1);
-      }
-      const Scene scene = m.finish("redundant");
+      const Scene scene = make_hinged_beams(71, 6, 2);
       expect_same_solution(scene, leaf, form,
                            1e-12);  // the left null vectors are blurred by eps over the least pivot taken
       Solved s(scene, {.leaf_size = leaf}, {});

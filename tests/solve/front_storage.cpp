@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -66,12 +67,9 @@ class Places {
     if (of_f == of_g) return f < g;
     return tree_.subdomains[at(of_g)].subtree_begin <= of_f && of_f < of_g;
   }
-  std::int64_t pool() const { return places_.pool; }
-  std::int64_t num_hosted() const {
-    std::int64_t count = 0;
-    for (const tree::FrontId host : places_.host) count += host != tree::none ? 1 : 0;
-    return count;
-  }
+  tree::FrontId host(tree::FrontId f) const { return places_.host[at(f)]; }
+  /// What it is to stand in.
+  Range home(tree::FrontId f) const { return host(f) == tree::none ? Range{0, places_.pool} : factor(host(f)); }
 
  private:
   const tree::Tree& tree_;
@@ -84,8 +82,8 @@ void expect_sound(const tree::Tree& tree, bool is_symmetric) {
   for (tree::FrontId f = 0; f + 1 < tree.num_fronts(); ++f) {
     const Range schur = places.schur(f);
     const tree::FrontId parent = tree.fronts[at(f)].parent;
-    const tree::FrontId host_end = tree.num_fronts();
-    ASSERT_LE(schur.end, places.factor(host_end - 1).end);
+    ASSERT_GE(schur.begin, places.home(f).begin);
+    ASSERT_LE(schur.end, places.home(f).end) << f;
     EXPECT_FALSE(schur.meets(places.factor(f))) << f;
     for (tree::FrontId g = 0; g < tree.num_fronts(); ++g) {
       if (g == f) continue;
@@ -109,14 +107,28 @@ TEST(FrontStorage, NothingIsWrittenOverBeforeItIsRead) {
         expect_sound(tree::make_tree(graph, {.depth = depth}), is_symmetric);
 }
 
+/// No grandchild without children waits in the pool while the place of a factor has room for it.
 TEST(FrontStorage, FactorsOfGrandparentsTakeWhatHasRoomInThem) {
   const auto graph = make_lattice(8, 8);
   const tree::Tree tree = tree::make_tree(graph, {});
   const Places places(tree, false);
-  std::int64_t all = 0;
-  for (tree::FrontId f = 0; f < tree.num_fronts(); ++f) all += places.schur(f).end - places.schur(f).begin;
-  EXPECT_GT(places.num_hosted(), 0);
-  EXPECT_LT(places.pool(), all / 3);
+  std::vector<std::int64_t> end(tree.fronts.size());
+  for (std::size_t f = 0; f < end.size(); ++f) end[f] = places.factor(static_cast<tree::FrontId>(f)).begin;
+  int hosted = 0;
+  for (tree::FrontId f = 0; f < tree.num_fronts(); ++f) {
+    if (places.host(f) == tree::none) continue;
+    ++hosted;
+    end[at(places.host(f))] = std::max(end[at(places.host(f))], places.schur(f).end);
+  }
+  EXPECT_GT(hosted, 0);
+  for (tree::FrontId f = 0; f < tree.num_fronts(); ++f)
+    for (const tree::FrontId c : tree.children(tree.fronts[at(f)]))
+      for (const tree::FrontId g : tree.children(tree.fronts[at(c)])) {
+        const Range schur = places.schur(g);
+        if (places.host(g) != tree::none || !tree.children(tree.fronts[at(g)]).empty() || schur.begin == schur.end)
+          continue;
+        EXPECT_GT(end[at(f)] + schur.end - schur.begin, places.factor(f).end) << g;
+      }
 }
 
 }  // namespace

@@ -4,34 +4,12 @@
 
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 #include "solving.hpp"
 
 namespace bough::test {
 namespace {
-
-/// Links of beams on hinges; `twice`: every third hinge is said once more, so that rows depend.
-Scene make_links(bool twice) {
-  SceneMaker m(7);
-  int end = m.add_node();
-  m.add_joint({end}, 6);
-  for (int l = 0; l < 20; ++l) {
-    const int next = m.add_node();
-    m.add_beam({end, next});
-    end = m.add_node();
-    m.add_joint({next, end}, 5);
-    if (twice && l % 3 == 1) m.add_joint_again(m.last_element());
-    m.add_body(end, 0.1);
-  }
-  return m.finish(twice ? "dependent rows" : "links");
-}
-
-bool has_same_bits(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return a.size() == b.size() &&
-         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
-}
 
 /// By their bits: what was not measured is not a number.
 void expect_same(const solve::SolveReport& a, const solve::SolveReport& b) {
@@ -61,21 +39,21 @@ void expect_same_in_place(const Scene& scene, const tree::TreeOptions& tree_opti
 
   Eigen::VectorXd both = b;
   expect_same(s.solver.solve(walker, both.data(), both.data()), report);
-  EXPECT_TRUE(has_same_bits(both, apart));
+  EXPECT_TRUE(same_bits(both, apart));
   both = b;
   (void)s.solver.solve_unchecked(walker, both.data(), both.data());
   if (options.refinement_steps == 0) {
-    EXPECT_TRUE(has_same_bits(both, apart));
+    EXPECT_TRUE(same_bits(both, apart));
   }
 
   Eigen::VectorXd x(b.size());
   ASSERT_TRUE(s.solver.factor(walker, {}, b.data()).ok());
   expect_same(s.solver.finish(walker, x.data()), report);
-  EXPECT_TRUE(has_same_bits(x, apart));
+  EXPECT_TRUE(same_bits(x, apart));
   both = b;
   ASSERT_TRUE(s.solver.factor(walker, {}, both.data()).ok());
   expect_same(s.solver.finish(walker, both.data()), report);
-  EXPECT_TRUE(has_same_bits(both, apart));
+  EXPECT_TRUE(same_bits(both, apart));
 }
 
 TEST(InPlace, SolutionsAndReportsAreTheSame) {
@@ -86,19 +64,19 @@ TEST(InPlace, SolutionsAndReportsAreTheSame) {
              {solve::SolveCheck::none, solve::SolveCheck::backward_error, solve::SolveCheck::componentwise})
           for (const int refinements : {0, 2})
             expect_same_in_place(
-                make_links(twice), {.leaf_size = leaf},
+                make_hinged_beams(7, 20, twice ? 3 : 0), {.leaf_size = leaf},
                 {.lanes = lanes, .check = check, .refinement_steps = refinements, .refinement_above = 0.0});
 }
 
 TEST(InPlace, MultipliersOfInterfacesAskForTheSolutionAnew) {
-  const Scene scene = make_links(false);
+  const Scene scene = make_hinged_beams(7, 20, 0);
   Solved s(scene, {.leaf_size = 8}, {});
   ASSERT_TRUE(s.factor().ok());
   const Eigen::VectorXd b = s.random_rhs(4), x = s.solve(b);
   const std::vector<double> before = s.solver.local_multipliers(0, b.data());
   (void)s.solve(s.random_rhs(5));
   EXPECT_EQ(s.solver.local_multipliers(0, b.data()), before);
-  EXPECT_TRUE(has_same_bits(s.solve(b), x));
+  EXPECT_TRUE(same_bits(s.solve(b), x));
 }
 
 }  // namespace

@@ -152,6 +152,21 @@ Scene make_definite(Scene scene) {
   return scene;
 }
 
+Scene make_hinged_beams(unsigned seed, int beams, int again) {
+  SceneMaker m(seed);
+  int end = m.add_node();
+  m.add_joint({end}, 6);
+  for (int l = 0; l < beams; ++l) {
+    const int next = m.add_node();
+    m.add_beam({end, next});
+    end = m.add_node();
+    m.add_joint({next, end}, 5);
+    if (again > 0 && l % again == 1) m.add_joint_again(m.last_element());
+    m.add_body(end, 0.1);
+  }
+  return m.finish(again > 0 ? "hinged beams, dependent rows" : "hinged beams");
+}
+
 Scene make_chain(unsigned seed, int links, int beams_per_link, double step) {
   SceneMaker m(seed, step);
   int end = m.add_node();

@@ -58,6 +58,8 @@ Scene make_definite(Scene scene);
 
 /// Scenes of the families: chain, tree, loop, star, lattice, parts (several unconnected), rigid chain, with joints sprinkled in.
 Scene make_chain(unsigned seed, int links, int beams_per_link, double step = 1e-3);
+/// Beams with light bodies at their ends, on hinges; every `again`-th hinge is said twice, so that rows depend (0: none).
+Scene make_hinged_beams(unsigned seed, int beams, int again);
 Scene make_tree_of_bodies(unsigned seed, int bodies, double step = 1e-3);
 Scene make_loop(unsigned seed, int links, double step = 1e-3);
 Scene make_star(unsigned seed, int arms, int length, double step = 1e-3);

@@ -1,5 +1,7 @@
 #include "solving.hpp"
 
+#include <cstring>
+
 #include "support/untrapped.hpp"
 
 namespace bough::test {
@@ -25,6 +27,11 @@ double Solved::scaled_difference(const Eigen::VectorXd& x, const Eigen::VectorXd
 
 Eigen::MatrixXd Solved::scaled_dense() const {
   return as_vector(solver.row_scale()).asDiagonal() * scene.dense() * as_vector(solver.column_scale()).asDiagonal();
+}
+
+bool same_bits(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
 }
 
 double condition_of(const Eigen::MatrixXd& A) {

@@ -49,6 +49,9 @@ struct Solved {
   Eigen::MatrixXd scaled_dense() const;
 };
 
+/// Not a number is the same as itself.
+bool same_bits(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
 /// Largest over smallest singular value (floating-point traps masked: the decomposition overflows on purpose).
 double condition_of(const Eigen::MatrixXd& A);
 

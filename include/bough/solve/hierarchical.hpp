@@ -73,7 +73,7 @@ class Hierarchical {
   /// those with at most `widest` unknowns, NaN for others. flops: of the sub-domain's own fronts; seconds are not measured here.
   std::vector<InterfaceReport> interfaces(int widest = std::numeric_limits<int>::max()) const;
   /// Local multipliers l_i of a sub-domain in the solution for a right-hand side (num_unknowns; solved for anew): generalised interface forces in the units of the right-hand side (times 1/s),
-  /// one per unknown of its boundary blocks, in that order.
+  /// one per unknown of its boundary blocks, in that order. Precondition: factor() ok.
   std::vector<double> local_multipliers(tree::SubdomainId subdomain, const double* rhs) const;
   /// Blocks whose multipliers are not unique (they take part in a null vector), ascending. Empty without deficiency.
   std::vector<int> blocks_not_unique() const;
