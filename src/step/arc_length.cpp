@@ -107,7 +107,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
       report.converged = still && is_small(system_, report.residual, options_.tolerance);
       const bool stalled = k > 1 && report.change > 0.3 * previous;
       if (still && !report.converged && (stalled || report.change == 0.0))
-        report.converged = report.at_floor = is_at_floor(system_, state, report.residual, options_.tolerance);
+        report.converged = report.at_floor = is_at_floor(system_, report.residual, options_.tolerance);
       if (report.converged) break;
       if (k >= options_.max_iterations)
         return fail("no convergence in " + std::to_string(k) +

@@ -56,7 +56,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
       report.converged = still && (is_small(system, report.residual, options.tolerance) || options.single_solution);
       const bool stalled = k > 1 && report.change > 0.3 * previous;
       if (still && !report.converged && (stalled || report.change == 0.0))
-        report.converged = report.at_floor = is_at_floor(system, state, report.residual, options.tolerance);
+        report.converged = report.at_floor = is_at_floor(system, report.residual, options.tolerance);
       if (report.converged) break;
       if (k >= options.max_iterations)
         return fail("no convergence in " + std::to_string(k) +

@@ -46,11 +46,10 @@ bool is_settled(const System& system, const ResidualSize& r, double tolerance, d
          within(r.length, system.plan().length_scale, 0.0) && within(r.angle, 1.0, 0.0);
 }
 
-bool is_noise(const System& system, const State& state, const ResidualSize& r, double tolerance, double size,
-              double expected) {
+bool is_noise(const System& system, const ResidualSize& r, double tolerance, double size, double expected) {
   constexpr double too_much = 16.0;  // for a contraction that only got worse
   if (size > tolerance || size <= too_much * expected) return false;
-  const ResidualSize floor = system.round_off_floor(state);
+  const ResidualSize& floor = system.round_off_floor();
   return r.force <= floor.force && r.moment <= floor.moment;
 }
 
@@ -58,8 +57,8 @@ bool is_closed(const System& system, const ResidualSize& r, double tolerance) {
   return r.length <= tolerance * system.plan().length_scale && r.angle <= tolerance;
 }
 
-bool is_at_floor(const System& system, const State& state, const ResidualSize& r, double tolerance) {
-  const ResidualSize floor = system.round_off_floor(state);
+bool is_at_floor(const System& system, const ResidualSize& r, double tolerance) {
+  const ResidualSize& floor = system.round_off_floor();
   return r.force <= std::max(roundings * floor.force, tolerance * r.force_scale) &&
          r.moment <= std::max(roundings * floor.moment, tolerance * r.moment_scale) &&
          r.length <= std::max(floor.length, tolerance * system.plan().length_scale) &&

@@ -35,14 +35,13 @@ bool is_small(const System& system, const ResidualSize& r, double tolerance);
 bool is_settled(const System& system, const ResidualSize& r, double tolerance, double share = 1.0);
 
 /// Whether a residual, `size` of what makes it, is much larger than `expected` of it and yet, below the tolerance, as small as round-off can make it.
-bool is_noise(const System& system, const State& state, const ResidualSize& r, double tolerance, double size,
-              double expected);
+bool is_noise(const System& system, const ResidualSize& r, double tolerance, double size, double expected);
 
 /// Whether the gaps of joints are within the tolerance.
 bool is_closed(const System& system, const ResidualSize& r, double tolerance);
 
 /// Whether what is left of a residual above the tolerance may be round-off.
-bool is_at_floor(const System& system, const State& state, const ResidualSize& r, double tolerance);
+bool is_at_floor(const System& system, const ResidualSize& r, double tolerance);
 
 /// check_shape of a state that the PlanarStep has just left: beams by its nodes, and of joints only those that could flip.
 std::optional<Trouble> check_shape_in_plane(const System& system, const State& state);

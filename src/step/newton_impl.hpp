@@ -44,14 +44,15 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       if (still && is_settled(system, report.residual, tolerance)) return converge();
       const bool lies_still = shrunk > shrinks && report.change <= least_change;
       if (k > 1 && report.change < tolerance &&
-          is_noise(system, state, report.residual, tolerance, size, lies_still ? 0.0 : expected)) {
+          is_noise(system, report.residual, tolerance, size, lies_still ? 0.0 : expected)) {
         system.note_noise(report.residual);
         if (still && is_settled(system, report.residual, tolerance)) return converge();
       }
       const bool stalled = k > 1 && rate > shrinks && is_own;  // with an old factor: it contracts badly here
       if (report.change < tolerance && stalled && size <= tolerance) return converge();
-      if (report.change < tolerance && (stalled || report.change == 0.0)) {  // is what is left only round-off?
-        if (is_at_floor(system, state, report.residual, tolerance)) {
+      // Is what is left only round-off? Nothing that a new factor could change where nodes no longer move.
+      if (report.change < tolerance && (stalled || report.change == 0.0 || (k > 1 && lies_still))) {
+        if (is_at_floor(system, report.residual, tolerance)) {
           report.at_floor = true;
           return converge();
         }
@@ -65,8 +66,8 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
         report.cause = "the iteration diverges: " + describe(system, report.residual, tolerance);
         return report;
       }
-      // A new factor costs some renewal_cost solutions: it pays where as many with this one would not do.
-      const double left = std::pow(std::min(rate, 1.0), system.renewal_cost());
+      // A new factor costs some renewal_cost solutions, and serves for one at least: it pays where as many with this one would not do.
+      const double left = std::pow(std::min(rate, 1.0), system.renewal_cost() + 1.0);
       const bool is_slow = k > 1 && (rate > shrinks || left * report.change > negligible ||
                                      !is_settled(system, report.residual, tolerance, left));
       if (k > 1 && is_own && rate > slowest_contraction && system.takes_symmetric_parts())

@@ -89,7 +89,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
         plan.directory[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(joint)].element)].index)];
     is_length_[unknown] = elements::is_length(e.rows[row].kind);
   });
-  renewal_cost_ = estimate_step_cost(plan, *tree_, *solver_).renewal();
+  renewal_cost_ = estimate_step_cost(*this).renewal();
   chunk_sizes_.resize((sums_.size() + block_grain - 1) / block_grain, {{}, true});
   find_pairs();
   if (planar_ && plan.is_dynamic) planar_step_ = std::make_unique<PlanarStep>(plan, *planar_, node_begin_, pairs_);
@@ -128,6 +128,13 @@ elements::Field System::field(const State& state, const elements::Slopes& slopes
   f.around.gravity = lanes::transpose_times(f.observer->pose.R, f.around.gravity);
   f.around.has_inertia = with_inertia;  // statics, too: at rest in a frame that moves steadily
   return f;
+}
+
+std::span<const solve::ElementBatch> System::batches() const { return batches_of(planar_.get()); }
+
+std::span<const solve::ElementBatch> System::batches_of(const PlanarSystem* planar) const {
+  if (planar != nullptr) return planar->batches();
+  return projection_ ? solver_->batches() : lane_batches_->batches();
 }
 
 void System::evaluate_alone(std::size_t id, const State& state, const elements::Field& f, bool tangent) {
@@ -176,8 +183,13 @@ void System::evaluate_projected(const E& e, std::size_t id, const elements::Fiel
       solver_->element(static_cast<int>(id)));
 }
 
-void System::set_matrix(int element, int num_unknowns, const double* entries) {
+void System::begin_matrices() {
   solver_->trust_symmetry(false);
+  is_of_matrices_ = false;
+  round_off_floor_.reset();
+}
+
+void System::set_matrix(int element, int num_unknowns, const double* entries) {
   const solve::ElementView view = solver_->element(element);
   for_each_kept(held_.get(), static_cast<std::size_t>(element), num_unknowns,
                 [&](std::int64_t place, int i) { view[place] = entries[i]; });
@@ -186,7 +198,6 @@ void System::set_matrix(int element, int num_unknowns, const double* entries) {
 }
 
 void System::add_matrix(int element, int num_unknowns, const double* entries) {
-  solver_->trust_symmetry(false);
   const solve::ElementView view = solver_->element(element);
   for_each_kept(held_.get(), static_cast<std::size_t>(element), num_unknowns,
                 [&](std::int64_t place, int i) { view[place] += entries[i]; });
@@ -217,13 +228,13 @@ void System::symmetrise(const solve::ElementBatch& batch) {
 std::optional<Trouble> System::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
   PhaseTimer timer{clock_, counts_.assemble};
   ++counts_.evaluations;
-  if (tangent) is_of_matrices_ = false;
-  if (tangent) solver_->trust_symmetry(takes_symmetric_parts_);
+  if (tangent) {
+    begin_matrices();
+    solver_->trust_symmetry(takes_symmetric_parts_);
+  }
   const elements::Field f = field(state, slopes);
   PlanarSystem* const planar = as_sensors_ ? nullptr : planar_.get();
-  const std::span<const solve::ElementBatch> batches = planar != nullptr ? planar->batches()
-                                                       : projection_     ? solver_->batches()
-                                                                         : lane_batches_->batches();
+  const std::span<const solve::ElementBatch> batches = batches_of(planar);
   const ElementResults results{parts_.data(), element_begin_.data(), tangent ? solver_.get() : nullptr};
   if (planar != nullptr) {
     if (!(planar_step_ && planar_step_->is_under_way())) {

@@ -228,7 +228,8 @@ void System::name_worst(ResidualSize& size) const {
   }
 }
 
-ResidualSize System::round_off_floor(const State&) const {
+const ResidualSize& System::round_off_floor() const {
+  if (round_off_floor_) return *round_off_floor_;
   constexpr double eps = std::numeric_limits<double>::epsilon();
   std::vector<double>& floor = floor_;
   std::vector<std::int64_t>& unknowns = floor_unknowns_;
@@ -260,7 +261,7 @@ ResidualSize System::round_off_floor(const State&) const {
   }
   s.length = 8.0 * eps * plan_.length_scale;
   s.angle = 8.0 * eps;
-  return s;
+  return round_off_floor_.emplace(s);
 }
 
 }  // namespace bough::step

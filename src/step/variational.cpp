@@ -153,7 +153,7 @@ std::optional<Trouble> Variational::evaluate_step(const State& next, double h, R
 
 /// What round-off leaves in the residual: of the momenta, and of the element matrices now present.
 ResidualSize Variational::round_off_floor(double h) const {
-  ResidualSize floor = system_.round_off_floor(mid_);
+  ResidualSize floor = system_.round_off_floor();
   constexpr double eps = std::numeric_limits<double>::epsilon();
   for (std::size_t n = 0; n < D_.size(); ++n)
     for (int i = 0; i < 6; ++i) {
@@ -196,6 +196,7 @@ void Variational::evaluate_tangent(const elements::Slopes& slopes, double h) {
   const elements::Field field = system_.field(mid_, slopes);
   const plan::Plan& plan = system_.plan();
   constexpr double no_multipliers[elements::max_rows] = {};
+  system_.begin_matrices();
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const int id = system_.tree().element_order[static_cast<std::size_t>(k)];

@@ -32,6 +32,7 @@ std::optional<Trouble> Variational::factor_mass(const State& state, double h) {
   if (const auto t = mass_.set_time(state.time, laws::Side::left)) return t;
   if (const auto t = mass_.evaluate(state, mass_slopes, true)) return t;
   const elements::Field field = mass_.field(state);
+  mass_.begin_matrices();
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k)
       plan::with_element(mass_.plan().elements, mass_.plan().directory[static_cast<std::size_t>(k)],

@@ -45,7 +45,7 @@ Effort effort_of(Built& b) {
   e.iterations = reuse ? usual_iterations : dynamic ? 3.0 : 5.0;
   e.factorizations = reuse ? usual_factorizations : e.iterations;
   const double residuals = reuse ? usual_evaluations : 1.0, tangents = e.factorizations;
-  const step::StepCost cost = step::estimate_step_cost(b.plan, b.system.tree(), b.system.solver());
+  const step::StepCost cost = step::estimate_step_cost(b.system);
   e.evaluate_seconds = residuals * cost.residual + tangents * cost.tangent;
   e.factor_seconds = e.factorizations * cost.factor;
   e.solve_seconds = e.iterations * cost.solve;

@@ -1,8 +1,6 @@
 #pragma once
 /// What the parts of a step cost, by a model with costs of one machine: for decisions and outlooks, in which ratios count.
-#include "bough/plan/plan.hpp"
-#include "bough/solve/any_solver.hpp"
-#include "bough/tree/tree.hpp"
+#include "bough/step/system.hpp"
 
 namespace bough::step {
 
@@ -19,6 +17,6 @@ struct StepCost {
 };
 
 /// No allocation.
-StepCost estimate_step_cost(const plan::Plan& plan, const tree::Tree& tree, const solve::AnySolver& solver);
+StepCost estimate_step_cost(const System& system);
 
 }  // namespace bough::step

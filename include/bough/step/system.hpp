@@ -3,6 +3,7 @@
 /// not afterwards.
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -75,7 +76,10 @@ class System {
 
   const plan::Plan& plan() const { return plan_; }
   const tree::Tree& tree() const { return *tree_; }
+  /// Elements that are evaluated together.
+  std::span<const solve::ElementBatch> batches() const;
   solve::AnySolver& solver() { return *solver_; }
+  const solve::AnySolver& solver() const { return *solver_; }
   const tree::Walker& walker() const { return walker_; }
   WorkCounts& counts() { return counts_; }
   CpuClock& clock() { return clock_; }
@@ -89,14 +93,16 @@ class System {
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
   /// By block, unknowns in the order of the solver, then those of driven nodes and of the joints that move them.
   const std::vector<double>& residual() const { return residual_; }
+  /// To be called before matrices are set or added to, which several threads may then do: what is known of those present holds no longer.
+  void begin_matrices();
   /// Puts an element's matrix, row-major in all of its unknowns, in the place of its tangent, or adds it there.
   void set_matrix(int element, int num_unknowns, const double* entries);
   void add_matrix(int element, int num_unknowns, const double* entries);
   /// Of the residual last evaluated, without the worst nodes and joint: name_worst looks for these, for messages.
   ResidualSize residual_size() const;
   void name_worst(ResidualSize& size) const;
-  /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment.
-  ResidualSize round_off_floor(const State& state) const;
+  /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment, K the element matrices now present.
+  const ResidualSize& round_off_floor() const;
   /// Residual that iterations of this run could not make smaller although they contracted: zero until one met it, and again after 64 iterations.
   const ResidualSize& noise() const { return noise_; }
   void note_noise(const ResidualSize& r) { noise_ = r; }
@@ -233,6 +239,8 @@ class System {
 
   /// Puts (A + A^T) / 2 in place of the tangents of a batch.
   void symmetrise(const solve::ElementBatch& batch);
+  /// planar: evaluates them, null: elements in space.
+  std::span<const solve::ElementBatch> batches_of(const PlanarSystem* planar) const;
   void evaluate_alone(std::size_t id, const State& state, const elements::Field& field, bool tangent);
   template <class E>
   void evaluate_projected(const E& e, std::size_t id, const elements::Field& field, const double* multipliers,
@@ -270,9 +278,10 @@ class System {
   std::int64_t num_node_sums_ = 0, num_row_sums_ = 0;
   std::vector<std::int64_t> uses_;  ///< places in parts_ that add up, fixed order
   std::vector<double> residual_;
-  mutable std::vector<double> floor_;                 ///< scratch of round_off_floor
-  mutable std::vector<std::int64_t> floor_unknowns_;  ///< scratch of round_off_floor
-  std::vector<ChunkSize> chunk_sizes_;                ///< of residual_, by chunk of sums
+  mutable std::optional<ResidualSize> round_off_floor_;  ///< of the element matrices now present, once asked for
+  mutable std::vector<double> floor_;                    ///< scratch of round_off_floor
+  mutable std::vector<std::int64_t> floor_unknowns_;     ///< scratch of round_off_floor
+  std::vector<ChunkSize> chunk_sizes_;                   ///< of residual_, by chunk of sums
   std::vector<char> is_length_;  ///< by unknown: whether it is the multiplier of a length, in blocks of joints
   struct MultiplierPlace {
     std::size_t multiplier, unknown;

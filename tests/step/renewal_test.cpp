@@ -1,0 +1,80 @@
+/// When factors are renewed, and when an iteration ends without one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bough/plan/element_cost.hpp"
+#include "bough/step/step_cost.hpp"
+#include "lattice_scene.hpp"
+#include "small_scenes.hpp"
+#include "support/rig.hpp"
+
+namespace bough::step {
+namespace {
+
+/// A steel bar of 64 elements, held at one end, under a share of its weight.
+scene::Scene make_bar(double share) {
+  scene::Scene s = test::make_chain(1);
+  s.joints[0].kind = scene::JointKind::fixed;
+  s.beams[0].elements = 64;
+  s.gravity = share * s.gravity;
+  return s;
+}
+
+/// EA eps is a hundredth of what a millionth of the weight weighs: round-off that the tolerance cannot be met beside. Nodes that lie still ask for
+/// neither more solutions nor new factors.
+TEST(Renewal, none_for_forces_that_round_off_leaves) {
+  constexpr int steps = 100;
+  for (const double share : {1e-4, 1e-6}) {
+    test::Rig rig(make_bar(share));
+    rig.run(0, 1e-3);
+    const long solutions = rig.system.counts().solutions, factors = rig.system.counts().factorizations;
+    const StepOptions options = make_step_options(rig.scene.analysis);
+    int at_floor = 0;
+    for (int k = 1; k <= steps; ++k) {
+      const StepReport report = advance(rig.system, rig.state, options, 1e-3 * k);
+      ASSERT_TRUE(report.converged) << report.cause;
+      at_floor += report.at_floor ? 1 : 0;
+    }
+    EXPECT_LE(rig.system.counts().solutions - solutions, 2.3 * steps) << share;
+    EXPECT_LE(rig.system.counts().factorizations - factors, 0.15 * steps) << share;
+    EXPECT_GT(at_floor, steps / 5) << "the scene is meant to end at round-off, " << share;
+  }
+}
+
+/// Most elements of a lattice have hardly any equals that are factored in lockstep with theirs, and are evaluated eight at a time all the same.
+TEST(StepCost, counts_elements_as_they_are_evaluated) {
+  const test::Rig rig(test::make_lattice(scene::AnalysisKind::dynamics));
+  int alone = 0;
+  for (const solve::ElementBatch& batch : rig.system.solver().batches()) {
+    const auto present = std::count_if(batch.element.begin(), batch.element.end(), [](int id) { return id >= 0; });
+    alone += present == 1 ? 1 : 0;
+  }
+  ASSERT_GT(alone, rig.plan.graph.num_elements() / 2);
+  const auto beams = static_cast<double>(plan::array_of<elements::Beam<2>>(rig.plan.elements).size());
+  ASSERT_EQ(beams, static_cast<double>(rig.plan.directory.size()));
+  const plan::ElementCost& cost = plan::cost<elements::Beam<2>>;
+  const StepCost step = estimate_step_cost(rig.system);
+  EXPECT_GE(step.residual, beams * cost.lane);
+  EXPECT_LT(step.residual, beams * 0.5 * cost.alone);
+  EXPECT_LT(step.tangent, beams * 0.5 * cost.alone_tangent);
+  EXPECT_GT(step.renewal(), 1.0) << "a tangent and its factor cost more than a solution";
+}
+
+/// A plane has half the unknowns: each part of a step costs less, tangents and the motion of nodes less than half.
+TEST(StepCost, is_lower_in_a_plane) {
+  scene::Scene s = test::make_chain(16);
+  const test::Rig plane(s);
+  s.without = {"planar"};
+  const test::Rig space(s);
+  ASSERT_TRUE(plane.plan.planar && !space.plan.planar);
+  const StepCost a = estimate_step_cost(plane.system), b = estimate_step_cost(space.system);
+  EXPECT_LT(a.residual, b.residual);
+  EXPECT_LT(a.solve, b.solve);
+  EXPECT_LT(a.tangent, 0.5 * b.tangent);
+  EXPECT_LT(a.factor, b.factor);
+  EXPECT_LT(a.update, 0.5 * b.update);
+}
+
+}  // namespace
+}  // namespace bough::step
