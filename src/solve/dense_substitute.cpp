@@ -10,10 +10,13 @@ namespace bough::solve {
 namespace {
 
 using tiles::add_product;
+using tiles::add_some_products;
 using tiles::all;
 using tiles::Lanes;
 using tiles::load;
+using tiles::load_some;
 using tiles::store;
+using tiles::store_some;
 using tiles::take_product;
 using tiles::width;
 
@@ -39,8 +42,15 @@ void take_columns(int n, const double* a, std::ptrdiff_t lda, const double* y, d
     for (int c = 0; c < C; ++c) v = take_product(load(a + c * lda + i), factor[c], v);
     store(f + i, v);
   }
-  for (; i < n; ++i)
-    for (int c = 0; c < C; ++c) f[i] = take_product(a[c * lda + i], y[c], f[i]);
+  if constexpr (width == 8) {
+    if (i == n) return;
+    Lanes v = load_some(n - i, f + i);
+    for (int c = 0; c < C; ++c) v = take_product(load_some(n - i, a + c * lda + i), factor[c], v);
+    store_some(n - i, f + i, v);
+  } else {
+    for (; i < n; ++i)
+      for (int c = 0; c < C; ++c) f[i] = take_product(a[c * lda + i], y[c], f[i]);
+  }
 }
 
 /// f[0, n) -= a y, k columns.
@@ -61,12 +71,13 @@ void sum_products(int n, const double* a, std::ptrdiff_t lda, const double* x, d
       const Lanes xr = load(x + i + r * width);
       for (int c = 0; c < C; ++c) sum[c][r] = add_product(load(a + c * lda + i + r * width), xr, sum[c][r]);
     }
-  for (int c = 0; c < C; ++c) {
-    double parts[8];
-    for (int r = 0; r < registers; ++r) store(parts + r * width, sum[c][r]);
-    for (int k = i, l = 0; k < n; ++k, ++l) parts[l] = add_product(a[c * lda + k], x[k], parts[l]);
-    to[c] = ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]));
-  }
+  for (int r = 0; r < registers && i < n; ++r, i += width)
+    for (int c = 0; c < C; ++c) {
+      const double* column = a + c * lda + i;
+      sum[c][r] = n - i < width ? add_some_products(n - i, column, x + i, sum[c][r])
+                                : add_product(load(column), load(x + i), sum[c][r]);
+    }
+  for (int c = 0; c < C; ++c) to[c] = tiles::sum_of_eight(sum[c]);
 }
 
 /// x[0, k) = L11^-T (x - L21^T x_B), L unit lower, its n rows in the first k columns of a.

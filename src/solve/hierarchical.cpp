@@ -62,7 +62,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     const tree::Front& f = front(id);
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
     const std::int64_t size = in_lanes ? 0 : f.size();
-    vector_begin.push_back(vector_begin.back() + size);
+    vector_begin.push_back(vector_begin.back() + vector_size(size));
     index_begin.push_back(index_begin.back() + (in_lanes ? 0 : 3 * f.num_eliminated));
     own_begin.push_back(own_begin.back() + f.num_eliminated);
     if (!in_lanes) scalar_fronts.push_back(id);
@@ -73,7 +73,6 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   schur_places = plan_schur(tree, lanes.lane_front, keeps_all, is_symmetric());
   schur_pool.resize(at(schur_places.pool));
   vector_pool.resize(at(vector_begin.back()));
-  scratch_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));
   if (options.elimination == Elimination::plain) plain.resize(at(tree.num_subdomains()));
   lane_vectors.assign(lanes.unknowns.size(), 0.0);
@@ -344,7 +343,7 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
 SolverCounters Hierarchical::counters() const {
   const State& s = *state_;
   SolverCounters c = s.counters;
-  std::size_t doubles = s.factor_pool.size() + s.schur_pool.size() + 2 * s.vector_pool.size() +
+  std::size_t doubles = s.factor_pool.size() + s.schur_pool.size() + s.vector_pool.size() +
                         s.null_space.left.capacity() + s.null_space.right.capacity();
   for (const std::vector<double>* v :
        {&s.scales.row, &s.scales.column, &s.scales.weight, &s.rhs, &s.residual, &s.correction})

@@ -76,6 +76,11 @@ struct SolutionSizes {
 /// Doubles of Schur complements and vectors that a visit has on its stack.
 constexpr std::int64_t room_of_scratch = 1 << 14;
 
+/// Unknowns of a front whose substitutions take their scratch from the stack, not from behind its vector.
+constexpr std::int64_t room_of_vector = 1 << 11;
+/// Doubles of a vector and what stands behind it.
+inline std::int64_t vector_size(std::int64_t unknowns) { return unknowns <= room_of_vector ? unknowns : 2 * unknowns; }
+
 struct Hierarchical::State {
   /// keep_all: all Schur complements last until the next factorization, for reports.
   State(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options, bool keep_all);
@@ -101,7 +106,7 @@ struct Hierarchical::State {
   std::vector<double> group_flops;  ///< of one visit
   SchurPlaces schur_places;
   LaneDoubles factor_pool, schur_pool;
-  std::vector<double> vector_pool, scratch_pool;
+  std::vector<double> vector_pool;
   std::vector<int> index_pool;
   std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool)
   std::vector<Run> runs;
@@ -174,6 +179,9 @@ struct Hierarchical::State {
     return index < 0 ||
            (scalar_lanes[static_cast<std::size_t>(index)] >> lanes.lane[static_cast<std::size_t>(f)] & 1) != 0;
   }
+  /// body(as many doubles as the front has unknowns).
+  template <class Body>
+  static void with_vector(FrontData& d, Body&& body);
   template <class Body>
   void for_boundary(tree::FrontId f, Body&& body) const;  ///< body(row of the boundary, unknown)
 
@@ -201,6 +209,7 @@ struct Hierarchical::State {
   void eliminate_front(tree::FrontId f);
   // solve_walks.cpp
   void forward_front(tree::FrontId f);
+  void gather_rhs(tree::FrontId f, double* gathered);
   void backward_front(tree::FrontId f);
   bool checks() const { return options.check != SolveCheck::none; }
   void take(const double* b, double* x_out, bool looks_again);
@@ -235,6 +244,13 @@ void Hierarchical::State::with_scratch(int index, Visit&& visit) {
   if (fits) group_scratch[static_cast<std::size_t>(index)] = scratch;
   visit();
   if (fits) group_scratch[static_cast<std::size_t>(index)] = nullptr;
+}
+
+template <class Body>
+void Hierarchical::State::with_vector(FrontData& d, Body&& body) {
+  if (d.size > room_of_vector) return body(d.vector + d.size);
+  double scratch[room_of_vector];
+  body(scratch);
 }
 
 template <class Body>

@@ -107,12 +107,12 @@ void Hierarchical::State::eval_null_candidates() {
 /// Left vectors of a front on the scalar path: its boundary from `left`, unscaled, its own part into it.
 void Hierarchical::State::backward_left_front(tree::FrontId f, std::vector<double>& left) {
   FrontData& d = data(f);
-  const bool is_enlarged = d.delayed_in > 0 || lanes.lane_front[at(f)] >= 0;
-  double* z = is_enlarged ? d.vector + d.size : scratch_pool.data() + vector_begin[at(f)];
-  for (int i = 0; i < d.full; ++i) z[i] = i < d.pivots ? 0.0 : left[at(d.rows[i])] / scales.row[at(d.rows[i])];
-  for_boundary(f, [&](int i, std::size_t u) { z[d.full + i] = left[u] / scales.row[u]; });
-  substitute_backward_left(d.matrix(), d.pivots, z);
-  for (int i = 0; i < d.pivots; ++i) left[at(d.rows[i])] = z[i] * scales.row[at(d.rows[i])];
+  with_vector(d, [&](double* z) {
+    for (int i = 0; i < d.full; ++i) z[i] = i < d.pivots ? 0.0 : left[at(d.rows[i])] / scales.row[at(d.rows[i])];
+    for_boundary(f, [&](int i, std::size_t u) { z[d.full + i] = left[u] / scales.row[u]; });
+    substitute_backward_left(d.matrix(), d.pivots, z);
+    for (int i = 0; i < d.pivots; ++i) left[at(d.rows[i])] = z[i] * scales.row[at(d.rows[i])];
+  });
 }
 
 /// The left-over block T of the root is small, but small against what? With Z = Q_z R_z and Y = Q_y R_y the smallest singular values of A

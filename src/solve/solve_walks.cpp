@@ -11,10 +11,19 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 void Hierarchical::State::forward_front(tree::FrontId f) {
-  const tree::Front& shape = front(f);
   FrontData& d = data(f);
-  const bool is_enlarged = d.delayed_in > 0 || lanes.lane_front[at(f)] >= 0;
-  double* gathered = is_enlarged ? d.vector + d.size : scratch_pool.data() + vector_begin[at(f)];
+  with_vector(d, [&](double* gathered) {
+    gather_rhs(f, gathered);
+    for (int i = 0; i < d.full; ++i) d.vector[i] = gathered[d.row_from[i]];
+    std::copy(gathered + d.full, gathered + d.size, d.vector + d.full);
+  });
+  substitute_forward(d.matrix(), d.pivots, d.vector);
+}
+
+/// Its right-hand side and what the children have condensed, rows as they are assembled.
+void Hierarchical::State::gather_rhs(tree::FrontId f, double* gathered) {
+  const tree::Front& shape = front(f);
+  const FrontData& d = data(f);
   const int* own = own_unknowns.data() + own_begin[at(f)];
   for (int i = 0; i < d.delayed_in; ++i) gathered[i] = 0.0;
   for (int i = 0; i < shape.num_eliminated; ++i) {
@@ -38,20 +47,17 @@ void Hierarchical::State::forward_front(tree::FrontId f) {
       for (int i = 0; i < run.length; ++i) to[i] += from[i];
     }
   }
-  for (int i = 0; i < d.full; ++i) d.vector[i] = gathered[d.row_from[i]];
-  std::copy(gathered + d.full, gathered + d.size, d.vector + d.full);
-  substitute_forward(d.matrix(), d.pivots, d.vector);
 }
 
 void Hierarchical::State::backward_front(tree::FrontId f) {
   FrontData& d = data(f);
-  const bool is_enlarged = d.delayed_in > 0 || lanes.lane_front[at(f)] >= 0;
-  double* y = is_enlarged ? d.vector + d.size : scratch_pool.data() + vector_begin[at(f)];
-  std::copy(d.vector, d.vector + d.pivots, y);
-  for (int i = d.pivots; i < d.full; ++i) y[i] = x[at(d.columns[i])] / scales.column[at(d.columns[i])];
-  for_boundary(f, [&](int i, std::size_t u) { y[d.full + i] = x[u] / scales.column[u]; });
-  substitute_backward(d.matrix(), d.pivots, y);
-  for (int i = 0; i < d.pivots; ++i) x[at(d.columns[i])] = scales.column[at(d.columns[i])] * y[i];
+  with_vector(d, [&](double* y) {
+    std::copy(d.vector, d.vector + d.pivots, y);
+    for (int i = d.pivots; i < d.full; ++i) y[i] = x[at(d.columns[i])] / scales.column[at(d.columns[i])];
+    for_boundary(f, [&](int i, std::size_t u) { y[d.full + i] = x[u] / scales.column[u]; });
+    substitute_backward(d.matrix(), d.pivots, y);
+    for (int i = 0; i < d.pivots; ++i) x[at(d.columns[i])] = scales.column[at(d.columns[i])] * y[i];
+  });
 }
 
 /// x = solution of A x = b, which may be the same array; unknowns left over at the root (dependent rows) are zero, then multipliers are made least.

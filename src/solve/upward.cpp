@@ -45,17 +45,17 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   } else {
     Enlarged& own = enlarged[at(f)];
     const FrontShape parts(d.size, d.full, is_symmetric);
-    const std::size_t doubles = at(parts.factor_size() + parts.s), n = at(d.size);
-    if (own.a.capacity() < doubles || own.vector.capacity() < 2 * n) {
+    const std::size_t doubles = at(parts.factor_size() + parts.s), n = at(vector_size(d.size));
+    if (own.a.capacity() < doubles || own.vector.capacity() < n) {
       // some room to grow: deficiencies come and go during a run
       const FrontShape room(d.size + 4, d.full + 4, false);
       own.a.reserve(std::max(doubles, at(room.factor_size() + room.s)));
-      own.vector.reserve(2 * (n + 4));
+      own.vector.reserve(at(vector_size(d.size + 4)));
       own.indices.reserve(3 * at(d.full + 4));
       d.allocated = true;
     }
     own.a.resize(doubles);
-    own.vector.resize(2 * n);
+    own.vector.resize(n);
     own.indices.resize(3 * at(d.full));
     d.vector = own.vector.data();
     d.rows = own.indices.data();
