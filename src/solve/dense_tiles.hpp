@@ -131,8 +131,7 @@ inline void store_some(int n, double* p, const Lanes& v) {
 inline Lanes add_some_products(int n, const double* a, const double* b, const Lanes& c) {
 #if defined(__AVX512F__)
   const auto some = static_cast<__mmask8>((1u << n) - 1u);
-  return Lanes(
-      _mm512_mask3_fmadd_pd(_mm512_maskz_loadu_pd(some, a), _mm512_maskz_loadu_pd(some, b), __m512d(c), some));
+  return Lanes(_mm512_mask3_fmadd_pd(_mm512_maskz_loadu_pd(some, a), _mm512_maskz_loadu_pd(some, b), __m512d(c), some));
 #else
   double sum[width];
   store(sum, c);
@@ -146,7 +145,8 @@ inline double sum_of_eight(const Lanes* p) {
 #if defined(__AVX512F__)
   const __m512d v(p[0]), pairs = _mm512_add_pd(v, _mm512_permute_pd(v, 0x55)),
                          fours = _mm512_add_pd(pairs, _mm512_permutex_pd(pairs, 0x4e));
-  return _mm_cvtsd_f64(_mm_add_sd(_mm512_castpd512_pd128(fours), _mm256_castpd256_pd128(_mm512_extractf64x4_pd(fours, 1))));
+  return _mm_cvtsd_f64(
+      _mm_add_sd(_mm512_castpd512_pd128(fours), _mm256_castpd256_pd128(_mm512_extractf64x4_pd(fours, 1))));
 #else
   double s[8];
   for (int r = 0; r < 8 / width; ++r) store(s + r * width, p[r]);

@@ -56,15 +56,25 @@ lanes::Jet<S, N> angle_of(const lanes::Jet<S, N>& c, const lanes::Jet<S, N>& s) 
   return r;
 }
 
+/// q = (1 - (theta/2) cot(theta/2)) / theta^2 as a function of x = theta^2, and its derivative by x.
+template <class S>
+struct InverseSeries {
+  S q, dq;
+};
+template <class S>
+InverseSeries<S> eval_inverse_series(const S& x) {
+  const auto k = eval_inverse_coefficients(x);
+  return {k.k, k.dk};
+}
+template <class S, int N>
+InverseSeries<lanes::Jet<S, N>> eval_inverse_series(const lanes::Jet<S, N>& x) {
+  const auto k = eval_inverse_coefficients(x.a);
+  return {lanes::chain(x, k.k, k.dk), lanes::chain(x, k.dk, k.ddk)};
+}
 /// 1/f - the real part as a function of x = theta^2.
 template <class S>
 S half_cotangent(const S& x) {
-  return S(1.0) - x * eval_inverse_coefficients(x).k;
-}
-template <class S, int N>
-lanes::Jet<S, N> half_cotangent(const lanes::Jet<S, N>& x) {
-  const auto k = eval_inverse_coefficients(x.a);
-  return lanes::chain(x, S(S(1.0) - x.a * k.k), S(-k.k - x.a * k.dk));
+  return S(1.0) - x * eval_inverse_series(x).q;
 }
 
 /// f and k at an angle, with their first (d) and second (dd) derivatives by it.
@@ -122,28 +132,39 @@ struct PlaneMotion {
   }
 };
 
-/// The same and T^-1, of a motion that is a logarithm: |theta| < 2 pi.
+/// A motion that is a logarithm, |theta| < 2 pi, and its T^-1 z = (conj(h) z_u - z_w p u; z_w),  h = 1/f = 1 - theta^2 q - i theta/2,
+/// p = i/2 - theta q.
 template <class S>
-struct PlaneLog : PlaneMotion<S> {
-  Vec2<S> h;  ///< 1/f
+struct PlaneLog {
   Vec3<S> d;
+  Vec2<S> h, p, pu;
+  InverseSeries<S> series;
 
   PlaneLog() = default;
   /// d = log of the pose (e^(i theta) = turn, x).
   PlaneLog(const Vec2<S>& turn, const Vec2<S>& x) {
-    const S angle = angle_of(turn[0], turn[1]);
-    h = {{half_cotangent(S(angle * angle)), -0.5 * angle}};
+    const S angle = angle_of(turn[0], turn[1]), square = angle * angle;
+    series = eval_inverse_series(square);
+    h = {{S(S(1.0) - square * series.q), S(-0.5 * angle)}};
+    p = {{S(-(angle * series.q)), S(0.5)}};
     d = join(complex_times(h, x), angle);
-    static_cast<PlaneMotion<S>&>(*this) = PlaneMotion<S>(d);
+    pu = complex_times(p, plane_part(d));
   }
   /// T^-1 z
   Vec3<S> inverse_times(const Vec3<S>& z) const {
-    return join(conjugate_times(h, Vec2<S>(plane_part(z) - z[2] * this->ku)), z[2]);
+    return join(Vec2<S>(conjugate_times(h, plane_part(z)) - z[2] * pu), z[2]);
+  }
+  /// (d(T^-1 z)/dd) delta:  h' = -2 theta (q + x dq/dx) - i/2,  p' = -(q + 2 x dq/dx)
+  Vec3<S> inverse_slope_times(const Vec3<S>& delta, const Vec3<S>& z) const {
+    const S x = d[2] * d[2], once = series.q + x * series.dq, twice = once + x * series.dq;
+    const Vec2<S> slope{{S(-2.0 * d[2] * once), S(-0.5)}};
+    const Vec2<S> by_angle = conjugate_times(slope, plane_part(z)) + S(z[2] * twice) * plane_part(d);
+    return join(Vec2<S>(delta[2] * by_angle - z[2] * complex_times(p, plane_part(delta))), S(0.0));
   }
   /// T^-T m
   Vec3<S> inverse_transpose_times(const Vec3<S>& m) const {
-    const Vec2<S> n = complex_times(h, plane_part(m));
-    return join(n, S(m[2] - dot(this->ku, n)));
+    const Vec2<S> n = plane_part(m);
+    return join(complex_times(h, n), S(m[2] - dot(pu, n)));
   }
 };
 

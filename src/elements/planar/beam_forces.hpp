@@ -54,9 +54,8 @@ void eval_beam_rates(const Beam<N, C>& e, const PortMotion<S>* p, const Surround
   b.b = weighed_acceleration(p[r], around);
   for (int i = 0; i < N; ++i) {
     if (i == r) continue;
-    Vec3<S> c = weighed_acceleration(p[i], around) - b.b;
-    if (moves) c -= b.log[i].slope_times(b.rate[i], b.z[i]);
-    b.zz[i] = b.log[i].inverse_times(c);
+    b.zz[i] = b.log[i].inverse_times(weighed_acceleration(p[i], around) - b.b);
+    if (moves) b.zz[i] += b.log[i].inverse_slope_times(b.rate[i], p[i].v - b.v);
   }
 }
 

@@ -48,9 +48,9 @@ WrenchSlope<S> hessian(const PlaneMotion<S>& m, const Vec3<S>& y, const Vec3<S>&
 }
 /// d(T^-T p)/dd, where n = T^-T p:  dn_u = h' p_u dtheta = -h f' n_u dtheta,  dn_w = -d((k u) . n_u).
 template <class S>
-WrenchSlope<S> inverse_transpose_jacobian(const PlaneLog<S>& m, const Vec3<S>& wrench) {
+WrenchSlope<S> inverse_transpose_jacobian(const PlaneMotion<S>& m, const Vec2<S>& h, const Vec3<S>& wrench) {
   const Vec2<S> n = motion::plane_part(wrench);
-  const Vec2<S> turned = -motion::complex_times(motion::complex_times(m.series.df, m.h), n);
+  const Vec2<S> turned = -motion::complex_times(motion::complex_times(m.series.df, h), n);
   return {turned, -motion::conjugate_times(m.series.k, n),
           -(lanes::dot(motion::complex_times(m.series.dk, m.u), n) + lanes::dot(m.ku, turned))};
 }
@@ -73,6 +73,7 @@ struct RateSlopes {
 /// By node i itself and by the reference node.
 template <class S, int N>
 struct BeamColumns {
+  PlaneMotion<S> log[N];  ///< T(d_i)
   RateSlopes<S> own[N], reference[N];
   PlaneMap<S> b[N];  ///< of a - (R^T g; 0) of every node by its own increment
 };
@@ -112,10 +113,11 @@ void eval_beam_columns(const BeamRates<S, N>& b, const PortMotion<S>* p, const P
     }
   for (int i = 0; i < N; ++i) {
     if (i == r) continue;
-    const PlaneLog<S>& log = b.log[i];
-    const PlaneMap<S> U = inverse_map(log.h, log.ku);
+    const PlaneMap<S> U = inverse_map(b.log[i]);
+    PlaneMotion<S>& log = columns.log[i];
     RateSlopes<S>&own = columns.own[i], &ref = columns.reference[i];
     if (terms.moves) {
+      log = PlaneMotion<S>(b.d[i]);
       own.d = U;
       ref.d = bracket_map(b.d[i]) + negated(U);
     }
@@ -324,9 +326,9 @@ void eval_nodal_blocks(const BeamRates<S, N>& b, const Vec3<S>* out, const BeamT
   constexpr int r = elements::Beam<N>::reference;
   for (int i = 0; i < N; ++i) {
     if (i == r) continue;
-    const PlaneMap<S> U = inverse_map(b.log[i].h, b.log[i].ku);
+    const PlaneMap<S> U = inverse_map(b.log[i]);
     WrenchSlope<S> by_d;
-    if (terms.moves) by_d = inverse_transpose_jacobian(b.log[i], out[i]);
+    if (terms.moves) by_d = inverse_transpose_jacobian(columns.log[i], b.log[i].h, out[i]);
     for (int j = 0; j < N; ++j) {
       Mat3<S> block = transposed_product(U, blocks.by[i][j]);
       if (terms.moves && (j == i || j == r))

@@ -87,14 +87,15 @@ BOUGH_INLINE PlaneMap<S> map_of(const PlaneMotion<S>& m) {
   return {conjugate(m.series.f), m.ku, S(1.0)};
 }
 template <class S>
-BOUGH_INLINE PlaneMap<S> inverse_map(const Vec2<S>& h, const Vec2<S>& ku) {
-  return {conjugate(h), -motion::conjugate_times(h, ku), S(1.0)};
+BOUGH_INLINE PlaneMap<S> inverse_map(const PlaneLog<S>& log) {
+  return {conjugate(log.h), -log.pu, S(1.0)};
 }
 /// T(d)^-1 of a motion that is no logarithm. Its h comes from the series at hand: 1/f = conj(f) / |f|^2, |f|^2 = 2 c_2, f = (c_1, theta c_2).
 template <class S>
 BOUGH_INLINE PlaneMap<S> inverse_tangent_map(const Vec3<S>& d) {
   const PlaneMotion<S> m(d);
-  return inverse_map(Vec2<S>{{0.5 * m.series.f[0] / m.series.k[1], -0.5 * m.theta}}, m.ku);
+  const Vec2<S> h{{0.5 * m.series.f[0] / m.series.k[1], -0.5 * m.theta}};
+  return {conjugate(h), -motion::conjugate_times(h, m.ku), S(1.0)};
 }
 /// ad(d), ad(d) x and a ad(v).
 template <class S>
