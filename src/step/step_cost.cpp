@@ -16,7 +16,7 @@ constexpr double per_sum = 20e-9;   ///< gathering, adding and sizing up, an ele
 constexpr double per_node = 90e-9;  ///< moving a node with its velocity and acceleration, an iteration [s]
 constexpr double per_front_lanes = 1.6e-7, per_flop_lanes = 2.5e-11;
 constexpr double per_front = 1.7e-6, per_flop = 4.8e-11;
-constexpr double per_flop_of_others = 10.0 * per_flop;  ///< of monolithic solvers
+constexpr double per_flop_of_others = 1.1e-9;  ///< of monolithic solvers
 // A solution: fronts one by one, and bytes of factors and element matrices, from memory where they do not stay in the caches [s].
 constexpr double per_front_solved = 1.5e-7, per_byte_near = 1.1e-11, per_byte_far = 5e-11;
 constexpr double bytes_near = 16e6;
@@ -46,11 +46,11 @@ StepCost estimate_step_cost(const System& system) {
   for (const solve::ElementBatch& batch : system.batches())
     add_elements(plan, batch, plan.unknowns.is_whole() || plan.planar, cost);
   const solve::SolverCounters counters = system.solver().counters();
-  const double fronts = system.tree().num_fronts(), bytes = static_cast<double>(counters.memory_bytes);
-  double alone = fronts;  // fronts
+  const auto bytes = static_cast<double>(counters.memory_bytes);
+  double alone = 0.0;  // fronts
   if (system.solver().hierarchical() != nullptr) {
     const auto in_lanes = static_cast<double>(counters.fronts_in_lanes);
-    alone = fronts - in_lanes;
+    alone = system.tree().num_fronts() - in_lanes;
     cost.factor = in_lanes * per_front_lanes + alone * per_front + counters.flops_in_lanes * per_flop_lanes +
                   (counters.factor_flops - counters.flops_in_lanes) * per_flop;
   } else {

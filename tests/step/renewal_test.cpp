@@ -21,8 +21,8 @@ scene::Scene make_bar(double share) {
   return s;
 }
 
-/// EA eps is a hundredth of what a millionth of the weight weighs: round-off that the tolerance cannot be met beside. Nodes that lie still ask for
-/// neither more solutions nor new factors.
+/// Places rounded to eps leave forces of eps EA over the length of an element, 1e-6 N, beside 3e-3 and 3e-5 N of weight: the tolerance cannot be met.
+/// Nodes that lie still ask for neither more solutions nor new factors.
 TEST(Renewal, none_for_forces_that_round_off_leaves) {
   constexpr int steps = 100;
   for (const double share : {1e-4, 1e-6}) {

@@ -73,7 +73,7 @@ struct RateSlopes {
 /// By node i itself and by the reference node.
 template <class S, int N>
 struct BeamColumns {
-  PlaneMotion<S> log[N];  ///< T(d_i)
+  PlaneMotion<S> T[N];  ///< of d_i
   RateSlopes<S> own[N], reference[N];
   PlaneMap<S> b[N];  ///< of a - (R^T g; 0) of every node by its own increment
 };
@@ -114,16 +114,16 @@ void eval_beam_columns(const BeamRates<S, N>& b, const PortMotion<S>* p, const P
   for (int i = 0; i < N; ++i) {
     if (i == r) continue;
     const PlaneMap<S> U = inverse_map(b.log[i]);
-    PlaneMotion<S>& log = columns.log[i];
+    PlaneMotion<S>& T = columns.T[i];
     RateSlopes<S>&own = columns.own[i], &ref = columns.reference[i];
     if (terms.moves) {
-      log = PlaneMotion<S>(b.d[i]);
+      T = PlaneMotion<S>(b.d[i]);
       own.d = U;
       ref.d = bracket_map(b.d[i]) + negated(U);
     }
     PlaneMap<S> carried;
     if (terms.rates) {
-      const UpperRows<S> J = jacobian(log, b.z[i]);
+      const UpperRows<S> J = jacobian(T, b.z[i]);
       own.z = ports[i].velocity;
       ref.z = negated(ports[r].velocity);
       subtract_product(own.z, J, own.d);
@@ -140,14 +140,14 @@ void eval_beam_columns(const BeamRates<S, N>& b, const PortMotion<S>* p, const P
     own.zz = columns.b[i];
     ref.zz = negated(columns.b[r]);
     if (terms.rates) {
-      const AccelerationSlopes<S> slopes = eval_acceleration_slopes<S>(log, b.z[i], b.rate[i], b.zz[i], b.v);
+      const AccelerationSlopes<S> slopes = eval_acceleration_slopes<S>(T, b.z[i], b.rate[i], b.zz[i], b.v);
       subtract_product(own.zz, slopes.by_z, own.z);
       subtract_product(ref.zz, slopes.by_z, ref.z);
       subtract_product(own.zz, slopes.by_d, own.d);
       subtract_product(ref.zz, slopes.by_d, ref.d);
       subtract_product(ref.zz, slopes.J, carried);
     } else if (terms.moves) {
-      const UpperRows<S> J = jacobian(log, b.zz[i]);
+      const UpperRows<S> J = jacobian(T, b.zz[i]);
       subtract_product(own.zz, J, own.d);
       subtract_product(ref.zz, J, ref.d);
     }
@@ -328,7 +328,7 @@ void eval_nodal_blocks(const BeamRates<S, N>& b, const Vec3<S>* out, const BeamT
     if (i == r) continue;
     const PlaneMap<S> U = inverse_map(b.log[i]);
     WrenchSlope<S> by_d;
-    if (terms.moves) by_d = inverse_transpose_jacobian(columns.log[i], b.log[i].h, out[i]);
+    if (terms.moves) by_d = inverse_transpose_jacobian(columns.T[i], b.log[i].h, out[i]);
     for (int j = 0; j < N; ++j) {
       Mat3<S> block = transposed_product(U, blocks.by[i][j]);
       if (terms.moves && (j == i || j == r))
