@@ -46,6 +46,15 @@ scene::Scene make_light_cantilever(int elements) {
   s.gravity = 1e-3 * s.gravity;
   return s;
 }
+/// Two such beams as an angle that gravity bends and twists out of its plane: linear as well, but in space.
+scene::Scene make_light_bracket(int elements) {
+  scene::Scene s = make_chain(2);
+  for (scene::Joint& joint : s.joints) joint.kind = scene::JointKind::fixed;
+  for (scene::Beam& beam : s.beams) beam.elements = elements / 2;
+  s.nodes.back().placement.pose.x = {{1.0, 1.0, 0.0}};
+  s.gravity = 1e-3 * s.gravity;
+  return s;
+}
 /// The first, turned by a law at that end.
 scene::Scene make_swung_beam(int elements) {
   scene::Scene s = make_chain(1);
@@ -102,6 +111,8 @@ std::vector<LeanCase> make_cases() {
           {"reuse", "cantilever_512", 512, 50, make_cantilever},
           {"reuse", "light_cantilever_64", 64, 200, make_light_cantilever},
           {"reuse", "light_cantilever_512", 512, 50, make_light_cantilever},
+          {"reuse", "light_bracket_64", 64, 200, make_light_bracket},
+          {"reuse", "light_bracket_512", 512, 50, make_light_bracket},
           {"reuse", "lattice_20", 20, 20, make_level_lattice},
           {"reuse", "lattice_50", 50, 10, make_level_lattice},
           {"reuse", "lattice_100", 100, 5, make_level_lattice},

@@ -42,6 +42,7 @@ class Recursion {
     Part part;
     part.level = level;
     part.is_subdomain = upper;
+    part.is_forest = upper && !cut_subdomain && bisector_.is_forest(elements);
     if (cut_subdomain || cut_inside) {
       Cut cut = bisector_.cut(elements);
       elements = {};

@@ -166,8 +166,7 @@ double elimination_flops(int e, int b) {
   return sums(e + b - 1.0) - (b > 0 ? sums(b - 1.0) : 0.0);
 }
 
-void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency) {
-  constexpr double front_overhead = 1500.0;  // flops that visiting one more front costs
+void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing) {
   const auto unknowns = [&](const std::vector<int>& list) {
     int n = 0;
     for (int b : list) n += adjacency.size_of(b);
@@ -176,7 +175,7 @@ void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacenc
   for (int p = first; p < static_cast<int>(groups.size()); ++p) {
     Group& parent = groups[at(p)];
     if (parent.eliminated.empty()) continue;
-    const int boundary = unknowns(parent.boundary);
+    const int boundary = unknowns(parent.boundary) + missing;
     int own = unknowns(parent.eliminated);
     const std::vector<int> children = parent.children;
     for (int c : children) {
@@ -184,8 +183,9 @@ void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacenc
       Group& child = groups[at(c)];
       const int gone = unknowns(child.eliminated);
       if (gone == 0) continue;
-      const double apart = elimination_flops(gone, unknowns(child.boundary)) + elimination_flops(own, boundary);
-      if (elimination_flops(gone + own, boundary) > apart + front_overhead) continue;
+      const double apart =
+          elimination_flops(gone, unknowns(child.boundary) + missing) + elimination_flops(own, boundary);
+      if (elimination_flops(gone + own, boundary) > apart + visit_flops) continue;
       parent.eliminated.insert(parent.eliminated.begin(), child.eliminated.begin(), child.eliminated.end());
       parent.elements.insert(parent.elements.begin(), child.elements.begin(), child.elements.end());
       std::erase(parent.children, c);

@@ -65,7 +65,8 @@ class Quotient {
 /// Flops of eliminating e of e + b unknowns in a dense unsymmetric front.
 double elimination_flops(int e, int b);
 
-/// Merges groups [first, end) of one leaf into their parents where the fill is free or cheaper than the handling of a front.
-void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency);
+/// Merges groups [first, end) of one leaf into their parents where the fill is free or cheaper than visiting one more front [flop].
+/// missing: unknowns by which their boundaries are counted too few.
+void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing);
 
 }  // namespace bough::tree

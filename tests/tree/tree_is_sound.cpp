@@ -170,6 +170,49 @@ TEST(Tree, AStarKeepsOneHubAtAllInterfaces) {
   for (tree::SubdomainId s = 0; s < t.root(); ++s) EXPECT_LE(t.fronts[at(t.subdomains[at(s)].top())].num_boundary, 12);
 }
 
+/// A chain in a plane that hangs on the ground: links of four beams between hinges of two rows.
+blocks::BlockGraph make_planar_chain(int links) {
+  blocks::BlockGraph g;
+  g.element_begin.assign(1, 0);
+  const auto add_block = [&](int size, BlockKind kind) {
+    g.block_size.push_back(size);
+    g.block_kind.push_back(kind);
+    return g.num_blocks() - 1;
+  };
+  const auto add_element = [&](std::initializer_list<int> of) {
+    g.element_blocks.insert(g.element_blocks.end(), of);
+    g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
+  };
+  for (int l = 0, end = -1; l < links; ++l) {
+    const int start = add_block(3, BlockKind::motion), hinge = add_block(2, BlockKind::multiplier);
+    if (end < 0) add_element({start, hinge});
+    if (end >= 0) add_element({end, start, hinge});
+    end = start;
+    for (int b = 0; b < 4; ++b) {
+      const int next = add_block(3, BlockKind::motion);
+      add_element({end, next});
+      end = next;
+    }
+  }
+  return g;
+}
+
+/// One leaf that is not like the others costs as much as eight that are. The first has one interface, the others two.
+TEST(Tree, AllLeavesOfAChainEliminateTheSame) {
+  const tree::Tree t = tree::make_tree(make_planar_chain(128), {});
+  std::set<std::vector<int>> kinds;
+  std::set<int> interfaces;
+  for (const tree::Subdomain& s : t.subdomains) {
+    if (!s.is_leaf()) continue;
+    std::vector<int> sizes;
+    for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) sizes.push_back(t.fronts[at(f)].num_eliminated);
+    kinds.insert(sizes);
+    interfaces.insert(t.fronts[at(s.top())].num_boundary);
+  }
+  EXPECT_EQ(kinds.size(), 1u);
+  EXPECT_EQ(interfaces, (std::set<int>{3, 6}));
+}
+
 /// Beams between the neighbours in a cube of n x n x n nodes, one face held.
 blocks::BlockGraph make_cube(int n) {
   blocks::BlockGraph g;
