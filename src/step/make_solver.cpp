@@ -18,6 +18,14 @@ std::unique_ptr<solve::AnySolver> make_monolithic(const plan::Plan& plan, const 
 
 }  // namespace
 
+tree::TreeOptions make_tree_options(const plan::Plan& plan, const scene::Solver& given) {
+  tree::TreeOptions options;
+  options.leaf_size = given.leaf_size;
+  options.depth = given.depth;
+  options.in_lockstep = plan.took("lanes");
+  return options;
+}
+
 solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solver& given) {
   solve::SolveOptions options;
   options.penalty_factor = given.penalty_factor;

@@ -19,13 +19,6 @@ using motion::Vec6;
 
 namespace {
 
-std::unique_ptr<tree::Tree> make_scene_tree(const plan::Plan& plan, const scene::Solver& given) {
-  tree::TreeOptions options;
-  options.leaf_size = given.leaf_size;
-  options.depth = given.depth;
-  return std::make_unique<tree::Tree>(tree::make_tree(plan.graph, options));
-}
-
 template <class E>
 requires requires(const E& e) { e.length; }
 double length_of(const E& e, const std::vector<plan::NodePlan>&, double) { return e.length; }
@@ -37,7 +30,10 @@ double length_of(const E&, const std::vector<plan::NodePlan>&, double fallback) 
 }  // namespace
 
 System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::Walker& walker)
-    : plan_(plan), tree_(make_scene_tree(plan, solver)), walker_(walker), clock_(walker.threads == 1) {
+    : plan_(plan),
+      tree_(std::make_unique<tree::Tree>(tree::make_tree(plan.graph, make_tree_options(plan, solver)))),
+      walker_(walker),
+      clock_(walker.threads == 1) {
   solver_ = make_solver(plan, *tree_, solver);
   unknown_begin_ = tree_->unknown_begin;
   for (const plan::DrivenNode& d : plan.driven) {

@@ -164,7 +164,8 @@ std::vector<results::Alternative> try_alternatives(const blocks::BlockGraph& gra
   for (int shift : {-2, -1, 1, 2}) wanted.emplace_back(0, std::max(0, list.front().num_levels - 1 + shift));
   wanted.emplace_back(0, 0);
   for (const auto& [leaf_size, depth] : wanted) {
-    const tree::Tree tree = tree::make_tree(graph, {.leaf_size = leaf_size, .depth = depth});
+    const tree::Tree tree =
+        tree::make_tree(graph, {.leaf_size = leaf_size, .depth = depth, .in_lockstep = options.lanes});
     results::Alternative a = describe(tree, leaf_size, depth);
     if (std::any_of(list.begin(), list.end(), [&](const auto& other) { return is_same(a, other); })) continue;
     price(tree, a);

@@ -67,7 +67,7 @@ struct Shape {
 };
 
 Shape shape_of(const plan::Plan& plan, const Solver& solver) {
-  const tree::Tree tree = tree::make_tree(plan.graph, {.leaf_size = solver.leaf_size, .depth = solver.depth});
+  const tree::Tree tree = tree::make_tree(plan.graph, step::make_tree_options(plan, solver));
   Shape s{.subdomains = tree.num_subdomains(), .fronts = tree.num_fronts()};
   for (const tree::Subdomain& d : tree.subdomains) {
     s.levels = std::max(s.levels, d.level + 1);

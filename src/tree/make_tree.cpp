@@ -40,7 +40,11 @@ void require_consistent(const blocks::BlockGraph& graph) {
 class Builder {
  public:
   Builder(const blocks::BlockGraph& graph, const TreeOptions& options)
-      : graph_(graph), adjacency_(graph), dissection_(dissect(adjacency_, options)), quotient_(adjacency_) {}
+      : graph_(graph),
+        in_lockstep_(options.in_lockstep),
+        adjacency_(graph),
+        dissection_(dissect(adjacency_, options)),
+        quotient_(adjacency_) {}
 
   Tree run() {
     place_blocks();
@@ -196,7 +200,7 @@ class Builder {
     const std::vector<int>& boundary = quotient_.groups.back().boundary;
     const int missing = is_swept_[at(part)] != 0 && boundary.size() == 1 ? adjacency_.size_of(boundary[0]) : 0;
     amalgamate(quotient_.groups, first, adjacency_,
-               dissection_.parts[at(part)].is_forest ? visit_in_lockstep : visit_alone, missing);
+               in_lockstep_ && dissection_.parts[at(part)].is_forest ? visit_in_lockstep : visit_alone, missing);
     close(part, {}, first);
   }
 
@@ -358,6 +362,7 @@ class Builder {
   }
 
   const blocks::BlockGraph& graph_;
+  const bool in_lockstep_;
   Adjacency adjacency_;
   Dissection dissection_;
   Quotient quotient_;

@@ -57,7 +57,8 @@ TEST_P(Orders, second_from_the_first_step_with_a_driven_joint) {
   check_start("driven hinge", driven_pendulum(), GetParam(), 0.004);
 }
 TEST_P(Orders, second_from_the_first_step_with_a_driven_beam) {
-  check_start("driven beam", driven_beam(), GetParam(), 0.0004, 16.0);
+  // A reference in steps of h / 32 would have multipliers with 6e-7 of round-off, more than the first step's error at h / 2.
+  check_start("driven beam", driven_beam(), GetParam(), 0.0004, 8.0);
 }
 
 /// 10 steps of h, 8 of h / 2, 2 of h / 4, then h again. Samples at every end.

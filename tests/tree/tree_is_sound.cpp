@@ -129,6 +129,7 @@ TEST(Tree, IsSoundForAllFamiliesLeafSizesAndDepths) {
     for (const Scene& scene : make_all_families(seed)) {
       for (int leaf : {0, 1, 2, 3, 7, 20, 1000}) expect_sound(scene, {.leaf_size = leaf});
       for (int depth : {0, 1, 2, 5}) expect_sound(scene, {.depth = depth});
+      expect_sound(scene, {.in_lockstep = false});
     }
   expect_sound(SceneMaker(1).finish("empty"), {});
 }
@@ -211,6 +212,18 @@ TEST(Tree, AllLeavesOfAChainEliminateTheSame) {
   }
   EXPECT_EQ(kinds.size(), 1u);
   EXPECT_EQ(interfaces, (std::set<int>{3, 6}));
+}
+
+/// Leaves that nothing is gained from are not made: a short chain is one of few fronts.
+TEST(Tree, WithoutLockstepAShortChainIsOneLeaf) {
+  const auto leaves = [](const tree::Tree& t) {
+    return std::count_if(t.subdomains.begin(), t.subdomains.end(), [](const auto& s) { return s.is_leaf(); });
+  };
+  const tree::Tree one = tree::make_tree(make_planar_chain(8), {.in_lockstep = false}),
+                   many = tree::make_tree(make_planar_chain(8), {});
+  EXPECT_EQ(leaves(one), 1);
+  EXPECT_GT(leaves(many), 4);
+  EXPECT_LT(one.num_fronts(), many.num_fronts() / 2);
 }
 
 /// Beams between the neighbours in a cube of n x n x n nodes, one face held.

@@ -52,6 +52,7 @@ struct Workspace {
 };
 
 /// What a plan and the options of a scene ask of the linear solver.
+tree::TreeOptions make_tree_options(const plan::Plan& plan, const scene::Solver& given);
 solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solver& given);
 
 /// Why a step or a run cannot go on, in words for the user.

@@ -23,7 +23,9 @@ struct TreeOptions {
   int leaf_size = 0;  ///< most elements of a leaf sub-domain, >= 1; 0: from a cost estimate (see target_leaf_flops).
   int depth = -1;     ///< levels of sub-domains below the root, >= 0 (0: one sub-domain); -1: as leaf_size asks.
   double target_leaf_flops =
-      1e5;            ///< flops of a leaf when leaf_size is 0: some tens of microseconds, well above a task's cost.
+      1e5;  ///< flops of a leaf when leaf_size is 0: some tens of microseconds, well above a task's cost.
+  bool in_lockstep =
+      true;  ///< whether equal leaves are to be visited eight at a time, which leaf sizes that are not given leave room for.
   unsigned seed = 1;  ///< seed of the general partitioner; the tree is a function of the graph and these options alone.
 };
 
