@@ -80,19 +80,61 @@ void sum_products(int n, const double* a, std::ptrdiff_t lda, const double* x, d
   for (int c = 0; c < C; ++c) to[c] = tiles::sum_of_eight(sum[c]);
 }
 
+// Triangles of C rows, in registers: through memory every product would wait for the one before it to be written and read again.
+
+/// f[0, C) <- L^-1 f, L unit lower.
+template <int C>
+void solve_lower(const double* l, std::ptrdiff_t lda, double* f) {
+  double v[C];
+  std::copy(f, f + C, v);
+#pragma GCC unroll 8
+  for (int p = 0; p < C; ++p)
+#pragma GCC unroll 8
+    for (int i = p + 1; i < C; ++i) v[i] = take_product(l[p * lda + i], v[p], v[i]);
+  std::copy(v, v + C, f);
+}
+
+/// x[0, C) <- L^-T (x - sum), L unit lower.
+template <int C>
+void solve_lower_transposed(const double* l, std::ptrdiff_t lda, const double* sum, double* x) {
+  double v[C], to[C];
+  std::copy(sum, sum + C, v);
+#pragma GCC unroll 8
+  for (int k = 0; k < C; ++k) {
+    const int j = C - 1 - k;
+    to[j] = x[j] - v[j];
+#pragma GCC unroll 8
+    for (int i = 0; i < j; ++i) v[i] = add_product(l[i * lda + j], to[j], v[i]);
+  }
+  std::copy(to, to + C, x);
+}
+
+/// x[0, C) <- U^-1 x
+template <int C>
+void solve_upper(const double* u, std::ptrdiff_t lda, double* x) {
+  double v[C];
+  std::copy(x, x + C, v);
+#pragma GCC unroll 8
+  for (int k = 0; k < C; ++k) {
+    const int p = C - 1 - k;
+    v[p] /= u[p * lda + p];
+#pragma GCC unroll 8
+    for (int i = 0; i < p; ++i) v[i] = take_product(u[p * lda + i], v[p], v[i]);
+  }
+  std::copy(v, v + C, x);
+}
+
 /// x[0, k) = L11^-T (x - L21^T x_B), L unit lower, its n rows in the first k columns of a.
 void substitute_transposed(int n, int k, const double* a, std::ptrdiff_t lda, double* x) {
   for (int end = k; end > 0;) {
     const int count = (end - 1) % block + 1, begin = end - count;
     const double* const first = a + begin * lda;
-    double product[block];
     with_count(count, [&](auto columns) {
-      sum_products<decltype(columns)::value>(n - end, first + end, lda, x + end, product);
+      constexpr int C = decltype(columns)::value;
+      double product[C];
+      sum_products<C>(n - end, first + end, lda, x + end, product);
+      solve_lower_transposed<C>(first + begin, lda, product, x + begin);
     });
-    for (int j = count; j-- > 0;) {
-      x[begin + j] -= product[j];
-      for (int i = 0; i < j; ++i) product[i] = add_product(first[i * lda + begin + j], x[begin + j], product[i]);
-    }
     end = begin;
   }
 }
@@ -104,9 +146,11 @@ void substitute_forward(const FrontMatrix& front, int pivots, double* f) {
   for (int k = 0; k < pivots; k += block) {
     const int end = std::min(k + block, pivots);
     const double* l = v.a + k * v.lda;
-    for (int p = k; p < end; ++p)
-      for (int i = p + 1; i < end; ++i) f[i] = take_product(v.a[p * v.lda + i], f[p], f[i]);
-    take_product_with(v.size - end, end - k, l + end, v.lda, f + k, f + end);
+    with_count(end - k, [&](auto count) {
+      constexpr int C = decltype(count)::value;
+      solve_lower<C>(l + k, v.lda, f + k);
+      take_columns<C>(v.size - end, l + end, v.lda, f + k, f + end);
+    });
   }
 }
 
@@ -133,12 +177,12 @@ void substitute_backward(const FrontMatrix& front, int pivots, double* x) {
   int k = pivots;
   while (k > 0) {
     const int begin = std::max(0, k - block);
-    for (int p = k; p-- > begin;) {
-      const double* u = v.a + p * v.lda;
-      x[p] /= u[p];
-      for (int i = begin; i < p; ++i) x[i] = take_product(u[i], x[p], x[i]);
-    }
-    take_product_with(begin, k - begin, v.a + begin * v.lda, v.lda, x + begin, x);
+    const double* u = v.a + begin * v.lda;
+    with_count(k - begin, [&](auto count) {
+      constexpr int C = decltype(count)::value;
+      solve_upper<C>(u + begin, v.lda, x + begin);
+      take_columns<C>(begin, u, v.lda, x + begin, x);
+    });
     k = begin;
   }
 }
