@@ -112,7 +112,7 @@ TEST(Coefficients, stumpff_functions_match_their_series_within_4_ulps_of_their_m
 
 // The tables hold long double digits: the check of the table against a mistyped digit that double would hide.
 TEST(Coefficients, long_double_values_keep_long_double_digits) {
-  for (const double phi : {1e-3, 0.5, 1.0, 2.0, 3.0, 3.9}) {
+  for (const double phi : {1e-3, 0.3, 0.499, 0.5, 1.0, 2.0, 3.0, 3.9}) {
     const long double x = static_cast<long double>(phi) * phi;
     const InverseCoefficients<long double> s = eval_inverse_coefficients(x);
     const AngleCoefficients<long double> r = eval_angle_coefficients(x);

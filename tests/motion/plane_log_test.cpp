@@ -33,6 +33,14 @@ std::vector<double> angles() {
 
 double largest(const Vec3<double>& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
 
+TEST(PlaneLog, angles_are_within_3_ulps_of_themselves) {
+  for (const double theta : angles()) {
+    const auto exact = static_cast<long double>(theta);
+    const double angle = angle_of(static_cast<double>(std::cos(exact)), static_cast<double>(std::sin(exact)));
+    EXPECT_LE(std::abs(angle - theta), 3 * test::epsilon * std::abs(theta)) << theta;
+  }
+}
+
 TEST(PlaneLog, is_the_inverse_of_the_exponential_and_of_its_tangent) {
   for (const double theta : angles()) {
     const Vec3<double> d = join(shift, theta);

@@ -16,6 +16,10 @@ inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 inline std::vector<double> angles_up_to_pi() {
   std::vector<double> a{0.0};
   for (int k = -16; k <= -1; ++k) a.push_back(std::pow(10.0, k));
+  // Both sides of the ends of short series: 1/2, and the angles whose tangent or that of whose half is 1/4.
+  for (const double end : {0.5, std::atan(0.25), 2.0 * std::atan(0.25)})
+    for (const double phi : {0.9 * end, std::nextafter(end, 0.0), end, std::nextafter(end, 1.0), 1.1 * end})
+      a.push_back(phi);
   for (const double phi : {0.2, 0.3, 0.39, 0.4, 0.41, 0.7, 1.0, 1.5, 2.0, 2.5, 3.0}) a.push_back(phi);
   for (int k = -2; k >= -12; --k) a.push_back(std::numbers::pi - std::pow(10.0, k));
   return a;

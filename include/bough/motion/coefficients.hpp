@@ -41,6 +41,15 @@ constexpr std::array<L, N> rounded(const std::array<long double, N>& table) {
   return t;
 }
 
+/// Its first terms.
+template <std::size_t M, std::size_t N>
+constexpr std::array<long double, M> first_of(const std::array<long double, N>& table) {
+  static_assert(M <= N);
+  std::array<long double, M> t{};
+  for (std::size_t k = 0; k < M; ++k) t[k] = table[k];
+  return t;
+}
+
 /// (-1)^k / (2k + n)! for k = 0 .. 13: at x = 16 the first term left out is below 3e-19 of the sum.
 constexpr std::array<long double, 14> stumpff_table(int n) {
   std::array<long double, 14> t{};
@@ -57,6 +66,10 @@ inline constexpr std::array<L, 14> stumpff_6 = rounded<L>(stumpff_table(6));
 template <class L>
 inline constexpr std::array<L, 14> stumpff_7 = rounded<L>(stumpff_table(7));
 template <class L>
+inline constexpr std::array<L, 8> near_stumpff_6 = rounded<L>(first_of<8>(stumpff_table(6)));
+template <class L>
+inline constexpr std::array<L, 8> near_stumpff_7 = rounded<L>(first_of<8>(stumpff_table(7)));
+template <class L>
 inline constexpr std::array<L, 14> stumpff_8 = rounded<L>(stumpff_table(8));
 template <class L>
 inline constexpr std::array<L, 14> stumpff_9 = rounded<L>(stumpff_table(9));
@@ -70,6 +83,33 @@ inline constexpr std::array<L, 15> inverse_rest = rounded<L>(std::array<long dou
     6.25747115080577223920474e-26L, 1.75867304929096798907852e-28L, 4.94584695005793873891076e-31L,
     1.39138267890808799277361e-33L, 3.91504425254531424268482e-36L, 1.10172689146714187787501e-38L});
 
+/// k itself, 2 sum_m (2 pi m)^-(2n+2): where x is small, its series without poles.
+constexpr std::array<long double, 15> inverse_table{
+    0.0833333333333333333333333L,     0.00138888888888888888888889L,  0.0000330687830687830687830688L,
+    0.00000082671957671957671957672L, 2.08767569878680989792101e-8L,  5.28419013868749318484768e-10L,
+    1.3382536530684678832827e-11L,    3.3896802963225828668302e-13L,  8.58606205627784456413591e-15L,
+    2.17486869855806187304152e-16L,   5.50900282836022951520265e-18L, 1.39544646858125233407077e-19L,
+    3.53470703962946747169323e-21L,   8.95351742703754685040261e-23L, 2.26795245233768306031095e-24L};
+/// Terms of the derivative of a series.
+template <std::size_t N>
+constexpr std::array<long double, N - 1> slope_of(const std::array<long double, N>& t) {
+  std::array<long double, N - 1> d{};
+  for (std::size_t k = 1; k < N; ++k) d[k - 1] = static_cast<long double>(k) * t[k];
+  return d;
+}
+template <class L>
+inline constexpr std::array<L, 12> near_inverse = rounded<L>(first_of<12>(inverse_table));
+template <class L>
+inline constexpr std::array<L, 12> near_inverse_1 = rounded<L>(first_of<12>(slope_of(inverse_table)));
+template <class L>
+inline constexpr std::array<L, 12> near_inverse_2 = rounded<L>(first_of<12>(slope_of(slope_of(inverse_table))));
+template <class L>
+inline constexpr std::array<L, 12> near_inverse_3 =
+    rounded<L>(first_of<12>(slope_of(slope_of(slope_of(inverse_table)))));
+
+/// Below this x = phi^2 (phi = 1/2) series of a few terms do: the relative motion of neighbours is mostly there.
+inline constexpr double near_x = 0.25;
+
 /// Below this x = phi^2 (phi = 4) the polynomials hold, beyond it the closed forms: there 1/x^3 damps the rounding of
 /// sin and cos to one ulp of the highest coefficient, so one switch serves all coefficients and their derivatives.
 inline constexpr double switch_x = 16.0;
@@ -77,43 +117,55 @@ inline constexpr double switch_x = 16.0;
 }  // namespace detail
 
 /// c_0 .. c_7 at x = phi^2 >= 0. Two polynomials for c_6 and c_7 and the stable recurrence c_n = 1/n! - x c_{n+2} below
-/// phi = 4; half-angle sine and cosine and the recurrence upwards beyond. Round-off relative to the largest value.
+/// phi = 4, shorter ones below phi = 1/2; half-angle sine and cosine and the recurrence upwards beyond. Round-off relative to the largest value.
 template <class S>
 lanes::Vec<S, 8> eval_stumpff(const S& x) {
   using L = Literal<S>;
   constexpr L one = 1, third = one / 3;
-  const auto small = less(x, S(detail::switch_x));
+  const auto small = less(x, S(detail::switch_x)), near = less(x, S(detail::near_x));
+  const auto by_recurrence = [&](const S& y, const S& c6, const S& c7) {
+    lanes::Vec<S, 8> c;
+    c[7] = c7;
+    c[6] = c6;
+    c[5] = one / 120 - y * c[7];
+    c[4] = one / 24 - y * c[6];
+    c[3] = third / 2 - y * c[5];
+    c[2] = one / 2 - y * c[4];
+    c[1] = one - y * c[3];
+    c[0] = one - y * c[2];
+    return c;
+  };
   return choose(
-      small,
+      near,
       [&] {
-        const S near = select(small, x, S(0.0));
-        lanes::Vec<S, 8> c;
-        c[7] = detail::horner(detail::stumpff_7<L>, near);
-        c[6] = detail::horner(detail::stumpff_6<L>, near);
-        c[5] = one / 120 - near * c[7];
-        c[4] = one / 24 - near * c[6];
-        c[3] = third / 2 - near * c[5];
-        c[2] = one / 2 - near * c[4];
-        c[1] = one - near * c[3];
-        c[0] = one - near * c[2];
-        return c;
+        const S y = select(near, x, S(0.0));
+        return by_recurrence(y, detail::horner(detail::near_stumpff_6<L>, y),
+                             detail::horner(detail::near_stumpff_7<L>, y));
       },
       [&] {
-        using std::cos;
-        using std::sin;
-        using std::sqrt;
-        const S safe = select(small, S(detail::switch_x), x), inv = S(1.0) / safe, phi = sqrt(safe);
-        const S half = L(0.5) * phi, s = sin(half), co = cos(half);
-        lanes::Vec<S, 8> c;
-        c[0] = (co - s) * (co + s);
-        c[1] = L(2) * s * co / phi;
-        c[2] = L(2) * s * s * inv;
-        c[3] = (one - c[1]) * inv;
-        c[4] = (one / 2 - c[2]) * inv;
-        c[5] = (third / 2 - c[3]) * inv;
-        c[6] = (one / 24 - c[4]) * inv;
-        c[7] = (one / 120 - c[5]) * inv;
-        return c;
+        return choose(
+            small,
+            [&] {
+              const S y = select(small, x, S(0.0));
+              return by_recurrence(y, detail::horner(detail::stumpff_6<L>, y), detail::horner(detail::stumpff_7<L>, y));
+            },
+            [&] {
+              using std::cos;
+              using std::sin;
+              using std::sqrt;
+              const S safe = select(small, S(detail::switch_x), x), inv = S(1.0) / safe, phi = sqrt(safe);
+              const S half = L(0.5) * phi, s = sin(half), co = cos(half);
+              lanes::Vec<S, 8> c;
+              c[0] = (co - s) * (co + s);
+              c[1] = L(2) * s * co / phi;
+              c[2] = L(2) * s * s * inv;
+              c[3] = (one - c[1]) * inv;
+              c[4] = (one / 2 - c[2]) * inv;
+              c[5] = (third / 2 - c[3]) * inv;
+              c[6] = (one / 24 - c[4]) * inv;
+              c[7] = (one / 120 - c[5]) * inv;
+              return c;
+            });
       });
 }
 
@@ -187,7 +239,7 @@ AngleCoefficients<S> eval_angle_coefficients(const S& x) {
 
 /// k = (1 - (phi/2) cot(phi/2))/phi^2 with derivatives up to the third by x = phi^2; not at phi = 2 pi, 4 pi, ...
 /// Below phi = 4 from the partial fractions of the cotangent, k = sum_m 2/((2 pi m)^2 - x): two poles and a polynomial,
-/// all terms positive, no trigonometric function. Beyond, with y = (phi/2) cot(phi/2): 2 x y' = y - y^2 - x/4.
+/// all terms positive, no trigonometric function; below phi = 1/2 its own series. Beyond, with y = (phi/2) cot(phi/2): 2 x y' = y - y^2 - x/4.
 template <class S>
 struct InverseCoefficients {
   S k, dk, ddk, dddk;
@@ -195,35 +247,45 @@ struct InverseCoefficients {
 template <class S>
 InverseCoefficients<S> eval_inverse_coefficients(const S& x) {
   using L = Literal<S>;
-  const auto small = less(x, S(detail::switch_x));
+  const auto small = less(x, S(detail::switch_x)), close = less(x, S(detail::near_x));
   const lanes::Vec<S, 4> r = choose(
-      small,
+      close,
       [&] {
-        constexpr L pole1 = static_cast<L>(39.478417604357434475338L),
-                    pole2 = static_cast<L>(157.913670417429737901352L);
-        const S near = select(small, x, S(0.0)), a = pole1 - near, b = pole2 - near, inv = S(1.0) / (a * b);
-        const S p = b * inv, q = a * inv, pp = p * p, qq = q * q;
-        S f(0.0), df(0.0), hf(0.0), tf(0.0);  // rest, its first derivative, half its second, a sixth of its third
-        for (std::size_t n = detail::inverse_rest<L>.size(); n-- > 0;) {
-          tf = multiply_add(tf, near, hf);
-          hf = multiply_add(hf, near, df);
-          df = multiply_add(df, near, f);
-          f = multiply_add(f, near, S(detail::inverse_rest<L>[n]));
-        }
-        return lanes::Vec<S, 4>{{f + L(2) * (p + q), df + L(2) * (pp + qq), L(2) * hf + L(4) * (p * pp + q * qq),
-                                 L(6) * tf + L(12) * (pp * pp + qq * qq)}};
+        const S y = select(close, x, S(0.0));
+        return lanes::Vec<S, 4>{
+            {detail::horner(detail::near_inverse<L>, y), detail::horner(detail::near_inverse_1<L>, y),
+             detail::horner(detail::near_inverse_2<L>, y), detail::horner(detail::near_inverse_3<L>, y)}};
       },
       [&] {
-        using std::cos;
-        using std::sin;
-        using std::sqrt;
-        const S safe = select(small, S(detail::switch_x), x), inv = S(1.0) / safe, half = L(0.5) * sqrt(safe);
-        const S y = half * cos(half) / sin(half);
-        const S dy = L(0.5) * inv * (y - y * y) - L(0.125);
-        const S ddy = -L(0.5) * inv * (dy + L(2) * y * dy + L(0.25));
-        const S dddy = -L(0.5) * inv * (L(3) * ddy + L(2) * (dy * dy + y * ddy));
-        const S k = (L(1) - y) * inv, dk = -(dy + k) * inv, ddk = -(ddy + L(2) * dk) * inv;
-        return lanes::Vec<S, 4>{{k, dk, ddk, -(dddy + L(3) * ddk) * inv}};
+        return choose(
+            small,
+            [&] {
+              constexpr L pole1 = static_cast<L>(39.478417604357434475338L),
+                          pole2 = static_cast<L>(157.913670417429737901352L);
+              const S near = select(small, x, S(0.0)), a = pole1 - near, b = pole2 - near, inv = S(1.0) / (a * b);
+              const S p = b * inv, q = a * inv, pp = p * p, qq = q * q;
+              S f(0.0), df(0.0), hf(0.0), tf(0.0);  // rest, its first derivative, half its second, a sixth of its third
+              for (std::size_t n = detail::inverse_rest<L>.size(); n-- > 0;) {
+                tf = multiply_add(tf, near, hf);
+                hf = multiply_add(hf, near, df);
+                df = multiply_add(df, near, f);
+                f = multiply_add(f, near, S(detail::inverse_rest<L>[n]));
+              }
+              return lanes::Vec<S, 4>{{f + L(2) * (p + q), df + L(2) * (pp + qq), L(2) * hf + L(4) * (p * pp + q * qq),
+                                       L(6) * tf + L(12) * (pp * pp + qq * qq)}};
+            },
+            [&] {
+              using std::cos;
+              using std::sin;
+              using std::sqrt;
+              const S safe = select(small, S(detail::switch_x), x), inv = S(1.0) / safe, half = L(0.5) * sqrt(safe);
+              const S y = half * cos(half) / sin(half);
+              const S dy = L(0.5) * inv * (y - y * y) - L(0.125);
+              const S ddy = -L(0.5) * inv * (dy + L(2) * y * dy + L(0.25));
+              const S dddy = -L(0.5) * inv * (L(3) * ddy + L(2) * (dy * dy + y * ddy));
+              const S k = (L(1) - y) * inv, dk = -(dy + k) * inv, ddk = -(ddy + L(2) * dk) * inv;
+              return lanes::Vec<S, 4>{{k, dk, ddk, -(dddy + L(3) * ddk) * inv}};
+            });
       });
   return {r[0], r[1], r[2], r[3]};
 }

@@ -80,18 +80,32 @@ constexpr std::array<long double, 24> arctangent_table() {
 }
 template <class L>
 inline constexpr std::array<L, 24> arctangent = rounded<L>(arctangent_table());
+template <class L>
+inline constexpr std::array<L, 16> near_arctangent = rounded<L>(first_of<16>(arctangent_table()));  ///< for t <= 1/4
 }  // namespace detail
 
 /// Rotation vector of q with w >= 0, |psi| <= pi [rad]. The norm m of q drops out. The angle is halved twice,
 ///   tan(phi/4) = |v|/(m + w),  tan(phi/8) = |v|/(m + w + g),  g = sqrt(2 m (m + w)) = (m + w) sqrt(1 + tan(phi/4)^2),
-/// so that psi = 8 v atan(t)/(t (m + w + g)), t = tan(phi/8), is one formula in v.v, analytic from 0 to pi, with one division.
+/// so that psi = 8 v atan(t)/(t (m + w + g)), t = tan(phi/8), is one formula in v.v, analytic from 0 to pi, with one division. Where tan(phi/2)
+/// is below 1/4 its own arctangent does, without a square root.
 template <class S>
 Vec3<S> log_quaternion(const Quaternion<S>& q) {
   using L = Literal<S>;
   using std::sqrt;
-  const S vv = dot(q.v, q.v), m = sqrt(multiply_add(q.w, q.w, vv)), sum = m + q.w;
-  const S inverse = L(1) / (sum + sqrt((m + m) * sum)), tt = vv * inverse * inverse;
-  return (L(8) * inverse * detail::horner(detail::arctangent<L>, tt)) * q.v;
+  const S vv = dot(q.v, q.v), ww = q.w * q.w;
+  const auto near = less(vv, S(L(0.0625) * ww));  // tan(phi/2) < 1/4
+  const S factor = choose(
+      near,
+      [&] {
+        const S inverse = L(1) / select(near, q.w, S(1.0)), tt = select(near, vv, S(0.0)) * inverse * inverse;
+        return S(L(2) * inverse * detail::horner(detail::near_arctangent<L>, tt));
+      },
+      [&] {
+        const S m = sqrt(multiply_add(q.w, q.w, vv)), sum = m + q.w;
+        const S inverse = L(1) / (sum + sqrt((m + m) * sum)), tt = vv * inverse * inverse;
+        return S(L(8) * inverse * detail::horner(detail::arctangent<L>, tt));
+      });
+  return factor * q.v;
 }
 
 }  // namespace bough::motion

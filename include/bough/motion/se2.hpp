@@ -35,18 +35,28 @@ BOUGH_INLINE Vec3<S> join(const Vec2<S>& u, const S& w) {
   return {{u[0], u[1], w}};
 }
 
-/// theta of e^(i theta) = c + i s, |theta| <= pi, by halving the angle three times: one formula, no table, one division.
+/// theta of e^(i theta) = c + i s, |theta| <= pi: the arctangent of s/c where that is below 1/4, else by halving the angle three times.
 template <class S>
 S angle_of(const S& c, const S& s) {
   using L = Literal<S>;
   using std::sqrt;
-  const auto beyond = less(c, S(0.0));  // a quarter of a turn
   const auto below = less(s, S(0.0));
-  const S size = select(below, S(-s), s), other = select(below, S(c - L(1)), S(L(1) - c));
-  const S w = select(beyond, size, S(c + L(1))), v = select(beyond, other, s);
-  const S vv = v * v, m = sqrt(multiply_add(w, w, vv)), sum = m + w;
-  const S inverse = L(1) / (sum + sqrt((m + m) * sum)), tt = vv * inverse * inverse;
-  return L(8) * inverse * detail::horner(detail::arctangent<L>, tt) * v;
+  const S size = select(below, S(-s), s);
+  const auto near = less(size, S(L(0.25) * c));
+  return choose(
+      near,
+      [&] {
+        const S t = select(near, s, S(0.0)) / select(near, c, S(1.0));
+        return S(detail::horner(detail::near_arctangent<L>, S(t * t)) * t);
+      },
+      [&] {
+        const auto beyond = less(c, S(0.0));  // a quarter of a turn
+        const S other = select(below, S(c - L(1)), S(L(1) - c));
+        const S w = select(beyond, size, S(c + L(1))), v = select(beyond, other, s);
+        const S vv = v * v, m = sqrt(multiply_add(w, w, vv)), sum = m + w;
+        const S inverse = L(1) / (sum + sqrt((m + m) * sum)), tt = vv * inverse * inverse;
+        return S(L(8) * inverse * detail::horner(detail::arctangent<L>, tt) * v);
+      });
 }
 template <class S, int N>
 lanes::Jet<S, N> angle_of(const lanes::Jet<S, N>& c, const lanes::Jet<S, N>& s) {
