@@ -29,9 +29,9 @@ void Builder::decide(const std::string& name, const std::string& what, bool hold
 
 namespace {
 
-/// Nanoseconds of residuals below which the start of a task costs more than a second thread saves: a chain of 32 links of four beam elements takes 0.21 ms a
-/// step on one thread and 0.23 on two, one of 64 links 0.43 and 0.42.
-constexpr double task_break_even = 100e3;
+/// Nanoseconds of residuals below which the start of a task costs more than a second thread saves: a chain of 64 links of four beam elements takes 0.29 ms a
+/// step on one thread and 0.34 on two, one of 96 links 0.46 and 0.46; in a plane 128 links take 0.22 and 0.245, 192 links 0.34 and 0.325.
+constexpr double task_break_even = 150e3;
 
 /// The same for sub-domains in lockstep, which leaves lanes empty where there are few: chains of 16 links gain a fifth or more, spin_up, four_bar_misaligned
 /// and flying_spaghetti of the gallery lose as much.
@@ -144,18 +144,20 @@ void Builder::settle() {
          : dynamic         ? "every node has mass, and there are no constraint rows"
                            : "the structure is supported, and there are no constraint rows");
   const bool one_matrix = scene.solver.kind == scene::SolverKind::monolithic;
-  std::snprintf(text, sizeof text,
-                "one evaluation of the elements is about %.0f us of work; lanes are worth filling above %.0f us",
-                1e-3 * work, 1e-3 * lanes_break_even);
+  std::snprintf(
+      text, sizeof text,
+      "one evaluation of the elements in space is about %.0f us of work; lanes are worth filling above %.0f us",
+      1e-3 * work, 1e-3 * lanes_break_even);
   decide("lanes",
          "equal sub-domains are analysed once, and factored eight at a time. Taken unless the solver is monolithic or "
          "the scene small: a "
          "few sub-domains leave most lanes empty",
          !one_matrix && work >= lanes_break_even, one_matrix ? "the solver is monolithic" : text);
+  const double own_work = (plan.planar ? planar_residual : 1.0) * work;
   std::snprintf(text, sizeof text, "one evaluation of the elements is about %.0f us of work; tasks pay above %.0f us",
-                1e-3 * work, 1e-3 * task_break_even);
+                1e-3 * own_work, 1e-3 * task_break_even);
   decide("small", "one thread, no tasks. Taken where the work of an evaluation is below a measured break-even",
-         work < task_break_even, text);
+         own_work < task_break_even, text);
 
   decide("no velocities", "rates, inertia and gyroscopic terms are not entered. Taken in statics", !dynamic,
          dynamic ? "the analysis is dynamic" : "the analysis is static");

@@ -11,7 +11,7 @@ namespace {
 
 // Fitted by hand to phases of steps of chains, cantilevers and lattices (bench_step, bench_lean), beside elements as on the machine of
 // src/elements/README.md.
-constexpr double planar_residual = 0.37, planar_tangent = 0.15, planar_node = 0.14;  ///< shares of one in space
+constexpr double planar_tangent = 0.15, planar_node = 0.14;  ///< shares of one in space, as plan::planar_residual
 constexpr double per_sum = 20e-9;   ///< gathering, adding and sizing up, an element and evaluation [s]
 constexpr double per_node = 90e-9;  ///< moving a node with its velocity and acceleration, an iteration [s]
 constexpr double per_front_lanes = 1.6e-7, per_flop_lanes = 2.5e-11;
@@ -33,7 +33,7 @@ void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, bool
   plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(first)], [&](const auto& element) {
     const plan::ElementCost& c = plan::cost<std::decay_t<decltype(element)>>;
     const double count = in_lanes ? solve::lanes_wide : present, sums = present * per_sum;
-    cost.residual += (plan.planar ? planar_residual : 1.0) * count * (in_lanes ? c.lane : c.alone) + sums;
+    cost.residual += (plan.planar ? plan::planar_residual : 1.0) * count * (in_lanes ? c.lane : c.alone) + sums;
     cost.tangent += (plan.planar ? planar_tangent : 1.0) * count * (in_lanes ? c.lane_tangent : c.alone_tangent) + sums;
   });
 }

@@ -21,4 +21,7 @@ inline constexpr ElementCost cost<elements::Joint>{250e-9, 900e-9, 40e-9, 190e-9
 template <int N>
 inline constexpr ElementCost cost<elements::LineLoad<N>>{200e-9 * N, 800e-9 * N, 30e-9 * N, 250e-9 * N};
 
+/// Share of these for a residual in a plane, fitted by hand to steps of chains and lattices (bench_step, bench_lean).
+inline constexpr double planar_residual = 0.37;
+
 }  // namespace bough::plan
