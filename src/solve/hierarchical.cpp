@@ -1,5 +1,7 @@
 #include "bough/solve/hierarchical.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -12,6 +14,15 @@ namespace bough::solve {
 
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// Bytes of the last cache that a run may hope for beside others.
+std::size_t eval_share_of_last_cache() {
+  long cache = 0;
+#ifdef _SC_LEVEL3_CACHE_SIZE
+  cache = std::max(0l, sysconf(_SC_LEVEL3_CACHE_SIZE));
+#endif
+  return std::max(at(cache) / 8, std::size_t{16} << 20);
+}
 }  // namespace
 
 std::vector<std::string> problems_in(const SolveOptions& o) {
@@ -26,6 +37,7 @@ std::vector<std::string> problems_in(const SolveOptions& o) {
   need(o.rank_tolerance > 0.0 && o.rank_tolerance < 1.0, "rank_tolerance: must be in (0, 1)");
   need(o.singular_tolerance > 0.0 && o.singular_tolerance < 1.0, "singular_tolerance: must be in (0, 1)");
   need(o.null_motion_tolerance > 0.0 && o.null_motion_tolerance < 1.0, "null_motion_tolerance: must be in (0, 1)");
+  need(o.near_bytes >= 0, "near_bytes: must be >= 0");
   need(o.refinement_steps >= 0, "refinement_steps: must be >= 0");
   need(o.refinement_above >= 0.0, "refinement_above: must be >= 0");
   return problems;
@@ -111,11 +123,10 @@ void Hierarchical::State::size_factors() {
   for (std::size_t g = 0; g < lanes.groups.size(); ++g)
     if (lanes.groups[g].scratch * lanes_wide > room_of_scratch)
       group_scratch[g] = lane_scratch.data() + (scratch -= lanes.groups[g].scratch * lanes_wide);
-  constexpr std::size_t last_cache = std::size_t{16} << 20;  ///< bytes of it that a run may hope for
+  const auto last_cache = options.near_bytes > 0 ? at(options.near_bytes) : eval_share_of_last_cache();
   constexpr std::size_t second_cache = std::size_t{2} << 20;
   reads_factors_ahead = sizeof(double) * lane_factors.size() > second_cache;
-  streams_factors = sizeof(double) * lane_factors.size() > last_cache;
-  reads_ahead = sizeof(double) * (lane_factors.size() + at(lanes.num_values)) > last_cache;
+  exceeds_caches = sizeof(double) * (lane_factors.size() + at(lanes.num_values)) > last_cache;
 }
 
 void Hierarchical::State::lose_symmetry(const Asymmetry& found) {

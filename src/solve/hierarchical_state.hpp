@@ -129,10 +129,10 @@ struct Hierarchical::State {
   std::vector<SolutionSizes> sizes;   ///< by group
   std::unique_ptr<Hierarchical> twin;    ///< the same without lanes, for reports that need every front whole
   std::int64_t twin_factorization = -1;  ///< what it holds
-  bool reads_ahead = false;              ///< matrices and factors do not stay in the caches from one walk to the next
-  bool reads_factors_ahead = false;      ///< nor do factors alone in the nearer ones
-  bool streams_factors = false;          ///< factors of lanes are written past the caches, into which they do not fit
-  double norm = 0.0;                     ///< of the scaled matrix, rows, when the scales were taken
+  bool exceeds_caches =
+      false;  ///< matrices and factors do not stay there from one walk to the next: read ahead, written past them
+  bool reads_factors_ahead = false;  ///< nor do factors alone in the nearer ones
+  double norm = 0.0;                 ///< of the scaled matrix, rows, when the scales were taken
 
   FactorStatus status;
   SolverCounters counters;

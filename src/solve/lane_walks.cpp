@@ -58,14 +58,14 @@ void Hierarchical::State::factor_lanes(int index) {
   Transfers transfers;
   for (int k = group.front_begin; k < group.front_end; ++k) {
     const LaneFront& f = lanes.fronts[at(k)];
-    const bool is_aside = streams_factors && f.factor_size() <= room;
+    const bool is_aside = exceeds_caches && f.factor_size() <= room;
     double* factor = is_aside ? aside[k % 2] : factor_of(f);
     factor_lane_front(k, factor, transfers);
     transfers.finish();
     if (is_aside) transfers.write(factor, f.factor_size(), factor_of(f));
   }
   transfers.finish();
-  if (streams_factors) Transfers::end_writes();
+  if (exceeds_caches) Transfers::end_writes();
 }
 
 /// What the next front of a walk up reads: where a factorization does not fit into the caches, waiting for lines of memory would take
@@ -166,7 +166,7 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
   const LaneFront& f = lanes.fronts[at(index)];
   const int n = f.size(), e = f.eliminated;
   double* schur = schur_of(f);
-  if (reads_ahead) {
+  if (exceeds_caches) {
     if (index + 1 < static_cast<int>(lanes.fronts.size())) fetch_front(index + 1, transfers);
     transfers.spread(f.move_end - f.move_begin + elimination_steps(n, e));
   }

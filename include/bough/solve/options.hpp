@@ -35,6 +35,9 @@ struct SolveOptions {
   /// Schur complements of all sub-domains last, so that factor() may leave alone what has not changed; more memory.
   bool partial = false;
   bool lanes = true;  ///< equal sub-domains are factored in lockstep, eight to a pack (flat elimination only).
+  /// Bytes of matrices and factors in lanes above which a factorization asks for what it reads before it needs it, and
+  /// writes factors past the caches. Bits are the same. 0: an eighth of the last cache, which others use as well, but 16 MB at least.
+  std::int64_t near_bytes = 0;
   double penalty_factor =
       1.0;  ///< P = factor x the interface's own stiffness diagonal [-], > 0. Flat: only in what is reported.
   double multiplier_scale = 1.0;  ///< s of the local multipliers [-], > 0, in scaled variables.
