@@ -39,11 +39,12 @@ class Recursion {
   int run(std::vector<int> elements, int level, bool upper) {
     const bool cut_subdomain =
         upper && elements.size() > std::max<std::size_t>(leaf_size_, 1) && (depth_ < 0 || level < depth_);
-    const bool cut_inside = !cut_subdomain && elements.size() > terminal_elements && !bisector_.is_forest(elements);
+    const bool is_forest = !cut_subdomain && bisector_.is_forest(elements);
+    const bool cut_inside = !cut_subdomain && elements.size() > terminal_elements && !is_forest;
     Part part;
     part.level = level;
     part.is_subdomain = upper;
-    part.is_forest = upper && !cut_subdomain && bisector_.is_forest(elements);
+    part.is_forest = is_forest;
     if (cut_subdomain || cut_inside) {
       Cut cut = bisector_.cut(elements);
       elements = {};

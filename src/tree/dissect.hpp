@@ -14,7 +14,7 @@ struct Part {
   std::vector<int> children;
   std::vector<int> elements;  ///< of terminal parts only
   bool is_subdomain = false;  ///< upper levels; inside a leaf sub-domain the recursion goes on without
-  bool is_forest = false;     ///< of leaf sub-domains: whether its elements close no loop
+  bool is_forest = false;     ///< of leaf sub-domains and below: whether the elements close no loop
   int level = 0;              ///< depth in the recursion
   bool is_terminal() const { return children.empty(); }
 };
