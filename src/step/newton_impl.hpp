@@ -24,9 +24,10 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
   double expected = 0.0;              // what the last solution was to leave of that
   // By how much changes and residuals shrink. A factor that served before contracts as it did; of a new one nothing is known at first.
   double rate = fresh ? 1.0 : system.last_contraction(), shrunk = 0.0;
+  double contraction = rate;  // the last that round-off did not make
   const auto converge = [&]() {
     report.converged = true;
-    if (report.iterations > 1) system.set_last_contraction(rate);
+    if (report.iterations > 1) system.set_last_contraction(contraction);
     system.note_service(served);
     return report;
   };
@@ -92,6 +93,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     if (const auto t = follow(state)) return fail(*t);
     if (options.single_solution || k == 0) continue;  // nothing follows from the first: predictions err in other ways
     rate = previous > 0.0 ? report.change / previous : 0.0;
+    if (k == 1 || report.change > least_change) contraction = rate;
     // What the solution leaves need not be looked at where changes and residuals shrink on as they did. Gaps have to be seen closed: rows that
     // contradict each other stay open while changes vanish.
     const double share = unseen_growth * std::max({rate, shrunk, is_own ? 0.0 : system.last_contraction()});
