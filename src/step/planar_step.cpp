@@ -61,24 +61,29 @@ Vec3<Pack> in_plane(const Mat3<Pack>& B, const Vec6<Pack>& v) {
   return {{along(0, v.v), along(1, v.v), along(2, v.v + 3)}};
 }
 
-/// Addresses of `Item`s [begin, begin + count), one to a lane, of a number within them; spare lanes repeat the last.
-template <class Item, class Number>
-struct LanesOf {
-  Number* at[nodes_in_lanes];
-  LanesOf(Item* items, std::size_t begin, std::size_t count, std::size_t number = 0) {
-    for (std::size_t l = 0; l < nodes_in_lanes; ++l)
-      at[l] = reinterpret_cast<Number*>(items + begin + std::min(l, count - 1)) + number;
-  }
-};
 /// Numbers of an item from `number` on.
-template <class Item>
-void gather(const Item* items, std::size_t begin, std::size_t count, int numbers, Pack* to, std::size_t number = 0) {
-  lanes::gather_lanes(LanesOf<const Item, const double>(items, begin, count, number).at, numbers, to);
+template <int numbers, class Item>
+void gather(const Item* items, std::size_t begin, std::size_t count, Pack* to, std::size_t number = 0) {
+  if (count == nodes_in_lanes) {  // addresses at fixed distances need no registers of their own
+    const double* from = reinterpret_cast<const double*>(items + begin) + number;
+    return lanes::gather_rows<numbers, sizeof(Item) / sizeof(double)>(from, to);
+  }
+  const double* from[nodes_in_lanes];
+  for (std::size_t l = 0; l < nodes_in_lanes; ++l)
+    from[l] = reinterpret_cast<const double*>(items + begin + std::min(l, count - 1)) + number;
+  lanes::gather_lanes(from, numbers, to);
 }
 /// Spare lanes hold what the last does, so they may write it as well.
-template <class Item>
-void scatter(const Pack* from, int numbers, Item* items, std::size_t begin, std::size_t count) {
-  lanes::scatter_lanes(from, numbers, LanesOf<Item, double>(items, begin, count).at);
+template <int numbers, class Item>
+void scatter(const Pack* from, Item* items, std::size_t begin, std::size_t count) {
+  if (count == nodes_in_lanes) {
+    double* to = reinterpret_cast<double*>(items + begin);
+    return lanes::scatter_rows<numbers, sizeof(Item) / sizeof(double)>(from, to);
+  }
+  double* to[nodes_in_lanes];
+  for (std::size_t l = 0; l < nodes_in_lanes; ++l)
+    to[l] = reinterpret_cast<double*>(items + begin + std::min(l, count - 1));
+  lanes::scatter_lanes(from, numbers, to);
 }
 
 using SpaceLanes = elements::NodeMotionOf<Pack>;
@@ -97,7 +102,7 @@ PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::
   bases_.assign(groups, Mat3<Pack>::identity());
   if (!plan.unknowns.basis.empty())
     for (std::size_t g = 0; g < groups; ++g)
-      gather(plan.unknowns.basis.data(), g * nodes_in_lanes, count_of(g), 9, bases_[g].m);
+      gather<9>(plan.unknowns.basis.data(), g * nodes_in_lanes, count_of(g), bases_[g].m);
   starts_.resize(groups);
   movers_.resize(groups);
   unknowns_ = node_begin;
@@ -184,9 +189,9 @@ void PlanarStep::enter_nodes(const State& start, std::size_t group, Pack& turned
   const std::size_t from = group * nodes_in_lanes, count = count_of(group);
   SpaceLanes node;
   Vec6<Pack> algorithmic, trend;
-  gather(start.nodes.data(), from, count, numbers_before_increment, node.R.m);
-  gather(start.algorithmic.data(), from, count, 6, algorithmic.v);
-  gather(start.acceleration_trend.data(), from, count, 6, trend.v);
+  gather<numbers_before_increment>(start.nodes.data(), from, count, node.R.m);
+  gather<6>(start.algorithmic.data(), from, count, algorithmic.v);
+  gather<6>(start.acceleration_trend.data(), from, count, trend.v);
   const Mat3<Pack>& B = bases_[group];
   // As PlanarSystem::set_nodes.
   StartLanes& s = starts_[group];
@@ -269,8 +274,8 @@ void PlanarStep::show_nodes(std::size_t group, Pack& turned) {
   const MoverLanes& mover = movers_[group];
   const AlphaRule::Rates<Vec3<Pack>> rates = rule_.follow(mover.dq, start.v, start.a, start.algorithmic);
   const PlanarNodeLanes n{mover.turn, mover.x, rates.v, rates.a, mover.dq};
-  scatter(&n.turn[0], elements::planar::numbers_of_node, system_.nodes().data(), group * nodes_in_lanes,
-          count_of(group));
+  scatter<elements::planar::numbers_of_node>(&n.turn[0], system_.nodes().data(), group * nodes_in_lanes,
+                                             count_of(group));
   turned = larger(turned, lanes::abs(mover.dq[2]));
 }
 
@@ -324,8 +329,8 @@ void PlanarStep::leave_nodes(const State& start, State& state, double arm, std::
   const Mat3<Pack>& B = bases_[group];
   SpaceLanes to;
   Pack turn[4];
-  gather(start.nodes.data(), from, count, 8, &to.x.hi[0], numbers_before_place);  // and two that are written below
-  gather(start.rotation.data(), from, count, 4, turn);
+  gather<8>(start.nodes.data(), from, count, &to.x.hi[0], numbers_before_place);  // and two that are written below
+  gather<4>(start.rotation.data(), from, count, turn);
   const AlphaRule::Rates<Vec3<Pack>> rates = rule_.follow(node.dq, s.v, s.a, s.algorithmic);
   to.v = in_space(B, rates.v);
   to.a = in_space(B, rates.a);
@@ -354,10 +359,10 @@ void PlanarStep::leave_nodes(const State& start, State& state, double arm, std::
     trend.from_start += from_start[static_cast<int>(l)];
     trend.from_trend += from_trend[static_cast<int>(l)];
   }
-  scatter(to.R.m, numbers_of_motion, state.nodes.data(), from, count);
-  scatter(turn, 4, state.rotation.data(), from, count);
-  scatter(in_space(B, rates.algorithmic).v, 6, state.algorithmic.data(), from, count);
-  scatter(in_space(B, change).v, 6, state.acceleration_trend.data(), from, count);
+  scatter<numbers_of_motion>(to.R.m, state.nodes.data(), from, count);
+  scatter<4>(turn, state.rotation.data(), from, count);
+  scatter<6>(in_space(B, rates.algorithmic).v, state.algorithmic.data(), from, count);
+  scatter<6>(in_space(B, change).v, state.acceleration_trend.data(), from, count);
 }
 
 }  // namespace bough::step

@@ -68,6 +68,18 @@ inline Register<8>::Real root(const Register<8>::Real& x) { return Register<8>::
 #endif
 inline double root(double x) { return std::sqrt(x); }
 
+// Whether a flag is set. By tests of the instruction set: compilers take registers apart through memory, and wait for what they stored in parts.
+#if BOUGH_REGISTER_DOUBLES >= 8
+inline bool is_set(const Register<8>::Flag& f) { return _mm512_test_epi64_mask(__m512i(f), __m512i(f)) != 0; }
+#endif
+#if BOUGH_REGISTER_DOUBLES >= 4
+inline bool is_set(const Register<4>::Flag& f) { return _mm256_testz_si256(__m256i(f), __m256i(f)) == 0; }
+#endif
+#if BOUGH_REGISTER_DOUBLES >= 2
+inline bool is_set(const Register<2>::Flag& f) { return _mm_movemask_epi8(__m128i(f)) != 0; }
+#endif
+inline bool is_set(long long f) { return f != 0; }
+
 // a b + c, each lane the bits of lanes::multiply_add on doubles.
 #if BOUGH_REGISTER_DOUBLES >= 8
 inline Register<8>::Real fused(const Register<8>::Real& a, const Register<8>::Real& b, const Register<8>::Real& c) {
@@ -257,13 +269,7 @@ template <int W>
 bool any(const Mask<W>& m) {
   typename Mask<W>::Flag f = m.f[0];
   for (int i = 1; i < Mask<W>::chunks; ++i) f |= m.f[i];
-  if constexpr (Mask<W>::chunk == 1) {
-    return f != 0;
-  } else {
-    long long r = f[0];
-    for (int i = 1; i < Mask<W>::chunk; ++i) r |= f[i];
-    return r != 0;
-  }
+  return detail::is_set(f);
 }
 template <int W>
 bool all(const Mask<W>& m) {

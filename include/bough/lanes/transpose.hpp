@@ -54,9 +54,7 @@ inline void transpose_square(Real8 (&r)[8]) {
   spread(odd, 1);
 }
 #endif
-}  // namespace detail
 
-namespace detail {
 /// A register at any address. Not by memcpy, which compilers take apart into narrower moves: a register loaded from what two narrower stores wrote waits.
 template <int N>
 struct Anywhere {
@@ -72,7 +70,7 @@ inline Real4 load_some(const double* from, int count) {
   return Real4(_mm256_maskload_pd(from, mask));
 }
 
-/// Arrays of fewer numbers than a register of eight holds, and all of them where it holds four: squares of four.
+/// Squares of four. The last of a count that is no multiple overlaps the one before.
 template <int W>
 void gather_by_fours(const double* const (&from)[W], int count, Pack<W>* to) {
   constexpr int groups = W / 4;
@@ -86,12 +84,7 @@ void gather_by_fours(const double* const (&from)[W], int count, Pack<W>* to) {
       transpose_square(square[g]);
     }
     for (int k = 0; k < some; ++k)
-      for (int c = 0; c < Pack<W>::chunks; ++c) {
-        if constexpr (Pack<W>::chunk == 4)
-          to[i + k].r[c] = square[c][k];
-        else  // whole registers, since two halves that are written and then read as a whole stall as well
-          to[i + k].r[c] = __builtin_shufflevector(square[2 * c][k], square[2 * c + 1][k], 0, 1, 2, 3, 4, 5, 6, 7);
-      }
+      for (int c = 0; c < Pack<W>::chunks; ++c) to[i + k].r[c] = square[c][k];
   }
 }
 template <int W>
@@ -104,15 +97,7 @@ void scatter_by_fours(const Pack<W>* from, int count, double* const (&to)[W]) {
     for (int g = 0; g < groups; ++g) {
       Real4 square[4];
       BOUGH_UNROLL
-      for (int k = 0; k < 4; ++k) {
-        if constexpr (Pack<W>::chunk == 4) {
-          square[k] = from[i + k].r[g];
-        } else {
-          const auto whole = from[i + k].r[g / 2];
-          square[k] = g % 2 == 0 ? __builtin_shufflevector(whole, whole, 0, 1, 2, 3)
-                                 : __builtin_shufflevector(whole, whole, 4, 5, 6, 7);
-        }
-      }
+      for (int k = 0; k < 4; ++k) square[k] = from[i + k].r[g];
       transpose_square(square);
       BOUGH_UNROLL
       for (int l = 0; l < 4; ++l) *reinterpret_cast<Loose*>(to[4 * g + l] + i) = square[l];
@@ -120,31 +105,65 @@ void scatter_by_fours(const Pack<W>* from, int count, double* const (&to)[W]) {
   }
 }
 #endif
+#if BOUGH_REGISTER_DOUBLES >= 8
+/// The first `count` of eight doubles, the others 0; what lies behind them is neither read nor written.
+inline Real8 load_eight(const double* from, int count) {
+  if (count == 8) return *reinterpret_cast<const Anywhere<8>::Real*>(from);
+  return Real8(_mm512_maskz_loadu_pd(static_cast<__mmask8>((1 << count) - 1), from));
+}
+inline void store_eight(double* to, const Real8& x, int count) {
+  if (count == 8)
+    *reinterpret_cast<Anywhere<8>::Real*>(to) = x;
+  else
+    _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1 << count) - 1), __m512d(x));
+}
+
+/// Squares of eight; row(l): where the numbers of lane l are. The last square of a count that is no multiple overlaps the one before.
+template <int W, class Row>
+BOUGH_INLINE void gather_by_eights(const Row& row, int count, Pack<W>* to) {
+  const int some = count < 8 ? count : 8;
+  BOUGH_UNROLL
+  for (int at = 0; at < count; at += 8) {
+    const int i = at + some <= count ? at : count - some;
+    for (int c = 0; c < Pack<W>::chunks; ++c) {
+      Real8 square[8];
+      BOUGH_UNROLL
+      for (int l = 0; l < 8; ++l) square[l] = load_eight(row(c * 8 + l) + i, some);
+      transpose_square(square);
+      BOUGH_UNROLL
+      for (int k = 0; k < 8; ++k)
+        if (k < some) to[i + k].r[c] = square[k];
+    }
+  }
+}
+template <int W, class Row>
+BOUGH_INLINE void scatter_by_eights(const Pack<W>* from, int count, const Row& row) {
+  const int some = count < 8 ? count : 8;
+  BOUGH_UNROLL
+  for (int at = 0; at < count; at += 8) {
+    const int i = at + some <= count ? at : count - some;
+    for (int c = 0; c < Pack<W>::chunks; ++c) {
+      Real8 square[8];
+      BOUGH_UNROLL
+      for (int k = 0; k < 8; ++k) square[k] = k < some ? from[i + k].r[c] : Real8{};
+      transpose_square(square);
+      BOUGH_UNROLL
+      for (int l = 0; l < 8; ++l) store_eight(row(c * 8 + l) + i, square[l], some);
+    }
+  }
+}
+#endif
 }  // namespace detail
 
-/// to[i] lane l <- from[l][i] for i < count. The last block of a count that is no multiple overlaps the one before.
+/// to[i] lane l <- from[l][i] for i < count.
 template <int W>
 void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
   constexpr int side = Pack<W>::chunk;
-  if constexpr (side == 8) {
-    if (count >= side) {
-      using Loose = typename detail::Anywhere<side>::Real;
-      for (int at = 0; at < count; at += side) {
-        const int i = at + side <= count ? at : count - side;
-        for (int c = 0; c < Pack<W>::chunks; ++c) {
-          typename Pack<W>::Real square[side];
-          BOUGH_UNROLL
-          for (int l = 0; l < side; ++l) square[l] = *reinterpret_cast<const Loose*>(from[c * side + l] + i);
-          detail::transpose_square(square);
-          BOUGH_UNROLL
-          for (int k = 0; k < side; ++k) to[i + k].r[c] = square[k];
-        }
-      }
-      return;
-    }
-  }
+#if BOUGH_REGISTER_DOUBLES >= 8
+  if constexpr (side == 8) return detail::gather_by_eights<W>([&from](int l) { return from[l]; }, count, to);
+#endif
 #if BOUGH_REGISTER_DOUBLES >= 4
-  if constexpr (side >= 4) return detail::gather_by_fours(from, count, to);
+  if constexpr (side == 4) return detail::gather_by_fours(from, count, to);
 #endif
   for (int i = 0; i < count; ++i)
     for (int l = 0; l < W; ++l) to[i].set(l, from[l][i]);
@@ -154,29 +173,37 @@ void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
 template <int W>
 void scatter_lanes(const Pack<W>* from, int count, double* const (&to)[W]) {
   constexpr int side = Pack<W>::chunk;
-  if constexpr (side == 8) {
-    if (count >= side) {
-      using Loose = typename detail::Anywhere<side>::Real;
-      for (int at = 0; at < count; at += side) {
-        const int i = at + side <= count ? at : count - side;
-        for (int c = 0; c < Pack<W>::chunks; ++c) {
-          typename Pack<W>::Real square[side];
-          BOUGH_UNROLL
-          for (int k = 0; k < side; ++k) square[k] = from[i + k].r[c];
-          detail::transpose_square(square);
-          BOUGH_UNROLL
-          for (int l = 0; l < side; ++l) *reinterpret_cast<Loose*>(to[c * side + l] + i) = square[l];
-        }
-      }
-      return;
-    }
-  }
+#if BOUGH_REGISTER_DOUBLES >= 8
+  if constexpr (side == 8) return detail::scatter_by_eights<W>(from, count, [&to](int l) { return to[l]; });
+#endif
 #if BOUGH_REGISTER_DOUBLES >= 4
-  if constexpr (side >= 4)
+  if constexpr (side == 4)
     if (count >= 4) return detail::scatter_by_fours(from, count, to);
 #endif
   for (int i = 0; i < count; ++i)
     for (int l = 0; l < W; ++l) to[l][i] = from[i][l];
+}
+
+/// The same of arrays `stride` numbers apart, with all counts known to the compiler.
+template <int count, int stride, int W>
+void gather_rows(const double* from, Pack<W>* to) {
+#if BOUGH_REGISTER_DOUBLES >= 8
+  if constexpr (Pack<W>::chunk == 8)
+    return detail::gather_by_eights<W>([from](int l) { return from + l * stride; }, count, to);
+#endif
+  const double* rows[W];
+  for (int l = 0; l < W; ++l) rows[l] = from + l * stride;
+  gather_lanes(rows, count, to);
+}
+template <int count, int stride, int W>
+void scatter_rows(const Pack<W>* from, double* to) {
+#if BOUGH_REGISTER_DOUBLES >= 8
+  if constexpr (Pack<W>::chunk == 8)
+    return detail::scatter_by_eights<W>(from, count, [to](int l) { return to + l * stride; });
+#endif
+  double* rows[W];
+  for (int l = 0; l < W; ++l) rows[l] = to + l * stride;
+  scatter_lanes(from, count, rows);
 }
 
 namespace detail {
