@@ -53,11 +53,12 @@ struct Integrator {
 
   /// Predictor: dv/dt changes as it did over the last step, or stays where that would have been nearer; a_{n+1} follows. Multipliers stay:
   /// the first solution finds them, whatever they were. Writes all of `state`, its nodes in one pass over the start.
-  void predict(System& system, State& state, bool in_plane) const {
+  void predict(System& system, State& state, bool in_plane, bool is_end) const {
     state.step_size = start.step_size;
     state.multipliers = start.multipliers;
     state.turns = start.turns;
-    if (in_plane) return system.planar_step()->enter(start, rule, system.walker());
+    state.behind = 0;
+    if (in_plane) return system.planar_step()->enter(start, is_end, rule, system.walker());
     const double trend = start.follows_trend ? 1.0 : 0.0;
     state.nodes.resize(start.nodes.size());
     state.rotation.resize(start.nodes.size());
@@ -127,31 +128,46 @@ Integrator make_rule(const StepOptions& options, const State& start) {
 }
 
 /// The predicted state, its laws and velocities.
-std::optional<Trouble> enter(System& system, State& state, const Integrator& step, double end_time, bool in_plane) {
+std::optional<Trouble> enter(System& system, State& state, const Integrator& step, double end_time, bool in_plane,
+                             bool is_end) {
   if (auto t = system.set_time(end_time, laws::Side::left)) return t;
-  step.predict(system, state, in_plane);
+  if (step.start.behind != 0 && !(in_plane && system.planar_step()->knows(step.start))) return lost_nodes(step.start);
+  step.predict(system, state, in_plane, is_end || step.start.behind != 0);
   state.time = end_time;
   return step.follow(system, state);
 }
 
-StepReport try_step(System& system, State& state, const StepOptions& options, const Integrator& step, double end_time) {
+StepReport try_step(System& system, State& state, State& start, const StepOptions& options, double end_time,
+                    const Handover& handover) {
+  const Integrator step = make_rule(options, start);
   StepReport report;
   const auto fail = [&](const Trouble& t) {
-    if (system.planar_step() != nullptr) system.planar_step()->abandon();
+    if (PlanarStep* plane = system.planar_step()) plane->abandon();
     report.converged = false;
     report.cause = t.text;
     return report;
   };
-  const bool in_plane = system.planar_step() != nullptr;
-  if (const auto t = enter(system, state, step, end_time, in_plane)) return fail(*t);
+  PlanarStep* plane = system.planar_step();
+  const bool stays = plane != nullptr && plane->joints_with_angles().empty();  // these are looked at in space
+  if (const auto t = enter(system, state, step, end_time, plane != nullptr, stays && handover.is_untouched))
+    return fail(*t);
   report = iterate(system, state, options, step.rule.slopes(), [&](State& s) { return step.follow(system, s); });
   if (!report.converged) return fail({report.cause});
-  if (in_plane)
-    system.planar_step()->leave(step.start, state, system.moment_arm(), system.work().trends, system.walker());
-  if (const auto t = in_plane ? check_shape_in_plane(system, state) : check_shape(system, state)) return fail(*t);
-  if (!in_plane) note_trend(system, step.start, state);
+  const bool is_read = handover.is_read || !stays;
+  if (plane == nullptr) {
+    if (const auto t = check_shape(system, state)) return fail(*t);
+    note_trend(system, start, state);
+  } else {
+    if (const auto t = check_folds_in_plane(system)) return fail(*t);
+    plane->finish(system.moment_arm(), system.work().trends, system.walker());
+    if (is_read)
+      plane->write(start, state, system.walker());
+    else
+      plane->keep(start, state);
+    if (const auto t = check_flips_in_plane(system, state)) return fail(*t);
+  }
   choose_trend(system, state);
-  system.recover_multipliers(state);
+  if (is_read) system.recover_multipliers(state);
   return report;
 }
 
@@ -162,13 +178,14 @@ std::optional<Trouble> predict(System& system, State& state, const StepOptions& 
   const State start = state;
   const Integrator step = make_rule(options, start);
   slopes = step.rule.slopes();
-  return enter(system, state, step, end_time, false);
+  return enter(system, state, step, end_time, false, false);
 }
 
-StepReport advance(System& system, State& state, const StepOptions& options, double end_time) {
+StepReport advance(System& system, State& state, const StepOptions& options, double end_time,
+                   const Handover& handover) {
   State& start = system.work().start;
   std::swap(state, start);
-  StepReport report = try_step(system, state, options, make_rule(options, start), end_time);
+  StepReport report = try_step(system, state, start, options, end_time, handover);
   if (!report.converged) std::swap(state, start);
   return report;
 }

@@ -169,11 +169,17 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
   return describe_shape(system, first_bad.get());
 }
 
-std::optional<Trouble> check_shape_in_plane(const System& system, const State& state) {
+std::optional<Trouble> check_folds_in_plane(const System& system) {
+  return describe_shape(system, system.planar_step()->first_folded(system.walker()));
+}
+
+std::optional<Trouble> check_flips_in_plane(const System& system, const State& state) {
   const plan::Plan& plan = system.plan();
+  const std::vector<int>& joints = system.planar_step()->joints_with_angles();
+  if (joints.empty()) return std::nullopt;
   const elements::Field f = system.field(state);
-  FirstBad first_bad(system.planar_step()->first_folded(system.walker()));
-  for (const int id : system.planar_step()->joints_with_angles())
+  FirstBad first_bad(static_cast<std::int64_t>(plan.directory.size()));
+  for (const int id : joints)
     plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
       if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
         if (is_flipped(e, f)) first_bad.note(id);
@@ -181,8 +187,13 @@ std::optional<Trouble> check_shape_in_plane(const System& system, const State& s
   return describe_shape(system, first_bad.get());
 }
 
+bool counts_turns(const plan::Plan& plan) {
+  return std::any_of(plan.joints.begin(), plan.joints.end(), [](const plan::JointPlan& j) { return j.counts_turns; });
+}
+
 void accept_turns(const System& system, State& state) {
   const plan::Plan& plan = system.plan();
+  if (!counts_turns(plan)) return;
   const elements::Field f = system.field(state);
   auto by_joint = [&](std::int64_t begin, std::int64_t end) {
     for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bough/lanes/transpose.hpp"
+#include "node_lanes.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -14,14 +14,12 @@ using motion::Mat3;
 using motion::plane_part;
 using motion::Vec2;
 using motion::Vec3;
-using motion::Vec6;
 
 namespace {
 
 using Pack = elements::LanePack;
 using PlanarNodeLanes = elements::planar::NodeLanes;
 static_assert(elements::num_lanes == static_cast<int>(nodes_in_lanes));
-constexpr std::int64_t group_grain = block_grain / static_cast<std::int64_t>(nodes_in_lanes);
 constexpr std::int64_t pair_group_grain = pair_grain / static_cast<std::int64_t>(nodes_in_lanes);
 constexpr double nothing[4] = {};  ///< increment of a node without unknowns; what is read of a node where there is none
 
@@ -39,59 +37,12 @@ Vec2<double> own_turn(const elements::planar::Port& p) {
   return p.node == elements::ground || p.has_offset ? p.turn : Vec2<double>{{1.0, 0.0}};
 }
 
-/// A motion of a node in the plane as one in space, its own axes: columns of B along the plane, along the plane, normal.
-Vec6<Pack> in_space(const Mat3<Pack>& B, const Vec3<Pack>& z) {
-  Vec6<Pack> v;
-  for (int i = 0; i < 3; ++i) {
-    v[i] = B(i, 0) * z[0] + B(i, 1) * z[1];
-    v[3 + i] = B(i, 2) * z[2];
-  }
-  return v;
-}
 Pack larger(const Pack& a, const Pack& b) { return select(less(a, b), b, a); }
 double largest_of(const Pack& a) {
   double most = a[0];
   for (int l = 1; l < elements::num_lanes; ++l) most = std::max(most, a[l]);
   return most;
 }
-Vec3<Pack> in_plane(const Mat3<Pack>& B, const Vec6<Pack>& v) {
-  const auto along = [&B](int column, const Pack* x) {
-    return B(0, column) * x[0] + (B(1, column) * x[1] + B(2, column) * x[2]);
-  };
-  return {{along(0, v.v), along(1, v.v), along(2, v.v + 3)}};
-}
-
-/// Numbers of an item from `number` on.
-template <int numbers, class Item>
-void gather(const Item* items, std::size_t begin, std::size_t count, Pack* to, std::size_t number = 0) {
-  if (count == nodes_in_lanes) {  // addresses at fixed distances need no registers of their own
-    const double* from = reinterpret_cast<const double*>(items + begin) + number;
-    return lanes::gather_rows<numbers, sizeof(Item) / sizeof(double)>(from, to);
-  }
-  const double* from[nodes_in_lanes];
-  for (std::size_t l = 0; l < nodes_in_lanes; ++l)
-    from[l] = reinterpret_cast<const double*>(items + begin + std::min(l, count - 1)) + number;
-  lanes::gather_lanes(from, numbers, to);
-}
-/// Spare lanes hold what the last does, so they may write it as well.
-template <int numbers, class Item>
-void scatter(const Pack* from, Item* items, std::size_t begin, std::size_t count) {
-  if (count == nodes_in_lanes) {
-    double* to = reinterpret_cast<double*>(items + begin);
-    return lanes::scatter_rows<numbers, sizeof(Item) / sizeof(double)>(from, to);
-  }
-  double* to[nodes_in_lanes];
-  for (std::size_t l = 0; l < nodes_in_lanes; ++l)
-    to[l] = reinterpret_cast<double*>(items + begin + std::min(l, count - 1));
-  lanes::scatter_lanes(from, numbers, to);
-}
-
-using SpaceLanes = elements::NodeMotionOf<Pack>;
-constexpr int numbers_of_motion = 33, numbers_before_increment = 27;
-constexpr std::size_t numbers_before_place = 9;
-static_assert(sizeof(elements::NodeMotion) == numbers_of_motion * sizeof(double) &&
-              sizeof(SpaceLanes) == numbers_of_motion * sizeof(Pack));
-
 }  // namespace
 
 PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::vector<std::int64_t>& node_begin,
@@ -105,6 +56,7 @@ PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::
       gather<9>(plan.unknowns.basis.data(), g * nodes_in_lanes, count_of(g), bases_[g].m);
   starts_.resize(groups);
   movers_.resize(groups);
+  in_space_.resize(groups);
   unknowns_ = node_begin;
   unknowns_.resize(groups * nodes_in_lanes, node_begin.empty() ? -1 : node_begin.back());
   turn_max_.resize((groups + group_grain - 1) / group_grain);
@@ -112,7 +64,8 @@ PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::
     plan::with_element(plan.planar->elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
       if constexpr (std::is_same_v<E, elements::planar::Joint>)
-        if (std::any_of(e.rows, e.rows + e.num_rows,
+        if (std::any_of(e.ports, e.ports + E::num_ports, [this](const auto& p) { return moves(p.node); }) &&
+            std::any_of(e.rows, e.rows + e.num_rows,
                         [](const auto& row) { return row.kind != elements::RowKind::along; }))
           joints_with_angles_.push_back(static_cast<int>(id));
       if constexpr (requires { e.reference_strain; })
@@ -171,51 +124,23 @@ std::size_t PlanarStep::count_of(std::size_t group) const {
   return std::min(nodes_in_lanes, plan_.nodes.size() - group * nodes_in_lanes);
 }
 
-void PlanarStep::enter(const State& start, const AlphaRule& rule, const tree::Walker& walker) {
+void PlanarStep::enter(const State& start, bool is_end, const AlphaRule& rule, const tree::Walker& walker) {
   rule_ = rule;
   is_under_way_ = true;
   auto by_group = [&](std::int64_t begin, std::int64_t end) {
     Pack turned(0.0);
-    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g)
-      enter_nodes(start, g, turned);
+    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
+      if (!is_end || number_ == 0) read_nodes(start, g);
+      const StartLanes& s = starts_[g];
+      const Vec3<Pack> eta = rule_.predict(s.v, s.a, s.algorithmic, start.follows_trend ? s.trend : Vec3<Pack>::zero());
+      MoverLanes& mover = movers_[g];
+      mover = {s.turn, s.x, eta};
+      mover.move(eta);
+      show_nodes(g, turned);
+    }
     turn_max_[static_cast<std::size_t>(begin / group_grain)] = largest_of(turned);
   };
   walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
-}
-
-void PlanarStep::enter_nodes(const State& start, std::size_t group, Pack& turned) {
-  const Mat3<double>& axes = plan_.planar->axes;
-  const Vec3<double>& origin = plan_.planar->origin;
-  const std::size_t from = group * nodes_in_lanes, count = count_of(group);
-  SpaceLanes node;
-  Vec6<Pack> algorithmic, trend;
-  gather<numbers_before_increment>(start.nodes.data(), from, count, node.R.m);
-  gather<6>(start.algorithmic.data(), from, count, algorithmic.v);
-  gather<6>(start.acceleration_trend.data(), from, count, trend.v);
-  const Mat3<Pack>& B = bases_[group];
-  // As PlanarSystem::set_nodes.
-  StartLanes& s = starts_[group];
-  const Vec3<Pack> axis = node.R * lanes::column(B, 0);
-  Vec3<Pack> hi, lo;
-  for (int i = 0; i < 3; ++i) {
-    motion::two_sum(node.x.hi[i], Pack(-origin[i]), hi[i], lo[i]);
-    lo[i] = lo[i] + node.x.lo[i];
-  }
-  for (int i = 0; i < 2; ++i) {
-    const Vec3<Pack> along = lanes::cast<Pack>(lanes::column(axes, i));
-    s.turn[i] = lanes::dot(along, axis);
-    s.x.hi[i] = lanes::dot(along, hi);
-    s.x.lo[i] = lanes::dot(along, lo);
-  }
-  s.v = in_plane(B, node.v);
-  s.a = in_plane(B, node.a);
-  s.algorithmic = in_plane(B, algorithmic);
-  s.trend = in_plane(B, trend);
-  const Vec3<Pack> eta = rule_.predict(s.v, s.a, s.algorithmic, start.follows_trend ? s.trend : Vec3<Pack>::zero());
-  MoverLanes& mover = movers_[group];
-  mover = {s.turn, s.x, eta};
-  mover.move(eta);
-  show_nodes(group, turned);
 }
 
 double PlanarStep::apply(const double* x, const tree::Walker& walker) {
@@ -303,66 +228,32 @@ std::int64_t PlanarStep::first_folded(const tree::Walker& walker) const {
   return first_bad.get();
 }
 
-void PlanarStep::leave(const State& start, State& state, double arm, std::vector<Workspace::Trend>& trends,
-                       const tree::Walker& walker) {
+void PlanarStep::finish(double arm, std::vector<Workspace::Trend>& trends, const tree::Walker& walker) {
   is_under_way_ = false;
-  const std::size_t count = plan_.nodes.size();
-  state.nodes.resize(count);
-  state.rotation.resize(count);
-  state.algorithmic.resize(count);
-  state.acceleration_trend.resize(count);
+  ++number_;
   trends.resize(turn_max_.size());
   auto by_group = [&](std::int64_t begin, std::int64_t end) {
     Workspace::Trend trend;
-    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g)
-      leave_nodes(start, state, arm, g, trend);
+    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) finish_nodes(arm, g, trend);
     trends[static_cast<std::size_t>(begin / group_grain)] = trend;
   };
   walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
 }
 
-void PlanarStep::leave_nodes(const State& start, State& state, double arm, std::size_t group,
-                             Workspace::Trend& trend) const {
-  const std::size_t from = group * nodes_in_lanes, count = count_of(group);
-  const StartLanes& s = starts_[group];
+void PlanarStep::finish_nodes(double arm, std::size_t group, Workspace::Trend& trend) {
+  StartLanes& s = starts_[group];
   const MoverLanes& node = movers_[group];
-  const Mat3<Pack>& B = bases_[group];
-  SpaceLanes to;
-  Pack turn[4];
-  gather<8>(start.nodes.data(), from, count, &to.x.hi[0], numbers_before_place);  // and two that are written below
-  gather<4>(start.rotation.data(), from, count, turn);
   const AlphaRule::Rates<Vec3<Pack>> rates = rule_.follow(node.dq, s.v, s.a, s.algorithmic);
-  to.v = in_space(B, rates.v);
-  to.a = in_space(B, rates.a);
-  to.dq = in_space(B, node.dq);
-  const motion::Quaternion<Pack> q =
-      motion::normalise(motion::multiply(motion::Quaternion<Pack>{turn[0], {{turn[1], turn[2], turn[3]}}},
-                                         motion::exp_quaternion(lanes::angular_part(to.dq))));
-  to.R = motion::rotation_of(q);
-  turn[0] = q.w;
-  for (int i = 0; i < 3; ++i) turn[1 + i] = q.v[i];
-  // The place itself goes into space as a displacement, so that its digits beyond a double stay.
-  Vec2<Pack> hi, lo;
-  for (int i = 0; i < 2; ++i) {
-    motion::two_sum(node.x.hi[i], Pack(-s.x.hi[i]), hi[i], lo[i]);
-    lo[i] = lo[i] + (node.x.lo[i] - s.x.lo[i]);
-  }
-  const Mat3<double>& axes = plan_.planar->axes;
-  const Vec3<Pack> along[2] = {lanes::cast<Pack>(lanes::column(axes, 0)), lanes::cast<Pack>(lanes::column(axes, 1))};
-  for (const Vec2<Pack>& part : {hi, lo}) to.x.add(part[0] * along[0] + part[1] * along[1]);
   const Vec3<Pack> change = rates.a - s.a, bend = change - s.trend;
   const auto size = [arm](const Vec3<Pack>& a) {
     return Pack(lanes::dot(plane_part(a), plane_part(a)) + arm * arm * a[2] * a[2]);
   };
   const Pack from_start = size(change), from_trend = size(bend);
-  for (std::size_t l = 0; l < count; ++l) {
+  for (std::size_t l = 0; l < count_of(group); ++l) {
     trend.from_start += from_start[static_cast<int>(l)];
     trend.from_trend += from_trend[static_cast<int>(l)];
   }
-  scatter<numbers_of_motion>(to.R.m, state.nodes.data(), from, count);
-  scatter<4>(turn, state.rotation.data(), from, count);
-  scatter<6>(in_space(B, rates.algorithmic).v, state.algorithmic.data(), from, count);
-  scatter<6>(in_space(B, change).v, state.acceleration_trend.data(), from, count);
+  s = {node.turn, node.x, rates.v, rates.a, change, rates.algorithmic, node.dq};
 }
 
 }  // namespace bough::step

@@ -1,6 +1,6 @@
 #pragma once
-/// A step of generalized-alpha that iterates in the plane: nodes move by three numbers instead of six, eight at a time, and go back to space
-/// once the iteration has ended. What only the step looks at stays in lanes meanwhile. Internal to step.
+/// Steps of generalized-alpha that iterate in the plane: nodes move by three numbers instead of six, eight at a time, and go back to space once the
+/// iteration has ended, or when they are asked for. What only steps look at stays in lanes, from one to the next as well. Internal to step.
 #include <cstdint>
 #include <vector>
 
@@ -26,8 +26,10 @@ class PlanarStep {
   /// Whether a step is under way: nodes of the PlanarSystem are its own, those of States are not looked at.
   bool is_under_way() const { return is_under_way_; }
 
-  /// Nodes where the step starts from, then as the rule predicts them.
-  void enter(const State& start, const AlphaRule& rule, const tree::Walker& walker);
+  /// Whether the last step ended in `state`, whose nodes are behind.
+  bool knows(const State& state) const { return state.behind == number_; }
+  /// Nodes where the step starts from, then as the rule predicts them. is_end: `start` is the end of the last step, whether its nodes are behind or not.
+  void enter(const State& start, bool is_end, const AlphaRule& rule, const tree::Walker& walker);
   /// H <- H exp(eta), dq <- log(exp(dq) exp(eta)), velocities and accelerations by the rule. Returns the size of the increment,
   /// as System::relative_size.
   double apply(const double* x, const tree::Walker& walker);
@@ -35,21 +37,28 @@ class PlanarStep {
   int turned_beyond(double angle) const;
   /// The first element that is a beam folded as check_shape forbids, or the number of elements.
   std::int64_t first_folded(const tree::Walker& walker) const;
-  /// Joints that can flip in the plane, as elements. All others have no rows of angles there.
+  /// Joints that can flip in the plane, as elements. All others have no rows of angles there, or hold nodes at rest.
   const std::vector<int>& joints_with_angles() const { return joints_with_angles_; }
-  /// Writes the nodes of `state`, which is the end of the step from `start`, and its acceleration_trend; trends: by chunk of nodes, angular
-  /// accelerations counted by `arm` [m].
-  void leave(const State& start, State& state, double arm, std::vector<Workspace::Trend>& trends,
-             const tree::Walker& walker);
+  /// Ends the step, which the next one may start from; trends: by chunk of nodes, angular accelerations counted by `arm` [m].
+  void finish(double arm, std::vector<Workspace::Trend>& trends, const tree::Walker& walker);
+  /// Leaves the nodes of `state`, which is the end of the last step from `start`, behind: those of `start` become its own.
+  void keep(State& start, State& state) const;
+  /// Writes the nodes of `state`, which is the end of the last step, its algorithmic and its acceleration_trend. from: has the nodes that were
+  /// written last, or read by `enter` since; may be `state` itself.
+  void write(const State& from, State& state, const tree::Walker& walker);
   void abandon() { is_under_way_ = false; }
 
  private:
   using Pack = elements::LanePack;
-  /// Where a step starts: turn, position [m], velocity, its derivative and the change of that over the last step, a_n.
+  struct PoseLanes {
+    motion::Vec2<Pack> turn;
+    elements::planar::PairOf<Pack> x;
+  };
+  /// Where a step starts: turn, position [m], velocity, its derivative and the change of that over the last step, a_n, the last step's increment.
   struct StartLanes {
     motion::Vec2<Pack> turn;
     elements::planar::PairOf<Pack> x;
-    motion::Vec3<Pack> v, a, trend, algorithmic;
+    motion::Vec3<Pack> v, a, trend, algorithmic, dq;
   };
   /// Where nodes stand, and how far they moved in the step.
   struct MoverLanes {
@@ -61,9 +70,11 @@ class PlanarStep {
   };
   void place_pairs(const std::vector<NodePair>& pairs, const std::vector<std::int64_t>& node_begin);
   std::size_t count_of(std::size_t group) const;
-  void enter_nodes(const State& start, std::size_t group, Pack& turned);
+  bool moves(int node) const { return node != elements::ground && unknowns_[static_cast<std::size_t>(node)] >= 0; }
+  void read_nodes(const State& start, std::size_t group);
   void show_nodes(std::size_t group, Pack& turned);
-  void leave_nodes(const State& start, State& state, double arm, std::size_t group, Workspace::Trend& trend) const;
+  void finish_nodes(double arm, std::size_t group, Workspace::Trend& trend);
+  void write_nodes(const State& from, State& state, std::size_t group);
   double largest_change(const double* x, std::int64_t begin, std::int64_t end) const;
 
   /// Eight pairs of nodes: the first four numbers of each node, its turn and its place to the digits of a double, and its first unknown, -1: at rest.
@@ -88,13 +99,18 @@ class PlanarStep {
   std::vector<motion::Mat3<Pack>> bases_;
   std::vector<StartLanes> starts_;
   std::vector<MoverLanes> movers_;
+  std::vector<PoseLanes> in_space_;     ///< where nodes were when they were read from space or written there
   std::vector<std::int64_t> unknowns_;  ///< the first of each node, lane by lane, -1: at rest
   std::vector<PairLanes> pairs_;        ///< spare lanes of the last repeat its last pair
   std::vector<BeamEnds> beam_ends_;
   std::vector<int> joints_with_angles_;
   std::vector<double> chunk_max_;  ///< squares of changes, by chunk of pairs
   std::vector<double> turn_max_;   ///< of |dq_w|, by chunk of nodes [rad]
+  std::int64_t number_ = 0;        ///< of the last step that was finished, or of what was written since
   bool is_under_way_ = false;
 };
+
+/// The trouble with a state whose nodes were left behind by a step that was not the System's last.
+Trouble lost_nodes(const State& state);
 
 }  // namespace bough::step

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "bough/elements/rows.hpp"
 #include "bough/step/step_cost.hpp"
@@ -109,6 +110,7 @@ std::optional<Trouble> System::set_time(double time, laws::Side side) {
 }
 
 elements::Field System::field(const State& state, const elements::Slopes& slopes, bool with_inertia) const {
+  if (state.behind != 0) throw std::logic_error("a state whose nodes are behind was asked for them: System::catch_up");
   elements::Field f;
   f.nodes = state.nodes.data();
   f.slopes = slopes;

@@ -114,6 +114,15 @@ void System::recover_multipliers(State& state, const std::vector<Vec6<double>>* 
   if (held_) held_->recover_multipliers(*this, state, more, plan_.is_dynamic ? planar_.get() : nullptr);
 }
 
+std::optional<Trouble> System::catch_up(State& state) {
+  if (state.behind == 0) return std::nullopt;
+  if (!planar_step_ || !planar_step_->knows(state)) return lost_nodes(state);
+  if (auto t = set_time(state.time, laws::Side::left)) return t;
+  planar_step_->write(state, state, walker_);
+  recover_multipliers(state);
+  return std::nullopt;
+}
+
 double System::largest_held_impulse(const State& state, const double* x) const {
   return held_ ? held_->largest_impulse(*this, state, x) : 0.0;
 }

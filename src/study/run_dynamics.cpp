@@ -10,6 +10,8 @@ namespace bough::study {
 using results::RunStatus;
 
 bool Run::start_segment(double step_size, bool is_first) {
+  if (!catch_up()) return false;
+  is_untouched_ = false;
   results::Energies before;
   if (!is_first && has_balance()) before = energy_meter_.eval(system_, state_);
   const step::StartReport consistent = step::make_consistent(system_, state_, is_first, step_size);
@@ -47,7 +49,23 @@ bool Run::start_segment(double step_size, bool is_first) {
   return true;
 }
 
+/// Whether somebody reads the state at the end of the step to `target`, which makes the next row.
+bool Run::will_look(double target, double total_end) const {
+  const bool is_last = target == total_end;
+  return looks_always_ || is_due(rows_, is_last) || is_motion_due(rows_, is_last) ||
+         (!plan_.sensors.empty() && near_expected(target));
+}
+
+bool Run::catch_up() {
+  const auto t = system_.catch_up(state_);
+  return t ? fail(t->text) : true;
+}
+
 bool Run::set_step_size(double size) {
+  if (size != state_.step_size) {
+    if (!catch_up()) return false;
+    is_untouched_ = false;
+  }
   if (variational_) {
     state_.step_size = size;
   } else if (bdf_) {
@@ -58,10 +76,12 @@ bool Run::set_step_size(double size) {
   return true;
 }
 
-step::StepReport Run::advance_to(double target) {
+step::StepReport Run::advance_to(double target, bool is_read) {
   if (variational_) return variational_->advance(state_, options_, target);
   if (bdf_) return bdf_->advance(state_, options_, target);
-  return step::advance(system_, state_, options_, target);
+  step::StepReport report = step::advance(system_, state_, options_, target, {is_untouched_, is_read});
+  is_untouched_ = report.converged;
+  return report;
 }
 
 /// A step that failed is tried again from where its first try set out: each change of size corrects velocities, and where steps resolve nothing,
@@ -87,7 +107,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     const long next = done + 1;
     const double target = next == (steps << level) ? end : begin + static_cast<double>(next) * size;
     if (!may_try(target)) return false;
-    const step::StepReport report = advance_to(target);
+    const step::StepReport report = advance_to(target, will_look(target, total_end));
     count(report, report.converged);
     if (!report.converged) {
       easy = 0;
@@ -95,6 +115,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
         return fail("the step at time " + std::to_string(state_.time) + " fails down to a step size of " +
                     std::to_string(size) + ": " + report.cause +
                     (vibrations_.seen() ? "; " + std::string(undamped) : ""));
+      if (!catch_up()) return false;
       keep_or_restore(failures++ == 0);
       done *= 2;
       continue;

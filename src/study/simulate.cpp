@@ -39,6 +39,7 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
   if (plan_.is_dynamic && !variational_ && !bdf_ && (options_.step_control || scene.output.checks))
     local_error_.emplace(system_, options_, scene.analysis.end_time);
   if (plan_.is_dynamic && options_.step_control) controller_.emplace(options_.step_control->tolerance);
+  looks_always_ = scene.output.checks || (before_step_ && options.reads_state) || step::counts_turns(plan_);
   summary_.scene = scene.name;
   summary_.title = scene.title;
   summary_.threads = threads_.count();
@@ -124,8 +125,8 @@ bool Run::watch_vibrations() {
 void Run::record(int iterations, bool is_last) {
   const step::PhaseTimer timer{system_.clock(), summary_.times.output};
   const long row = rows_++;
-  const bool due = row % std::max(1, scene_.output.stride) == 0 || is_last;
-  if (!plan_.sensors.empty() && (due || near_expected())) {
+  const bool due = is_due(row, is_last);
+  if (!plan_.sensors.empty() && (due || near_expected(state_.time))) {
     results::eval_sensors(system_, state_, energy_meter_, values_);
     watch_expected();
   }
@@ -139,13 +140,18 @@ void Run::record(int iterations, bool is_last) {
     recorder_.row(out);
     summary_.final_values = values_;
   }
-  if (want_motion_ && (row % std::max(1, scene_.output.motion_stride) == 0 || is_last))
-    recorder_.motion(results::eval_motion(system_, state_));
+  if (is_motion_due(row, is_last)) recorder_.motion(results::eval_motion(system_, state_));
 }
 
-bool Run::near_expected() const {
-  return std::any_of(scene_.expected.begin(), scene_.expected.end(), [this](const scene::Expected& e) {
-    return e.time && std::abs(*e.time - state_.time) <= scene_.analysis.step_size;
+bool Run::is_due(long row, bool is_last) const { return row % std::max(1, scene_.output.stride) == 0 || is_last; }
+
+bool Run::is_motion_due(long row, bool is_last) const {
+  return want_motion_ && (row % std::max(1, scene_.output.motion_stride) == 0 || is_last);
+}
+
+bool Run::near_expected(double time) const {
+  return std::any_of(scene_.expected.begin(), scene_.expected.end(), [this, time](const scene::Expected& e) {
+    return e.time && std::abs(*e.time - time) <= scene_.analysis.step_size;
   });
 }
 
@@ -235,6 +241,7 @@ void Run::finish() {
   summary_.solver = solver_figures(system_, dependent_rows_);
   if (summary_.status == RunStatus::ok) look_at_last_factor(system_, summary_);
   summary_.doubts = doubts_of(summary_, plan_.is_dynamic);
+  (void)catch_up();
   if (after_run_) after_run_(system_, state_);
 }
 

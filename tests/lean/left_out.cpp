@@ -29,6 +29,7 @@ bool count_steps(const scene::Scene& scene) {
   }
   int tried = 0;
   study::SimulateOptions options;
+  options.reads_state = false;
   options.before_step = [&](step::System&, const step::State&, const study::BeforeStep&) {
     if (++tried == first_counted) {
       CALLGRIND_START_INSTRUMENTATION;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "bough/motion/so3.hpp"
 #include "bough/schedule/threads.hpp"
@@ -108,6 +110,121 @@ TEST(PlanarStep, refuses_a_step_in_which_a_link_turns_by_nearly_half_a_turn) {
   // And goes on from there in smaller ones.
   ASSERT_TRUE(change_step_size(rig.system, rig.state, options, 1e-4).ok);
   EXPECT_TRUE(advance(rig.system, rig.state, options, 1e-4).converged);
+}
+
+/// A bar held at one end, its plane inclined.
+scene::Scene make_held_bar() {
+  scene::Scene s = make_placed_chain(1, inclined, Vec3<double>{{3.0, -5.0, 2.0}});
+  s.joints[0].kind = scene::JointKind::fixed;
+  s.beams[0].elements = 11;  // nodes that do not fill their lanes
+  return s;
+}
+/// A link that spins about its hinge.
+scene::Scene make_spinning_link() {
+  scene::Scene s = test::make_chain(1);
+  s.beams[0].elements = 1;
+  for (const auto& [node, speed] : {std::pair{"a0", 0.0}, std::pair{"b0", -40.0}}) {
+    scene::InitialVelocity v;
+    v.of = node;
+    v.angular_velocity = {{0.0, 40.0, 0.0}};
+    v.velocity = {{0.0, 0.0, speed}};
+    s.initial_velocities.push_back(v);
+  }
+  return s;
+}
+
+void take_steps(test::Rig& rig, int first, int last, const Handover& handover) {
+  const StepOptions options = make_step_options(rig.scene.analysis);
+  for (int k = first; k <= last; ++k) {
+    const StepReport report = advance(rig.system, rig.state, options, k * 1e-3, handover);
+    ASSERT_TRUE(report.converged) << report.cause;
+  }
+}
+
+/// Motions to the last bit; places, which go to space by another number of displacements, and what is recovered from these, to round-off.
+void expect_same_state(const State& a, const State& b, double rounding_of_forces) {
+  ASSERT_EQ(a.nodes.size(), b.nodes.size());
+  EXPECT_EQ(a.behind, 0);
+  EXPECT_EQ(a.time, b.time);
+  EXPECT_EQ(a.follows_trend, b.follows_trend);
+  for (std::size_t n = 0; n < a.nodes.size(); ++n) {
+    for (int i = 0; i < 9; ++i) EXPECT_NEAR(a.nodes[n].R.m[i], b.nodes[n].R.m[i], 1e-14);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a.nodes[n].x.hi[i], b.nodes[n].x.hi[i], 1e-14);
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_EQ(a.nodes[n].v[i], b.nodes[n].v[i]);
+      EXPECT_EQ(a.nodes[n].a[i], b.nodes[n].a[i]);
+      EXPECT_EQ(a.nodes[n].dq[i], b.nodes[n].dq[i]);
+      EXPECT_EQ(a.algorithmic[n][i], b.algorithmic[n][i]);
+      EXPECT_EQ(a.acceleration_trend[n][i], b.acceleration_trend[n][i]);
+    }
+  }
+  for (std::size_t m = 0; m < a.multipliers.size(); ++m)
+    EXPECT_NEAR(a.multipliers[m], b.multipliers[m], rounding_of_forces) << m;
+}
+
+constexpr Handover unread{true, false}, read{true, true};
+
+TEST(PlanarStep, leaves_nodes_behind_until_they_are_asked_for) {
+  constexpr double rounding = 1e-5;  // EA / L times eps of some metres [N]
+  for (const scene::Scene& s : {make_held_bar(), make_spinning_link()}) {
+    test::Rig each(s), late(s), plain(s);
+    for (test::Rig* rig : {&each, &late, &plain}) {
+      ASSERT_TRUE(rig->plan.planar);
+      rig->run(3, 1e-3);
+    }
+    int step = 3;
+    for (const int more : {1, 7, 130}) {  // the link turns by five radians in the last
+      const double before = late.state.nodes.back().v[0];
+      take_steps(each, step + 1, step + more, read);
+      take_steps(late, step + 1, step + more, unread);
+      take_steps(plain, step + 1, step + more, {});
+      step += more;
+      EXPECT_NE(late.state.behind, 0);
+      EXPECT_EQ(late.state.nodes.back().v[0], before);
+      EXPECT_THROW((void)late.system.field(late.state), std::logic_error);
+      ASSERT_FALSE(late.system.catch_up(late.state));
+      expect_same_state(late.state, each.state, rounding);
+      for (std::size_t n = 0; n < late.state.nodes.size(); ++n)
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(late.state.nodes[n].x.hi[i], plain.state.nodes[n].x.hi[i], 1e-10);
+      ASSERT_FALSE(late.system.catch_up(late.state)) << "a whole state stays as it is";
+    }
+  }
+}
+
+TEST(PlanarStep, that_fails_loses_nothing_that_was_left_behind) {
+  const scene::Scene s = make_held_bar();
+  test::Rig each(s), late(s);
+  for (test::Rig* rig : {&each, &late}) rig->run(3, 1e-3);
+  take_steps(each, 4, 9, read);
+  take_steps(late, 4, 9, unread);
+  StepOptions hasty = make_step_options(s.analysis);
+  hasty.max_iterations = 1;
+  hasty.tolerance = 1e-15;
+  for (test::Rig* rig : {&each, &late}) ASSERT_FALSE(advance(rig->system, rig->state, hasty, 10e-3, unread).converged);
+  const State behind = late.state;
+  ASSERT_NE(behind.behind, 0);
+  ASSERT_FALSE(late.system.catch_up(late.state));
+  expect_same_state(late.state, each.state, 1e-5);
+  for (test::Rig* rig : {&each, &late}) take_steps(*rig, 10, 12, read);
+  expect_same_state(late.state, each.state, 1e-5);
+  State copy = behind;
+  EXPECT_TRUE(late.system.catch_up(copy)) << "its nodes are no longer those that were written last";
+}
+
+TEST(PlanarStep, tells_when_nodes_left_behind_are_lost) {
+  test::Rig rig(make_held_bar());
+  rig.run(3, 1e-3);
+  take_steps(rig, 4, 4, unread);
+  State old = rig.state;
+  take_steps(rig, 5, 5, unread);
+  const auto lost = rig.system.catch_up(old);
+  ASSERT_TRUE(lost);
+  EXPECT_NE(lost->text.find("lost"), std::string::npos) << lost->text;
+  const StepReport report = advance(rig.system, old, make_step_options(rig.scene.analysis), 5e-3);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.cause, lost->text);
+  EXPECT_NE(old.behind, 0);
+  ASSERT_FALSE(rig.system.catch_up(rig.state)) << "and those of the last step are not";
 }
 
 TEST(PlanarStep, of_a_chain_is_solved_in_lanes_but_for_the_root) {

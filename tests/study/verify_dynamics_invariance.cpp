@@ -283,6 +283,33 @@ TEST(Balances, are_left_out_when_not_asked_for_and_change_no_result) {
   EXPECT_EQ(with.history.rows, without.history.rows);
 }
 
+/// What a step in the plane leaves behind where nobody looks at its end (State::behind) is not lost at a load's end, at the end of the run and where steps fail.
+TEST(Rows, that_nobody_asks_for_change_no_other) {
+  const std::string spun = R"({
+    "sections": [{"name": "section", "stiffness": {"EA": 1e6, "GA2": 4e5, "GA3": 4e5, "GJ": 500, "EI2": 600, "EI3": 600},
+                  "mass": {"mass_per_length": 1.5, "rotary": [0.02, 0.01, 0.01]}}],
+    "nodes": [{"name": "lower", "position": [0, 0, 0]}, {"name": "upper", "position": [1, 0, 0]}],
+    "beams": [{"name": "beam", "section": "section", "start": "lower", "end": "upper", "elements": 9}],
+    "initial_velocities": [{"of": "beam", "velocity": [0, -30, 0], "angular_velocity": [0, 0, 60]}],
+    "sensors": [{"name": "lower", "kind": "position", "at": "lower"}, {"name": "energy", "kind": "total_energy"}],
+    "analysis": {"kind": "dynamic", "end_time": 2, "step_size": 0.05}})";
+  for (scene::Scene scene : {support::gallery("flying_spaghetti"), support::scene_of(spun)}) {
+    scene.output.checks = false;
+    const support::Outcome all = support::run(scene);
+    scene.output.stride = 7;
+    const support::Outcome some = support::run(scene);
+    ASSERT_TRUE(all.ok() && some.ok()) << all.summary.cause << some.summary.cause;
+    EXPECT_EQ(scene.expected.empty(), all.summary.steps.rejected > 0) << "the spun beam turns too far in a step";
+    EXPECT_EQ(all.summary.steps.newton_iterations, some.summary.steps.newton_iterations);
+    EXPECT_EQ(all.history.times.back(), some.history.times.back());
+    for (const std::string& column : {"lower.x", "lower.y", "energy"}) {
+      const double size = all.history.largest(column);
+      for (double t : some.history.times)
+        EXPECT_NEAR(some.history.at(column, t), all.history.at(column, t), 1e-12 * size) << column << " at " << t;
+    }
+  }
+}
+
 TEST(Expected, beyond_the_end_of_a_shortened_run_is_not_reached) {
   const support::Outcome r = support::run(support::gallery("pendulum", {"/analysis/end_time=0.5"}));
   ASSERT_TRUE(r.ok()) << r.summary.cause;

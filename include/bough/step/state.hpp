@@ -1,5 +1,6 @@
 #pragma once
 /// Everything that changes during a run, as plain data: two equal states continue equally.
+#include <cstdint>
 #include <vector>
 
 #include "bough/elements/evaluate.hpp"
@@ -21,6 +22,9 @@ struct State {
   std::vector<motion::Vec6<double>>
       unsettled;  ///< statics: eta that nodes still lack and their digits cannot hold; else empty
   std::vector<double> multipliers;
+  /// Not 0: the first four vectors and the multipliers of joints that hold nodes are those of an earlier time; only the System whose step of this
+  /// number ended here knows the others, see System::catch_up.
+  std::int64_t behind = 0;
   std::vector<double> turns;  ///< angle of each joint at the last accepted step [rad]
 };
 

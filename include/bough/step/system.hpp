@@ -202,6 +202,10 @@ class System {
   /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame itself.
   const elements::CarrierMotion* observer() const { return plan_.observer < 0 ? nullptr : &frames_.observer; }
 
+  /// Makes a state whole again whose nodes a step in the plane left behind (State::behind); laws are then those of its time. Fails where the System
+  /// has taken another step since.
+  [[nodiscard]] std::optional<Trouble> catch_up(State& state);
+
   /// Where steps of generalized-alpha iterate in the plane; null: in space. While one is under way evaluate and apply move and look at its nodes,
   /// and leave those of the states they are given alone.
   PlanarStep* planar_step() { return planar_step_.get(); }

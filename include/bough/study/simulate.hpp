@@ -22,6 +22,7 @@ struct SimulateOptions {
   std::vector<double> stops = {};
   /// Asked before every attempt of a step, with the state it starts from; false: stop here (interrupted), the system is no longer used.
   std::function<bool(step::System&, const step::State&, const BeforeStep&)> before_step = {};
+  bool reads_state = true;  ///< false: before_step looks at no nodes of the state, which may be behind
   /// The walker that the solver gets instead of the one of the threads: another way of the same walks, a watched one say.
   std::function<tree::Walker(const tree::Walker&)> wrap_walker = {};
   /// Called once after the last step, whether the run went well or not.

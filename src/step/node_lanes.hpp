@@ -1,0 +1,40 @@
+#pragma once
+/// Numbers of eight items at a time, one item to a lane, between arrays and packs. Internal to step.
+#include <algorithm>
+
+#include "bough/lanes/transpose.hpp"
+#include "bough/step/state.hpp"
+#include "system_parts.hpp"
+
+namespace bough::step {
+
+/// Of block_grain nodes.
+inline constexpr std::int64_t group_grain = block_grain / static_cast<std::int64_t>(nodes_in_lanes);
+
+/// Numbers of an item from `number` on.
+template <int numbers, class Item>
+void gather(const Item* items, std::size_t begin, std::size_t count, lanes::Pack<nodes_in_lanes>* to,
+            std::size_t number = 0) {
+  if (count == nodes_in_lanes) {  // addresses at fixed distances need no registers of their own
+    const double* from = reinterpret_cast<const double*>(items + begin) + number;
+    return lanes::gather_rows<numbers, sizeof(Item) / sizeof(double)>(from, to);
+  }
+  const double* from[nodes_in_lanes];
+  for (std::size_t l = 0; l < nodes_in_lanes; ++l)
+    from[l] = reinterpret_cast<const double*>(items + begin + std::min(l, count - 1)) + number;
+  lanes::gather_lanes(from, numbers, to);
+}
+/// Spare lanes hold what the last does, so they may write it as well.
+template <int numbers, class Item>
+void scatter(const lanes::Pack<nodes_in_lanes>* from, Item* items, std::size_t begin, std::size_t count) {
+  if (count == nodes_in_lanes) {
+    double* to = reinterpret_cast<double*>(items + begin);
+    return lanes::scatter_rows<numbers, sizeof(Item) / sizeof(double)>(from, to);
+  }
+  double* to[nodes_in_lanes];
+  for (std::size_t l = 0; l < nodes_in_lanes; ++l)
+    to[l] = reinterpret_cast<double*>(items + begin + std::min(l, count - 1));
+  lanes::scatter_lanes(from, numbers, to);
+}
+
+}  // namespace bough::step
