@@ -187,13 +187,9 @@ std::optional<Trouble> check_flips_in_plane(const System& system, const State& s
   return describe_shape(system, first_bad.get());
 }
 
-bool counts_turns(const plan::Plan& plan) {
-  return std::any_of(plan.joints.begin(), plan.joints.end(), [](const plan::JointPlan& j) { return j.counts_turns; });
-}
-
 void accept_turns(const System& system, State& state) {
   const plan::Plan& plan = system.plan();
-  if (!counts_turns(plan)) return;
+  if (state.behind != 0) return system.planar_step()->count_turns(state, system.walker());
   const elements::Field f = system.field(state);
   auto by_joint = [&](std::int64_t begin, std::int64_t end) {
     for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {

@@ -73,6 +73,45 @@ PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::
           beam_ends_.push_back({static_cast<std::int64_t>(id), e.ports[0].node, e.ports[i].node,
                                 motion::conjugate_times(own_turn(e.ports[0]), own_turn(e.ports[i]))});
     });
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    if (plan.joints[j].counts_turns) watch_turns(j);
+}
+
+void PlanarStep::watch_turns(std::size_t joint) {
+  const plan::Plan& plan = plan_;
+  const plan::ElementPlace& at = plan.directory[static_cast<std::size_t>(plan.joints[joint].element)];
+  double sign = 0.0;  // where the axis lies in the plane nothing turns about it
+  plan::with_element(plan.elements, at, [&](const auto& e) {
+    const elements::Port& p = e.ports[0];
+    const Mat3<double> R = p.node == elements::ground
+                               ? p.offset.R
+                               : plan.nodes[static_cast<std::size_t>(p.node)].pose.R * p.offset.R;
+    const double along = lanes::dot(lanes::column(R, 2), lanes::column(plan.planar->axes, 2));
+    if (std::abs(along) > 0.5) sign = along > 0.0 ? 1.0 : -1.0;
+  });
+  plan::with_element(plan.planar->elements, at, [&](const auto& e) {
+    if constexpr (requires { e.num_rows; })
+      if (sign != 0.0) turn_counters_.push_back({joint, e.ports[0], e.ports[1], sign});
+  });
+}
+
+void PlanarStep::count_turns(State& state, const tree::Walker& walker) const {
+  constexpr double whole = 6.283185307179586476925;
+  const auto turn_of = [this](const elements::planar::Port& p) {
+    if (p.node == elements::ground) return p.turn;
+    const Vec2<double>& turn = system_.nodes()[static_cast<std::size_t>(p.node)].turn;
+    return p.has_offset ? motion::complex_times(p.turn, turn) : turn;
+  };
+  auto by_joint = [&](std::int64_t begin, std::int64_t end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      const TurnCounter& c = turn_counters_[k];
+      const Vec2<double> between = motion::conjugate_times(turn_of(c.first), turn_of(c.second));
+      const double angle = c.sign * motion::angle_of(between[0], between[1]);
+      double& turns = state.turns[c.joint];
+      turns = angle + whole * std::round((turns - angle) / whole);  // of those half a turn from the last the nearest
+    }
+  };
+  walker.for_each_chunk(static_cast<std::int64_t>(turn_counters_.size()), element_grain, tree::make_chunk(by_joint));
 }
 
 void PlanarStep::place_pairs(const std::vector<NodePair>& pairs, const std::vector<std::int64_t>& node_begin) {

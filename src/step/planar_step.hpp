@@ -47,6 +47,8 @@ class PlanarStep {
   /// written last, or read by `enter` since; may be `state` itself.
   void write(const State& from, State& state, const tree::Walker& walker);
   void abandon() { is_under_way_ = false; }
+  /// accept_turns of a state whose nodes are behind.
+  void count_turns(State& state, const tree::Walker& walker) const;
 
  private:
   using Pack = elements::LanePack;
@@ -92,6 +94,14 @@ class PlanarStep {
     motion::Vec2<double> between;
   };
 
+  /// A joint about the normal, which counts its turns: the angle is `sign` times the one from the first port to the second.
+  struct TurnCounter {
+    std::size_t joint;
+    elements::planar::Port first, second;
+    double sign;
+  };
+  void watch_turns(std::size_t joint);
+
   const plan::Plan& plan_;
   PlanarSystem& system_;
   AlphaRule rule_{};
@@ -104,6 +114,7 @@ class PlanarStep {
   std::vector<PairLanes> pairs_;        ///< spare lanes of the last repeat its last pair
   std::vector<BeamEnds> beam_ends_;
   std::vector<int> joints_with_angles_;
+  std::vector<TurnCounter> turn_counters_;
   std::vector<double> chunk_max_;  ///< squares of changes, by chunk of pairs
   std::vector<double> turn_max_;   ///< of |dq_w|, by chunk of nodes [rad]
   std::int64_t number_ = 0;        ///< of the last step that was finished, or of what was written since

@@ -39,7 +39,7 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
   if (plan_.is_dynamic && !variational_ && !bdf_ && (options_.step_control || scene.output.checks))
     local_error_.emplace(system_, options_, scene.analysis.end_time);
   if (plan_.is_dynamic && options_.step_control) controller_.emplace(options_.step_control->tolerance);
-  looks_always_ = scene.output.checks || (before_step_ && options.reads_state) || step::counts_turns(plan_);
+  looks_always_ = scene.output.checks || (before_step_ && options.reads_state);
   summary_.scene = scene.name;
   summary_.title = scene.title;
   summary_.threads = threads_.count();

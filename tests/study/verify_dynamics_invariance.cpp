@@ -302,7 +302,7 @@ TEST(Rows, that_nobody_asks_for_change_no_other) {
     EXPECT_EQ(scene.expected.empty(), all.summary.steps.rejected > 0) << "the spun beam turns too far in a step";
     EXPECT_EQ(all.summary.steps.newton_iterations, some.summary.steps.newton_iterations);
     EXPECT_EQ(all.history.times.back(), some.history.times.back());
-    for (const std::string& column : {"lower.x", "lower.y", "energy"}) {
+    for (const std::string column : {"lower.x", "lower.y", "energy"}) {
       const double size = all.history.largest(column);
       for (double t : some.history.times)
         EXPECT_NEAR(some.history.at(column, t), all.history.at(column, t), 1e-12 * size) << column << " at " << t;

@@ -77,8 +77,7 @@ StepReport equilibrate(System& system, State& state, const StepOptions& options,
 /// Whether joints stayed on their branch (no flipped poses) and relative rotations below pi; else says what happened.
 std::optional<Trouble> check_shape(const System& system, const State& state);
 
-/// New counts of turns after an accepted step, and whether any joint has one.
-bool counts_turns(const plan::Plan& plan);
+/// New counts of turns after an accepted step.
 void accept_turns(const System& system, State& state);
 
 }  // namespace bough::step
