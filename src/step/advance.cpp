@@ -161,7 +161,7 @@ StepReport try_step(System& system, State& state, State& start, const StepOption
     if (const auto t = check_folds_in_plane(system)) return fail(*t);
     plane->finish(system.moment_arm(), system.work().trends, system.walker());
     if (is_read)
-      plane->write(start, state, system.walker());
+      plane->write(state, system.walker());
     else
       plane->keep(start, state);
     if (const auto t = check_flips_in_plane(system, state)) return fail(*t);

@@ -79,7 +79,7 @@ void add_product(const E& e, const double* K, int part, Increment&& increment, V
 
 void HeldNodes::recover_multipliers(const System& system, State& state, const Vec6List* more,
                                     PlanarSystem* planar) const {
-  const elements::Field field = system.field(state);
+  const elements::Field field = system.field_of_watched(state);
   const bool is_settled = state.unsettled.empty();
   if (planar != nullptr) {
     planar->set_field(field);

@@ -39,6 +39,8 @@ class HeldNodes {
   /// order, f + K eta (State::unsettled). more: forces by node beside those of elements, or null. planar: where elements move in a plane, whose
   /// nodes near held ones are set to those of `state`; null: elements in space are asked.
   void recover_multipliers(const System& system, State& state, const Vec6List* more, PlanarSystem* planar) const;
+  /// Nodes of the elements at held nodes: the only ones that recover_multipliers looks at.
+  const std::vector<int>& near() const { return near_; }
   /// Largest of W^-1 M eta, eta the increments of the nodes by a vector x of unknowns.
   double largest_impulse(const System& system, const State& state, const double* x) const;
 

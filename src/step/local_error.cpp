@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "bough/step/step_control.hpp"
+#include "planar_step.hpp"
 
 namespace bough::step {
 
@@ -42,30 +43,36 @@ LocalError::LocalError(const System& system, const StepOptions& options, double 
   shifted_ = make_initial_state(system.plan());
 }
 
-Vec6<double> LocalError::unfiltered_of(const State& start, const State& after, std::size_t node) const {
-  const elements::NodeMotion &from = start.nodes[node], &to = after.nodes[node];
-  return (constants_.position / after.step_size) * (to.a - from.a) - (1.0 / 12.0) * motion::cross6_times(to.v, to.a);
+Vec6<double> LocalError::unfiltered_of(const State& after, std::size_t node) const {
+  const elements::NodeMotion& to = after.nodes[node];
+  return (constants_.position / after.step_size) * after.acceleration_trend[node] -
+         (1.0 / 12.0) * motion::cross6_times(to.v, to.a);
 }
 
 double LocalError::unfiltered(System& system, const State& after) const {
-  const State& start = system.work().start;
   const double h3 = after.step_size * after.step_size * after.step_size;
+  const auto of_size = [&](double linear, double angular) {
+    return std::max(h3 * linear / (least_.position + allowance_.position),
+                    h3 * angular / (least_.rotation + allowance_.rotation));
+  };
+  if (PlanarStep* plane = system.planar_step()) {
+    const std::array<double, 2> most = plane->largest_error(constants_.position / after.step_size, system.walker());
+    return of_size(most[0], most[1]);
+  }
   Largest error;
-  for (std::size_t n = 0; n < after.nodes.size(); ++n) error.include(unfiltered_of(start, after, n));
-  return std::max(h3 * error.linear() / (least_.position + allowance_.position),
-                  h3 * error.angular() / (least_.rotation + allowance_.rotation));
+  for (std::size_t n = 0; n < after.nodes.size(); ++n) error.include(unfiltered_of(after, n));
+  return of_size(error.linear(), error.angular());
 }
 
 std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   const double h = after.step_size, h3 = h * h * h;
-  const State& start = system.work().start;
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
   // Forces are linear in v': M e = R(v' + e) - R(v'), with an e of the size of v' so that the difference keeps its digits.
   const double c2 = (1.0 - alpha_.alpha_m) / ((1.0 - alpha_.alpha_f) * alpha_.beta * h * h);
   if (auto t = system.evaluate(after, {}, false)) return t;  // the last iteration need not have looked at it
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
   shifted_ = after;
-  for (std::size_t n = 0; n < shifted_.nodes.size(); ++n) shifted_.nodes[n].a += h * unfiltered_of(start, after, n);
+  for (std::size_t n = 0; n < shifted_.nodes.size(); ++n) shifted_.nodes[n].a += h * unfiltered_of(after, n);
   if (auto t = system.evaluate(shifted_, {}, false)) return t;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = c2 * (rhs[i] + system.residual()[i]);
   if (auto t = system.solve(rhs.data(), x.data())) return t;

@@ -56,10 +56,11 @@ PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::
       gather<9>(plan.unknowns.basis.data(), g * nodes_in_lanes, count_of(g), bases_[g].m);
   starts_.resize(groups);
   movers_.resize(groups);
-  in_space_.resize(groups);
+  read_.resize(groups);
   unknowns_ = node_begin;
   unknowns_.resize(groups * nodes_in_lanes, node_begin.empty() ? -1 : node_begin.back());
   turn_max_.resize((groups + group_grain - 1) / group_grain);
+  error_max_.resize(turn_max_.size());
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.planar->elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
@@ -83,9 +84,8 @@ void PlanarStep::watch_turns(std::size_t joint) {
   double sign = 0.0;  // where the axis lies in the plane nothing turns about it
   plan::with_element(plan.elements, at, [&](const auto& e) {
     const elements::Port& p = e.ports[0];
-    const Mat3<double> R = p.node == elements::ground
-                               ? p.offset.R
-                               : plan.nodes[static_cast<std::size_t>(p.node)].pose.R * p.offset.R;
+    const Mat3<double> R =
+        p.node == elements::ground ? p.offset.R : plan.nodes[static_cast<std::size_t>(p.node)].pose.R * p.offset.R;
     const double along = lanes::dot(lanes::column(R, 2), lanes::column(plan.planar->axes, 2));
     if (std::abs(along) > 0.5) sign = along > 0.0 ? 1.0 : -1.0;
   });

@@ -1,6 +1,7 @@
 #pragma once
 /// Steps of generalized-alpha that iterate in the plane: nodes move by three numbers instead of six, eight at a time, and go back to space once the
 /// iteration has ended, or when they are asked for. What only steps look at stays in lanes, from one to the next as well. Internal to step.
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -43,16 +44,24 @@ class PlanarStep {
   void finish(double arm, std::vector<Workspace::Trend>& trends, const tree::Walker& walker);
   /// Leaves the nodes of `state`, which is the end of the last step from `start`, behind: those of `start` become its own.
   void keep(State& start, State& state) const;
-  /// Writes the nodes of `state`, which is the end of the last step, its algorithmic and its acceleration_trend. from: has the nodes that were
-  /// written last, or read by `enter` since; may be `state` itself.
-  void write(const State& from, State& state, const tree::Walker& walker);
+  /// Writes the nodes of `state`, which is the end of the last step, its algorithmic and its acceleration_trend. Whether others were written before
+  /// changes nothing.
+  void write(State& state, const tree::Walker& walker);
+  /// The same for the nodes of `watch` and their neighbours in lanes alone: `state`, whose nodes are behind, stays so but for these.
+  void watch(const std::vector<int>& nodes);
+  void write_watched(State& state, const tree::Walker& walker);
   void abandon() { is_under_way_ = false; }
+  /// Largest parts over all nodes of  per_change (change of dv/dt over the last step) - ad(v) dv/dt / 12,  along its planar axes: linear; angular.
+  std::array<double, 2> largest_error(double per_change, const tree::Walker& walker);
   /// accept_turns of a state whose nodes are behind.
   void count_turns(State& state, const tree::Walker& walker) const;
 
  private:
   using Pack = elements::LanePack;
-  struct PoseLanes {
+  /// A pose as it was read from space, there and in the plane.
+  struct ReadLanes {
+    motion::PositionPair<Pack> place;
+    motion::Quaternion<Pack> rotation;
     motion::Vec2<Pack> turn;
     elements::planar::PairOf<Pack> x;
   };
@@ -76,7 +85,7 @@ class PlanarStep {
   void read_nodes(const State& start, std::size_t group);
   void show_nodes(std::size_t group, Pack& turned);
   void finish_nodes(double arm, std::size_t group, Workspace::Trend& trend);
-  void write_nodes(const State& from, State& state, std::size_t group);
+  void write_nodes(State& state, std::size_t group) const;
   double largest_change(const double* x, std::int64_t begin, std::int64_t end) const;
 
   /// Eight pairs of nodes: the first four numbers of each node, its turn and its place to the digits of a double, and its first unknown, -1: at rest.
@@ -109,15 +118,17 @@ class PlanarStep {
   std::vector<motion::Mat3<Pack>> bases_;
   std::vector<StartLanes> starts_;
   std::vector<MoverLanes> movers_;
-  std::vector<PoseLanes> in_space_;     ///< where nodes were when they were read from space or written there
+  std::vector<ReadLanes> read_;         ///< displacements since then go to space
   std::vector<std::int64_t> unknowns_;  ///< the first of each node, lane by lane, -1: at rest
   std::vector<PairLanes> pairs_;        ///< spare lanes of the last repeat its last pair
   std::vector<BeamEnds> beam_ends_;
   std::vector<int> joints_with_angles_;
   std::vector<TurnCounter> turn_counters_;
-  std::vector<double> chunk_max_;  ///< squares of changes, by chunk of pairs
-  std::vector<double> turn_max_;   ///< of |dq_w|, by chunk of nodes [rad]
-  std::int64_t number_ = 0;        ///< of the last step that was finished, or of what was written since
+  std::vector<double> chunk_max_;                 ///< squares of changes, by chunk of pairs
+  std::vector<double> turn_max_;                  ///< of |dq_w|, by chunk of nodes [rad]
+  std::vector<std::array<double, 2>> error_max_;  ///< by chunk of nodes
+  std::vector<std::size_t> watched_groups_;
+  std::int64_t number_ = 0;  ///< of the last step that was finished
   bool is_under_way_ = false;
 };
 

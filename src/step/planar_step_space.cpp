@@ -1,4 +1,5 @@
 /// Nodes of a PlanarStep between the plane and space.
+#include <algorithm>
 #include <utility>
 
 #include "node_lanes.hpp"
@@ -41,7 +42,6 @@ Vec2<Pack> half_turn(const Vec2<Pack>& turn) {
 
 using SpaceLanes = elements::NodeMotionOf<Pack>;
 constexpr int numbers_of_motion = 33, numbers_before_increment = 27;
-constexpr std::size_t numbers_before_place = 9;
 static_assert(sizeof(elements::NodeMotion) == numbers_of_motion * sizeof(double) &&
               sizeof(SpaceLanes) == numbers_of_motion * sizeof(Pack));
 
@@ -57,8 +57,10 @@ void PlanarStep::read_nodes(const State& start, std::size_t group) {
   const Vec3<double>& origin = plan_.planar->origin;
   const std::size_t from = group * nodes_in_lanes, count = count_of(group);
   SpaceLanes node;
+  Pack q[4];
   Vec6<Pack> algorithmic, trend;
   gather<numbers_before_increment>(start.nodes.data(), from, count, node.R.m);
+  gather<4>(start.rotation.data(), from, count, q);
   gather<6>(start.algorithmic.data(), from, count, algorithmic.v);
   gather<6>(start.acceleration_trend.data(), from, count, trend.v);
   const Mat3<Pack>& B = bases_[group];
@@ -80,7 +82,7 @@ void PlanarStep::read_nodes(const State& start, std::size_t group) {
   s.a = in_plane(B, node.a);
   s.algorithmic = in_plane(B, algorithmic);
   s.trend = in_plane(B, trend);
-  in_space_[group] = {s.turn, s.x};
+  read_[group] = {node.x, {q[0], {{q[1], q[2], q[3]}}}, s.turn, s.x};
 }
 
 void PlanarStep::keep(State& start, State& state) const {
@@ -91,52 +93,83 @@ void PlanarStep::keep(State& start, State& state) const {
   state.behind = number_;
 }
 
-void PlanarStep::write(const State& from, State& state, const tree::Walker& walker) {
+void PlanarStep::write(State& state, const tree::Walker& walker) {
   const std::size_t count = plan_.nodes.size();
   state.nodes.resize(count);
   state.rotation.resize(count);
   state.algorithmic.resize(count);
   state.acceleration_trend.resize(count);
   auto by_group = [&](std::int64_t begin, std::int64_t end) {
-    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) write_nodes(from, state, g);
+    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) write_nodes(state, g);
   };
   walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
-  ++number_;  // a copy of what was behind no longer has the nodes that were written last
   state.behind = 0;
 }
 
-void PlanarStep::write_nodes(const State& from, State& state, std::size_t group) {
+void PlanarStep::watch(const std::vector<int>& nodes) {
+  watched_groups_.clear();
+  for (const int n : nodes) watched_groups_.push_back(static_cast<std::size_t>(n) / nodes_in_lanes);
+  std::sort(watched_groups_.begin(), watched_groups_.end());
+  watched_groups_.erase(std::unique(watched_groups_.begin(), watched_groups_.end()), watched_groups_.end());
+}
+
+void PlanarStep::write_watched(State& state, const tree::Walker& walker) {
+  auto by_group = [&](std::int64_t begin, std::int64_t end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+      write_nodes(state, watched_groups_[k]);
+  };
+  walker.for_each_chunk(static_cast<std::int64_t>(watched_groups_.size()), group_grain, tree::make_chunk(by_group));
+  state.behind = number_;
+}
+
+std::array<double, 2> PlanarStep::largest_error(double per_change, const tree::Walker& walker) {
+  auto by_group = [&](std::int64_t begin, std::int64_t end) {
+    Pack linear(0.0), angular(0.0);
+    const auto include = [](Pack& most, const Pack& x) { most = select(less(most, x), x, most); };
+    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
+      const StartLanes& s = starts_[g];
+      const Vec3<Pack> error = per_change * s.trend - (1.0 / 12.0) * motion::plane_bracket(s.v, s.a);
+      include(linear, lanes::abs(error[0]));
+      include(linear, lanes::abs(error[1]));
+      include(angular, lanes::abs(error[2]));
+    }
+    std::array<double, 2>& most = error_max_[static_cast<std::size_t>(begin / group_grain)];
+    most = {0.0, 0.0};
+    for (int l = 0; l < elements::num_lanes; ++l) most = {std::max(most[0], linear[l]), std::max(most[1], angular[l])};
+  };
+  walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
+  std::array<double, 2> most{0.0, 0.0};
+  for (const std::array<double, 2>& part : error_max_) most = {std::max(most[0], part[0]), std::max(most[1], part[1])};
+  return most;
+}
+
+void PlanarStep::write_nodes(State& state, std::size_t group) const {
   const std::size_t first = group * nodes_in_lanes, count = count_of(group);
   const StartLanes& s = starts_[group];
-  PoseLanes& last = in_space_[group];
+  const ReadLanes& read = read_[group];
   const Mat3<Pack>& B = bases_[group];
   SpaceLanes to;
-  Pack q[4];
-  gather<8>(from.nodes.data(), first, count, &to.x.hi[0], numbers_before_place);  // and two that are written below
-  gather<4>(from.rotation.data(), first, count, q);
-  // Turned about the normal since the last time; unit quaternions stay so to first order.
-  const Vec2<Pack> half = half_turn(motion::conjugate_times(last.turn, s.turn));
+  // Turned about the normal since it was read; unit quaternions stay so to first order.
+  const Vec2<Pack> half = half_turn(motion::conjugate_times(read.turn, s.turn));
   motion::Quaternion<Pack> turned =
-      motion::multiply(motion::Quaternion<Pack>{q[0], {{q[1], q[2], q[3]}}},
-                       motion::Quaternion<Pack>{half[0], Vec3<Pack>(half[1] * lanes::column(B, 2))});
+      motion::multiply(read.rotation, motion::Quaternion<Pack>{half[0], Vec3<Pack>(half[1] * lanes::column(B, 2))});
   const Pack unit = 1.5 - 0.5 * (turned.w * turned.w + lanes::dot(turned.v, turned.v));
   turned = {unit * turned.w, Vec3<Pack>(unit * turned.v)};
   to.R = motion::rotation_of(turned);
-  q[0] = turned.w;
-  for (int i = 0; i < 3; ++i) q[1 + i] = turned.v[i];
+  const Pack q[4] = {turned.w, turned.v[0], turned.v[1], turned.v[2]};
   // The place itself goes into space as a displacement, so that its digits beyond a double stay.
   Vec2<Pack> hi, lo;
   for (int i = 0; i < 2; ++i) {
-    motion::two_sum(s.x.hi[i], Pack(-last.x.hi[i]), hi[i], lo[i]);
-    lo[i] = lo[i] + (s.x.lo[i] - last.x.lo[i]);
+    motion::two_sum(s.x.hi[i], Pack(-read.x.hi[i]), hi[i], lo[i]);
+    lo[i] = lo[i] + (s.x.lo[i] - read.x.lo[i]);
   }
   const Mat3<double>& axes = plan_.planar->axes;
   const Vec3<Pack> along[2] = {lanes::cast<Pack>(lanes::column(axes, 0)), lanes::cast<Pack>(lanes::column(axes, 1))};
+  to.x = read.place;
   for (const Vec2<Pack>& part : {hi, lo}) to.x.add(part[0] * along[0] + part[1] * along[1]);
   to.v = in_space(B, s.v);
   to.a = in_space(B, s.a);
   to.dq = in_space(B, s.dq);
-  last = {s.turn, s.x};
   scatter<numbers_of_motion>(to.R.m, state.nodes.data(), first, count);
   scatter<4>(q, state.rotation.data(), first, count);
   scatter<6>(in_space(B, s.algorithmic).v, state.algorithmic.data(), first, count);

@@ -90,6 +90,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   chunk_sizes_.resize((sums_.size() + block_grain - 1) / block_grain, {{}, true});
   find_pairs();
   if (planar_ && plan.is_dynamic) planar_step_ = std::make_unique<PlanarStep>(plan, *planar_, node_begin_, pairs_);
+  watch({});  // what multipliers of joints that hold nodes are recovered from
 }
 
 System::~System() = default;
@@ -111,6 +112,10 @@ std::optional<Trouble> System::set_time(double time, laws::Side side) {
 
 elements::Field System::field(const State& state, const elements::Slopes& slopes, bool with_inertia) const {
   if (state.behind != 0) throw std::logic_error("a state whose nodes are behind was asked for them: System::catch_up");
+  return field_of_watched(state, slopes, with_inertia);
+}
+
+elements::Field System::field_of_watched(const State& state, const elements::Slopes& slopes, bool with_inertia) const {
   elements::Field f;
   f.nodes = state.nodes.data();
   f.slopes = slopes;

@@ -118,7 +118,21 @@ std::optional<Trouble> System::catch_up(State& state) {
   if (state.behind == 0) return std::nullopt;
   if (!planar_step_ || !planar_step_->knows(state)) return lost_nodes(state);
   if (auto t = set_time(state.time, laws::Side::left)) return t;
-  planar_step_->write(state, state, walker_);
+  planar_step_->write(state, walker_);
+  recover_multipliers(state);
+  return std::nullopt;
+}
+
+void System::watch(std::vector<int> nodes) {
+  if (!planar_step_) return;
+  if (held_) nodes.insert(nodes.end(), held_->near().begin(), held_->near().end());
+  planar_step_->watch(nodes);
+}
+
+std::optional<Trouble> System::catch_up_watched(State& state) {
+  if (state.behind == 0) return std::nullopt;
+  if (!planar_step_ || !planar_step_->knows(state)) return lost_nodes(state);
+  planar_step_->write_watched(state, walker_);
   recover_multipliers(state);
   return std::nullopt;
 }

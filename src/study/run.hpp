@@ -107,7 +107,7 @@ class Run {
   bool looking_ = false;  ///< at the second of two steps
   VibrationWatch vibrations_;
   long rows_ = 0;
-  bool looks_always_ = true;   ///< at each end of a step, for certificates or hooks
+  bool looks_always_ = true;   ///< at each end of a step, for hooks
   bool is_untouched_ = false;  ///< the state is as the last step left it
   double last_step_ = 0.0;
 };

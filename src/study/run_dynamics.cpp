@@ -127,7 +127,10 @@ bool Run::run_segment(double begin, double end, double& total_end) {
       note("one linear solution per step: residuals are not driven to the tolerance");
     if (watches_error() && !look_at_error()) return false;
     if (!plan_.joints.empty()) step::accept_turns(system_, state_);
-    if (has_balance()) work_meter_.add(system_, state_, size);
+    if (has_balance()) {
+      if (const auto t = system_.catch_up_watched(state_)) return fail(t->text);
+      work_meter_.add(system_, state_, size);
+    }
     const bool goes_on = !variational_ || watch_vibrations();
     record(report.iterations, target == total_end || !goes_on);
     if (!goes_on) return false;

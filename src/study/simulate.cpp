@@ -39,7 +39,8 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
   if (plan_.is_dynamic && !variational_ && !bdf_ && (options_.step_control || scene.output.checks))
     local_error_.emplace(system_, options_, scene.analysis.end_time);
   if (plan_.is_dynamic && options_.step_control) controller_.emplace(options_.step_control->tolerance);
-  looks_always_ = scene.output.checks || (before_step_ && options.reads_state);
+  looks_always_ = before_step_ && options.reads_state;
+  if (scene.output.checks) system_.watch(work_meter_.nodes(plan_));
   summary_.scene = scene.name;
   summary_.title = scene.title;
   summary_.threads = threads_.count();

@@ -30,6 +30,8 @@ class WorkMeter {
   /// After an accepted step.
   void add(const step::System& system, const step::State& state, double step_size);
   const Supply& supply() const { return supply_; }
+  /// Nodes that it looks at: the others of a state may be behind (step::State).
+  std::vector<int> nodes(const plan::Plan& plan) const;
 
  private:
   /// A force or multiplier and what it works on: a port's pose with its wrench in the port's axes, or a number with its conjugate.

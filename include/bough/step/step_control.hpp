@@ -42,7 +42,7 @@ class LocalError {
   /// A start, or the far side of a jump: v''' is not known in the first step.
   void restart() { has_previous_ = false; }
 
-  /// Of the step that `advance` just took to `after` (its factor is still there) from system.work().start.
+  /// Of the step that `advance` just took to `after` (its factor is still there), which must be whole.
   /// Overwrites the residual and the right-hand side of `system`. Fails where the solution does.
   [[nodiscard]] std::optional<Trouble> measure(System& system, const State& after);
   /// The step is accepted: speeds and v'' of it are kept.
@@ -53,11 +53,12 @@ class LocalError {
   double relative_motion() const;    ///< of positions and rotations
   double relative_velocity() const;  ///< of velocities
 
-  /// Largest change of e_q without the filter, over the same sizes [-]: costs no solution; at fixed steps tells when to look closer.
+  /// Largest change of e_q without the filter, over the same sizes [-]: costs no solution; at fixed steps tells when to look closer. The nodes of
+  /// `after` may be behind.
   double unfiltered(System& system, const State& after) const;
 
  private:
-  motion::Vec6<double> unfiltered_of(const State& start, const State& after, std::size_t node) const;
+  motion::Vec6<double> unfiltered_of(const State& after, std::size_t node) const;
 
   ErrorConstants constants_;
   AlphaCoefficients alpha_;

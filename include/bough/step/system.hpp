@@ -89,6 +89,9 @@ class System {
   /// Values of all time functions at t (right or left limit). A value that is not finite is told with its owner and the time.
   [[nodiscard]] std::optional<Trouble> set_time(double time, laws::Side side = laws::Side::left);
   elements::Field field(const State& state, const elements::Slopes& slopes = {}, bool with_inertia = true) const;
+  /// The same of a state of which only what is watched is looked at.
+  elements::Field field_of_watched(const State& state, const elements::Slopes& slopes = {},
+                                   bool with_inertia = true) const;
 
   /// Residual of all elements (and element matrices when `tangent`), then summed over nodes into residual().
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
@@ -205,6 +208,10 @@ class System {
   /// Makes a state whole again whose nodes a step in the plane left behind (State::behind); laws are then those of its time. Fails where the System
   /// has taken another step since.
   [[nodiscard]] std::optional<Trouble> catch_up(State& state);
+  /// The same for what some readers look at in every step alone: nodes and their neighbours, and multipliers of joints that hold nodes. Laws are to be
+  /// those of the state's time already.
+  void watch(std::vector<int> nodes);
+  [[nodiscard]] std::optional<Trouble> catch_up_watched(State& state);
 
   /// Where steps of generalized-alpha iterate in the plane; null: in space. While one is under way evaluate and apply move and look at its nodes,
   /// and leave those of the states they are given alone.
