@@ -34,7 +34,7 @@ class Run {
   /// Records the state (as its time's left limit, or right limit at a start).
   void record(int iterations, bool is_last);
   /// Whether this may be the step next to the time of an expected figure.
-  bool near_expected(double time) const;
+  bool near_expected() const;
   void watch_expected();
   bool report_progress(const step::StepReport& report, double end);
   bool may_try(double target);
@@ -61,10 +61,10 @@ class Run {
   std::vector<double> stops_between(double begin, double end) const;
   bool set_step_size(double size);
   void keep_or_restore(bool is_first_failure);
-  step::StepReport advance_to(double target, bool is_read);
+  step::StepReport advance_to(double target);
   bool is_due(long row, bool is_last) const;
   bool is_motion_due(long row, bool is_last) const;
-  bool will_look(double target, double total_end) const;
+  bool will_look(bool is_last) const;
   bool catch_up();
   bool start_segment(double step_size, bool is_first);
   bool run_segment(double begin, double end, double& sum_of_cuts);

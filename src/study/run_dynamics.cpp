@@ -49,11 +49,10 @@ bool Run::start_segment(double step_size, bool is_first) {
   return true;
 }
 
-/// Whether somebody reads the state at the end of the step to `target`, which makes the next row.
-bool Run::will_look(double target, double total_end) const {
-  const bool is_last = target == total_end;
+/// Whether somebody reads the state at the end of the step that makes the next row.
+bool Run::will_look(bool is_last) const {
   return looks_always_ || is_due(rows_, is_last) || is_motion_due(rows_, is_last) ||
-         (!plan_.sensors.empty() && near_expected(target));
+         (!plan_.sensors.empty() && near_expected());
 }
 
 bool Run::catch_up() {
@@ -76,10 +75,11 @@ bool Run::set_step_size(double size) {
   return true;
 }
 
-step::StepReport Run::advance_to(double target, bool is_read) {
+/// What ends in the plane is left there (State::behind): joints count turns there, whoever reads the state later calls catch_up.
+step::StepReport Run::advance_to(double target) {
   if (variational_) return variational_->advance(state_, options_, target);
   if (bdf_) return bdf_->advance(state_, options_, target);
-  step::StepReport report = step::advance(system_, state_, options_, target, {is_untouched_, is_read});
+  step::StepReport report = step::advance(system_, state_, options_, target, {is_untouched_, false});
   is_untouched_ = report.converged;
   return report;
 }
@@ -107,7 +107,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     const long next = done + 1;
     const double target = next == (steps << level) ? end : begin + static_cast<double>(next) * size;
     if (!may_try(target)) return false;
-    const step::StepReport report = advance_to(target, will_look(target, total_end));
+    const step::StepReport report = advance_to(target);
     count(report, report.converged);
     if (!report.converged) {
       easy = 0;
@@ -125,8 +125,9 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     last_step_ = size;
     if (options_.single_solution && summary_.steps.accepted == 1)
       note("one linear solution per step: residuals are not driven to the tolerance");
-    if (watches_error() && !look_at_error()) return false;
     if (!plan_.joints.empty()) step::accept_turns(system_, state_);
+    if (will_look(target == total_end) && !catch_up()) return false;
+    if (watches_error() && !look_at_error()) return false;
     if (has_balance()) {
       if (const auto t = system_.catch_up_watched(state_)) return fail(t->text);
       work_meter_.add(system_, state_, size);

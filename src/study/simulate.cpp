@@ -127,7 +127,7 @@ void Run::record(int iterations, bool is_last) {
   const step::PhaseTimer timer{system_.clock(), summary_.times.output};
   const long row = rows_++;
   const bool due = is_due(row, is_last);
-  if (!plan_.sensors.empty() && (due || near_expected(state_.time))) {
+  if (!plan_.sensors.empty() && (due || near_expected())) {
     results::eval_sensors(system_, state_, energy_meter_, values_);
     watch_expected();
   }
@@ -150,9 +150,9 @@ bool Run::is_motion_due(long row, bool is_last) const {
   return want_motion_ && (row % std::max(1, scene_.output.motion_stride) == 0 || is_last);
 }
 
-bool Run::near_expected(double time) const {
-  return std::any_of(scene_.expected.begin(), scene_.expected.end(), [this, time](const scene::Expected& e) {
-    return e.time && std::abs(*e.time - time) <= scene_.analysis.step_size;
+bool Run::near_expected() const {
+  return std::any_of(scene_.expected.begin(), scene_.expected.end(), [this](const scene::Expected& e) {
+    return e.time && std::abs(*e.time - state_.time) <= scene_.analysis.step_size;
   });
 }
 
