@@ -166,10 +166,12 @@ std::size_t PlanarStep::count_of(std::size_t group) const {
 void PlanarStep::enter(const State& start, bool is_end, const AlphaRule& rule, const tree::Walker& walker) {
   rule_ = rule;
   is_under_way_ = true;
+  const bool reads = !is_end || number_ == 0;
+  if (reads) ++number_;  // what was left behind before is lost
   auto by_group = [&](std::int64_t begin, std::int64_t end) {
     Pack turned(0.0);
     for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
-      if (!is_end || number_ == 0) read_nodes(start, g);
+      if (reads) read_nodes(start, g);
       const StartLanes& s = starts_[g];
       const Vec3<Pack> eta = rule_.predict(s.v, s.a, s.algorithmic, start.follows_trend ? s.trend : Vec3<Pack>::zero());
       MoverLanes& mover = movers_[g];

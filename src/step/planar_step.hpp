@@ -128,7 +128,7 @@ class PlanarStep {
   std::vector<double> turn_max_;                  ///< of |dq_w|, by chunk of nodes [rad]
   std::vector<std::array<double, 2>> error_max_;  ///< by chunk of nodes
   std::vector<std::size_t> watched_groups_;
-  std::int64_t number_ = 0;  ///< of the last step that was finished
+  std::int64_t number_ = 0;  ///< of what the lanes hold: counts reading and finished steps
   bool is_under_way_ = false;
 };
 

@@ -49,7 +49,8 @@ static_assert(sizeof(elements::NodeMotion) == numbers_of_motion * sizeof(double)
 
 Trouble lost_nodes(const State& state) {
   return {"nodes at time " + std::to_string(state.time) +
-          " were left in the plane and are lost: the system has taken another step since"};
+          " were left in the plane: they must be asked for first (System::catch_up), and are lost where another step "
+          "was tried since"};
 }
 
 void PlanarStep::read_nodes(const State& start, std::size_t group) {
