@@ -1,4 +1,4 @@
-/// bench_lean [--case=REGEX] [options of Google Benchmark]
+/// bench_lean [--case=REGEX] [--checks=yes] [options of Google Benchmark]
 /// Rows taken/CASE and barred/CASE: the same scene with a decision of its plan taken and barred, interleaved; CASE begins with the decision.
 /// One iteration is one accepted step, but for symmetric_... and definite_..., where it is one factorization.
 #include <benchmark/benchmark.h>
@@ -136,19 +136,19 @@ class NoRecorder final : public results::Recorder {
 
 bool is_of_factors(const LeanCase& c) { return c.decision == "symmetric" || c.decision == "definite"; }
 
-scene::Scene make_scene(const LeanCase& c, bool barred) {
+scene::Scene make_scene(const LeanCase& c, bool barred, bool checks) {
   scene::Scene s = c.make(c.size);
   s.analysis.step_size = 1e-3;
   s.analysis.end_time = 1e-3 * (c.steps + 1);
   s.output.stride = c.steps + 1;
-  s.output.checks = false;
+  s.output.checks = checks;
   if (barred) s.without = {c.decision};
   if (is_of_factors(c)) s.without.push_back("reuse");  // a factor in every iteration
   return s;
 }
 
-void run_case(benchmark::State& state, const LeanCase& c, bool barred, int threads) {
-  const scene::Scene s = make_scene(c, barred);
+void run_case(benchmark::State& state, const LeanCase& c, bool barred, bool checks, int threads) {
+  const scene::Scene s = make_scene(c, barred, checks);
   study::SimulateOptions options;
   options.threads = threads;
   NoRecorder recorder;
@@ -192,6 +192,7 @@ void run_case(benchmark::State& state, const LeanCase& c, bool barred, int threa
 int main(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
   const std::regex wanted(take_option(arguments, "case", ".*"));
+  const bool checks = take_option(arguments, "checks", "no") == "yes";  // certificates, which both rows then pay for
   std::vector<std::string> defaults{"--benchmark_repetitions=3", "--benchmark_enable_random_interleaving=true",
                                     "--benchmark_min_time=0.05"};
   for (std::string& d : defaults) arguments.insert(arguments.begin() + 1, d.data());
@@ -208,7 +209,7 @@ int main(int argc, char** argv) {
             (std::string(barred ? "barred/" : "taken/") + c.decision + "_" + c.name +
              "/threads:" + std::to_string(threads))
                 .c_str(),
-            [&c, barred, threads](benchmark::State& state) { run_case(state, c, barred, threads); })
+            [&c, barred, checks, threads](benchmark::State& state) { run_case(state, c, barred, checks, threads); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond);
       }

@@ -43,6 +43,7 @@ double largest_of(const Pack& a) {
   for (int l = 1; l < elements::num_lanes; ++l) most = std::max(most, a[l]);
   return most;
 }
+
 }  // namespace
 
 PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::vector<std::int64_t>& node_begin,
@@ -70,12 +71,20 @@ PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::
                         [](const auto& row) { return row.kind != elements::RowKind::along; }))
           joints_with_angles_.push_back(static_cast<int>(id));
       if constexpr (requires { e.reference_strain; })
-        for (int i = 1; i < E::num_ports; ++i)
-          beam_ends_.push_back({static_cast<std::int64_t>(id), e.ports[0].node, e.ports[i].node,
-                                motion::conjugate_times(own_turn(e.ports[0]), own_turn(e.ports[i]))});
+        for (int i = 1; i < E::num_ports; ++i) beam_ends_.push_back(ends_of(e, static_cast<std::int64_t>(id), i));
     });
   for (std::size_t j = 0; j < plan.joints.size(); ++j)
     if (plan.joints[j].counts_turns) watch_turns(j);
+}
+
+template <class E>
+PlanarStep::Ends PlanarStep::ends_of(const E& e, std::int64_t owner, int port) {
+  return {owner, e.ports[0].node, e.ports[port].node,
+          motion::conjugate_times(own_turn(e.ports[0]), own_turn(e.ports[port]))};
+}
+
+Vec2<double> PlanarStep::turn_of(int node) const {
+  return node == elements::ground ? Vec2<double>{{1.0, 0.0}} : system_.nodes()[static_cast<std::size_t>(node)].turn;
 }
 
 void PlanarStep::watch_turns(std::size_t joint) {
@@ -91,23 +100,19 @@ void PlanarStep::watch_turns(std::size_t joint) {
   });
   plan::with_element(plan.planar->elements, at, [&](const auto& e) {
     if constexpr (requires { e.num_rows; })
-      if (sign != 0.0) turn_counters_.push_back({joint, e.ports[0], e.ports[1], sign});
+      if (sign != 0.0) turn_counters_.push_back({ends_of(e, static_cast<std::int64_t>(joint), 1), sign});
   });
 }
 
 void PlanarStep::count_turns(State& state, const tree::Walker& walker) const {
   constexpr double whole = 6.283185307179586476925;
-  const auto turn_of = [this](const elements::planar::Port& p) {
-    if (p.node == elements::ground) return p.turn;
-    const Vec2<double>& turn = system_.nodes()[static_cast<std::size_t>(p.node)].turn;
-    return p.has_offset ? motion::complex_times(p.turn, turn) : turn;
-  };
   auto by_joint = [&](std::int64_t begin, std::int64_t end) {
     for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
       const TurnCounter& c = turn_counters_[k];
-      const Vec2<double> between = motion::conjugate_times(turn_of(c.first), turn_of(c.second));
-      const double angle = c.sign * motion::angle_of(between[0], between[1]);
-      double& turns = state.turns[c.joint];
+      const Vec2<double> turn =
+          motion::conjugate_times(turn_of(c.ends.a), motion::complex_times(turn_of(c.ends.b), c.ends.between));
+      const double angle = c.sign * motion::angle_of(turn[0], turn[1]);
+      double& turns = state.turns[static_cast<std::size_t>(c.ends.owner)];
       turns = angle + whole * std::round((turns - angle) / whole);  // of those half a turn from the last the nearest
     }
   };
@@ -255,14 +260,11 @@ int PlanarStep::turned_beyond(double angle) const {
 
 std::int64_t PlanarStep::first_folded(const tree::Walker& walker) const {
   FirstBad first_bad(static_cast<std::int64_t>(plan_.directory.size()));
-  const auto turn_of = [this](int node) {
-    return node == elements::ground ? Vec2<double>{{1.0, 0.0}} : system_.nodes()[static_cast<std::size_t>(node)].turn;
-  };
   auto by_ends = [&](std::int64_t begin, std::int64_t end) {
     for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      const BeamEnds& e = beam_ends_[k];
+      const Ends& e = beam_ends_[k];
       if (lanes::dot(turn_of(e.a), motion::complex_times(turn_of(e.b), e.between)) < folded)
-        return first_bad.note(e.element);
+        return first_bad.note(e.owner);
     }
   };
   walker.for_each_chunk(static_cast<std::int64_t>(beam_ends_.size()), element_grain, tree::make_chunk(by_ends));
@@ -279,6 +281,23 @@ void PlanarStep::finish(double arm, std::vector<Workspace::Trend>& trends, const
     trends[static_cast<std::size_t>(begin / group_grain)] = trend;
   };
   walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
+}
+
+std::array<double, 2> PlanarStep::largest_error(double per_change, const tree::Walker& walker) {
+  auto by_group = [&](std::int64_t begin, std::int64_t end) {
+    Pack linear(0.0), angular(0.0);
+    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
+      const StartLanes& s = starts_[g];
+      const Vec3<Pack> error = per_change * s.trend - (1.0 / 12.0) * motion::plane_bracket(s.v, s.a);
+      linear = larger(larger(linear, lanes::abs(error[0])), lanes::abs(error[1]));
+      angular = larger(angular, lanes::abs(error[2]));
+    }
+    error_max_[static_cast<std::size_t>(begin / group_grain)] = {largest_of(linear), largest_of(angular)};
+  };
+  walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
+  std::array<double, 2> most{0.0, 0.0};
+  for (const std::array<double, 2>& part : error_max_) most = {std::max(most[0], part[0]), std::max(most[1], part[1])};
+  return most;
 }
 
 void PlanarStep::finish_nodes(double arm, std::size_t group, Workspace::Trend& trend) {

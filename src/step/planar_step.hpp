@@ -1,6 +1,6 @@
 #pragma once
-/// Steps of generalized-alpha that iterate in the plane: nodes move by three numbers instead of six, eight at a time, and go back to space once the
-/// iteration has ended, or when they are asked for. What only steps look at stays in lanes, from one to the next as well. Internal to step.
+/// Steps of generalized-alpha that iterate in the plane: nodes move by three numbers instead of six, eight at a time, and go back to space when
+/// they are asked for. What only steps look at stays in lanes, from one to the next as well. Internal to step.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -96,17 +96,19 @@ class PlanarStep {
     } a, b;
     Pack per_length;
   };
-  /// What turns with two nodes of a beam element, -1: the ground, and by how much more the second is turned as the element is made.
-  struct BeamEnds {
-    std::int64_t element;
+  /// What turns with two nodes of an element, -1: the ground, and by how much more the second is turned as the element is made.
+  struct Ends {
+    std::int64_t owner;  ///< a beam's element, or a joint
     int a, b;
     motion::Vec2<double> between;
   };
+  template <class E>
+  static Ends ends_of(const E& e, std::int64_t owner, int port);
+  motion::Vec2<double> turn_of(int node) const;
 
   /// A joint about the normal, which counts its turns: the angle is `sign` times the one from the first port to the second.
   struct TurnCounter {
-    std::size_t joint;
-    elements::planar::Port first, second;
+    Ends ends;
     double sign;
   };
   void watch_turns(std::size_t joint);
@@ -121,7 +123,7 @@ class PlanarStep {
   std::vector<ReadLanes> read_;         ///< displacements since then go to space
   std::vector<std::int64_t> unknowns_;  ///< the first of each node, lane by lane, -1: at rest
   std::vector<PairLanes> pairs_;        ///< spare lanes of the last repeat its last pair
-  std::vector<BeamEnds> beam_ends_;
+  std::vector<Ends> beam_ends_;
   std::vector<int> joints_with_angles_;
   std::vector<TurnCounter> turn_counters_;
   std::vector<double> chunk_max_;                 ///< squares of changes, by chunk of pairs

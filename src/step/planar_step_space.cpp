@@ -123,27 +123,6 @@ void PlanarStep::write_watched(State& state, const tree::Walker& walker) {
   state.behind = number_;
 }
 
-std::array<double, 2> PlanarStep::largest_error(double per_change, const tree::Walker& walker) {
-  auto by_group = [&](std::int64_t begin, std::int64_t end) {
-    Pack linear(0.0), angular(0.0);
-    const auto include = [](Pack& most, const Pack& x) { most = select(less(most, x), x, most); };
-    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
-      const StartLanes& s = starts_[g];
-      const Vec3<Pack> error = per_change * s.trend - (1.0 / 12.0) * motion::plane_bracket(s.v, s.a);
-      include(linear, lanes::abs(error[0]));
-      include(linear, lanes::abs(error[1]));
-      include(angular, lanes::abs(error[2]));
-    }
-    std::array<double, 2>& most = error_max_[static_cast<std::size_t>(begin / group_grain)];
-    most = {0.0, 0.0};
-    for (int l = 0; l < elements::num_lanes; ++l) most = {std::max(most[0], linear[l]), std::max(most[1], angular[l])};
-  };
-  walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
-  std::array<double, 2> most{0.0, 0.0};
-  for (const std::array<double, 2>& part : error_max_) most = {std::max(most[0], part[0]), std::max(most[1], part[1])};
-  return most;
-}
-
 void PlanarStep::write_nodes(State& state, std::size_t group) const {
   const std::size_t first = group * nodes_in_lanes, count = count_of(group);
   const StartLanes& s = starts_[group];

@@ -242,8 +242,9 @@ void Run::finish() {
   summary_.solver = solver_figures(system_, dependent_rows_);
   if (summary_.status == RunStatus::ok) look_at_last_factor(system_, summary_);
   summary_.doubts = doubts_of(summary_, plan_.is_dynamic);
+  if (!after_run_) return;
   (void)catch_up();
-  if (after_run_) after_run_(system_, state_);
+  after_run_(system_, state_);
 }
 
 Summary simulate(const scene::Scene& scene, const SimulateOptions& options, results::Recorder& recorder,

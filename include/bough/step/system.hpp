@@ -208,9 +208,10 @@ class System {
   /// Makes a state whole again whose nodes a step in the plane left behind (State::behind); laws are then those of its time. Fails where the System
   /// has taken another step since.
   [[nodiscard]] std::optional<Trouble> catch_up(State& state);
-  /// The same for what some readers look at in every step alone: nodes and their neighbours, and multipliers of joints that hold nodes. Laws are to be
-  /// those of the state's time already.
+  /// Nodes that some reader looks at in every step, for catch_up_watched.
   void watch(std::vector<int> nodes);
+  /// catch_up of these and some beside them, and of multipliers of joints that hold nodes; laws are to be those of the state's time already. Otherwise
+  /// the state stays behind: field_of_watched gives it to who looks no further.
   [[nodiscard]] std::optional<Trouble> catch_up_watched(State& state);
 
   /// Where steps of generalized-alpha iterate in the plane; null: in space. While one is under way evaluate and apply move and look at its nodes,
