@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "bough/schedule/serial.hpp"
+#include "crowding.hpp"
+#include "helper.hpp"
 #ifdef BOUGH_HAS_TBB
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -21,6 +23,13 @@ namespace bough::schedule {
 
 struct Threads::State {
   State(int n, double grain) : count(n), grain_flops(grain) {}
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+#ifdef BOUGH_HAS_TBB
+  ~State() {
+    if (helper) helper->dismiss();
+  }
+#endif
 
   int count;
   double grain_flops;
@@ -30,17 +39,69 @@ struct Threads::State {
 #ifdef BOUGH_HAS_TBB
   tbb::task_arena arena;
   std::once_flag is_started;
+  bool outnumbers_processors = false;
   std::unique_ptr<tbb::global_control> allowance;  ///< more threads than the machine has need a permission
 
   /// The arena, with its threads. TBB takes a third of a millisecond to look at the machine: a run without tasks does not ask for it.
   tbb::task_arena& started() {
     std::call_once(is_started, [this] {
-      if (count > tbb::info::default_concurrency())
+      outnumbers_processors = count > tbb::info::default_concurrency();
+      if (outnumbers_processors)
         allowance = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                           static_cast<std::size_t>(count));
       arena.initialize(count);
     });
     return arena;
+  }
+
+  Crowding crowding;
+  bool assumes_crowding = false;
+  bool is_walking = false;
+  std::shared_ptr<Helper> helper;  ///< while the processors are crowded; shared with a task that oneTBB may begin late
+
+  /// Between walks: settles whether there is a helper. Only two threads work with one: of more, some go on while one has no processor.
+  void look_around() {
+    tbb::task_arena& threads = started();
+    if (count != 2 || is_walking) return;
+    const bool is_crowded = assumes_crowding || (!outnumbers_processors && delay_microseconds == 0 && crowding.look());
+    if (is_crowded == (helper != nullptr)) return;
+    if (is_crowded) {
+      helper = std::make_shared<Helper>();
+      helper->set_tireless(assumes_crowding);
+      threads.enqueue([h = helper] { h->serve(); });
+    } else {
+      helper->dismiss();
+      helper.reset();
+    }
+  }
+
+  void walk_up(const tree::Tree& tree, tree::Visit visit) {
+    look_around();
+    is_walking = true;
+    if (helper)
+      helper->walk_up(tree, visit);
+    else
+      arena.execute([&] { visit_up(tree, tree.root(), visit); });
+    is_walking = false;
+  }
+
+  void walk_down(const tree::Tree& tree, tree::Visit visit) {
+    look_around();
+    is_walking = true;
+    if (helper)
+      helper->walk_down(tree, visit);
+    else
+      arena.execute([&] { visit_down(tree, tree.root(), visit); });
+    is_walking = false;
+  }
+
+  /// Outside of a walk or inside of a visit.
+  void share_chunks(std::int64_t count_items, std::int64_t grain, tree::Chunk chunk) {
+    look_around();
+    if (helper)
+      helper->run_chunks(count_items, grain, chunk);
+    else
+      arena.execute([&] { run_chunks(count_items, grain, chunk); });
   }
 
   [[nodiscard]] bool is_whole(const tree::Subdomain& s) const { return s.is_leaf() || s.subtree_flops < grain_flops; }
@@ -115,13 +176,13 @@ tree::Walker make_walker(State* state) {
             auto* s = static_cast<State*>(context);
             if (s->is_whole(tree.subdomains[static_cast<std::size_t>(tree.root())]))
               return s->visit_up(tree, tree.root(), visit);
-            s->started().execute([&] { s->visit_up(tree, tree.root(), visit); });
+            s->walk_up(tree, visit);
           },
           [](void* context, const tree::Tree& tree, tree::Visit visit) {
             auto* s = static_cast<State*>(context);
             if (s->is_whole(tree.subdomains[static_cast<std::size_t>(tree.root())]))
               return s->visit_down(tree, tree.root(), visit);
-            s->started().execute([&] { s->visit_down(tree, tree.root(), visit); });
+            s->walk_down(tree, visit);
           },
           [](void* context, std::int64_t count, std::int64_t grain, tree::Chunk chunk) {
             auto* s = static_cast<State*>(context);
@@ -129,7 +190,7 @@ tree::Walker make_walker(State* state) {
               if (count > 0) chunk.run(chunk.context, 0, count);
               return;
             }
-            s->started().execute([&] { s->run_chunks(count, grain, chunk); });
+            s->share_chunks(count, grain, chunk);
           },
           state,
           {},
@@ -168,6 +229,12 @@ void Threads::keep_together(const std::function<void()>& body) const {
 void Threads::set_random_delay(unsigned microseconds, unsigned seed) {
   state_->delay_microseconds = microseconds;
   state_->delay_state = seed;
+}
+
+void Threads::assume_crowding(bool yes) {
+#ifdef BOUGH_HAS_TBB
+  state_->assumes_crowding = yes;
+#endif
 }
 
 }  // namespace bough::schedule

@@ -29,6 +29,8 @@ class Threads {
 
   /// For tests: every task and chunk first spins for a pseudo-random time below `microseconds`. 0 turns it off.
   void set_random_delay(unsigned microseconds, unsigned seed);
+  /// For tests: two threads work as they do beside another program, whether there is one or not.
+  void assume_crowding(bool yes);
 
  private:
   struct State;
