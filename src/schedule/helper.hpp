@@ -27,7 +27,7 @@ class Helper {
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
 
-  /// Serves until `dismiss`. The owner's own call, a second one and one after `dismiss` return at once.
+  /// Serves until `dismiss`. The owner's own call and one after `dismiss` return at once.
   void serve();
 
   // All that follows is for the owner, except `run_chunks`.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 
 #include "bough/schedule/serial.hpp"
@@ -26,9 +27,7 @@ struct Threads::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 #ifdef BOUGH_HAS_TBB
-  ~State() {
-    if (helper) helper->dismiss();
-  }
+  ~State() { dismiss_helper(); }
 #endif
 
   int count;
@@ -57,22 +56,30 @@ struct Threads::State {
   Crowding crowding;
   bool assumes_crowding = false;
   bool is_walking = false;
-  std::shared_ptr<Helper> helper;  ///< while the processors are crowded; shared with a task that oneTBB may begin late
+  std::optional<Helper> helper;  ///< while the processors are crowded
+  tbb::task_group serving;       ///< the one task in which the helper serves
 
   /// Between walks: settles whether there is a helper. Only two threads work with one: of more, some go on while one has no processor.
   void look_around() {
     tbb::task_arena& threads = started();
     if (count != 2 || is_walking) return;
     const bool is_crowded = assumes_crowding || (!outnumbers_processors && delay_microseconds == 0 && crowding.look());
-    if (is_crowded == (helper != nullptr)) return;
+    if (is_crowded == helper.has_value()) return;
     if (is_crowded) {
-      helper = std::make_shared<Helper>();
+      helper.emplace();
       helper->set_tireless(assumes_crowding);
-      threads.enqueue([h = helper] { h->serve(); });
+      threads.enqueue(serving.defer([this] { helper->serve(); }));
     } else {
-      helper->dismiss();
-      helper.reset();
+      dismiss_helper();
     }
+  }
+
+  /// Waits for the helper to leave; who waits takes up the task himself where nobody has.
+  void dismiss_helper() {
+    if (!helper) return;
+    helper->dismiss();
+    arena.execute([this] { serving.wait(); });
+    helper.reset();
   }
 
   void walk_up(const tree::Tree& tree, tree::Visit visit) {
