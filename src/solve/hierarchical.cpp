@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "front_storage.hpp"
@@ -15,13 +17,30 @@ namespace bough::solve {
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// Bytes of the last cache that a run may hope for beside others.
-std::size_t eval_share_of_last_cache() {
-  long cache = 0;
+/// Bytes of the last cache that the first processor reaches; 0: not known. The system's own files come first: on processors with several such
+/// caches sysconf may tell the sum of all of them.
+std::size_t find_last_cache() {
+  std::size_t bytes = 0;
+  for (int index = 0; index < 8; ++index) {
+    std::ifstream file("/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(index) + "/size");
+    std::size_t number = 0;
+    char unit = 0;
+    if (!(file >> number)) continue;
+    file >> unit;
+    bytes = std::max(bytes, unit == 'K' ? number << 10 : unit == 'M' ? number << 20 : number);
+  }
 #ifdef _SC_LEVEL3_CACHE_SIZE
-  cache = std::max(0l, sysconf(_SC_LEVEL3_CACHE_SIZE));
+  if (bytes == 0) bytes = at(std::max(0l, sysconf(_SC_LEVEL3_CACHE_SIZE)));
 #endif
-  return std::max(at(cache) / 8, std::size_t{16} << 20);
+  return bytes;
+}
+
+/// Whether so much does not stay in what a run may hope for of the last cache beside others.
+bool exceeds_share_of_caches(std::size_t bytes) {
+  constexpr std::size_t least = std::size_t{16} << 20;
+  if (bytes <= least) return false;
+  static const std::size_t last_cache = find_last_cache();
+  return bytes > last_cache / 8;
 }
 }  // namespace
 
@@ -123,10 +142,10 @@ void Hierarchical::State::size_factors() {
   for (std::size_t g = 0; g < lanes.groups.size(); ++g)
     if (lanes.groups[g].scratch * lanes_wide > room_of_scratch)
       group_scratch[g] = lane_scratch.data() + (scratch -= lanes.groups[g].scratch * lanes_wide);
-  const auto last_cache = options.near_bytes > 0 ? at(options.near_bytes) : eval_share_of_last_cache();
   constexpr std::size_t second_cache = std::size_t{2} << 20;
   reads_factors_ahead = sizeof(double) * lane_factors.size() > second_cache;
-  exceeds_caches = sizeof(double) * (lane_factors.size() + at(lanes.num_values)) > last_cache;
+  const std::size_t bytes = sizeof(double) * (lane_factors.size() + at(lanes.num_values));
+  exceeds_caches = options.near_bytes > 0 ? bytes > at(options.near_bytes) : exceeds_share_of_caches(bytes);
 }
 
 void Hierarchical::State::lose_symmetry(const Asymmetry& found) {
