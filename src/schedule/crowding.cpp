@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 constexpr auto between_looks = 8ms;
 constexpr auto window = 40ms;       // counts begin anew
 constexpr auto probe = 16ms;        // likewise, right after a while of crowding
-constexpr long many_switches = 12;  // within a window, 300 a second
+constexpr long many_switches = 14;  // within a window, 350 a second; bursts of 11 come in quiet
 constexpr long many_in_probe = 5;   // less is asked for where it has just been so
 constexpr Clock::duration shortest_while = 250ms, longest_while = 2s;
 
@@ -60,7 +60,8 @@ bool Crowding::look() {
   next_look_ = now + between_looks;
   const long switches = count_switches();
   const bool is_probe = now - while_crowded().end() < window;
-  const bool counts = switches_ >= 0 && !is_crowded_ && now - begin_ < 2 * window;  // longer: nobody looked
+  const bool counts =
+      switches_ >= 0 && !is_crowded_ && now - begin_ <= window + between_looks;  // longer: nobody looked
   if (counts && switches - switches_ >= (is_probe ? many_in_probe : many_switches)) while_crowded().begin(now);
   const bool was_crowded = std::exchange(is_crowded_, now < while_crowded().end());
   if (switches_ < 0 || is_crowded_ || was_crowded || now - begin_ >= (is_probe ? probe : window)) {
