@@ -1,47 +1,19 @@
 #include "bough/solve/hierarchical.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "front_storage.hpp"
 #include "hierarchical_state.hpp"
+#include "last_cache.hpp"
 
 namespace bough::solve {
 
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-/// Bytes of the last cache that the first processor reaches; 0: not known. The system's own files come first: on processors with several such
-/// caches sysconf may tell the sum of all of them.
-std::size_t find_last_cache() {
-  std::size_t bytes = 0;
-  for (int index = 0; index < 8; ++index) {
-    std::ifstream file("/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(index) + "/size");
-    std::size_t number = 0;
-    char unit = 0;
-    if (!(file >> number)) continue;
-    file >> unit;
-    bytes = std::max(bytes, unit == 'K' ? number << 10 : unit == 'M' ? number << 20 : number);
-  }
-#ifdef _SC_LEVEL3_CACHE_SIZE
-  if (bytes == 0) bytes = at(std::max(0l, sysconf(_SC_LEVEL3_CACHE_SIZE)));
-#endif
-  return bytes;
-}
-
-/// Whether so much does not stay in what a run may hope for of the last cache beside others.
-bool exceeds_share_of_caches(std::size_t bytes) {
-  constexpr std::size_t least = std::size_t{16} << 20;
-  if (bytes <= least) return false;
-  static const std::size_t last_cache = find_last_cache();
-  return bytes > last_cache / 8;
-}
 }  // namespace
 
 std::vector<std::string> problems_in(const SolveOptions& o) {
@@ -67,8 +39,11 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
       options(o),
       lanes(make_lane_plan(graph, t, o.lanes && o.elimination == Elimination::flat,
                            o.elimination == Elimination::flat ? o.symmetry : Symmetry::general)),
+      registers(
+          make_register_plan(graph, t, lanes, o.elimination == Elimination::flat && o.symmetry != Symmetry::general)),
       elements(graph, t, lanes.element_first, lanes.element_stride, lanes.num_values),
-      lane_scales(lanes) {
+      lane_scales(lanes),
+      register_scales(registers) {
   const std::size_t n = at(tree.num_unknowns()), num_fronts = at(tree.num_fronts());
   scales.row.assign(n, 1.0);
   scales.column.assign(n, 1.0);
@@ -91,8 +66,11 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   run_begin.assign(1, 0);
   for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
     const tree::Front& f = front(id);
-    const bool in_lanes = lanes.lane_front[at(id)] >= 0;
-    const std::int64_t size = in_lanes ? 0 : f.size();
+    const int in_registers = registers.front_of[at(id)];
+    const bool in_lanes = lanes.lane_front[at(id)] >= 0 || in_registers >= 0;
+    const bool has_vector =
+        lanes.lane_front[at(id)] < 0 && (in_registers < 0 || registers.fronts[at(in_registers)].is_exported);
+    const std::int64_t size = has_vector ? f.size() : 0;
     vector_begin.push_back(vector_begin.back() + vector_size(size));
     index_begin.push_back(index_begin.back() + (in_lanes ? 0 : 3 * f.num_eliminated));
     own_begin.push_back(own_begin.back() + f.num_eliminated);
@@ -101,7 +79,10 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     run_begin.push_back(static_cast<std::int64_t>(runs.size()));
   }
   size_factors();
-  schur_places = plan_schur(tree, lanes.lane_front, keeps_all, is_symmetric());
+  std::vector<int> has_place = lanes.lane_front;
+  for (const RegisterFront& f : registers.fronts)
+    if (!f.is_exported) has_place[at(f.front)] = 0;
+  schur_places = plan_schur(tree, has_place, keeps_all, is_symmetric());
   schur_pool.resize(at(schur_places.pool));
   vector_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));
@@ -110,6 +91,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   lane_tops.assign(at(std::max<std::int64_t>(lanes.top_size, 1) * lanes_wide),
                    0.0);  // tops without unknowns, too, point into it
   scalar_lanes.assign(lanes.fronts.size(), 0);
+  left_registers.assign(lanes.groups.size(), 0);
   sizes.resize(lanes.groups.size());
   asymmetries.resize(lanes.groups.size());
   residual.assign(n, 0.0);
@@ -126,7 +108,8 @@ void Hierarchical::State::size_factors() {
     const tree::Front& f = front(id);
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
     const FrontShape shape(f.size(), f.num_eliminated, is_symmetric());
-    factor_begin.push_back(factor_begin.back() + (in_lanes ? 0 : shape.factor_size()));
+    factor_begin.push_back(factor_begin.back() +
+                           (in_lanes || registers.front_of[at(id)] >= 0 ? 0 : shape.factor_size()));
     const double flops = is_symmetric() ? 0.5 * f.flops : f.flops;
     counters.factor_flops += flops;
     group_flops[at(lanes.group_of_subdomain[at(f.subdomain)])] += flops;
@@ -134,6 +117,9 @@ void Hierarchical::State::size_factors() {
   }
   factor_pool.resize(at(factor_begin.back()));
   lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);
+  register_factors.assign(at(registers.factor_size), 0.0);
+  register_schur.assign(at(registers.schur_size), 0.0);
+  register_vectors.assign(at(registers.vector_size), 0.0);
   std::int64_t scratch = 0;
   for (const LaneGroup& group : lanes.groups)
     if (group.scratch * lanes_wide > room_of_scratch) scratch += group.scratch * lanes_wide;
@@ -144,7 +130,7 @@ void Hierarchical::State::size_factors() {
       group_scratch[g] = lane_scratch.data() + (scratch -= lanes.groups[g].scratch * lanes_wide);
   constexpr std::size_t second_cache = std::size_t{2} << 20;
   reads_factors_ahead = sizeof(double) * lane_factors.size() > second_cache;
-  const std::size_t bytes = sizeof(double) * (lane_factors.size() + at(lanes.num_values));
+  const std::size_t bytes = sizeof(double) * (lane_factors.size() + register_factors.size() + at(lanes.num_values));
   exceeds_caches = options.near_bytes > 0 ? bytes > at(options.near_bytes) : exceeds_share_of_caches(bytes);
 }
 
@@ -157,6 +143,7 @@ void Hierarchical::State::lose_symmetry(const Asymmetry& found) {
   LanePlan general = make_lane_plan(elements.graph(), tree, options.lanes);
   general.batches = std::move(lanes.batches);  // the same; callers look at the old ones
   lanes = std::move(general);
+  registers = make_register_plan(elements.graph(), tree, lanes, false);
   size_factors();
 }
 
@@ -217,6 +204,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
     if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal but for the order of a sum
     s.norm = s.elements.eval_norm(s.scales);
     s.lane_scales.set(s.lanes, s.tree, s.scales);
+    s.register_scales.set(s.registers, s.scales, s.options.tiny_pivot);
   }
   s.scales_wanted = false;
   s.factor_walker = walker;
@@ -242,6 +230,12 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
     if (s.is_redone[g] != 0) s.counters.flops_done += s.group_flops[g];
   if (s.is_redone.back() == 0) return s.status = before;  // nor has the root: nothing is new
   for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
+  for (std::size_t g = 0; g < s.left_registers.size(); ++g) {
+    if (s.left_registers[g] == 0) continue;
+    s.counters.registers_left += s.is_redone[g];
+    for (int f = s.registers.groups[g].front_begin; f < s.registers.groups[g].front_end; ++f)
+      s.count_front(s.registers.fronts[at(f)].front);
+  }
   for (std::size_t i = 0; i < s.scalar_lanes.size(); ++i)
     for (int l = 0; s.scalar_lanes[i] != 0 && l < lanes_wide; ++l)
       if ((s.scalar_lanes[i] >> l & 1) != 0) {
@@ -379,10 +373,13 @@ SolverCounters Hierarchical::counters() const {
        {&s.scales.row, &s.scales.column, &s.scales.weight, &s.rhs, &s.residual, &s.correction})
     doubles += v->capacity();
   for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
-  for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors})
+  doubles += s.register_vectors.size();
+  for (const LaneDoubles* pool :
+       {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors, &s.register_factors, &s.register_schur})
     doubles += pool->size();
   c.memory_bytes = static_cast<std::int64_t>(doubles * sizeof(double) + s.index_pool.size() * sizeof(int)) +
-                   s.elements.memory_bytes() + s.lane_scales.memory_bytes();
+                   s.elements.memory_bytes() + s.lane_scales.memory_bytes() + s.register_scales.memory_bytes();
+  c.fronts_in_registers = static_cast<std::int64_t>(s.registers.fronts.size());
   for (const LaneFront& f : s.lanes.fronts)
     for (tree::FrontId id : f.front) c.fronts_in_lanes += id != tree::none ? 1 : 0;
   return c;

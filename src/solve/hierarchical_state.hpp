@@ -11,6 +11,9 @@
 #include "lane_kernels.hpp"
 #include "lane_plan.hpp"
 #include "lane_scales.hpp"
+#include "register_kernels.hpp"
+#include "register_plan.hpp"
+#include "register_scales.hpp"
 #include "transfers.hpp"
 
 namespace bough::solve {
@@ -88,6 +91,7 @@ struct Hierarchical::State {
   const tree::Tree& tree;
   SolveOptions options;
   LanePlan lanes;
+  RegisterPlan registers;
   ElementStore elements;
   Scales scales;
   bool scales_wanted = true;
@@ -126,7 +130,12 @@ struct Hierarchical::State {
   std::vector<double*>
       group_scratch;  ///< by group, during its visit: where Schur complements and vectors stand that do not outlast it
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
-  std::vector<SolutionSizes> sizes;   ///< by group
+  // Leaves alone, their small fronts in registers.
+  RegisterScaleStore register_scales;
+  LaneDoubles register_factors, register_schur;
+  std::vector<double> register_vectors;  ///< of eliminated unknowns: what forward substitution leaves
+  std::vector<char> left_registers;      ///< by group: in this factorization all its fronts went the pivoted way
+  std::vector<SolutionSizes> sizes;      ///< by group
   std::unique_ptr<Hierarchical> twin;    ///< the same without lanes, for reports that need every front whole
   std::int64_t twin_factorization = -1;  ///< what it holds
   bool exceeds_caches =
@@ -167,6 +176,18 @@ struct Hierarchical::State {
   void backward_left_lane_front(int index, std::vector<double>& left);
   void residual_lane_front(int index, SolutionSizes& most);
 
+  // register_walks.cpp
+  bool stands_in_registers(int group) const {
+    return lanes.groups[static_cast<std::size_t>(group)].in_registers &&
+           left_registers[static_cast<std::size_t>(group)] == 0;
+  }
+  bool factor_registers(int group, const double* b);
+  void gather_register_rhs(const RegisterFront& f, const double* b, double* t) const;
+  void export_schur(const RegisterFront& f, const double* schur, bool with_vector);
+  void forward_registers(int group);
+  void backward_registers(int group);
+  void backward_left_registers(int group, std::vector<double>& left) const;
+
   // lane_handover.cpp
   LaneSet lanes_to_leave(const LaneFront& f) const;
   void factor_lane_alone(int index, int lane, bool is_indefinite);
@@ -199,6 +220,7 @@ struct Hierarchical::State {
 
   // upward.cpp, assemble.cpp: factor
   void factor_subdomain(tree::SubdomainId s);
+  void factor_front(tree::FrontId f);
   void size_front(tree::FrontId f);
   double* schur_place(tree::FrontId f);
   void assemble_front(tree::FrontId f);

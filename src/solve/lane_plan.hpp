@@ -92,6 +92,7 @@ struct LaneFront {
 struct LaneGroup {
   std::vector<tree::SubdomainId> subdomains;
   bool in_lanes = false;
+  bool in_registers = false;  ///< a leaf alone, whose small fronts stand row by row in registers (RegisterPlan)
   int front_begin = 0, front_end = 0;      ///< LanePlan::fronts, children first; in lanes only
   int element_begin = 0, element_end = 0;  ///< positions in LanePlan::batches
   std::int64_t scratch = 0;  ///< packs of Schur complements and vectors that are needed during the visit alone

@@ -1,22 +1,11 @@
 #include "lane_scales.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cstring>
-#include <functional>
-#include <string_view>
-
 namespace bough::solve {
 
 namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
-
-std::size_t hash_of(const double* values, std::int64_t count) {
-  const std::string_view bytes(reinterpret_cast<const char*>(values), at(count) * sizeof(double));
-  return std::hash<std::string_view>{}(bytes);
-}
 
 /// Of its row and inverse column scales.
 std::int64_t size_of(const LaneFront& f) { return static_cast<std::int64_t>(f.size() + f.eliminated) * wide; }
@@ -39,40 +28,23 @@ void fill(const LaneFront& f, const LanePlan& lanes, const tree::Tree& tree, con
   }
 }
 
+std::int64_t size_of_all(const LanePlan& lanes) {
+  std::int64_t size = 0;
+  for (const LaneFront& f : lanes.fronts) size += size_of(f);
+  return size;
+}
+
 }  // namespace
 
 LaneScales::LaneScales(const LanePlan& lanes)
-    : begin_(lanes.fronts.size(), 0), table_(std::bit_ceil(2 * lanes.fronts.size() + 1), -1) {
-  std::int64_t most = 0;
-  for (const LaneFront& f : lanes.fronts) most += size_of(f);
-  values_.reserve(at(most));
-}
+    : numbers_(static_cast<std::int64_t>(lanes.fronts.size()), size_of_all(lanes)) {}
 
 void LaneScales::set(const LanePlan& lanes, const tree::Tree& tree, const Scales& scales) {
-  std::fill(table_.begin(), table_.end(), -1);
-  values_.clear();
-  for (std::size_t front = 0; front < lanes.fronts.size(); ++front) {
-    const std::int64_t first = static_cast<std::int64_t>(values_.size()), count = size_of(lanes.fronts[front]);
-    values_.resize(at(first + count), 1.0);
-    fill(lanes.fronts[front], lanes, tree, scales, values_.data() + first);
-    begin_[front] = first;
-    std::size_t slot = hash_of(values_.data() + first, count) & (table_.size() - 1);
-    for (; table_[slot] >= 0; slot = (slot + 1) & (table_.size() - 1)) {
-      const auto other = at(table_[slot]);
-      if (size_of(lanes.fronts[other]) != count || lanes.fronts[other].eliminated != lanes.fronts[front].eliminated ||
-          std::memcmp(values_.data() + begin_[other], values_.data() + first, at(count) * sizeof(double)) != 0)
-        continue;
-      begin_[front] = begin_[other];
-      values_.resize(at(first));
-      break;
-    }
-    if (begin_[front] == first) table_[slot] = static_cast<int>(front);
+  numbers_.clear();
+  for (const LaneFront& f : lanes.fronts) {
+    fill(f, lanes, tree, scales, numbers_.begin(size_of(f), 1.0));
+    numbers_.end();
   }
-}
-
-std::int64_t LaneScales::memory_bytes() const {
-  return static_cast<std::int64_t>(values_.size() * sizeof(double) + begin_.size() * sizeof(std::int64_t) +
-                                   table_.size() * sizeof(int));
 }
 
 }  // namespace bough::solve

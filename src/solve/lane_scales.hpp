@@ -5,12 +5,9 @@
 
 #include "element_store.hpp"
 #include "lane_plan.hpp"
-#include "line_allocator.hpp"
+#include "shared_numbers.hpp"
 
 namespace bough::solve {
-
-/// Doubles on the boundary of a cache line.
-using LaneDoubles = std::vector<double, LineAllocator<double>>;
 
 /// Row scales of every row of a front and inverse column scales of what it eliminates, in packs; 1 for padding. Fronts whose scales are the same in every
 /// lane, as those of equal links are, share them: what every factorization reads then stays in the nearest cache.
@@ -20,14 +17,12 @@ class LaneScales {
   explicit LaneScales(const LanePlan& lanes);
   /// Takes the scales of all fronts of that plan anew. No allocation.
   void set(const LanePlan& lanes, const tree::Tree& tree, const Scales& scales);
-  const double* row(int front) const { return values_.data() + begin_[static_cast<std::size_t>(front)]; }
+  const double* row(int front) const { return numbers_.of(front); }
   const double* inverse_column(const LaneFront& f, int front) const { return row(front) + f.size() * lanes_wide; }
-  std::int64_t memory_bytes() const;  ///< of what has been written
+  std::int64_t memory_bytes() const { return numbers_.memory_bytes(); }
 
  private:
-  LaneDoubles values_;               ///< of fronts that differ
-  std::vector<std::int64_t> begin_;  ///< by front
-  std::vector<int> table_;           ///< a front with scales of its own by their hash, -1: none
+  SharedNumbers numbers_;
 };
 
 }  // namespace bough::solve

@@ -12,14 +12,16 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 void Hierarchical::State::factor_subdomain(tree::SubdomainId s) {
   const tree::Subdomain& sub = tree.subdomains[at(s)];
-  for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) {
-    size_front(f);
-    assemble_front(f);
-    mark(tree::Stage::assemble);
-    eliminate_front(f);
-    mark(tree::Stage::eliminate);
-  }
+  for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) factor_front(f);
   if (options.elimination == Elimination::plain && s != tree.root()) condense_through_flexibility(s);
+}
+
+void Hierarchical::State::factor_front(tree::FrontId f) {
+  size_front(f);
+  assemble_front(f);
+  mark(tree::Stage::assemble);
+  eliminate_front(f);
+  mark(tree::Stage::eliminate);
 }
 
 /// Room for the children's delayed unknowns; own memory only if there are any.
@@ -38,7 +40,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   d.size = d.delayed_in + shape.size();
   d.pivots = 0;
   const bool is_symmetric = this->is_symmetric();
-  if (d.delayed_in == 0 && lanes.lane_front[at(f)] < 0) {
+  if (d.delayed_in == 0 && lanes.lane_front[at(f)] < 0 && registers.front_of[at(f)] < 0) {
     d.vector = vector_pool.data() + vector_begin[at(f)];
     d.rows = index_pool.data() + index_begin[at(f)];
     d.set_parts(FrontShape(d.size, d.full, is_symmetric), factor_pool.data() + factor_begin[at(f)], schur_place(f));

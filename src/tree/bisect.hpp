@@ -19,6 +19,9 @@ class Bisector {
   /// True if the bipartite graph of the set has no cycle: then a sweep from the ends fills nothing and needs no dissection.
   bool is_forest(const std::vector<int>& elements);
 
+  /// True if the set is one chain: every element joins at most two motion blocks, every block at most two others, and no loop is closed.
+  bool is_path(const std::vector<int>& elements);
+
   /// Two non-empty sides (precondition: at least two elements). Unconnected pieces are dealt out, the largest first; a piece above
   /// two thirds of the weight is cut before: a tree exactly at one block (centroid), others at the vertex separator of least predicted
   /// cost among several.

@@ -66,7 +66,8 @@ class Quotient {
 double elimination_flops(int e, int b);
 
 /// Merges groups [first, end) of one leaf into their parents where the fill is free or cheaper than visiting one more front [flop].
-/// missing: unknowns by which their boundaries are counted too few.
-void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing);
+/// missing: unknowns by which their boundaries are counted too few. largest: unknowns that no front is to exceed by that.
+void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing,
+                int largest);
 
 }  // namespace bough::tree

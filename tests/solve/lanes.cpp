@@ -224,12 +224,16 @@ TEST(Lanes, long_chains_go_in_lanes_and_give_the_solution_of_the_scalar_path) {
 /// As if nothing had room in the caches: read ahead, and written past them.
 TEST(Lanes, factors_that_exceed_the_caches_are_those_of_the_scalar_path_as_well) {
   Scene scene = make_chain(6, 600, 4);
-  for (const auto symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric}) {
+  for (const auto& [symmetry, swept] :
+       {std::pair{solve::Symmetry::general, false}, std::pair{solve::Symmetry::general, true},
+        std::pair{solve::Symmetry::symmetric, false}, std::pair{solve::Symmetry::symmetric, true}}) {
+    const tree::TreeOptions cut{.for_one_solution = swept};
     if (symmetry == solve::Symmetry::symmetric)
       for (Eigen::MatrixXd& a : scene.elements) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
-    Solved with(scene, {}, {.symmetry = symmetry, .near_bytes = 1, .refinement_steps = 0});
-    Solved near(scene, {}, {.symmetry = symmetry, .near_bytes = std::int64_t{1} << 40, .refinement_steps = 0});
-    Solved without(scene, {}, {.symmetry = symmetry, .lanes = false, .refinement_steps = 0});
+    Solved with(scene, cut, {.symmetry = symmetry, .near_bytes = 1, .refinement_steps = 0});
+    Solved near(scene, cut, {.symmetry = symmetry, .near_bytes = std::int64_t{1} << 40, .refinement_steps = 0});
+    Solved without(scene, cut, {.symmetry = symmetry, .lanes = false, .refinement_steps = 0});
+    EXPECT_EQ(with.solver.counters().fronts_in_registers > 0, swept);
     for (Solved* s : {&with, &near, &without}) ASSERT_TRUE(s->factor().ok());
     const Eigen::VectorXd b = with.random_rhs(5), x = with.solve(b), y = without.solve(b);
     EXPECT_EQ(near.solve(b), x);

@@ -99,7 +99,9 @@ struct SolverCounters {
   std::int64_t enlarging_allocations = 0;  ///< heap allocations these needed.
   std::int64_t fronts_in_lanes = 0;        ///< fronts of the tree that are factored in lockstep.
   double flops_in_lanes = 0.0;             ///< of factor_flops, those of these [flop].
-  std::int64_t lanes_left = 0;  ///< fronts that left their lane for the pivoted path, over all factorizations.
+  std::int64_t fronts_in_registers = 0;    ///< fronts of leaves that go alone, row by row in registers.
+  std::int64_t registers_left = 0;  ///< leaves of those that went the pivoted way as a whole, over all factorizations.
+  std::int64_t lanes_left = 0;      ///< fronts that left their lane for the pivoted path, over all factorizations.
   /// Declared definite: fronts with a pivot that was not positive or too small, factored by pivoting instead, over all factorizations.
   std::int64_t indefinite_fronts = 0;
 };

@@ -1,0 +1,52 @@
+#pragma once
+/// Kernels of one small front, row by row in registers, the right-hand side in the last lane of its rows. No row is exchanged. Internal to solve.
+///   A = L U, U unit upper with the pivots in L: rows of U are divided, so that multipliers are the entries of L as they stand.
+/// A pivot is to be no smaller than `threshold` times the largest entry of its row, columns scaled: rows of U grow by no more than its inverse.
+#include <cstdint>
+
+#include "register_plan.hpp"
+
+namespace bough::solve {
+
+/// Which pivots may stand where they are.
+struct RegisterRule {
+  double threshold = 1e-3;  ///< at least this share of the row's largest entry, columns scaled
+};
+
+enum class RegisterKind {
+  general,    ///< L U
+  symmetric,  ///< U^T D U: nothing below the diagonal is used
+  definite,  ///< the same; pivots are to be positive, and no panel may take more than 1 / threshold, scaled, off a diagonal
+};
+
+/// Scales of a front: columns (zero beyond), and 1 / column of what is eliminated.
+struct RegisterScales {
+  const double *column, *inverse_column;
+  const std::uint64_t* least;  ///< bits of what the magnitudes of pivots have to reach
+};
+
+/// Where the parts of a front stand. rows: as it is assembled, overwritten; 64-byte boundaries.
+struct RegisterParts {
+  double* rows;
+  double* factor;
+  double* vector;  ///< z = L^-1 b of what is eliminated; null: there is no right-hand side
+  double* schur;   ///< rows of the boundary, 64-byte boundaries: Schur complement, then the condensed right-hand side
+};
+
+/// Adds the rows of a move, or writes them where it is the first. front: its first row, `step` doubles from the next.
+void move_rows(const RegisterMove& move, int step, const double* source, double* front);
+/// Adds b to the right-hand sides of `count` rows, `step` doubles from one to the next.
+void add_right_hand_side(int count, const double* b, int step, double* front);
+
+/// False: a pivot is against the rule, or not finite; what stands in factor and schur then has no meaning.
+bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScales& scales, const RegisterRule& rule,
+                            const RegisterParts& parts);
+
+/// t: n numbers. First `e` <- L^-1 t, the rest reduced. symmetric: L^T D^-1 stands in the rows of U.
+void forward_in_registers(const double* factor, int n, int e, bool is_symmetric, double* t);
+/// x_E = U11^-1 (z - U12 x_B).
+void backward_in_registers(const double* factor, int n, int e, const double* z, const double* boundary, double* x);
+/// Left vectors: y_E^T = -y_B^T L21 L11^-1.
+void backward_left_in_registers(const double* factor, int n, int e, bool is_symmetric, double* y);
+
+}  // namespace bough::solve
