@@ -25,7 +25,7 @@ struct BoughStorage {
   tree::Tree tree;
   solve::Hierarchical solver;
   explicit BoughStorage(const Problem& p)
-      : tree(tree::make_tree(p.graph)),
+      : tree(tree::make_tree(p.graph, {.for_one_solution = !p.is_symmetric()})),
         solver(p.graph, tree,
                {.symmetry = !p.is_symmetric()   ? solve::Symmetry::general
                             : p.has_multipliers ? solve::Symmetry::symmetric
