@@ -143,10 +143,9 @@ inline Lanes add_some_products(int n, const double* a, const double* b, const La
 /// ((p_0 + p_1) + (p_2 + p_3)) + ((p_4 + p_5) + (p_6 + p_7)) of eight numbers in registers.
 inline double sum_of_eight(const Lanes* p) {
 #if defined(__AVX512F__)
-  const __m512d v(p[0]), pairs = _mm512_add_pd(v, _mm512_permute_pd(v, 0x55)),
-                         fours = _mm512_add_pd(pairs, _mm512_permutex_pd(pairs, 0x4e));
-  return _mm_cvtsd_f64(
-      _mm_add_sd(_mm512_castpd512_pd128(fours), _mm256_castpd256_pd128(_mm512_extractf64x4_pd(fours, 1))));
+  const Lanes pairs = p[0] + __builtin_shufflevector(p[0], p[0], 1, 0, 3, 2, 5, 4, 7, 6),
+              fours = pairs + __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1, 6, 7, 4, 5);
+  return fours[0] + fours[4];
 #else
   double s[8];
   for (int r = 0; r < 8 / width; ++r) store(s + r * width, p[r]);

@@ -6,9 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "front_storage.hpp"
 #include "hierarchical_state.hpp"
-#include "last_cache.hpp"
 
 namespace bough::solve {
 
@@ -34,106 +32,6 @@ std::vector<std::string> problems_in(const SolveOptions& o) {
   return problems;
 }
 
-Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o, bool keep_all)
-    : tree(t),
-      options(o),
-      lanes(make_lane_plan(graph, t, o.lanes && o.elimination == Elimination::flat,
-                           o.elimination == Elimination::flat ? o.symmetry : Symmetry::general)),
-      registers(
-          make_register_plan(graph, t, lanes, o.elimination == Elimination::flat && o.symmetry != Symmetry::general)),
-      elements(graph, t, lanes.element_first, lanes.element_stride, lanes.num_values),
-      lane_scales(lanes),
-      register_scales(registers) {
-  const std::size_t n = at(tree.num_unknowns()), num_fronts = at(tree.num_fronts());
-  scales.row.assign(n, 1.0);
-  scales.column.assign(n, 1.0);
-  scales.weight.assign(n, 1.0);
-  is_constraint = std::make_unique<bool[]>(n);
-  for (int b = 0; b < graph.num_blocks(); ++b)
-    for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u)
-      is_constraint[at(u)] = graph.block_kind[at(b)] == blocks::BlockKind::multiplier;
-  fronts.resize(num_fronts);
-  enlarged.resize(num_fronts);
-  symmetry.declared = symmetry.used = options.symmetry;
-  if (is_symmetric() && options.elimination == Elimination::plain) {
-    symmetry.used = Symmetry::general;
-    symmetry.loss = SymmetryLoss::plain_elimination;
-  }
-  keeps_all = keep_all || options.partial || options.elimination == Elimination::plain;
-  vector_begin.assign(1, 0);
-  index_begin.assign(1, 0);
-  own_begin.assign(1, 0);
-  run_begin.assign(1, 0);
-  for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
-    const tree::Front& f = front(id);
-    const int in_registers = registers.front_of[at(id)];
-    const bool in_lanes = lanes.lane_front[at(id)] >= 0 || in_registers >= 0;
-    const bool has_vector =
-        lanes.lane_front[at(id)] < 0 && (in_registers < 0 || registers.fronts[at(in_registers)].is_exported);
-    const std::int64_t size = has_vector ? f.size() : 0;
-    vector_begin.push_back(vector_begin.back() + vector_size(size));
-    index_begin.push_back(index_begin.back() + (in_lanes ? 0 : 3 * f.num_eliminated));
-    own_begin.push_back(own_begin.back() + f.num_eliminated);
-    if (!in_lanes) scalar_fronts.push_back(id);
-    add_runs(graph, f);
-    run_begin.push_back(static_cast<std::int64_t>(runs.size()));
-  }
-  size_factors();
-  std::vector<int> has_place = lanes.lane_front;
-  for (const RegisterFront& f : registers.fronts)
-    if (!f.is_exported) has_place[at(f.front)] = 0;
-  schur_places = plan_schur(tree, has_place, keeps_all, is_symmetric());
-  schur_pool.resize(at(schur_places.pool));
-  vector_pool.resize(at(vector_begin.back()));
-  index_pool.resize(at(index_begin.back()));
-  if (options.elimination == Elimination::plain) plain.resize(at(tree.num_subdomains()));
-  lane_vectors.assign(lanes.unknowns.size(), 0.0);
-  lane_tops.assign(at(std::max<std::int64_t>(lanes.top_size, 1) * lanes_wide),
-                   0.0);  // tops without unknowns, too, point into it
-  scalar_lanes.assign(lanes.fronts.size(), 0);
-  left_registers.assign(lanes.groups.size(), 0);
-  sizes.resize(lanes.groups.size());
-  asymmetries.resize(lanes.groups.size());
-  residual.assign(n, 0.0);
-  if (options.check != SolveCheck::none && options.refinement_steps > 0) correction.assign(n, 0.0);
-}
-
-void Hierarchical::State::size_factors() {
-  factor_begin.assign(1, 0);
-  counters.factor_flops = counters.flops_in_lanes = 0.0;
-  group_flops.assign(lanes.groups.size(), 0.0);
-  is_redone.assign(lanes.groups.size(), 0);
-  all_are_due = true;
-  for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
-    const tree::Front& f = front(id);
-    const bool in_lanes = lanes.lane_front[at(id)] >= 0;
-    const FrontShape shape(f.size(), f.num_eliminated, is_symmetric());
-    factor_begin.push_back(factor_begin.back() +
-                           (in_lanes || registers.front_of[at(id)] >= 0 ? 0 : shape.factor_size()));
-    const double flops = is_symmetric() ? 0.5 * f.flops : f.flops;
-    counters.factor_flops += flops;
-    group_flops[at(lanes.group_of_subdomain[at(f.subdomain)])] += flops;
-    if (in_lanes) counters.flops_in_lanes += flops;
-  }
-  factor_pool.resize(at(factor_begin.back()));
-  lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);
-  register_factors.assign(at(registers.factor_size), 0.0);
-  register_schur.assign(at(registers.schur_size), 0.0);
-  register_vectors.assign(at(registers.vector_size), 0.0);
-  std::int64_t scratch = 0;
-  for (const LaneGroup& group : lanes.groups)
-    if (group.scratch * lanes_wide > room_of_scratch) scratch += group.scratch * lanes_wide;
-  lane_scratch.assign(at(scratch), 0.0);
-  group_scratch.assign(lanes.groups.size(), nullptr);
-  for (std::size_t g = 0; g < lanes.groups.size(); ++g)
-    if (lanes.groups[g].scratch * lanes_wide > room_of_scratch)
-      group_scratch[g] = lane_scratch.data() + (scratch -= lanes.groups[g].scratch * lanes_wide);
-  constexpr std::size_t second_cache = std::size_t{2} << 20;
-  reads_factors_ahead = sizeof(double) * lane_factors.size() > second_cache;
-  const std::size_t bytes = sizeof(double) * (lane_factors.size() + register_factors.size() + at(lanes.num_values));
-  exceeds_caches = options.near_bytes > 0 ? bytes > at(options.near_bytes) : exceeds_share_of_caches(bytes);
-}
-
 void Hierarchical::State::lose_symmetry(const Asymmetry& found) {
   symmetry.used = Symmetry::general;
   symmetry.loss = SymmetryLoss::values;
@@ -145,27 +43,6 @@ void Hierarchical::State::lose_symmetry(const Asymmetry& found) {
   lanes = std::move(general);
   registers = make_register_plan(elements.graph(), tree, lanes, false);
   size_factors();
-}
-
-/// Own unknowns of a front, and its boundary by runs of adjacent rows of the parent.
-void Hierarchical::State::add_runs(const blocks::BlockGraph& graph, const tree::Front& f) {
-  int from = 0;
-  const std::size_t first = runs.size();
-  for (std::int64_t k = f.block_begin; k < f.block_end; ++k) {
-    const int b = tree.front_blocks[at(k)], length = graph.block_size[at(b)];
-    if (k < f.block_begin + f.num_eliminated_blocks) {
-      for (int i = 0; i < length; ++i) own_unknowns.push_back(static_cast<int>(tree.unknown_begin[at(b)]) + i);
-      continue;
-    }
-    const int to = tree.parent_row[at(k)];
-    const bool is_split = to == front(f.parent).num_eliminated;  // the parent's boundary is another part of it
-    if (runs.size() > first && runs.back().to + runs.back().length == to && !is_split) {
-      runs.back().length += length;
-    } else {
-      runs.push_back({from, to, length});
-    }
-    from += length;
-  }
 }
 
 Hierarchical::Hierarchical(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options) {

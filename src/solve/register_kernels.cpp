@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 
@@ -33,10 +34,9 @@ struct Panel {
   double* vector;
   double* schur;
   int schur_step;
-  const double *column, *inverse_column;
-  const std::uint64_t* least;  ///< bits of what a pivot has to reach
-  std::uint64_t magnitude;     ///< bits of a pivot that count
-  RegisterRule rule;
+  const double *column, *inverse_column, *least;
+  std::uint64_t magnitude;  ///< bits of a pivot that count
+  double threshold;
   bool is_definite;
 };
 
@@ -112,7 +112,8 @@ bool eliminate_panel(const Panel& given) {
   for (int k = 0; k < K; ++k) {
     // Compared as bits: a NaN or infinity refuses, and traps nothing; where pivots are to be positive so does a sign.
     const auto size = std::bit_cast<std::uint64_t>(pivot) & f.magnitude;
-    if (size - f.least[k] >= static_cast<std::uint64_t>(packs::infinite_bits) - f.least[k]) return false;
+    const auto least = std::bit_cast<std::uint64_t>(f.least[k]);
+    if (size - least >= static_cast<std::uint64_t>(packs::infinite_bits) - least) return false;
     const double inverse_pivot = 1.0 / pivot;
     const packs::Real inverse = packs::Real{} + inverse_pivot;
     if (k + 1 < K) {  // the next one alone, by the same operations as its row below: divisions wait for nothing else
@@ -166,7 +167,7 @@ bool eliminate_panel(const Panel& given) {
     for (; i + 2 <= f.count; i += 2) update_rows<R, K, 2, is_symmetric>(f, p, i);
   for (; i < f.count; ++i) update_rows<R, K, 1, is_symmetric>(f, p, i);
   long long grown = 0;
-  const double most = 1.0 / f.rule.threshold;
+  const double most = 1.0 / f.threshold;
   const packs::Real bound = packs::Real{} + (is_symmetric && f.is_definite ? most : most * most);
 #pragma GCC unroll 8
   for (int r = 0; r < R; ++r) {
@@ -195,10 +196,6 @@ struct Table {
   }
 };
 constexpr Table table;
-
-}  // namespace
-
-namespace {
 
 /// N rows of R registers.
 template <int N, int R, bool is_first>
@@ -262,7 +259,7 @@ void add_right_hand_side(int count, const double* b, int step, double* front) {
   }
 }
 
-bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScales& scales, const RegisterRule& rule,
+bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScales& scales, double threshold,
                             const RegisterParts& parts) {
   const int registers = n / eight + 1, step = registers * eight, b = n - e;
   const int schur_step = (b / eight + 1) * eight;
@@ -290,7 +287,7 @@ bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScale
     f.least = scales.least + k0;
     f.magnitude = kind == RegisterKind::definite ? ~std::uint64_t{0} : ~std::uint64_t{0} >> 1;
     f.inverse_column = scales.inverse_column + k0;
-    f.rule = rule;
+    f.threshold = threshold;
     f.is_definite = kind == RegisterKind::definite;
     if (!table.of[is_symmetric ? 1 : 0][registers - k0 / eight - 1][pivots - 1](f)) return false;
   }

@@ -2,16 +2,9 @@
 /// Kernels of one small front, row by row in registers, the right-hand side in the last lane of its rows. No row is exchanged. Internal to solve.
 ///   A = L U, U unit upper with the pivots in L: rows of U are divided, so that multipliers are the entries of L as they stand.
 /// A pivot is to be no smaller than `threshold` times the largest entry of its row, columns scaled: rows of U grow by no more than its inverse.
-#include <cstdint>
-
 #include "register_plan.hpp"
 
 namespace bough::solve {
-
-/// Which pivots may stand where they are.
-struct RegisterRule {
-  double threshold = 1e-3;  ///< at least this share of the row's largest entry, columns scaled
-};
 
 enum class RegisterKind {
   general,    ///< L U
@@ -19,10 +12,9 @@ enum class RegisterKind {
   definite,  ///< the same; pivots are to be positive, and no panel may take more than 1 / threshold, scaled, off a diagonal
 };
 
-/// Scales of a front: columns (zero beyond), and 1 / column of what is eliminated.
+/// Scales of a front: columns (zero beyond), and of what is eliminated 1 / column and what the magnitudes of pivots have to reach.
 struct RegisterScales {
-  const double *column, *inverse_column;
-  const std::uint64_t* least;  ///< bits of what the magnitudes of pivots have to reach
+  const double *column, *inverse_column, *least;
 };
 
 /// Where the parts of a front stand. rows: as it is assembled, overwritten; 64-byte boundaries.
@@ -38,8 +30,8 @@ void move_rows(const RegisterMove& move, int step, const double* source, double*
 /// Adds b to the right-hand sides of `count` rows, `step` doubles from one to the next.
 void add_right_hand_side(int count, const double* b, int step, double* front);
 
-/// False: a pivot is against the rule, or not finite; what stands in factor and schur then has no meaning.
-bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScales& scales, const RegisterRule& rule,
+/// False: a pivot is against the rule above, or below `least`, or not finite; what stands in factor and schur then has no meaning.
+bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScales& scales, double threshold,
                             const RegisterParts& parts);
 
 /// t: n numbers. First `e` <- L^-1 t, the rest reduced. symmetric: L^T D^-1 stands in the rows of U.

@@ -19,7 +19,7 @@ class RegisterScaleStore {
   void set(const RegisterPlan& plan, const Scales& scales, double least);
   RegisterScales of(const RegisterFront& f, int index) const {
     const double* column = numbers_.of(index);
-    return {column, column + f.step(), reinterpret_cast<const std::uint64_t*>(column + f.step() + f.eliminated)};
+    return {column, column + f.step(), column + f.step() + f.eliminated};
   }
   std::int64_t memory_bytes() const { return numbers_.memory_bytes(); }
 

@@ -24,7 +24,6 @@ bool Hierarchical::State::factor_registers(int group, const double* b) {
   const RegisterKind kind = is_definite()    ? RegisterKind::definite
                             : is_symmetric() ? RegisterKind::symmetric
                                              : RegisterKind::general;
-  const RegisterRule rule{options.pivot_threshold};
   alignas(64) double rows[largest_in_registers * largest_step];
   double* place = register_schur.data() + own.schur;
   alignas(64) double aside[2][largest_factor];
@@ -58,8 +57,8 @@ bool Hierarchical::State::factor_registers(int group, const double* b) {
     mark(tree::Stage::assemble);
     double* const factor = register_factors.data() + f.factor;
     double* const written = exceeds_caches ? aside[k % 2] : factor;
-    const bool stands = eliminate_in_registers(f.size(), f.eliminated, kind, register_scales.of(f, k), rule,
-                                               {rows, written, vector, place + f.schur});
+    const bool stands = eliminate_in_registers(f.size(), f.eliminated, kind, register_scales.of(f, k),
+                                               options.pivot_threshold, {rows, written, vector, place + f.schur});
     if (exceeds_caches) {
       transfers.finish();
       transfers.write(written, lines_of(f.factor_size(is_symmetric())), factor);

@@ -22,8 +22,7 @@ std::size_t at(std::ptrdiff_t i) { return static_cast<std::size_t>(i); }
 struct Single {
   int n, e, step, schur_step;
   solve::LaneDoubles rows, factor, schur;
-  std::vector<double> column, inverse_column, z;
-  std::vector<std::uint64_t> least;
+  std::vector<double> column, inverse_column, z, least;
   bool stands = false;
 
   Single(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, int eliminated, RegisterKind kind, double smallest = 1e-10,
@@ -47,10 +46,9 @@ struct Single {
     }
     for (int k = 0; k < e; ++k) {
       inverse_column[at(k)] = 1.0 / column[at(k)];
-      const double bar = smallest / (column[at(k)] * column[at(k)]);
-      std::memcpy(&least[at(k)], &bar, sizeof bar);
+      least[at(k)] = smallest / (column[at(k)] * column[at(k)]);
     }
-    stands = solve::eliminate_in_registers(n, e, kind, {column.data(), inverse_column.data(), least.data()}, {1e-3},
+    stands = solve::eliminate_in_registers(n, e, kind, {column.data(), inverse_column.data(), least.data()}, 1e-3,
                                            {rows.data(), factor.data(), z.data(), schur.data()});
   }
 };
