@@ -19,6 +19,7 @@ using namespace std::chrono_literals;
 constexpr double share_of_time = 0.45;  // a little less than the half that is the helper's beside one other program
 constexpr std::chrono::steady_clock::duration longest_burst = 500us;  // Linux lets a thread run for 0.7 to 3 ms
 constexpr auto wait_awake = 50us;                                     // about what it takes to be woken up
+constexpr auto longest_rest = 5ms;                                    // a hundred times that
 
 template <class Condition>
 bool spin(Condition&& is_there) {
@@ -39,18 +40,26 @@ std::int64_t first_of_helper(const tree::Tree& tree) {
   return mine < children.size() ? subdomain(tree, children[mine]).subtree_begin : tree.root();
 }
 
+/// Visits the k-th sub-domain; on the way down k counts from below zero.
+template <int direction>
+void visit_one(void* visit, std::int64_t k) {
+  const auto& of = *static_cast<const tree::Visit*>(visit);
+  of.run(of.context, static_cast<tree::SubdomainId>(direction * k));
+}
+
 }  // namespace
 
 /// Where the helper runs: on any processor that it may use but the owner's.
 struct Helper::Places {
-  const std::thread::id owner = std::this_thread::get_id();
+  std::thread::id owner;
 #ifdef __linux__
   pid_t helper = 0;  ///< 0: has no choice
   cpu_set_t usual{};
   int apart_from = -1;
 
   void begin() {
-    if (sched_getaffinity(0, sizeof usual, &usual) == 0 && CPU_COUNT(&usual) > 1) helper = gettid();
+    apart_from = -1;
+    helper = sched_getaffinity(0, sizeof usual, &usual) == 0 && CPU_COUNT(&usual) > 1 ? gettid() : 0;
   }
   void keep_apart() {
     if (helper == 0) return;
@@ -74,26 +83,34 @@ struct Helper::Places {
 Helper::Helper() : places_(std::make_unique<Places>()) {}
 Helper::~Helper() = default;
 
+bool Helper::call() {
+  if (stage_ != Stage::absent) return false;
+  const std::lock_guard lock(mutex_);  // nobody serves
+  places_->owner = std::this_thread::get_id();
+  stage_ = Stage::called;
+  return true;
+}
+
 void Helper::serve() {
-  if (std::this_thread::get_id() == places_->owner) return;
-  {
-    const std::lock_guard lock(mutex_);
-    if (stage_ != Stage::absent) return;
-    places_->begin();
-    stage_ = Stage::ready;
+  std::unique_lock lock(mutex_);
+  if (stage_ != Stage::called) return;
+  if (std::this_thread::get_id() == places_->owner) {
+    stage_ = Stage::absent;
+    return;
   }
-  while (true) {
-    {
-      std::unique_lock lock(mutex_);
-      to_helper_.wait(lock, [&] { return stage_ == Stage::offered || stage_ == Stage::dismissed; });
-    }
+  places_->begin();
+  stage_ = Stage::ready;
+  while (stage_ != Stage::dismissed) {
+    const bool is_wanted =
+        to_helper_.wait_for(lock, longest_rest, [&] { return stage_ == Stage::offered || stage_ == Stage::dismissed; });
     Stage stage = Stage::offered;
     if (stage_.compare_exchange_strong(stage, Stage::taken)) {
+      lock.unlock();
       burst();
-      const std::lock_guard lock(mutex_);
+      lock.lock();
       stage_ = Stage::done;
       to_owner_.notify_one();
-    } else if (stage == Stage::dismissed) {
+    } else if (!is_wanted && !is_sharing_ && stage_.compare_exchange_strong(stage = Stage::ready, Stage::absent)) {
       break;
     }  // else it was taken back
   }
@@ -132,10 +149,11 @@ void Helper::offer() {
   const auto earned = share_of_time * std::chrono::duration<double>(now - std::exchange(credit_at_, now));
   credit_ = std::min(credit_ + std::chrono::duration_cast<Clock::duration>(earned), longest_burst);
   if (credit_ <= Clock::duration::zero() && !is_tireless_) return;
-  places_->keep_apart();
   is_recalled_.store(false, std::memory_order_relaxed);
   {
     const std::lock_guard lock(mutex_);
+    if (stage_ != Stage::ready) return;  // it has just left
+    places_->keep_apart();
     stage_ = Stage::offered;
   }
   to_helper_.notify_one();
@@ -167,23 +185,15 @@ void Helper::share(const Part& mine, const Part& other) {
 }
 
 void Helper::walk_up(const tree::Tree& tree, tree::Visit visit) {
-  const auto run = [](void* v, std::int64_t k) {
-    const auto& of = *static_cast<const tree::Visit*>(v);
-    of.run(of.context, static_cast<tree::SubdomainId>(k));
-  };
   const std::int64_t middle = first_of_helper(tree), root = tree.root();
-  share({run, &visit, 0, middle}, {run, &visit, middle, root});
+  share({visit_one<1>, &visit, 0, middle}, {visit_one<1>, &visit, middle, root});
   visit.run(visit.context, tree.root());
 }
 
 void Helper::walk_down(const tree::Tree& tree, tree::Visit visit) {
-  const auto run = [](void* v, std::int64_t k) {
-    const auto& of = *static_cast<const tree::Visit*>(v);
-    of.run(of.context, static_cast<tree::SubdomainId>(-k));
-  };
   const std::int64_t middle = first_of_helper(tree), root = tree.root();
   visit.run(visit.context, tree.root());
-  share({run, &visit, 1 - middle, 1}, {run, &visit, 1 - root, 1 - middle});
+  share({visit_one<-1>, &visit, 1 - middle, 1}, {visit_one<-1>, &visit, 1 - root, 1 - middle});
 }
 
 void Helper::run_chunks(std::int64_t count, std::int64_t grain, tree::Chunk chunk) {

@@ -21,16 +21,19 @@ namespace bough::schedule {
 /// with a clock tick, milliseconds later. The helper is kept off the owner's processor: whoever is woken up may else be put beside his waker.
 class Helper {
  public:
-  /// For the thread that makes it, the owner.
   Helper();
   ~Helper();
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
 
-  /// Serves until `dismiss`. The owner's own call and one after `dismiss` return at once.
+  /// Serves after a `call`, until `dismiss` or until no walk has come for 5 ms: the thread may be the only one that others of the process could
+  /// have. The owner's own call returns at once, as does one that was not asked for.
   void serve();
 
   // All that follows is for the owner, except `run_chunks`.
+
+  /// Whether another thread has to be sent to `serve`, because none is there or on its way. The caller is the owner from then on.
+  bool call();
 
   /// Whoever serves returns soon.
   void dismiss();
@@ -45,7 +48,7 @@ class Helper {
 
  private:
   using Clock = std::chrono::steady_clock;
-  enum class Stage { absent, ready, offered, taken, done, dismissed };
+  enum class Stage { absent, called, ready, offered, taken, done, dismissed };
 
   /// run(context, k) for k = begin, begin + 1, ... end - 1, in this order.
   struct Part {
@@ -73,7 +76,7 @@ class Helper {
   Clock::duration spent_{};  ///< in the last burst; the helper's likewise
   Clock::duration credit_{};
   Clock::time_point credit_at_{};
-  bool is_sharing_ = false;
+  std::atomic<bool> is_sharing_{false};
   bool is_tireless_ = false;
 };
 

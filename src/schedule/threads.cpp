@@ -22,6 +22,12 @@
 
 namespace bough::schedule {
 
+#ifdef BOUGH_HAS_TBB
+namespace {
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+}  // namespace
+#endif
+
 struct Threads::State {
   State(int n, double grain) : count(n), grain_flops(grain) {}
   State(const State&) = delete;
@@ -57,21 +63,16 @@ struct Threads::State {
   bool assumes_crowding = false;
   bool is_walking = false;
   std::optional<Helper> helper;  ///< while the processors are crowded
-  tbb::task_group serving;       ///< the one task in which the helper serves
+  tbb::task_group serving;       ///< the task in which the helper serves
 
   /// Between walks: settles whether there is a helper. Only two threads work with one: of more, some go on while one has no processor.
   void look_around() {
     tbb::task_arena& threads = started();
     if (count != 2 || is_walking) return;
     const bool is_crowded = assumes_crowding || (!outnumbers_processors && delay_microseconds == 0 && crowding.look());
-    if (is_crowded == helper.has_value()) return;
-    if (is_crowded) {
-      helper.emplace();
-      helper->set_tireless(assumes_crowding);
-      threads.enqueue(serving.defer([this] { helper->serve(); }));
-    } else {
-      dismiss_helper();
-    }
+    if (!is_crowded) return dismiss_helper();
+    if (!helper) helper.emplace().set_tireless(assumes_crowding);
+    if (helper->call()) threads.enqueue(serving.defer([this] { helper->serve(); }));
   }
 
   /// Waits for the helper to leave; who waits takes up the task himself where nobody has.
@@ -83,22 +84,24 @@ struct Threads::State {
   }
 
   void walk_up(const tree::Tree& tree, tree::Visit visit) {
-    look_around();
-    is_walking = true;
-    if (helper)
-      helper->walk_up(tree, visit);
-    else
-      arena.execute([&] { visit_up(tree, tree.root(), visit); });
-    is_walking = false;
+    walk(
+        tree, [&] { visit_up(tree, tree.root(), visit); }, [&] { helper->walk_up(tree, visit); });
   }
 
   void walk_down(const tree::Tree& tree, tree::Visit visit) {
+    walk(
+        tree, [&] { visit_down(tree, tree.root(), visit); }, [&] { helper->walk_down(tree, visit); });
+  }
+
+  template <class ByTasks, class ByHelper>
+  void walk(const tree::Tree& tree, ByTasks&& by_tasks, ByHelper&& by_helper) {
+    if (is_whole(tree.subdomains[at(tree.root())])) return by_tasks();  // no task is made
     look_around();
     is_walking = true;
     if (helper)
-      helper->walk_down(tree, visit);
+      by_helper();
     else
-      arena.execute([&] { visit_down(tree, tree.root(), visit); });
+      arena.execute(by_tasks);
     is_walking = false;
   }
 
@@ -126,7 +129,7 @@ struct Threads::State {
   }
 
   void visit_up(const tree::Tree& tree, tree::SubdomainId top, tree::Visit visit) {
-    const tree::Subdomain& s = tree.subdomains[static_cast<std::size_t>(top)];
+    const tree::Subdomain& s = tree.subdomains[at(top)];
     if (is_whole(s)) {
       delay();
       for (tree::SubdomainId i = s.subtree_begin; i <= top; ++i) visit.run(visit.context, i);
@@ -143,7 +146,7 @@ struct Threads::State {
   }
 
   void visit_down(const tree::Tree& tree, tree::SubdomainId top, tree::Visit visit) {
-    const tree::Subdomain& s = tree.subdomains[static_cast<std::size_t>(top)];
+    const tree::Subdomain& s = tree.subdomains[at(top)];
     delay();
     if (is_whole(s)) {
       for (tree::SubdomainId i = top; i >= s.subtree_begin; --i) visit.run(visit.context, i);
@@ -180,16 +183,10 @@ namespace {
 template <class State>
 tree::Walker make_walker(State* state) {
   return {[](void* context, const tree::Tree& tree, tree::Visit visit) {
-            auto* s = static_cast<State*>(context);
-            if (s->is_whole(tree.subdomains[static_cast<std::size_t>(tree.root())]))
-              return s->visit_up(tree, tree.root(), visit);
-            s->walk_up(tree, visit);
+            static_cast<State*>(context)->walk_up(tree, visit);
           },
           [](void* context, const tree::Tree& tree, tree::Visit visit) {
-            auto* s = static_cast<State*>(context);
-            if (s->is_whole(tree.subdomains[static_cast<std::size_t>(tree.root())]))
-              return s->visit_down(tree, tree.root(), visit);
-            s->walk_down(tree, visit);
+            static_cast<State*>(context)->walk_down(tree, visit);
           },
           [](void* context, std::int64_t count, std::int64_t grain, tree::Chunk chunk) {
             auto* s = static_cast<State*>(context);

@@ -112,6 +112,17 @@ TEST(Walks, BesideAnotherProgramAreHelpedByTheSecondThread) {
   EXPECT_TRUE(is_helped(threads, t, true));
 }
 
+/// oneTBB may have one thread for all objects of the process: whoever has walked beside another program must not keep it.
+TEST(Walks, BesideAnotherProgramLeaveTheSecondThreadToOthers) {
+  const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
+  schedule::Threads first(2, 0.0), second(2, 0.0);
+  first.assume_crowding(true);
+  for (int repetition = 0; repetition < 3; ++repetition) {
+    ASSERT_TRUE(is_helped(first, t, false));  // again after it was left, too
+    ASSERT_TRUE(is_helped(second, t, false));
+  }
+}
+
 /// Many more spinning threads than processors in this process are as good as other programs.
 TEST(Walks, NoticeThatProcessorsAreCrowded) {
   const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
