@@ -19,18 +19,19 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-void add_bough(Field& field, const std::vector<int>& thread_counts, std::vector<LeftOut>& left_out) {
+void add_bough(Field& field, const std::string& name, const std::vector<int>& thread_counts,
+               std::vector<LeftOut>& left_out) {
   if (thread_counts.empty()) return;
-  const auto storage = std::make_shared<BoughStorage>(*field.problem);
+  const auto storage = std::make_shared<BoughStorage>(*field.problem, name == "bough_lockstep");
   for (int threads : thread_counts) {
-    Entrant e{"bough", "tree", threads, std::make_unique<BoughSession>(*field.problem, storage, threads)};
+    Entrant e{name, "tree", threads, std::make_unique<BoughSession>(*field.problem, storage, threads)};
     std::vector<double> x;
     const bool ok = e.session->analyze() && e.session->factor() && e.session->refactor_and_solve(x);
     e.backward_error = ok ? eval_backward_error(field.problem->matrix, x, field.problem->rhs) : 0.0;
     if (ok && e.backward_error <= largest_backward_error)
       field.entrants.push_back(std::move(e));
     else
-      left_out.push_back({"bough", field.bench_case->name,
+      left_out.push_back({name, field.bench_case->name,
                           ok ? describe_error(e.backward_error, "tree") : "fails to factor or to solve"});
   }
 }
@@ -82,8 +83,8 @@ Memory::Item& Memory::of(const std::string& key) {
   return items.back();
 }
 
-Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const std::vector<int>& thread_counts,
-                 Memory& memory, std::vector<LeftOut>& left_out) {
+Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const OwnRows& own, Memory& memory,
+                 std::vector<LeftOut>& left_out) {
   Field field;
   field.bench_case = &bench_case;
   field.problem = std::make_unique<Problem>(make_problem(bench_case.name, bench_case.make_scene(), bench_case.values));
@@ -118,7 +119,9 @@ Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const s
   }
   for (Trial& t : trials)
     field.entrants.push_back({t.peer->name, t.ordering, 1, std::move(t.session), t.backward_error});
-  add_bough(field, thread_counts, left_out);
+  add_bough(field, "bough", own.thread_counts, left_out);
+  if (own.lockstep && bench_case.family == Family::chain && !p.is_symmetric())
+    add_bough(field, "bough_lockstep", own.thread_counts, left_out);
   return field;
 }
 

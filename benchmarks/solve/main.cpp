@@ -1,5 +1,5 @@
-/// bench_solve [--case=REGEX] [--solver=REGEX] [--side_by_side=yes] [options of Google Benchmark]
-/// Numeric refactorization plus one solution, symbolic work reused: bough and its peers on the same matrices. --side_by_side=yes: instead of these, what a
+/// bench_solve [--case=REGEX] [--solver=REGEX] [--lockstep=yes] [--side_by_side=yes] [options of Google Benchmark]
+/// Numeric refactorization plus one solution, symbolic work reused: bough and its peers on the same matrices. --lockstep=yes: unsymmetric chains by both of bough's trees. --side_by_side=yes: instead of these, what a
 /// second thread gains on chains and what two do that share no work (second_thread.hpp).
 #include <benchmark/benchmark.h>
 
@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
   const std::regex wanted_case(take_option(arguments, "case", ".*"));
   const std::regex wanted_solver(take_option(arguments, "solver", ".*"));
+  const bool lockstep = take_option(arguments, "lockstep", "no") == "yes";
   const bool side_by_side = take_option(arguments, "side_by_side", "no") == "yes";
   std::vector<std::string> defaults{"--benchmark_repetitions=5", "--benchmark_enable_random_interleaving=true",
                                     "--benchmark_min_time=0.03"};
@@ -70,7 +71,9 @@ int main(int argc, char** argv) {
       benchmark::AddCustomContext("version " + p.name, p.version);
       peers.push_back(std::move(p));
     }
-  const std::vector<int> threads = std::regex_match("bough", wanted_solver) ? std::vector{1, 2} : std::vector<int>{};
+  OwnRows own;
+  if (std::regex_match("bough", wanted_solver)) own.thread_counts = {1, 2};
+  own.lockstep = lockstep;
   const std::vector<Case> cases = make_cases();
   std::vector<Field> fields;
   std::vector<LeftOut> left_out;
@@ -78,7 +81,7 @@ int main(int argc, char** argv) {
   for (const Case& c : cases) {
     if (!std::regex_match(c.name, wanted_case)) continue;
     std::fprintf(stderr, "preparing %s\n", c.name.c_str());
-    fields.push_back(make_field(c, peers, threads, memory, left_out));
+    fields.push_back(make_field(c, peers, own, memory, left_out));
   }
   for (Field& f : fields)
     for (Entrant& e : f.entrants)
