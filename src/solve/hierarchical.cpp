@@ -121,6 +121,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
       }
   s.counters.delayed_pivots += s.status.delayed_pivots;
   s.null_space.dimension = 0;
+  s.null_space.took_vectors = false;
   if (s.status.ok()) s.decide_rank();
   if (s.status.ok()) s.find_null_space();
   return s.status;
@@ -165,7 +166,7 @@ void Hierarchical::State::count_front(tree::FrontId f) {
 SolveReport Hierarchical::finish(const tree::Walker& walker, double* x) {
   State& s = *state_;
   s.take(s.given, x, s.checks());
-  if (s.null_space.dimension > 0) {  // its vectors were found with the storage of the condensed right-hand side
+  if (s.null_space.took_vectors) {  // the condensed right-hand side is lost
     s.solve_into_x(walker, s.given);
   } else {
     s.visit_rhs = s.given;

@@ -25,7 +25,7 @@ struct Run {
   int length;
 };
 
-/// Numbers of one front. Without delayed pivots all pointers go into the pools of State.
+/// Numbers of one front. All pointers go into the pools of State, but where pivots wait, or lanes and registers did not do.
 struct FrontData {
   double* a = nullptr;  ///< the parts of FrontMatrix
   double* u = nullptr;
@@ -58,6 +58,7 @@ struct Enlarged {
 /// Dependent rows found at the root, and what follows from them.
 struct NullSpace {
   int dimension = 0;
+  bool took_vectors = false;  ///< candidates were looked for in the storage of the condensed right-hand side
   std::vector<double> right;  ///< dimension x unknowns, orthonormal in the weighted norm; scaled variables
   std::vector<double> left;   ///< dimension x unknowns, orthonormal
 };
@@ -114,7 +115,7 @@ struct Hierarchical::State {
   std::vector<int> index_pool;
   std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool)
   std::vector<Run> runs;
-  std::vector<tree::FrontId> scalar_fronts;  ///< that are never in lanes
+  std::vector<tree::FrontId> scalar_fronts;  ///< that are never in lanes, nor in registers
   std::vector<PlainInterface> plain;         ///< by sub-domain; empty unless elimination is plain
   NullSpace null_space;
   double* x = nullptr;            ///< of the solution at hand: the caller's array

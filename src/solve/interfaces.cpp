@@ -109,10 +109,10 @@ tree::Walker serial_walker() {
 }  // namespace
 
 /// Only factors are kept, not the Schur complements that reports look at: these come from a factorization of the same matrices and
-/// scales that keeps them, without lanes, made when first asked for.
+/// scales that keeps them whole (symmetric ones have one triangle), without lanes, made when first asked for.
 const Hierarchical& Hierarchical::reporting_solver() const {
   State& s = *state_;
-  if ((s.keeps_all && s.lanes.fronts.empty()) || s.counters.factorizations == 0) return *this;
+  if ((s.keeps_all && s.lanes.fronts.empty() && !s.is_symmetric()) || s.counters.factorizations == 0) return *this;
   if (s.twin == nullptr) {
     SolveOptions options = s.options;
     options.lanes = false;

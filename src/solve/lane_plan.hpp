@@ -88,7 +88,7 @@ struct LaneFront {
   }
 };
 
-/// Sub-domains visited together: several in lockstep, or a single one on the scalar path.
+/// Sub-domains visited together: several in lockstep, or a single one in registers or on the scalar path.
 struct LaneGroup {
   std::vector<tree::SubdomainId> subdomains;
   bool in_lanes = false;
@@ -109,7 +109,7 @@ struct LanePlan {
   std::vector<LaneGap> gaps;
   std::vector<int> unknowns;
   std::vector<ElementBatch> batches;  ///< every element once, by group
-  std::vector<int> lane_front;        ///< by front of the tree: index in fronts, -1 on the scalar path
+  std::vector<int> lane_front;        ///< by front of the tree: index in fronts, -1 elsewhere
   std::vector<std::int8_t> lane;      ///< by front of the tree
   std::vector<int> group_of_subdomain;
   tree::Tree walk;                             ///< the groups as sub-domains, for walkers

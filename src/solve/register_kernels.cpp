@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include "dense_tiles.hpp"
@@ -18,14 +16,11 @@ using rows::Eight;
 using rows::eight;
 using rows::Mask;
 
-constexpr int most_registers = largest_in_registers / eight + 1;
-
 /// What the elimination of up to eight pivots, all in one column of registers, needs. Pointers begin at the first pivot's row and register.
 struct Panel {
   double* rows;
   int step;        ///< between rows
   int count;       ///< rows from the first pivot on
-  int columns;     ///< the same of columns, without the right-hand side
   int full;        ///< rows that belong to the eliminated part, from the first pivot on; pivots: this is the last panel
   double* factor;  ///< the first pivot's row, at its column
   int ld;          ///< between rows of the factor
@@ -106,7 +101,7 @@ bool eliminate_panel(const Panel& given) {
     for (int r = 0; r < R; ++r) p[k][r] = rows::load(f.rows + k * f.step + r * eight);
   double pivot = rows::lane_of(p[0][0], 0);
   Eight growth[R] = {};
-  const Mask last = first_lanes(f.columns - (R - 1) * eight);
+  const Mask last = first_lanes(f.count - (R - 1) * eight);
   Eight z = {};
 #pragma GCC unroll 8
   for (int k = 0; k < K; ++k) {
@@ -122,17 +117,16 @@ bool eliminate_panel(const Panel& given) {
                            : tiles::take_product(rows::lane_of(p[k + 1][0], k), u, rows::lane_of(p[k + 1][0], k + 1));
     }
     // What rows grow by: squares of the entries of U, scaled; definite: what is taken off the diagonals.
-    const packs::Real weight = packs::Real{} + f.inverse_column[k];
+    const packs::Real weight = packs::Real{} + f.inverse_column[k], column = packs::Real{} + f.column[k];
     Eight u[R];
 #pragma GCC unroll 8
     for (int r = 0; r < R; ++r) {
       u[r] = r == 0 ? rows::product(p[k][0], above(k), inverse) : rows::product(p[k][r], 0xff, inverse);
       const Mask asked = static_cast<Mask>((r == 0 ? above(k) : 0xff) & (r == R - 1 ? ~last_lane : 0xff));
       const Eight scaled = rows::product_or_zero(u[r], asked, weight);
+      const Eight other = is_symmetric && f.is_definite ? rows::product_or_zero(p[k][r], asked, column) : scaled;
       for (int i = 0; i < rows::parts; ++i)
-        growth[r].r[i] = packs::plus_product(
-            growth[r].r[i], scaled.r[i],
-            is_symmetric && f.is_definite ? p[k][r].r[i] * (packs::Real{} + f.column[k]) : scaled.r[i]);
+        growth[r].r[i] = packs::plus_product(growth[r].r[i], scaled.r[i], other.r[i]);
     }
     if constexpr (is_symmetric) {
 #pragma GCC unroll 8
@@ -184,15 +178,15 @@ bool eliminate_panel(const Panel& given) {
 using Eliminate = bool (*)(const Panel&);
 
 template <bool is_symmetric, int... I>
-constexpr void fill_table(Eliminate (&table)[most_registers][eight], std::integer_sequence<int, I...>) {
+constexpr void fill_table(Eliminate (&table)[most_row_registers][eight], std::integer_sequence<int, I...>) {
   ((table[I / eight][I % eight] = eliminate_panel<I / eight + 1, I % eight + 1, is_symmetric>), ...);
 }
 
 struct Table {
-  Eliminate of[2][most_registers][eight] = {};  ///< by symmetry, registers of a row and pivots, one less
+  Eliminate of[2][most_row_registers][eight] = {};  ///< by symmetry, registers of a row and pivots, one less
   constexpr Table() {
-    fill_table<false>(of[0], std::make_integer_sequence<int, most_registers * eight>{});
-    fill_table<true>(of[1], std::make_integer_sequence<int, most_registers * eight>{});
+    fill_table<false>(of[0], std::make_integer_sequence<int, most_row_registers * eight>{});
+    fill_table<true>(of[1], std::make_integer_sequence<int, most_row_registers * eight>{});
   }
 };
 constexpr Table table;
@@ -274,7 +268,6 @@ bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScale
     f.rows = parts.rows + static_cast<std::ptrdiff_t>(k0) * step + k0;
     f.step = step;
     f.count = n - k0;
-    f.columns = n - k0;
     f.full = e - k0;
     f.factor = parts.factor + static_cast<std::ptrdiff_t>(k0) * n + k0;
     f.ld = n;

@@ -1,7 +1,8 @@
 #pragma once
 /// Kernels of one small front, row by row in registers, the right-hand side in the last lane of its rows. No row is exchanged. Internal to solve.
 ///   A = L U, U unit upper with the pivots in L: rows of U are divided, so that multipliers are the entries of L as they stand.
-/// A pivot is to be no smaller than `threshold` times the largest entry of its row, columns scaled: rows of U grow by no more than its inverse.
+/// A pivot is to reach `least`. Of the up to eight that go together the squares of the entries of U are summed by columns, scaled: a sum above
+/// 1 / threshold^2 refuses them, so that no entry of U is larger than 1 / threshold (definite: RegisterKind).
 #include "register_plan.hpp"
 
 namespace bough::solve {
@@ -30,7 +31,7 @@ void move_rows(const RegisterMove& move, int step, const double* source, double*
 /// Adds b to the right-hand sides of `count` rows, `step` doubles from one to the next.
 void add_right_hand_side(int count, const double* b, int step, double* front);
 
-/// False: a pivot is against the rule above, or below `least`, or not finite; what stands in factor and schur then has no meaning.
+/// False: a pivot is refused, or not finite; what stands in factor and schur then has no meaning.
 bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScales& scales, double threshold,
                             const RegisterParts& parts);
 

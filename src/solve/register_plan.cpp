@@ -1,7 +1,6 @@
 #include "register_plan.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace bough::solve {
 
@@ -124,10 +123,10 @@ class RegisterPlanner {
             move.source = static_cast<std::int32_t>(source + static_cast<std::int64_t>(rows.from + i) * step +
                                                     columns.from + r * row_register - columns.to);
             move.target = (rows.to + i) * f.step() + r * row_register;
-            move.rows = static_cast<std::int16_t>(count);
+            move.rows = static_cast<std::int8_t>(count);
             move.row_step = static_cast<std::int16_t>(step);
-            move.registers = static_cast<std::int16_t>(width);
-            move.child = static_cast<std::int16_t>(child);
+            move.registers = static_cast<std::int8_t>(width);
+            move.child = child;
             plan_.moves.push_back(move);
             for (const int k : newly_) reached_[at(k)] = true;
             newly_.clear();
@@ -148,9 +147,9 @@ class RegisterPlanner {
         move.mask[0] = 1u << (row_register - 1);
         move.source = (run.from + i) * step + step - row_register;
         move.target = (run.to + i) * f.step() + last * row_register;
-        move.rows = static_cast<std::int16_t>(count);
+        move.rows = static_cast<std::int8_t>(count);
         move.row_step = static_cast<std::int16_t>(step);
-        move.child = static_cast<std::int16_t>(child);
+        move.child = child;
         plan_.moves.push_back(move);
       }
   }

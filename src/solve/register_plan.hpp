@@ -19,11 +19,11 @@ constexpr int most_row_registers = largest_in_registers / row_register + 1;
 struct RegisterMove {
   std::int32_t source =
       0;  ///< of the entry that goes to lane 0, from RegisterFront::values or from the child's rows; may lie before them
-  std::int32_t target = 0;  ///< from the front's first row [doubles]
-  std::int16_t rows = 0;
-  std::int16_t row_step = 0;                   ///< of the source [doubles]
-  std::int16_t child = -1;                     ///< index from RegisterFront::child_begin on; -1: an element
-  std::int16_t registers = 1;                  ///< of a row
+  std::int32_t target = 0;    ///< from the front's first row [doubles]
+  std::int32_t child = -1;    ///< index from RegisterFront::child_begin on; -1: an element
+  std::int16_t row_step = 0;  ///< of the source [doubles]
+  std::int8_t rows = 0;
+  std::int8_t registers = 1;                   ///< of a row
   std::uint8_t mask[most_row_registers] = {};  ///< lanes that are taken, by register
   bool is_first = false;                       ///< nothing is there yet: written, the other lanes zero
   bool operator==(const RegisterMove&) const = default;
@@ -91,7 +91,7 @@ struct RegisterPlan {
 /// Whether a leaf's fronts fit into registers: all of them, or all but the root's, which decides about the rank.
 bool fits_registers(const tree::Tree& tree, tree::SubdomainId leaf);
 
-/// element_first: by element, its first entry in the element store; rows of an element lie together there.
+/// Rows of an element lie together in the element store, from LanePlan::element_first on.
 RegisterPlan make_register_plan(const blocks::BlockGraph& graph, const tree::Tree& tree, const LanePlan& lanes,
                                 bool is_symmetric);
 

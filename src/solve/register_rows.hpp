@@ -17,6 +17,7 @@ struct Eight {
 };
 
 using Mask = std::uint8_t;  ///< bit l: lane l
+enum class LastLane { as_it_comes, of_low, of_high };
 
 inline Eight load(const double* p) {
   Eight v;
@@ -54,7 +55,6 @@ inline void take_lane(Eight& v, int to, const Eight& from, int lane) {
                                            __m512d(from.r[0])));
 }
 /// Lanes [shift, shift + 8) of two that follow each other; the last one is the last of `low` or of `high` instead, if asked for.
-enum class LastLane { as_it_comes, of_low, of_high };
 template <int shift, LastLane last>
 inline Eight shifted(const Eight& low, const Eight& high) {
   const auto lane = [](int l) {
@@ -125,7 +125,6 @@ inline Eight product(const Eight& a, Mask mask, const Real& b) {
 inline void take_lane(Eight& v, int to, const Eight& from, int lane) {
   v.r[to / width][to % width] = from.r[lane / width][lane % width];
 }
-enum class LastLane { as_it_comes, of_low, of_high };
 template <int shift, LastLane last>
 inline Eight shifted(const Eight& low, const Eight& high) {
   alignas(64) double lanes[2 * eight];

@@ -73,13 +73,9 @@ bool Hierarchical::State::factor_registers(int group, const double* b) {
   return true;
 }
 
-/// A front's right-hand side: its own, and what the children have condensed.
+/// A front's right-hand side: what the children have condensed, then its own, which the visit that factors adds last, too.
 void Hierarchical::State::gather_register_rhs(const RegisterFront& f, const double* b, double* t) const {
-  for (int r = f.own_begin; r < f.own_end; ++r) {
-    const UnknownRun& run = registers.unknown_runs[at(r)];
-    std::copy_n(b + run.unknown, run.length, t + run.row);
-  }
-  std::fill(t + f.eliminated, t + f.size(), 0.0);
+  std::fill_n(t, f.size(), 0.0);
   for (int c = f.child_begin; c < f.child_end; ++c) {
     const RegisterChild& child = registers.children[at(c)];
     const RegisterFront& from = registers.fronts[at(child.front)];
@@ -88,6 +84,10 @@ void Hierarchical::State::gather_register_rhs(const RegisterFront& f, const doub
       const LaneRun& run = registers.runs[at(r)];
       for (int i = 0; i < run.length; ++i) t[run.to + i] += g[(run.from + i) * from.schur_step()];
     }
+  }
+  for (int r = f.own_begin; r < f.own_end; ++r) {
+    const UnknownRun& run = registers.unknown_runs[at(r)];
+    for (int i = 0; i < run.length; ++i) t[run.row + i] = b[run.unknown + i] + t[run.row + i];
   }
 }
 

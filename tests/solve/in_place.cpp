@@ -68,6 +68,31 @@ TEST(InPlace, SolutionsAndReportsAreTheSame) {
                 {.lanes = lanes, .check = check, .refinement_steps = refinements, .refinement_above = 0.0});
 }
 
+/// Springs in a row that are held by a very soft one alone: the root's pivots are so small that the matrix is looked at for dependence and found good.
+TEST(InPlace, SolutionsAreTheSameWhereSmallPivotsHaveBeenLookedAt) {
+  SceneMaker m(9);
+  int end = m.add_node();
+  m.add_body(end);
+  for (int i = 0; i < 40; ++i) {
+    const int next = m.add_node();
+    m.add_beam({end, next});
+    end = next;
+  }
+  Scene scene = m.finish("nearly free row");
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(6, 6);
+  for (Eigen::MatrixXd& a : scene.elements) {
+    if (a.rows() == 6)
+      a = 1e-6 * one;
+    else
+      a << one, -one, -one, one;
+  }
+  for (const bool lanes : {false, true})
+    for (const int leaf : {1, 4, 1000})
+      expect_same_in_place(scene, {.leaf_size = leaf},
+                           {.lanes = lanes, .check = solve::SolveCheck::none, .refinement_steps = 0});
+  expect_same_in_place(scene, {.for_one_solution = true}, {.check = solve::SolveCheck::none, .refinement_steps = 0});
+}
+
 TEST(InPlace, MultipliersOfInterfacesAskForTheSolutionAnew) {
   const Scene scene = make_hinged_beams(7, 20, 0);
   Solved s(scene, {.leaf_size = 8}, {});

@@ -14,7 +14,6 @@ namespace bough::test {
 namespace {
 
 using solve::RegisterKind;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 std::size_t at(std::ptrdiff_t i) { return static_cast<std::size_t>(i); }
 
@@ -132,12 +131,15 @@ TEST(Registers, PivotsAgainstTheRuleAreRefused) {
 /// What nobody asked for in the place of a right-hand side decides nothing.
 TEST(Registers, ARightHandSideThatIsNoNumberRefusesNoPivot) {
   SceneMaker m(7);
-  const Eigen::MatrixXd A = make_matrix(m, 12, RegisterKind::general);
-  const Eigen::VectorXd b = Eigen::VectorXd::Constant(12, std::numeric_limits<double>::quiet_NaN());
-  const Single f(A, b, 6, RegisterKind::general), good(A, Eigen::VectorXd::Ones(12), 6, RegisterKind::general);
-  ASSERT_TRUE(f.stands);
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) EXPECT_EQ(f.schur[at(i * 8 + j)], good.schur[at(i * 8 + j)]);
+  for (const RegisterKind kind : {RegisterKind::general, RegisterKind::symmetric, RegisterKind::definite}) {
+    const Eigen::MatrixXd A = make_matrix(m, 12, kind);
+    const Eigen::VectorXd b = Eigen::VectorXd::Constant(12, std::numeric_limits<double>::quiet_NaN());
+    const Single f(A, b, 6, kind), good(A, Eigen::VectorXd::Ones(12), 6, kind);
+    ASSERT_TRUE(f.stands);
+    for (int i = 0; i < 6; ++i)
+      for (int j = kind == RegisterKind::general ? 0 : i; j < 6; ++j)
+        EXPECT_EQ(f.schur[at(i * 8 + j)], good.schur[at(i * 8 + j)]);
+  }
 }
 
 Scene with_parts(Scene scene, solve::Symmetry symmetry) {
@@ -184,7 +186,73 @@ TEST(Registers, ChainsForOneSolutionAreSweptAndMatchTheScalarPath) {
     }
 }
 
-/// A joint written twice leaves pivots that cannot stand: its half goes the pivoted way, the other one stays, and back when it is mended.
+/// Two hubs with free arms, joined by a bar.
+Scene make_frame(unsigned seed, int arms, int beams) {
+  SceneMaker m(seed);
+  const int hub[2] = {m.add_node(), m.add_node()}, middle = m.add_node();
+  for (const int h : hub) {
+    m.add_beam({h, middle});
+    for (int a = 0; a < arms; ++a)
+      for (int k = 0, end = h; k < beams; ++k) {
+        const int next = m.add_node();
+        m.add_beam({end, next});
+        m.add_body(next, 0.1);
+        end = next;
+      }
+  }
+  return m.finish("frame");
+}
+
+/// Where several children reach a row that has a right-hand side of its own, sums are taken in one order everywhere.
+TEST(Registers, LeavesThatBranchGiveTheSameBitsInEveryVisit) {
+  for (const auto symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric, solve::Symmetry::definite})
+    for (const int arms : {2, 3, 4}) {
+      const Scene scene = with_parts(make_frame(8, arms, 6), symmetry);
+      Solved s(scene, {.leaf_size = scene.graph.num_elements() / 2 + 1},
+               {.symmetry = symmetry, .partial = true, .refinement_steps = 0});
+      ASSERT_TRUE(s.factor().ok());
+      EXPECT_GT(s.solver.counters().fronts_in_registers, 4 * arms);
+      const Eigen::VectorXd b = s.random_rhs(5), x = s.solve(b);
+      EXPECT_LE(s.report.backward_error, 1e-14);
+      const tree::Walker walker = schedule::make_serial_walker();
+      Eigen::VectorXd again(b.size());
+      ASSERT_TRUE(s.solver.factor(walker, {}, b.data()).ok());
+      (void)s.solver.finish(walker, again.data());
+      EXPECT_TRUE(same_bits(x, again));
+      // One half stays as it is: its right-hand side is condensed by itself.
+      std::vector<char> changed(at(scene.graph.num_elements()), 0);
+      changed[0] = 1;
+      ASSERT_TRUE(s.solver.factor(walker, {}, b.data(), changed).ok());
+      (void)s.solver.finish(walker, again.data());
+      EXPECT_TRUE(same_bits(x, again));
+    }
+}
+
+/// Reports look at whole Schur complements; symmetric fronts in registers keep one triangle of them.
+TEST(Registers, InterfacesAreReportedAsFromTheScalarPath) {
+  for (const auto symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric})
+    for (const bool partial : {false, true}) {
+      const Scene scene = with_parts(make_chain(3, 33, 4), symmetry);
+      Solved swept(scene, {.for_one_solution = true}, {.symmetry = symmetry, .partial = partial});
+      Solved scalar(scene, {.for_one_solution = true}, {.lanes = false});
+      ASSERT_TRUE(swept.factor().ok());
+      ASSERT_TRUE(scalar.factor().ok());
+      ASSERT_GT(swept.solver.counters().fronts_in_registers, 100);
+      const auto from_swept = swept.solver.interfaces(), from_scalar = scalar.solver.interfaces();
+      ASSERT_EQ(from_swept.size(), from_scalar.size());
+      for (std::size_t i = 0; i < from_swept.size(); ++i)
+        EXPECT_NEAR(from_swept[i].condition, from_scalar[i].condition, 1e-6 * from_scalar[i].condition);
+      const Eigen::VectorXd b = swept.random_rhs(5);
+      const std::vector<double> l = swept.solver.local_multipliers(0, b.data()),
+                                of_scalar = scalar.solver.local_multipliers(0, b.data());
+      ASSERT_EQ(l.size(), of_scalar.size());
+      double most = 0.0;
+      for (const double value : of_scalar) most = std::max(most, std::abs(value));
+      for (std::size_t i = 0; i < l.size(); ++i) EXPECT_NEAR(l[i], of_scalar[i], 1e-7 * most);
+    }
+}
+
+/// A node without stiffness of its own leaves pivots that cannot stand: its half goes the pivoted way, the other one stays, and back when it is mended.
 TEST(Registers, ALeafWithoutAPivotGoesThePivotedWayAndComesBack) {
   const Scene scene = make_chain(4, 40, 4);
   Solved s(scene, {.for_one_solution = true}, {.refinement_steps = 0});

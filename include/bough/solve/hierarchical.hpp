@@ -44,7 +44,8 @@ class Hierarchical {
   /// read one of the two and compare none, except those that take scales. False (the default): every factorization compares.
   void trust_symmetry(bool mirrored);
 
-  /// Assemble, factor and condense all sub-domains. Allocates only where delayed pivots enlarge a front, or rows are dependent.
+  /// Assemble, factor and condense all sub-domains. Allocates only where delayed pivots enlarge a front, where fronts leave lanes or registers for the first time,
+  /// or rows are dependent.
   /// With `rhs` (num_unknowns) the right-hand side is condensed in the same visits, while a front is in the cache; finish() then solves, until when it must last.
   /// SolveOptions::partial: sub-domains in which nothing `changed`, nor below them, stay as they are, and no Prepare is called for them; all bits are
   /// those of a whole factorization. After rescale() and after a failure everything is done anew.

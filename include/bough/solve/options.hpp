@@ -34,8 +34,9 @@ struct SolveOptions {
   Symmetry symmetry = Symmetry::general;
   /// Schur complements of all sub-domains last, so that factor() may leave alone what has not changed; more memory.
   bool partial = false;
-  bool lanes = true;  ///< equal sub-domains are factored in lockstep, eight to a pack (flat elimination only).
-  /// Bytes of matrices and factors in lanes above which a factorization asks for what it reads before it needs it, and
+  bool lanes =
+      true;  ///< equal sub-domains are factored in lockstep, eight to a pack, small leaves alone in registers (flat elimination only).
+  /// Bytes of matrices and factors in lanes and registers above which a factorization asks for what it reads before it needs it, and
   /// writes factors past the caches. Bits are the same. 0: an eighth of the last cache, which others use as well, but 16 MB at least.
   std::int64_t near_bytes = 0;
   double penalty_factor =
