@@ -15,10 +15,11 @@ constexpr double planar_tangent = 0.15, planar_node = 0.14;  ///< shares of one 
 constexpr double per_sum = 20e-9;   ///< gathering, adding and sizing up, an element and evaluation [s]
 constexpr double per_node = 90e-9;  ///< moving a node with its velocity and acceleration, an iteration [s]
 constexpr double per_front_lanes = 1.6e-7, per_flop_lanes = 2.5e-11;
-constexpr double per_front = 1.7e-6, per_flop = 4.8e-11;
+constexpr double per_front = 1.7e-6, per_front_registers = 1.6e-7, per_flop = 4.8e-11;
 constexpr double per_flop_of_others = 1.1e-9;  ///< of monolithic solvers
 // A solution: fronts one by one, and bytes of factors and element matrices, from memory where they do not stay in the caches [s].
-constexpr double per_front_solved = 1.5e-7, per_byte_near = 1.1e-11, per_byte_far = 5e-11;
+constexpr double per_front_solved = 1.5e-7, per_front_solved_registers = 4e-8, per_byte_near = 1.1e-11,
+                 per_byte_far = 5e-11;
 constexpr double bytes_near = 16e6;
 
 void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, bool may_share, StepCost& cost) {
@@ -47,16 +48,19 @@ StepCost estimate_step_cost(const System& system) {
     add_elements(plan, batch, plan.unknowns.is_whole() || plan.planar, cost);
   const solve::SolverCounters counters = system.solver().counters();
   const auto bytes = static_cast<double>(counters.memory_bytes);
-  double alone = 0.0;  // fronts
+  double alone = 0.0, in_registers = 0.0;  // fronts
   if (system.solver().hierarchical() != nullptr) {
     const auto in_lanes = static_cast<double>(counters.fronts_in_lanes);
-    alone = system.tree().num_fronts() - in_lanes;
-    cost.factor = in_lanes * per_front_lanes + alone * per_front + counters.flops_in_lanes * per_flop_lanes +
+    in_registers = static_cast<double>(counters.fronts_in_registers);
+    alone = system.tree().num_fronts() - in_lanes - in_registers;
+    cost.factor = in_lanes * per_front_lanes + in_registers * per_front_registers + alone * per_front +
+                  counters.flops_in_lanes * per_flop_lanes +
                   (counters.factor_flops - counters.flops_in_lanes) * per_flop;
   } else {
     cost.factor = system.tree().subdomains.back().subtree_flops * per_flop_of_others;
   }
-  cost.solve = alone * per_front_solved + bytes * (bytes < bytes_near ? per_byte_near : per_byte_far);
+  cost.solve = alone * per_front_solved + in_registers * per_front_solved_registers +
+               bytes * (bytes < bytes_near ? per_byte_near : per_byte_far);
   cost.update =
       static_cast<double>(plan.nodes.size()) * per_node * (plan.planar && plan.is_dynamic ? planar_node : 1.0);
   return cost;

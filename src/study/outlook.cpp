@@ -93,7 +93,9 @@ Outlook look_ahead(const scene::Scene& scene) {
     out.levels = std::max(out.levels, s.level + 1);
   }
   out.effort = effort_of(built);
-  out.fronts_in_lanes = static_cast<int>(built.system.solver().counters().fronts_in_lanes);
+  const solve::SolverCounters counters = built.system.solver().counters();
+  out.fronts_in_lanes = static_cast<int>(counters.fronts_in_lanes);
+  out.fronts_in_registers = static_cast<int>(counters.fronts_in_registers);
   out.process_bytes = program_bytes + out.effort.memory_bytes;
   out.notes = plan.notes;
   for (const plan::Decision& d : plan.decisions) {

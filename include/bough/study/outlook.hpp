@@ -36,7 +36,7 @@ struct Outlook {
   std::int64_t unknowns_in_space = 0;  ///< six a node and every row of every joint
   std::string motions;                 ///< "in space", "in a plane", ...
   std::string cut;                     ///< how the tree was made
-  int sub_domains = 0, leaves = 0, levels = 0, fronts_in_lanes = 0, fronts = 0;
+  int sub_domains = 0, leaves = 0, levels = 0, fronts_in_lanes = 0, fronts_in_registers = 0, fronts = 0;
   Effort effort;
   std::int64_t process_bytes = 0;  ///< peak of the process that runs it, about: the program, and memory_bytes
   std::vector<OutlookDecision> decisions;
