@@ -51,6 +51,7 @@ class BoughSession final : public Session {
     return storage_->solver.finish(walker, x.data()).finite;
   }
   double memory_bytes() const override { return static_cast<double>(storage_->solver.counters().memory_bytes); }
+  double factor_flops() const override { return storage_->solver.counters().factor_flops; }
   void iterate(const std::function<void()>& iterations) override { threads_.keep_together(iterations); }
 
  private:

@@ -39,6 +39,8 @@ void run_row(benchmark::State& state, const Problem& problem, Entrant& entrant) 
     for (const std::vector<double>& a : problem.elements) numbers += a.size();
     state.counters["matrix_bytes"] = static_cast<double>(sizeof(double) * numbers);
   }
+  if (const double flops = entrant.session->factor_flops(); flops > 0.0)
+    state.counters["flops"] = benchmark::Counter(flops, benchmark::Counter::kIsIterationInvariantRate);
   state.SetLabel(entrant.ordering);
 }
 

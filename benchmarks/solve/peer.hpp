@@ -24,6 +24,8 @@ class Session {
   virtual double factor_entries() const { return 0.0; }
   /// All that the solver holds [bytes]; 0: not told.
   virtual double memory_bytes() const { return 0.0; }
+  /// Of one factorization [flop]; 0: not told.
+  virtual double factor_flops() const { return 0.0; }
   /// Runs the iterations of a row, with what they have in common around them, such as threads that stay together during a run.
   virtual void iterate(const std::function<void()>& iterations) { iterations(); }
 };
