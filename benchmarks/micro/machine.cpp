@@ -16,22 +16,34 @@ using packs::Real;
 
 using Data = std::vector<double, LineAllocator<double>>;
 
+/// Their sum alone: sums with an address would go through memory every time.
+template <int sums>
+void keep(const Real (&sum)[sums]) {
+  Real all = {};
+#pragma GCC unroll 24
+  for (int i = 0; i < sums; ++i) all += sum[i];
+  benchmark::DoNotOptimize(all);
+}
+
 /// As many sums as a tile of the kernels has, so that none waits for itself.
-constexpr int many_sums = 24, rounds = 1024;
+constexpr int many_sums = 3 * packs::width, rounds = 1024;
 template <int sums>
 void multiply_and_add() {
-  Real sum[sums] = {};
+  Real sum[sums];
+  for (int i = 0; i < sums; ++i) sum[i] = Real{} + i;  // equal ones would be made one
   const Real factor = Real{} + 0.5, term = Real{} + 1.0;
   for (int k = 0; k < rounds; ++k)
-    for (Real& s : sum) s = packs::plus_product(term, s, factor);
-  for (Real& s : sum) benchmark::DoNotOptimize(s);
+#pragma GCC unroll 24
+    for (int i = 0; i < sums; ++i) sum[i] = packs::plus_product(term, sum[i], factor);
+  keep(sum);
 }
 
 void read_all(const Data& data) {
   Real sum[8] = {};
   for (std::size_t i = 0; i < data.size(); i += 8 * packs::width)
+#pragma GCC unroll 8
     for (std::size_t j = 0; j < 8; ++j) sum[j] += load(data.data() + i + j * packs::width);
-  for (Real& s : sum) benchmark::DoNotOptimize(s);
+  keep(sum);
 }
 
 Data make_data(std::int64_t kibibytes) { return Data(static_cast<std::size_t>(kibibytes) * 128, 1.0); }
