@@ -19,10 +19,10 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-void add_bough(Field& field, const std::string& name, const std::vector<int>& thread_counts,
-               std::vector<LeftOut>& left_out) {
+void add_bough(Field& field, bool lockstep, const std::vector<int>& thread_counts, std::vector<LeftOut>& left_out) {
   if (thread_counts.empty()) return;
-  const auto storage = std::make_shared<BoughStorage>(*field.problem, name == "bough_lockstep");
+  const std::string name = lockstep ? "bough_lockstep" : "bough";
+  const auto storage = std::make_shared<BoughStorage>(*field.problem, lockstep);
   for (int threads : thread_counts) {
     Entrant e{name, "tree", threads, std::make_unique<BoughSession>(*field.problem, storage, threads)};
     std::vector<double> x;
@@ -119,9 +119,9 @@ Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const O
   }
   for (Trial& t : trials)
     field.entrants.push_back({t.peer->name, t.ordering, 1, std::move(t.session), t.backward_error});
-  add_bough(field, "bough", own.thread_counts, left_out);
+  add_bough(field, false, own.thread_counts, left_out);
   if (own.lockstep && bench_case.family == Family::chain && !p.is_symmetric())
-    add_bough(field, "bough_lockstep", own.thread_counts, left_out);
+    add_bough(field, true, own.thread_counts, left_out);
   return field;
 }
 

@@ -59,8 +59,8 @@ struct Memory {
 /// Rows of bough itself.
 struct OwnRows {
   std::vector<int> thread_counts;  ///< empty: none
-  bool lockstep =
-      false;  ///< and rows `bough_lockstep` of unsymmetric chains, by the tree that is made where factors serve several solutions
+  /// And rows `bough_lockstep` of unsymmetric chains, by the tree that is made where factors serve several solutions.
+  bool lockstep = false;
 };
 
 /// Makes the problem, tries the peers' orderings, checks every solution, and decides who is left out:

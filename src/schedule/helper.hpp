@@ -26,8 +26,8 @@ class Helper {
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
 
-  /// Serves after a `call`, until `dismiss` or until no walk has come for 5 ms: the thread may be the only one that others of the process could
-  /// have. The owner's own call returns at once, as does one that was not asked for.
+  /// Serves after a `call`, until `dismiss` or until nothing was offered for 5 ms and no part of a walk is being shared: the thread may be the only
+  /// one that others of the process could have. The owner's own call returns at once, as does one that was not asked for.
   void serve();
 
   // All that follows is for the owner, except `run_chunks`.
