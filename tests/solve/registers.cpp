@@ -226,20 +226,6 @@ TEST(Registers, LeavesThatBranchGiveTheSameBitsInEveryVisit) {
     }
 }
 
-/// More children of one front than 16 bits count.
-TEST(Registers, AHubMayHaveAnyNumberOfArms) {
-  SceneMaker m(11);
-  const int hub = m.add_node();
-  for (int a = 0; a < 33000; ++a) add_row(m, hub, 1);
-  add_row(m, hub, 40);
-  const Scene scene = m.finish("hub");
-  Solved s(scene, {.leaf_size = scene.graph.num_elements()}, {.refinement_steps = 0});
-  ASSERT_TRUE(s.factor().ok());
-  ASSERT_GT(s.solver.counters().fronts_in_registers, 33000);
-  (void)s.solve(s.random_rhs(5));
-  EXPECT_LE(s.report.backward_error, 1e-13);
-}
-
 /// Reports look at whole Schur complements; symmetric fronts in registers keep one triangle of them. Two eliminations of well-conditioned matrices: round-off.
 TEST(Registers, InterfacesAreReportedAsFromTheScalarPath) {
   for (const auto symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric})
