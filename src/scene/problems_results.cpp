@@ -149,6 +149,20 @@ std::size_t place_number(const ProblemList& list, const std::string& name) {
   }
 }
 
+/// Steps of `size` [s], given by `key` of the analysis, up to `end_time` have to be so few that the time can still tell them apart.
+void check_number_of_steps(ProblemList& list, double end_time, double size, const char* key) {
+  constexpr double most_steps = 1e15, many_steps = 1e8;
+  if (!(size > 0.0)) return;
+  const double steps = end_time / size;
+  if (!(steps <= most_steps))
+    list.add("analysis", 0, key, text_of(size),
+             "this makes " + text_of(steps) + " steps up to end_time = " + text_of(end_time) +
+                 " s; more than 1e15 cannot be counted in time",
+             "take a larger step or an earlier end");
+  else if (steps > many_steps)
+    list.warn("analysis", 0, key, text_of(size), "this makes " + text_of(steps) + " steps");
+}
+
 }  // namespace
 
 void check_sensors(ProblemList& list) {
@@ -173,9 +187,9 @@ void check_analysis(ProblemList& list) {
   if (!(a.step_size > 0.0)) list.add("analysis", 0, "step_size", text_of(a.step_size), "has to be above 0");
   if (a.step_size > a.end_time)
     list.add("analysis", 0, "step_size", text_of(a.step_size), "the step is longer than the whole analysis");
-  if (a.step_size > 0.0 && a.end_time / a.step_size > 1e8)
-    list.warn("analysis", 0, "step_size", text_of(a.step_size),
-              "this makes " + text_of(a.end_time / a.step_size) + " steps");
+  check_number_of_steps(list, a.end_time, a.step_size, "step_size");
+  if (a.step_control && a.step_control->largest_step > 0.0)
+    check_number_of_steps(list, a.end_time, a.step_control->largest_step, "step_control/largest_step");
   const bool is_variational = a.integrator == Integrator::variational;
   if (is_variational && a.newton == Newton::single)
     list.add("analysis", 0, "newton", "single",

@@ -12,6 +12,7 @@
 #include "bough/step/step_control.hpp"
 #include "bough/step/variational.hpp"
 #include "bough/study/simulate.hpp"
+#include "finite_gate.hpp"
 #include "vibration_watch.hpp"
 
 namespace bough::study {
@@ -76,6 +77,7 @@ class Run {
   const ProgressCallback& progress_;
   const std::vector<double>& stops_;
   const decltype(SimulateOptions::before_step)& before_step_;
+  const decltype(SimulateOptions::stopped_by)& stopped_by_;
   const decltype(SimulateOptions::after_run)& after_run_;
   bool want_motion_;
   plan::Plan plan_;
@@ -88,6 +90,7 @@ class Run {
   results::EnergyMeter energy_meter_;
   results::Summary summary_;
   results::Balance balance_;
+  FiniteGate gate_;
   std::vector<double> values_;
   std::vector<std::size_t> expected_columns_;
   std::vector<double> expected_values_, expected_distance_;

@@ -17,7 +17,9 @@ constexpr double fitting_slack = 1e-9;  ///< a stretch is this much longer than 
 
 /// Whole number of steps up to `size` that fill `duration`.
 long steps_to_fill(double duration, double size) {
-  return std::max(1L, static_cast<long>(std::ceil(duration / size - fitting_slack)));
+  constexpr double most_steps = 1e18;  // that a long can count; a size that is none makes as many
+  const double steps = std::ceil(duration / size - fitting_slack);
+  return std::max(1L, static_cast<long>(steps < most_steps ? steps : most_steps));
 }
 
 }  // namespace
@@ -121,6 +123,8 @@ bool Run::accept_controlled(const step::StepReport& report, double size, bool is
 void Run::add_error(double duration, double size) {
   results::Checks& checks = summary_.checks;
   checks.local_error_known = true;
+  gate_.look_at("the local error of a step", local_error_->relative_motion(), state_.time);
+  gate_.look_at("the local error of velocities", local_error_->relative_velocity(), state_.time);
   checks.local_error_max = std::max(checks.local_error_max, local_error_->relative_motion());
   checks.local_error_max_velocity = std::max(checks.local_error_max_velocity, local_error_->relative_velocity());
   checks.local_error_sum += local_error_->relative_motion() * duration / size;

@@ -111,7 +111,8 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     count(report, report.converged);
     if (!report.converged) {
       easy = 0;
-      if (++level > options_.max_cuts)
+      constexpr long most_parts = 1L << 62;  // of a segment, which a long can count
+      if (++level > options_.max_cuts || (steps << (level - 1)) > most_parts / 2)
         return fail("the step at time " + std::to_string(state_.time) + " fails down to a step size of " +
                     std::to_string(size) + ": " + report.cause +
                     (vibrations_.seen() ? "; " + std::string(undamped) : ""));

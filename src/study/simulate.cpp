@@ -24,6 +24,7 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
       progress_(progress),
       stops_(options.stops),
       before_step_(options.before_step),
+      stopped_by_(options.stopped_by),
       after_run_(options.after_run),
       want_motion_(options.want_motion || scene.output.motion),
       plan_(plan::make_plan(scene)),
@@ -138,10 +139,15 @@ void Run::record(int iterations, bool is_last) {
     out.step_size = rows_ == 1 ? 0.0 : last_step_;
     out.iterations = iterations;
     out.values = values_;
+    gate_.look_at(summary_.header, out);
     recorder_.row(out);
     summary_.final_values = values_;
   }
-  if (is_motion_due(row, is_last)) recorder_.motion(results::eval_motion(system_, state_));
+  if (is_motion_due(row, is_last)) {
+    const results::MotionFrame frame = results::eval_motion(system_, state_);
+    gate_.look_at(frame);
+    recorder_.motion(frame);
+  }
 }
 
 bool Run::is_due(long row, bool is_last) const { return row % std::max(1, scene_.output.stride) == 0 || is_last; }
@@ -177,7 +183,8 @@ bool Run::report_progress(const step::StepReport& report, double end) {
   p.step = summary_.steps.accepted;
   if (progress_(p)) return true;
   summary_.status = RunStatus::interrupted;
-  summary_.cause = "stopped by the user at time " + std::to_string(state_.time);
+  summary_.cause = "stopped by " + (stopped_by_ ? stopped_by_() : std::string("the user")) + " at time " +
+                   std::to_string(state_.time);
   return false;
 }
 
@@ -191,12 +198,18 @@ bool Run::may_try(double target) {
 void Run::check() {
   results::Checks& c = summary_.checks;
   const step::Violations gaps = system_.constraint_violations(state_);
+  gate_.look_at("the violation of constraints", gaps.position, state_.time);
   c.constraint_violation_position = std::max(c.constraint_violation_position, gaps.position);
   c.relative_violation_position = std::max(c.relative_violation_position, gaps.relative_position);
   if (!plan_.is_dynamic) return;
+  gate_.look_at("the violation of constraints by velocities", gaps.velocity, state_.time);
   c.constraint_violation_velocity = std::max(c.constraint_violation_velocity, gaps.velocity);
   c.relative_violation_step = std::max(c.relative_violation_step, gaps.relative_velocity * last_step_);
-  balance_.compare(energy_meter_.eval(system_, state_), work_meter_.supply());
+  const results::Energies energies = energy_meter_.eval(system_, state_);
+  gate_.look_at(energies, state_.time, [this] { return results::eval_motion(system_, state_); });
+  gate_.look_at("the work of loads and drives", work_meter_.supply().work, state_.time);
+  gate_.look_at("the energy taken by dampers", work_meter_.supply().dissipation, state_.time);
+  balance_.compare(energies, work_meter_.supply());
 }
 
 void Run::finish() {
@@ -238,6 +251,11 @@ void Run::finish() {
         summary_.status == RunStatus::ok && e.reached && at_time && std::abs(e.value - e.reference) <= e.tolerance;
     e.source = given.source;
     summary_.expected.push_back(e);
+  }
+  if (summary_.status == RunStatus::ok) {
+    gate_.look_at(state_, plan_);
+    gate_.look_at(summary_);
+    if (!gate_.cause().empty()) (void)fail(gate_.cause());
   }
   summary_.solver = solver_figures(system_, dependent_rows_);
   if (summary_.status == RunStatus::ok) look_at_last_factor(system_, summary_);

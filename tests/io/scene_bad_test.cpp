@@ -122,6 +122,7 @@ const Bad scene_cases[] = {
     {"\"spectral_radius\": 0.9", "\"step_control\": {}, \"newton\": @\"single\"", "/analysis/newton",
      "solved to convergence"},
     {"\"step_size\": 1e-3", "\"step_size\": @2", "/analysis/step_size", "longer than the whole"},
+    {"\"step_size\": 1e-3", "\"step_size\": @1e-19", "/analysis/step_size", "more than 1e15 cannot be counted"},
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tp.x\"", "/expected/0/quantity", "did you mean \"tip\"?"},
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tip\"", "/expected/0/quantity", "components x, y, z"},
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tip.w\"", "/expected/0/quantity", "components x, y, z"},

@@ -25,6 +25,8 @@ struct SimulateOptions {
   bool reads_state = true;  ///< false: before_step looks at no nodes of the state, which may be behind
   /// The walker that the solver gets instead of the one of the threads: another way of the same walks, a watched one say.
   std::function<tree::Walker(const tree::Walker&)> wrap_walker = {};
+  /// What stopped a run that its progress callback ended, in words; default: the user.
+  std::function<std::string()> stopped_by = {};
   /// Called once after the last step, whether the run went well or not.
   std::function<void(step::System&, const step::State&)> after_run = {};
 };
