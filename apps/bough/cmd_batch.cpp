@@ -1,9 +1,11 @@
 /// bough batch FOLDER: every scene of a folder, one thread a case.
 #include <algorithm>
+#include <chrono>
 #include <iostream>
 
 #include "arguments.hpp"
-#include "bough/io/atomic_file.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/io/output_folder.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/run_directory.hpp"
 #include "bough/study/batch.hpp"
@@ -24,25 +26,42 @@ std::string first_problems(const io::SceneFile& file) {
 }
 
 /// Runs in the case's own process.
-int run_case(const study::BatchCase& which, const std::vector<std::string>& overrides, std::string& cause) {
-  const io::SceneFile file = io::read_scene(which.scene, overrides);
+int run_case(const study::BatchCase& which, const BatchArguments& arguments, study::CaseReport& report) {
+  catch_interrupts(Repeated::ignored);
+  const auto start = std::chrono::steady_clock::now();
+  const io::SceneFile file = io::read_scene(which.scene, arguments.overrides);
   if (!file.ok()) {
-    cause = first_problems(file);
+    report.cause = first_problems(file);
     return exit_bad_input;
   }
-  io::RunDirectory directory(which.directory, std::string(version));
+  io::RunDirectory directory(which.directory, std::string(version), origin_of(which.scene, file, arguments.overrides));
+  study::SimulateOptions options{.threads = 1};
+  options.stopped_by = [&]() -> std::string {
+    const std::chrono::duration<double> age = std::chrono::steady_clock::now() - start;
+    const bool is_late = arguments.time_limit > 0.0 && age.count() >= 0.99 * arguments.time_limit;
+    return is_late ? "the time limit of " + io::rounded_text(arguments.time_limit, 6) + " s" : "the user";
+  };
   results::Summary summary;
   try {
-    summary =
-        study::simulate(file.scene, {.threads = 1}, directory, [](const results::Progress&) { return !interrupted(); });
+    directory.open();
+    summary = study::simulate(file.scene, options, directory, [](const results::Progress&) { return !interrupted(); });
   } catch (const std::exception& error) {
-    cause = error.what();
+    report.cause = error.what();
     summary.scene = file.scene.name;
     directory.end_as_failed(summary, error.what());
     return exit_failed;
   }
-  cause = summary.cause;
+  report.cause = summary.cause;
+  report.directory = directory.directory();
   return summary.status == results::RunStatus::ok ? exit_done : exit_failed;
+}
+
+void print_case(const study::CaseResult& result, std::size_t done, std::size_t all, bool quiet) {
+  const bool good = result.status == study::CaseStatus::ok;
+  if (good && quiet) return;
+  (good ? std::cout : std::cerr) << "[" << done << "/" << all << "] " << result.which.name << ": "
+                                 << study::text_of(result.status) << (result.cause.empty() ? "" : ": ") << result.cause
+                                 << std::endl;
 }
 
 }  // namespace
@@ -56,23 +75,21 @@ int batch(const BatchArguments& arguments) {
     std::cerr << "bough: " << error.what() << "\n";
     return exit_bad_input;
   }
-  std::filesystem::create_directories(options.out);
+  const io::OutputCollection collection(options.out, "batch", {arguments.folder});
   catch_interrupts();
-  const auto report_case = [&](const study::CaseResult& result, std::size_t done, std::size_t all) {
-    const bool good = result.status == study::CaseStatus::ok;
-    if (good && arguments.quiet) return;
-    (good ? std::cout : std::cerr) << "[" << done << "/" << all << "] " << result.which.name << ": "
-                                   << study::text_of(result.status) << (result.cause.empty() ? "" : ": ")
-                                   << result.cause << std::endl;
-  };
   const std::vector<study::CaseResult> results = study::run_batch(
       options,
-      [&](const study::BatchCase& which, std::string& cause) { return run_case(which, arguments.overrides, cause); },
-      report_case, interrupted);
-  io::write_file(options.out / "batch.csv", study::batch_csv(results));
+      [&](const study::BatchCase& which, study::CaseReport& report) { return run_case(which, arguments, report); },
+      [&](const study::CaseResult& result, std::size_t done, std::size_t all) {
+        print_case(result, done, all, arguments.quiet);
+      },
+      interrupted);
+  collection.write("batch.csv", study::batch_csv(results));
 
   const auto count = [&](const auto& condition) { return std::count_if(results.begin(), results.end(), condition); };
-  const auto num_failed = count([](const study::CaseResult& r) { return r.status != study::CaseStatus::ok; });
+  const auto num_failed = count([](const study::CaseResult& r) {
+    return r.status != study::CaseStatus::ok && r.status != study::CaseStatus::figures_fail;
+  });
   const auto num_not_as_expected = count([](const study::CaseResult& r) { return r.expected_fails > 0; });
   if (!arguments.quiet) {
     std::cout << results.size() << " cases, " << num_failed << " not done, " << num_not_as_expected

@@ -17,7 +17,8 @@ struct Side {
 
 Side read_side(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) return {io::read_history(path), ""};
-  return {io::read_history(path / "history.csv"), io::read_summary(path / "summary.json").status};
+  const io::SummaryFile summary = io::read_whole_summary(path, {"history.csv"});
+  return {io::read_history(path / "history.csv"), summary.status};
 }
 
 std::string verdict(const io::ColumnDifference& column) {

@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/manifest.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/study/linear_system.hpp"
 #include "terminal.hpp"
@@ -15,6 +16,7 @@ int export_matrix(const ExportMatrixArguments& arguments) {
   if (!file.ok()) return exit_bad_input;
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path(file.scene.name + ".mtx") : arguments.out;
+  io::refuse_to_overwrite({arguments.scene}, {out, arguments.rhs});
   std::string cause;
   const auto system = study::make_linear_system(file.scene, {arguments.step, arguments.time},
                                                 arguments.threads > 0 ? arguments.threads : default_threads(), cause);

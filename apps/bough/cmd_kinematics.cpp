@@ -5,6 +5,7 @@
 
 #include "arguments.hpp"
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/manifest.hpp"
 #include "bough/io/motion_report.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_frames.hpp"
@@ -67,6 +68,7 @@ void write_to(const std::filesystem::path& path, const std::string& text) {
 
 int kinematics_razi(const RaziArguments& arguments) {
   if (!arguments.files.svg.empty() && !can_draw("--svg")) return exit_bad_input;
+  io::refuse_to_overwrite({arguments.chain}, {arguments.files.csv, arguments.files.json, arguments.files.svg});
   io::SplitTable table;
   if (arguments.chain.empty()) {
     table = study::split_disc(disc_of(arguments));
@@ -86,6 +88,7 @@ int kinematics_razi(const RaziArguments& arguments) {
 }
 
 int kinematics_motion(const MotionArguments& arguments) {
+  io::refuse_to_overwrite({arguments.file}, {arguments.json});
   io::MotionInput input;
   if (arguments.file.empty()) {
     if (!read_poses(arguments, input)) return exit_bad_input;

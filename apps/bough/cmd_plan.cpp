@@ -4,6 +4,7 @@
 #include "arguments.hpp"
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/json_text.hpp"
+#include "bough/io/manifest.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/read_scene.hpp"
@@ -129,6 +130,7 @@ int plan(const PlanArguments& arguments) {
   const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
   print_problems(arguments.scene, file, false);
   if (!file.ok()) return exit_bad_input;
+  io::refuse_to_overwrite({arguments.scene}, {arguments.json});
   const study::Outlook outlook = study::look_ahead(file.scene);
   try {
     if (!arguments.json.empty()) io::write_file(arguments.json, plan_json(outlook));

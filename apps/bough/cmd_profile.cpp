@@ -3,12 +3,13 @@
 #include <iostream>
 
 #include "arguments.hpp"
-#include "bough/io/atomic_file.hpp"
+#include "bough/io/output_folder.hpp"
 #include "bough/io/profile_json.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/study/profile.hpp"
 #include "bough/version.hpp"
 #include "pages.hpp"
+#include "standard_streams.hpp"
 #include "terminal.hpp"
 #include "tree_text.hpp"
 
@@ -36,6 +37,7 @@ int profile(const ProfileArguments& arguments) {
   }
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path(file.scene.name + ".profile") : arguments.out;
+  io::OutputFolder folder(out, "profile", {"profile.json", "trace.json", "profile.html"}, {arguments.scene});
   catch_interrupts();
   ProgressBar bar(arguments.quiet);
   study::ProfileOptions options;
@@ -50,18 +52,19 @@ int profile(const ProfileArguments& arguments) {
       return !interrupted();
     });
     bar.clear();
-    std::filesystem::create_directories(out);
-    io::write_file(out / "profile.json", io::profile_text(result, version));
-    io::write_file(out / "trace.json", io::trace_text(result));
-    pages = write_profile_page(out / "profile.html", result, "profile.json");
+    folder.write("profile.json", io::profile_text(result, version));
+    folder.write("trace.json", io::trace_text(result));
+    pages = write_profile_page(folder, "profile.html", result, "profile.json");
+    folder.publish(result.trouble.empty() ? io::FolderState::good : io::FolderState::failed);
   } catch (const std::exception& error) {
     bar.clear();
     std::cerr << "bough: " << error.what() << "\n";
     return exit_failed;
   }
+  tell_if_beside(folder);
+  if (!arguments.quiet) write_to_terminal(false, tree_text(result, style_of_terminal()));
   if (!arguments.quiet)
-    std::cout << tree_text(result, style_of_terminal()) << "Profile in " << out.string() << ": " << pages
-              << "profile.json trace.json\n"
+    std::cout << "Profile in " << folder.folder().string() << ": " << pages << "profile.json trace.json\n"
               << std::flush;
   if (result.trouble.empty()) return exit_done;
   std::cerr << "bough: " << file.scene.name << ": " << result.trouble << "\n";

@@ -1,6 +1,7 @@
 /// bough run SCENE: one simulation from a scene to a directory of results.
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
 #include "arguments.hpp"
 #include "bough/io/read_scene.hpp"
@@ -12,13 +13,11 @@
 
 namespace bough::app {
 
-int run(const RunArguments& arguments) {
-  const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
-  print_problems(arguments.scene, file, arguments.quiet);
-  if (!file.ok()) return exit_bad_input;
+namespace {
 
-  io::RunDirectory directory(arguments.out.empty() ? std::filesystem::path(file.scene.name + ".out") : arguments.out,
-                             std::string(version));
+/// Runs the scene; what cannot be written to its end is kept as far as it goes. Nothing, after a message, where there are no results.
+std::optional<results::Summary> simulate_into(io::RunDirectory& directory, const io::SceneFile& file,
+                                              const RunArguments& arguments) {
   catch_interrupts();
   ProgressBar bar(arguments.quiet);
   const auto on_step = [&bar](const results::Progress& progress) {
@@ -30,22 +29,37 @@ int run(const RunArguments& arguments) {
   results::Summary summary;
   try {
     summary = study::simulate(file.scene, options, directory, on_step);
-  } catch (const std::exception& error) {  // the results could not be written to their end: keep what is there
+  } catch (const std::exception& error) {
     bar.clear();
     std::cerr << "bough: " << error.what() << "\n";
     summary.scene = file.scene.name;
     summary.threads = options.threads;
     directory.end_as_failed(summary, error.what());
-    return exit_failed;
+    return std::nullopt;
   }
   bar.clear();
+  return summary;
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
+  print_problems(arguments.scene, file, arguments.quiet);
+  if (!file.ok()) return exit_bad_input;
+  io::RunDirectory directory(arguments.out.empty() ? std::filesystem::path(file.scene.name + ".out") : arguments.out,
+                             std::string(version), origin_of(arguments.scene, file, arguments.overrides));
+  directory.open();
+  const std::optional<results::Summary> summary = simulate_into(directory, file, arguments);
+  if (!summary) return exit_failed;
   if (!arguments.quiet)
-    std::cout << result_text(summary, directory.directory().string(), directory.files()) << std::flush;
-  if (summary.status != results::RunStatus::ok) {
-    std::cerr << "bough: " << file.scene.name << ": " << summary.cause << "\n";
-    return exit_failed;
-  }
-  const bool all_hold = std::all_of(summary.expected.begin(), summary.expected.end(),
+    std::cout << result_text(*summary, directory.directory().string(), directory.files()) << std::flush;
+  if (summary->status != results::RunStatus::ok)
+    std::cerr << "bough: " << file.scene.name << ": " << summary->cause << "\n";
+  if (const std::string why = directory.why_beside(); !why.empty())
+    std::cerr << "bough: " << why << "; the results of this run stand in " << directory.directory().string() << "\n";
+  if (summary->status != results::RunStatus::ok || !directory.why_beside().empty()) return exit_failed;
+  const bool all_hold = std::all_of(summary->expected.begin(), summary->expected.end(),
                                     [](const auto& figure) { return figure.holds || !figure.reached; });
   return arguments.check_expected && !all_hold ? exit_failed : exit_done;
 }

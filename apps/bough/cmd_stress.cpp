@@ -3,8 +3,8 @@
 #include <iostream>
 
 #include "arguments.hpp"
-#include "bough/io/atomic_file.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/io/output_folder.hpp"
 #include "bough/study/stress.hpp"
 #include "bough/version.hpp"
 #include "pages.hpp"
@@ -18,6 +18,7 @@ int stress(const StressArguments& arguments) {
   const std::vector<std::string> problems = problems_in(options);
   for (const std::string& problem : problems) std::cerr << "bough: " << problem << "\n";
   if (!problems.empty()) return exit_bad_input;
+  io::OutputFolder folder(arguments.out, "stress", {"stress.json", "stress.html"});
   catch_interrupts();
   const auto tell = [&](const study::StressCase& c, std::size_t done, std::size_t all) {
     if (arguments.quiet && c.is_as_expected()) return;
@@ -30,15 +31,16 @@ int stress(const StressArguments& arguments) {
     out << " (" << io::rounded_text(c.seconds, 2) << " s)" << std::endl;
   };
   const std::vector<study::StressCase> cases = study::run_stress(options, tell, interrupted);
-  std::filesystem::path page;
+  std::string page;
   try {
-    std::filesystem::create_directories(arguments.out);
-    io::write_file(arguments.out / "stress.json", study::stress_json(cases, options, std::string(version)));
-    page = write_stress_page(arguments.out / "stress.html", cases, options);
+    folder.write("stress.json", study::stress_json(cases, options, std::string(version)));
+    page = write_stress_page(folder, "stress.html", cases, options);
+    folder.publish(interrupted() ? io::FolderState::failed : io::FolderState::good);
   } catch (const std::exception& error) {
     std::cerr << "bough: " << error.what() << "\n";
     return exit_failed;
   }
+  tell_if_beside(folder);
   const auto count = [&](study::StressStatus status) {
     return std::count_if(cases.begin(), cases.end(), [status](const auto& c) { return c.status == status; });
   };
@@ -47,8 +49,8 @@ int stress(const StressArguments& arguments) {
   if (!arguments.quiet)
     std::cout << count(study::StressStatus::holds) << " hold, " << count(study::StressStatus::fails) << " fail, "
               << count(study::StressStatus::refused) << " refused by name; LAPACK ratio at most "
-              << io::rounded_text(ratio, 2) << ": " << (page.empty() ? arguments.out / "stress.json" : page).string()
-              << "\n";
+              << io::rounded_text(ratio, 2) << ": "
+              << (folder.folder() / (page.empty() ? "stress.json" : page)).string() << "\n";
   const bool is_whole = !interrupted();
   const bool is_bad = std::any_of(cases.begin(), cases.end(), [](const study::StressCase& c) {
     return !c.is_as_expected() && c.expected != study::StressStatus::fails;

@@ -1,9 +1,12 @@
 /// bough study SPEC: errors and run times of a scene over grids of choices.
 #include <algorithm>
+#include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "arguments.hpp"
-#include "bough/io/atomic_file.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/io/output_folder.hpp"
 #include "bough/io/read_study.hpp"
 #include "bough/study/sweep.hpp"
 #include "pages.hpp"
@@ -22,35 +25,53 @@ std::vector<std::filesystem::path> specs_in(const std::filesystem::path& path) {
   return specs;
 }
 
-void print_result(const study::SweepResult& r, const std::filesystem::path& page) {
+void print_counts(const study::SweepResult& r, const std::filesystem::path& page) {
   std::cout << r.spec.name << ": " << r.runs.size() << " runs, " << r.num_failed()
             << " failed; orders: " << r.num_orders(study::Verdict::holds) + r.num_orders(study::Verdict::explained)
             << " as in theory, " << r.num_orders(study::Verdict::below) + r.num_orders(study::Verdict::above)
             << " not\n";
-  for (const study::SweepReference& reference : r.references)
-    if (!reference.trouble.empty()) std::cerr << "bough: " << r.spec.name << ": " << reference.trouble << "\n";
-  for (const study::SweepSeries& series : r.series)
-    for (std::size_t q = 0; q < series.fits.size(); ++q) {
-      const study::OrderFit& f = series.fits[q];
-      if (f.verdict != study::Verdict::below && f.verdict != study::Verdict::above) continue;
-      std::cerr << "bough: " << r.spec.name << ": " << r.spec.grids[series.grid].name << ", " << series.label << ", "
-                << r.spec.quantities[q].name << ": order " << f.order << ", theory " << f.expected << "\n";
-    }
   if (!page.empty()) std::cout << page.string() << "\n";
   std::cout << std::flush;
 }
 
-bool is_good(const study::SweepResult& r) {
-  const bool has_references = std::all_of(r.references.begin(), r.references.end(),
-                                          [](const study::SweepReference& x) { return x.trouble.empty(); });
-  const bool is_repeatable =
-      std::all_of(r.runs.begin(), r.runs.end(), [](const study::SweepRun& run) { return run.is_repeatable; });
-  return has_references && is_repeatable && !r.was_stopped &&
-         r.num_orders(study::Verdict::below) + r.num_orders(study::Verdict::above) == 0;
+/// Whether anything was measured: an error at all, and one order where theory states any.
+bool has_measured(const study::SweepResult& r) {
+  const bool has_error = std::any_of(r.runs.begin(), r.runs.end(), [](const study::SweepRun& run) {
+    return std::any_of(run.errors.begin(), run.errors.end(), [](const auto& e) { return std::isfinite(e.max); });
+  });
+  using study::Verdict;
+  const std::size_t measured = r.num_orders(Verdict::holds) + r.num_orders(Verdict::explained) +
+                               r.num_orders(Verdict::above) + r.num_orders(Verdict::below);
+  return has_error && (measured > 0 || r.num_orders(Verdict::not_measured) == 0);
 }
 
-study::SweepResult run_one(const io::StudySpec& spec, const StudyArguments& arguments,
-                           const std::filesystem::path& directory) {
+/// Everything that keeps a study from being a success, on standard error; true where there is nothing.
+bool tell_faults(const study::SweepResult& r) {
+  bool is_good = true;
+  const auto tell = [&](const std::string& text) {
+    std::cerr << "bough: " << r.spec.name << ": " << text << "\n";
+    is_good = false;
+  };
+  for (const study::SweepReference& reference : r.references)
+    if (!reference.trouble.empty()) tell(reference.trouble);
+  for (const study::SweepSeries& series : r.series)
+    for (std::size_t q = 0; q < series.fits.size(); ++q) {
+      const study::OrderFit& f = series.fits[q];
+      if (f.verdict != study::Verdict::below && f.verdict != study::Verdict::above) continue;
+      tell(r.spec.grids[series.grid].name + ", " + series.label + ", " + r.spec.quantities[q].name + ": order " +
+           io::rounded_text(f.order, 4) + ", theory " + io::rounded_text(f.expected, 4));
+    }
+  for (const study::SweepRun& run : r.runs)
+    if (!run.is_repeatable) tell(run.label + ": repetitions end with different numbers");
+  if (r.was_stopped)
+    tell("it was stopped before its end");
+  else if (!has_measured(r))
+    tell(std::to_string(r.runs.size()) + " runs, " + std::to_string(r.num_failed()) +
+         " of them failed, show no error or order that could be measured; study.csv says why each run failed");
+  return is_good;
+}
+
+study::SweepResult run_one(const io::StudySpec& spec, const StudyArguments& arguments) {
   study::SweepOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
   options.cache = arguments.cache.empty() ? arguments.out / "references" : arguments.cache;
@@ -63,11 +84,21 @@ study::SweepResult run_one(const io::StudySpec& spec, const StudyArguments& argu
       tenth = done == all ? 0 : done * 10 / all;
       std::cerr << spec.name << ": " << what << " " << done << "/" << all << std::endl;
     };
-  study::SweepResult result = study::run_sweep(spec, options);
-  std::filesystem::create_directories(directory);
-  io::write_file(directory / "study.csv", study::sweep_csv(result));
-  io::write_file(directory / "study.json", study::sweep_json(result));
-  return result;
+  return study::run_sweep(spec, options);
+}
+
+/// Runs one study into its folder and tells of it; whether it is a success.
+bool run_into(const std::filesystem::path& directory, const io::StudySpec& spec, const StudyArguments& arguments,
+              const std::vector<std::filesystem::path>& inputs, StudyPages& pages) {
+  io::OutputFolder folder(directory, "study", {"study.csv", "study.json", "study.html"}, inputs);
+  const study::SweepResult result = run_one(spec, arguments);
+  folder.write("study.csv", study::sweep_csv(result));
+  folder.write("study.json", study::sweep_json(result));
+  const std::string page = pages.write(folder, "study.html", result);
+  folder.publish(result.was_stopped ? io::FolderState::failed : io::FolderState::good);
+  tell_if_beside(folder);
+  if (!arguments.quiet) print_counts(result, page.empty() ? std::filesystem::path() : folder.folder() / page);
+  return tell_faults(result);
 }
 
 }  // namespace
@@ -87,25 +118,20 @@ int study_scene(const StudyArguments& arguments) {
   }
   if (specs.size() != files.size()) return exit_bad_input;
 
+  std::optional<io::OutputCollection> collection;
+  if (is_folder) collection.emplace(arguments.out, "study", files);
   catch_interrupts();
   StudyPages pages;
-  std::filesystem::path index;
+  std::string index;
   bool all_good = true;
-  try {
-    for (const io::StudySpec& spec : specs) {
-      if (interrupted()) break;
-      const std::filesystem::path directory = is_folder ? arguments.out / spec.name : arguments.out;
-      const study::SweepResult result = run_one(spec, arguments, directory);
-      const std::filesystem::path page = pages.write(directory / "study.html", result);
-      if (!arguments.quiet) print_result(result, page);
-      all_good = all_good && is_good(result);
-      if (is_folder) index = pages.write_index(arguments.out / "index.html");
-    }
-  } catch (const std::exception& error) {
-    std::cerr << "bough: " << error.what() << "\n";
-    return exit_failed;
+  for (const io::StudySpec& spec : specs) {
+    if (interrupted()) break;
+    all_good =
+        run_into(is_folder ? arguments.out / spec.name : arguments.out, spec, arguments, files, pages) && all_good;
+    if (collection) index = pages.write_index(*collection, "index.html");
   }
-  if (!index.empty() && !arguments.quiet) std::cout << index.string() << "\n";
+  if (!index.empty() && !arguments.quiet) std::cout << (arguments.out / index).string() << "\n";
+  if (interrupted()) std::cerr << "bough: stopped before all studies were done\n";
   return all_good && !interrupted() ? exit_done : exit_failed;
 }
 

@@ -5,11 +5,13 @@
 
 #include "arguments.hpp"
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/manifest.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/study/tune.hpp"
 #include "result_text.hpp"
+#include "standard_streams.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
@@ -35,6 +37,7 @@ int tune(const TuneArguments& arguments) {
   const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
   print_problems(arguments.scene, file, false);
   if (!file.ok()) return exit_bad_input;
+  io::refuse_to_overwrite({arguments.scene}, {arguments.out});
   catch_interrupts();
   study::TuneOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
@@ -42,10 +45,12 @@ int tune(const TuneArguments& arguments) {
   options.seconds = arguments.seconds;
   const bool on_terminal = isatty(STDERR_FILENO) != 0;
   const study::TuneResult result = study::tune(file.scene, options, [&](int done, int all) {
-    if (on_terminal) std::cerr << "\rrun " << done << " of at most " << all << "\x1b[K" << std::flush;
+    if (on_terminal)
+      write_to_terminal(true, std::string(line_start) + "run " + std::to_string(done) + " of at most " +
+                                  std::to_string(all) + std::string(line_rest_erased));
     return !interrupted();
   });
-  if (on_terminal) std::cerr << "\r\x1b[K" << std::flush;
+  if (on_terminal) clear_line();
   const study::TuneCandidate& best = result.candidates[result.best];
   if (best.seconds.empty() || !best.failure.empty()) {
     std::cerr << "bough: " << file.scene.name << ": no options run this scene: " << best.failure << "\n";

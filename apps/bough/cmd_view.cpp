@@ -3,11 +3,30 @@
 
 #include "arguments.hpp"
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/manifest.hpp"
 #include "bough/report/page.hpp"
 
 namespace bough::app {
 
+namespace {
+
+/// A page in a folder of results belongs to it from then on: a later run into the folder takes it away with the rest.
+void write_page(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (io::read_manifest(folder))
+    io::write_listed_file(folder, "view", path.filename().string(), text);
+  else
+    io::write_file(path, text);
+}
+
+}  // namespace
+
 int view(const ViewArguments& arguments) {
+  const std::filesystem::path page = arguments.out.empty() ? arguments.directory / "view.html" : arguments.out;
+  std::vector<std::filesystem::path> inputs;
+  for (const char* name : {"history.csv", "motion.jsonl", "motion.pvd", "summary.json", io::manifest_name})
+    inputs.push_back(arguments.directory / name);
+  io::refuse_to_overwrite(inputs, {page, arguments.svg});
   report::RunFiles files;
   try {
     files = report::read_run(arguments.directory);
@@ -22,11 +41,10 @@ int view(const ViewArguments& arguments) {
   options.view = report::view_named(arguments.view).value_or(report::View::automatic);
   options.num_positions = arguments.positions;
   options.is_static = report::is_static(files);
-  const std::filesystem::path page = arguments.out.empty() ? arguments.directory / "view.html" : arguments.out;
-  io::write_file(page, report::page_html(files, options));
+  write_page(page, report::page_html(files, options));
   std::cout << page.string() << "\n";
   if (!arguments.svg.empty()) {
-    io::write_file(arguments.svg, report::standalone_svg(report::make_picture(files.motion, options), files.name));
+    write_page(arguments.svg, report::standalone_svg(report::make_picture(files.motion, options), files.name));
     std::cout << arguments.svg.string() << "\n";
   }
   return exit_done;

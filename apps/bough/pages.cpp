@@ -10,16 +10,16 @@ namespace bough::app {
 
 bool can_draw(std::string_view) { return true; }
 
-std::string write_profile_page(const std::filesystem::path& path, const results::Profile& profile,
+std::string write_profile_page(io::OutputFolder& folder, const std::string& name, const results::Profile& profile,
                                const std::string& data) {
-  io::write_file(path, report::profile_page(profile, data));
-  return path.filename().string() + " ";
+  folder.write(name, report::profile_page(profile, data));
+  return name + " ";
 }
 
-std::filesystem::path write_stress_page(const std::filesystem::path& path, const std::vector<study::StressCase>& cases,
-                                        const study::StressOptions& options) {
-  io::write_file(path, report::stress_page(cases, options));
-  return path;
+std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
+                              const std::vector<study::StressCase>& cases, const study::StressOptions& options) {
+  folder.write(name, report::stress_page(cases, options));
+  return name;
 }
 
 void write_split_picture(const std::filesystem::path& path, const io::SplitTable& table) {
@@ -33,15 +33,15 @@ struct StudyPages::Entries {
 StudyPages::StudyPages() : entries_(std::make_unique<Entries>()) {}
 StudyPages::~StudyPages() = default;
 
-std::filesystem::path StudyPages::write(const std::filesystem::path& path, const study::SweepResult& result) {
-  io::write_file(path, report::study_html(result));
+std::string StudyPages::write(io::OutputFolder& folder, const std::string& name, const study::SweepResult& result) {
+  folder.write(name, report::study_html(result));
   entries_->list.push_back(report::entry_of(result));
-  return path;
+  return name;
 }
 
-std::filesystem::path StudyPages::write_index(const std::filesystem::path& path) const {
-  io::write_file(path, report::study_index_html(entries_->list));
-  return path;
+std::string StudyPages::write_index(const io::OutputCollection& folder, const std::string& name) const {
+  folder.write(name, report::study_index_html(entries_->list));
+  return name;
 }
 
 }  // namespace bough::app

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bough/io/output_folder.hpp"
 #include "bough/io/split_table.hpp"
 #include "bough/results/profile.hpp"
 #include "bough/study/stress.hpp"
@@ -18,17 +19,17 @@ namespace bough::app {
 bool can_draw(std::string_view what);
 
 /// The page of a profile whose data lie in the file `data`; returns the names of the files written, each with a blank behind it.
-std::string write_profile_page(const std::filesystem::path& path, const results::Profile& profile,
+std::string write_profile_page(io::OutputFolder& folder, const std::string& name, const results::Profile& profile,
                                const std::string& data);
 
-/// The page of the table of stiff and extreme cases; returns its path where it was written, or an empty one.
-std::filesystem::path write_stress_page(const std::filesystem::path& path, const std::vector<study::StressCase>& cases,
-                                        const study::StressOptions& options);
+/// The page of the table of stiff and extreme cases; returns its name where it was written, or an empty one.
+std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
+                              const std::vector<study::StressCase>& cases, const study::StressOptions& options);
 
 /// The split of an acceleration as SVG. Precondition: can_draw.
 void write_split_picture(const std::filesystem::path& path, const io::SplitTable& table);
 
-/// The pages of the studies of a folder and their index. Each verb returns the path where a page was written, or an empty one.
+/// The pages of the studies of a folder and their index. Each verb returns the name of the page that was written, or an empty one.
 class StudyPages {
  public:
   StudyPages();
@@ -36,8 +37,9 @@ class StudyPages {
   StudyPages(const StudyPages&) = delete;
   StudyPages& operator=(const StudyPages&) = delete;
 
-  std::filesystem::path write(const std::filesystem::path& path, const study::SweepResult& result);
-  std::filesystem::path write_index(const std::filesystem::path& path) const;  ///< of all that were written so far
+  std::string write(io::OutputFolder& folder, const std::string& name, const study::SweepResult& result);
+  std::string write_index(const io::OutputCollection& folder,
+                          const std::string& name) const;  ///< of all written so far
 
  private:
   struct Entries;

@@ -16,10 +16,12 @@ int view(const ViewArguments&) {
   return exit_bad_input;
 }
 
-std::string write_profile_page(const std::filesystem::path&, const results::Profile&, const std::string&) { return {}; }
+std::string write_profile_page(io::OutputFolder&, const std::string&, const results::Profile&, const std::string&) {
+  return {};
+}
 
-std::filesystem::path write_stress_page(const std::filesystem::path&, const std::vector<study::StressCase>&,
-                                        const study::StressOptions&) {
+std::string write_stress_page(io::OutputFolder&, const std::string&, const std::vector<study::StressCase>&,
+                              const study::StressOptions&) {
   return {};
 }
 
@@ -29,7 +31,7 @@ struct StudyPages::Entries {};
 
 StudyPages::StudyPages() = default;
 StudyPages::~StudyPages() = default;
-std::filesystem::path StudyPages::write(const std::filesystem::path&, const study::SweepResult&) { return {}; }
-std::filesystem::path StudyPages::write_index(const std::filesystem::path&) const { return {}; }
+std::string StudyPages::write(io::OutputFolder&, const std::string&, const study::SweepResult&) { return {}; }
+std::string StudyPages::write_index(const io::OutputCollection&, const std::string&) const { return {}; }
 
 }  // namespace bough::app

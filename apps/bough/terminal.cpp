@@ -9,6 +9,9 @@
 #include <thread>
 
 #include "bough/io/number_text.hpp"
+#include "bough/io/program_hash.hpp"
+#include "bough/version.hpp"
+#include "standard_streams.hpp"
 
 namespace bough::app {
 namespace {
@@ -37,13 +40,16 @@ std::string words(const results::Progress& progress, double remaining) {
 
 }  // namespace
 
-void catch_interrupts() {
+void catch_interrupts(Repeated repeated) {
   struct sigaction action = {};
   action.sa_handler = ask_to_stop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  action.sa_flags = static_cast<int>(repeated == Repeated::ends ? SA_RESETHAND | SA_RESTART : SA_RESTART);
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction former = {};
+  sigaction(SIGHUP, nullptr, &former);
+  if (former.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup asks for that
 }
 
 bool interrupted() { return stop_asked != 0; }
@@ -74,22 +80,34 @@ void ProgressBar::show(const results::Progress& progress) {
 void ProgressBar::show_bar(const results::Progress& progress, double part, double remaining) {
   constexpr int width = 24;
   const int filled = static_cast<int>(part * width);
-  std::string line = "\r[" + std::string(static_cast<std::size_t>(filled), '#') +
+  std::string line = std::string(line_start) + "[" + std::string(static_cast<std::size_t>(filled), '#') +
                      std::string(static_cast<std::size_t>(width - filled), '.') + "] ";
-  line += words(progress, remaining) + "\x1b[K";
-  std::cerr << line << std::flush;
+  line += words(progress, remaining) + std::string(line_rest_erased);
+  write_to_terminal(true, line);
   bar_is_shown_ = true;
 }
 
 void ProgressBar::clear() {
-  if (bar_is_shown_) std::cerr << "\r\x1b[K" << std::flush;
+  if (bar_is_shown_) clear_line();
   bar_is_shown_ = false;
 }
+
+void tell_if_beside(const io::OutputFolder& folder) {
+  if (folder.stands_beside())
+    std::cerr << "bough: " << folder.why_beside() << "; what is new stands in " << folder.folder().string() << "\n";
+}
+
+void clear_line() { write_to_terminal(true, std::string(line_start) + std::string(line_rest_erased)); }
 
 void print_problems(const std::filesystem::path& file, const std::vector<io::Problem>& problems,
                     const std::vector<io::Problem>& warnings) {
   for (const io::Problem& problem : problems) std::cerr << file.string() << ": " << problem.text() << "\n";
   for (const io::Problem& warning : warnings) std::cerr << file.string() << ": warning: " << warning.text() << "\n";
+}
+
+io::RunOrigin origin_of(const std::filesystem::path& scene, const io::SceneFile& file,
+                        const std::vector<std::string>& overrides) {
+  return {scene, file.hash, overrides, std::string(commit), io::program_hash()};
 }
 
 void print_problems(const std::filesystem::path& file, const io::SceneFile& scene, bool quiet) {

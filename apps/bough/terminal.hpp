@@ -3,13 +3,18 @@
 #include <chrono>
 #include <string>
 
+#include "bough/io/output_folder.hpp"
 #include "bough/io/read_scene.hpp"
+#include "bough/io/summary.hpp"
 #include "bough/results/records.hpp"
 
 namespace bough::app {
 
-/// From now on Ctrl-C and SIGTERM only set a flag; a second one ends the process at once.
-void catch_interrupts();
+/// From now on Ctrl-C, SIGTERM and SIGHUP only set a flag; a second one of the same kind ends the process at once. Under nohup SIGHUP stays
+/// ignored.
+/// Repeated::ignored: a second one sets the flag again; for a process whose parent ends it where it has to.
+enum class Repeated { ends, ignored };
+void catch_interrupts(Repeated repeated = Repeated::ends);
 bool interrupted();
 
 int default_threads();
@@ -32,9 +37,19 @@ class ProgressBar {
   bool bar_is_shown_ = false;
 };
 
+/// Empties the last line of a terminal on standard error.
+void clear_line();
+
 /// All problems and then all warnings, one to a line, on standard error. Warnings are left out when quiet.
 void print_problems(const std::filesystem::path& file, const std::vector<io::Problem>& problems,
                     const std::vector<io::Problem>& warnings);
 void print_problems(const std::filesystem::path& file, const io::SceneFile& scene, bool quiet);
+
+/// Says on standard error where results stand that could not take the place of what is under their name.
+void tell_if_beside(const io::OutputFolder& folder);
+
+/// What the results of a scene are made from, for their summary.
+io::RunOrigin origin_of(const std::filesystem::path& scene, const io::SceneFile& file,
+                        const std::vector<std::string>& overrides);
 
 }  // namespace bough::app

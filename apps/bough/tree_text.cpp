@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bough/io/number_text.hpp"
+#include "bough/io/printable_text.hpp"
 #include "bough/io/quantity_text.hpp"
 #include "result_text.hpp"
 
@@ -237,7 +238,7 @@ TextStyle style_of_terminal() {
 std::string tree_text(const Profile& p, const TextStyle& style, int most_rows) {
   if (p.subdomains.empty()) return "no sub-domains\n";
   const SubdomainProfile& root = p.subdomains.back();
-  std::string text = p.scene + ": " + std::to_string(root.subtree_unknowns) + " unknowns, " +
+  std::string text = io::printable(p.scene) + ": " + std::to_string(root.subtree_unknowns) + " unknowns, " +
                      std::to_string(p.subdomains.size()) + " sub-domains on " + std::to_string(p.levels.size()) +
                      " levels, " + std::to_string(p.num_in_lanes) + " in lockstep; " + std::to_string(p.steps) +
                      " steps, " + std::to_string(p.factorizations) + " factorizations, " + std::to_string(p.threads) +

@@ -44,6 +44,18 @@ void sync_path(const std::filesystem::path& path, int flags) {
   if (error != 0) throw std::runtime_error("cannot make " + path.string() + " durable: " + reason(error));
 }
 
+/// Opens a file that is to be written, never in the place of a standard stream: where the process was started with one of them closed, what
+/// others print there would land in the file. -1, with the reason in errno, where it cannot be had.
+int open_to_write(const char* path) {
+  const int descriptor = ::open(path, O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (descriptor < 0 || descriptor > STDERR_FILENO) return descriptor;
+  const int higher = ::fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  const int error = errno;
+  ::close(descriptor);
+  errno = error;
+  return higher;
+}
+
 }  // namespace
 
 void sync_directory(const std::filesystem::path& directory) {
@@ -62,7 +74,7 @@ AtomicFile::AtomicFile(std::filesystem::path final_path)
   }
   partial_path_ += ".partial";
   // Not truncated before it is locked: another run may be writing it.
-  const int descriptor = ::open(partial_path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  const int descriptor = open_to_write(partial_path_.c_str());
   if (descriptor < 0) fail(errno);
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor);
@@ -98,12 +110,13 @@ void AtomicFile::flush() {
   if (descriptor_ < 0) throw std::logic_error("AtomicFile: written after commit");
   if (buffer_.empty()) return;
   const int error = write_all(descriptor_, buffer_);
-  const std::size_t size = buffer_.size();
-  buffer_.clear();
   if (error == 0) {
-    flushed_ += size;
+    flushed_ += buffer_.size();
+    digest_.add(buffer_);
+    buffer_.clear();
     return;
   }
+  buffer_.clear();
   const bool cut = ::ftruncate(descriptor_, static_cast<off_t>(flushed_)) == 0 &&
                    ::lseek(descriptor_, static_cast<off_t>(flushed_), SEEK_SET) >= 0;
   if (!cut) give_up();  // what is in the file is not known to be whole
@@ -112,8 +125,7 @@ void AtomicFile::flush() {
 
 void AtomicFile::commit(Durability durability) {
   flush();
-  const bool now = durability == Durability::now;
-  if (const int error = now ? sync_descriptor(descriptor_) : 0; error != 0) {
+  if (const int error = durability != Durability::later ? sync_descriptor(descriptor_) : 0; error != 0) {
     give_up();  // the system may have dropped what it could not write: a second fsync would say nothing of that
     fail(error);
   }
@@ -121,7 +133,7 @@ void AtomicFile::commit(Durability durability) {
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0 && errno != EINTR) fail(errno);
-  if (now) sync_directory(final_path_.parent_path());
+  if (durability == Durability::now) sync_directory(final_path_.parent_path());
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text, Durability durability) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iostream>
 #include <system_error>
 
 namespace bough::io {
@@ -109,7 +110,26 @@ const JsonValue* Report::locate(const std::string& pointer, std::string* reached
   return at;
 }
 
+namespace {
+
+std::string read_to_end(std::istream& in, Problem& problem) {
+  std::string text;
+  char buffer[1u << 16u];
+  while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
+    text.append(buffer, static_cast<std::size_t>(in.gcount()));
+    if (text.size() > max_file_bytes) {
+      problem.rule = "the file is larger than " + std::to_string(max_file_bytes >> 20u) + " MB";
+      return {};
+    }
+  }
+  if (in.bad()) problem.rule = "the file can not be read to its end";
+  return text;
+}
+
+}  // namespace
+
 std::string read_whole_file(const std::filesystem::path& file, Problem& problem) {
+  if (file == "-") return read_to_end(std::cin, problem);
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) {
@@ -125,17 +145,7 @@ std::string read_whole_file(const std::filesystem::path& file, Problem& problem)
     problem.rule = "the file can not be opened";
     return {};
   }
-  std::string text;
-  char buffer[1u << 16u];
-  while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
-    text.append(buffer, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > max_file_bytes) {
-      problem.rule = "the file is larger than " + std::to_string(max_file_bytes >> 20u) + " MB";
-      return {};
-    }
-  }
-  if (in.bad()) problem.rule = "the file can not be read to its end";
-  return text;
+  return read_to_end(in, problem);
 }
 
 std::string Problem::text() const {

@@ -50,7 +50,7 @@ class Report {
   std::vector<Placed> problems_, warnings_;
 };
 
-/// The bytes of a file; where they can not be had, `problem.rule` says why.
+/// The bytes of a file, "-": of standard input; where they can not be had, `problem.rule` says why.
 std::string read_whole_file(const std::filesystem::path& file, Problem& problem);
 
 }  // namespace bough::io

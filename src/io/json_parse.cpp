@@ -248,6 +248,12 @@ std::optional<JsonValue> parse_json(std::string_view text, int source, std::vect
     faults.push_back({0, "", "", "is UTF-16", "save the file as UTF-8"});
     return std::nullopt;
   }
+  // The reader takes a zero byte for the end of the text: what follows would be dropped without a word.
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
+    faults.push_back(
+        {zero, "", "", "holds a zero byte, which no JSON text may", "remove it and what was not meant after it"});
+    return std::nullopt;
+  }
   Builder builder(text, source, faults);
   if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder)) return std::nullopt;
   return std::move(builder.root);

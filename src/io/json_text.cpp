@@ -4,29 +4,11 @@
 
 #include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/io/printable_text.hpp"
 
 namespace bough::io {
 
 namespace {
-
-/// Number of bytes of the UTF-8 character at the start of `text`, 0 where there is none (RFC 3629: no overlong forms, no surrogates).
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
-  const auto tail = [&](std::size_t k) { return (byte(k) & 0xC0u) == 0x80u; };
-  const unsigned first = byte(0), second = byte(1);
-  if (first < 0x80u) return 1;
-  if (first >= 0xC2u && first <= 0xDFu) return tail(1) ? 2 : 0;
-  if (first >= 0xE0u && first <= 0xEFu) {
-    const bool good = tail(1) && tail(2) && !(first == 0xE0u && second < 0xA0u) && !(first == 0xEDu && second > 0x9Fu);
-    return good ? 3 : 0;
-  }
-  if (first >= 0xF0u && first <= 0xF4u) {
-    const bool good =
-        tail(1) && tail(2) && tail(3) && !(first == 0xF0u && second < 0x90u) && !(first == 0xF4u && second > 0x8Fu);
-    return good ? 4 : 0;
-  }
-  return 0;
-}
 
 bool is_json(std::string_view text) {
   std::vector<JsonFault> faults;

@@ -1,7 +1,8 @@
 #include "bough/io/json_value.hpp"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "bough/io/printable_text.hpp"
 
 namespace bough::io {
 
@@ -64,25 +65,6 @@ LineColumn LineIndex::at(std::size_t offset) const {
   return {static_cast<int>(next - starts_.begin()), column};
 }
 
-namespace {
-
-/// Length of the UTF-8 character at the start of s, 0 where there is none.
-std::size_t utf8_length(std::string_view s) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
-  const unsigned b = byte(0);
-  const std::size_t n = b < 0x80                ? 1
-                        : b >= 0xC2 && b < 0xE0 ? 2
-                        : b >= 0xE0 && b < 0xF0 ? 3
-                        : b >= 0xF0 && b < 0xF5 ? 4
-                                                : 0;
-  if (n == 0 || n > s.size()) return 0;
-  for (std::size_t i = 1; i < n; ++i)
-    if ((byte(i) & 0xC0u) != 0x80u) return 0;
-  return n;
-}
-
-}  // namespace
-
 std::string shown(std::string_view text, std::size_t limit) {
   std::string r;
   std::size_t count = 0;
@@ -93,14 +75,9 @@ std::string shown(std::string_view text, std::size_t limit) {
     if (c == '\n' || c == '\t' || c == '\r') {
       if (r.empty() || r.back() != ' ') r += ' ';
       ++i;
-    } else if (c < 0x20 || c == 0x7F || n == 0) {
-      char escape[8];
-      std::snprintf(escape, sizeof escape, "\\x%02x", static_cast<unsigned>(c));
-      r += escape;
-      ++i;
     } else {
-      r.append(text.substr(i, n));
-      i += n;
+      append_printable(r, text.substr(i), n);
+      i += n == 0 ? 1 : n;
     }
   }
   return r;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bough/io/digest.hpp"
 #include "bough/io/schema_rule.hpp"
 #include "bough/scene/problems.hpp"
 #include "document_report.hpp"
@@ -61,14 +62,20 @@ SceneFile read_scene_text(std::string_view text, std::string name, std::span<con
     file.scene = std::move(converter.scene);
   }
   file.scene.name = std::move(name);
+  file.hash = digest_of(text);
   report.write(file.problems, file.warnings);
   return file;
+}
+
+std::string name_of_file(const std::filesystem::path& file) {
+  const std::string stem = file.stem().string();
+  return stem.find_first_not_of('.') == std::string::npos ? file.filename().string() : stem;
 }
 
 SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides) {
   Problem problem;
   const std::string text = read_whole_file(file, problem);
-  if (problem.rule.empty()) return read_scene_text(text, file.stem().string(), set_overrides);
+  if (problem.rule.empty()) return read_scene_text(text, file == "-" ? "scene" : name_of_file(file), set_overrides);
   SceneFile r;
   problem.value = shown(file.string(), 200);
   r.problems.push_back(std::move(problem));

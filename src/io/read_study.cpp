@@ -63,9 +63,9 @@ bool StudyConverter::read_scene_file(const Value& root) {
   const Value* path = sound(root, "scene");
   if (path == nullptr) return false;
   Problem problem;
-  const std::filesystem::path file = folder_ / path->text;
+  const std::filesystem::path file = (folder_.empty() ? "." : folder_) / path->text;
   spec.scene_text = read_whole_file(file, problem);
-  spec.scene_name = file.stem().string();
+  spec.scene_name = name_of_file(file);
   if (!problem.rule.empty()) {
     fault("/scene", problem.rule, "names are relative to the study's folder: " + shown(file.string(), 200));
     return false;
@@ -143,7 +143,7 @@ StudyFile read_study_text(std::string_view text, std::string name, const std::fi
 StudyFile read_study(const std::filesystem::path& file) {
   Problem problem;
   const std::string text = read_whole_file(file, problem);
-  if (problem.rule.empty()) return read_study_text(text, file.stem().string(), file.parent_path());
+  if (problem.rule.empty()) return read_study_text(text, name_of_file(file), file.parent_path());
   StudyFile r;
   problem.value = shown(file.string(), 200);
   r.problems.push_back(std::move(problem));

@@ -1,9 +1,9 @@
 #include "bough/io/run_directory.hpp"
 
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
-
-#include "bough/io/summary.hpp"
 
 namespace bough::io {
 namespace {
@@ -16,54 +16,33 @@ constexpr bool has_vtk = true;
 constexpr bool has_vtk = false;  // what stands under it is not compiled: vtu_text and its like are not there
 #endif
 
-/// Returns false where there is no such file.
-bool remove_file(const fs::path& path) {
-  std::error_code error;
-  const bool was_there = fs::remove(path, error);
-  if (error) throw std::runtime_error("cannot remove " + path.string() + ": " + error.message());
-  return was_there;
+const std::vector<std::string> all_names = {"history.csv", "motion.jsonl", "motion.pvd", "motion/frame_*",
+                                            "summary.json"};
+
+std::string frame_name(std::size_t number) {
+  std::string digits = std::to_string(number);
+  if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
+  return "motion/frame_" + digits + ".vtu";
 }
 
 void make_directory(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) throw std::runtime_error("cannot make the directory " + path.string() + ": " + error.message());
-  if (!fs::is_directory(path, error))
-    throw std::runtime_error("cannot write into " + path.string() + ": not a directory");
-}
-
-std::string frame_name(std::size_t number) {
-  std::string digits = std::to_string(number);
-  if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
-  return "frame_" + digits + ".vtu";
-}
-
-bool is_frame_name(const std::string& name) {
-  return name.rfind("frame_", 0) == 0 && (name.ends_with(".vtu") || name.ends_with(".vtu.partial"));
 }
 
 }  // namespace
 
-RunDirectory::RunDirectory(fs::path directory, std::string version)
-    : directory_(std::move(directory)), version_(std::move(version)) {}
+RunDirectory::RunDirectory(fs::path directory, std::string version, RunOrigin origin)
+    : directory_(std::move(directory)), version_(std::move(version)), origin_(std::move(origin)) {}
 
-void RunDirectory::remove_former_results() {
-  if (remove_file(directory_ / "summary.json")) sync_directory(directory_);
-  remove_file(directory_ / "motion.pvd");
-  remove_file(directory_ / "motion.jsonl");
-  const fs::path folder = directory_ / "motion";
-  std::error_code error;
-  std::vector<fs::path> frames;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (is_frame_name(it->path().filename().string())) frames.push_back(it->path());
-  for (const fs::path& frame : frames) remove_file(frame);
-  fs::remove(folder, error);  // only where nothing else lies in it
+void RunDirectory::open() {
+  if (!folder_) folder_ = std::make_unique<OutputFolder>(directory_, "run", all_names, origin_.inputs());
 }
 
 void RunDirectory::begin(const results::HistoryHeader& header) {
-  make_directory(directory_);
-  remove_former_results();
-  history_ = std::make_unique<HistoryWriter>(directory_ / "history.csv", header);
+  open();
+  history_ = std::make_unique<HistoryWriter>(folder_->staging() / "history.csv", header);
 }
 
 void RunDirectory::row(const results::HistoryRow& row) {
@@ -74,22 +53,27 @@ void RunDirectory::row(const results::HistoryRow& row) {
 void RunDirectory::motion(const results::MotionFrame& frame) {
   if (!motion_lines_) {
     if constexpr (has_vtk) {
-      make_directory(directory_ / "motion");
+      make_directory(folder_->staging() / "motion");
       vtu_options_ = vtu_options_for(frame);
     }
-    motion_lines_ = std::make_unique<MotionLinesWriter>(directory_ / "motion.jsonl");
+    motion_lines_ = std::make_unique<MotionLinesWriter>(folder_->staging() / "motion.jsonl");
   }
   if constexpr (has_vtk) {
     const std::string name = frame_name(frames_.size());
-    write_file(directory_ / "motion" / name, vtu_text(frame, vtu_options_), Durability::later);
-    frames_.push_back({frame.time, "motion/" + name});
+    const std::string text = vtu_text(frame, vtu_options_);
+    write_file(folder_->staging() / name, text, Durability::later);
+    frames_.push_back({frame.time, name});
+    frame_records_.push_back({name, text.size(), digest_of(text)});
   }
   motion_lines_->frame(frame);
 }
 
-void RunDirectory::end(const results::Summary& summary) {
-  if (!history_) begin(summary.header);
-  has_ended_ = true;
+void RunDirectory::list(FileRecord record) {
+  folder_->add(record);
+  records_.push_back(std::move(record));
+}
+
+std::exception_ptr RunDirectory::commit_files() {
   std::exception_ptr failure;
   const auto attempt = [&](const char* name, const auto& write) {
     try {
@@ -99,30 +83,73 @@ void RunDirectory::end(const results::Summary& summary) {
       if (!failure) failure = std::current_exception();
     }
   };
-  const auto commit = [](auto& writer) {
+  const auto commit = [this](auto& writer) {
     try {
-      writer.commit();
+      writer.commit(Durability::content);
     } catch (const std::exception&) {
       // The rows since the last flush are lost; those before it are whole and may still be given their name.
       if (!writer.can_commit()) throw;
-      writer.commit();
+      writer.commit(Durability::content);
+      list(writer.record());
       throw;
     }
+    list(writer.record());
   };
   attempt("history.csv", [&] { commit(*history_); });
   if (motion_lines_) attempt("motion.jsonl", [&] { commit(*motion_lines_); });
   if constexpr (has_vtk) {
     if (motion_lines_) {
       attempt("motion", [&] {
-        for (const PvdEntry& frame : frames_) sync_file(directory_ / frame.file);
-        sync_directory(directory_ / "motion");
+        for (const FileRecord& frame : frame_records_) list(frame);
+        for (const PvdEntry& frame : frames_) sync_file(folder_->staging() / frame.file);
+        sync_directory(folder_->staging() / "motion");
       });
-      attempt("motion.pvd", [&] { write_file(directory_ / "motion.pvd", pvd_text(frames_)); });
+      attempt("motion.pvd", [&] {
+        const std::string text = pvd_text(frames_);
+        write_file(folder_->staging() / "motion.pvd", text, Durability::content);
+        list({"motion.pvd", text.size(), digest_of(text)});
+      });
     }
   }
-  if (failure) std::rethrow_exception(failure);  // no summary: the directory is not whole
-  attempt("summary.json", [&] { write_file(directory_ / "summary.json", summary_text(summary, version_)); });
+  return failure;
+}
+
+void RunDirectory::end(const results::Summary& summary) {
+  if (!history_) begin(summary.header);
+  has_ended_ = true;
+  std::exception_ptr failure = commit_files();
+  if (!failure) {  // else no summary: the directory is not whole
+    try {
+      folder_->write("summary.json", summary_text(summary, version_, origin_, records_));
+      files_.emplace_back("summary.json");
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  const bool is_good = !failure && summary.status == results::RunStatus::ok;
+  try {
+    folder_->publish(is_good ? FolderState::good : FolderState::failed);
+  } catch (...) {
+    if (!failure) failure = std::current_exception();
+  }
   if (failure) std::rethrow_exception(failure);
+}
+
+std::optional<fs::path> RunDirectory::keep_rows_of_killed(const fs::path& directory) {
+  std::string rows;
+  {
+    FolderLock lock;
+    const fs::path staging = OutputFolder::staging_of(directory);
+    if (!lock.take(staging) || !read_manifest(staging)) return std::nullopt;
+    std::ifstream file(staging / "history.csv.partial", std::ios::binary);
+    rows.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  rows.resize(rows.rfind('\n') + 1);  // whole rows; npos + 1 is 0
+  if (rows.empty()) return std::nullopt;
+  OutputFolder folder(directory, "run", all_names);
+  folder.write("history.csv", rows);
+  folder.publish(FolderState::failed);
+  return folder.folder();
 }
 
 void RunDirectory::end_as_failed(results::Summary summary, const std::string& cause) {

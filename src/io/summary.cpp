@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "bough/io/columns.hpp"
+#include "bough/io/digest.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
@@ -152,6 +153,24 @@ void write_expected(JsonText& json, const std::vector<results::ExpectedResult>& 
   json.end_object();
 }
 
+void write_origin(JsonText& json, const RunOrigin& origin, const std::vector<FileRecord>& files) {
+  json.key("origin");
+  json.begin_object();
+  json.member("scene_file", std::string_view(origin.scene_file.string()));
+  json.member("scene_hash", std::string_view(origin.scene_hash));
+  json.key("set");
+  json.begin_array();
+  for (const std::string& text : origin.overrides) json.value(std::string_view(text));
+  json.end_array();
+  json.member("commit", std::string_view(origin.commit));
+  json.member("program_hash", std::string_view(origin.program_hash));
+  json.end_object();
+  json.key("files");
+  json.begin_object();
+  for (const FileRecord& file : files) json.member(file.name, std::string_view(file.hash));
+  json.end_object();
+}
+
 std::string text_of(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
   return value != nullptr && value->is(JsonKind::string) ? value->text : std::string();
@@ -198,7 +217,13 @@ std::string_view status_text(results::RunStatus status) {
   return "failed";
 }
 
-std::string summary_text(const results::Summary& summary, std::string_view version) {
+std::vector<std::filesystem::path> RunOrigin::inputs() const {
+  if (scene_file.empty()) return {};
+  return {scene_file};
+}
+
+std::string summary_text(const results::Summary& summary, std::string_view version, const RunOrigin& origin,
+                         const std::vector<FileRecord>& files) {
   JsonText json;
   json.begin_object();
   json.member("status", status_text(summary.status));
@@ -229,6 +254,7 @@ std::string summary_text(const results::Summary& summary, std::string_view versi
   json.end_object();
   write_sensors(json, summary);
   write_expected(json, summary.expected);
+  write_origin(json, origin, files);
   json.end_object();
   return json.text();
 }
@@ -271,6 +297,35 @@ SummaryFile read_summary(const std::filesystem::path& path) {
   if (const JsonValue* notes = json->find("notes"); notes != nullptr)
     for (const JsonValue& note : notes->items) summary.notes.push_back(note.text);
   if (const JsonValue* expected = json->find("expected"); expected != nullptr) read_expected(*expected, summary);
+  if (const JsonValue* origin = json->find("origin"); origin != nullptr)
+    if (const JsonValue* set = origin->find("set"); set != nullptr)
+      for (const JsonValue& item : set->items) summary.overrides.push_back(item.text);
+  if (const JsonValue* files = json->find("files"); files != nullptr)
+    for (std::size_t k = 0; k < files->items.size() && k < files->keys.size(); ++k)
+      summary.files.push_back({files->keys[k], 0, files->items[k].text});
+  return summary;
+}
+
+SummaryFile read_whole_summary(const std::filesystem::path& directory, const std::vector<std::string>& names) {
+  const std::string run_again = "; run the scene again, into a new folder";
+  const auto is_there = [&](const std::string& name) { return std::filesystem::exists(directory / name); };
+  if (!is_there("summary.json"))
+    throw std::runtime_error(directory.string() + " has no summary.json: the run did not end" + run_again);
+  SummaryFile summary = read_summary(directory / "summary.json");
+  if (const std::optional<Manifest> manifest = read_manifest(directory);
+      manifest && manifest->state == FolderState::unfinished)
+    throw std::runtime_error(directory.string() + ": its run could not write all results" + run_again);
+  for (const std::string& name : names) {
+    const auto listed = std::find_if(summary.files.begin(), summary.files.end(),
+                                     [&](const FileRecord& file) { return file.name == name; });
+    if (listed == summary.files.end() && !is_there(name)) continue;
+    const std::string what = (directory / name).string();
+    if (listed == summary.files.end())
+      throw std::runtime_error(what + " does not belong to the summary beside it, which does not list it" + run_again);
+    if (!is_there(name)) throw std::runtime_error(what + " is missing: the summary beside it lists it" + run_again);
+    if (digest_of_file(directory / name) != listed->hash)
+      throw std::runtime_error(what + " is not the file that was written with the summary beside it" + run_again);
+  }
   return summary;
 }
 

@@ -180,11 +180,9 @@ bool is_static(const RunFiles& run) {
 RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames) {
   RunFiles run;
   run.name = std::filesystem::absolute(directory).lexically_normal().stem().string();
+  run.summary = io::read_whole_summary(directory, {"history.csv", "motion.jsonl"});
   run.history = io::read_history(directory / "history.csv");
-  if (std::filesystem::exists(directory / "summary.json")) {
-    run.summary = io::read_summary(directory / "summary.json");
-    if (!run.summary->scene.empty()) run.name = run.summary->scene;
-  }
+  if (!run.summary->scene.empty()) run.name = run.summary->scene;
   if (std::filesystem::exists(directory / "motion.jsonl"))
     run.motion = io::read_motion_lines(directory / "motion.jsonl", max_frames);
   return run;

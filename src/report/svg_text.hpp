@@ -1,5 +1,7 @@
 #pragma once
 /// Pieces of SVG and HTML text.
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -30,10 +32,12 @@ inline std::string escaped(std::string_view text) {
   return result;
 }
 
-/// A coordinate on paper, to a twentieth of a pixel.
+/// A coordinate on paper, to a twentieth of a pixel. What lies further than any page, infinity and what is not a number included, is
+/// put at the end of what 32-bit readers of coordinates can hold.
 inline void append_pixel(std::string& text, double value) {
-  const double rounded = static_cast<double>(static_cast<long long>(value * 20.0 + (value < 0.0 ? -0.5 : 0.5))) / 20.0;
-  io::append_rounded(text, rounded, 7);
+  constexpr double far = 1e6;
+  const double on_paper = value > -far ? std::min(value, far) : -far;  // the comparison is false for NaN
+  io::append_rounded(text, std::round(on_paper * 20.0) / 20.0, 7);
 }
 
 inline std::string pixel(double value) {

@@ -1,5 +1,7 @@
 #include "bough/study/batch.hpp"
 
+#include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -7,11 +9,15 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
 
 #include "bough/io/history.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/io/read_scene.hpp"
+#include "bough/io/run_directory.hpp"
 #include "bough/io/summary.hpp"
 
 namespace bough::study {
@@ -22,13 +28,14 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t max_cause = 4000;  // [bytes], less than a pipe holds, so that a child never waits for its reader
 constexpr std::chrono::milliseconds poll_interval{20};
+constexpr double least_grace = 2.0, part_of_limit = 0.1;  // wall time to end by itself past the time limit [s], [-]
 
 struct Child {
   std::size_t index = 0;
   pid_t process = -1;
   int pipe = -1;
   Clock::time_point started;
-  bool timed_out = false;
+  bool timed_out = false, killed = false;
 };
 
 std::string one_line(std::string text) {
@@ -37,37 +44,48 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// The child must not outlive its parent, which may have ended before this was asked for.
+void end_with_parent(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+}
+
+/// The pipe carries the directory of the results, a zero byte, and the cause.
 [[noreturn]] void run_in_child(const BatchCase& which, const RunCase& run_case, int pipe) {
-  std::string cause;
+  CaseReport report;
   int code = 1;
   try {
-    code = run_case(which, cause);
+    code = run_case(which, report);
   } catch (const std::exception& error) {
-    cause = error.what();
+    report.cause = error.what();
   } catch (...) {
-    cause = "unknown failure";
+    report.cause = "unknown failure";
   }
-  if (cause.size() > max_cause) cause.resize(max_cause);
-  [[maybe_unused]] const ssize_t written = ::write(pipe, cause.data(), cause.size());
+  std::string text = report.directory.string() + '\0' + report.cause;
+  if (text.size() > max_cause) text.resize(max_cause);
+  [[maybe_unused]] const ssize_t written = ::write(pipe, text.data(), text.size());
   ::_exit(code);  // nothing of the parent's is flushed or destroyed twice
 }
 
-Child start(const BatchCase& which, std::size_t index, const RunCase& run_case) {
+/// Nothing where no process can be started; errno says why.
+std::optional<Child> start(const BatchCase& which, std::size_t index, const RunCase& run_case) {
   int ends[2];
-  if (::pipe(ends) != 0) throw std::runtime_error("cannot start a case: " + std::system_category().message(errno));
-  const pid_t process = ::fork();
+  if (::pipe2(ends, O_CLOEXEC) != 0) return std::nullopt;
+  const pid_t parent = ::getpid(), process = ::fork();
   if (process < 0) {
     const int error = errno;
     ::close(ends[0]);
     ::close(ends[1]);
-    throw std::runtime_error("cannot start a case: " + std::system_category().message(error));
+    errno = error;
+    return std::nullopt;
   }
   if (process == 0) {
+    end_with_parent(parent);
     ::close(ends[0]);
     run_in_child(which, run_case, ends[1]);
   }
   ::close(ends[1]);
-  return {index, process, ends[0], Clock::now()};
+  return Child{index, process, ends[0], Clock::now()};
 }
 
 std::string read_all(int pipe) {
@@ -94,8 +112,22 @@ CaseStatus status_of(const Child& child, int wait_status) {
   }
 }
 
-void read_summary_into(CaseResult& result) {
-  const fs::path path = result.which.directory / "summary.json";
+/// The first expected figures that do not hold.
+std::string failing_figures(const io::SummaryFile& summary) {
+  constexpr int shown = 3;
+  std::string text;
+  int count = 0;
+  for (const results::ExpectedResult& figure : summary.expected) {
+    if (!figure.reached || figure.holds || ++count > shown) continue;
+    text += (text.empty() ? "" : ", ") + figure.name + " is " + io::rounded_text(figure.value, 6) + " instead of " +
+            io::rounded_text(figure.reference, 6) + " +- " + io::rounded_text(figure.tolerance, 3);
+  }
+  if (count > shown) text += " and " + std::to_string(count - shown) + " more";
+  return text;
+}
+
+void read_summary_into(CaseResult& result, const fs::path& directory) {
+  const fs::path path = directory / "summary.json";
   if (!fs::exists(path)) return;
   const io::SummaryFile summary = io::read_summary(path);
   result.accepted = summary.accepted;
@@ -103,25 +135,44 @@ void read_summary_into(CaseResult& result) {
   result.newton_iterations = summary.newton_iterations;
   for (const results::ExpectedResult& figure : summary.expected)
     if (figure.reached) ++(figure.holds ? result.expected_holds : result.expected_fails);
-  if (summary.status == "interrupted") result.status = CaseStatus::interrupted;
+  if (result.status == CaseStatus::ok && result.expected_fails > 0) {
+    result.status = CaseStatus::figures_fail;
+    result.cause = failing_figures(summary);
+  }
+  if (summary.status == "interrupted" && result.status == CaseStatus::failed) result.status = CaseStatus::interrupted;
   if (result.cause.empty()) result.cause = one_line(summary.cause);
+}
+
+/// What is kept of a case that was killed, in words.
+std::string kept_rows(const BatchCase& which) {
+  try {
+    const std::optional<fs::path> kept = io::RunDirectory::keep_rows_of_killed(which.directory);
+    return kept ? "its rows to the last flush are in " + kept->string() : "there are no rows of it";
+  } catch (const std::exception& error) {
+    return std::string("its rows are lost: ") + error.what();
+  }
 }
 
 CaseResult result_of(const Child& child, const BatchCase& which, int wait_status) {
   CaseResult result;
   result.which = which;
   result.status = status_of(child, wait_status);
-  result.cause = one_line(read_all(child.pipe));
+  const std::string told = read_all(child.pipe);
   ::close(child.pipe);
-  if (result.status == CaseStatus::timed_out) result.cause = "stopped at the time limit";
+  const std::size_t zero = std::min(told.find('\0'), told.size());
+  const fs::path directory = zero > 0 ? fs::path(told.substr(0, zero)) : which.directory;
+  result.cause = one_line(told.substr(std::min(zero + 1, told.size())));
+  if (result.status == CaseStatus::timed_out && (child.killed || WIFSIGNALED(wait_status)))
+    result.cause = "killed at the time limit, since it did not stop by itself; " + kept_rows(which);
   if (result.status == CaseStatus::crashed) result.cause = "ended by signal " + std::to_string(WTERMSIG(wait_status));
-  const bool wrote_results = result.status == CaseStatus::ok || result.status == CaseStatus::failed;
   try {
-    if (wrote_results) read_summary_into(result);
+    if (WIFEXITED(wait_status) && result.status != CaseStatus::bad_input) read_summary_into(result, directory);
   } catch (const std::exception& error) {
     result.status = CaseStatus::failed;
     result.cause = error.what();
   }
+  if (directory != which.directory)
+    result.cause += " (the former results were good and are kept; see " + directory.string() + ")";
   return result;
 }
 
@@ -131,6 +182,8 @@ std::string_view text_of(CaseStatus status) {
   switch (status) {
     case CaseStatus::ok:
       return "ok";
+    case CaseStatus::figures_fail:
+      return "figures_fail";
     case CaseStatus::failed:
       return "failed";
     case CaseStatus::interrupted:
@@ -150,7 +203,7 @@ std::vector<BatchCase> cases_in(const BatchOptions& options) {
   std::vector<BatchCase> cases;
   for (fs::directory_iterator it(options.folder, error), end; !error && it != end; it.increment(error)) {
     if (it->path().extension() != ".json" || it->is_directory()) continue;
-    const std::string name = it->path().stem().string();
+    const std::string name = io::name_of_file(it->path());
     cases.push_back({name, it->path(), options.out / name});
   }
   if (error) throw std::runtime_error("cannot read the folder " + options.folder.string() + ": " + error.message());
@@ -158,6 +211,28 @@ std::vector<BatchCase> cases_in(const BatchOptions& options) {
   std::sort(cases.begin(), cases.end(), [](const BatchCase& a, const BatchCase& b) { return a.name < b.name; });
   return cases;
 }
+
+namespace {
+
+/// A case past its limit is asked to stop, and killed when it has had time to.
+void keep_to_limit(Child& child, double limit) {
+  const std::chrono::duration<double> age = Clock::now() - child.started;
+  if (limit <= 0.0 || age.count() <= limit) return;
+  if (!child.timed_out) ::kill(child.process, SIGTERM);
+  child.timed_out = true;
+  if (child.killed || age.count() <= limit + std::max(least_grace, part_of_limit * limit)) return;
+  child.killed = true;
+  ::kill(child.process, SIGKILL);
+}
+
+CaseResult not_started(const BatchCase& which, int error) {
+  CaseResult result;
+  result.which = which;
+  result.cause = "no process could be started for it: " + std::generic_category().message(error);
+  return result;
+}
+
+}  // namespace
 
 std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& run_case, const CaseDone& done,
                                   const std::function<bool()>& stop) {
@@ -169,10 +244,15 @@ std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& ru
   while (next < cases.size() || !running.empty()) {
     if (!stopping && stop()) {
       stopping = true;
-      for (const Child& child : running) ::kill(child.process, SIGINT);
+      for (const Child& child : running) ::kill(child.process, SIGTERM);
     }
     while (!stopping && next < cases.size() && running.size() < static_cast<std::size_t>(options.threads)) {
-      running.push_back(start(cases[next], next, run_case));
+      if (const std::optional<Child> child = start(cases[next], next, run_case)) {
+        running.push_back(*child);
+      } else {
+        results[next] = not_started(cases[next], errno);
+        done(results[next], ++num_done, cases.size());
+      }
       ++next;
     }
     bool any_ended = false;
@@ -186,11 +266,7 @@ std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& ru
         any_ended = true;
         continue;
       }
-      const std::chrono::duration<double> age = Clock::now() - child.started;
-      if (options.time_limit > 0.0 && age.count() > options.time_limit && !child.timed_out) {
-        child.timed_out = true;
-        ::kill(child.process, SIGKILL);
-      }
+      keep_to_limit(child, options.time_limit);
       ++k;
     }
     if (stopping && running.empty()) break;

@@ -137,6 +137,8 @@ TEST(SceneJson, everything_outside_the_grammar_is_refused) {
                              "[\0]"s,
                              "\"a\0b\""s,
                              "[1\0]"s,
+                             "[1]\0"s,
+                             "{}\0 and more"s,
                              "\xEF\xBB",
                              "undefined",
                              "[1;2]",

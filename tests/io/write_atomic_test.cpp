@@ -1,5 +1,7 @@
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <csignal>
 
@@ -126,7 +128,7 @@ TEST(AtomicFile, cut_short_by_a_full_disk_holds_whole_flushes_only) {
   EXPECT_EQ(text_of(scratch / "a.txt"), std::string(600, 'a') + "end");
 }
 
-TEST(RunDirectory, writes_every_file_and_the_summary_last) {
+TEST(RunDirectory, writes_every_file_and_all_of_them_appear_together) {
   const ScratchDirectory scratch;
   RunDirectory run(scratch / "out", "1.2.3");
   EXPECT_FALSE(fs::exists(scratch / "out")) << "before begin nothing is made";
@@ -134,33 +136,44 @@ TEST(RunDirectory, writes_every_file_and_the_summary_last) {
   run.row({0.0, 0.0, 0, {1.0, 2.0, 3.0}});
   run.motion(sample_frame(0.0));
   run.motion(sample_frame(1.0));
-  EXPECT_FALSE(fs::exists(scratch / "out/history.csv"));
+  EXPECT_FALSE(fs::exists(scratch / "out"));
   run.end(sample_summary());
   EXPECT_EQ(run.files(),
             (std::vector<std::string>{"history.csv", "motion.jsonl", "motion", "motion.pvd", "summary.json"}));
-  EXPECT_EQ(names_in(scratch / "out"),
-            (std::vector<std::string>{"history.csv", "motion", "motion.jsonl", "motion.pvd", "summary.json"}));
+  EXPECT_EQ(names_in(scratch / "out"), (std::vector<std::string>{"history.csv", "manifest.json", "motion",
+                                                                 "motion.jsonl", "motion.pvd", "summary.json"}));
   EXPECT_EQ(names_in(scratch / "out/motion"), (std::vector<std::string>{"frame_000000.vtu", "frame_000001.vtu"}));
+  EXPECT_TRUE(foreign_entries(scratch / "out").empty());
 }
 
-TEST(RunDirectory, a_new_run_removes_the_former_summary_and_frames_but_nothing_of_others) {
+TEST(RunDirectory, a_new_run_keeps_the_former_results_until_its_end_and_is_refused_beside_files_of_others) {
   const ScratchDirectory scratch;
-  {
-    RunDirectory run(scratch.path(), "1");
+  const auto write = [&](int frames, results::RunStatus status) {
+    RunDirectory run(scratch / "out", "1");
     run.begin({{"a"}});
-    for (int k = 0; k < 3; ++k) run.motion(sample_frame(k));
+    for (int k = 0; k < frames; ++k) run.motion(sample_frame(k));
     results::Summary summary;
+    summary.status = status;
     summary.header.columns = {"a"};
     run.end(summary);
+  };
+  write(3, results::RunStatus::ok);
+  {
+    RunDirectory second(scratch / "out", "1");
+    second.begin({{"a"}});
+    EXPECT_EQ(names_in(scratch / "out/motion").size(), 3u);
+    EXPECT_TRUE(fs::exists(scratch / "out/summary.json"));
+    RunDirectory third(scratch / "out", "1");
+    EXPECT_THROW(third.begin({{"a"}}), std::runtime_error);
   }
-  write_file(scratch / "notes.txt", "mine");
-  write_file(scratch / "motion/mine.vtu", "mine");
-  RunDirectory run(scratch.path(), "1");
-  run.begin({{"a"}});
-  EXPECT_FALSE(fs::exists(scratch / "summary.json"));
-  EXPECT_EQ(names_in(scratch / "motion"), std::vector<std::string>{"mine.vtu"});
-  EXPECT_TRUE(fs::exists(scratch / "notes.txt"));
-  EXPECT_TRUE(fs::exists(scratch / "history.csv")) << "the former history stays until the new one is whole";
+  write(1, results::RunStatus::failed);
+  EXPECT_EQ(names_in(scratch / "out/motion").size(), 3u) << "a run that fails keeps good results";
+  EXPECT_EQ(names_in(scratch / "out.failed/motion").size(), 1u);
+  write(2, results::RunStatus::ok);
+  EXPECT_EQ(names_in(scratch / "out/motion").size(), 2u);
+  write_file(scratch / "out/motion/frame_mine.vtu", "mine");
+  EXPECT_THROW(write(1, results::RunStatus::ok), OutputRefused);
+  EXPECT_TRUE(fs::exists(scratch / "out/motion/frame_mine.vtu"));
 }
 
 TEST(RunDirectory, a_run_that_is_given_up_leaves_no_half_written_file) {
@@ -170,7 +183,7 @@ TEST(RunDirectory, a_run_that_is_given_up_leaves_no_half_written_file) {
     run.begin({{"a"}});
     run.row({0.0, 0.0, 0, {1.0}});
   }
-  EXPECT_TRUE(names_in(scratch / "out").empty());
+  EXPECT_TRUE(names_in(scratch.path()).empty());
 }
 
 TEST(RunDirectory, a_full_disk_keeps_the_rows_written_before_it) {
@@ -219,6 +232,25 @@ TEST(RunDirectory, a_directory_that_cannot_be_made_is_told) {
   RunDirectory on_file(scratch / "file", "1");
   EXPECT_THROW(on_file.begin({{"a"}}), std::runtime_error);
   EXPECT_EQ(text_of(scratch / "file"), "x");
+  EXPECT_EQ(names_in(scratch.path()), std::vector<std::string>{"file"});
+}
+
+/// Where a standard stream is closed, the next file that is opened gets its number.
+TEST(AtomicFile, never_takes_the_place_of_a_standard_stream) {
+  const ScratchDirectory scratch;
+  const int kept = dup(STDIN_FILENO);
+  close(STDIN_FILENO);
+  {
+    AtomicFile file(scratch / "a.txt");
+    EXPECT_EQ(fcntl(STDIN_FILENO, F_GETFD), -1) << "nothing stands there";
+    file.write("whole");
+    file.commit();
+  }
+  if (kept >= 0) {
+    dup2(kept, STDIN_FILENO);
+    close(kept);
+  }
+  EXPECT_EQ(text_of(scratch / "a.txt"), "whole");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
+#include "bough/io/run_directory.hpp"
 #include "bough/io/summary.hpp"
 #include "write_samples.hpp"
 
@@ -154,6 +155,48 @@ TEST(Summary, a_file_that_is_no_summary_is_refused) {
     EXPECT_THROW((void)read_summary(scratch / "s.json"), std::runtime_error) << text;
   }
   EXPECT_THROW((void)read_summary(scratch / "none.json"), std::runtime_error);
+}
+
+TEST(Summary, says_what_the_run_was_made_from) {
+  const RunOrigin origin{"scene.json", "abc", {"/analysis/step_size=1e-4", "/a=\"b\""}, "0123", "456"};
+  const JsonValue json = parsed(summary_text(sample_summary(), "1", origin, {{"history.csv", 5, "789"}}));
+  const JsonValue& told = *json.find("origin");
+  EXPECT_EQ(told.find("scene_hash")->text, "abc");
+  EXPECT_EQ(told.find("set")->items.at(1).text, "/a=\"b\"");
+  EXPECT_EQ(told.find("program_hash")->text, "456");
+  EXPECT_EQ(json.find("files")->find("history.csv")->text, "789");
+}
+
+TEST(Summary, is_read_only_with_the_files_that_were_written_with_it) {
+  const ScratchDirectory scratch;
+  const auto write = [&](const char* name, double value, bool with_motion) {
+    RunDirectory run(scratch / name, "1");
+    run.begin({{"a"}});
+    run.row({0.0, 0.0, 0, {value}});
+    if (with_motion) run.motion(sample_frame(value));
+    run.end(sample_summary());
+  };
+  write("one", 1.0, true);
+  write("other", 2.0, true);
+  write("still", 1.0, false);
+  const std::vector<std::string> names = {"history.csv", "motion.jsonl"};
+  const auto is_whole = [&](const char* name) {
+    try {
+      (void)read_whole_summary(scratch / name, names);
+      return true;
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+  };
+  EXPECT_TRUE(is_whole("one") && is_whole("still"));
+  std::filesystem::copy_file(scratch / "one/motion.jsonl", scratch / "still/motion.jsonl");
+  EXPECT_FALSE(is_whole("still")) << "frames of another run";
+  std::filesystem::remove(scratch / "one/motion.jsonl");
+  EXPECT_FALSE(is_whole("one")) << "a file is missing";
+  std::filesystem::rename(scratch / "still/history.csv", scratch / "other/history.csv");
+  EXPECT_FALSE(is_whole("other")) << "a history of another run";
+  EXPECT_FALSE(is_whole("still")) << "no history";
+  EXPECT_FALSE(is_whole("none"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <limits>
 #include <regex>
 
+#include "../../src/report/svg_text.hpp"
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/run_directory.hpp"
 #include "bough/report/page.hpp"
@@ -21,6 +22,16 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++count;
   return count;
+}
+
+TEST(Pixel, of_what_no_page_holds_is_still_a_coordinate) {
+  EXPECT_EQ(pixel(12.3456), "12.35");
+  EXPECT_EQ(pixel(-0.025), "-0.05");
+  for (const double far : {1e6, 1e20, 1e300, std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(pixel(far), "1000000");
+    EXPECT_EQ(pixel(-far), "-1000000");
+  }
+  EXPECT_EQ(pixel(std::nan("")), "-1000000");
 }
 
 TEST(Projection, of_every_view_is_orthonormal) {

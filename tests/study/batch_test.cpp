@@ -1,5 +1,6 @@
 #include "bough/study/batch.hpp"
 
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,25 +25,39 @@ class Batch : public testing::Test {
     return {scratch_ / "in", scratch_ / "out", threads, time_limit};
   }
 
-  static int run_case(const BatchCase& which, std::string& cause) {
+  static int run_case(const BatchCase& which, CaseReport& report) {
     if (which.name.starts_with("bad")) {
-      cause = "line 1: no bodies\nline 2: no joints";
+      report.cause = "line 1: no bodies\nline 2: no joints";
       return 2;
     }
     if (which.name.starts_with("throws")) throw std::runtime_error("could not, so did not");
     if (which.name.starts_with("crashes")) std::raise(SIGKILL);
     if (which.name.starts_with("hangs")) std::this_thread::sleep_for(std::chrono::seconds(60));
-    if (which.name.starts_with("talks")) cause = std::string(100'000, 'x');
+    if (which.name.starts_with("talks")) report.cause = std::string(100'000, 'x');
     io::RunDirectory run(which.directory, "1");
     results::Summary summary = io::sample_summary();
+    if (!which.name.starts_with("figures"))
+      for (results::ExpectedResult& figure : summary.expected) figure.holds = true;
     run.begin(summary.header);
     run.row({0.0, 0.0, 0, {1.0, 2.0, 3.0}});
+    if (which.name.starts_with("stuck")) {
+      std::signal(SIGTERM, SIG_IGN);
+      std::this_thread::sleep_for(std::chrono::seconds(60));
+    }
+    if (which.name.starts_with("slow")) {
+      static volatile std::sig_atomic_t stop = 0;
+      std::signal(SIGTERM, [](int) { stop = 1; });
+      while (stop == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      summary.status = results::RunStatus::interrupted;
+      summary.cause = "stopped when told so";
+    }
     if (which.name.starts_with("fails")) {
       summary.status = results::RunStatus::failed;
       summary.cause = "no equilibrium";
     }
     run.end(summary);
-    return which.name.starts_with("fails") ? 1 : 0;
+    report.directory = run.directory();
+    return summary.status == results::RunStatus::ok ? 0 : 1;
   }
 
   std::vector<CaseResult> run(const BatchOptions& o) {
@@ -71,8 +86,8 @@ TEST_F(Batch, every_kind_of_failure_is_told_and_harms_no_other) {
   for (const char* name : {"good_1", "good_2"}) {
     EXPECT_EQ(by_name[name].status, CaseStatus::ok);
     EXPECT_EQ(by_name[name].accepted, 10);
-    EXPECT_EQ(by_name[name].expected_holds, 1);
-    EXPECT_EQ(by_name[name].expected_fails, 1);
+    EXPECT_EQ(by_name[name].expected_holds, 2);
+    EXPECT_EQ(by_name[name].expected_fails, 0);
     EXPECT_TRUE(std::filesystem::exists(scratch_ / "out" / name / "summary.json"));
   }
 }
@@ -95,13 +110,83 @@ TEST_F(Batch, a_case_that_hangs_is_stopped_at_the_limit) {
   EXPECT_EQ(results.at(1).status, CaseStatus::timed_out);
 }
 
+TEST_F(Batch, a_case_whose_figures_fail_is_not_called_ok) {
+  add("figures");
+  const CaseResult result = run(options(1)).at(0);
+  EXPECT_EQ(result.status, CaseStatus::figures_fail);
+  EXPECT_EQ(result.cause, "tip.y is -0.1 instead of -0.2 +- 1e-09");
+  EXPECT_NE(batch_csv({result}).find("figures,figures_fail,"), std::string::npos);
+}
+
+TEST_F(Batch, a_case_past_its_limit_that_stops_by_itself_keeps_its_results) {
+  add("slow");
+  const CaseResult result = run(options(1, 0.2)).at(0);
+  EXPECT_EQ(result.status, CaseStatus::timed_out);
+  EXPECT_EQ(result.cause, "stopped when told so");
+  EXPECT_EQ(result.accepted, 10);
+}
+
+TEST_F(Batch, a_case_that_has_to_be_killed_at_its_limit_keeps_the_rows_it_had_written) {
+  add("stuck");
+  const CaseResult result = run(options(1, 0.1)).at(0);
+  EXPECT_EQ(result.status, CaseStatus::timed_out);
+  EXPECT_NE(result.cause.find("its rows to the last flush"), std::string::npos) << result.cause;
+  EXPECT_EQ(io::read_history(scratch_ / "out/stuck/history.csv").header.columns.size(), 3u);
+}
+
+TEST_F(Batch, results_that_a_case_could_not_replace_are_not_told_as_its_own) {
+  add("good");
+  (void)run(options(1));
+  std::filesystem::rename(scratch_ / "in/good.json", scratch_ / "in/fails.json");
+  std::filesystem::rename(scratch_ / "out/good", scratch_ / "out/fails");
+  const CaseResult result = run(options(1)).at(0);
+  EXPECT_EQ(result.status, CaseStatus::failed);
+  EXPECT_NE(result.cause.find("fails.failed"), std::string::npos) << result.cause;
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "out/fails.failed/summary.json"));
+}
+
+TEST_F(Batch, its_cases_end_with_it) {
+  add("hangs");
+  const std::filesystem::path mark = scratch_ / "mark";
+  const pid_t batch = fork();
+  if (batch == 0) {
+    (void)run_batch(
+        options(1),
+        [&](const BatchCase&, CaseReport&) {
+          io::write_file(mark, std::to_string(getpid()));
+          std::this_thread::sleep_for(std::chrono::seconds(60));
+          return 0;
+        },
+        [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+    _exit(0);
+  }
+  while (!std::filesystem::exists(mark)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  const pid_t child = std::stoi(io::text_of(mark));
+  kill(batch, SIGKILL);
+  waitpid(batch, nullptr, 0);
+  bool is_gone = false;
+  for (int k = 0; k < 500 && !is_gone; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    is_gone =
+        kill(child, 0) != 0 || io::text_of("/proc/" + std::to_string(child) + "/stat").find(") Z") != std::string::npos;
+  }
+  EXPECT_TRUE(is_gone);
+  if (!is_gone) kill(child, SIGKILL);
+}
+
+TEST_F(Batch, names_of_dots_stay_within_the_folder) {
+  for (const char* name : {"..", "...", "a"}) add(name);
+  for (const BatchCase& which : cases_in(options(1)))
+    EXPECT_EQ(which.directory.lexically_normal().parent_path(), scratch_ / "out") << which.name;
+}
+
 TEST_F(Batch, stopping_ends_what_runs_and_starts_nothing_more) {
   for (const char* name : {"hangs_1", "hangs_2", "later"}) add(name);
   std::filesystem::create_directories(scratch_ / "out");
   int asked = 0;
   const auto results = run_batch(
       options(2), run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [&] { return ++asked > 3; });
-  EXPECT_EQ(results.at(0).status, CaseStatus::crashed) << "these children do not catch SIGINT";
+  EXPECT_EQ(results.at(0).status, CaseStatus::crashed) << "these children do not catch SIGTERM";
   EXPECT_EQ(results.at(2).status, CaseStatus::interrupted);
   EXPECT_EQ(results.at(2).cause, "not started");
 }

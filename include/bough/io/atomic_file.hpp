@@ -4,9 +4,12 @@
 #include <string>
 #include <string_view>
 
+#include "bough/io/digest.hpp"
+
 namespace bough::io {
 
-enum class Durability { now, later };
+/// What `commit` waits for: now: the content and the name are on disk; content: the content alone; later: neither.
+enum class Durability { now, content, later };
 
 /// Writes to `<name>.partial` beside the final name; `commit` makes it durable and renames it. A former file of the final name stays
 /// untouched until then. Without `commit` the destructor removes the partial file; after a crash the next writer takes it over.
@@ -27,13 +30,16 @@ class AtomicFile {
   void flush();
 
   /// Flush, fsync of the file, rename, fsync of the directory. On failure the final name keeps its former content.
-  /// later: without the two fsync; whoever writes many files calls `sync_file` on each and `sync_directory` once when all are written.
+  /// content: without the fsync of the directory; later: without both. Whoever writes many files calls `sync_file` on each that lacks it and
+  /// `sync_directory` once when all are written.
   void commit(Durability durability = Durability::now);
 
   /// False after `commit`, and where a failed write could not be undone.
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
   [[nodiscard]] std::size_t buffered() const { return buffer_.size(); }
   [[nodiscard]] std::size_t bytes_flushed() const { return flushed_; }
+  /// Of what was flushed.
+  [[nodiscard]] std::string digest() const { return digest_.text(); }
   [[nodiscard]] const std::filesystem::path& path() const { return final_path_; }
 
  private:
@@ -43,6 +49,7 @@ class AtomicFile {
   std::filesystem::path final_path_, partial_path_;
   std::string buffer_;
   std::size_t flushed_ = 0;
+  Digest digest_;
   int descriptor_ = -1;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/manifest.hpp"
 #include "bough/results/records.hpp"
 
 namespace bough::io {
@@ -16,7 +17,11 @@ class HistoryWriter {
  public:
   HistoryWriter(const std::filesystem::path& path, const results::HistoryHeader& header);
   void row(const results::HistoryRow& row);
-  void commit() { file_.commit(); }
+  void commit(Durability durability = Durability::now) { file_.commit(durability); }
+  /// Of what stands in the file.
+  [[nodiscard]] FileRecord record() const {
+    return {file_.path().filename().string(), file_.bytes_flushed(), file_.digest()};
+  }
   [[nodiscard]] bool can_commit() const { return file_.is_open(); }
   [[nodiscard]] long rows() const { return rows_; }
 

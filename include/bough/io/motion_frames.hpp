@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/manifest.hpp"
 #include "bough/results/records.hpp"
 
 namespace bough::io {
@@ -20,7 +21,11 @@ class MotionLinesWriter {
   explicit MotionLinesWriter(const std::filesystem::path& path) : file_(path) {}
   /// All frames must have the parts of the first one. std::runtime_error where it cannot be written.
   void frame(const results::MotionFrame& frame);
-  void commit() { file_.commit(); }
+  void commit(Durability durability = Durability::now) { file_.commit(durability); }
+  /// Of what stands in the file.
+  [[nodiscard]] FileRecord record() const {
+    return {file_.path().filename().string(), file_.bytes_flushed(), file_.digest()};
+  }
   [[nodiscard]] bool can_commit() const { return file_.is_open(); }
 
  private:

@@ -28,6 +28,7 @@ struct SceneFile {
   scene::Scene scene;
   std::vector<Problem> problems;  ///< in the order of the file; at most max_problems
   std::vector<Problem> warnings;  ///< legal, but probably not meant
+  std::string hash;               ///< digest of the text (digest.hpp)
   bool ok() const { return problems.empty(); }
 };
 
@@ -38,8 +39,13 @@ inline constexpr std::size_t max_json_values = 10'000'000;  ///< numbers, string
 
 /// Reads and checks a scene. Never throws on bad input (only std::bad_alloc may pass), never returns a half-checked scene as good.
 /// set_overrides: "/pointer=value", applied before the check; the value is JSON, or a bare word taken as a string; an array item may
-/// be given by its number or by its "name". Scene::name is the file's name without its ending.
+/// be given by its number or by its "name". Scene::name is the file's name without its ending (name_of_file). The file "-" is standard
+/// input, and its scene is named "scene".
 SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides = {});
+
+/// The name that a file gives to what it holds, and to folders of its results: its own name without the last ending; the whole name where only
+/// dots would be left, which would lead out of a folder.
+std::string name_of_file(const std::filesystem::path& file);
 
 /// The same from a text in memory. name: becomes Scene::name.
 SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides = {});

@@ -1,17 +1,21 @@
 #pragma once
 /// The directory of one run: the recorder that writes it.
-///   summary.json   removed first, written last
 ///   history.csv    the sensors
 ///   motion.pvd, motion/frame_000000.vtu ..., motion.jsonl   where motion is recorded
 ///                  (a build without BOUGH_WITH_VTK writes motion.jsonl only)
-/// Every file appears under its name only when it is whole.
+///   summary.json   how the run ended, what it was made from, the hash of every file
+///   manifest.json  what in the directory is bough's (manifest.hpp)
+/// All of them appear under the directory's name together, at the end (output_folder.hpp).
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bough/io/history.hpp"
 #include "bough/io/motion_frames.hpp"
+#include "bough/io/output_folder.hpp"
+#include "bough/io/summary.hpp"
 #include "bough/io/write_vtu.hpp"
 #include "bough/results/records.hpp"
 
@@ -19,38 +23,57 @@ namespace bough::io {
 
 class RunDirectory final : public results::Recorder {
  public:
-  /// Nothing is touched until `begin`: a run that does not start leaves no directory.
-  RunDirectory(std::filesystem::path directory, std::string version);
+  /// Nothing is touched until `open` or `begin`: a run that does not start leaves no directory.
+  RunDirectory(std::filesystem::path directory, std::string version, RunOrigin origin = {});
+
+  /// Takes the directory for this run, and refuses what is not bough's (OutputFolder). `begin` does so where nobody
+  /// did before.
+  void open();
 
   void begin(const results::HistoryHeader& header) override;
   void row(const results::HistoryRow& row) override;
   void motion(const results::MotionFrame& frame) override;
 
-  /// Gives history, motion and then the summary their names. After a failed write what was safely written before is kept. Where even that
-  /// cannot be done, throws the first failure.
+  /// Gives history, motion and summary their place. After a failed write what was safely written before is kept,
+  /// without a summary. Throws the first failure.
   void end(const results::Summary& summary) override;
 
   [[nodiscard]] bool has_begun() const { return history_ != nullptr; }
   [[nodiscard]] bool has_ended() const { return has_ended_; }  ///< `end` was called, whether it went well or not
 
-  /// For a run that was cut off by `cause` (a recorder that could not write, say) before `end`: ends it as failed with what is there.
-  /// Does nothing where it did not begin or did end. Throws as `end`.
+  /// For a run that was cut off by `cause` (a recorder that could not write, say) before `end`: ends it as failed
+  /// with what is there. Does nothing where it did not begin or did end. Throws as `end`.
   void end_as_failed(results::Summary summary, const std::string& cause);
 
-  [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
+  /// Where the results stand; after the end of a run that failed perhaps beside former results that were good.
+  [[nodiscard]] const std::filesystem::path& directory() const { return folder_ ? folder_->folder() : directory_; }
+  /// In words, why they stand beside; empty where they do not.
+  [[nodiscard]] std::string why_beside() const {
+    return folder_ && folder_->stands_beside() ? folder_->why_beside() : std::string();
+  }
   /// Names of the files that are whole, relative to the directory, for the message at the end.
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
+  /// Gives the rows that a run which was killed had handed to the system their place: a history without a summary,
+  /// marked as failed. Returns where it stands; nothing where there are no rows, or the run still goes on. Throws as
+  /// OutputFolder.
+  static std::optional<std::filesystem::path> keep_rows_of_killed(const std::filesystem::path& directory);
+
  private:
-  void remove_former_results();
+  /// Gives the files their names; returns the first failure.
+  std::exception_ptr commit_files();
+  void list(FileRecord record);
 
   std::filesystem::path directory_;
   std::string version_;
+  RunOrigin origin_;
+  std::unique_ptr<OutputFolder> folder_;
   std::unique_ptr<HistoryWriter> history_;
   std::unique_ptr<MotionLinesWriter> motion_lines_;
   bool has_ended_ = false;
   VtuOptions vtu_options_;
   std::vector<PvdEntry> frames_;
+  std::vector<FileRecord> frame_records_, records_;
   std::vector<std::string> files_;
 };
 

@@ -5,16 +5,28 @@
 #include <string_view>
 #include <vector>
 
+#include "bough/io/manifest.hpp"
 #include "bough/results/records.hpp"
 
 namespace bough::io {
+
+/// What a run was made from.
+struct RunOrigin {
+  std::filesystem::path scene_file = {};       ///< "-": standard input; empty: the scene was made in memory
+  std::string scene_hash = {};                 ///< digest of its bytes
+  std::vector<std::string> overrides = {};     ///< "/pointer=value", in the order in which they were applied
+  std::string commit = {}, program_hash = {};  ///< of the program that ran (program_hash.hpp)
+
+  std::vector<std::filesystem::path> inputs() const;  ///< files that the results must not replace
+};
 
 /// "ok", "failed", "interrupted".
 std::string_view status_text(results::RunStatus status);
 
 /// The file's text. NaN and infinity appear as the strings "nan", "inf", "-inf", never as null. Options are keyed by their JSON pointer, as
-/// `--set` takes them.
-std::string summary_text(const results::Summary& summary, std::string_view version);
+/// `--set` takes them. files: all that belong to the run, each with its hash.
+std::string summary_text(const results::Summary& summary, std::string_view version, const RunOrigin& origin = {},
+                         const std::vector<FileRecord>& files = {});
 
 /// What the report, the comparison and the batch table need of a summary.
 struct SummaryFile {
@@ -25,9 +37,15 @@ struct SummaryFile {
   std::vector<std::string> notes;
   std::vector<results::Doubt> doubts;  ///< why the run should not be trusted
   std::vector<results::ExpectedResult> expected;
+  std::vector<std::string> overrides;  ///< of the scene, as they were given
+  std::vector<FileRecord> files;       ///< that were written with it
 };
 
 /// Throws std::runtime_error naming the file and what is wrong.
 SummaryFile read_summary(const std::filesystem::path& path);
+
+/// The summary of a directory, after a look at whether the files `names` are those that were written with it. Throws std::runtime_error where the
+/// directory is not whole, or where one of them is missing though the summary lists it, is there though it does not, or has changed.
+SummaryFile read_whole_summary(const std::filesystem::path& directory, const std::vector<std::string>& names);
 
 }  // namespace bough::io

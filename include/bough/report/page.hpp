@@ -19,7 +19,7 @@ struct RunFiles {
   std::vector<results::MotionFrame> motion;  ///< empty: not recorded
 };
 
-/// Reads a result directory. Throws std::runtime_error where it holds no history or something in it is damaged.
+/// Reads a result directory. Throws std::runtime_error where it is not whole, or holds files of different runs (io::read_whole_summary).
 RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames = 301);
 
 bool is_static(const RunFiles& run);  ///< its histories run over the load factor

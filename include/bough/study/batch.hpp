@@ -19,7 +19,8 @@ struct BatchCase {
   std::filesystem::path scene, directory;
 };
 
-enum class CaseStatus { ok, failed, interrupted, bad_input, crashed, timed_out };
+/// figures_fail: the run is complete, and an expected figure of its scene does not hold.
+enum class CaseStatus { ok, figures_fail, failed, interrupted, bad_input, crashed, timed_out };
 
 struct CaseResult {
   BatchCase which;
@@ -29,8 +30,14 @@ struct CaseResult {
   int expected_holds = 0, expected_fails = 0;
 };
 
-/// How a case is run, in a process of its own: the exit status of `bough run` (0 done, 1 failed, 2 bad input), and in `cause` what to report.
-using RunCase = std::function<int(const BatchCase&, std::string& cause)>;
+/// What a case tells of itself when it ends.
+struct CaseReport {
+  std::string cause;                ///< what to report
+  std::filesystem::path directory;  ///< where its results stand; empty: in BatchCase::directory
+};
+
+/// How a case is run, in a process of its own: the exit status of `bough run` (0 done, 1 failed, 2 bad input).
+using RunCase = std::function<int(const BatchCase&, CaseReport& report)>;
 
 /// Told after every case: how many are done, of how many.
 using CaseDone = std::function<void(const CaseResult&, std::size_t done, std::size_t all)>;
@@ -39,8 +46,9 @@ using CaseDone = std::function<void(const CaseResult&, std::size_t done, std::si
 std::vector<BatchCase> cases_in(const BatchOptions& options);
 
 /// Runs all cases; rows are in the order of `cases_in` whatever finishes first. Each case runs in a child process, so that one that crashes,
-/// hangs or takes all memory harms no other. `stop` is asked between cases; once true no further case starts and those running are told to
-/// stop (SIGINT). Call it while the process has one thread. Throws std::runtime_error where no process can be started.
+/// hangs or takes all memory harms no other; all of them end with this process, however it ends. A case for which no process can be started has
+/// failed. `stop` is asked between cases; once true no further case starts and those running are told to stop (SIGTERM). A case past its
+/// time limit is told so, too, and is killed where it does not end by itself. Call it while the process has one thread.
 std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& run_case, const CaseDone& done,
                                   const std::function<bool()>& stop);
 

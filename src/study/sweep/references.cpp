@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <fstream>
 #include <iterator>
 
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/digest.hpp"
+#include "bough/io/manifest.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_study.hpp"
 #include "bough/step/instruction_set.hpp"
@@ -47,17 +48,9 @@ std::string made_from(const io::StudySpec& spec, const std::vector<std::string>&
   return text + "\n" + io::canonical_scene(spec.scene_text, overrides) + "\n";
 }
 
-std::string hash_of(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  std::string digits(16, '0');
-  for (std::size_t k = 16; k-- > 0; hash >>= 4u) digits[k] = "0123456789abcdef"[hash & 15u];
-  return digits;
-}
-
 std::optional<io::History> ReferenceCache::find(const std::string& from) const {
   if (folder_.empty()) return std::nullopt;
-  const std::string name = hash_of(from);
+  const std::string name = io::digest_of(from);
   std::ifstream in(folder_ / (name + ".txt"), std::ios::binary);
   if (!in) return std::nullopt;
   const std::string there((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
@@ -72,7 +65,8 @@ std::optional<io::History> ReferenceCache::find(const std::string& from) const {
 void ReferenceCache::keep(const std::string& from, const io::History& history) const {
   if (folder_.empty()) return;
   std::filesystem::create_directories(folder_);
-  const std::string name = hash_of(from);
+  const std::string name = io::digest_of(from);
+  for (const char* ending : {".csv", ".txt"}) io::list_file(folder_, "references", name + ending);
   io::HistoryWriter writer(folder_ / (name + ".csv"), history.header);
   for (const results::HistoryRow& row : history.rows) writer.row(row);
   writer.commit();

@@ -13,9 +13,6 @@ namespace bough::study {
 /// All that a computed reference depends on: the scene with its defaults, the sample times, this program.
 std::string made_from(const io::StudySpec& spec, const std::vector<std::string>& overrides);
 
-/// FNV-1a, 64 bits, as 16 hexadecimal digits: the name of a reference in its folder.
-std::string hash_of(const std::string& text);
-
 /// References in a folder, two files each: HASH.csv (a history) and HASH.txt (what it was made from, to the letter).
 class ReferenceCache {
  public:

@@ -1,0 +1,38 @@
+#include "bough/io/folder_lock.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace bough::io {
+
+namespace fs = std::filesystem;
+
+bool FolderLock::take(const fs::path& folder) {
+  release();
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(descriptor);
+    return false;
+  }
+  struct stat locked = {}, named = {};  // the folder may have got another name before it was locked
+  const bool is_same = ::fstat(descriptor, &locked) == 0 && ::lstat(folder.c_str(), &named) == 0 &&
+                       locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
+  if (!is_same) {
+    ::close(descriptor);
+    return false;
+  }
+  descriptor_ = descriptor;
+  return true;
+}
+
+void FolderLock::release() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+}
+
+}  // namespace bough::io

@@ -1,0 +1,282 @@
+#include "bough/io/manifest.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/folder_lock.hpp"
+#include "bough/io/json_text.hpp"
+#include "bough/io/json_value.hpp"
+
+namespace bough::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* format_name = "bough folder 1";
+constexpr std::string_view partial_ending = ".partial";
+
+const char* text_of(FolderState state) {
+  switch (state) {
+    case FolderState::unfinished:
+      return "unfinished";
+    case FolderState::good:
+      return "good";
+    case FolderState::failed:
+      return "failed";
+  }
+  return "unfinished";
+}
+
+std::string text_at(const JsonValue& object, std::string_view key) {
+  const JsonValue* value = object.find(key);
+  return value != nullptr && value->is(JsonKind::string) ? value->text : std::string();
+}
+
+/// A name that leads nowhere but down.
+bool is_below(const std::string& name) {
+  const fs::path path(name);
+  return !name.empty() && path.is_relative() &&
+         std::none_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".." || part == "."; });
+}
+
+bool read_files(const JsonValue& list, std::vector<FileRecord>& files) {
+  for (std::size_t k = 0; k < list.items.size() && k < list.keys.size(); ++k) {
+    const JsonValue& item = list.items[k];
+    FileRecord record{list.keys[k]};
+    if (!is_below(record.name)) return false;
+    if (const JsonValue* bytes = item.find("bytes"); bytes != nullptr && bytes->number >= 0.0)
+      record.bytes = static_cast<std::uint64_t>(bytes->number);
+    record.hash = text_at(item, "hash");
+    files.push_back(std::move(record));
+  }
+  return true;
+}
+
+bool is_named(const FileRecord& record, std::string_view name) {
+  if (record.name.ends_with('*')) return name.starts_with(record.name.substr(0, record.name.size() - 1));
+  return record.name == name;
+}
+
+/// Looks up names among the records of a manifest.
+class Listed {
+ public:
+  explicit Listed(const Manifest& manifest) : records_(manifest.files) {
+    std::sort(records_.begin(), records_.end(),
+              [](const FileRecord& a, const FileRecord& b) { return a.name < b.name; });
+    std::copy_if(records_.begin(), records_.end(), std::back_inserter(stars_),
+                 [](const FileRecord& r) { return r.name.ends_with('*'); });
+  }
+  const FileRecord* find(std::string_view name) const {
+    const auto at = std::lower_bound(records_.begin(), records_.end(), name,
+                                     [](const FileRecord& r, std::string_view n) { return r.name < n; });
+    if (at != records_.end() && at->name == name) return &*at;
+    const auto star =
+        std::find_if(stars_.begin(), stars_.end(), [&](const FileRecord& r) { return is_named(r, name); });
+    return star == stars_.end() ? nullptr : &*star;
+  }
+  /// Whether a file there may be taken for one that bough wrote.
+  bool holds(const fs::directory_entry& entry, std::string name) const {
+    if (!entry.is_regular_file() || entry.is_symlink()) return false;
+    if (name == manifest_name) return true;
+    const bool is_partial = name.ends_with(partial_ending);
+    if (is_partial) name.resize(name.size() - partial_ending.size());
+    if (is_partial && name == manifest_name) return true;
+    const FileRecord* record = find(name);
+    return record != nullptr && (is_partial || record->hash.empty() || entry.file_size() == record->bytes);
+  }
+  /// Whether something that is listed lies below.
+  bool has_below(const std::string& folder) const {
+    return std::any_of(records_.begin(), records_.end(),
+                       [&](const FileRecord& r) { return r.name.starts_with(folder + "/"); });
+  }
+
+ private:
+  std::vector<FileRecord> records_, stars_;
+};
+
+void look_below(const fs::path& folder, const std::string& prefix, const Listed& listed, std::size_t limit,
+                std::vector<std::string>& foreign) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (foreign.size() >= limit) return;
+    const std::string name = prefix + entry.path().filename().string();
+    if (!entry.is_symlink() && entry.is_directory()) {
+      if (listed.has_below(name))
+        look_below(entry.path(), name + "/", listed, limit, foreign);
+      else if (!read_manifest(entry.path()) && !fs::is_empty(entry.path()))
+        foreign.push_back(name + "/");
+    } else if (!listed.holds(entry, name)) {
+      foreign.push_back(name);
+    }
+  }
+}
+
+/// Removes listed files below; a folder that is empty then goes, too.
+void remove_below(const fs::path& folder, const std::string& prefix, const Listed& listed) {
+  std::vector<fs::directory_entry> entries;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) entries.push_back(entry);
+  for (const fs::directory_entry& entry : entries) {
+    const std::string name = prefix + entry.path().filename().string();
+    if (!entry.is_symlink() && entry.is_directory()) {
+      if (listed.has_below(name)) remove_below(entry.path(), name + "/", listed);
+    } else if (name != manifest_name && listed.holds(entry, name)) {
+      fs::remove(entry.path());
+    }
+  }
+  if (!prefix.empty() && fs::is_empty(folder)) fs::remove(folder);
+}
+
+/// The same for all ways to one place: resolved as far as it is there.
+fs::path place_of(const fs::path& path) {
+  std::error_code error;
+  const fs::path place = fs::weakly_canonical(fs::absolute(path), error).lexically_normal();
+  return error ? fs::absolute(path).lexically_normal() : place;
+}
+
+bool are_one(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return place_of(a) == place_of(b) || fs::equivalent(a, b, error);
+}
+
+/// Others hold a folder for as long as they add a line to its manifest, or for a whole run.
+void wait_for(FolderLock& lock, const fs::path& folder) {
+  constexpr int most_tries = 200;
+  for (int k = 0; !lock.take(fs::canonical(folder)); ++k) {
+    if (k == most_tries)
+      throw std::runtime_error("cannot write into " + folder.string() + ": another run is writing it");
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+}  // namespace
+
+std::string manifest_text(const Manifest& manifest) {
+  JsonText json;
+  json.begin_object();
+  json.member("format", std::string_view(format_name));
+  json.member("made_by", std::string_view(manifest.made_by));
+  json.member("state", std::string_view(text_of(manifest.state)));
+  if (!manifest.instead_of.empty()) json.member("instead_of", std::string_view(manifest.instead_of));
+  json.key("files");
+  json.begin_object();
+  for (const FileRecord& file : manifest.files) {
+    json.key(file.name);
+    json.begin_object();
+    if (!file.hash.empty()) {
+      json.member("bytes", static_cast<long long>(file.bytes));
+      json.member("hash", std::string_view(file.hash));
+    }
+    json.end_object();
+  }
+  json.end_object();
+  json.end_object();
+  return json.text();
+}
+
+std::optional<Manifest> read_manifest(const fs::path& folder) {
+  const fs::path path = folder / manifest_name;
+  std::error_code ignored;
+  if (!fs::is_regular_file(fs::symlink_status(path, ignored))) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::vector<JsonFault> faults;
+  const std::optional<JsonValue> json = parse_json(text, source_file, faults);
+  if (!file || !json || !json->is(JsonKind::object) || text_at(*json, "format") != format_name) return std::nullopt;
+  Manifest manifest{text_at(*json, "made_by")};
+  for (const FolderState state : {FolderState::good, FolderState::failed})
+    if (text_at(*json, "state") == text_of(state)) manifest.state = state;
+  manifest.instead_of = text_at(*json, "instead_of");
+  const JsonValue* files = json->find("files");
+  if (files == nullptr || !read_files(*files, manifest.files)) return std::nullopt;
+  return manifest;
+}
+
+std::vector<std::string> foreign_entries(const fs::path& folder, std::size_t limit) {
+  std::vector<std::string> foreign;
+  const Listed listed(read_manifest(folder).value_or(Manifest{}));
+  if (!read_manifest(folder) && fs::exists(fs::symlink_status(folder / manifest_name)))
+    foreign.emplace_back(manifest_name);
+  look_below(folder, "", listed, limit, foreign);
+  std::sort(foreign.begin(), foreign.end());
+  return foreign;
+}
+
+void remove_listed(const fs::path& folder) {
+  const std::optional<Manifest> manifest = read_manifest(folder);
+  if (!manifest && !fs::is_empty(folder)) return;
+  if (manifest) {
+    remove_below(folder, "", Listed(*manifest));
+    bool is_bare = true;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      is_bare = is_bare && entry.path().filename() == manifest_name;
+    if (!is_bare) return;
+    fs::remove(folder / manifest_name);
+  }
+  fs::remove(folder);
+}
+
+void require_ours(const fs::path& folder) {
+  const fs::file_status there = fs::symlink_status(folder);
+  if (!fs::exists(there)) return;
+  if (!fs::is_directory(fs::status(folder)))
+    throw std::runtime_error("cannot write into " + folder.string() + ": not a directory");
+  const std::vector<std::string> foreign = foreign_entries(folder);
+  if (foreign.empty()) return;
+  std::string names;
+  for (const std::string& name : foreign) names += (names.empty() ? "" : ", ") + name;
+  throw OutputRefused("results go into a folder of their own, and " + folder.string() +
+                      " holds what bough did not write, or what was changed since: " + names +
+                      "; give --out a new name, or move these away");
+}
+
+void refuse_to_overwrite(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    if (outputs[k].empty()) continue;
+    for (const fs::path& input : inputs)
+      if (!input.empty() && input != "-" && are_one(input, outputs[k]))
+        throw OutputRefused(outputs[k].string() +
+                            " is read here and would be overwritten: give the output another name");
+    for (std::size_t other = 0; other < k; ++other)
+      if (!outputs[other].empty() && are_one(outputs[other], outputs[k]))
+        throw OutputRefused("two outputs go to " + outputs[k].string() + ": give one of them another name");
+  }
+}
+
+void refuse_inputs_within(const std::vector<fs::path>& inputs, const fs::path& folder) {
+  const fs::path place = place_of(folder);
+  for (const fs::path& input : inputs) {
+    if (input.empty() || input == "-") continue;
+    const fs::path inside = place_of(input).lexically_relative(place);
+    if (!inside.empty() && *inside.begin() != "..")
+      throw OutputRefused(input.string() + " is read here and lies in the folder " + folder.string() +
+                          ", which the results replace: give --out another name");
+  }
+}
+
+void list_file(const fs::path& folder, const std::string& made_by, const std::string& name) {
+  FolderLock lock;
+  wait_for(lock, folder);
+  std::optional<Manifest> present = read_manifest(folder);
+  if (!present && fs::exists(fs::symlink_status(folder / manifest_name)))
+    throw OutputRefused((folder / manifest_name).string() + " was not written by bough and would be replaced");
+  Manifest manifest = present ? std::move(*present) : Manifest{made_by, FolderState::good};
+  const auto at = std::find_if(manifest.files.begin(), manifest.files.end(),
+                               [&](const FileRecord& record) { return record.name == name; });
+  if (at != manifest.files.end() && at->hash.empty()) return;
+  if (at != manifest.files.end())
+    *at = {name};
+  else
+    manifest.files.push_back({name});
+  write_file(folder / manifest_name, manifest_text(manifest), Durability::later);
+}
+
+void write_listed_file(const fs::path& folder, const std::string& made_by, const std::string& name,
+                       std::string_view text) {
+  list_file(folder, made_by, name);
+  write_file(folder / name, text);
+}
+
+}  // namespace bough::io

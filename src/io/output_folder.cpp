@@ -1,0 +1,310 @@
+#include "bough/io/output_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/digest.hpp"
+
+namespace bough::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* former_name = ".former";  // within a staging folder: entries that were moved out of the final one
+
+std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
+
+[[noreturn]] void fail(const fs::path& folder, int error) {
+  throw std::runtime_error("cannot write into " + folder.string() + ": " + reason(error));
+}
+
+/// The folder that a name of the user's leads to; where nothing is there, the name below the folder that is.
+fs::path resolved(const fs::path& folder) {
+  const fs::file_status there = fs::symlink_status(folder);
+  if (fs::is_symlink(there) && !fs::exists(fs::status(folder)))
+    throw std::runtime_error("cannot write into " + folder.string() + ": it is a link that leads nowhere");
+  fs::path absolute = fs::absolute(folder).lexically_normal();
+  if (!absolute.has_filename()) absolute = absolute.parent_path();  // "out/"
+  return fs::weakly_canonical(absolute);
+}
+
+/// Whether the folder cannot be given another name: this process stands in it, it is the root of a file system, or
+/// its parent cannot be written.
+bool has_to_stay(const fs::path& folder) {
+  struct stat own = {}, above = {};
+  if (::stat(folder.c_str(), &own) != 0 || ::stat(folder.parent_path().c_str(), &above) != 0) return false;
+  if (own.st_dev != above.st_dev || own.st_ino == above.st_ino) return true;
+  if (::access(folder.parent_path().c_str(), W_OK | X_OK) != 0) return true;
+  std::error_code error;
+  const fs::path inside = fs::current_path(error).lexically_relative(folder);
+  return !error && !inside.empty() && *inside.begin() != "..";
+}
+
+/// Whether a folder can be given a name in another one.
+bool can_move_to(const fs::path& folder, const fs::path& parent) {
+  struct stat own = {}, above = {};
+  return ::stat(folder.c_str(), &own) == 0 && ::stat(parent.c_str(), &above) == 0 && own.st_dev == above.st_dev &&
+         ::access(parent.c_str(), W_OK | X_OK) == 0;
+}
+
+/// Renames; returns 0 or the error.
+int rename_to(const fs::path& from, const fs::path& to) { return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno; }
+
+/// Exchanges two names at once; returns 0 or the error.
+int exchange(const fs::path& a, const fs::path& b) {
+  return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0 ? 0 : errno;
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(fs::symlink_status(path, ignored));
+}
+
+/// Folders within that are not part of the results themselves.
+std::vector<std::string> guests_of(const fs::path& folder) {
+  const Manifest manifest = read_manifest(folder).value_or(Manifest{});
+  std::vector<std::string> guests;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_listed = std::any_of(manifest.files.begin(), manifest.files.end(),
+                                       [&](const FileRecord& r) { return r.name.starts_with(name + "/"); });
+    if (is_folder(entry.path()) && !is_listed && name != former_name) guests.push_back(name);
+  }
+  return guests;
+}
+
+/// Moves entries by name; those that are there already stay. Returns 0 or the first error.
+int move_names(const std::vector<std::string>& names, const fs::path& from, const fs::path& to) {
+  int error = 0;
+  for (const std::string& name : names)
+    if (!fs::exists(fs::symlink_status(to / name)))
+      if (const int e = rename_to(from / name, to / name); e != 0 && error == 0) error = e;
+  return error;
+}
+
+/// Names at the top of what a manifest lists that are there, the manifest itself first.
+std::vector<std::string> top_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  if (!read_manifest(folder)) return names;
+  names.emplace_back(manifest_name);
+  const std::vector<std::string> guests = guests_of(folder);
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_guest = std::find(guests.begin(), guests.end(), name) != guests.end();
+    if (!is_guest && name != manifest_name && name != former_name) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+fs::path OutputFolder::staging_of(const fs::path& folder) {
+  const fs::path place = resolved(folder);
+  return has_to_stay(place) ? place / ".bough-new"
+                            : place.parent_path() / ("." + place.filename().string() + ".bough-new");
+}
+
+OutputFolder::OutputFolder(fs::path folder, std::string made_by, std::vector<std::string> names,
+                           const std::vector<fs::path>& inputs)
+    : shown_(std::move(folder)), final_(resolved(shown_)), made_by_(std::move(made_by)), names_(std::move(names)) {
+  refuse_inputs_within(inputs, final_);
+  std::error_code error;
+  fs::create_directories(final_.parent_path(), error);
+  if (error)
+    throw std::runtime_error("cannot make the directory " + final_.parent_path().string() + ": " + error.message());
+  if (fs::exists(fs::symlink_status(final_)) && !is_folder(final_))
+    throw std::runtime_error("cannot write into " + shown_.string() + ": not a directory");
+  is_in_place_ = has_to_stay(final_);
+  staging_ = staging_of(final_);
+  claim_staging();
+  try {
+    settle_former_staging();
+    if (is_folder(final_) && !final_lock_.take(final_)) throw std::runtime_error(taken_by_another());
+    require_ours(final_);
+    prepare_staging();
+  } catch (...) {
+    fs::remove(staging_, error);  // where it is empty
+    throw;
+  }
+}
+
+std::string OutputFolder::taken_by_another() const {
+  return "cannot write into " + shown_.string() + ": another run is writing it";
+}
+
+/// Makes the staging folder and locks it. Whoever holds it may end meanwhile and take it away.
+void OutputFolder::claim_staging() {
+  constexpr int most_tries = 3;
+  for (int k = 0; k < most_tries; ++k) {
+    if (::mkdir(staging_.c_str(), 0777) != 0 && errno != EEXIST) fail(shown_, errno);
+    if (lock_.take(staging_)) return;
+  }
+  throw std::runtime_error(taken_by_another());
+}
+
+OutputFolder::~OutputFolder() {
+  if (is_whole_) return;
+  try {
+    remove_listed(staging_);
+  } catch (const std::exception&) {  // the next writer takes it away
+  }
+}
+
+/// What a writer that was killed left behind: its files go, what it had moved out of the final folder goes back.
+void OutputFolder::settle_former_staging() {
+  if (fs::is_empty(staging_)) return;
+  if (!read_manifest(staging_) && !is_folder(staging_ / former_name))
+    throw OutputRefused("cannot write into " + shown_.string() + ": " + staging_.string() +
+                        " is in the way, and bough did not write it");
+  const fs::path former = staging_ / former_name;
+  if (is_folder(former)) {
+    // Killed while entries were moved one by one. The manifest of the new ones is moved last.
+    if (!read_manifest(final_)) {
+      std::vector<std::string> added;
+      const Manifest manifest = read_manifest(staging_).value_or(Manifest{});
+      for (const FileRecord& file : manifest.files) {
+        const std::string top = fs::path(file.name).begin()->string();
+        if (std::find(added.begin(), added.end(), top) == added.end()) added.push_back(top);
+      }
+      std::vector<std::string> back;
+      for (const fs::directory_entry& entry : fs::directory_iterator(former))
+        back.push_back(entry.path().filename().string());
+      std::erase_if(added, [&](const std::string& name) { return !fs::exists(fs::symlink_status(final_ / name)); });
+      if (move_names(added, final_, staging_) != 0 || move_names(back, former, final_) != 0)
+        throw std::runtime_error("cannot put back the results of " + shown_.string() + " from " + former.string());
+    }
+    remove_listed(former);
+  }
+  if (is_folder(final_)) (void)move_names(guests_of(staging_), staging_, final_);
+  remove_listed(staging_);
+  claim_staging();
+}
+
+/// The files of a run that is killed are listed from the start.
+void OutputFolder::prepare_staging() {
+  Manifest manifest{made_by_};
+  for (const std::string& name : names_) manifest.files.push_back({name});
+  write_file(staging_ / manifest_name, manifest_text(manifest), Durability::later);
+}
+
+void OutputFolder::write(const std::string& name, std::string_view text) {
+  write_file(staging_ / name, text, Durability::content);
+  add({name, text.size(), digest_of(text)});
+}
+
+/// The first name beside the final folder that is free, or holds what failed instead of the same good results before.
+fs::path OutputFolder::place_beside() const {
+  constexpr int most = 1000;
+  const fs::path parent = can_move_to(staging_, final_.parent_path()) ? final_.parent_path() : final_;
+  for (int k = 1; k < most; ++k) {
+    const fs::path place = parent / (final_.filename().string() + ".failed" + (k > 1 ? "." + std::to_string(k) : ""));
+    if (!fs::exists(fs::symlink_status(place))) return place;
+    const std::optional<Manifest> there = is_folder(place) ? read_manifest(place) : std::nullopt;
+    if (there && there->instead_of == final_.filename().string() && foreign_entries(place, 1).empty()) return place;
+  }
+  throw std::runtime_error("cannot write beside " + shown_.string() + ": too many folders of failed runs");
+}
+
+/// Why the results cannot take the place of what stands under the final name; empty where they can.
+std::string OutputFolder::obstacle(FolderState state) const {
+  if (!is_folder(final_)) return {};
+  if (!foreign_entries(final_, 1).empty()) return "holds files now that bough did not write";
+  const std::optional<Manifest> former = read_manifest(final_);
+  const bool would_lose = former && former->state == FolderState::good && state != FolderState::good;
+  return would_lose ? "holds good results, which are kept" : "";
+}
+
+void OutputFolder::publish(FolderState state) {
+  std::exception_ptr failure;
+  try {
+    const std::string instead_of = obstacle(state).empty() ? "" : final_.filename().string();
+    write_file(staging_ / manifest_name, manifest_text({made_by_, state, instead_of, files_}), Durability::content);
+    sync_directory(staging_);
+  } catch (...) {  // a full disk: the files stand under the list of names that was made at the start, as unfinished
+    failure = std::current_exception();
+    state = FolderState::unfinished;
+  }
+  is_whole_ = true;
+  obstacle_ = obstacle(state);
+  try {
+    const fs::path target = stands_beside() ? place_beside() : final_;
+    replace_final(target);
+    sync_directory(target.parent_path());
+    if (stands_beside()) shown_ = shown_.is_absolute() ? target : target.lexically_proximate(fs::current_path());
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string(error.what()) + "; what was computed stands in " + staging_.string());
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+void OutputFolder::replace_final(const fs::path& target) {
+  if (!is_folder(target)) {
+    if (const int error = rename_to(staging_, target); error != 0) fail(target, error);
+    return;
+  }
+  if (is_in_place_ && target == final_) return move_entries(target);
+  const std::vector<std::string> guests = guests_of(target);
+  if (const int error = move_names(guests, target, staging_); error != 0) {
+    (void)move_names(guests, staging_, target);
+    fail(target, error);
+  }
+  if (const int error = exchange(staging_, target); error != 0) {
+    if (const int back = move_names(guests, staging_, target); back != 0) fail(target, back);
+    return move_entries(target);
+  }
+  try {
+    remove_listed(staging_);         // the former results
+  } catch (const std::exception&) {  // the new ones stand; the next writer takes the former away
+  }
+}
+
+/// Out with the former entries and in with the new ones, manifests first and last; all is put back where one cannot
+/// be moved.
+void OutputFolder::move_entries(const fs::path& target) {
+  const fs::path former = staging_ / former_name;
+  if (::mkdir(former.c_str(), 0777) != 0 && errno != EEXIST) fail(target, errno);
+  const std::vector<std::string> out = top_names(target);
+  std::vector<std::string> in = top_names(staging_);
+  std::rotate(in.begin(), in.begin() + 1, in.end());
+  std::vector<std::pair<fs::path, fs::path>> moved;
+  const auto move = [&](const fs::path& from, const fs::path& to) {
+    if (const int error = rename_to(from, to); error != 0) {
+      for (auto back = moved.rbegin(); back != moved.rend(); ++back) (void)rename_to(back->second, back->first);
+      fs::remove(former);
+      fail(target, error);
+    }
+    moved.emplace_back(from, to);
+  };
+  for (const std::string& name : out)
+    if (target / name != staging_) move(target / name, former / name);
+  for (const std::string& name : in) move(staging_ / name, target / name);
+  sync_directory(target);
+  try {
+    if (!out.empty()) remove_listed(former);
+    fs::remove(former);
+    fs::remove(staging_);
+  } catch (const std::exception&) {  // the new results stand; the next writer takes the former away
+  }
+}
+
+OutputCollection::OutputCollection(fs::path folder, std::string made_by, const std::vector<fs::path>& inputs)
+    : folder_(std::move(folder)), made_by_(std::move(made_by)) {
+  refuse_inputs_within(inputs, folder_);
+  require_ours(folder_);
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw std::runtime_error("cannot make the directory " + folder_.string() + ": " + error.message());
+}
+
+void OutputCollection::write(const std::string& name, std::string_view text) const {
+  write_listed_file(folder_, made_by_, name, text);
+}
+
+}  // namespace bough::io
