@@ -36,5 +36,14 @@ for call in write fsync rename; do
     number=$((number + 1))
   done
 done
+# A case for which no process can be started has failed, and the others run.
+mkdir scenes && cp good.json scenes/a.json && cp good.json scenes/b.json
+strace -f -o trace -e trace=clone -e inject=clone:error=EAGAIN:when=1 "$program" batch scenes --out batch > message 2>&1
+status=$?
+checks=$((checks + 1))
+if [ "$status" -ne 1 ] || ! grep -q 'a: failed: no process could be started' message || ! grep -q 'b: ok' message; then
+  failures=$((failures + 1))
+  echo "FAIL: a fork that fails: status $status"; cat message
+fi
 echo "injected failures: $((checks - failures)) of $checks runs ended as they must"
 [ "$failures" -eq 0 ] && [ "$checks" -gt 10 ]

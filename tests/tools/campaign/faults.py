@@ -20,7 +20,7 @@ from results import Bench
 CALLS = {"write": ("ENOSPC", "EIO"), "fsync": ("EIO", "ENOSPC"), "rename": ("EIO", "EACCES"),
          "renameat2": ("EIO", "EINVAL"),
          "mkdir": ("ENOSPC", "EACCES"), "openat": ("EMFILE", "EACCES"), "flock": ("EWOULDBLOCK", "ENOLCK"),
-         "ftruncate": ("EIO",), "mmap": ("ENOMEM",)}
+         "ftruncate": ("EIO",), "clone": ("EAGAIN",), "mmap": ("ENOMEM",)}
 LOADER = ("openat", "mmap")  # the loader of the system makes these, too, before the program has a say
 
 
