@@ -54,8 +54,11 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
     if (k > 0) {
       const bool still = report.change < options.tolerance;
       report.converged = still && (is_small(system, report.residual, options.tolerance) || options.single_solution);
-      const bool stalled = k > 1 && report.change > 0.3 * previous;
-      if (still && !report.converged && (stalled || report.change == 0.0))
+      // A residual above the tolerance may be what rounded places leave. It is, where changes no longer shrink, or shrink so
+      // fast that the next would be negligible.
+      const bool stalled = k > 1 && report.change > shrinks * previous;
+      const bool is_last = k > 1 && report.change * report.change <= left_open * options.tolerance * previous;
+      if (still && !report.converged && (stalled || is_last || report.change == 0.0))
         report.converged = report.at_floor = is_at_floor(system, report.residual, options.tolerance);
       if (report.converged) break;
       if (k >= options.max_iterations)

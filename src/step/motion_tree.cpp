@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "bough/elements/strain_path.hpp"
 #include "bough/step/system.hpp"
 #include "system_parts.hpp"
 
@@ -10,22 +11,27 @@ namespace bough::step {
 
 namespace {
 
-struct Edge {
-  int rank;                                                   ///< lower ones are taken up first
-  int a, b;                                                   ///< nodes, or -1: the inertial frame
-  const elements::Port *port_a = nullptr, *port_b = nullptr;  ///< beams: where their sections are
+template <class E>
+constexpr bool is_beam = requires(const E& e) {
+  e.reference_strain;
 };
 
-/// Edges of all elements between nodes, in the order of the elements, sorted by rank.
+struct Edge {
+  int rank;          ///< lower ones are taken up first
+  int a, b;          ///< nodes, or -1: the inertial frame; of a beam: a is the one that it measures from
+  int section = -1;  ///< of a beam
+};
+
+/// Edges of all elements between nodes, in the order of the elements, sorted by rank. Sections of beams are numbered in it.
 std::vector<Edge> edges_of(const plan::Plan& plan) {
   std::vector<Edge> edges;
+  int section = 0;
   for (const plan::ElementPlace& place : plan.directory)
     plan::with_element(plan.elements, place, [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
-      if constexpr (requires { e.reference_strain; }) {
-        const elements::Port& r = e.ports[E::reference];  // relative to which the element measures
-        for (const elements::Port& p : e.ports)
-          if (&p != &r) edges.push_back({0, r.node, p.node, &r, &p});
+      if constexpr (is_beam<E>) {
+        for (int i = 0; i < E::num_ports; ++i)
+          if (i != E::reference) edges.push_back({0, e.ports[E::reference].node, e.ports[i].node, section++});
       } else if constexpr (std::is_same_v<E, elements::Joint>) {
         edges.push_back({10 - e.num_rows, e.ports[0].node, e.ports[1].node});
       } else if constexpr (std::is_same_v<E, elements::Spring> || std::is_same_v<E, elements::Bushing>) {
@@ -34,6 +40,17 @@ std::vector<Edge> edges_of(const plan::Plan& plan) {
     });
   std::stable_sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return x.rank < y.rank; });
   return edges;
+}
+
+/// Groups of the beams of N nodes; the directory holds one array after the other, so their sections follow each other.
+template <int N>
+void add_groups(const plan::Plan& plan, MotionTree& tree, int& section) {
+  const auto count = static_cast<int>(plan::array_of<elements::Beam<N>>(plan.elements).size());
+  for (int first = 0; first < count; first += elements::num_lanes) {
+    const int some = std::min(elements::num_lanes, count - first);
+    tree.beams.push_back({N, first, some, section});
+    section += some * (N - 1);
+  }
 }
 
 }  // namespace
@@ -48,14 +65,15 @@ MotionTree make_motion_tree(const plan::Plan& plan) {
     return v;
   };
   std::vector<std::vector<MotionTree::Link>> neighbours(n + 1);
+  MotionTree tree;
   for (const Edge& edge : edges_of(plan)) {
     const std::size_t a = vertex(edge.a), b = vertex(edge.b);
     if (root_of(a) == root_of(b)) continue;
     set[root_of(a)] = root_of(b);
-    neighbours[a].push_back({edge.a, edge.b, edge.port_a, edge.port_b});
-    neighbours[b].push_back({edge.b, edge.a, edge.port_b, edge.port_a});
+    const int section = edge.a < 0 || edge.b < 0 ? -1 : edge.section;
+    neighbours[a].push_back({edge.a, edge.b, section, false});
+    neighbours[b].push_back({edge.b, edge.a, section, true});
   }
-  MotionTree tree;
   tree.links.reserve(n);
   std::vector<bool> reached(n + 1, false);
   std::vector<std::size_t> front;
@@ -77,6 +95,11 @@ MotionTree make_motion_tree(const plan::Plan& plan) {
       tree.links.push_back({-1, static_cast<int>(v)});
       spread(v);
     }
+  int section = 0;
+  add_groups<2>(plan, tree, section);
+  add_groups<3>(plan, tree, section);
+  add_groups<4>(plan, tree, section);
+  tree.sections.resize(static_cast<std::size_t>(section));
   tree.motions.resize(n);
   tree.relative.assign(n, motion::Frame<double>::identity());
   tree.own_twists.assign(n, motion::Vec6<double>::zero());
@@ -107,28 +130,71 @@ RigidMotion seen_from_node(const Frame<double>& O, const RigidMotion& S) {
   return {turn, O.R * S.shift - turned_by(turn, O.x)};
 }
 
-constexpr double small_turn =
-    1e-5;  ///< below, exp(eta) serves beams, too: it differs by eta^2 / 12, and keeps all digits
+RigidMotion inverse(const RigidMotion& S) {
+  const Quaternion<double> back = motion::conjugate(S.turn);
+  return {back, -(S.shift + turned_by(back, S.shift))};
+}
 
-/// Motion of a node that its parent sees at H, for an increment of their relative motion; `twist` is its derivative in the factor.
-/// A beam's strain is linear in the logarithm of the relative motion of its sections, which therefore takes the increment,
-///   H^-1 exp(log(H) + factor T^-1 eta);
-/// elsewhere exp(factor eta): hinges and slides turn and slide by it exactly.
-RigidMotion relative_motion(const MotionTree::Link& link, const Frame<double>& H, const Vec6<double>& eta,
-                            double factor, Vec6<double>& twist) {
-  const Vec3<double> turn = lanes::angular_part(eta);
-  if (link.port == nullptr || lanes::dot(turn, turn) < small_turn * small_turn) {
-    twist = eta;
-    return motion_of(factor * eta);
+using elements::LanePack;
+using elements::num_lanes;
+
+/// Moves the sections of a group of beams. correction: of a node, (linear; angular) in its own axes.
+template <int N, class Correction>
+void move_sections(const plan::Plan& plan, const MotionTree::BeamGroup& group, const elements::Field& field,
+                   Correction&& correction, double factor, MotionTree::Section* sections) {
+  const auto* beams = plan::array_of<elements::Beam<N>>(plan.elements).data() + group.first_beam;
+  elements::PortMotion<LanePack> ports[N];
+  Vec6<LanePack> eta[N], strain_rates[N - 1];
+  for (int lane = 0; lane < num_lanes; ++lane) {  // those that are not needed repeat the last beam
+    const elements::Beam<N>& e = beams[std::min(lane, group.count - 1)];
+    const auto anchor = elements::anchor_of(e, field.nodes);
+    for (int i = 0; i < N; ++i) {
+      const elements::PortMotion<double> port = elements::eval_port(e.ports[i], field.nodes, anchor, field.carriers);
+      lanes::set_lane(ports[i].H.R, lane, port.H.R);
+      lanes::set_lane(ports[i].H.x, lane, port.H.x);
+      const bool moves = e.ports[i].node != elements::ground;
+      const Vec6<double> own = moves ? correction(e.ports[i].node) : Vec6<double>::zero();
+      lanes::set_lane(eta[i], lane, motion::inverse_adjoint_times(e.ports[i].offset, own));
+    }
   }
-  const Frame<double>&Oa = link.parent_port->offset, &Ob = link.port->offset;
-  const Frame<double> section = motion::relative(Oa, motion::compose(H, Ob));
-  const Vec6<double> d = motion::Se3::log(section);
-  const Vec6<double> change = motion::Se3::inverse_tangent_times(d, motion::inverse_adjoint_times(Ob, eta));
-  const Vec6<double> next = d + factor * change;
-  twist = motion::adjoint_times(Ob, motion::Se3::tangent_times(next, change));
-  const Frame<double> S = motion::relative(section, motion::Se3::exp(next));
-  return seen_from_node(Ob, {motion::quaternion_of(S.R), S.x});
+  elements::SectionWay<LanePack> ways[N - 1];
+  elements::eval_strain_path<N>(ports, eta, LanePack(factor), ways, strain_rates);
+  for (int lane = 0; lane < group.count; ++lane)
+    for (int i = 0, k = 0; i < N; ++i) {
+      if (i == elements::Beam<N>::reference) continue;
+      const elements::SectionWay<LanePack>& way = ways[k];
+      const RigidMotion S{{way.turn.w[lane], lanes::get_lane(way.turn.v, lane)}, lanes::get_lane(way.shift, lane)};
+      MotionTree::Section& section = *sections++;
+      section.motion = seen_from_node(beams[lane].ports[i].offset, S);
+      section.end = lanes::get_lane(way.end, lane);
+      section.strain_rate = lanes::get_lane(strain_rates[k++], lane);
+    }
+}
+
+/// Their twists at the end of the way.
+template <int N>
+void turn_sections(const plan::Plan& plan, const MotionTree::BeamGroup& group, MotionTree::Section* sections) {
+  const auto* beams = plan::array_of<elements::Beam<N>>(plan.elements).data() + group.first_beam;
+  Vec6<LanePack> ends[N - 1], strain_rates[N - 1], twists[N - 1];
+  for (int lane = 0; lane < num_lanes; ++lane)
+    for (int k = 0; k < N - 1; ++k) {
+      const MotionTree::Section& section = sections[std::min(lane, group.count - 1) * (N - 1) + k];
+      lanes::set_lane(ends[k], lane, section.end);
+      lanes::set_lane(strain_rates[k], lane, section.strain_rate);
+    }
+  elements::eval_strain_path_twists<N>(ends, strain_rates, twists);
+  for (int lane = 0; lane < group.count; ++lane)
+    for (int i = 0, k = 0; i < N; ++i)
+      if (i != elements::Beam<N>::reference)
+        (sections++)->twist = motion::adjoint_times(beams[lane].ports[i].offset, lanes::get_lane(twists[k++], lane));
+}
+
+/// Calls f with the number of nodes of a group as a constant.
+template <class F>
+void with_num_nodes(int num_nodes, F&& f) {
+  if (num_nodes == 2) return f(std::integral_constant<int, 2>{});
+  if (num_nodes == 3) return f(std::integral_constant<int, 3>{});
+  f(std::integral_constant<int, 4>{});
 }
 
 }  // namespace
@@ -136,6 +202,16 @@ RigidMotion relative_motion(const MotionTree::Link& link, const Frame<double>& H
 void System::apply_along_tree(State& state, const double* x, double factor) {
   PhaseTimer timer{clock_, counts_.update};
   MotionTree& tree = motion_tree_;
+  const elements::Field before = field(state);
+  auto by_group = [&](std::int64_t begin, std::int64_t end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+      with_num_nodes(tree.beams[k].num_nodes, [&](auto n) {
+        move_sections<n()>(
+            plan_, tree.beams[k], before, [&](int node) { return node_part(x, node); }, factor,
+            tree.sections.data() + tree.beams[k].first_section);
+      });
+  };
+  walker_.for_each_chunk(static_cast<std::int64_t>(tree.beams.size()), batch_grain, tree::make_chunk(by_group));
   for (const MotionTree::Link& link : tree.links) {
     const auto node = static_cast<std::size_t>(link.node);
     const Vec6<double> eta = node_part(x, link.node);
@@ -147,8 +223,14 @@ void System::apply_along_tree(State& state, const double* x, double factor) {
     const auto parent = static_cast<std::size_t>(link.parent);
     const elements::NodeMotion &a = state.nodes[parent], &b = state.nodes[node];
     const Frame<double> H{lanes::transpose_times(a.R, b.R), lanes::transpose_times(a.R, motion::difference(b.x, a.x))};
-    const RigidMotion own = relative_motion(link, H, eta - motion::inverse_adjoint_times(H, node_part(x, link.parent)),
-                                            factor, tree.own_twists[node]);
+    RigidMotion own;
+    if (link.section < 0) {  // hinges and slides turn and slide by their increment exactly
+      tree.own_twists[node] = eta - motion::inverse_adjoint_times(H, node_part(x, link.parent));
+      own = motion_of(factor * tree.own_twists[node]);
+    } else {
+      const MotionTree::Section& section = tree.sections[static_cast<std::size_t>(link.section)];
+      own = link.to_reference ? seen_from_node(motion::inverse(H), inverse(section.motion)) : section.motion;
+    }
     const RigidMotion& S = tree.motions[parent];
     const RigidMotion carried{{S.turn.w, lanes::transpose_times(H.R, S.turn.v)},
                               lanes::transpose_times(H.R, turned_by(S.turn, H.x) + S.shift)};
@@ -168,10 +250,21 @@ void System::apply_along_tree(State& state, const double* x, double factor) {
 
 double System::power_along_tree(const double* x) {
   MotionTree& tree = motion_tree_;
+  auto by_group = [&](std::int64_t begin, std::int64_t end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+      with_num_nodes(tree.beams[k].num_nodes, [&](auto n) {
+        turn_sections<n()>(plan_, tree.beams[k], tree.sections.data() + tree.beams[k].first_section);
+      });
+  };
+  walker_.for_each_chunk(static_cast<std::int64_t>(tree.beams.size()), batch_grain, tree::make_chunk(by_group));
   double power = 0.0;
   for (const MotionTree::Link& link : tree.links) {
     const auto node = static_cast<std::size_t>(link.node);
     tree.twists[node] = tree.own_twists[node];
+    if (link.section >= 0) {  // that of the parent relative to this node, or the other way round
+      const Vec6<double>& twist = tree.sections[static_cast<std::size_t>(link.section)].twist;
+      tree.twists[node] = link.to_reference ? -motion::inverse_adjoint_times(tree.relative[node], twist) : twist;
+    }
     if (link.parent >= 0)
       tree.twists[node] +=
           motion::inverse_adjoint_times(tree.relative[node], tree.twists[static_cast<std::size_t>(link.parent)]);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "verify_scenes.hpp"
 
@@ -102,6 +103,24 @@ TEST(VerifyStatics, a_closed_frame_of_slender_beams_takes_long_load_steps) {
       EXPECT_NEAR(r.final("b.x"), -r.final("d.x"), 1e-7);  // symmetric
       EXPECT_NEAR(r.final("b.y"), r.final("d.y"), 1e-7);
       EXPECT_GT(pull * (1.0 - r.final("b.x")), 0.3);
+    }
+}
+
+/// Elastica with a tip force P L^2 / EI = 10, one load step from the straight shape: a correction bends every element without
+/// stretching its axis, so no stiffness of the axis is seen, whatever the order of the elements.
+TEST(VerifyStatics, iterations_do_not_grow_with_slenderness) {
+  for (const auto& [order, elements] : {std::pair{1, 16}, {2, 4}, {2, 16}, {3, 3}, {3, 16}})
+    for (const double slenderness : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
+      const double EA = 12.0 * slenderness * slenderness, GA = EA * 5.0 / 6.0 / 2.6;  // a square of steel, EI = 1
+      for (const Vec3<double>& force : {Vec3<double>{{0, 10, 0}}, Vec3<double>{{0, 8, 5}}}) {
+        scene::Scene s = make_cantilever(make_section("s", EA, GA, GA, 0.65, 1, 1), 1.0, elements, order);
+        s.point_loads = {make_load("tip", force)};
+        s.analysis.load_steps = 1;
+        const Outcome r = run(s);
+        ASSERT_TRUE(r.ok()) << r.text();
+        EXPECT_EQ(r.summary.steps.rejected, 0) << "order " << order << ", L/h = " << slenderness;
+        EXPECT_LT(r.summary.steps.newton_iterations, 12) << "order " << order << ", L/h = " << slenderness;
+      }
     }
 }
 

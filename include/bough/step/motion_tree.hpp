@@ -19,12 +19,28 @@ struct MotionTree {
   struct Link {
     int parent = -1;  ///< node, or -1: the inertial frame
     int node = 0;
-    const elements::Port *parent_port = nullptr, *port = nullptr;  ///< of the plan's beam between them, else null
+    int section = -1;           ///< in `sections`, where a beam lies between the two; -1: something else does
+    bool to_reference = false;  ///< of a beam: `node` is the one that the beam measures from, `parent` the other
+  };
+  /// Up to eight beams of one kind that are moved in lockstep. Each has an entry in `sections` for every node but that from
+  /// which it measures, in order.
+  struct BeamGroup {
+    int num_nodes = 0;
+    int first_beam = 0, count = 0;  ///< in the plan's array of beams of so many nodes
+    int first_section = 0;
+  };
+  /// How a correction moves a node relative to that from which its beam measures, H <- H S.
+  struct Section {
+    RigidMotion motion;
+    motion::Vec6<double> end, strain_rate;  ///< elements::SectionWay::end; strain_rates of a strain point
+    motion::Vec6<double> twist;             ///< at the end, by unit of the factor; set by power_along_tree
   };
   std::vector<Link> links;  ///< one for every node
+  std::vector<BeamGroup> beams;
 
-  /// Scratch of an update, by node.
-  std::vector<RigidMotion> motions;
+  /// Scratch of an update.
+  std::vector<Section> sections;
+  std::vector<RigidMotion> motions;              ///< by node
   std::vector<motion::Frame<double>> relative;   ///< to the parent, at the end
   std::vector<motion::Vec6<double>> own_twists;  ///< relative to the parent, at the end, by unit of the factor
   std::vector<motion::Vec6<double>> twists;      ///< the same relative to the inertial frame
