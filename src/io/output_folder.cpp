@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* inner_name = ".bough-new";  // of a staging folder within the final one
 constexpr const char* former_name = ".former";  // within a staging folder: entries that were moved out of the final one
 
 std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
@@ -103,11 +104,40 @@ std::vector<std::string> top_names(const fs::path& folder) {
   return names;
 }
 
+/// Puts back what was moved out of the final folder and not yet replaced. The manifest of the new entries is moved last.
+void put_back(const fs::path& former, const fs::path& staging, const fs::path& final) {
+  std::vector<std::string> added, back;
+  for (const FileRecord& file : read_manifest(staging).value_or(Manifest{}).files) {
+    const std::string top = fs::path(file.name).begin()->string();
+    const bool is_known = std::find(added.begin(), added.end(), top) != added.end();
+    if (!is_known && fs::exists(fs::symlink_status(final / top))) added.push_back(top);
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(former))
+    back.push_back(entry.path().filename().string());
+  if (move_names(added, final, staging) != 0 || move_names(back, former, final) != 0)
+    throw std::runtime_error("cannot put back the results of " + final.string() + " from " + former.string());
+}
+
+/// Takes away what a writer that was killed left: its files go, what it had moved out of the final folder goes back.
+void settle(const fs::path& staging, const fs::path& final) {
+  const fs::path former = staging / former_name;
+  if (!read_manifest(staging) && !is_folder(former) && !foreign_entries(staging, 1).empty())
+    throw OutputRefused("cannot write into " + final.string() + ": " + staging.string() +
+                        " is in the way, and bough did not write it");
+  if (is_folder(former)) {
+    if (!read_manifest(final)) put_back(former, staging, final);
+    remove_listed(former);
+  }
+  if (is_folder(final)) (void)move_names(guests_of(staging), staging, final);
+  fs::remove(staging / (std::string(manifest_name) + ".partial"));
+  remove_listed(staging);
+}
+
 }  // namespace
 
 fs::path OutputFolder::staging_of(const fs::path& folder) {
   const fs::path place = resolved(folder);
-  return has_to_stay(place) ? place / ".bough-new"
+  return has_to_stay(place) ? place / inner_name
                             : place.parent_path() / ("." + place.filename().string() + ".bough-new");
 }
 
@@ -157,33 +187,16 @@ OutputFolder::~OutputFolder() {
   }
 }
 
-/// What a writer that was killed left behind: its files go, what it had moved out of the final folder goes back.
+/// What writers that were killed left behind, also one that moved entries since it stood in the final folder.
 void OutputFolder::settle_former_staging() {
-  if (fs::is_empty(staging_)) return;
-  if (!read_manifest(staging_) && !is_folder(staging_ / former_name))
-    throw OutputRefused("cannot write into " + shown_.string() + ": " + staging_.string() +
-                        " is in the way, and bough did not write it");
-  const fs::path former = staging_ / former_name;
-  if (is_folder(former)) {
-    // Killed while entries were moved one by one. The manifest of the new ones is moved last.
-    if (!read_manifest(final_)) {
-      std::vector<std::string> added;
-      const Manifest manifest = read_manifest(staging_).value_or(Manifest{});
-      for (const FileRecord& file : manifest.files) {
-        const std::string top = fs::path(file.name).begin()->string();
-        if (std::find(added.begin(), added.end(), top) == added.end()) added.push_back(top);
-      }
-      std::vector<std::string> back;
-      for (const fs::directory_entry& entry : fs::directory_iterator(former))
-        back.push_back(entry.path().filename().string());
-      std::erase_if(added, [&](const std::string& name) { return !fs::exists(fs::symlink_status(final_ / name)); });
-      if (move_names(added, final_, staging_) != 0 || move_names(back, former, final_) != 0)
-        throw std::runtime_error("cannot put back the results of " + shown_.string() + " from " + former.string());
-    }
-    remove_listed(former);
+  const fs::path inner = final_ / inner_name;
+  if (!is_in_place_ && is_folder(inner)) {
+    FolderLock lock;
+    if (!lock.take(inner)) throw std::runtime_error(taken_by_another());
+    settle(inner, final_);
   }
-  if (is_folder(final_)) (void)move_names(guests_of(staging_), staging_, final_);
-  remove_listed(staging_);
+  if (fs::is_empty(staging_)) return;
+  settle(staging_, final_);
   claim_staging();
 }
 

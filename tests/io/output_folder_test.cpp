@@ -230,6 +230,28 @@ TEST_F(Output, puts_back_what_a_kill_left_half_way) {
   EXPECT_EQ(names_in(scratch_.path()), std::vector<std::string>{"out"});
 }
 
+/// The same left within the folder by a writer that stood in it.
+TEST_F(Output, puts_back_what_a_kill_left_half_way_within_it) {
+  write("former");
+  const fs::path staging = out_ / ".bough-new";
+  fs::create_directories(staging / ".former");
+  for (const char* name : {"manifest.json", "a.txt"}) fs::rename(out_ / name, staging / ".former" / name);
+  write_file(staging / "a.txt", "new");
+  write_file(staging / "manifest.json",
+             manifest_text({"test", FolderState::good, "", {{"a.txt", 3, digest_of("new")}}}));
+  { const OutputFolder folder(out_, "test", names); }
+  EXPECT_EQ(text_of(out_ / "a.txt"), "former");
+  EXPECT_EQ(names_in(out_), (std::vector<std::string>{"a.txt", "manifest.json"}));
+}
+
+TEST_F(Output, takes_over_from_a_writer_that_was_killed_before_its_first_file_had_a_name) {
+  fs::create_directory(scratch_ / ".out.bough-new");
+  write_file(scratch_ / ".out.bough-new/manifest.json.partial", "{");
+  write("first");
+  EXPECT_EQ(text_of(out_ / "a.txt"), "first");
+  EXPECT_EQ(names_in(scratch_.path()), std::vector<std::string>{"out"});
+}
+
 TEST_F(Output, takes_folders_of_other_results_along) {
   write("first");
   {
