@@ -49,6 +49,7 @@ int run_case(const study::BatchCase& which, const BatchArguments& arguments, stu
     report.cause = error.what();
     summary.scene = file.scene.name;
     directory.end_as_failed(summary, error.what());
+    if (directory.has_ended()) report.directory = directory.directory();
     return exit_failed;
   }
   report.cause = summary.cause;

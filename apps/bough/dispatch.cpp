@@ -68,7 +68,7 @@ void add_run(CLI::App& app, RunArguments& a, int& code) {
                             "  bough run four_bar.json --out results --threads 4\n"
                             "  bough run four_bar.json --set /analysis/step_size=1e-4 --set /output/motion=true\n"
                             "Exit status: 0 done, 1 the run failed or was stopped, 2 bad input.");
-  verb.add_option("SCENE", a.scene, "Scene file (JSON)")->required();
+  verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--out", a.out, "Directory of the results (default: ./<scene>.out)")->type_name("DIR");
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
@@ -118,7 +118,7 @@ void add_export_matrix(CLI::App& app, ExportMatrixArguments& a, int& code) {
                "  bough export-matrix four_bar.json --time 0.5\n"
                "It is the matrix of the first Newton iteration of a step; the comments name the unknowns.\n"
                "Exit status: 0 written, 1 there is no such step or the run fails before it, 2 bad input.");
-  verb.add_option("SCENE", a.scene, "Scene file (JSON)")->required();
+  verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--out", a.out, "Matrix to write (default: ./<scene>.mtx)")->type_name("FILE");
   verb.add_option("--rhs", a.rhs, "Write the right-hand side, too")->type_name("FILE");
   CLI::Option* step = verb.add_option("--step", a.step, "Number of the step (default: 1)")
@@ -162,7 +162,7 @@ void add_profile(CLI::App& app, ProfileArguments& a, int& code) {
                "  bough profile chain.json --set /solver/leaf_size=8\n"
                "Writes profile.html, profile.json and trace.json (opens in Perfetto); the tree is printed.\n"
                "Exit status: 0 done, 1 the run failed (what ran is shown), 2 bad input.");
-  verb.add_option("SCENE", a.scene, "Scene file (JSON)")->required();
+  verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--out", a.out, "Directory to write (default: ./<scene>.profile)")->type_name("DIR");
   verb.add_option("--steps", a.steps, "Most steps (default: 200)")->type_name("N")->check(CLI::Range(1L, 1000000000L));
   add_threads(verb, a.threads, "Threads");
@@ -177,7 +177,7 @@ void add_tune(CLI::App& app, TuneArguments& a, int& code) {
                             "  bough run chain.json --set /solver=\"$(bough tune chain.json)\"\n"
                             "The table goes to standard error, the block \"solver\" to standard output.\n"
                             "Exit status: 0 done, 1 no options run the scene, 2 bad input.");
-  verb.add_option("SCENE", a.scene, "Scene file (JSON)")->required();
+  verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--out", a.out, "Write the block, too")->type_name("FILE");
   verb.add_option("--steps", a.steps, "Steps of each short run (default: 20)")
       ->type_name("N")
@@ -195,7 +195,7 @@ void add_plan(CLI::App& app, PlanArguments& a, int& code) {
                             "  bough plan four_bar.json\n"
                             "  bough plan four_bar.json --without planar --json plan.json\n"
                             "Nothing is run: seconds come from a model, for comparisons of a scene with itself.");
-  verb.add_option("SCENE", a.scene, "Scene file (JSON)")->required();
+  verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--json", a.json, "Write all of it")->type_name("FILE");
   add_overrides(verb, a.overrides);
   add_without(verb, a.overrides);
@@ -207,7 +207,7 @@ void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArgu
   CLI::App& check_verb =
       add_verb(app, "check", "Say what is wrong with a scene, without running it",
                "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0");
-  check_verb.add_option("SCENE", check_arguments.scene, "Scene file (JSON)")->required();
+  check_verb.add_option("SCENE", check_arguments.scene, "Scene file (JSON); -: standard input")->required();
   add_overrides(check_verb, check_arguments.overrides);
   check_verb.callback([&] { code = check(check_arguments); });
 

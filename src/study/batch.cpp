@@ -160,18 +160,19 @@ CaseResult result_of(const Child& child, const BatchCase& which, int wait_status
   const std::string told = read_all(child.pipe);
   ::close(child.pipe);
   const std::size_t zero = std::min(told.find('\0'), told.size());
-  const fs::path directory = zero > 0 ? fs::path(told.substr(0, zero)) : which.directory;
+  const fs::path directory = told.substr(0, zero);  // empty: it left no results, and what stands there is older
   result.cause = one_line(told.substr(std::min(zero + 1, told.size())));
   if (result.status == CaseStatus::timed_out && (child.killed || WIFSIGNALED(wait_status)))
     result.cause = "killed at the time limit, since it did not stop by itself; " + kept_rows(which);
-  if (result.status == CaseStatus::crashed) result.cause = "ended by signal " + std::to_string(WTERMSIG(wait_status));
+  if (result.status == CaseStatus::crashed)
+    result.cause = "ended by signal " + std::to_string(WTERMSIG(wait_status)) + "; " + kept_rows(which);
   try {
-    if (WIFEXITED(wait_status) && result.status != CaseStatus::bad_input) read_summary_into(result, directory);
+    if (!directory.empty()) read_summary_into(result, directory);
   } catch (const std::exception& error) {
     result.status = CaseStatus::failed;
     result.cause = error.what();
   }
-  if (directory != which.directory)
+  if (!directory.empty() && directory != which.directory)
     result.cause += " (the former results were good and are kept; see " + directory.string() + ")";
   return result;
 }

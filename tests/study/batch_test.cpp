@@ -40,6 +40,7 @@ class Batch : public testing::Test {
       for (results::ExpectedResult& figure : summary.expected) figure.holds = true;
     run.begin(summary.header);
     run.row({0.0, 0.0, 0, {1.0, 2.0, 3.0}});
+    if (which.name.starts_with("late crash")) std::raise(SIGKILL);
     if (which.name.starts_with("stuck")) {
       std::signal(SIGTERM, SIG_IGN);
       std::this_thread::sleep_for(std::chrono::seconds(60));
@@ -143,6 +144,25 @@ TEST_F(Batch, results_that_a_case_could_not_replace_are_not_told_as_its_own) {
   EXPECT_EQ(result.status, CaseStatus::failed);
   EXPECT_NE(result.cause.find("fails.failed"), std::string::npos) << result.cause;
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "out/fails.failed/summary.json"));
+}
+
+TEST_F(Batch, older_results_are_not_told_as_those_of_a_case_that_left_none) {
+  add("good");
+  (void)run(options(1));
+  std::filesystem::rename(scratch_ / "in/good.json", scratch_ / "in/throws.json");
+  std::filesystem::rename(scratch_ / "out/good", scratch_ / "out/throws");
+  const CaseResult result = run(options(1)).at(0);
+  EXPECT_EQ(result.status, CaseStatus::failed);
+  EXPECT_EQ(result.accepted, 0);
+  EXPECT_EQ(result.cause, "could not, so did not");
+}
+
+TEST_F(Batch, a_case_that_crashes_keeps_the_rows_it_had_written) {
+  add("late crash");
+  const CaseResult result = run(options(1)).at(0);
+  EXPECT_EQ(result.status, CaseStatus::crashed);
+  EXPECT_NE(result.cause.find("signal 9; its rows to the last flush"), std::string::npos) << result.cause;
+  EXPECT_EQ(io::read_history(scratch_ / "out/late crash/history.csv").header.columns.size(), 3u);
 }
 
 TEST_F(Batch, its_cases_end_with_it) {

@@ -33,7 +33,7 @@ struct CaseResult {
 /// What a case tells of itself when it ends.
 struct CaseReport {
   std::string cause;                ///< what to report
-  std::filesystem::path directory;  ///< where its results stand; empty: in BatchCase::directory
+  std::filesystem::path directory;  ///< where its results stand; empty: it left none
 };
 
 /// How a case is run, in a process of its own: the exit status of `bough run` (0 done, 1 failed, 2 bad input).
