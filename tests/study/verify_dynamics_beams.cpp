@@ -177,10 +177,19 @@ TEST(VerifyBeams, flying_beam_meets_an_explicit_planar_beam_and_its_mass_center_
   std::printf("flying beam, ends at 10 s: %.5f %.5f %.5f %.5f, largest difference to the explicit beam %.1e m\n",
               ends[0], ends[1], ends[2], ends[3], most);
   EXPECT_LT(most, 2e-3);  // the explicit beam's own: 192 elements against 256 differ by 5e-4 m
-  const Table table = support::reference("flying_spaghetti2D_EI500.csv");
-  // The table differs from both by up to 1e-2 m towards the end, although it was stated to 1.5e-3 m.
-  EXPECT_LT(support::largest_difference(run, "lower.x", table, "x_loaded"), 1.2e-2);
-  EXPECT_LT(support::largest_difference(run, "lower.y", table, "y_loaded"), 1.2e-2);
+}
+
+// The table is stated to 1e-3 m. 64 elements of order 2 in steps of 2 ms differ from it by 1.0e-3 m, these by 1.7e-3 m.
+TEST(VerifyBeams, flying_beam_meets_the_table_of_an_independent_program) {
+  scene::Scene scene = support::gallery("flying_spaghetti");
+  scene.beams.front().elements = 32;
+  scene.analysis.step_size = 0.0025;
+  scene.output.stride = 40;  // rows every 0.1 s
+  scene.output.checks = false;
+  const Table run = history(scene), table = support::reference("flying_spaghetti2D_EI500.csv");
+  for (const auto& [column, name] :
+       {std::pair{"lower.x", "x_loaded"}, {"lower.y", "y_loaded"}, {"upper.x", "x_free"}, {"upper.y", "y_free"}})
+    EXPECT_LT(support::largest_difference(run, column, table, name), 2e-3) << column;
 }
 
 TEST(VerifyBeams, right_angle_cantilever_meets_published_extrema) {
