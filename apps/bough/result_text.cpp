@@ -48,10 +48,11 @@ std::string checks_text(const results::Summary& summary) {
 }
 
 std::string expected_text(const std::vector<results::ExpectedResult>& expected) {
-  std::vector<std::vector<std::string>> rows = {{"  expected", "value", "reference", "tolerance", ""}};
+  std::vector<std::vector<std::string>> rows = {{"  expected", "value", "reference", "tolerance", "", "taken"}};
   for (const results::ExpectedResult& figure : expected)
-    rows.push_back({"  " + figure.name, figure.reached ? rounded_text(figure.value, 9) : "-",
-                    rounded_text(figure.reference, 9), rounded_text(figure.tolerance, 3), figure.verdict()});
+    rows.push_back({"  " + figure.name, figure.reached && figure.has_value ? rounded_text(figure.value, 9) : "-",
+                    rounded_text(figure.reference, 9), rounded_text(figure.tolerance, 3), figure.verdict(),
+                    figure.taken});
   return table_text(rows);
 }
 

@@ -98,9 +98,14 @@ void Converter::sensor(const Value& v, const std::string& at) {
 void Converter::expected(const Value& v, const std::string& at) {
   scene::Expected e;
   e.quantity = v.find("quantity")->text;
+  const std::string figure = text_or(v, "figure");
+  for (int k = 0; k <= static_cast<int>(scene::FigureKind::period); ++k)
+    if (scene::to_string(static_cast<scene::FigureKind>(k)) == figure) e.figure = static_cast<scene::FigureKind>(k);
   if (const Value* time = v.find("time")) e.time = time->number;
+  if (const Value* level = v.find("level")) e.level = level->number;
   e.value = v.find("value")->number;
-  e.tolerance = v.find("tolerance")->number;
+  e.tolerance = number_or(v, "tolerance", 0.0);
+  e.relative_tolerance = number_or(v, "relative_tolerance", 0.0);
   e.source = v.find("source")->text;
   add(scene.expected, "expected", std::move(e), at);
 }

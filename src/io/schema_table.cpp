@@ -277,10 +277,26 @@ void add_settings(RuleTable& t) {
                  may("motion_stride", integer_rule("", 1, 1e9), "Pictures: every n-th step.", "1"),
                  may("checks", boolean_rule(""), "Balances and constraint violations, at history rows.", "true")}));
   t.named["expected"] = made(object_of(
-      "A figure the run has to meet.",
+      "A figure the run has to meet. It is taken from all accepted steps, whatever the stride of the output. A time "
+      "within a "
+      "step of equal size is interpolated there: places, rotations and velocities from poses and velocities at both "
+      "ends of the "
+      "step, all else by the cubic through the ends of four steps. Steps of controlled size and load steps end at the "
+      "time. "
+      "One of the tolerances at least is given.",
       {need("quantity", reference, "\"<sensor>.<component>\", or \"<sensor>\" for a scalar."),
-       may("time", not_negative(""), "[s] (statics: load factor). Default: at the end."),
-       need("value", any_number, "The figure."), need("tolerance", positive(""), "Largest difference, absolute."),
+       may("figure", word_rule("", {"value", "max", "min", "time_of_max", "time_of_min", "range", "period"}),
+           "Value at a time or at the end; largest and smallest value of the run, the times at which they are met "
+           "first "
+           "[s] (statics: load factors), and what lies between them; mean time between upward crossings of `level` [s] "
+           "(dynamics). Within steps in time extremes and crossings are interpolated, statics takes the ends of load "
+           "steps.",
+           "\"value\""),
+       may("time", not_negative(""), "Of figure \"value\" [s] (statics: load factor). Default: at the end."),
+       may("level", any_number, "Of figure \"period\": the value whose upward crossings are counted. Default: 0."),
+       need("value", any_number, "What is expected."),
+       may("tolerance", positive(""), "Largest difference, absolute; with relative_tolerance the two add up."),
+       may("relative_tolerance", positive(""), "Largest difference as a part of |value| [-]."),
        may("source", text_rule(""), "Where the figure comes from.", "\"\"")}));
 }
 

@@ -142,11 +142,12 @@ void write_expected(JsonText& json, const std::vector<results::ExpectedResult>& 
     names.push_back(figure.name);
     json.key(count == 0 ? figure.name : figure.name + " #" + std::to_string(count + 1));
     json.begin_object();
-    if (figure.reached) json.member("value", figure.value);
+    if (figure.reached && figure.has_value) json.member("value", figure.value);
     json.member("reference", figure.reference);
     json.member("tolerance", figure.tolerance);
     json.member("reached", figure.reached);
     if (figure.reached) json.member("holds", figure.holds);
+    if (!figure.taken.empty()) json.member("taken", figure.taken);
     if (!figure.source.empty()) json.member("source", figure.source);
     json.end_object();
   }
@@ -193,12 +194,14 @@ void read_expected(const JsonValue& list, SummaryFile& summary) {
     const JsonValue& item = list.items[k];
     results::ExpectedResult figure;
     figure.name = list.keys[k];
-    if (const JsonValue* v = item.find("value"); v != nullptr) (void)number_of(*v, figure.value);
+    const JsonValue* value = item.find("value");
+    figure.has_value = value != nullptr && number_of(*value, figure.value);
     if (const JsonValue* v = item.find("reference"); v != nullptr) (void)number_of(*v, figure.reference);
     if (const JsonValue* v = item.find("tolerance"); v != nullptr) (void)number_of(*v, figure.tolerance);
     if (const JsonValue* v = item.find("reached"); v != nullptr) figure.reached = v->truth;
     if (const JsonValue* v = item.find("holds"); v != nullptr) figure.holds = v->truth;
     figure.source = text_of(item, "source");
+    figure.taken = text_of(item, "taken");
     summary.expected.push_back(std::move(figure));
   }
 }

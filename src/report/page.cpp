@@ -134,12 +134,13 @@ std::string tables(const io::SummaryFile& summary) {
   if (!summary.expected.empty()) {
     html +=
         "<h2>Expected figures</h2>\n<div "
-        "class=\"wide\"><table>\n<tr><th>figure</th><th>value</th><th>reference</th><th>tolerance</th><th></th></tr>\n";
+        "class=\"wide\"><table>\n<tr><th>figure</th><th>value</th><th>reference</th><th>tolerance</th><th></"
+        "th><th>taken</th></tr>\n";
     for (const results::ExpectedResult& figure : summary.expected) {
       html += "<tr><td>" + escaped(figure.name) + "</td><td>" +
-              (figure.reached ? io::rounded_text(figure.value, 9) : "-") + "</td><td>" +
+              (figure.reached && figure.has_value ? io::rounded_text(figure.value, 9) : "-") + "</td><td>" +
               io::rounded_text(figure.reference, 9) + "</td><td>" + io::rounded_text(figure.tolerance, 3) +
-              "</td><td>" + figure.verdict() + "</td></tr>\n";
+              "</td><td>" + figure.verdict() + "</td><td>" + escaped(figure.taken) + "</td></tr>\n";
     }
     html += "</table></div>\n";
   }

@@ -131,13 +131,6 @@ BeamPoint eval_point(const E& e, const Field& f, double s) {
   return point;
 }
 
-/// Element of a beam and local parameter at a station (fraction of the beam).
-std::pair<int, double> locate(const plan::BeamPlan& beam, double station) {
-  const double at = station * static_cast<double>(beam.elements.size());
-  const int k = std::clamp(static_cast<int>(at), 0, static_cast<int>(beam.elements.size()) - 1);
-  return {k, at - k};
-}
-
 template <class F>
 void with_beam_element(const plan::Plan& plan, int id, F&& f) {
   plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
@@ -236,6 +229,55 @@ void eval_joint_sensor(const step::System& system, const step::State& state, con
       });
 }
 
+/// What sensors show of one state; one sweep over the elements serves all sensors of energies.
+struct SensorReader {
+  const step::System& system;
+  const step::State& state;
+  EnergyMeter& meter;
+  std::optional<Energies> measured;
+
+  const Energies& energies() {
+    if (!measured) measured = meter.eval(system, state);
+    return *measured;
+  }
+  void append_section(std::vector<double>& values, const plan::SensorPlan& s) const {
+    const Field f = system.field(state);
+    const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
+    const auto [k, local] = locate(beam, s.sensor.station);
+    const auto element = static_cast<std::size_t>(k);
+    with_beam_element(system.plan(), beam.elements[element], [&, at = local](const auto& e) {
+      if (s.sensor.kind == scene::SensorKind::section_force)
+        append(values, ElementForce(system, e, beam.loads[element], f, state).at(at));
+      else
+        append(values, eval_point(e, f, at).strain);
+    });
+  }
+  void append_to(std::vector<double>& values, const plan::SensorPlan& s) {
+    switch (s.sensor.kind) {
+      case scene::SensorKind::section_force:
+      case scene::SensorKind::section_strain:
+        return append_section(values, s);
+      case scene::SensorKind::joint_reaction:
+      case scene::SensorKind::joint_angle:
+      case scene::SensorKind::joint_displacement:
+      case scene::SensorKind::joint_rate:
+        return eval_joint_sensor(system, state, s, values);
+      case scene::SensorKind::kinetic_energy:
+        return values.push_back(energies().kinetic);
+      case scene::SensorKind::strain_energy:
+        return values.push_back(energies().strain);
+      case scene::SensorKind::potential_energy:
+        return values.push_back(energies().potential);
+      case scene::SensorKind::total_energy:
+        return values.push_back(energies().kinetic + energies().strain + energies().potential);
+      case scene::SensorKind::acceleration_split:
+        return append_split(s, system.field(state), eval_sensor_point(system, state, s), values);
+      default:
+        append_point(s, system.field(state), eval_sensor_point(system, state, s), values);
+    }
+  }
+};
+
 }  // namespace
 
 HistoryHeader make_header(const plan::Plan& plan) {
@@ -249,53 +291,15 @@ HistoryHeader make_header(const plan::Plan& plan) {
 void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
                   std::vector<double>& values) {
   values.clear();
-  std::optional<Energies> measured;  // one sweep over the elements serves all sensors of energies
-  const auto energies = [&]() -> const Energies& {
-    if (!measured) measured = meter.eval(system, state);
-    return *measured;
-  };
-  for (const plan::SensorPlan& s : system.plan().sensors) {
-    switch (s.sensor.kind) {
-      case scene::SensorKind::section_force:
-      case scene::SensorKind::section_strain: {
-        const Field f = system.field(state);
-        const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
-        const auto [k, local] = locate(beam, s.sensor.station);
-        if (s.sensor.kind == scene::SensorKind::section_force)
-          with_beam_element(
-              system.plan(), beam.elements[static_cast<std::size_t>(k)], [&, element = k, at = local](const auto& e) {
-                append(values, ElementForce(system, e, beam.loads[static_cast<std::size_t>(element)], f, state).at(at));
-              });
-        else
-          with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)],
-                            [&, at = local](const auto& e) { append(values, eval_point(e, f, at).strain); });
-        break;
-      }
-      case scene::SensorKind::joint_reaction:
-      case scene::SensorKind::joint_angle:
-      case scene::SensorKind::joint_displacement:
-      case scene::SensorKind::joint_rate:
-        eval_joint_sensor(system, state, s, values);
-        break;
-      case scene::SensorKind::kinetic_energy:
-        values.push_back(energies().kinetic);
-        break;
-      case scene::SensorKind::strain_energy:
-        values.push_back(energies().strain);
-        break;
-      case scene::SensorKind::potential_energy:
-        values.push_back(energies().potential);
-        break;
-      case scene::SensorKind::total_energy:
-        values.push_back(energies().kinetic + energies().strain + energies().potential);
-        break;
-      case scene::SensorKind::acceleration_split:
-        append_split(s, system.field(state), eval_sensor_point(system, state, s), values);
-        break;
-      default:
-        append_point(s, system.field(state), eval_sensor_point(system, state, s), values);
-    }
-  }
+  SensorReader read{system, state, meter, {}};
+  for (const plan::SensorPlan& s : system.plan().sensors) read.append_to(values, s);
+}
+
+void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
+                  std::span<const int> sensors, std::vector<double>& values) {
+  values.clear();
+  SensorReader read{system, state, meter, {}};
+  for (const int k : sensors) read.append_to(values, system.plan().sensors[static_cast<std::size_t>(k)]);
 }
 
 MotionFrame eval_motion(const step::System& system, const step::State& state) {

@@ -1,5 +1,8 @@
 #pragma once
 /// Shared by the files of observe.hpp.
+#include <algorithm>
+#include <utility>
+
 #include "bough/results/observe.hpp"
 
 namespace bough::results {
@@ -22,6 +25,13 @@ void append_split(const plan::SensorPlan& s, const elements::Field& field, const
 
 inline void append(std::vector<double>& to, const motion::Vec3<double>& v) { to.insert(to.end(), v.v, v.v + 3); }
 inline void append(std::vector<double>& to, const motion::Vec6<double>& v) { to.insert(to.end(), v.v, v.v + 6); }
+
+/// Element of a beam and local parameter at a station (fraction of the beam).
+inline std::pair<int, double> locate(const plan::BeamPlan& beam, double station) {
+  const double at = station * static_cast<double>(beam.elements.size());
+  const int k = std::clamp(static_cast<int>(at), 0, static_cast<int>(beam.elements.size()) - 1);
+  return {k, at - k};
+}
 
 /// Both halves of a 6-vector in other axes.
 inline motion::Vec6<double> turned(const motion::Mat3<double>& R, const motion::Vec6<double>& v) {

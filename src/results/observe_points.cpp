@@ -92,4 +92,39 @@ void append_split(const plan::SensorPlan& s, const Field& field, const PointMoti
     append(values, lanes::transpose_times(R, part.components(motion::In(0))));
 }
 
+bool shows_motion(scene::SensorKind kind) {
+  switch (kind) {
+    case scene::SensorKind::position:
+    case scene::SensorKind::rotation:
+    case scene::SensorKind::quaternion:
+    case scene::SensorKind::velocity:
+    case scene::SensorKind::joint_angle:
+    case scene::SensorKind::joint_displacement:
+    case scene::SensorKind::joint_rate:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void append_nodes_of(const plan::Plan& plan, const plan::SensorPlan& sensor, std::vector<int>& nodes) {
+  const auto add = [&nodes](const elements::Port& port) {
+    if (port.node != elements::ground) nodes.push_back(port.node);
+  };
+  const auto add_element = [&](int id) {
+    plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
+      for (const elements::Port& port : e.ports) add(port);
+    });
+  };
+  if (sensor.beam >= 0) {
+    const plan::BeamPlan& beam = plan.beams[static_cast<std::size_t>(sensor.beam)];
+    add_element(beam.elements[static_cast<std::size_t>(locate(beam, sensor.sensor.station).first)]);
+  } else if (sensor.joint >= 0) {
+    add_element(plan.joints[static_cast<std::size_t>(sensor.joint)].element);
+  } else {
+    add(sensor.port);
+  }
+  add(sensor.frame);
+}
+
 }  // namespace bough::results

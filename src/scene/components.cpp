@@ -75,6 +75,11 @@ std::string to_string(JointKind kind) {
   return names[static_cast<int>(kind)];
 }
 
+std::string to_string(FigureKind kind) {
+  static const char* const names[] = {"value", "max", "min", "time_of_max", "time_of_min", "range", "period"};
+  return names[static_cast<int>(kind)];
+}
+
 std::string to_string(SensorKind kind) {
   static const char* const names[] = {"position",      "rotation",           "quaternion",     "velocity",
                                       "acceleration",  "section_force",      "section_strain", "joint_reaction",

@@ -86,11 +86,35 @@ void check_sensor(ProblemList& list, std::size_t i) {
     list.add("sensors", i, "station", text_of(s.station), "a station is a fraction of the beam's length, 0 to 1");
 }
 
+/// Members that do not go together, and tolerances that nothing could meet.
+void check_figure(ProblemList& list, std::size_t i) {
+  const Expected& e = list.scene.expected[i];
+  const std::string figure = to_string(e.figure);
+  const bool is_static = list.scene.analysis.kind == AnalysisKind::statics;
+  if (e.time && e.figure != FigureKind::value)
+    list.add("expected", i, "time", text_of(*e.time), "a " + figure + " is one of the whole run, not of a time",
+             "leave out \"time\", or take the figure \"value\"");
+  if (e.level && e.figure != FigureKind::period)
+    list.add("expected", i, "level", text_of(*e.level), "a level goes with the figure \"period\" alone");
+  if (is_static && e.figure == FigureKind::period)
+    list.add("expected", i, "figure", figure, "a period is one of time, and the analysis is static");
+  if (e.tolerance == 0.0 && e.relative_tolerance == 0.0)
+    list.add("expected", i, "", "", "needs a tolerance", "give \"tolerance\", \"relative_tolerance\" or both");
+  else if (!(e.allowed() > 0.0))
+    list.add("expected", i, "relative_tolerance", text_of(e.relative_tolerance), "is a part of the value, which is 0",
+             "give a \"tolerance\", which is absolute");
+  // A run in time may be made shorter than a figure asks for, which is then reported as not reached; a load factor ends at 1.
+  if (!e.time || !(*e.time > list.last_time * (1.0 + 1e-12))) return;
+  const std::string rule = "the analysis ends at " + text_of(list.last_time);
+  if (is_static)
+    list.add("expected", i, "time", text_of(*e.time), rule);
+  else
+    list.warn("expected", i, "time", text_of(*e.time), rule + ", so this figure is not reached");
+}
+
 void check_expected(ProblemList& list, std::size_t i) {
   const Expected& e = list.scene.expected[i];
-  // A run in time may be made shorter than a figure asks for, which is then reported as not reached; a load factor ends at 1.
-  if (e.time && list.scene.analysis.kind == AnalysisKind::statics && *e.time > list.last_time * (1.0 + 1e-12))
-    list.add("expected", i, "time", text_of(*e.time), "the analysis ends at " + text_of(list.last_time));
+  check_figure(list, i);
   const std::size_t dot_at = e.quantity.find('.');
   const std::string name = e.quantity.substr(0, dot_at);
   if (!list.check_reference("expected", i, "quantity", name, list.sensors, "sensor")) return;

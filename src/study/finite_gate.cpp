@@ -125,7 +125,7 @@ void FiniteGate::look_at(const results::Summary& s) {
   for (std::size_t k = 0; k < s.final_values.size() && k < s.header.columns.size(); ++k)
     look_at("the last value of " + s.header.columns[k], s.final_values[k], end);
   for (const results::ExpectedResult& figure : s.expected)
-    if (figure.reached) look_at("the expected figure " + figure.name, figure.value, end);
+    if (figure.reached && figure.has_value) look_at("the expected figure " + figure.name, figure.value, end);
 }
 
 }  // namespace bough::study

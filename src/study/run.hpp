@@ -12,6 +12,7 @@
 #include "bough/step/step_control.hpp"
 #include "bough/step/variational.hpp"
 #include "bough/study/simulate.hpp"
+#include "expected_figures.hpp"
 #include "finite_gate.hpp"
 #include "vibration_watch.hpp"
 
@@ -34,9 +35,6 @@ class Run {
   bool watch_vibrations();
   /// Records the state (as its time's left limit, or right limit at a start).
   void record(int iterations, bool is_last);
-  /// Whether this may be the step next to the time of an expected figure.
-  bool near_expected() const;
-  void watch_expected();
   bool report_progress(const step::StepReport& report, double end);
   bool may_try(double target);
   /// Balances and violations of the present state.
@@ -44,9 +42,11 @@ class Run {
   /// Work and energies are looked at in every step.
   bool has_balance() const { return scene_.output.checks || variational_.has_value(); }
   bool run_statics();
+  bool take_load_step(double from, double width, bool is_last);
   bool run_path();
   bool take_path_step(double& length);
   bool end_within(double from, double to, double from_factor, double to_factor);
+  bool look_within(double from, double to, double from_factor, double to_factor);
   std::optional<step::Trouble> go_to(double distance);
   template <class Value>
   bool find_on_path(double from, double to, double value_from, double value_to, double tolerance, double& distance,
@@ -92,8 +92,7 @@ class Run {
   results::Balance balance_;
   FiniteGate gate_;
   std::vector<double> values_;
-  std::vector<std::size_t> expected_columns_;
-  std::vector<double> expected_values_, expected_distance_;
+  ExpectedFigures figures_;
   double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< of accepted steps; of those at the floor of round-off
   std::string first_rejection_, not_unique_;
   int dependent_rows_ = 0;

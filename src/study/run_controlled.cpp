@@ -28,10 +28,9 @@ long steps_to_fill(double duration, double size) {
 std::vector<double> Run::stops_between(double begin, double end) const {
   const double least = 1e-9 * (end - begin);
   std::vector<double> stops;
-  for (const scene::Expected& e : scene_.expected)
-    if (e.time && *e.time > begin + least && *e.time < end - least) stops.push_back(*e.time);
-  for (const double t : stops_)
-    if (t > begin + least && t < end - least) stops.push_back(t);
+  for (const std::vector<double>* times : {&figures_.times(), &stops_})
+    for (const double t : *times)
+      if (t > begin + least && t < end - least) stops.push_back(t);
   std::sort(stops.begin(), stops.end());
   stops.erase(std::unique(stops.begin(), stops.end(), [&](double a, double b) { return b - a <= least; }), stops.end());
   stops.push_back(end);

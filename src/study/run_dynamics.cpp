@@ -35,7 +35,10 @@ bool Run::start_segment(double step_size, bool is_first) {
     else
       balance_.jump(before, now);
   }
-  if (is_first) record(0, false);
+  if (is_first)
+    record(0, false);
+  else
+    figures_.add(system_, state_, energy_meter_);
   if (variational_) {
     const auto t = variational_->start(state_);
     return t ? fail(t->text) : true;
@@ -51,8 +54,7 @@ bool Run::start_segment(double step_size, bool is_first) {
 
 /// Whether somebody reads the state at the end of the step that makes the next row.
 bool Run::will_look(bool is_last) const {
-  return looks_always_ || is_due(rows_, is_last) || is_motion_due(rows_, is_last) ||
-         (!plan_.sensors.empty() && near_expected());
+  return looks_always_ || is_due(rows_, is_last) || is_motion_due(rows_, is_last) || figures_.wants(state_.time);
 }
 
 bool Run::catch_up() {
@@ -159,8 +161,10 @@ bool Run::run_dynamics() {
   times.push_back(end);
   for (std::size_t k = 0; k + 1 < times.size(); ++k) {
     looking_ = false;  // errors across a start say nothing
-    if (!(controller_ ? run_controlled_segment(times[k], times[k + 1], end) : run_segment(times[k], times[k + 1], end)))
-      return false;
+    const bool is_done =
+        controller_ ? run_controlled_segment(times[k], times[k + 1], end) : run_segment(times[k], times[k + 1], end);
+    figures_.end_stretch(system_, state_, energy_meter_);
+    if (!is_done) return false;
   }
   summary_.status = RunStatus::ok;
   return true;

@@ -78,6 +78,34 @@ bool Run::end_within(double from, double to, double from_factor, double to_facto
   return report.converged || fail("no equilibrium at load factor " + std::to_string(end) + ": " + report.cause);
 }
 
+/// Finds the load factors at which figures are asked for between two distances of the present step, and looks at the equilibria there. True where
+/// the state has moved. One that is not found is left out, and the figure says why.
+bool Run::look_within(double from, double to, double from_factor, double to_factor) {
+  bool has_moved = false;
+  for (const double time : figures_.times()) {
+    if ((from_factor - time) * (to_factor - time) >= 0.0) continue;
+    if (figures_.is_same(time, from_factor) || figures_.is_same(time, to_factor)) continue;
+    const std::string cause_before = summary_.cause;
+    double distance = 0.0;
+    has_moved = true;
+    if (!find_on_path(from, to, from_factor - time, to_factor - time, 1e-6 * std::max(1.0, std::abs(time)), distance,
+                      [&] { return state_.time - time; })) {
+      figures_.note_missing(time, summary_.cause);
+      summary_.cause = cause_before;
+      continue;
+    }
+    const step::StepReport report = step::equilibrate(system_, state_, options_, time);
+    summary_.steps.newton_iterations += report.iterations;
+    if (!report.converged) {
+      figures_.note_missing(time, "no equilibrium at this load factor: " + report.cause);
+      continue;
+    }
+    if (!plan_.joints.empty()) step::accept_turns(system_, state_);
+    figures_.add(system_, state_, energy_meter_);
+  }
+  return has_moved;
+}
+
 /// One step, the limit point within it, and the end of the run if that lies in it.
 bool Run::take_path_step(double& length) {
   const scene::ArcLength& arc = *options_.arc_length;
@@ -106,6 +134,7 @@ bool Run::take_path_step(double& length) {
     if (!find_on_path(0.0, length, slope_before, slope, tolerance, at, [&] { return path_->slope(); })) return false;
     const step::State limit = state_;
     const double limit_factor = state_.time;
+    (void)look_within(0.0, at, from_factor, limit_factor);
     if (!end_within(0.0, at, from_factor, limit_factor)) return false;
     if (!path_done_) {
       state_ = limit;
@@ -120,7 +149,8 @@ bool Run::take_path_step(double& length) {
     }
   }
   if (!path_done_) {
-    const bool moved_away = state_.time != to_factor;
+    const bool has_looked = look_within(from, length, from_factor, to_factor);
+    const bool moved_away = has_looked || state_.time != to_factor;
     state_ = end_of_step;
     if (!end_within(from, length, from_factor, to_factor)) return false;
     if (moved_away && !path_done_)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "bough/results/observe.hpp"
 #include "effective_options.hpp"
@@ -32,7 +31,8 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
       system_(plan_, scene.solver, options.wrap_walker ? options.wrap_walker(threads_.walker()) : threads_.walker()),
       state_(step::make_initial_state(plan_)),
       work_meter_(plan_),
-      energy_meter_(plan_) {
+      energy_meter_(plan_),
+      figures_(scene, plan_, results::make_header(plan_), options.stops, options.sample) {
   options_.reuse_factors = plan_.took("reuse");
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::variational)
     variational_.emplace(system_, scene.solver, options_.newmark_beta);
@@ -49,15 +49,6 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
   summary_.header = results::make_header(plan_);
   summary_.notes = plan_.notes;
   summary_.checks.evaluated = scene.output.checks;
-  for (const scene::Expected& e : scene.expected) {
-    const auto column = std::find(summary_.header.columns.begin(), summary_.header.columns.end(), e.quantity);
-    if (column != summary_.header.columns.end())
-      expected_columns_.push_back(static_cast<std::size_t>(column - summary_.header.columns.begin()));
-    else
-      expected_columns_.push_back(std::numeric_limits<std::size_t>::max());
-    expected_values_.push_back(std::numeric_limits<double>::quiet_NaN());
-    expected_distance_.push_back(std::numeric_limits<double>::infinity());
-  }
 }
 
 Summary Run::run() {
@@ -128,10 +119,7 @@ void Run::record(int iterations, bool is_last) {
   const step::PhaseTimer timer{system_.clock(), summary_.times.output};
   const long row = rows_++;
   const bool due = is_due(row, is_last);
-  if (!plan_.sensors.empty() && (due || near_expected())) {
-    results::eval_sensors(system_, state_, energy_meter_, values_);
-    watch_expected();
-  }
+  if (due && !plan_.sensors.empty()) results::eval_sensors(system_, state_, energy_meter_, values_);
   if (due && scene_.output.checks) check();
   if (due) {
     results::HistoryRow out;
@@ -148,29 +136,13 @@ void Run::record(int iterations, bool is_last) {
     gate_.look_at(frame);
     recorder_.motion(frame);
   }
+  figures_.add(system_, state_, energy_meter_);
 }
 
 bool Run::is_due(long row, bool is_last) const { return row % std::max(1, scene_.output.stride) == 0 || is_last; }
 
 bool Run::is_motion_due(long row, bool is_last) const {
   return want_motion_ && (row % std::max(1, scene_.output.motion_stride) == 0 || is_last);
-}
-
-bool Run::near_expected() const {
-  return std::any_of(scene_.expected.begin(), scene_.expected.end(), [this](const scene::Expected& e) {
-    return e.time && std::abs(*e.time - state_.time) <= scene_.analysis.step_size;
-  });
-}
-
-void Run::watch_expected() {
-  for (std::size_t i = 0; i < scene_.expected.size(); ++i) {
-    if (expected_columns_[i] >= values_.size()) continue;
-    const double distance = scene_.expected[i].time ? std::abs(*scene_.expected[i].time - state_.time) : 0.0;
-    if (distance <= expected_distance_[i]) {
-      expected_distance_[i] = distance;
-      expected_values_[i] = values_[expected_columns_[i]];
-    }
-  }
 }
 
 bool Run::report_progress(const step::StepReport& report, double end) {
@@ -238,20 +210,7 @@ void Run::finish() {
     note("the symmetric parts of tangents were given up for whole ones: Newton's iteration had slowed down");
   if (summary_.checks.round_off_floor_reached)
     note("some steps were accepted at the round-off floor of the residual, above the tolerance asked for");
-  for (std::size_t i = 0; i < scene_.expected.size(); ++i) {
-    results::ExpectedResult e;
-    const scene::Expected& given = scene_.expected[i];
-    e.name = given.quantity + (given.time ? " at " + std::to_string(*given.time) : "");
-    e.value = expected_values_[i];
-    e.reference = given.value;
-    e.tolerance = given.tolerance;
-    e.reached = !given.time || !plan_.is_dynamic || *given.time <= scene_.analysis.end_time * (1.0 + 1e-12);
-    const bool at_time = !given.time || expected_distance_[i] <= 0.5 * scene_.analysis.step_size;
-    e.holds =
-        summary_.status == RunStatus::ok && e.reached && at_time && std::abs(e.value - e.reference) <= e.tolerance;
-    e.source = given.source;
-    summary_.expected.push_back(e);
-  }
+  summary_.expected = figures_.results(summary_);
   if (summary_.status == RunStatus::ok) {
     gate_.look_at(state_, plan_);
     gate_.look_at(summary_);

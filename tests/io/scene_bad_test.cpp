@@ -127,6 +127,12 @@ const Bad scene_cases[] = {
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tip\"", "/expected/0/quantity", "components x, y, z"},
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"tip.w\"", "/expected/0/quantity", "components x, y, z"},
     {"\"quantity\": \"tip.x\"", "\"quantity\": @\"energy.x\"", "/expected/0/quantity", "one number"},
+    {"\"time\": 1, \"value\"", "\"figure\": \"max\", \"time\": @1, \"value\"", "/expected/0/time", "of the whole run"},
+    {"\"time\": 1, \"value\"", "\"level\": @1, \"value\"", "/expected/0/level", "\"period\" alone"},
+    {"{ \"quantity\": \"tip.x\", \"time\": 1, \"value\": 1, \"tolerance\": 5 }",
+     "@{ \"quantity\": \"tip.x\", \"time\": 1, \"value\": 1 }", "/expected/0", "needs a tolerance"},
+    {"\"value\": 1, \"tolerance\": 5", "\"value\": 0, \"relative_tolerance\": @0.1", "/expected/0/relative_tolerance",
+     "which is 0"},
     {"{ \"name\": \"root\" },", "{ \"name\": \"root\" }, { \"name\": @\"spare\" },", "/nodes/1/name",
      "nothing holds it"},
 };
@@ -318,6 +324,14 @@ TEST(SceneBad, a_flood_is_cut_and_counted) {
       "{\"schema_version\": 1, \"analysis\": {\"kind\": \"static\"}, \"nodes\": [" + nodes + "]}", "flood");
   ASSERT_EQ(file.problems.size(), max_problems);
   EXPECT_NE(file.problems.back().hint.find("more problems"), std::string::npos);
+}
+
+TEST(SceneBad, a_figure_of_a_time_beyond_the_end_is_warned_about) {
+  const SceneFile file = read_scene_text(test::spoilt("\"time\": 1, \"value\"", "\"time\": 1.5, \"value\""), "late");
+  EXPECT_TRUE(file.ok());
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0].pointer, "/expected/0/time");
+  EXPECT_NE(file.warnings[0].text().find("ends at 1, so this figure is not reached"), std::string::npos);
 }
 
 TEST(SceneBad, an_angle_that_looks_like_degrees_is_warned_about) {

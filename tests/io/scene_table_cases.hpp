@@ -97,6 +97,8 @@ inline const Bad table_cases[] = {
     {"{ \"kind\": \"automatic\" }", "{ \"tasks\": @1 }", "/solver/tasks", "true or false, not a number"},
     {"\"stride\": 2", "\"stride\": @0", "/output/stride", "at least 1"},
     {"\"tolerance\": 5", "\"tolerance\": @0", "/expected/0/tolerance", "above 0"},
+    {"\"tolerance\": 5", "\"relative_tolerance\": @-1", "/expected/0/relative_tolerance", "above 0"},
+    {"\"time\": 1, \"value\"", "\"figure\": @\"maximum\", \"value\"", "/expected/0/figure", "has to be \"value\""},
     {"\"title\": \"base\"", "\"comment\": @3", "/comment", "a comment has to be a string"},
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 /// What a run looks at in a state: sensors, the moving structure. Reads states, changes none.
+#include <span>
 #include <vector>
 
 #include "bough/results/energies.hpp"
@@ -14,6 +15,16 @@ HistoryHeader make_header(const plan::Plan& plan);
 /// Values of all sensors, in the order of the header. Laws of the system must stand at the state's time.
 void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
                   std::vector<double>& values);
+
+/// The same of some sensors, by their places in Plan::sensors, one after the other.
+void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
+                  std::span<const int> sensors, std::vector<double>& values);
+
+/// Whether a sensor shows places, rotations and velocities alone: between two steps these follow from step::eval_between. Forces, strains,
+/// energies and accelerations do not: a stiff part answers to the smallest error of a place.
+bool shows_motion(scene::SensorKind kind);
+/// Adds the nodes that a sensor of motion looks at.
+void append_nodes_of(const plan::Plan& plan, const plan::SensorPlan& sensor, std::vector<int>& nodes);
 
 /// The moving structure, with section resultants at the beams' nodes.
 MotionFrame eval_motion(const step::System& system, const step::State& state);

@@ -107,7 +107,9 @@ struct ExpectedResult {
   double value = 0.0, reference = 0.0, tolerance = 0.0;
   bool holds = false;
   std::string source;
-  bool reached = true;  ///< false: the run ends before the time of the figure, which is then no figure of it
+  bool reached = true;     ///< false: the run ends before the time of the figure, which is then no figure of it
+  bool has_value = true;   ///< false: the run shows none, a period without crossings say; it then does not hold
+  std::string taken = {};  ///< how the value was taken from the run, in words: at the end of a step, interpolated ...
   /// "holds", "fails" or "not reached".
   const char* verdict() const { return !reached ? "not reached" : holds ? "holds" : "fails"; }
 };

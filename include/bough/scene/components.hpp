@@ -25,5 +25,6 @@ const std::vector<std::string>& decision_names();
 /// Names as in files.
 std::string to_string(JointKind kind);
 std::string to_string(SensorKind kind);
+std::string to_string(FigureKind kind);
 
 }  // namespace bough::scene

@@ -1,6 +1,7 @@
 #pragma once
 /// A scene: what the user says, in SI units and radians, as plain data. Things are named and refer to each other by name
 /// (empty name = absent). Nothing is derived here; `plan` turns a scene into elements.
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -284,12 +285,22 @@ struct Output {
   bool checks = true;  ///< balances and constraint violations, at the times of history rows
 };
 
+/// What is taken of a quantity: its value at the end or at a time; the extremes of the whole run and when they are met first; how far they are apart;
+/// the mean time between upward crossings of a level.
+enum class FigureKind : std::uint8_t { value, max, min, time_of_max, time_of_min, range, period };
+
 struct Expected {
-  std::string quantity;  ///< "<sensor>.<component>" or "<sensor>"; final value, or at `time`
-  std::optional<double> time;
+  std::string quantity;  ///< "<sensor>.<component>" or "<sensor>"
+  FigureKind figure = FigureKind::value;
+  std::optional<double> time;   ///< of `value`; none: at the end
+  std::optional<double> level;  ///< of `period`; none: 0
   double value = 0.0;
-  double tolerance = 0.0;  ///< absolute, > 0
+  double tolerance = 0.0;           ///< absolute, >= 0
+  double relative_tolerance = 0.0;  ///< of |value|, >= 0; one of the two is above 0
   std::string source;
+
+  /// Largest difference from the value.
+  double allowed() const { return tolerance + relative_tolerance * std::abs(value); }
 };
 
 struct Scene {

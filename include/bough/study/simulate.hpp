@@ -1,6 +1,7 @@
 #pragma once
 /// One simulation from a scene to results.
 #include <functional>
+#include <vector>
 
 #include "bough/results/records.hpp"
 #include "bough/scene/scene.hpp"
@@ -18,8 +19,11 @@ struct BeforeStep {
 struct SimulateOptions {
   int threads = 1;           ///< of the tree's tasks, >= 1; results do not depend on it
   bool want_motion = false;  ///< hand out the moving structure even if the scene does not ask for it
-  /// Times that steps of chosen sizes are to meet exactly, beside those of expected figures; steps of equal size meet what they divide.
+  /// Times asked for beside those of expected figures, ascending: load steps and steps of chosen sizes end there, within steps of equal size sensors
+  /// are interpolated.
   std::vector<double> stops = {};
+  /// Told of the values of all sensors at each of the stops that the run comes to, by the header.
+  std::function<void(double time, const std::vector<double>& values)> sample = {};
   /// Asked before every attempt of a step, with the state it starts from; false: stop here (interrupted), the system is no longer used.
   std::function<bool(step::System&, const step::State&, const BeforeStep&)> before_step = {};
   bool reads_state = true;  ///< false: before_step looks at no nodes of the state, which may be behind

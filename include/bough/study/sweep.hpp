@@ -35,7 +35,7 @@ struct SweepRun {
   results::RunStatus status = results::RunStatus::failed;
   std::string cause;               ///< why it failed
   std::vector<ErrorNorms> errors;  ///< by quantity
-  std::size_t num_samples = 0;     ///< sample times that were steps' ends
+  std::size_t num_samples = 0;     ///< sample times that the run came to
   results::StepCounts steps;
   double flops_per_factorization = 0.0;
   std::optional<double>

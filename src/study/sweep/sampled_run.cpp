@@ -27,24 +27,17 @@ double process_cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Keeps rows at the sample times.
-class Sampler final : public results::Recorder {
+/// Keeps the header; rows come as samples.
+class HeaderKeeper final : public results::Recorder {
  public:
-  explicit Sampler(SampledRun& run) : run_(run), slack_(same_time * run.sample_times.back()) {}
+  explicit HeaderKeeper(SampledRun& run) : run_(run) {}
   void begin(const results::HistoryHeader& header) override { run_.samples.header = header; }
-  void row(const results::HistoryRow& row) override {
-    while (next_ < run_.sample_times.size() && run_.sample_times[next_] < row.time - slack_) ++next_;
-    if (next_ == run_.sample_times.size() || run_.sample_times[next_] > row.time + slack_) return;
-    run_.samples.rows.push_back(row);
-    ++next_;
-  }
+  void row(const results::HistoryRow&) override {}
   void motion(const results::MotionFrame&) override {}
   void end(const results::Summary&) override {}
 
  private:
   SampledRun& run_;
-  double slack_;
-  std::size_t next_ = 0;
 };
 
 /// Looks at the clocks when the steps begin and when they end.
@@ -75,10 +68,10 @@ class Stopwatch final : public results::Recorder {
 
 /// Runs within the limits; a run that was cut short is a failed one.
 results::Summary run_limited(const scene::Scene& scene, const std::vector<double>& sample_times, int threads,
-                             const RunLimits& limits, results::Recorder& recorder, bool& was_stopped) {
+                             const RunLimits& limits, results::Recorder& recorder, bool& was_stopped,
+                             SimulateOptions options = {}) {
   const Clock::time_point start = Clock::now();
   bool is_late = false;
-  SimulateOptions options;
   options.threads = threads;
   options.stops = sample_times;
   options.reads_state = false;
@@ -118,10 +111,18 @@ SampledRun run_sampled(scene::Scene scene, const std::vector<double>& sample_tim
                        const RunLimits& limits) {
   scene.output = {};
   scene.output.checks = false;
+  scene.output.stride = no_rows;
   SampledRun run;
   run.sample_times = sample_times;
-  Sampler sampler(run);
-  run.summary = run_limited(scene, sample_times, threads, limits, sampler, run.was_stopped);
+  HeaderKeeper header(run);
+  SimulateOptions options;
+  options.sample = [&run](double time, const std::vector<double>& values) {
+    results::HistoryRow row;
+    row.time = time;
+    row.values = values;
+    run.samples.rows.push_back(std::move(row));
+  };
+  run.summary = run_limited(scene, sample_times, threads, limits, header, run.was_stopped, options);
   return run;
 }
 

@@ -16,10 +16,10 @@ struct RunLimits {
   const std::function<bool()>* stop = nullptr;
 };
 
-/// A run with the rows of its history at the sample times.
+/// A run with what its sensors show at the sample times, by the rule of SimulateOptions::stops.
 struct SampledRun {
   results::Summary summary;
-  io::History samples;               ///< rows at those sample times that were ends of steps
+  io::History samples;               ///< a row at each sample time that the run came to
   std::vector<double> sample_times;  ///< all of them
   bool was_stopped = false;          ///< by RunLimits::stop
   bool ok() const { return summary.status == results::RunStatus::ok; }
