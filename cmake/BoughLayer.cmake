@@ -5,13 +5,13 @@ set(BOUGH_LAYERS lanes blocks motion laws scene elements plan tree solve schedul
 #   -ffp-contract=off: kernels are templates and may be instantiated in a user's file; the linker keeps one copy, so
 #   all of them must give the same bits.
 #   EIGEN_MAX_ALIGN_BYTES: one alignment for all instruction sets, so that public structs keep one layout.
-#   -march (BOUGH_ARCH): the whole library and its users within this build are built for one instruction set. Single files
-#   built for a wider one would leak its instructions into template instances that the linker shares. Whole libraries for
-#   several are another matter: BoughDispatch.cmake.
-# The installed package does not carry -march. What users name has one layout on all instruction sets (packs have one size
-# and alignment, EIGEN_MAX_ALIGN_BYTES is fixed), the width of registers stands in the symbols of what takes packs, so that
-# a user who calls such kernels meets an undefined symbol and no other layout; and "native" would mean another instruction
-# set where the package is used than where it was built. Who calls kernels on packs links bough::arch, too.
+#   -march (BOUGH_ARCH): the whole library and its users within this build are built for one instruction set. Single
+#   files built for a wider one would leak its instructions into template instances that the linker shares. Whole
+#   libraries for several are another matter: BoughDispatch.cmake.
+# The installed package does not carry -march. What users name has one layout on all instruction sets (packs have one
+# size and alignment, EIGEN_MAX_ALIGN_BYTES is fixed), the width of registers stands in the symbols of what takes packs,
+# so that a user who calls such kernels meets an undefined symbol and no other layout; and "native" would mean another
+# instruction set where the package is used than where it was built. Who calls kernels on packs links bough::arch, too.
 add_library(bough_base INTERFACE)
 add_library(bough::base ALIAS bough_base)
 set_target_properties(bough_base PROPERTIES EXPORT_NAME base)

@@ -15,7 +15,8 @@ namespace bough::app {
 
 namespace {
 
-/// Runs the scene; what cannot be written to its end is kept as far as it goes. Nothing, after a message, where there are no results.
+/// Runs the scene; what cannot be written to its end is kept as far as it goes. Nothing, after a message, where there
+/// are no results.
 std::optional<results::Summary> simulate_into(io::RunDirectory& directory, const io::SceneFile& file,
                                               const RunArguments& arguments) {
   catch_interrupts();

@@ -1,6 +1,7 @@
 #pragma once
-/// The pages and pictures that verbs write beside their numbers. pages.cpp draws them; a build without BOUGH_WITH_REPORTS has
-/// pages_left_out.cpp in its place, which writes nothing. The verb `view` stands there, too: it is nothing but a page.
+/// The pages and pictures that verbs write beside their numbers. pages.cpp draws them; a build without
+/// BOUGH_WITH_REPORTS has pages_left_out.cpp in its place, which writes nothing. The verb `view` stands there, too:
+/// it is nothing but a page.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -18,7 +19,8 @@ namespace bough::app {
 /// Says on standard error that `what` needs a build with reports; returns true where this one has them.
 bool can_draw(std::string_view what);
 
-/// The page of a profile whose data lie in the file `data`; returns the names of the files written, each with a blank behind it.
+/// The page of a profile whose data lie in the file `data`; returns the names of the files written, each with a blank
+/// behind it.
 std::string write_profile_page(io::OutputFolder& folder, const std::string& name, const results::Profile& profile,
                                const std::string& data);
 
@@ -29,7 +31,8 @@ std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
 /// The split of an acceleration as SVG. Precondition: can_draw.
 void write_split_picture(const std::filesystem::path& path, const io::SplitTable& table);
 
-/// The pages of the studies of a folder and their index. Each verb returns the name of the page that was written, or an empty one.
+/// The pages of the studies of a folder and their index. Each verb returns the name of the page that was written, or
+/// an empty one.
 class StudyPages {
  public:
   StudyPages();

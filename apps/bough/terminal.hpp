@@ -10,17 +10,17 @@
 
 namespace bough::app {
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP only set a flag; a second one of the same kind ends the process at once. Under nohup SIGHUP stays
-/// ignored.
-/// Repeated::ignored: a second one sets the flag again; for a process whose parent ends it where it has to.
+/// From now on Ctrl-C, SIGTERM and SIGHUP only set a flag; a second one of the same kind ends the process at once.
+/// Under nohup SIGHUP stays ignored. Repeated::ignored: a second one sets the flag again; for a process whose parent
+/// ends it where it has to.
 enum class Repeated { ends, ignored };
 void catch_interrupts(Repeated repeated = Repeated::ends);
 bool interrupted();
 
 int default_threads();
 
-/// Simulated time, step size, Newton iterations and remaining time on standard error: a bar that redraws itself on a terminal, a plain line
-/// every tenth of the way (and at most every two seconds) elsewhere, nothing when quiet.
+/// Simulated time, step size, Newton iterations and remaining time on standard error: a bar that redraws itself on a
+/// terminal, a plain line every tenth of the way (and at most every two seconds) elsewhere, nothing when quiet.
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);

@@ -44,8 +44,9 @@ void sync_path(const std::filesystem::path& path, int flags) {
   if (error != 0) throw std::runtime_error("cannot make " + path.string() + " durable: " + reason(error));
 }
 
-/// Opens a file that is to be written, never in the place of a standard stream: where the process was started with one of them closed, what
-/// others print there would land in the file. -1, with the reason in errno, where it cannot be had.
+/// Opens a file that is to be written, never in the place of a standard stream: where the process was started with
+/// one of them closed, what others print there would land in the file. -1, with the reason in errno, where it cannot
+/// be had.
 int open_to_write(const char* path) {
   const int descriptor = ::open(path, O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0 || descriptor > STDERR_FILENO) return descriptor;

@@ -104,7 +104,8 @@ std::vector<std::string> top_names(const fs::path& folder) {
   return names;
 }
 
-/// Puts back what was moved out of the final folder and not yet replaced. The manifest of the new entries is moved last.
+/// Puts back what was moved out of the final folder and not yet replaced. The manifest of the new entries is moved
+/// last.
 void put_back(const fs::path& former, const fs::path& staging, const fs::path& final) {
   std::vector<std::string> added, back;
   for (const FileRecord& file : read_manifest(staging).value_or(Manifest{}).files) {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # check_files.sh PROGRAM   what the program does to files, streams and processes around it: nothing of others is
-# touched, former good results stand until new ones do, mixed results are refused, and whatever cannot be written is told.
+# touched, former good results stand until new ones do, mixed results are refused, and what cannot be written is told.
 set -u
 program=$(realpath "$1")
 . "$(dirname "$0")/scenes.sh"

@@ -30,8 +30,8 @@ class AtomicFile {
   void flush();
 
   /// Flush, fsync of the file, rename, fsync of the directory. On failure the final name keeps its former content.
-  /// content: without the fsync of the directory; later: without both. Whoever writes many files calls `sync_file` on each that lacks it and
-  /// `sync_directory` once when all are written.
+  /// content: without the fsync of the directory; later: without both. Whoever writes many files calls `sync_file`
+  /// on each that lacks it and `sync_directory` once when all are written.
   void commit(Durability durability = Durability::now);
 
   /// False after `commit`, and where a failed write could not be undone.

@@ -39,12 +39,12 @@ inline constexpr std::size_t max_json_values = 10'000'000;  ///< numbers, string
 
 /// Reads and checks a scene. Never throws on bad input (only std::bad_alloc may pass), never returns a half-checked scene as good.
 /// set_overrides: "/pointer=value", applied before the check; the value is JSON, or a bare word taken as a string; an array item may
-/// be given by its number or by its "name". Scene::name is the file's name without its ending (name_of_file). The file "-" is standard
-/// input, and its scene is named "scene".
+/// be given by its number or by its "name". Scene::name is that of the file (name_of_file). The file "-" is
+/// standard input, and its scene is named "scene".
 SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides = {});
 
-/// The name that a file gives to what it holds, and to folders of its results: its own name without the last ending; the whole name where only
-/// dots would be left, which would lead out of a folder.
+/// The name that a file gives to what it holds, and to folders of its results: its own without the last ending; the
+/// whole of it where only dots would be left, which would lead out of a folder.
 std::string name_of_file(const std::filesystem::path& file);
 
 /// The same from a text in memory. name: becomes Scene::name.

@@ -44,8 +44,9 @@ struct SummaryFile {
 /// Throws std::runtime_error naming the file and what is wrong.
 SummaryFile read_summary(const std::filesystem::path& path);
 
-/// The summary of a directory, after a look at whether the files `names` are those that were written with it. Throws std::runtime_error where the
-/// directory is not whole, or where one of them is missing though the summary lists it, is there though it does not, or has changed.
+/// The summary of a directory, after a look at whether the files `names` are those that were written with it. Throws
+/// std::runtime_error where the directory is not whole, or where one of them is missing though the summary lists it,
+/// is there though it does not, or has changed.
 SummaryFile read_whole_summary(const std::filesystem::path& directory, const std::vector<std::string>& names);
 
 }  // namespace bough::io

@@ -1,6 +1,6 @@
 #pragma once
-/// The results of one run as one self-contained page: the motion, the histories and how well the laws hold. No network, no library;
-/// readable without scripts, with a player where scripts run.
+/// The results of one run as one self-contained page: the motion, the histories and how well the laws hold. No
+/// network, no library; readable without scripts, with a player where scripts run.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,7 +19,8 @@ struct RunFiles {
   std::vector<results::MotionFrame> motion;  ///< empty: not recorded
 };
 
-/// Reads a result directory. Throws std::runtime_error where it is not whole, or holds files of different runs (io::read_whole_summary).
+/// Reads a result directory. Throws std::runtime_error where it is not whole, or holds files of different runs
+/// (io::read_whole_summary).
 RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames = 301);
 
 bool is_static(const RunFiles& run);  ///< its histories run over the load factor

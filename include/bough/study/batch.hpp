@@ -45,15 +45,16 @@ using CaseDone = std::function<void(const CaseResult&, std::size_t done, std::si
 /// The cases of a folder by name. Throws std::runtime_error where it cannot be read or holds none.
 std::vector<BatchCase> cases_in(const BatchOptions& options);
 
-/// Runs all cases; rows are in the order of `cases_in` whatever finishes first. Each case runs in a child process, so that one that crashes,
-/// hangs or takes all memory harms no other; all of them end with this process, however it ends. A case for which no process can be started has
-/// failed. `stop` is asked between cases; once true no further case starts and those running are told to stop (SIGTERM). A case past its
-/// time limit is told so, too, and is killed where it does not end by itself. Call it while the process has one thread.
+/// Runs all cases; rows are in the order of `cases_in` whatever finishes first. Each case runs in a child process, so
+/// that one that crashes, hangs or takes all memory harms no other; all of them end with this process, however it
+/// ends. A case for which no process can be started has failed. `stop` is asked between cases; once true no further
+/// case starts and those running are told to stop (SIGTERM). A case past its time limit is told so, too, and is
+/// killed where it does not end by itself. Call it while the process has one thread.
 std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& run_case, const CaseDone& done,
                                   const std::function<bool()>& stop);
 
-/// The table: case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails. Holds no times, so that equal
-/// results give equal files.
+/// The table: case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails. Holds
+/// no times, so that equal results give equal files.
 std::string batch_csv(const std::vector<CaseResult>& results);
 
 std::string_view text_of(CaseStatus status);
