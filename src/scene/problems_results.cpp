@@ -174,17 +174,18 @@ std::size_t place_number(const ProblemList& list, const std::string& name) {
 }
 
 /// Steps of `size` [s], given by `key` of the analysis, up to `end_time` have to be so few that the time can still
-/// tell them apart. void check_number_of_steps(ProblemList& list, double end_time, double size, const char* key) {
-constexpr double most_steps = 1e15, many_steps = 1e8;
-if (!(size > 0.0)) return;
-const double steps = end_time / size;
-if (!(steps <= most_steps))
-  list.add("analysis", 0, key, text_of(size),
-           "this makes " + text_of(steps) + " steps up to end_time = " + text_of(end_time) +
-               " s; more than 1e15 cannot be counted in time",
-           "take a larger step or an earlier end");
-else if (steps > many_steps)
-  list.warn("analysis", 0, key, text_of(size), "this makes " + text_of(steps) + " steps");
+/// tell them apart.
+void check_number_of_steps(ProblemList& list, double end_time, double size, const char* key) {
+  constexpr double most_steps = 1e15, many_steps = 1e8;
+  if (!(size > 0.0)) return;
+  const double steps = end_time / size;
+  if (!(steps <= most_steps))
+    list.add("analysis", 0, key, text_of(size),
+             "this makes " + text_of(steps) + " steps up to end_time = " + text_of(end_time) +
+                 " s; more than 1e15 cannot be counted in time",
+             "take a larger step or an earlier end");
+  else if (steps > many_steps)
+    list.warn("analysis", 0, key, text_of(size), "this makes " + text_of(steps) + " steps");
 }
 
 }  // namespace
