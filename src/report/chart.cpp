@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "bough/report/plot.hpp"
 #include "curve.hpp"
+#include "label_place.hpp"
 #include "svg_text.hpp"
 
 namespace bough::report {
@@ -223,33 +226,71 @@ std::string failures_text(const Chart& chart, const ChartFrame& f) {
   return text;
 }
 
-/// The part of the line inside the plot area, by clipping against its four edges.
-std::string slope_text(const Chart& chart, const ChartFrame& f, const SlopeLine& line) {
+/// The part of the line inside the plot area, by clipping against its four edges, from the end at which its label is looked for; none: it
+/// lies outside.
+std::optional<Segment> guide_of(const Chart& chart, const ChartFrame& f, const SlopeLine& line) {
   const double x0 = on_axis(line.x0, chart.x.scale), y0 = on_axis(line.y0, chart.y.scale);
-  if (!std::isfinite(x0) || !std::isfinite(y0) || !std::isfinite(line.slope)) return {};
+  if (!std::isfinite(x0) || !std::isfinite(y0) || !std::isfinite(line.slope)) return std::nullopt;
   double a = f.x_low, b = f.x_high;
   if (line.slope != 0.0) {
     const double at_low = x0 + (f.y_low - y0) / line.slope, at_high = x0 + (f.y_high - y0) / line.slope;
     a = std::max(a, std::min(at_low, at_high));
     b = std::min(b, std::max(at_low, at_high));
   } else if (y0 < f.y_low || y0 > f.y_high) {
-    return {};
+    return std::nullopt;
   }
-  if (!(a < b)) return {};
+  if (!(a < b)) return std::nullopt;
+  if ((line.slope >= 0.0) != line.is_below) std::swap(a, b);
   const auto height = [&](double x) { return f.to_y(y0 + line.slope * (x - x0)); };
-  std::string text = path_element("guide", move_to(f.to_x(a), height(a)) + move_to(f.to_x(b), height(b), 'L'));
-  const bool rises = line.slope >= 0.0;
-  if (line.is_below && line.slope != 0.0) {
-    constexpr double letters = 10.0, gap = 5.0;  // height of the letters, distance to the line beside them
-    const double per_pixel = (f.to_x(b) - f.to_x(a)) / (height(b) - height(a));
-    const double low = rises ? a : b, y = height(low) - 4.0, x = f.to_x(low) + (y - letters - height(low)) * per_pixel;
-    return text + text_element("tiny soft", rises ? x + gap : x - gap, y, rises ? "start" : "end", line.label);
+  return Segment{f.to_x(a), height(a), f.to_x(b), height(b)};
+}
+
+/// Lines and marks of the series, as what labels are to keep off.
+std::vector<Segment> drawn_segments(const Chart& chart, const ChartFrame& f) {
+  constexpr double r = 6.0;  // around a mark
+  std::vector<Segment> drawn;
+  for (const ChartSeries& series : chart.series) {
+    const Placed* before = nullptr;
+    std::vector<Placed> places;
+    for (const ChartPoint& point : series.points) places.push_back(place(chart, f, point));
+    for (const Placed& p : places) {
+      const bool is_there = std::isfinite(p.y);
+      if (is_there && series.has_line && before != nullptr) drawn.push_back({before->x, before->y, p.x, p.y});
+      if (is_there && series.has_marks) {
+        drawn.push_back({p.x - r, p.y - r, p.x + r, p.y + r});
+        drawn.push_back({p.x - r, p.y + r, p.x + r, p.y - r});
+      }
+      before = is_there ? &p : nullptr;
+    }
   }
-  // beside the upper end, on the side with room
-  const double end = rises ? b : a, x = f.to_x(end), y = std::max(height(end), f.top + 4.0);
-  const bool has_room = rises && x + 8.0 + character * static_cast<double>(line.label.size()) < f.right;
-  if (has_room) return text + text_element("tiny soft", x + 4.0, y + 12.0, "start", line.label);
-  return text + text_element("tiny soft", rises ? x - 5.0 : x + 5.0, y + 15.0, rises ? "end" : "start", line.label);
+  return drawn;
+}
+
+std::string slopes_text(const Chart& chart, const ChartFrame& f) {
+  if (chart.slopes.empty()) return {};
+  std::string text;
+  std::vector<std::optional<Segment>> guides;
+  std::vector<Segment> drawn = drawn_segments(chart, f);
+  for (const SlopeLine& line : chart.slopes) {
+    guides.push_back(guide_of(chart, f, line));
+    if (!guides.back()) continue;
+    const Segment& g = *guides.back();
+    drawn.push_back(g);
+    const bool starts_left = g.x0 <= g.x1;
+    text += path_element("guide", move_to(starts_left ? g.x0 : g.x1, starts_left ? g.y0 : g.y1) +
+                                      move_to(starts_left ? g.x1 : g.x0, starts_left ? g.y1 : g.y0, 'L'));
+  }
+  for (std::size_t k = 0; k < guides.size(); ++k) {
+    const std::string& label = chart.slopes[k].label;
+    if (!guides[k] || label.empty()) continue;
+    const double width = character * static_cast<double>(label.size());
+    const LabelPlace at = place_label(*guides[k], width, drawn, {f.left + 3.0, f.top, f.right, f.bottom - 1.0});
+    const Box box = box_of(at, width);
+    drawn.push_back({box.left, box.top, box.right, box.bottom});
+    drawn.push_back({box.left, box.bottom, box.right, box.top});
+    text += text_element("tiny soft", at.x, at.y, at.is_end ? "end" : "start", label);
+  }
+  return text;
 }
 
 /// Rows of entries that fit beside each other.
@@ -319,7 +360,7 @@ std::string chart_svg(const Chart& chart) {
                      "\">\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n" +
                      text_element("head ink", 12.0, 21.0, "start", chart.title) +
                      text_element("tiny soft", chart.width - right_margin, 21.0, "end", chart.y.label) + axes(chart, f);
-  for (const SlopeLine& line : chart.slopes) text += slope_text(chart, f, line);
+  text += slopes_text(chart, f);
   for (std::size_t k = 0; k < chart.series.size(); ++k)
     text += series_text(chart, f, chart.series[k], style_of(chart, k));
   return text + failures_text(chart, f) + legend(chart, f.bottom + below_axis) + "</svg>\n";

@@ -1,5 +1,6 @@
 #include "bough/report/document.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -37,6 +38,45 @@ std::string cell_html(const Cell& cell) {
   return "<td" + attribute("class", classes) + attribute("data-source", cell.source) + ">" + text + "</td>";
 }
 
+/// Length of the longest word.
+std::size_t longest_word(std::string_view text) {
+  std::size_t most = 0;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    most = std::max(most, end - begin);
+    begin = end + 1;
+  }
+  return most;
+}
+
+/// Width that a column cannot do without, in wide letters: numbers do not wrap, words do.
+double least_width(const Table& table, std::size_t c) {
+  constexpr double letter = 8.8, bold_letter = 9.6, padding = 14.0, first_column = 9.0 * 15.0;  // [px] at 15 px
+  double width = bold_letter * static_cast<double>(longest_word(table.head[c]));
+  for (const std::vector<Cell>& row : table.rows)
+    width = std::max(width,
+                     letter * static_cast<double>(row[c].is_number ? row[c].text.size() : longest_word(row[c].text)));
+  return padding + (c == 0 ? std::max(width, first_column) : width);
+}
+
+/// Columns of a table that fit beside each other on the page, and, at four fifths of its letters, on paper of 190 mm; a wider table goes on in
+/// further ones, each with the first column again.
+std::vector<std::vector<std::size_t>> parts_of(const Table& table) {
+  constexpr double widest = 860.0;  // [px]
+  std::vector<std::vector<std::size_t>> parts(1);
+  double used = 0.0;
+  for (std::size_t c = 0; c < table.head.size(); ++c) {
+    const double width = least_width(table, c);
+    if (used + width > widest && parts.back().size() > 1) {
+      parts.push_back({0});
+      used = least_width(table, 0);
+    }
+    parts.back().push_back(c);
+    used += width;
+  }
+  return parts;
+}
+
 }  // namespace
 
 Cell number_cell(double value, int digits, std::string source, Tone tone) {
@@ -66,21 +106,26 @@ void Document::list(const std::vector<std::string>& items) {
 }
 
 void Document::table(const Table& table) {
-  body_ += "<div class=\"wide\"><table>\n";
-  if (!table.caption.empty()) body_ += "<caption>" + escaped(table.caption) + "</caption>\n";
-  body_ += "<thead><tr>";
-  for (std::size_t c = 0; c < table.head.size(); ++c) {
-    const bool is_number = !table.rows.empty() && c < table.rows.front().size() && table.rows.front()[c].is_number;
-    body_ += std::string(is_number ? "<th class=\"number\">" : "<th>") + escaped(table.head[c]) + "</th>";
-  }
-  body_ += "</tr></thead>\n<tbody>\n";
-  for (const std::vector<Cell>& row : table.rows) {
+  for (const std::vector<Cell>& row : table.rows)
     if (row.size() != table.head.size()) throw std::logic_error("a row is as long as the head of its table");
-    body_ += "<tr>";
-    for (const Cell& cell : row) body_ += cell_html(cell);
-    body_ += "</tr>\n";
+  const std::vector<std::vector<std::size_t>> parts = parts_of(table);
+  for (const std::vector<std::size_t>& columns : parts) {
+    body_ += "<div class=\"wide\"><table>\n";
+    if (!table.caption.empty() && &columns == &parts.front())
+      body_ += "<caption>" + escaped(table.caption) + "</caption>\n";
+    body_ += "<thead><tr>";
+    for (const std::size_t c : columns) {
+      const bool is_number = !table.rows.empty() && table.rows.front()[c].is_number;
+      body_ += std::string(is_number ? "<th class=\"number\">" : "<th>") + escaped(table.head[c]) + "</th>";
+    }
+    body_ += "</tr></thead>\n<tbody>\n";
+    for (const std::vector<Cell>& row : table.rows) {
+      body_ += "<tr>";
+      for (const std::size_t c : columns) body_ += cell_html(row[c]);
+      body_ += "</tr>\n";
+    }
+    body_ += "</tbody></table></div>\n";
   }
-  body_ += "</tbody></table></div>\n";
 }
 
 void Document::charts(const std::vector<Chart>& charts) {

@@ -8,7 +8,7 @@
 namespace bough::report {
 namespace {
 
-constexpr double page_width = 960.0, margin = 24.0, foot = 64.0;  // [px]
+constexpr double page_width = 960.0, margin = 24.0, foot = 96.0;  // [px]
 constexpr double tallest = 560.0, lowest = 150.0;                 // of the drawn area
 constexpr double same_spot = 0.35;                                // points nearer than this are one [px]
 constexpr int num_colors = 9;
@@ -196,7 +196,8 @@ std::string axis_triad(const Sheet& sheet) {
 
 std::string color_ramp(const Sheet& sheet, const std::vector<double>& times, const std::vector<int>& colors,
                        bool is_static) {
-  constexpr double step = 26.0;
+  const double step =
+      std::max(26.0, 170.0 / static_cast<double>(times.size()));  // the first and the last time side by side
   const double right = page_width - margin, left = right - step * static_cast<double>(times.size()),
                y = sheet.height - 36.0;
   std::string text;
@@ -215,8 +216,8 @@ std::string color_ramp(const Sheet& sheet, const std::vector<double>& times, con
 
 std::string legend(const Sheet& sheet, const std::vector<results::MotionFrame>& frames) {
   const results::MotionFrame& frame = frames.front();
-  const double y = sheet.height - 36.0;
-  double x = 330.0;
+  const double y = sheet.height - 84.0;  // a line of its own, above scale, axes and times
+  double x = margin;
   std::string text;
   const auto entry = [&](const char* classes, const std::string& data, const char* name, double advance) {
     text += path_element(classes, data) + text_element("tiny soft", x + 34.0, y + 4.0, "start", name);

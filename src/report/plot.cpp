@@ -108,15 +108,20 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
              "\" role=\"img\" aria-label=\"" + escaped(title) +
              " over time\">\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n" +
              text_element("head ink", 10.0, 20.0, "start", title) + axes(scale, time_label);
-  double legend_x = right;
+  // Where title and legend do not fit side by side, the legend goes below the title.
+  constexpr double character = 9.0, title_character = 8.0;
+  double legend_x = right, needed = 24.0 + title_character * static_cast<double>(title.size());
+  for (const std::size_t c : columns)
+    needed += 32.0 + character * static_cast<double>(io::split_column(history.header.columns[c]).component.size());
+  const double legend_y = needed > right ? 35.0 : 20.0;
   for (std::size_t k = columns.size(); k-- > 0;) {
     const std::string color = "curve s" + std::to_string(k % num_colors);
     plot.svg += path_element(color, column_path(history, columns[k], scale));
     const std::string component = io::split_column(history.header.columns[columns[k]]).component;
     if (columns.size() < 2 || component.empty()) continue;
-    plot.svg += text_element("tiny soft", legend_x, 20.0, "end", component);
-    legend_x -= 9.0 * static_cast<double>(component.size()) + 6.0;
-    plot.svg += path_element(color, level_stroke(legend_x - 16.0, 16.0, 14.0));
+    plot.svg += text_element("tiny soft", legend_x, legend_y, "end", component);
+    legend_x -= character * static_cast<double>(component.size()) + 6.0;
+    plot.svg += path_element(color, level_stroke(legend_x - 16.0, legend_y - 4.0, 14.0));
     legend_x -= 26.0;
   }
   plot.svg += "</svg>\n";

@@ -73,11 +73,16 @@ std::string timeline_svg(const Profile& p) {
             "\" y=\"8\" width=\"12\" height=\"12\"/>\n" + text_element("tiny soft", x + 17.0, 18.0, "start", k.label);
     x += 130.0;
   }
+  constexpr double label_width = 30.0;
+  double free_from = 0.0;  // of the label before
   for (const ProfileEvent* s : steps) {
     if (s->begin >= end) break;
     const double at = left + scale * (s->begin - begin);
-    body += line_element("axis", at, top - 16.0, at, height - 20.0) +
-            text_element("tiny soft", at + 4.0, top - 6.0, "start", "step");
+    body += line_element("axis", at, top - 16.0, at, height - 20.0);
+    const bool has_room = at >= free_from && at + 4.0 + label_width <= 960.0;
+    if (!has_room) continue;
+    body += text_element("tiny soft", at + 4.0, top - 6.0, "start", "step");
+    free_from = at + 4.0 + label_width;
   }
   for (std::size_t t = 0; t < num_threads; ++t)
     body += text_element("tiny ink", left - 8.0, top + (row_height + row_gap) * static_cast<double>(t) + 21.0, "end",

@@ -164,5 +164,52 @@ TEST(Document, a_row_of_another_length_is_a_mistake_of_the_caller) {
   EXPECT_THROW(page.table({{"one", "two"}, {{{"only"}}}}), std::logic_error);
 }
 
+// A second series runs along the line where its label would stand at first: beneath the lower end.
+TEST(Chart, the_label_of_a_slope_keeps_off_lines_and_marks) {
+  Chart chart = power_law();
+  chart.series.push_back({"lower", {}});
+  for (const double x : {1e-3, 2e-3, 4e-3, 8e-3}) chart.series[1].points.push_back({x, 0.7 * x * x});
+  chart.slopes = {{1e-3, 1e-6, 2.0, "order 2", true}};
+  const ChartFrame f = chart_frame(chart);
+  const std::string svg = chart_svg(chart);
+  const std::regex label(
+      R"rx(<text class="tiny soft" x="([0-9.]+)" y="([0-9.]+)" text-anchor="(start|end)">order 2<)rx");
+  std::smatch at;
+  ASSERT_TRUE(std::regex_search(svg, at, label));
+  const double width = 6.6 * 7, x = std::stod(at[1]), y = std::stod(at[2]), left = at[3] == "end" ? x - width : x;
+  EXPECT_GE(left, f.left);
+  EXPECT_LE(left + width, f.right);
+  const auto lies_on = [&](double factor) {
+    for (double lx = left; lx <= left + width; lx += 0.5) {
+      const double log_x = f.x_low + (lx - f.left) / (f.right - f.left) * (f.x_high - f.x_low);
+      if (log_x < -3.0 || log_x > std::log10(8e-3)) continue;
+      const double ly = f.to_y(std::log10(factor) + 2.0 * log_x);
+      if (ly > y - 10.0 && ly < y + 3.0) return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(lies_on(3.0));
+  EXPECT_FALSE(lies_on(0.7));
+  EXPECT_FALSE(lies_on(1.0)) << "its own line";
+}
+
+TEST(Document, a_table_too_wide_for_the_page_goes_on_below_with_its_first_column) {
+  Document page("wide", "", "wide.json");
+  Table table{{"case"}, {{{"one"}}, {{"two"}}}, "Once"};
+  for (int c = 0; c < 20; ++c) {
+    table.head.push_back("column " + std::to_string(c));
+    for (std::size_t r = 0; r < 2; ++r) table.rows[r].push_back(number_cell(1234.5 + c, 6));
+  }
+  page.table(table);
+  const std::string html = page.html();
+  const std::size_t parts = count_of(html, "<table>");
+  EXPECT_GE(parts, 2u);
+  EXPECT_EQ(count_of(html, "<th>case</th>"), parts);
+  EXPECT_EQ(count_of(html, "<td>two</td>"), parts);
+  EXPECT_EQ(count_of(html, "<caption>"), 1u);
+  for (int c = 0; c < 20; ++c) EXPECT_EQ(count_of(html, ">column " + std::to_string(c) + "</th>"), 1u) << c;
+  EXPECT_EQ(count_of(html, "<td class=\"number\">"), 40u);
+}
+
 }  // namespace
 }  // namespace bough::report

@@ -35,7 +35,7 @@ struct ChartSeries {
 struct SlopeLine {
   double x0 = 0.0, y0 = 0.0, slope = 0.0;
   std::string label;
-  bool is_below = false;  ///< what it is compared with lies above it: the label goes beneath its lower end
+  bool is_below = false;  ///< what it is compared with lies above it: the label is looked for from its lower end on
 };
 
 struct Chart {
