@@ -150,7 +150,7 @@ void Converter::settings() {
       c.largest_step = number_or(*control, "largest_step", 0.0);
     }
     r.spectral_radius = number_or(*a, "spectral_radius", 0.8);
-    r.bdf_order = static_cast<int>(number_or(*a, "bdf_order", 3.0));
+    r.bdf_order = static_cast<int>(number_or(*a, "bdf_order", 0.0));
     r.newmark_beta = number_or(*a, "newmark_beta", 0.3);
     r.newton = a->find("newton")->text == "single" ? scene::Newton::single : scene::Newton::full;
     r.tolerance = a->find("tolerance")->number;

@@ -43,7 +43,9 @@ void add_analysis_rules(RuleTable& t, const Field& frame) {
       may("spectral_radius", number_rule("", 0.0, false, 1.0),
           "Of generalized_alpha at high frequency: 0 damps most, 1 not at all [-].", "0.8"),
       may("bdf_order", integer_rule("", 2, 3),
-          "Of bdf: 2 damps every vibration, 3 is more accurate where none is undamped.", "3"),
+          "Of bdf: 2 damps every vibration, 3 is more accurate where none is undamped. Default: 3, but 2 where the "
+          "start has an "
+          "undamped vibration of 3 to 12 steps a period, which order 3 makes grow; the run says so."),
       may("newmark_beta", number_rule("", 0.25, false, 1.0),
           "Of variational, for vibrations: 0.25 is the most accurate; more slows down those faster "
           "than the step, which is no cure for stiff scenes [-].",

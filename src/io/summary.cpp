@@ -77,6 +77,21 @@ void write_limit_points(JsonText& json, const std::vector<results::LimitPoint>& 
   json.end_array();
 }
 
+/// What sensors of motions are estimated to be off by at the end.
+void write_errors(JsonText& json, const std::vector<results::SensorError>& errors) {
+  if (errors.empty()) return;
+  json.key("errors");
+  json.begin_object();
+  for (const results::SensorError& e : errors) {
+    json.key(e.column);
+    json.begin_object();
+    json.member("error", e.of_steps + e.of_energy);
+    json.member("range", e.range);
+    json.end_object();
+  }
+  json.end_object();
+}
+
 /// What speaks against the run, and how the levels of the tree were met with.
 void write_trust(JsonText& json, const results::Summary& summary) {
   json.key("trust");
@@ -92,6 +107,7 @@ void write_trust(JsonText& json, const results::Summary& summary) {
     json.end_object();
   }
   json.end_array();
+  write_errors(json, summary.sensor_errors);
   json.key("levels");
   json.begin_array();
   for (const results::LevelFigures& level : summary.levels) {

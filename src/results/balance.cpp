@@ -231,6 +231,7 @@ void Balance::compare(const Energies& now, const Supply& supply) {
   energy_error_ = std::max(energy_error_, std::abs(last_error_));
   energy_scale_ =
       std::max(energy_scale_, now.kinetic + now.strain + std::abs(now.potential - start_energy_) + std::abs(supplied));
+  largest_energies_ = std::max(largest_energies_, now.kinetic + now.strain + std::abs(now.potential));
   const Vec3<double> left = lanes::linear_part(now.momentum) - supply.impulse - start_momentum_;
   for (int i = 0; i < 3; ++i) momentum_error_ = std::max(momentum_error_, std::abs(left[i]));
 }

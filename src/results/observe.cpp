@@ -302,6 +302,18 @@ void eval_sensors(const step::System& system, const step::State& state, EnergyMe
   for (const int k : sensors) read.append_to(values, system.plan().sensors[static_cast<std::size_t>(k)]);
 }
 
+void eval_motion_sensors(const step::System& system, const step::State& state, std::vector<double>& values) {
+  values.clear();
+  for (const plan::SensorPlan& s : system.plan().sensors) {
+    if (!shows_motion(s.sensor.kind))
+      values.resize(values.size() + s.components.size());
+    else if (s.joint >= 0)
+      eval_joint_sensor(system, state, s, values);
+    else
+      append_point(s, system.field(state), eval_sensor_point(system, state, s), values);
+  }
+}
+
 MotionFrame eval_motion(const step::System& system, const step::State& state) {
   const plan::Plan& plan = system.plan();
   const Field f = system.field(state);

@@ -22,7 +22,7 @@ std::vector<std::string> problems_in(const StepOptions& o) {
   if (!(o.spectral_radius >= 0.0 && o.spectral_radius <= 1.0))
     problems.push_back("spectral_radius must be between 0 and 1");
   if (!(o.newmark_beta >= 0.25 && o.newmark_beta <= 1.0)) problems.push_back("newmark_beta must be between 0.25 and 1");
-  if (o.bdf_order != 2 && o.bdf_order != 3) problems.push_back("bdf_order must be 2 or 3");
+  if (o.bdf_order != 0 && o.bdf_order != 2 && o.bdf_order != 3) problems.push_back("bdf_order must be 2 or 3");
   if (!(o.tolerance > 0.0 && o.tolerance < 1.0)) problems.push_back("tolerance must be between 0 and 1");
   if (o.max_iterations < 1) problems.push_back("max_iterations must be at least 1");
   if (o.max_cuts < 0) problems.push_back("max_cuts must not be negative");

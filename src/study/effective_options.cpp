@@ -37,7 +37,7 @@ results::EffectiveOptions effective_options(const scene::Scene& scene, const ste
       list.emplace_back("analysis/newmark_beta", number(o.newmark_beta));
     } else if (o.integrator == scene::Integrator::bdf) {
       list.emplace_back("analysis/integrator", quoted("bdf"));
-      list.emplace_back("analysis/bdf_order", std::to_string(o.bdf_order));
+      list.emplace_back("analysis/bdf_order", std::to_string(o.bdf_order == 2 ? 2 : 3));
     } else {
       const step::AlphaCoefficients c = step::make_alpha_coefficients(o.spectral_radius);
       list.emplace_back("analysis/integrator", quoted("generalized_alpha"));

@@ -12,11 +12,16 @@
 #include "bough/step/step_control.hpp"
 #include "bough/step/variational.hpp"
 #include "bough/study/simulate.hpp"
+#include "error_watch.hpp"
 #include "expected_figures.hpp"
 #include "finite_gate.hpp"
+#include "limit_watch.hpp"
 #include "vibration_watch.hpp"
 
 namespace bough::study {
+
+/// Steps of one size between two looks at local errors, in a run of so many.
+long looks_every(double steps);
 
 class Run {
  public:
@@ -39,6 +44,7 @@ class Run {
   bool may_try(double target);
   /// Balances and violations of the present state.
   void check();
+  double energy_round_off() const;
   /// Work and energies are looked at in every step.
   bool has_balance() const { return scene_.output.checks || variational_.has_value(); }
   bool run_statics();
@@ -54,11 +60,13 @@ class Run {
   bool run_dynamics();
   bool run_controlled_segment(double begin, double end, double total_end);
   bool take_controlled_steps(double stop, double total_end);
-  bool accept_controlled(const step::StepReport& report, double size, bool is_last);
+  bool accept_controlled(const step::StepReport& report, bool is_last);
   /// Whether steps of a fixed size tell their errors.
   bool watches_error() const { return local_error_ && scene_.output.checks && !options_.single_solution; }
   bool look_at_error();
   void add_error(double duration, double size);
+  void see_before_look();
+  void watch_errors(double norm);
   std::vector<double> stops_between(double begin, double end) const;
   bool set_step_size(double size);
   void keep_or_restore(bool is_first_failure);
@@ -67,6 +75,7 @@ class Run {
   bool is_motion_due(long row, bool is_last) const;
   bool will_look(bool is_last) const;
   bool catch_up();
+  void choose_bdf_order(double step_size);
   bool start_segment(double step_size, bool is_first);
   bool run_segment(double begin, double end, double& sum_of_cuts);
   void finish();
@@ -102,11 +111,16 @@ class Run {
   bool path_done_ = false;
   std::optional<step::LocalError> local_error_;  ///< of generalized-alpha where checks or step control ask for it
   std::optional<step::StepController> controller_;
-  double wanted_size_ = 0.0;        ///< of the next controlled step [s]
-  double looked_at_ = 0.0;          ///< time of the last look at a local error, at fixed steps
-  double unfiltered_looked_ = 0.0;  ///< largest unfiltered error at a look
+  std::optional<LimitWatch> limit_watch_;  ///< of controlled steps
+  double wanted_size_ = 0.0;               ///< of the next controlled step [s]
+  double looked_at_ = 0.0;                 ///< time of the last look at a local error, at fixed steps
+  double unfiltered_looked_ = 0.0;         ///< largest unfiltered error at a look
   long steps_since_look_ = 0;
-  bool looking_ = false;  ///< at the second of two steps
+  long looks_every_ = 1;                   ///< steps of one size between two looks at local errors
+  bool looking_ = false;                   ///< at the second of two steps
+  std::optional<ErrorWatch> error_watch_;  ///< where local errors are known and checks made
+  std::vector<double> values_before_, values_now_, values_displaced_;  ///< of sensors of motions at a look
+  step::State displaced_;
   VibrationWatch vibrations_;
   long rows_ = 0;
   bool looks_always_ = true;   ///< at each end of a step, for hooks

@@ -2,13 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/results/observe.hpp"
 #include "run.hpp"
 
 namespace bough::study {
 
 namespace {
 
-constexpr long looks_every = 32;  ///< steps of one size between two looks at local errors, of two steps each
+constexpr long most_between_looks = 32, looks_at_least = 16;  ///< looks of two steps each; in a run
+constexpr long controlled_looks = 8;                          ///< accepted steps between two looks at sensors
 constexpr double worth_a_look =
     1.5;  ///< an unfiltered error above this many times the largest at a look so far is looked at
 constexpr double default_part = 0.02;   ///< of the end time: largest step where none is given
@@ -23,6 +25,10 @@ long steps_to_fill(double duration, double size) {
 }
 
 }  // namespace
+
+long looks_every(double steps) {
+  return static_cast<long>(std::clamp(steps / looks_at_least, 2.0, static_cast<double>(most_between_looks)));
+}
 
 /// Times of expected figures, and those asked for, within a stretch, and its end: steps end there.
 std::vector<double> Run::stops_between(double begin, double end) const {
@@ -94,8 +100,17 @@ bool Run::take_controlled_steps(double stop, double total_end) {
     }
     rejections = 0;
     add_error(size, size);
+    last_step_ = size;
+    if (wanted_size_ >= largest)
+      limit_watch_->count_largest();
+    else
+      limit_watch_->count(local_error_->limit(control.tolerance));
+    if (error_watch_) error_watch_->pass(local_error_->relative_motion());
+    if (++steps_since_look_ == controlled_looks) watch_errors(local_error_->relative_motion());
+    if (steps_since_look_ == controlled_looks - 1) see_before_look();
+    steps_since_look_ %= controlled_looks;
     local_error_->accept(state_);
-    if (!accept_controlled(report, size, target == total_end)) return false;
+    if (!accept_controlled(report, target == total_end)) return false;
     ++done;
     const double next = controller_->after_accepted(ratio, size);
     if (done < steps && next != size && std::min(next, largest) != size) {
@@ -109,11 +124,10 @@ bool Run::take_controlled_steps(double stop, double total_end) {
 }
 
 /// What every accepted step goes through.
-bool Run::accept_controlled(const step::StepReport& report, double size, bool is_last) {
+bool Run::accept_controlled(const step::StepReport& report, bool is_last) {
   count(report, true);
-  last_step_ = size;
   if (!plan_.joints.empty()) step::accept_turns(system_, state_);
-  if (has_balance()) work_meter_.add(system_, state_, size);
+  if (has_balance()) work_meter_.add(system_, state_, last_step_);
   record(report.iterations, is_last);
   return report_progress(report, scene_.analysis.end_time);
 }
@@ -129,13 +143,30 @@ void Run::add_error(double duration, double size) {
   checks.local_error_sum += local_error_->relative_motion() * duration / size;
 }
 
+/// Sensors at the start of the step that is looked at.
+void Run::see_before_look() {
+  if (!error_watch_ || !error_watch_->has_columns()) return;
+  results::eval_motion_sensors(system_, state_, values_before_);
+}
+
+/// What the local error of the last step, measured just now, is in the sensors. norm: what the watch was told of this
+/// step.
+void Run::watch_errors(double norm) {
+  if (!error_watch_ || !error_watch_->has_columns()) return;
+  results::eval_motion_sensors(system_, state_, values_now_);
+  local_error_->displace(state_, displaced_);
+  results::eval_motion_sensors(system_, displaced_, values_displaced_);
+  error_watch_->look(values_before_, values_now_, values_displaced_, norm, last_step_);
+}
+
 /// At fixed steps: local errors of two steps in a row (the second tells that of velocities), at least each 32 steps and where they rise: a
 /// solution and two evaluations in one of 16 steps.
 bool Run::look_at_error() {
   const bool is_second = looking_;
+  const double unfiltered = local_error_->unfiltered(system_, state_);
+  if (error_watch_) error_watch_->pass(unfiltered);
   if (!is_second) {
-    const double unfiltered = local_error_->unfiltered(system_, state_);
-    if (++steps_since_look_ < looks_every && unfiltered <= worth_a_look * unfiltered_looked_) return true;
+    if (++steps_since_look_ < looks_every_ && unfiltered <= worth_a_look * unfiltered_looked_) return true;
     unfiltered_looked_ = std::max(unfiltered_looked_, unfiltered);
     local_error_->restart();
   }
@@ -144,6 +175,10 @@ bool Run::look_at_error() {
   looking_ = !is_second;
   if (const auto t = local_error_->measure(system_, state_)) return fail(t->text);
   add_error(state_.time - looked_at_, last_step_);
+  if (is_second)
+    watch_errors(unfiltered);
+  else
+    see_before_look();
   local_error_->accept(state_);
   looked_at_ = state_.time;
   return true;

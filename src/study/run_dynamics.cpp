@@ -2,7 +2,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bough/io/number_text.hpp"
 #include "bough/results/observe.hpp"
+#include "bough/step/growing_vibration.hpp"
+#include "effective_options.hpp"
 #include "run.hpp"
 
 namespace bough::study {
@@ -44,12 +47,35 @@ bool Run::start_segment(double step_size, bool is_first) {
     return t ? fail(t->text) : true;
   }
   if (bdf_) {
+    if (is_first) choose_bdf_order(step_size);
     bdf_->restart(step_size);
     return true;
   }
   const step::StartReport started = step::start_alpha(system_, state_, options_, step_size);
   if (!started.ok) return fail(started.cause);
   return true;
+}
+
+/// Order 3 makes some undamped vibrations grow: where the scene has one and does not ask for this order, order 2 is
+/// taken.
+void Run::choose_bdf_order(double step_size) {
+  if (options_.bdf_order == 2) return;
+  const auto vibration = step::find_growing_vibration(system_, state_, step_size);
+  if (vibration) {
+    const std::string cause = "'" + plan_.nodes[static_cast<std::size_t>(vibration->node)].name +
+                              "' takes part in an undamped vibration of " + io::rounded_text(vibration->frequency, 3) +
+                              " rad/s, " + io::rounded_text(vibration->steps_a_period, 2) +
+                              " steps a period, which backward differences of order 3 make grow";
+    if (options_.bdf_order == 3) {
+      summary_.instability = cause + ": take \"bdf_order\": 2 or generalized_alpha";
+      note(summary_.instability);
+    } else {
+      bdf_.emplace(system_, 2);
+      note("backward differences of order 2 are taken: " + cause);
+    }
+  }
+  options_.bdf_order = vibration && summary_.instability.empty() ? 2 : 3;
+  summary_.options = effective_options(scene_, options_);
 }
 
 /// Whether somebody reads the state at the end of the step that makes the next row.
@@ -116,7 +142,8 @@ bool Run::run_segment(double begin, double end, double& total_end) {
       constexpr long most_parts = 1L << 62;  // of a segment, which a long can count
       if (++level > options_.max_cuts || (steps << (level - 1)) > most_parts / 2)
         return fail("the step at time " + std::to_string(state_.time) + " fails down to a step size of " +
-                    std::to_string(size) + ": " + report.cause +
+                    std::to_string(size) + ": " +
+                    (summary_.instability.empty() ? "" : summary_.instability + "; it ended in this: ") + report.cause +
                     (vibrations_.seen() ? "; " + std::string(undamped) : ""));
       if (!catch_up()) return false;
       keep_or_restore(failures++ == 0);

@@ -39,7 +39,10 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_, options_.bdf_order);
   if (plan_.is_dynamic && !variational_ && !bdf_ && (options_.step_control || scene.output.checks))
     local_error_.emplace(system_, options_, scene.analysis.end_time);
-  if (plan_.is_dynamic && options_.step_control) controller_.emplace(options_.step_control->tolerance);
+  if (plan_.is_dynamic && options_.step_control) {
+    controller_.emplace(options_.step_control->tolerance);
+    limit_watch_.emplace(plan_);
+  }
   looks_always_ = before_step_ && options.reads_state;
   if (scene.output.checks) system_.watch(work_meter_.nodes(plan_));
   summary_.scene = scene.name;
@@ -47,6 +50,13 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
   summary_.threads = threads_.count();
   summary_.options = effective_options(scene, options_);
   summary_.header = results::make_header(plan_);
+  if (local_error_ && scene.output.checks) {
+    error_watch_.emplace(plan_);
+    displaced_ = state_;  // a step does not allocate
+    for (auto* values : {&values_before_, &values_now_, &values_displaced_})
+      values->reserve(summary_.header.columns.size());
+    looks_every_ = looks_every(scene.analysis.end_time / scene.analysis.step_size);
+  }
   summary_.notes = plan_.notes;
   summary_.checks.evaluated = scene.output.checks;
 }
@@ -118,8 +128,12 @@ bool Run::watch_vibrations() {
 void Run::record(int iterations, bool is_last) {
   const step::PhaseTimer timer{system_.clock(), summary_.times.output};
   const long row = rows_++;
+  summary_.step_size = std::max(summary_.step_size, last_step_);
   const bool due = is_due(row, is_last);
-  if (due && !plan_.sensors.empty()) results::eval_sensors(system_, state_, energy_meter_, values_);
+  if (due && !plan_.sensors.empty()) {
+    results::eval_sensors(system_, state_, energy_meter_, values_);
+    if (error_watch_) error_watch_->see(values_);
+  }
   if (due && scene_.output.checks) check();
   if (due) {
     results::HistoryRow out;
@@ -182,6 +196,19 @@ void Run::check() {
   gate_.look_at("the work of loads and drives", work_meter_.supply().work, state_.time);
   gate_.look_at("the energy taken by dampers", work_meter_.supply().dissipation, state_.time);
   balance_.compare(energies, work_meter_.supply());
+  if (error_watch_)
+    error_watch_->see_energies(state_.time, energies.kinetic, energies.strain + energies.potential,
+                               balance_.last_energy_error(), balance_.energy_scale());
+}
+
+/// What energies cannot tell: their own round-off and that of weights at work over the size of the structure, and the
+/// motion that the tolerance of Newton's iteration leaves open over the whole run.
+double Run::energy_round_off() const {
+  constexpr double digits = 64.0 * 0x1p-53;  // sums over elements and steps lose some
+  const double mass = work_meter_.mass(), size = plan_.length_scale;
+  const double open = options_.tolerance * size / scene_.analysis.end_time;
+  return digits * (mass * std::sqrt(lanes::dot(plan_.gravity, plan_.gravity)) * size + balance_.largest_energies()) +
+         0.5 * mass * open * open;
 }
 
 void Run::finish() {
@@ -199,12 +226,16 @@ void Run::finish() {
   summary_.checks.unbalanced_at_floor = largest_force_ > 0.0 ? unbalanced_force_ / largest_force_ : 0.0;
   summary_.checks.energy_balance = balance_.energy_error();
   summary_.checks.energy_scale = balance_.energy_scale();
+  if (plan_.is_dynamic) summary_.checks.energy_round_off = energy_round_off();
+  if (error_watch_) summary_.sensor_errors = error_watch_->errors(summary_.header);
   summary_.checks.numerical_dissipation = std::max(0.0, -balance_.last_energy_error());
   summary_.checks.energy_gained = std::max(0.0, balance_.last_energy_error());
   summary_.checks.momentum_balance = balance_.momentum_error();
   if (dependent_rows_ > 0)
     note(std::to_string(dependent_rows_) +
          " constraint row(s) depend on others: the motion is unique, the reactions of these are not: " + not_unique_);
+  if (limit_watch_)
+    if (const auto text = limit_watch_->text(plan_, options_.step_control->tolerance)) note(*text);
   if (!first_rejection_.empty() && summary_.status != RunStatus::failed) note(first_rejection_);
   if (plan_.took("symmetric") && !system_.takes_symmetric_parts())
     note("the symmetric parts of tangents were given up for whole ones: Newton's iteration had slowed down");

@@ -22,17 +22,57 @@ std::string number(double value) { return io::rounded_text(value, 2); }
 /// Whether a value passes its bound, or is no number.
 bool passes(double value, double bound) { return !(value <= bound); }
 
-void doubt_energy(const results::Checks& c, const TrustLimits& limits, std::vector<results::Doubt>& doubts) {
-  if (passes(c.energy_gained, limits.energy_gained * c.energy_scale))
+void doubt_energy(const results::Summary& s, const TrustLimits& limits, std::vector<results::Doubt>& doubts) {
+  const results::Checks& c = s.checks;
+  const auto bound = [&c](double share) { return std::max(share * c.energy_scale, c.energy_round_off); };
+  if (passes(c.energy_gained, bound(limits.energy_gained)))
     doubts.push_back({"energy", "energy grows out of nothing: the integrator has added " + number(c.energy_gained) +
                                     " J, " + number(100.0 * c.energy_gained / c.energy_scale) +
-                                    " % of the largest energy; take smaller steps"});
-  if (passes(c.numerical_dissipation, limits.energy_taken * c.energy_scale))
+                                    " % of the largest energy; " +
+                                    (s.instability.empty() ? "take smaller steps" : s.instability)});
+  if (passes(c.numerical_dissipation, bound(limits.energy_taken)))
     doubts.push_back(
         {"energy", "the integrator has taken " + number(c.numerical_dissipation) + " J, " +
                        number(100.0 * c.numerical_dissipation / c.energy_scale) +
                        " % of the largest energy: what moves fast relative to the step is damped away; take "
                        "smaller steps or a spectral radius nearer to 1"});
+}
+
+/// What would bring an error of the second order in the step, or of the first in the tolerance, down to its bound.
+std::string remedy(const results::Summary& s, double excess) {
+  if (s.steps.size_changes > 0) return "a tolerance of step_control " + number(excess) + " times smaller";
+  return "steps of " + number(s.step_size / std::sqrt(excess)) + " s";
+}
+
+void doubt_errors(const results::Summary& s, const TrustLimits& limits, std::vector<results::Doubt>& doubts) {
+  const auto& all = s.sensor_errors;
+  if (all.empty()) {
+    const double sum = s.checks.local_error_sum;
+    if (s.checks.local_error_known && passes(sum, limits.local_error_sum))
+      doubts.push_back({"error", "the local errors of the steps add up to " + number(100.0 * sum) +
+                                     " % of the size of the structure (or of 1 rad); " +
+                                     remedy(s, sum / limits.local_error_sum) + " would make it " +
+                                     number(100.0 * limits.local_error_sum) + " %"});
+    return;
+  }
+  const auto is_wrong = [&](const results::SensorError& e) { return passes(e.relative(), limits.sensor_error); };
+  const auto count = std::count_if(all.begin(), all.end(), is_wrong);
+  if (count == 0) return;
+  const auto& worst = *std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.relative() < b.relative() || (std::isnan(b.relative()) && !std::isnan(a.relative()));
+  });
+  const double error = worst.of_steps + worst.of_energy;
+  doubts.push_back(
+      {"error",
+       "'" + worst.column + "' is off by about " + number(error) + " by the end, " + number(100.0 * worst.relative()) +
+           " % of the " + number(worst.range) + " over which it ranges" +
+           (count > 1 ? " (and " + std::to_string(count - 1) + " more columns by more than " +
+                            number(100.0 * limits.sensor_error) + " %)"
+                      : "") +
+           (worst.of_energy > worst.of_steps ? ", since the energy that the integrator took slows the motion down"
+                                             : ", as the local errors of the steps add up and grow") +
+           "; " + remedy(s, worst.relative() / limits.sensor_error) + " would make it " +
+           number(100.0 * limits.sensor_error) + " %"});
 }
 
 void doubt_linear_solutions(const results::Summary& s, const TrustLimits& limits, std::vector<results::Doubt>& doubts) {
@@ -72,7 +112,8 @@ std::vector<results::Doubt> doubts_of(const results::Summary& s, bool is_dynamic
   if (s.status == results::RunStatus::failed) doubts.push_back({"run", "it broke off: " + s.cause});
   if (s.status == results::RunStatus::interrupted) doubts.push_back({"run", "it was stopped before its end"});
   const results::Checks& c = s.checks;
-  if (c.evaluated && is_dynamic) doubt_energy(c, limits, doubts);
+  if (c.evaluated && is_dynamic) doubt_energy(s, limits, doubts);
+  if (c.evaluated && is_dynamic) doubt_errors(s, limits, doubts);
   if (c.evaluated) doubt_constraints(c, limits, doubts);
   doubt_linear_solutions(s, limits, doubts);
   if (is_dynamic && passes(c.unbalanced_at_floor, limits.unbalanced))

@@ -82,6 +82,29 @@ TEST(Trust, balances_that_were_not_made_are_not_judged) {
   EXPECT_TRUE(doubts_of(s, true).empty());
 }
 
+TEST(Trust, estimated_errors_are_judged_by_what_sensors_show) {
+  results::Summary s = good();
+  s.step_size = 0.1;
+  s.sensor_errors = {{"bob.x", 0.01, 0.0, 1.0}, {"bob.y", 0.01, 0.01, 1.0}};
+  EXPECT_FALSE(is_doubted(s, "error"));
+  s.sensor_errors[1].of_energy = 0.15;
+  const std::vector<results::Doubt> doubts = doubts_of(s, true);
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_NE(doubts[0].text.find("bob.y"), std::string::npos);
+  EXPECT_NE(doubts[0].text.find("steps of 0.05 s"), std::string::npos) << "a quarter of the error: " << doubts[0].text;
+  s.steps.size_changes = 3;
+  EXPECT_NE(doubts_of(s, true)[0].text.find("step_control 4 times smaller"), std::string::npos);
+}
+
+/// A body at rest but for round-off: what it gains is none, and is all the energy there is.
+TEST(Trust, energies_of_round_off_do_not_grow) {
+  results::Summary s = good();
+  s.checks.energy_scale = s.checks.energy_gained = 4.6e-30;
+  EXPECT_TRUE(is_doubted(s, "energy"));
+  s.checks.energy_round_off = 1e-16;
+  EXPECT_FALSE(is_doubted(s, "energy"));
+}
+
 TEST(Trust, runs_that_broke_off_or_floundered_are_doubted) {
   results::Summary s = good();
   s.status = results::RunStatus::failed;

@@ -1,6 +1,7 @@
 // Backward differences of second and third order on the group: orders of positions, velocities and multipliers, stiff parts, moving frames, failures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -123,6 +124,62 @@ TEST(Bdf, runs_the_heavy_top_to_its_table_with_fewer_steps_than_generalized_alph
               support::order_of(a, b), alpha);
   EXPECT_GT(support::order_of(a, b), 2.7);
   EXPECT_LT(b, alpha);
+}
+
+/// The gallery's spin-up, undamped, at a step at which order 3 makes its vibrations grow until the run ends.
+TEST(Bdf, takes_order_2_by_itself_where_order_3_makes_vibrations_grow) {
+  scene::Scene scene = support::gallery("spin_up", {"/analysis/end_time=6.76", "/analysis/step_size=0.01"});
+  scene.expected.clear();
+  scene.analysis.integrator = scene::Integrator::bdf;
+  const auto says = [](const results::Summary& s, const std::string& text) {
+    return std::any_of(s.notes.begin(), s.notes.end(),
+                       [&](const std::string& n) { return n.find(text) != std::string::npos; });
+  };
+  const Outcome chosen = support::run(scene);
+  ASSERT_TRUE(chosen.ok()) << chosen.summary.cause;
+  EXPECT_TRUE(says(chosen.summary, "backward differences of order 2 are taken: "));
+  EXPECT_NEAR(chosen.history.last("tip.x"), -0.809969332439257, 0.02);
+  scene.analysis.bdf_order = 3;
+  const Outcome asked = support::run(scene);
+  EXPECT_TRUE(says(asked.summary, "take \"bdf_order\": 2 or generalized_alpha"));
+  ASSERT_FALSE(asked.ok());
+  EXPECT_NE(asked.summary.cause.find("order 3 make grow: take \"bdf_order\": 2"), std::string::npos)
+      << asked.summary.cause;
+  std::printf("| spin-up by order 3 | %s |\n", asked.summary.cause.c_str());
+}
+
+/// Nothing vibrates, or nothing undamped, or nothing at 3 to 12 steps a period.
+TEST(Bdf, keeps_order_3_elsewhere) {
+  const auto order = [](scene::Scene scene) {
+    scene.expected.clear();
+    scene.analysis.integrator = scene::Integrator::bdf;
+    scene.analysis.end_time = 5.0 * scene.analysis.step_size;
+    const Outcome run = support::run(scene);
+    EXPECT_TRUE(run.ok()) << run.summary.cause;
+    for (const auto& [pointer, value] : run.summary.options)
+      if (pointer == "analysis/bdf_order") return value;
+    return std::string("none");
+  };
+  const auto mass_on_spring = [](const std::string& damping, double step) {
+    return support::scene_of(R"({
+      "bodies": [{"name": "mass", "mass": 1, "inertia": [1, 1, 1]}],
+      "bushings": [{"name": "spring", "first": "ground", "second": "mass", "stiffness": [100, 100, 100, 100, 100, 100],
+                    "damping": )" +
+                             damping + R"(}],
+      "initial_velocities": [{"of": "mass", "velocity": [1, 0, 0]}],
+      "sensors": [{"name": "x", "kind": "position", "at": "mass"}],
+      "analysis": {"kind": "dynamic", "end_time": 1, "step_size": )" +
+                             support::text(step) + "}}");
+  };
+  const double period = 2.0 * 3.141592653589793 / 10.0;
+  for (const double steps : {3.5, 6.0, 11.0})
+    EXPECT_EQ(order(mass_on_spring("[0, 0, 0, 0, 0, 0]", period / steps)), "2") << steps;
+  for (const double steps : {1.0, 2.5, 14.0, 100.0})
+    EXPECT_EQ(order(mass_on_spring("[0, 0, 0, 0, 0, 0]", period / steps)), "3") << steps;
+  EXPECT_EQ(order(mass_on_spring("[2, 2, 2, 2, 2, 2]", period / 6.0)), "3") << "a tenth of the critical damping";
+  EXPECT_EQ(order(mass_on_spring("[1, 1, 1, 1, 1, 1]", period / 6.0)), "2") << "a twentieth";
+  EXPECT_EQ(order(support::gallery("heavy_top")), "3");
+  EXPECT_EQ(order(support::gallery("gyroscope_on_turntable")), "3");
 }
 
 TEST(Bdf, knows_frames_that_move) {

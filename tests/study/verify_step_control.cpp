@@ -188,6 +188,55 @@ TEST(StepControl, a_jump_that_no_breakpoint_tells_is_cut_down_to) {
   EXPECT_LT(error, 1e-3);
 }
 
+/// A driven crank with an undamped steel rod as a beam, whose bending and extension are struck by the start: the
+/// velocities of the fastest vibrations would ask for a million steps a second.
+constexpr const char* elastic_slider_crank = R"({
+  "gravity": [0, -9.81, 0],
+  "materials": [{"name": "steel", "young": 2.1e11, "poisson": 0.3, "density": 7850}],
+  "sections": [{"name": "rod", "shape": {"kind": "circle", "radius": 0.01}, "material": "steel"}],
+  "nodes": [{"name": "B", "position": [0.2, 0, 0]}, {"name": "C", "position": [0.8, 0, 0]}],
+  "bodies": [{"name": "crank", "shape": {"kind": "box", "size": [0.2, 0.03, 0.02]}, "material": "steel",
+              "position": [0.1, 0, 0]},
+             {"name": "slider", "shape": {"kind": "box", "size": [0.1, 0.06, 0.06]}, "material": "steel",
+              "position": [0.8, 0, 0]}],
+  "beams": [{"name": "rod", "section": "rod", "start": "B", "end": "C", "elements": 8}],
+  "joints": [{"name": "main bearing", "kind": "revolute", "first": "ground", "second": "crank", "axis": [0, 0, 1],
+              "drives": [{"law": 6.283185307179586, "rate": true}]},
+             {"name": "crank pin", "kind": "revolute", "first": "crank", "second": "B", "position": [0.2, 0, 0],
+              "axis": [0, 0, 1]},
+             {"name": "wrist pin", "kind": "universal", "first": "C", "second": "slider", "position": [0.8, 0, 0],
+              "axis": [0, 1, 0], "second_axis": [0, 0, 1]},
+             {"name": "guide", "kind": "prismatic", "first": "ground", "second": "slider", "position": [0.8, 0, 0],
+              "axis": [1, 0, 0]}],
+  "initial_velocities": [{"of": "crank", "velocity": [0, 0.6283185307179586, 0],
+                          "angular_velocity": [0, 0, 6.283185307179586]}],
+  "sensors": [{"name": "slider", "kind": "position", "at": "slider"},
+              {"name": "middle", "kind": "position", "beam": "rod", "station": 0.5}],
+  "analysis": {"kind": "dynamic", "end_time": 0.1, "step_size": 1e-4, "spectral_radius": 0.8}})";
+
+TEST(StepControl, vibrations_that_no_sensor_sees_do_not_decide_the_step) {
+  scene::Scene scene = support::scene_of(elastic_slider_crank);
+  scene.analysis.step_size = 1e-5;
+  const Outcome reference = support::run(scene);
+  ASSERT_TRUE(reference.ok()) << reference.summary.cause;
+  scene.analysis.step_size = 1e-4;
+  scene.analysis.step_control.emplace().tolerance = 1e-4;
+  const Outcome run = support::run(scene);
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  const double slider = std::abs(run.history.last("slider.x") - reference.history.last("slider.x")),
+               middle = std::hypot(run.history.last("middle.x") - reference.history.last("middle.x"),
+                                   run.history.last("middle.y") - reference.history.last("middle.y"));
+  std::string limit;
+  for (const std::string& note : run.summary.notes)
+    if (note.find("decided the size") != std::string::npos) limit = note;
+  std::printf("| elastic slider-crank, 0.1 s | %ld steps | error %.1e m of the slider, %.1e m of the rod | %s |\n",
+              run.summary.steps.accepted, slider, middle, limit.c_str());
+  EXPECT_LT(run.summary.steps.accepted, 4000);
+  EXPECT_LT(slider, 1e-4);
+  EXPECT_LT(middle, 1e-4);
+  EXPECT_NE(limit.find("beam 'rod'"), std::string::npos) << limit;
+}
+
 TEST(StepControl, cuts_a_first_step_that_is_far_too_long) {
   scene::Scene scene =
       controlled(support::gallery("pendulum", {"/analysis/end_time=1", "/analysis/step_size=0.1"}), 1e-9, {});

@@ -30,6 +30,7 @@ class WorkMeter {
   /// After an accepted step.
   void add(const step::System& system, const step::State& state, double step_size);
   const Supply& supply() const { return supply_; }
+  double mass() const { return mass_; }  ///< of everything [kg]
   /// Nodes that it looks at: the others of a state may be behind (step::State).
   std::vector<int> nodes(const plan::Plan& plan) const;
 
@@ -68,8 +69,9 @@ class Balance {
   /// Where results are wanted.
   void compare(const Energies& now, const Supply& supply);
 
-  double energy_error() const { return energy_error_; }     ///< largest |energy - work + dissipation - start| seen [J]
-  double energy_scale() const { return energy_scale_; }     ///< largest sum of magnitudes seen [J]
+  double energy_error() const { return energy_error_; }  ///< largest |energy - work + dissipation - start| seen [J]
+  double energy_scale() const { return energy_scale_; }  ///< largest sum of magnitudes seen [J]
+  double largest_energies() const { return largest_energies_; }  ///< largest sum of their magnitudes as they are [J]
   double last_energy_error() const { return last_error_; }  ///< signed: negative is energy taken by the integrator [J]
   double momentum_error() const {
     return momentum_error_;
@@ -78,7 +80,7 @@ class Balance {
  private:
   double start_energy_ = 0.0;  ///< and that of the jumps
   motion::Vec3<double> start_momentum_ = motion::Vec3<double>::zero();
-  double energy_error_ = 0.0, energy_scale_ = 0.0, last_error_ = 0.0, momentum_error_ = 0.0;
+  double energy_error_ = 0.0, energy_scale_ = 0.0, last_error_ = 0.0, momentum_error_ = 0.0, largest_energies_ = 0.0;
 };
 
 }  // namespace bough::results

@@ -26,6 +26,9 @@ bool shows_motion(scene::SensorKind kind);
 /// Adds the nodes that a sensor of motion looks at.
 void append_nodes_of(const plan::Plan& plan, const plan::SensorPlan& sensor, std::vector<int>& nodes);
 
+/// Values of the sensors that show motions, in their places; 0 for the others.
+void eval_motion_sensors(const step::System& system, const step::State& state, std::vector<double>& values);
+
 /// The moving structure, with section resultants at the beams' nodes.
 MotionFrame eval_motion(const step::System& system, const step::State& state);
 

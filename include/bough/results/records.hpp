@@ -65,6 +65,7 @@ struct Checks {
   bool evaluated = true;
   double energy_balance = 0.0;         ///< largest |kinetic + strain + potential - work + dissipation - start| [J]
   double energy_scale = 0.0;           ///< largest sum of the parts' magnitudes [J]
+  double energy_round_off = 0.0;       ///< energies below this are round-off or what the tolerance leaves open [J]
   double numerical_dissipation = 0.0;  ///< energy taken by the integrator up to the end [J]; 0 where it gave some
   double momentum_balance = 0.0;       ///< largest |momentum - impulse - start| [kg m/s]
   double constraint_violation_position = 0.0;  ///< [m] or [rad]
@@ -92,9 +93,18 @@ struct LevelFigures {
   double condition = 0.0;       ///< of the worst interface, in scaled variables [-]; 0: not computed
   double backward_error = 0.0;  ///< of the unknowns eliminated there, normwise [-]
 };
+/// What the steps in time are estimated to have left in a column of the history by the end of a run.
+struct SensorError {
+  std::string column;
+  double of_steps = 0.0;   ///< from their local errors, in the unit of the column
+  double of_energy = 0.0;  ///< from the energy that the integrator took, which slows motions down
+  double range = 0.0;      ///< of what the sensor's columns of this unit show
+  double relative() const { return (of_steps + of_energy) / range; }
+};
 /// A reason not to trust a run without a closer look.
 struct Doubt {
-  std::string about;  ///< "run", "energy", "linear solutions", "condition", "constraints", "round-off", "steps"
+  std::string
+      about;  ///< "run", "energy", "error", "linear solutions", "condition", "constraints", "round-off", "steps"
   std::string text;
 };
 /// Where the load factor turns along the path of equilibria.
@@ -132,7 +142,11 @@ struct Summary {
   HistoryHeader header;
   std::vector<double> final_values;  ///< by header
   std::vector<ExpectedResult> expected;
-  std::vector<Doubt> doubts;         ///< why the run should not be trusted, in words; empty: nothing was found
+  std::vector<Doubt> doubts;               ///< why the run should not be trusted, in words; empty: nothing was found
+  std::vector<SensorError> sensor_errors;  ///< of sensors of motions, where local errors are known
+  double step_size = 0.0;                  ///< longest of the run [s]
+  std::string
+      instability;  ///< why the integrator may make vibrations grow, and what to do; empty: nothing is known of such
   std::vector<LevelFigures> levels;  ///< of the hierarchical solver
   std::vector<std::pair<std::string, double>>
       solver;  ///< figures of the tree: sub-domains, levels, interface unknowns, condition, ...

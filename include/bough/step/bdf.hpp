@@ -23,7 +23,7 @@ namespace bough::step {
 
 class Bdf {
  public:
-  /// `order`: 2 or 3.
+  /// `order`: 2; everything else is 3.
   Bdf(System& system, int order);
 
   /// The next step, of size h, starts anew from positions, velocities and dv/dt of a state.

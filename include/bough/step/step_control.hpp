@@ -32,11 +32,23 @@ struct ErrorConstants {
 };
 ErrorConstants make_error_constants(const AlphaCoefficients& c);
 
+/// What the last measured error asked for small steps.
+struct ErrorLimit {
+  int node = -1;             ///< in Plan::nodes, where it was largest
+  bool is_velocity = false;  ///< of a velocity rather than of a place
+  double frequency =
+      0.0;  ///< at which the error changes there from step to step [rad/s]; of a vibration, its own up to 2 / h
+};
+
 /// Local errors along a run. Allocates when made, not afterwards.
 class LocalError {
  public:
   /// `absolute`: allowances beside the tolerance, 0: none. Sizes that errors are compared with: the size of the structure, 1 rad, the largest speeds
   /// so far, and these at the least: the size of the structure and 1 rad in `duration` [s].
+  /// Where step control is on and all sensors show motions, errors count at nodes that they look at, those of
+  /// velocities where sensors show velocities: a vibration faster than the step that no sensor sees would otherwise ask
+  /// for steps that resolve it, although the scheme filters it. Forces, accelerations and energies are of the whole
+  /// structure: with sensors of these, or none, errors count everywhere.
   LocalError(const System& system, const StepOptions& options, double duration);
 
   /// A start, or the far side of a jump: v''' is not known in the first step.
@@ -49,6 +61,10 @@ class LocalError {
   void accept(const State& after);
 
   const ErrorParts& parts() const { return parts_; }
+  /// To be asked before `accept`. tolerance: of the control, which weighs places against velocities.
+  ErrorLimit limit(double tolerance) const;
+  /// `after` with its nodes displaced by the last measured e_q, and velocities changed by e_q / h.
+  void displace(const State& after, State& to) const;
   /// Largest parts of the last measured error over what they are compared with: size + allowance / tolerance [-].
   double relative_motion() const;    ///< of positions and rotations
   double relative_velocity() const;  ///< of velocities
@@ -58,6 +74,11 @@ class LocalError {
   double unfiltered(System& system, const State& after) const;
 
  private:
+  void watch(const plan::Plan& plan);
+  void watch(const plan::Plan& plan, const plan::SensorPlan& sensor);
+  double velocity_factor() const;
+  /// What errors are compared with: size + allowance / tolerance.
+  ErrorParts sizes() const;
   motion::Vec6<double> unfiltered_of(const State& after, std::size_t node) const;
 
   ErrorConstants constants_;
@@ -68,6 +89,12 @@ class LocalError {
   std::vector<motion::Vec6<double>> now_, previous_;  ///< e / h^3 by node
   double step_ = 0.0, previous_step_ = 0.0;
   bool has_previous_ = false;
+  /// What counts of a node's errors.
+  struct Watched {
+    bool place = false, turns = false, velocity = false;
+    double arm = 0.0;  ///< of its rotation at what is looked at [m], counted with its place
+  };
+  std::vector<Watched> watched_;  ///< by node
   State shifted_;
 };
 
