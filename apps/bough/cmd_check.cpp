@@ -1,4 +1,5 @@
 /// bough check SCENE, bough schema.
+#include <filesystem>
 #include <iostream>
 
 #include "arguments.hpp"
@@ -6,6 +7,7 @@
 #include "bough/io/read_motion.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/read_study.hpp"
+#include "bough/plan/plan.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
@@ -14,6 +16,24 @@ namespace {
 void count(std::string& text, std::size_t number, const char* one, const char* many) {
   if (number == 0) return;
   text += (text.empty() ? " " : ", ") + std::to_string(number) + " " + (number == 1 ? one : many);
+}
+
+/// Whether a plan of the scene is made in no time.
+bool is_small(const scene::Scene& s) {
+  constexpr std::size_t most = 5000;
+  std::size_t parts = s.nodes.size() + s.bodies.size() + s.joints.size() + s.springs.size() + s.bushings.size() +
+                      s.point_loads.size() + s.line_loads.size() + s.frames.size();
+  for (const scene::Beam& b : s.beams)
+    parts += static_cast<std::size_t>(b.elements) * static_cast<std::size_t>(b.order);
+  return parts <= most;
+}
+
+/// What the plan finds locked, loose or without inertia: hints, which change no verdict.
+void print_mobility(const std::filesystem::path& file, const scene::Scene& s) {
+  if (!is_small(s)) return;
+  const plan::Mobility mobility = plan::make_plan(s).mobility;
+  for (const auto* list : {&mobility.locked, &mobility.free, &mobility.massless})
+    for (const std::string& text : *list) std::cerr << file.string() << ": warning: " << text << "\n";
 }
 
 }  // namespace
@@ -26,6 +46,7 @@ int check(const CheckArguments& arguments) {
     return exit_bad_input;
   }
   const scene::Scene& s = file.scene;
+  print_mobility(arguments.scene, s);
   std::string parts;
   count(parts, s.nodes.size(), "node", "nodes");
   count(parts, s.bodies.size(), "body", "bodies");

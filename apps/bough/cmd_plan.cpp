@@ -1,5 +1,6 @@
 /// bough plan SCENE: what is left out of a run and why, and what the run will take.
 #include <iostream>
+#include <vector>
 
 #include "arguments.hpp"
 #include "bough/io/atomic_file.hpp"
@@ -35,11 +36,42 @@ std::string saving_text(const study::OutlookDecision& d, const study::Effort& no
   return text;
 }
 
+std::string count_text(int number, const char* one, const char* many) {
+  return std::to_string(number) + " " + (number == 1 ? one : many);
+}
+
+/// "1 of 'crank', 'coupler' and 1 more: its joints leave 3, closing their loops takes 2 (5 conditions)"
+std::string mobility_text(const plan::MobilityPart& p) {
+  std::string text = std::to_string(p.degrees_of_freedom()) + " of ";
+  constexpr std::size_t shown = 3;
+  for (std::size_t i = 0; i < std::min(shown, p.names.size()); ++i) text += (i > 0 ? ", '" : "'") + p.names[i] + "'";
+  if (p.names.size() > shown) text += " and " + std::to_string(p.names.size() - shown) + " more";
+  if (!p.reaches_ground) text += ", which nothing joins to the ground";
+  if (p.closing_rows > 0)
+    text += ": joints leave " + std::to_string(p.freedoms) + ", closing loops takes " + std::to_string(p.rank) +
+            (p.is_counted ? " (" + count_text(p.closing_rows, "condition", "conditions") + ")"
+                          : " at most (" + count_text(p.closing_rows, "condition", "conditions") + ", rank not found)");
+  if (p.drives > 0) text += "; " + count_text(p.drives, "is driven", "are driven");
+  return text;
+}
+
+std::string mobility_text(const plan::Mobility& m) {
+  constexpr std::size_t shown = 6;
+  bool has_beams = false;
+  for (const plan::MobilityPart& p : m.parts) has_beams |= p.has_beams;
+  std::string text = "degrees of freedom of the mechanism: " + std::to_string(m.degrees_of_freedom()) + " in all" +
+                     (has_beams ? ", beams taken as rigid" : "") + "\n";
+  for (std::size_t i = 0; i < std::min(shown, m.parts.size()); ++i) text += "  " + mobility_text(m.parts[i]) + "\n";
+  if (m.parts.size() > shown) text += "  and " + std::to_string(m.parts.size() - shown) + " more parts\n";
+  return text;
+}
+
 std::string plan_text(const study::Outlook& o) {
   const study::Effort& e = o.effort;
   std::string text = o.scene + (o.title.empty() ? "" : ": " + o.title) + "\n\n";
   text += std::to_string(o.nodes) + " nodes, " + std::to_string(o.elements) + " elements, " + std::to_string(o.joints) +
           " joints; moves " + o.motions + "\n";
+  text += mobility_text(o.mobility);
   text += std::to_string(e.unknowns) + " unknowns";
   if (e.unknowns != o.unknowns_in_space) text += " of " + std::to_string(o.unknowns_in_space);
   text += "; " + std::to_string(o.sub_domains) + " sub-domains, " + std::to_string(o.leaves) + " leaves, " +
@@ -79,7 +111,33 @@ void write_effort(io::JsonText& json, const study::Effort& e) {
   json.end_object();
 }
 
-std::string plan_json(const study::Outlook& o) {
+void write_mobility(io::JsonText& json, const plan::Mobility& m) {
+  json.begin_object();
+  json.member("degrees_of_freedom", static_cast<long long>(m.degrees_of_freedom()));
+  json.key("parts");
+  json.begin_array();
+  for (const plan::MobilityPart& p : m.parts) {
+    json.begin_object();
+    json.key("names");
+    json.begin_array();
+    for (const std::string& name : p.names) json.value(name);
+    json.end_array();
+    json.member("degrees_of_freedom", static_cast<long long>(p.degrees_of_freedom()));
+    json.member("joints", static_cast<long long>(p.joints));
+    json.member("freedoms", static_cast<long long>(p.freedoms));
+    json.member("closing_conditions", static_cast<long long>(p.closing_rows));
+    json.member("rank", static_cast<long long>(p.rank));
+    json.member("rank_is_found", p.is_counted);
+    json.member("drives", static_cast<long long>(p.drives));
+    json.member("has_beams", p.has_beams);
+    json.member("reaches_ground", p.reaches_ground);
+    json.end_object();
+  }
+  json.end_array();
+  json.end_object();
+}
+
+std::string plan_json(const study::Outlook& o, const std::vector<io::Problem>& hints) {
   io::JsonText json;
   json.begin_object();
   json.member("scene", o.scene);
@@ -97,6 +155,8 @@ std::string plan_json(const study::Outlook& o) {
   json.member("fronts_in_lanes", static_cast<long long>(o.fronts_in_lanes));
   json.member("fronts_in_registers", static_cast<long long>(o.fronts_in_registers));
   json.member("process_bytes", static_cast<long long>(o.process_bytes));
+  json.key("mobility");
+  write_mobility(json, o.mobility);
   json.key("step");
   write_effort(json, o.effort);
   json.key("decisions");
@@ -120,6 +180,10 @@ std::string plan_json(const study::Outlook& o) {
   json.begin_array();
   for (const std::string& note : o.notes) json.value(note);
   json.end_array();
+  json.key("hints");  // of the check: legal, but hardly meant
+  json.begin_array();
+  for (const io::Problem& hint : hints) json.value(hint.text());
+  json.end_array();
   json.end_object();
   return json.text();
 }
@@ -133,7 +197,7 @@ int plan(const PlanArguments& arguments) {
   io::refuse_to_overwrite({arguments.scene}, {arguments.json});
   const study::Outlook outlook = study::look_ahead(file.scene);
   try {
-    if (!arguments.json.empty()) io::write_file(arguments.json, plan_json(outlook));
+    if (!arguments.json.empty()) io::write_file(arguments.json, plan_json(outlook, file.warnings));
   } catch (const std::exception& error) {
     std::cerr << "bough: " << error.what() << "\n";
     return exit_failed;

@@ -43,6 +43,12 @@ void Report::put(std::vector<Placed>& list, Problem p, int source, std::size_t o
   list.push_back({std::move(p), source == source_file, offset});
 }
 
+std::string Report::owner(const std::string& pointer) const {
+  std::string name;
+  locate(pointer, nullptr, &name);
+  return name;
+}
+
 void Report::finish(std::vector<Placed>& list, std::vector<Problem>& out) const {
   std::stable_sort(list.begin(), list.end(), [](const Placed& a, const Placed& b) {
     return a.in_file != b.in_file ? a.in_file : a.in_file && a.offset < b.offset;
@@ -53,7 +59,9 @@ void Report::finish(std::vector<Placed>& list, std::vector<Problem>& out) const 
       list[i].problem.line = at.line;
       list[i].problem.column = at.column;
     }
-    out.push_back(std::move(list[i].problem));
+    Problem& p = list[i].problem;  // of those shown alone: a search for each of many would be quadratic
+    if (p.owner = owner(p.pointer); p.owner == p.value) p.owner.clear();
+    out.push_back(std::move(p));
   }
   if (list.size() > max_problems) {
     Problem& last = out.back();
@@ -88,8 +96,8 @@ std::string Report::summary(const JsonValue& v) const {
   return excerpt(told.source, told.offset, told.length);
 }
 
-/// The value at a pointer, or the innermost one on the way to it.
-const JsonValue* Report::locate(const std::string& pointer, std::string* reached) const {
+/// The value at a pointer, or the innermost one on the way to it; and the innermost name of a thing that is passed.
+const JsonValue* Report::locate(const std::string& pointer, std::string* reached, std::string* owner) const {
   const JsonValue* at = root_;
   const auto tokens = split_pointer(pointer);
   if (at == nullptr || !tokens) return at;
@@ -105,6 +113,8 @@ const JsonValue* Report::locate(const std::string& pointer, std::string* reached
     if (next == nullptr || next->source == source_default) break;  // a default stands nowhere: its owner is named
     at = next;
     path = pointer_to(path, t);
+    const JsonValue* name = at->is(JsonKind::object) ? at->find("name") : nullptr;
+    if (owner != nullptr && name != nullptr && name->is(JsonKind::string)) *owner = summary(*name);
   }
   if (reached != nullptr) *reached = path;
   return at;
@@ -151,7 +161,9 @@ std::string read_whole_file(const std::filesystem::path& file, Problem& problem)
 std::string Problem::text() const {
   std::string r;
   if (line > 0) r += "line " + std::to_string(line) + ", column " + std::to_string(column) + ", ";
-  r += (pointer.empty() ? "the file" : pointer) + (value.empty() ? "" : " (" + value + ")") + ": " + rule;
+  r += pointer.empty() ? "the file" : pointer;
+  if (!owner.empty()) r += " of " + owner;
+  r += (value.empty() ? "" : " (" + value + ")") + ": " + rule;
   if (!hint.empty()) r += "; " + hint;
   return r;
 }

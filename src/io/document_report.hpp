@@ -41,7 +41,9 @@ class Report {
   std::string excerpt(int source, std::size_t offset, std::size_t length) const;
   std::string token(int source, std::size_t offset) const;
   std::string summary(const JsonValue& v) const;
-  const JsonValue* locate(const std::string& pointer, std::string* reached) const;
+  /// Name of the innermost thing with a name on the way along a pointer, as written; empty: none.
+  std::string owner(const std::string& pointer) const;
+  const JsonValue* locate(const std::string& pointer, std::string* reached, std::string* owner = nullptr) const;
 
   std::string_view text_;
   LineIndex lines_;

@@ -69,6 +69,16 @@ class Converter : private ValueConverter {
   void expected(const Value& v, const std::string& at);
   void settings();
 
+  // Units in disguise, and settings without effect: hints.
+  void warn_of_units(const scene::Material& material, const std::string& at);
+  void warn_of_density(double density, const std::string& at, const std::string& name);
+  void warn_of_thickness(const JsonValue& shape, const scene::Material& material, const std::string& at);
+  void warn_of_body_size(const JsonValue& body, const std::string& at, double density);
+  void warn_of_thick_beams();
+  void warn_of_degrees(const laws::Law& angle, const std::string& at);
+  using ValueConverter::warn_of_degrees;
+  void warn_of_idle_settings(const Value& analysis);
+
   std::string own_name(const Value& v, const char* stem);
   /// Converts all items of a list; those that are wrong become defective.
   void each(const char* list, void (Converter::*read)(const Value&, const std::string&));
@@ -84,7 +94,8 @@ class Converter : private ValueConverter {
   bool left_out_ = false;          ///< this item needs another that was left out
   bool is_static_ = false;
   std::vector<scene::Material> materials_;
-  std::unordered_set<std::string> names_;  ///< all names given in the file
+  std::unordered_map<std::string, double> thickness_;  ///< of sections of a given shape: its largest dimension [m]
+  std::unordered_set<std::string> names_;              ///< all names given in the file
   int unnamed_ = 0;
   std::optional<scene::Poses> poses_;
 };

@@ -12,12 +12,6 @@ using scene::Vec3;
 
 namespace {
 
-JointKind joint_kind(const std::string& name) {
-  for (int k = 0; k < 8; ++k)
-    if (scene::to_string(static_cast<JointKind>(k)) == name) return static_cast<JointKind>(k);
-  return JointKind::fixed;
-}
-
 bool needs_axis(JointKind kind) { return kind != JointKind::fixed && kind != JointKind::spherical; }
 
 double norm(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
@@ -84,8 +78,9 @@ std::optional<Frame> Converter::common_frame(const Value& v, const std::string& 
     if (a.has_rotation || b.has_rotation)
       fault(at + "/axis", "the axes are given here and in first or second: give one of the two");
     const Vec3 main = frame->R * vector(*axis);
-    if (norm(main) == 0.0) {
-      fault(at + "/axis", "an axis has a length other than 0");
+    if (!(norm(main) > least_axis)) {
+      fault(at + "/axis", norm(main) > 0.0 ? "this axis is too short to tell a direction: its length is near 0"
+                                           : "an axis has a length other than 0");
       return std::nullopt;
     }
     const Vec3 side = second_axis != nullptr ? Vec3(frame->R * vector(*second_axis)) : far_axis(main);
@@ -129,7 +124,7 @@ void Converter::place_sides(const Value& v, const std::string& at, JointKind kin
 void Converter::joint(const Value& v, const std::string& at) {
   scene::Joint j;
   j.name = v.find("name")->text;
-  j.kind = joint_kind(v.find("kind")->text);
+  j.kind = scene::joint_kind_named(v.find("kind")->text).value();  // the schema takes no other names
   Side a = side(*v.find("first"), at + "/first"), b = side(*v.find("second"), at + "/second");
   place_sides(v, at, j.kind, a, b);
   j.first = a.to;
@@ -145,12 +140,16 @@ void Converter::joint(const Value& v, const std::string& at) {
     const Value& f = forces.items[i];
     j.forces.push_back({coordinate(f), f.find("stiffness")->number, f.find("rest")->number, f.find("damping")->number,
                         law(*f.find("effort"), at + "/forces/" + std::to_string(i) + "/effort")});
+    if (j.forces.back().coordinate == "angle")
+      warn_of_degrees(*f.find("rest"), at + "/forces/" + std::to_string(i) + "/rest");
   }
   const Value& drives = *v.find("drives");
   for (std::size_t i = 0; i < drives.items.size(); ++i) {
     const Value& d = drives.items[i];
     j.drives.push_back(
         {coordinate(d), d.find("rate")->truth, law(*d.find("law"), at + "/drives/" + std::to_string(i) + "/law")});
+    if (j.drives.back().coordinate == "angle" && !j.drives.back().is_rate)
+      warn_of_degrees(j.drives.back().law, at + "/drives/" + std::to_string(i) + "/law");
   }
   add(scene.joints, "joints", std::move(j), at);
 }

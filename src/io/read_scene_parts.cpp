@@ -33,11 +33,13 @@ void Converter::frame(const Value& v, const std::string& at) {
     const std::string here = at + "/turns/" + std::to_string(k);
     const scene::Vec3 axis = vector(*turn.find("axis"));
     const double length = std::hypot(axis[0], axis[1], axis[2]);
-    if (!(length > 0.0)) {
-      fault(here + "/axis", "an axis has a length other than 0");
+    if (!(length > least_axis)) {
+      fault(here + "/axis", length > 0.0 ? "this axis is too short to tell a direction: its length is near 0"
+                                         : "an axis has a length other than 0");
       continue;
     }
     const laws::Law given = law(*turn.find("angle"), here + "/angle");
+    if (!turn.find("rate")->truth) warn_of_degrees(given, here + "/angle");
     m.turns.push_back({(1.0 / length) * axis, turn.find("rate")->truth ? given.integral(0.0) : given});
     moves |= !m.turns.back().angle.is_constant();
   }
@@ -64,6 +66,7 @@ void Converter::material(const Value& v, const std::string& at) {
   m.density = v.find("density")->number;
   for (const scene::Material& other : materials_)
     if (other.name == m.name) return fault(at + "/name", "another material has this name", "names are used once");
+  warn_of_units(m, at);
   materials_.push_back(std::move(m));
 }
 
@@ -99,6 +102,10 @@ scene::Section Converter::shaped_section(const Value& v, const std::string& at) 
   }
   const scene::Material* m = material_named(v.find("material")->text, at + "/material");
   if (m == nullptr) return {};
+  warn_of_thickness(s, *m, at);
+  thickness_[v.find("name")->text] =
+      std::max({number_or(s, "width", 0.0), number_or(s, "height", 0.0), 2.0 * number_or(s, "radius", 0.0),
+                2.0 * number_or(s, "outer_radius", 0.0)});
   std::optional<double> k2, k3;
   if (const Value* k = v.find("shear_factors")) {
     k2 = k->items[0].number;
@@ -173,6 +180,8 @@ void Converter::body_inertia(const Value& v, const std::string& at, scene::Body&
     rho = m->density;
     if (rho == 0.0) return fault(at + "/material", "this material has no density");
   }
+  if (density != nullptr) warn_of_density(rho, at + "/density", v.find("name")->text);
+  if (has_other) warn_of_body_size(s, at + "/shape", rho);
   if (has_other) body.mass = rho * scene::volume_of(shape);
   body.inertia = scene::inertia_of(shape, body.mass);
 }

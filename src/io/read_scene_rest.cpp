@@ -59,6 +59,7 @@ void Converter::motion(const Value& v, const std::string& at) {
     if (r->is(JsonKind::object)) {
       m.rotation_axis = vector(*r->find("axis"));
       m.angle = law(*r->find("angle"), at + "/rotation/angle");
+      if (!v.find("rate")->truth) warn_of_degrees(m.angle, at + "/rotation/angle");
     }
   }
   m.is_rate = v.find("rate")->truth;
@@ -84,6 +85,7 @@ void Converter::sensor(const Value& v, const std::string& at) {
   if (const Value* where = v.find("at")) s.at = attachment(*where, at + "/at");
   s.beam = text_or(v, "beam");
   s.joint = text_or(v, "joint");
+  s.coordinate = text_or(v, "coordinate");
   s.axes = axes(v);
   s.frame = frame_name(v);
   if (const Value* chain = v.find("frames"))
@@ -108,6 +110,26 @@ void Converter::expected(const Value& v, const std::string& at) {
   e.relative_tolerance = number_or(v, "relative_tolerance", 0.0);
   e.source = v.find("source")->text;
   add(scene.expected, "expected", std::move(e), at);
+}
+
+/// Keys that were given and that the other choices leave without effect.
+void Converter::warn_of_idle_settings(const Value& analysis) {
+  const auto is_given = [&analysis](const char* key) {
+    const Value* v = analysis.find(key);
+    return v != nullptr && v->source != source_default;
+  };
+  const auto warn = [&](const char* key, const std::string& why, const std::string& hint) {
+    if (is_given(key)) warnings.push_back({std::string("/analysis/") + key, "", "this has no effect: " + why, hint});
+  };
+  if (is_given("arc_length"))
+    warn("load_steps", "the path is followed by arc_length instead", "leave out one of load_steps and arc_length");
+  if (is_static_) return;
+  const std::string integrator = text_or(analysis, "integrator");
+  const std::string chosen = "the integrator is " + (integrator.empty() ? "generalized_alpha" : integrator);
+  if (integrator == "bdf" || integrator == "variational")
+    warn("spectral_radius", chosen, "it belongs to generalized_alpha: leave it out");
+  if (integrator != "bdf") warn("bdf_order", chosen, "it belongs to bdf: leave it out");
+  if (integrator != "variational") warn("newmark_beta", chosen, "it belongs to variational: leave it out");
 }
 
 void Converter::settings() {
@@ -149,6 +171,7 @@ void Converter::settings() {
       c.angular_velocity_tolerance = control->find("angular_velocity_tolerance")->number;
       c.largest_step = number_or(*control, "largest_step", 0.0);
     }
+    warn_of_idle_settings(*a);
     r.spectral_radius = number_or(*a, "spectral_radius", 0.8);
     r.bdf_order = static_cast<int>(number_or(*a, "bdf_order", 0.0));
     r.newmark_beta = number_or(*a, "newmark_beta", 0.3);
@@ -219,6 +242,7 @@ void Converter::convert() {
   each("bodies", &Converter::body);
   each("beams", &Converter::beam);
   poses_.emplace(scene);  // what follows adds no places
+  warn_of_thick_beams();
   each("joints", &Converter::joint);
   each("springs", &Converter::spring);
   each("bushings", &Converter::bushing);

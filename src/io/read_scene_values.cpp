@@ -51,8 +51,10 @@ Mat6 ValueConverter::matrix6(const Value& v) const {
 
 void ValueConverter::warn_of_degrees(const Value& angle, const std::string& at) {
   const double x = std::abs(angle.number);
-  if (x >= 15.0 && std::fmod(x, 5.0) == 0.0)
-    warnings.push_back({at, "", "this angle is in radians: it is more than two turns",
+  if (x > largest_angle)
+    fault(at, "this angle is too large: no digit of it tells a direction", "angles are in rad");
+  else if (x > 10.0)
+    warnings.push_back({at, "", "this angle is in radians (rad): it is more than one and a half turns",
                         "for degrees multiply by pi/180 = 0.017453292519943295"});
 }
 
@@ -79,7 +81,8 @@ Mat3 ValueConverter::rotation(const Value& v, const std::string& at) {
     const Vec3 a = vector(*axis);
     const double length = std::hypot(a[0], a[1], a[2]);
     warn_of_degrees(*v.find("angle"), at + "/angle");
-    if (length > 0.0) return motion::exp_so3(Vec3((v.find("angle")->number / length) * a));
+    if (std::abs(v.find("angle")->number) > largest_angle) return Mat3::identity();  // a fault
+    if (length > least_axis) return motion::exp_so3(Vec3((v.find("angle")->number / length) * a));
     fault(at + "/axis", "an axis has a length other than 0");
   } else if (const Value* q = v.find("quaternion")) {
     const motion::Quaternion<double> raw = {q->items[0].number,
@@ -88,7 +91,9 @@ Mat3 ValueConverter::rotation(const Value& v, const std::string& at) {
     if (std::abs(length - 1.0) <= 1e-3) return motion::rotation_of(motion::normalise(raw));
     fault(at + "/quaternion", "a rotation is a quaternion of length 1, scalar first");
   } else if (const Value* psi = v.find("rotation_vector")) {
-    return motion::exp_so3(vector(*psi));
+    const Vec3 turn = vector(*psi);
+    if (std::hypot(turn[0], turn[1], turn[2]) <= largest_angle) return motion::exp_so3(turn);
+    fault(at + "/rotation_vector", "this angle is too large: no digit of it tells a direction", "angles are in rad");
   } else if (const Value* axes_given = v.find("axes")) {
     return rotation_from_axes(*axes_given, at + "/axes");
   }

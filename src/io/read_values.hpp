@@ -13,6 +13,11 @@ struct PlacedFault {
   std::string pointer, value, rule, hint;  ///< value: empty = the text at the pointer
 };
 
+/// Shorter vectors have no direction: the square of one is hardly a number.
+inline constexpr double least_axis = 1e-150;
+/// Larger angles [rad] have no digit left that tells a direction.
+inline constexpr double largest_angle = 1e12;
+
 /// All members take sound values of the schema's form; what only shows here goes to `faults` and `warnings`.
 class ValueConverter {
  public:

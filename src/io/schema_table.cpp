@@ -11,6 +11,11 @@ Field name_field() {
   return need("name", name_rule("1 to 100 characters without '.', '/' and control characters; not \"ground\"."),
               "Its name.");
 }
+std::vector<std::string> joint_kind_names() {
+  std::vector<std::string> names;
+  for (const scene::JointKind kind : scene::joint_kinds) names.push_back(scene::to_string(kind));
+  return names;
+}
 Field law_field(std::string about) { return may("law", named_rule("law"), std::move(about), "1"); }
 Field frame_field(std::string about) { return may("frame", reference, std::move(about)); }
 
@@ -117,11 +122,7 @@ void add_joints(RuleTable& t) {
                      "second's joint frame. Axis 3 of the joint frames is the axis of revolute, prismatic, "
                      "cylindrical and screw joints and the normal of planar ones; universal: axis 1 is fixed in the "
                      "first, axis 2 in the second, both perpendicular.",
-                     {name_field(),
-                      need("kind",
-                           word_rule("", {"fixed", "revolute", "spherical", "prismatic", "cylindrical", "universal",
-                                          "planar", "screw"}),
-                           "What it leaves free."),
+                     {name_field(), need("kind", word_rule("", joint_kind_names()), "What it leaves free."),
                       need("first", named_rule("attachment"),
                            "What it joins. A bare name takes the place the other one, or `position`, says."),
                       need("second", named_rule("attachment"), "What it joins to the first."),
@@ -190,7 +191,10 @@ void add_loads(RuleTable& t) {
        may("rate", boolean_rule(""), "The laws are rates, integrated exactly from the initial pose.", "false")}));
   t.named["initial_velocity"] = made(object_of(
       "Velocity at the start. What is not given starts at rest, or as the joints demand.",
-      {need("of", reference, "A node, a body, or a beam: then all its nodes, as a rigid motion about its start."),
+      {need(
+           "of", reference,
+           "A node, a body, an inner node of a beam (\"<beam>.<k>\"), or a beam: then all its nodes, as a rigid motion "
+           "about its start."),
        may("axes", named_rule("axes"), "Axes of the components.", "\"space\""),
        frame_field("Frame that it is relative to, whose own motion is added, and in whose axes space components are. "
                    "Default: the ground."),
@@ -239,9 +243,14 @@ void add_sensors(RuleTable& t) {
                            {name_field(), need("joint", reference, "The joint."), axes,
                             frame_field("Frame in whose axes it is given. Default: the ground.")})),
        made(std::move(split)),
-       made(object_of_kind({"joint_angle", "joint_displacement", "joint_rate"},
-                           "Coordinate of a joint, counting turns [rad] or [m], or its rate; one number.",
+       made(object_of_kind({"joint_angle", "joint_displacement"},
+                           "Coordinate of a joint, counting turns [rad] or [m]; one number.",
                            {name_field(), need("joint", reference, "The joint.")})),
+       made(object_of_kind({"joint_rate"}, "Rate of a joint's coordinate [rad/s] or [m/s]; one number.",
+                           {name_field(), need("joint", reference, "The joint."),
+                            may("coordinate", word_rule("", {"angle", "displacement"}),
+                                "Whose rate. Default: the only coordinate that the joint has; cylindrical and screw "
+                                "joints have both, so there it has to be given.")})),
        made(object_of_kind({"kinetic_energy", "strain_energy", "potential_energy", "total_energy"},
                            "Energy of the whole in the inertial frame [J]; one number.", {name_field()}))});
 }

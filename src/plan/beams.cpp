@@ -123,6 +123,9 @@ void Builder::add_sensors() {
   for (const scene::Sensor& s : scene.sensors) {
     SensorPlan p;
     p.sensor = s;
+    for (const scene::Joint& j : scene.joints)
+      if (s.kind == scene::SensorKind::joint_rate && j.name == s.joint)
+        p.sensor.coordinate = scene::rate_coordinate(s, j.kind);
     p.components = scene::components_of(s.kind);
     if (p.components.empty()) p.components = {""};
     for (std::size_t i = 0; i < plan.beams.size(); ++i)

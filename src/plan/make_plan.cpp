@@ -5,6 +5,7 @@
 #include "bough/laws/make_law.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/scene/components.hpp"
+#include "bough/scene/part_lengths.hpp"
 #include "bough/scene/poses.hpp"
 #include "plan_builder.hpp"
 
@@ -322,6 +323,18 @@ double Builder::size_of_structure() const {
   return most > 0.0 ? most : 1.0;
 }
 
+void Builder::measure_joints() {
+  const scene::PartLengths lengths(scene, poses);
+  std::map<std::string, double> length_of;
+  for (const scene::Joint& j : scene.joints) length_of[j.name] = lengths.of_joint(j.first, j.second, plan.length_scale);
+  for (const scene::PrescribedMotion& m : scene.motions)
+    length_of[m.name] = lengths.of_joint({}, m.at, plan.length_scale);
+  for (JointPlan& j : plan.joints) {
+    const auto known = length_of.find(j.name);
+    j.length = known == length_of.end() ? plan.length_scale : known->second;
+  }
+}
+
 void Builder::make_graph() {
   blocks::BlockGraph& g = plan.graph;
   std::map<int, JointPlan*> joint_of_element;
@@ -377,6 +390,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.add_initial_velocities();
   b.stop_spins();
   b.plan.length_scale = b.size_of_structure();
+  b.measure_joints();
   b.list_attachments();
   b.weld_nodes();
   b.mark_points();
@@ -385,6 +399,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.hold_nodes();
   b.settle();
   b.say_idle_parts();
+  b.find_mobility();
   b.make_graph();
   b.add_sensors();
   return std::move(b.plan);

@@ -87,11 +87,14 @@ struct Builder {
   void mark_points();
   void number_elements();
   double size_of_structure() const;
+  /// Lengths of the parts that meet in joints; length_scale is known.
+  void measure_joints();
   bool is_barred(const std::string& decision) const;  ///< by Scene::without
   /// Notes a decision: taken where it holds and is not barred.
   void decide(const std::string& name, const std::string& what, bool holds, const std::string& reason);
   void settle();
   void say_idle_parts();
+  void find_mobility();
   void choose_unknowns();
   void hold_nodes();
   void add_planar_elements(const motion::Mat3<double>& axes);

@@ -215,8 +215,8 @@ void eval_joint_sensor(const step::System& system, const step::State& state, con
           } else if (s.sensor.kind == scene::SensorKind::joint_displacement) {
             values.push_back(m.relative.x[2]);
           } else if (s.sensor.kind == scene::SensorKind::joint_rate) {
-            const bool turning = joint.counts_turns;
-            values.push_back(turning ? m.angle_rate : (m.relative.R * lanes::linear_part(m.twist))[2]);
+            const bool turns_rate = s.sensor.coordinate == "angle";
+            values.push_back(turns_rate ? m.angle_rate : (m.relative.R * lanes::linear_part(m.twist))[2]);
           } else {
             const Vec6<double> wrench =
                 elements::eval_reaction(e, f, state.multipliers.data() + joint.multiplier_begin, turns);

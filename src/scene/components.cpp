@@ -1,5 +1,7 @@
 #include "bough/scene/components.hpp"
 
+#include <stdexcept>
+
 namespace bough::scene {
 
 const std::vector<std::string>& components_of(SensorKind kind) {
@@ -58,9 +60,12 @@ const std::vector<std::string>& coordinates_of(JointKind kind) {
     case JointKind::cylindrical:
     case JointKind::screw:
       return both;
-    default:
+    case JointKind::fixed:
+    case JointKind::spherical:
+    case JointKind::universal:
       return none;
   }
+  throw std::logic_error("a kind of joint without coordinates");
 }
 
 const std::vector<std::string>& decision_names() {
@@ -70,9 +75,36 @@ const std::vector<std::string>& decision_names() {
 }
 
 std::string to_string(JointKind kind) {
-  static const char* const names[] = {"fixed",       "revolute",  "spherical", "prismatic",
-                                      "cylindrical", "universal", "planar",    "screw"};
-  return names[static_cast<int>(kind)];
+  switch (kind) {  // without a default: the compiler tells of a kind that is missing
+    case JointKind::fixed:
+      return "fixed";
+    case JointKind::revolute:
+      return "revolute";
+    case JointKind::spherical:
+      return "spherical";
+    case JointKind::prismatic:
+      return "prismatic";
+    case JointKind::cylindrical:
+      return "cylindrical";
+    case JointKind::universal:
+      return "universal";
+    case JointKind::planar:
+      return "planar";
+    case JointKind::screw:
+      return "screw";
+  }
+  throw std::logic_error("a kind of joint without a name");
+}
+
+std::optional<JointKind> joint_kind_named(const std::string& name) {
+  for (const JointKind kind : joint_kinds)
+    if (to_string(kind) == name) return kind;
+  return std::nullopt;
+}
+
+std::string rate_coordinate(const Sensor& sensor, JointKind kind) {
+  const std::vector<std::string>& known = coordinates_of(kind);
+  return !sensor.coordinate.empty() || known.empty() ? sensor.coordinate : known.front();
 }
 
 std::string to_string(FigureKind kind) {

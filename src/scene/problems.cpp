@@ -239,6 +239,8 @@ std::vector<SceneProblem> problems_in(const Scene& scene, std::span<const std::s
   check_couplings(list);
   check_loads(list);
   check_motions(list);
+  if (defective.empty()) check_initial_velocities(list);
+  check_magnitudes(list);
   check_sensors(list);
   check_analysis(list);
   if (defective.empty()) check_holding(list);

@@ -1,14 +1,18 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "bough/motion/se3.hpp"
+#include "bough/scene/part_lengths.hpp"
 #include "problem_list.hpp"
 
 namespace bough::scene {
 namespace {
 
-constexpr double gap_tolerance = 1e-6;    // of the size of the model: positions typed with 7 digits close
+constexpr double gap_tolerance = 1e-6;    // of the size of what meets there
+constexpr double typed_tolerance = 1e-6;  // of the distance from the origin: places typed with 7 digits close, but
+constexpr double typed_at_most = 1e-3;    // no more than this of what meets there
 constexpr double angle_tolerance = 1e-6;  // [rad]
 
 std::string in_metres(double x) { return text_of(x) + " m"; }
@@ -17,7 +21,7 @@ std::string in_radians(double x) { return text_of(x) + " rad"; }
 double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm_of(cross(a, b)), dot(a, b)); }
 
 /// What keeps the two joint frames from being joined at the start. H: pose of the second's in the first's.
-std::string closure_fault(JointKind kind, const Frame& H, double size) {
+std::string closure_fault(JointKind kind, const Frame& H, double allowed) {
   const double off_axis = std::hypot(H.x[0], H.x[1]), along = std::abs(H.x[2]), all = norm_of(H.x);
   const double tilt = angle_between(column(H.R, 2), Vec3::unit(2));
   const double turn = norm_of(motion::log_so3(H.R));
@@ -25,8 +29,7 @@ std::string closure_fault(JointKind kind, const Frame& H, double size) {
                      : kind == JointKind::planar                                    ? along
                      : kind == JointKind::screw                                     ? off_axis
                                                                                     : all;
-  if (gap > gap_tolerance * size)
-    return "the joint frames of first and second are " + in_metres(gap) + " apart at the start";
+  if (gap > allowed) return "the joint frames of first and second are " + in_metres(gap) + " apart at the start";
   double angle = 0.0;
   if (kind == JointKind::fixed || kind == JointKind::prismatic) angle = turn;
   if (kind == JointKind::revolute || kind == JointKind::cylindrical || kind == JointKind::planar ||
@@ -102,26 +105,46 @@ bool check_pair(ProblemList& list, const char* section, std::size_t i, const Pai
   return false;
 }
 
+/// Fixed joints that hold the same two things to each other: one of them is enough.
+void check_twins(ProblemList& list) {
+  std::map<std::pair<std::string, std::string>, std::string> first;
+  for (std::size_t i = 0; i < list.scene.joints.size(); ++i) {
+    const Joint& j = list.scene.joints[i];
+    if (j.kind != JointKind::fixed) continue;
+    const auto [twin, is_new] = first.try_emplace(std::minmax(j.first.to, j.second.to), j.name);
+    if (!is_new)
+      list.warn("joints", i, "name", j.name, "this holds the same two things to each other as '" + twin->second + "'",
+                "one of the two is redundant: their reactions are not unique");
+  }
+}
+
 }  // namespace
 
 void check_joints(ProblemList& list) {
+  const PartLengths lengths(list.scene, list.poses);
   for (std::size_t i = 0; i < list.scene.joints.size(); ++i) {
     const Joint& j = list.scene.joints[i];
     const bool is_screw = j.kind == JointKind::screw;
     if (is_screw && j.pitch == 0.0) list.add("joints", i, "pitch", "", "a screw needs a pitch other than 0");
     if (!is_screw && j.pitch != 0.0) list.add("joints", i, "pitch", text_of(j.pitch), "only a screw has a pitch");
     std::optional<Frame> H;
+    double allowed = 0.0;
     if (check_pair(list, "joints", i, j)) {
       const auto a = list.poses.of(j.first), b = list.poses.of(j.second);
-      if (a && b) H = motion::relative(*a, *b);
+      if (a && b) {
+        H = motion::relative(*a, *b);
+        const double length = lengths.of_joint(j.first, j.second, list.size);
+        allowed = gap_tolerance * length + std::min(typed_tolerance * norm_of(b->x), typed_at_most * length);
+      }
     }
     if (H)
-      if (const std::string fault = closure_fault(j.kind, *H, list.size); !fault.empty()) {
+      if (const std::string fault = closure_fault(j.kind, *H, allowed); !fault.empty()) {
         list.add("joints", i, "", "", fault, "give one position (and axis) instead, or move one of the two");
         H.reset();
       }
     check_drives(list, i, H ? &*H : nullptr);
   }
+  check_twins(list);
 }
 
 void check_couplings(ProblemList& list) {

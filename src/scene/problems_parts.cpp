@@ -90,6 +90,19 @@ void check_body(ProblemList& list, std::size_t i) {
              "is it given about the centre of mass, in the body's axes?");
 }
 
+/// A beam element cannot tell a turn from one of the other sense beyond half a turn; the solver refuses it shortly before.
+void check_turn_of_elements(ProblemList& list, std::size_t i, double length) {
+  constexpr double most = 2.8;  // [rad], the angle whose cosine is -0.94
+  const Beam& b = list.scene.beams[i];
+  const bool is_straight = b.curve == BeamCurve::straight;
+  const double turn = is_straight ? std::abs(b.twist) : norm_of(b.curvature) * length;
+  if (!(turn > most * b.elements)) return;
+  list.add("beams", i, "elements", b.name,
+           "each element of this beam turns by " + text_of(turn / b.elements) + " rad from its start to its end",
+           "more than " + text_of(most) + " rad cannot be computed: take at least " + text_of(std::ceil(turn / 1.5)) +
+               " elements");
+}
+
 void check_beam_axis(ProblemList& list, std::size_t i) {
   const Beam& b = list.scene.beams[i];
   const double length = list.poses.length_of(b);
@@ -101,6 +114,7 @@ void check_beam_axis(ProblemList& list, std::size_t i) {
   if (!list.poses.of_section(b, 0.0))
     return list.add("beams", i, "axis_2", "",
                     "axis_2 runs along the beam and can not tell where section axis 2 points");
+  check_turn_of_elements(list, i, length);
   if (is_straight) return;
   const auto tip = list.poses.of_section(b, 1.0);
   const auto end = list.poses.of(b.end);
@@ -168,6 +182,7 @@ void check_beams(ProblemList& list) {
         if (s.name == b.section && is_zero(s.mass))
           list.warn("beams", i, "section", b.section, "this section has no mass, and the analysis is dynamic");
   }
+  if (!list.defective.empty()) return;  // a beam that was left out may use it
   for (std::size_t i = 0; i < list.scene.sections.size(); ++i)
     if (used.count(list.scene.sections[i].name) == 0)
       list.warn("sections", i, "name", list.scene.sections[i].name, "no beam uses this section");

@@ -31,6 +31,21 @@ void check_chain(ProblemList& list, std::size_t i) {
   }
 }
 
+/// The rate of a coordinate that the joint has; where it has two, the sensor says which.
+void check_rate(ProblemList& list, std::size_t i, JointKind kind) {
+  const Sensor& s = list.scene.sensors[i];
+  const auto& known = coordinates_of(kind);
+  if (known.empty())
+    list.add("sensors", i, "joint", s.joint,
+             "a " + to_string(kind) + " joint has no coordinate whose rate could be taken");
+  else if (s.coordinate.empty() && known.size() > 1)
+    list.add("sensors", i, "", s.name, "a " + to_string(kind) + " joint has two rates: say of which coordinate",
+             R"(write "coordinate": "angle" or "coordinate": "displacement")");
+  else if (!s.coordinate.empty() && std::find(known.begin(), known.end(), s.coordinate) == known.end())
+    list.add("sensors", i, "coordinate", s.coordinate,
+             "a " + to_string(kind) + " joint has the coordinate \"" + known[0] + "\" only");
+}
+
 void check_sensor(ProblemList& list, std::size_t i) {
   const Sensor& s = list.scene.sensors[i];
   if (s.kind != SensorKind::acceleration_split) list.check_frame("sensors", i, s.frame);
@@ -69,13 +84,10 @@ void check_sensor(ProblemList& list, std::size_t i) {
       const auto thing = list.poses.find(s.joint);
       const JointKind kind = list.scene.joints[thing->index].kind;
       const auto& known = coordinates_of(kind);
+      if (s.kind == SensorKind::joint_rate) return check_rate(list, i, kind);
       const std::string wanted = s.kind == SensorKind::joint_displacement ? "displacement" : "angle";
-      const bool fits = s.kind == SensorKind::joint_rate ? !known.empty()
-                                                         : std::find(known.begin(), known.end(), wanted) != known.end();
-      if (!fits)
-        list.add("sensors", i, "joint", s.joint,
-                 "a " + to_string(kind) + " joint has no " +
-                     (s.kind == SensorKind::joint_rate ? "coordinate whose rate could be taken" : wanted));
+      if (std::find(known.begin(), known.end(), wanted) == known.end())
+        list.add("sensors", i, "joint", s.joint, "a " + to_string(kind) + " joint has no " + wanted);
       return;
     }
     default:
@@ -188,6 +200,12 @@ void check_number_of_steps(ProblemList& list, double end_time, double size, cons
     list.warn("analysis", 0, key, text_of(size), "this makes " + text_of(steps) + " steps");
 }
 
+/// Holds a thing at rest in the ground: its constraint forces have nothing to oscillate with.
+bool is_clamp(const Joint& j) {
+  const auto is_ground = [](const std::string& name) { return name.empty() || name == "ground"; };
+  return j.kind == JointKind::fixed && (is_ground(j.first.to) || is_ground(j.second.to));
+}
+
 }  // namespace
 
 void check_sensors(ProblemList& list) {
@@ -238,9 +256,11 @@ void check_analysis(ProblemList& list) {
   if (is_variational && std::any_of(s.frames.begin(), s.frames.end(), frame_moves))
     list.add("analysis", 0, "integrator", "variational", "the variational integrator does not know frames that move",
              "take the generalized_alpha integrator");
-  if (!is_variational && !is_bdf && a.spectral_radius == 1.0 && (!s.joints.empty() || !s.motions.empty()))
+  const bool has_motion_in_joints =
+      std::any_of(s.joints.begin(), s.joints.end(), [](const Joint& j) { return !is_clamp(j); });
+  if (!is_variational && !is_bdf && a.spectral_radius == 1.0 && (has_motion_in_joints || !s.motions.empty()))
     list.add("analysis", 0, "spectral_radius", "1",
-             "with joints or prescribed motions the spectral radius has to be below 1",
+             "with joints other than clamps, or prescribed motions, the spectral radius has to be below 1",
              "the constraint forces would oscillate undamped; 0.9 is nearly free of damping");
   const bool has_mass = std::any_of(s.bodies.begin(), s.bodies.end(),
                                     [](const Body& b) { return b.mass > 0.0 || !(b.inertia(0, 0) == 0.0); }) ||
@@ -249,7 +269,9 @@ void check_analysis(ProblemList& list) {
                                              [&](const Section& c) { return c.name == b.section && !is_zero(c.mass); });
                         });
   if (!has_mass && list.defective.empty() && !(s.nodes.empty() && s.bodies.empty()))
-    list.add("analysis", 0, "kind", "dynamic", "nothing in the scene has mass",
+    list.add("analysis", 0, "kind", "dynamic",
+             "nothing in the scene has mass, neither '" + (s.bodies.empty() ? s.nodes[0].name : s.bodies[0].name) +
+                 "' nor anything else",
              "give the material a density, the section a mass or the bodies a mass");
 }
 

@@ -18,8 +18,9 @@ Vec6<double> node_part(const System& system, const std::vector<double>& x, std::
 }
 
 constexpr double closed = 1e-13;  ///< relative gap that is not worth another correction
-constexpr double open = 1e-9;     ///< relative gap that constraints which contradict each other leave, at the least
-constexpr double apart = 1e-8;    ///< the same of rates, relative to the largest speed
+constexpr double open =
+    1e-9;  ///< gap that constraints which contradict each other leave, relative to the parts that meet there
+constexpr double apart = 1e-8;  ///< the same of rates, relative to the largest speed
 constexpr double still =
     1e-12;  ///< relative gap that a rate may open in one step where nothing moves: round-off of drives
 
@@ -142,6 +143,8 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
 
   if (const auto t = factor_mass(system, state)) return failed(t->text);
   double gap = system.relative_violation(state, 0, &worst);
+  report.gap = gap;
+  report.open_joint = gap > 0.0 ? worst : -1;
   for (int k = 0; fix_positions && gap > closed && k < 30; ++k) {
     std::vector<Taylor<double, 3>> series;
     system.constraint_series(state, nullptr, 0.0, series);
@@ -162,7 +165,8 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
     char text[80];
     std::snprintf(text, sizeof text, " cannot be closed at time %.6g: a gap of %.3g is left", state.time,
                   system.constraint_violation(state, 0));
-    return failed(contradicting(system, worst, system.solver().blocks_not_unique()) + text);
+    return failed(contradicting(system, worst, system.solver().blocks_not_unique()) + text +
+                  (fix_positions ? "" : "; what drives it jumps there"));
   }
   for (elements::NodeMotion& n : state.nodes) n.dq = Vec6<double>::zero();
 

@@ -311,26 +311,32 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
   }
   if (status.outcome == solve::FactorOutcome::not_finite) return Trouble{"a tangent is not finite"};
   if (const char* why = explain_backend(status.outcome)) return Trouble{why};
+  return Trouble{explain_singular(status)};
+}
+
+/// What is known of the scene beforehand, or else the unknown without a pivot.
+std::string System::explain_singular(const solve::FactorStatus& status) const {
   std::string text = "the linear system is singular";
-  if (status.block >= 0) {
-    static const char* const axes[] = {"displacement along axis 1", "displacement along axis 2",
-                                       "displacement along axis 3", "rotation about axis 1",
-                                       "rotation about axis 2",     "rotation about axis 3"};
-    text += ": nothing holds " + block_name(status.block);
-    if (joint_of_block_[static_cast<std::size_t>(status.block)] < 0 && status.local >= 0 &&
-        status.local < plan_.unknowns.count) {
-      std::array<double, 6> unit{};
-      unit[static_cast<std::size_t>(status.local)] = 1.0;
-      const int node = node_of_block_[static_cast<std::size_t>(status.block)];
-      const Vec6<double> eta = plan_.unknowns.expanded(unit.data(), static_cast<std::size_t>(node));
-      int largest = 0;
-      for (int i = 1; i < 6; ++i)
-        if (std::abs(eta[i]) > std::abs(eta[largest])) largest = i;
-      text += std::string(" (") + axes[largest] + " of its own frame has the largest share)";
-    }
-    text += ", or it is held some 1e16 times more softly than its neighbours hold each other";
+  const plan::Mobility& mobility = plan_.mobility;
+  const std::vector<std::string>& known = mobility.free.empty() ? mobility.massless : mobility.free;
+  for (const std::string& motion : known) text += (&motion == &known.front() ? ": " : "; ") + motion;
+  if (!known.empty() || status.block < 0) return text;
+  static const char* const axes[] = {"displacement along axis 1", "displacement along axis 2",
+                                     "displacement along axis 3", "rotation about axis 1",
+                                     "rotation about axis 2",     "rotation about axis 3"};
+  text += ": nothing holds " + block_name(status.block);
+  if (joint_of_block_[static_cast<std::size_t>(status.block)] < 0 && status.local >= 0 &&
+      status.local < plan_.unknowns.count) {
+    std::array<double, 6> unit{};
+    unit[static_cast<std::size_t>(status.local)] = 1.0;
+    const int node = node_of_block_[static_cast<std::size_t>(status.block)];
+    const Vec6<double> eta = plan_.unknowns.expanded(unit.data(), static_cast<std::size_t>(node));
+    int largest = 0;
+    for (int i = 1; i < 6; ++i)
+      if (std::abs(eta[i]) > std::abs(eta[largest])) largest = i;
+    text += std::string(" (") + axes[largest] + " of its own frame has the largest share)";
   }
-  return Trouble{text};
+  return text + ", or it is held some 1e16 times more softly than its neighbours hold each other";
 }
 
 std::optional<Trouble> System::solve(const double* rhs, double* x, bool check) {

@@ -33,8 +33,11 @@ namespace {
 constexpr std::int64_t joint_grain = 64;
 
 Violations largest(const Violations& a, const Violations& b) {
-  return {std::max(a.position, b.position), std::max(a.relative_position, b.relative_position),
-          std::max(a.velocity, b.velocity), std::max(a.relative_velocity, b.relative_velocity)};
+  const bool b_is_wider = b.relative_position > a.relative_position,
+             b_is_faster = b.relative_velocity > a.relative_velocity;
+  return {std::max(a.position, b.position),         b_is_wider ? b.relative_position : a.relative_position,
+          std::max(a.velocity, b.velocity),         b_is_faster ? b.relative_velocity : a.relative_velocity,
+          b_is_wider ? b.open_joint : a.open_joint, b_is_faster ? b.fast_joint : a.fast_joint};
 }
 
 }  // namespace
@@ -254,9 +257,10 @@ Violations System::constraint_violations(const State& state) const {
           joints[static_cast<std::size_t>(plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)].index)];
       elements::evaluate_constraint_rates(e, f, law_rate_series_.data(), state.turns[j], rows);
       for (int row = 0; row < e.num_rows; ++row) {
-        const double length = elements::is_length(e.rows[row].kind) ? plan_.length_scale : 1.0;
+        const double length = elements::is_length(e.rows[row].kind) ? plan_.joints[j].length : 1.0;
         const double gap = std::abs(rows[row].c[0]), rate = std::abs(rows[row].c[1]);
-        most = largest(most, {gap, gap / length, rate, rate / length});
+        const int joint = static_cast<int>(j);
+        most = largest(most, {gap, gap / length, rate, rate / length, joint, joint});
       }
     }
   };
@@ -266,7 +270,7 @@ Violations System::constraint_violations(const State& state) const {
   return most;
 }
 
-double System::largest_violation(const State& state, int order, double length, int* joint) const {
+double System::largest_violation(const State& state, int order, bool is_relative, int* joint) const {
   std::vector<lanes::Taylor<double, 3>>& series = row_series_;
   constraint_series(state, nullptr, 0.0, series);
   double most = 0.0;
@@ -276,8 +280,8 @@ double System::largest_violation(const State& state, int order, double length, i
         plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)].index)];
     for (int row = 0; row < e.num_rows; ++row) {
       const auto multiplier = static_cast<std::size_t>(plan_.joints[j].multiplier_begin + row);
-      const double value =
-          std::abs(series[multiplier].c[order]) / (elements::is_length(e.rows[row].kind) ? length : 1.0);
+      const double length = is_relative && elements::is_length(e.rows[row].kind) ? plan_.joints[j].length : 1.0;
+      const double value = std::abs(series[multiplier].c[order]) / length;
       if (value > most) {
         most = value;
         if (joint != nullptr) *joint = static_cast<int>(j);
@@ -288,11 +292,11 @@ double System::largest_violation(const State& state, int order, double length, i
 }
 
 double System::constraint_violation(const State& state, int order, int* joint) const {
-  return largest_violation(state, order, 1.0, joint);
+  return largest_violation(state, order, false, joint);
 }
 
 double System::relative_violation(const State& state, int order, int* joint) const {
-  return largest_violation(state, order, plan_.length_scale, joint);
+  return largest_violation(state, order, true, joint);
 }
 
 }  // namespace bough::step

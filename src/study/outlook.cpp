@@ -97,6 +97,7 @@ Outlook look_ahead(const scene::Scene& scene) {
   out.fronts_in_lanes = static_cast<int>(counters.fronts_in_lanes);
   out.fronts_in_registers = static_cast<int>(counters.fronts_in_registers);
   out.process_bytes = program_bytes + out.effort.memory_bytes;
+  out.mobility = plan.mobility;
   out.notes = plan.notes;
   for (const plan::Decision& d : plan.decisions) {
     OutlookDecision o{d, d.taken && d.can_be_barred, {}};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bough/results/balance.hpp"
+#include "bough/results/spring_watch.hpp"
 #include "bough/schedule/threads.hpp"
 #include "bough/step/advance.hpp"
 #include "bough/step/arc_length.hpp"
@@ -77,6 +78,7 @@ class Run {
   bool catch_up();
   void choose_bdf_order(double step_size);
   bool start_segment(double step_size, bool is_first);
+  void note_moved_start(const step::StartReport& consistent);
   bool run_segment(double begin, double end, double& sum_of_cuts);
   void finish();
 
@@ -104,6 +106,7 @@ class Run {
   ExpectedFigures figures_;
   double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< of accepted steps; of those at the floor of round-off
   std::string first_rejection_, not_unique_;
+  int open_joint_ = -1, fast_joint_ = -1;  ///< of the largest relative violations seen, in Plan::joints
   int dependent_rows_ = 0;
   std::optional<step::Bdf> bdf_;             ///< when chosen
   std::optional<step::ArcLengthPath> path_;  ///< statics by arc length
@@ -122,6 +125,7 @@ class Run {
   std::vector<double> values_before_, values_now_, values_displaced_;  ///< of sensors of motions at a look
   step::State displaced_;
   VibrationWatch vibrations_;
+  results::SpringWatch springs_;
   long rows_ = 0;
   bool looks_always_ = true;   ///< at each end of a step, for hooks
   bool is_untouched_ = false;  ///< the state is as the last step left it

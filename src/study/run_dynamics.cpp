@@ -19,9 +19,7 @@ bool Run::start_segment(double step_size, bool is_first) {
   if (!is_first && has_balance()) before = energy_meter_.eval(system_, state_);
   const step::StartReport consistent = step::make_consistent(system_, state_, is_first, step_size);
   if (!consistent.ok) return fail(consistent.cause);
-  if (is_first && consistent.position_correction > 1e-9)
-    note("the start was moved by up to " + std::to_string(consistent.position_correction) +
-         " (relative) to close the joints");
+  if (is_first && consistent.position_correction > 1e-9) note_moved_start(consistent);
   if (consistent.velocity_change > 1e-9) {
     char text[160];
     std::snprintf(
@@ -76,6 +74,20 @@ void Run::choose_bdf_order(double step_size) {
   }
   options_.bdf_order = vibration && summary_.instability.empty() ? 2 : 3;
   summary_.options = effective_options(scene_, options_);
+}
+
+void Run::note_moved_start(const step::StartReport& consistent) {
+  char text[160];
+  std::snprintf(text, sizeof text, "the start was moved by up to %.3g (relative) to close the joints",
+                consistent.position_correction);
+  std::string where;
+  if (consistent.open_joint >= 0) {
+    char gap[80];
+    std::snprintf(gap, sizeof gap, "' was open by %.3g of the size of the parts that meet in it (or rad)",
+                  consistent.gap);
+    where = ": '" + plan_.joints[static_cast<std::size_t>(consistent.open_joint)].name + gap;
+  }
+  note(text + where);
 }
 
 /// Whether somebody reads the state at the end of the step that makes the next row.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bough/results/observe.hpp"
+#include "dependent_rows.hpp"
 #include "effective_options.hpp"
 #include "run.hpp"
 #include "solver_figures.hpp"
@@ -32,7 +33,8 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
       state_(step::make_initial_state(plan_)),
       work_meter_(plan_),
       energy_meter_(plan_),
-      figures_(scene, plan_, results::make_header(plan_), options.stops, options.sample) {
+      figures_(scene, plan_, results::make_header(plan_), options.stops, options.sample),
+      springs_(plan_) {
   options_.reuse_factors = plan_.took("reuse");
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::variational)
     variational_.emplace(system_, scene.solver, options_.newmark_beta);
@@ -87,9 +89,7 @@ void Run::watch_dependent_rows() {
   const int deficiency = system_.solver().last_status().deficiency;
   if (deficiency <= dependent_rows_) return;
   dependent_rows_ = deficiency;
-  not_unique_.clear();
-  for (int b : system_.solver().blocks_not_unique())
-    not_unique_ += (not_unique_.empty() ? "" : ", ") + system_.block_name(b);
+  not_unique_ = dependent_groups_text(system_);
 }
 
 void Run::note(const std::string& text) {
@@ -134,6 +134,7 @@ void Run::record(int iterations, bool is_last) {
     results::eval_sensors(system_, state_, energy_meter_, values_);
     if (error_watch_) error_watch_->see(values_);
   }
+  if (due) springs_.look(system_, state_);
   if (due && scene_.output.checks) check();
   if (due) {
     results::HistoryRow out;
@@ -186,11 +187,17 @@ void Run::check() {
   const step::Violations gaps = system_.constraint_violations(state_);
   gate_.look_at("the violation of constraints", gaps.position, state_.time);
   c.constraint_violation_position = std::max(c.constraint_violation_position, gaps.position);
-  c.relative_violation_position = std::max(c.relative_violation_position, gaps.relative_position);
+  if (gaps.relative_position > c.relative_violation_position) {
+    c.relative_violation_position = gaps.relative_position;
+    open_joint_ = gaps.open_joint;
+  }
   if (!plan_.is_dynamic) return;
   gate_.look_at("the violation of constraints by velocities", gaps.velocity, state_.time);
   c.constraint_violation_velocity = std::max(c.constraint_violation_velocity, gaps.velocity);
-  c.relative_violation_step = std::max(c.relative_violation_step, gaps.relative_velocity * last_step_);
+  if (gaps.relative_velocity * last_step_ > c.relative_violation_step) {
+    c.relative_violation_step = gaps.relative_velocity * last_step_;
+    fast_joint_ = gaps.fast_joint;
+  }
   const results::Energies energies = energy_meter_.eval(system_, state_);
   gate_.look_at(energies, state_.time, [this] { return results::eval_motion(system_, state_); });
   gate_.look_at("the work of loads and drives", work_meter_.supply().work, state_.time);
@@ -222,6 +229,8 @@ void Run::finish() {
   getrusage(RUSAGE_SELF, &usage);
   summary_.memory_peak_bytes = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
   summary_.checks.linear_backward_error_max = work.backward_error_max;
+  if (open_joint_ >= 0) summary_.checks.open_joint = plan_.joints[static_cast<std::size_t>(open_joint_)].name;
+  if (fast_joint_ >= 0) summary_.checks.fast_joint = plan_.joints[static_cast<std::size_t>(fast_joint_)].name;
   summary_.checks.linear_rank_error_max = work.rank_error_max;
   summary_.checks.unbalanced_at_floor = largest_force_ > 0.0 ? unbalanced_force_ / largest_force_ : 0.0;
   summary_.checks.energy_balance = balance_.energy_error();
@@ -250,6 +259,7 @@ void Run::finish() {
   summary_.solver = solver_figures(system_, dependent_rows_);
   if (summary_.status == RunStatus::ok) look_at_last_factor(system_, summary_);
   summary_.doubts = doubts_of(summary_, plan_.is_dynamic);
+  if (const std::string passed = springs_.text(); !passed.empty()) summary_.doubts.push_back({"springs", passed});
   if (!after_run_) return;
   (void)catch_up();
   after_run_(system_, state_);

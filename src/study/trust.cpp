@@ -96,13 +96,17 @@ void doubt_linear_solutions(const results::Summary& s, const TrustLimits& limits
                                        "ratios or element numbers that can be less"});
 }
 
+std::string named(const std::string& joint) { return joint.empty() ? "a joint " : "joint '" + joint + "' "; }
+
 void doubt_constraints(const results::Checks& c, const TrustLimits& limits, std::vector<results::Doubt>& doubts) {
   if (passes(c.relative_violation_position, limits.violation))
-    doubts.push_back({"constraints", "joints stay open by " + number(c.relative_violation_position) +
-                                         " of the size of the structure (or rad)"});
+    doubts.push_back({"constraints", named(c.open_joint) + "stays open by " + number(c.relative_violation_position) +
+                                         " of the size of the parts that meet in it (or rad)"});
   if (passes(c.relative_violation_step, limits.violation_step))
-    doubts.push_back({"constraints", "velocities leave the joints by " + number(c.relative_violation_step) +
-                                         " of the size of the structure (or rad) in a step; take smaller steps"});
+    doubts.push_back(
+        {"constraints", named(c.fast_joint) + "is left by velocities that open it by " +
+                            number(c.relative_violation_step) +
+                            " of the size of the parts that meet in it (or rad) in a step; take smaller steps"});
 }
 
 }  // namespace

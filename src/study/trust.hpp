@@ -23,7 +23,7 @@ struct TrustLimits {
   double lapack_ratio = 30.0;
   /// Round-off times condition: fewer than three digits of a linear solution are sure, and Newton's corrections come in that quality.
   double lost = 1e-3;
-  /// Of the size of the structure, or rad: joints open by more than a millionth.
+  /// Of the size of the parts that meet in a joint, or rad: open by more than a millionth.
   double violation = 1e-6;
   /// The same for what the rates open in one step: a thousandth.
   double violation_step = 1e-3;

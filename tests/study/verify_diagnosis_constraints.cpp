@@ -175,11 +175,11 @@ std::vector<Diagnosis> under_constrained_cases() {
        scene_of(section, beam, tip_load, statics)},
       {"beam on one hinge, in statics",
        Fate::fails,
-       {"singular"},
+       {"singular", "'beam'", "turn about the axis (0, 0, 1)", "joint 'hinge'"},
        scene_of(section, beam, joints(hinge("hinge", "ground", "root", "[0, 0, 0]")), tip_load, statics)},
       {"beam on a ball joint, in statics",
        Fate::fails,
-       {"singular"},
+       {"singular", "'beam'", "turn about", "joint 'ball'"},
        scene_of(
            section, beam,
            joints(
@@ -187,7 +187,7 @@ std::vector<Diagnosis> under_constrained_cases() {
            tip_load, statics)},
       {"support missing along the axis",
        Fate::fails,
-       {"singular", "axis 1"},
+       {"singular", "'beam'", "move along (1, 0, 0)", "joint 'slide'"},
        scene_of(
            section, beam,
            joints(
@@ -195,7 +195,7 @@ std::vector<Diagnosis> under_constrained_cases() {
            tip_load, statics)},
       {"beam cut by a hinge",
        Fate::fails,
-       {"singular", "'tip'"},
+       {"singular", "'second'", "turn about the axis (0, 0, 1) through (1, 0, 0)", "joint 'cut'"},
        scene_of(
            section,
            R"("nodes": [{"name": "root"}, {"name": "left"}, {"name": "right", "position": [1, 0, 0]}, {"name": "start", "position": [1, 0, 0]},
@@ -219,7 +219,7 @@ std::vector<Diagnosis> under_constrained_cases() {
        scene_of(bodies(block("a")), falling, statics)},
       {"arm on a frictionless hinge, level, in statics",
        Fate::fails,
-       {"singular", "'arm'"},
+       {"singular", "'arm'", "joint 'hinge'"},
        scene_of(bodies(block("arm", "[1, 0, 0]")), joints(hinge("hinge", "ground", "arm", "[0, 0, 0]")), falling,
                 statics)},
       {"mass on two springs in a plane, in statics",

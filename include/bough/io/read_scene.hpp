@@ -12,12 +12,13 @@ namespace bough::io {
 
 /// One thing wrong with a file.
 struct Problem {
-  std::string pointer;  ///< JSON pointer (RFC 6901) of the value or key at fault
-  int line = 0;         ///< from 1; 0: not in the file (given by an override, or the file itself)
-  int column = 0;       ///< from 1, counted in characters
-  std::string value;    ///< the text at fault as written, shortened
-  std::string rule;     ///< what is asked of it
-  std::string hint;     ///< what to do, or the nearest known name; may be empty
+  std::string pointer;     ///< JSON pointer (RFC 6901) of the value or key at fault
+  int line = 0;            ///< from 1; 0: not in the file (given by an override, or the file itself)
+  int column = 0;          ///< from 1, counted in characters
+  std::string value;       ///< the text at fault as written, shortened
+  std::string rule;        ///< what is asked of it
+  std::string hint;        ///< what to do, or the nearest known name; may be empty
+  std::string owner = {};  ///< name of the thing that the pointer leads into; empty where the value tells it
 
   /// "line 12, column 7, /beams/0/section: "stel": no section has this name; did you mean "steel"?"
   std::string text() const;

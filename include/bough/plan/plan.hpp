@@ -7,6 +7,7 @@
 #include "bough/blocks/block_graph.hpp"
 #include "bough/laws/law.hpp"
 #include "bough/plan/elements_of.hpp"
+#include "bough/plan/mobility.hpp"
 #include "bough/plan/unknowns.hpp"
 #include "bough/scene/scene.hpp"
 
@@ -29,6 +30,8 @@ struct JointPlan {
   std::vector<int> rows;
   bool counts_turns = false;
   std::string what;  ///< "joint", "prescribed motion", "held rotation"
+  /// Of the parts that meet in it, which gaps are compared with [m] (scene::PartLengths).
+  double length = 1.0;
 };
 
 /// A node that joints hold at rest, in the ground or in the observer's frame: it has no unknowns, and these joints have no multipliers among
@@ -156,6 +159,7 @@ struct Plan {
   blocks::BlockGraph graph;        ///< blocks: nodes with unknowns, then one per joint that has rows which are unknowns
   std::vector<int> block_of_node;  ///< -1: held; beyond those of the graph: driven
   double length_scale = 1.0;       ///< [m], size of the structure
+  Mobility mobility;
   std::vector<std::string> notes;  ///< what the plan chose where the scene leaves it open, in words
 };
 

@@ -81,9 +81,12 @@ struct Checks {
   double unbalanced_at_floor = 0.0;  ///< largest force or moment these steps left, over the largest of the run [-]
   double energy_gained =
       0.0;  ///< of energy_balance, what the integrator had added at the end [J]; 0 where it took some
-  double relative_violation_position = 0.0;  ///< over the size of the structure, angles as they are [-]
-  double relative_violation_step =
-      0.0;  ///< of rates, times the step: what opens in one step, over the size of the structure [-]
+  /// Over the size of the parts that meet in the joint, angles as they are [-]; and the joint.
+  double relative_violation_position = 0.0;
+  std::string open_joint;
+  /// Of rates, times the step: what opens in one step, over the size of the parts that meet there [-]; and the joint.
+  double relative_violation_step = 0.0;
+  std::string fast_joint;
 };
 /// One level of the tree of sub-domains, looked at with the last factorization of a run.
 struct LevelFigures {

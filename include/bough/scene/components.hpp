@@ -1,5 +1,7 @@
 #pragma once
 /// Names of what sensors give and what joints leave free.
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,17 @@ const std::vector<std::string>& coordinates_of(JointKind kind);
 
 /// What a plan may leave out (plan::Decision), as in Scene::without.
 const std::vector<std::string>& decision_names();
+
+/// All kinds of joints, in the order of the schema.
+inline constexpr std::array<JointKind, 8> joint_kinds{
+    JointKind::fixed,       JointKind::revolute,  JointKind::spherical, JointKind::prismatic,
+    JointKind::cylindrical, JointKind::universal, JointKind::planar,    JointKind::screw};
+
+/// The kind of this name in files; nothing where none has it.
+std::optional<JointKind> joint_kind_named(const std::string& name);
+
+/// The coordinate whose rate a sensor measures: the one that it names, or else the first that the joint has.
+std::string rate_coordinate(const Sensor& sensor, JointKind kind);
 
 /// Names as in files.
 std::string to_string(JointKind kind);

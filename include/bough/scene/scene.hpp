@@ -208,6 +208,7 @@ struct Sensor {
   std::string beam;      ///< section sensors, or a point on a beam's axis
   double station = 0.0;  ///< fraction of the beam's length, 0 to 1
   std::string joint;
+  std::string coordinate;           ///< joint_rate: "angle" or "displacement"; empty: the only one the joint has
   LoadAxes axes = LoadAxes::space;  ///< resolved in the ground's axes, or those of `frame`, or in the body's own
   /// The frame from which a point's motion is seen, and in whose axes it and reactions are resolved; empty: the ground.
   /// acceleration_split: its axes only.

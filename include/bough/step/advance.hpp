@@ -33,6 +33,8 @@ struct StartReport {
   bool ok = false;
   std::string cause;
   double position_correction = 0.0;  ///< largest change of relative motions that closed the constraints
+  int open_joint = -1;               ///< that was open the widest before, relative to the parts that meet in it
+  double gap = 0.0;                  ///< by so much of their length, or rad
   double velocity_impulse =
       0.0;  ///< largest multiplier of the velocity projection: an impulse where a driven rate meets rest [N s, N m s]
   double velocity_change = 0.0;  ///< largest change of a velocity, relative to the largest speed before or after [-]
@@ -43,7 +45,8 @@ struct StartReport {
 ///   velocities  [M G^T; G 0] (dv, mu)  = (0, -Phi')
 ///   accelerations and multipliers  [M G^T; G 0] (a, lambda) = (-(forces), -Phi''|_{a = 0})
 /// M may be singular where constraints hold. Fails where constraints contradict each other: a gap above 1e-9 of the size of the
-/// structure (or rad) is left, or a rate above 1e-8 of the largest speed and above what opens 1e-12 in one step of `step_size` [s].
+/// parts that meet in a joint (or rad) is left, or a rate above 1e-8 of the largest speed and above what opens 1e-12 in
+/// one step of `step_size` [s].
 StartReport make_consistent(System& system, State& state, bool fix_positions, double step_size);
 
 /// Prepares generalized-alpha for step size h from a consistent state: a_n = dv/dt + shift h (d2v/dt2), and velocities moved along the

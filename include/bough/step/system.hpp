@@ -37,6 +37,7 @@ struct ResidualSize {
 struct Violations {
   double position = 0.0, relative_position = 0.0;  ///< [m] or [rad], [-]
   double velocity = 0.0, relative_velocity = 0.0;  ///< [m/s] or [rad/s], [1/s]
+  int open_joint = -1, fast_joint = -1;            ///< where the relative ones are, in Plan::joints; -1: nowhere
 };
 
 /// Buffers of the verbs in advance.hpp, sized once: a step does not allocate.
@@ -171,7 +172,8 @@ class System {
   Violations constraint_violations(const State& state) const;
   /// Largest |Phi| (order 0) or |Phi'| (order 1) over all rows and the joint it belongs to.
   double constraint_violation(const State& state, int order, int* joint = nullptr) const;
-  /// The same in no unit of length: lengths relative to Plan::length_scale, angles as they are [-] (order 0), [1/s] (order 1).
+  /// The same in no unit of length: lengths relative to those of the parts that meet in the joint (JointPlan::length),
+  /// angles as they are [-] (order 0), [1/s] (order 1).
   double relative_violation(const State& state, int order, int* joint = nullptr) const;
 
   /// Arm that turns the scale of forces into one of moments [m]: the longest element, or the whole where none has a length.
@@ -236,6 +238,7 @@ class System {
   void place_parts();
   void set_parts(std::size_t element, const double* residual, const double* magnitude);
   int num_unknowns_of(std::size_t element) const;
+  std::string explain_singular(const solve::FactorStatus& status) const;
   std::optional<Trouble> solve_free(const double* rhs, double* x, bool check);
   void find_pairs();
   void find_unsettled(State& state);
@@ -244,7 +247,7 @@ class System {
   void copy_rows(std::size_t begin, std::size_t end, ChunkSize& chunk);
   void sum_held_node(const Sum& sum, ChunkSize& chunk) const;
   void sum_parts(std::int64_t begin, std::int64_t end);
-  double largest_violation(const State& state, int order, double length, int* joint) const;
+  double largest_violation(const State& state, int order, bool is_relative, int* joint) const;
   void add_multipliers(State& state, const double* x, double factor) const;
   void set_frames();
   void set_turned_laws();

@@ -39,6 +39,7 @@ struct Outlook {
   int sub_domains = 0, leaves = 0, levels = 0, fronts_in_lanes = 0, fronts_in_registers = 0, fronts = 0;
   Effort effort;
   std::int64_t process_bytes = 0;  ///< peak of the process that runs it, about: the program, and memory_bytes
+  plan::Mobility mobility;
   std::vector<OutlookDecision> decisions;
   std::vector<std::string> notes;
 };

@@ -1,0 +1,40 @@
+#pragma once
+/// How large the parts are that meet in a joint: what a gap in it is compared with.
+#include <string>
+#include <unordered_map>
+
+#include "bough/scene/poses.hpp"
+#include "bough/scene/scene.hpp"
+
+namespace bough::scene {
+
+/// Lengths of nodes and bodies by what takes hold of them [m]. Built once from the whole scene. A length is the largest of
+///   the diagonal of the box, in the part's frame, around its centre of mass and all places where joints, springs,
+///   bushings and beams take hold,
+///   its radius of gyration,
+///   the longest beam that ends there.
+class PartLengths {
+ public:
+  PartLengths(const Scene& scene, const Poses& poses);
+
+  /// Of a node, a body, or an inner node of a beam (the length of the beam); 0 for the ground, frames, and what is a
+  /// point.
+  double of(const std::string& place) const;
+
+  /// Of the larger of two parts that a joint holds together. Two points have no length: then the size of the whole
+  /// takes its place. Never below a millionth of that size, where differences of places are round-off.
+  double of_joint(const Attachment& first, const Attachment& second, double size) const;
+
+ private:
+  struct Extent {
+    Vec3 low, high;
+    bool has_points = false;
+    double least = 0.0;
+    void include(const Vec3& x);
+    double length() const;
+  };
+
+  std::unordered_map<std::string, Extent> extents_;
+};
+
+}  // namespace bough::scene

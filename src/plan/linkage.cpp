@@ -1,0 +1,193 @@
+#include "linkage.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "sets.hpp"
+
+namespace bough::plan {
+
+namespace {
+
+constexpr double least_pivot = 1e-9;  ///< relative: rows have lengths of about 1
+constexpr int most_columns = 300;     ///< of a component whose motions are found: some 10 ms
+constexpr std::size_t most_parts = 1000;
+
+using Matrix = Eigen::MatrixXd;
+
+/// Relative twists that rows leave: 6 x (6 - rank).
+Matrix freedoms_of(const std::vector<Twist>& rows) {
+  if (rows.empty()) return Matrix::Identity(6, 6);
+  Matrix A(static_cast<Eigen::Index>(rows.size()), 6);
+  for (std::size_t i = 0; i < rows.size(); ++i) A.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
+  Eigen::FullPivLU<Matrix> lu(A);
+  lu.setThreshold(least_pivot);
+  if (lu.rank() == 6) return Matrix(6, 0);
+  return lu.kernel();
+}
+
+/// The tree over which twists add up: from the ground where edges lead there.
+struct SpanningTree {
+  struct Step {
+    int parent = -1, edge = -1;
+    double sign = 1.0;  ///< -1: the edge leads from the part to its parent
+    int depth = -1;
+    int begin = 0;  ///< first of its freedoms within the component
+    Matrix basis;   ///< of the relative twist
+  };
+  std::vector<Step> steps;  ///< by part
+  std::vector<int> order;   ///< parts, parents first, the ground left out
+  std::vector<bool> is_closing;
+};
+
+SpanningTree make_spanning_tree(const std::vector<LinkEdge>& edges, std::size_t num_parts) {
+  SpanningTree tree;
+  tree.steps.resize(num_parts);
+  tree.is_closing.assign(edges.size(), true);
+  std::vector<std::vector<int>> at(num_parts);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (const int part : {edges[e].first, edges[e].second})
+      at[static_cast<std::size_t>(part)].push_back(static_cast<int>(e));
+  std::vector<int> front;
+  for (std::size_t top = 0; top < num_parts; ++top) {
+    if (tree.steps[top].depth >= 0) continue;
+    tree.steps[top].depth = 0;
+    front.assign(1, static_cast<int>(top));
+    for (std::size_t k = 0; k < front.size(); ++k) {
+      if (front[k] != Linkage::ground) tree.order.push_back(front[k]);
+      for (const int e : at[static_cast<std::size_t>(front[k])]) {
+        const LinkEdge& edge = edges[static_cast<std::size_t>(e)];
+        const int next = edge.first == front[k] ? edge.second : edge.first;
+        SpanningTree::Step& step = tree.steps[static_cast<std::size_t>(next)];
+        if (step.depth >= 0) continue;
+        step.depth = tree.steps[static_cast<std::size_t>(front[k])].depth + 1;
+        step.parent = front[k];
+        step.edge = e;
+        step.sign = edge.second == next ? 1.0 : -1.0;
+        tree.is_closing[static_cast<std::size_t>(e)] = false;
+        front.push_back(next);
+      }
+    }
+  }
+  return tree;
+}
+
+/// Adds factor * row . (twist of a part), by the freedoms on its way to the top.
+void add_way(const SpanningTree& tree, int part, const Twist& row, double factor, Eigen::Ref<Eigen::RowVectorXd> out) {
+  for (int p = part; p > Linkage::ground; p = tree.steps[static_cast<std::size_t>(p)].parent) {
+    const SpanningTree::Step& s = tree.steps[static_cast<std::size_t>(p)];
+    out.segment(s.begin, s.basis.cols()) += factor * s.sign * row.transpose() * s.basis;
+  }
+}
+
+}  // namespace
+
+Twist Linkage::along(const Vec3d& direction, const Vec3d& x) const {
+  const Vec3d arm = (1.0 / size_) * (x - center_), turn = lanes::cross(arm, direction);
+  Twist row;
+  row << direction[0], direction[1], direction[2], turn[0], turn[1], turn[2];
+  return row;
+}
+
+Twist Linkage::about(const Vec3d& direction) {
+  Twist row;
+  row << 0.0, 0.0, 0.0, direction[0], direction[1], direction[2];
+  return row;
+}
+
+std::vector<Twist> Linkage::rows_of(int edge, int relaxed) const {
+  std::vector<Twist> rows = edges_[static_cast<std::size_t>(edge)].rows;
+  if (edge == relaxed)
+    rows.erase(std::remove_if(rows.begin(), rows.end(), [](const Twist& r) { return r.head<3>().isZero(0.0); }),
+               rows.end());
+  return rows;
+}
+
+Twist LinkComponent::twist_of(int part, Eigen::Index motion) const {
+  const auto known = place.find(part);
+  return known == place.end() ? Twist(Twist::Zero()) : Twist(motions.block<6, 1>(6 * known->second, motion));
+}
+
+namespace {
+
+/// Finds the rank of the rows that close loops, and the motions that are left.
+void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<LinkEdge>& edges,
+                  const std::vector<std::pair<int, Twist>>& rows) {
+  Matrix kernel = Matrix::Identity(c.freedoms, c.freedoms);
+  if (!rows.empty() && c.freedoms > 0) {
+    Matrix A = Matrix::Zero(static_cast<Eigen::Index>(rows.size()), c.freedoms);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const LinkEdge& edge = edges[static_cast<std::size_t>(rows[i].first)];
+      Eigen::RowVectorXd line = Eigen::RowVectorXd::Zero(c.freedoms);
+      add_way(tree, edge.second, rows[i].second, 1.0, line);
+      add_way(tree, edge.first, rows[i].second, -1.0, line);
+      A.row(static_cast<Eigen::Index>(i)) = line;
+    }
+    Eigen::FullPivLU<Matrix> lu(A);
+    lu.setThreshold(least_pivot);
+    c.rank = static_cast<int>(lu.rank());
+    kernel = c.mobility() > 0 ? Matrix(lu.kernel()) : Matrix(c.freedoms, 0);
+  }
+  c.motions = Matrix::Zero(6 * static_cast<Eigen::Index>(c.parts.size()), c.mobility());
+  for (const int part : c.parts) {
+    const SpanningTree::Step& s = tree.steps[static_cast<std::size_t>(part)];
+    auto own = c.motions.middleRows(6 * c.place.at(part), 6);
+    if (s.parent > Linkage::ground) own = c.motions.middleRows(6 * c.place.at(s.parent), 6);
+    own += s.sign * s.basis * kernel.middleRows(s.begin, s.basis.cols());
+  }
+}
+
+}  // namespace
+
+std::vector<LinkComponent> Linkage::solve(int relaxed) const {
+  const auto num_parts = static_cast<std::size_t>(num_parts_);
+  SpanningTree tree = make_spanning_tree(edges_, num_parts);
+  Sets sets(num_parts);
+  for (const LinkEdge& e : edges_)
+    if (e.first != ground && e.second != ground)
+      sets.join(static_cast<std::size_t>(e.first), static_cast<std::size_t>(e.second));
+  std::vector<LinkComponent> components;
+  std::vector<int> component_of(num_parts, -1);
+  for (const int part : tree.order) {
+    int& c = component_of[sets.of(static_cast<std::size_t>(part))];
+    if (c < 0) {
+      c = static_cast<int>(components.size());
+      components.emplace_back();
+    }
+    LinkComponent& component = components[static_cast<std::size_t>(c)];
+    const int edge = tree.steps[static_cast<std::size_t>(part)].edge;
+    component.parts.push_back(part);
+    component.freedoms += edge < 0 ? 6 : std::max(0, 6 - static_cast<int>(rows_of(edge, relaxed).size()));
+  }
+  std::vector<std::vector<std::pair<int, Twist>>> closing(components.size());
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const int part = edges_[e].first == ground ? edges_[e].second : edges_[e].first;
+    if (part == ground) continue;
+    const auto c = static_cast<std::size_t>(component_of[sets.of(static_cast<std::size_t>(part))]);
+    components[c].edges.push_back(static_cast<int>(e));
+    components[c].reaches_ground |= edges_[e].first == ground || edges_[e].second == ground;
+    if (tree.is_closing[e])
+      for (const Twist& row : rows_of(static_cast<int>(e), relaxed)) closing[c].emplace_back(static_cast<int>(e), row);
+  }
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    LinkComponent& c = components[k];
+    c.closing_rows = static_cast<int>(closing[k].size());
+    if (c.freedoms > most_columns || c.parts.size() > most_parts) {
+      c.is_rank_known = c.closing_rows == 0;
+      c.rank = std::min(c.freedoms, c.closing_rows);
+      continue;
+    }
+    c.freedoms = 0;
+    for (const int part : c.parts) {
+      SpanningTree::Step& step = tree.steps[static_cast<std::size_t>(part)];
+      step.basis = step.edge < 0 ? Matrix(Matrix::Identity(6, 6)) : freedoms_of(rows_of(step.edge, relaxed));
+      step.begin = c.freedoms;
+      c.freedoms += static_cast<int>(step.basis.cols());
+      c.place.emplace(part, static_cast<int>(c.place.size()));
+    }
+    find_motions(c, tree, edges_, closing[k]);
+  }
+  return components;
+}
+
+}  // namespace bough::plan

@@ -1,0 +1,264 @@
+#include "linkage_of.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace bough::plan {
+
+using scene::JointKind;
+using Frame = motion::Frame<double>;
+using Mat3 = motion::Mat3<double>;
+
+namespace {
+
+Vec3d axis_of(const Frame& H, int k) { return {{H.R(0, k), H.R(1, k), H.R(2, k)}}; }
+
+double length_of(const Vec3d& v) { return std::sqrt(lanes::dot(v, v)); }
+
+/// Center and size of the box around all nodes and bodies and the places of all joints.
+Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses) {
+  Vec3d low = Vec3d::zero(), high = low;
+  bool is_first = true;
+  const auto include = [&](const std::optional<Frame>& H) {
+    if (!H) return;
+    for (int k = 0; k < 3; ++k) {
+      low[k] = is_first ? H->x[k] : std::min(low[k], H->x[k]);
+      high[k] = is_first ? H->x[k] : std::max(high[k], H->x[k]);
+    }
+    is_first = false;
+  };
+  for (const scene::Node& n : scene.nodes) include(poses.of(n.placement));
+  for (const scene::Body& b : scene.bodies) include(poses.of(b.placement));
+  for (const scene::Joint& j : scene.joints) include(poses.of(j.second));
+  const double size = length_of(high - low);
+  return Linkage(0.5 * (low + high), size > 0.0 ? size : 1.0);
+}
+
+/// Whether some motion of a body has no inertia against it.
+bool has_whole_inertia(const scene::Body& b) {
+  const Mat3& J = b.inertia;
+  const double trace = J(0, 0) + J(1, 1) + J(2, 2);
+  const Vec3d rows[3] = {{{J(0, 0), J(0, 1), J(0, 2)}}, {{J(1, 0), J(1, 1), J(1, 2)}}, {{J(2, 0), J(2, 1), J(2, 2)}}};
+  const double volume = lanes::dot(rows[0], lanes::cross(rows[1], rows[2]));
+  return b.mass > 0.0 && volume > 1e-12 * trace * trace * trace;
+}
+
+}  // namespace
+
+SceneLinkage::SceneLinkage(const scene::Scene& scene, const scene::Poses& poses, const LinkageChoice& choice)
+    : linkage(empty_linkage(scene, poses)),
+      names(1),
+      has_beam(1, false),
+      scene_(scene),
+      poses_(poses),
+      choice_(choice) {
+  const auto add_part = [this](const std::string& name) {
+    part_of_[name] = linkage.add_part();
+    names.push_back(name);
+    has_beam.push_back(false);
+  };
+  std::set<std::string> massive;
+  for (const scene::Beam& b : scene.beams)
+    if (choice.mass_holds) massive.insert({b.start, b.end});
+  for (const scene::Body& b : scene.bodies)
+    if (choice.mass_holds && has_whole_inertia(b)) massive.insert(b.name);
+  for (const std::string& name : massive) part_of_[name] = Linkage::ground;
+  for (const scene::Node& n : scene.nodes)
+    if (massive.count(n.name) == 0) add_part(n.name);
+  for (const scene::Body& b : scene.bodies)
+    if (massive.count(b.name) == 0) add_part(b.name);
+  for (const scene::Beam& b : scene.beams) {
+    if (!choice.beams_are_rigid) continue;
+    LinkEdge weld{part_of(b.start), part_of(b.end), b.name, {}, Vec3d::zero(), false, true};
+    for (int k = 0; k < 3; ++k) weld.rows.push_back(linkage.along(Vec3d::unit(k), linkage.center()));
+    for (int k = 0; k < 3; ++k) weld.rows.push_back(Linkage::about(Vec3d::unit(k)));
+    for (const int part : {weld.first, weld.second}) has_beam[static_cast<std::size_t>(part)] = true;
+    if (weld.first != weld.second) linkage.add(weld);
+  }
+  for (const scene::Joint& j : scene.joints) add_joint(j);
+  for (const scene::PrescribedMotion& m : scene.motions) add_motion(m);
+  if (choice.stiffness_holds) add_stiffness();
+  if (choice.stiffness_holds || choice.mass_holds) add_point_masses();
+  for (const scene::Body& b : scene.bodies)
+    if (choice.mass_holds && massive.count(b.name) == 0) add_masses(b);
+}
+
+int SceneLinkage::part_of(const std::string& place) {
+  const auto known = part_of_.find(place);
+  if (known != part_of_.end()) return known->second;
+  const std::size_t dot_at = place.rfind('.');
+  if (place.empty() || dot_at == std::string::npos) return Linkage::ground;
+  const auto thing = poses_.find(place.substr(0, dot_at));
+  if (!thing || thing->kind != scene::ThingKind::beam || choice_.mass_holds) return Linkage::ground;
+  if (choice_.beams_are_rigid) return part_of(scene_.beams[thing->index].start);
+  names.push_back(place);
+  has_beam.push_back(true);
+  return part_of_[place] = linkage.add_part();
+}
+
+void SceneLinkage::hold(const std::string& place, std::vector<Twist> rows) {
+  const int part = part_of(place);
+  if (part != Linkage::ground && !rows.empty())
+    linkage.add({Linkage::ground, part, place, std::move(rows), Vec3d::zero(), false});
+}
+
+void SceneLinkage::add_joint(const scene::Joint& j) {
+  const auto H_a = poses_.of(j.first), H_b = poses_.of(j.second);
+  LinkEdge edge{part_of(j.first.to), part_of(j.second.to), j.name, {}, Vec3d::zero(), true};
+  if (!H_a || !H_b || edge.first == edge.second) return;
+  const auto along = [&](int k) { edge.rows.push_back(linkage.along(axis_of(*H_a, k), H_b->x)); };
+  const auto about = [&](int k) { edge.rows.push_back(Linkage::about(axis_of(*H_a, k))); };
+  const auto along_all = [&] {
+    for (int k = 0; k < 3; ++k) along(k);
+  };
+  const auto about_all = [&] {
+    for (int k = 0; k < 3; ++k) about(k);
+  };
+  const auto keep_axis = [&] { about(0), about(1); };
+  edge.axis = axis_of(*H_a, 2);
+  switch (j.kind) {
+    case JointKind::fixed:
+      along_all(), about_all();
+      break;
+    case JointKind::revolute:
+      along_all(), keep_axis();
+      break;
+    case JointKind::spherical:
+      along_all();
+      edge.axis = Vec3d::zero();
+      break;
+    case JointKind::universal:
+      along_all();
+      edge.rows.push_back(Linkage::about(lanes::cross(axis_of(*H_a, 0), axis_of(*H_b, 1))));
+      edge.axis = Vec3d::zero();
+      break;
+    case JointKind::prismatic:
+      along(0), along(1), about_all();
+      break;
+    case JointKind::cylindrical:
+      along(0), along(1), keep_axis();
+      break;
+    case JointKind::screw:
+      along(0), along(1), keep_axis();
+      edge.rows.push_back(linkage.along(edge.axis, H_b->x) -
+                          j.pitch / (2.0 * 3.14159265358979323846 * linkage.size()) * Linkage::about(edge.axis));
+      break;
+    case JointKind::planar:
+      along(2), keep_axis();
+      break;
+  }
+  const auto hold_coordinate = [&](const std::string& coordinate) { coordinate == "angle" ? about(2) : along(2); };
+  for (const scene::JointDrive& d : j.drives)
+    if (choice_.drives_hold) hold_coordinate(d.coordinate);
+  for (const scene::JointForce& f : j.forces)
+    if (choice_.stiffness_holds && f.stiffness > 0.0) hold_coordinate(f.coordinate);
+  linkage.add(edge);
+}
+
+void SceneLinkage::add_motion(const scene::PrescribedMotion& m) {
+  const auto H = poses_.of(m.at);
+  if (!H) return;
+  const auto holds = [this](const laws::Law& law) { return choice_.drives_hold || law.is_constant(); };
+  std::vector<Twist> rows;
+  for (int k = 0; k < 3; ++k)
+    if (m.displacement[k] && holds(*m.displacement[k])) rows.push_back(linkage.along(Vec3d::unit(k), H->x));
+  if (m.hold_rotation || (m.rotation_axis && holds(m.angle)))
+    for (int k = 0; k < 3; ++k) rows.push_back(Linkage::about(Vec3d::unit(k)));
+  hold(m.at.to, std::move(rows));
+}
+
+/// A spring under tension or pressure holds across its line as well.
+void SceneLinkage::add_stiffness() {
+  for (const scene::Spring& s : scene_.springs) {
+    const auto a = poses_.of(s.first), b = poses_.of(s.second);
+    LinkEdge edge{part_of(s.first.to), part_of(s.second.to), s.name, {}, Vec3d::zero(), false};
+    if (!a || !b || edge.first == edge.second || s.stiffness == 0.0) continue;
+    const Vec3d span = b->x - a->x;
+    const double length = length_of(span);
+    const bool is_tense = std::abs(length - s.rest_length) > 1e-9 * length;
+    for (int k = 0; k < 3 && is_tense; ++k) edge.rows.push_back(linkage.along(Vec3d::unit(k), b->x));
+    if (!is_tense) edge.rows.push_back(linkage.along((1.0 / length) * span, b->x));
+    linkage.add(edge);
+  }
+  for (const scene::Bushing& u : scene_.bushings) {
+    const auto a = poses_.of(u.first), b = poses_.of(u.second);
+    LinkEdge edge{part_of(u.first.to), part_of(u.second.to), u.name, {}, Vec3d::zero(), false};
+    if (!a || !b || edge.first == edge.second) continue;
+    double most = 0.0;
+    for (const double x : u.stiffness.m) most = std::max(most, std::abs(x));
+    for (int i = 0; i < 6 && most > 0.0; ++i) {
+      Twist row = Twist::Zero();
+      for (int k = 0; k < 3; ++k)
+        row += u.stiffness(i, k) * linkage.along(axis_of(*a, k), b->x) +
+               u.stiffness(i, k + 3) * Linkage::about(axis_of(*a, k));
+      if (row.norm() > 0.0) edge.rows.push_back(row.normalized());
+    }
+    linkage.add(edge);
+  }
+}
+
+/// The plan holds the rotation of a point mass where nothing feels it, and its spin about the line through all points
+/// where it is met.
+void SceneLinkage::add_point_masses() {
+  for (const scene::Body& b : scene_.bodies) {
+    if (!b.is_point_mass) continue;
+    bool feels = false;
+    std::vector<Vec3d> met;
+    const auto look = [&](const auto& item, bool turns) {
+      for (const scene::Attachment* a : {&item.first, &item.second})
+        if (a->to == b.name) {
+          feels |= turns;
+          if (length_of(a->offset.x) > 0.0) met.push_back(a->offset.x);
+        }
+    };
+    for (const scene::Joint& j : scene_.joints) look(j, j.kind != JointKind::spherical);
+    for (const scene::Spring& s : scene_.springs) look(s, false);
+    for (const scene::Bushing& u : scene_.bushings) look(u, true);
+    for (const scene::Beam& beam : scene_.beams) feels |= beam.start == b.name || beam.end == b.name;
+    if (feels) continue;
+    std::vector<Twist> rows;
+    const bool is_in_line = std::all_of(met.begin(), met.end(), [&met](const Vec3d& x) {
+      return length_of(lanes::cross(x, met.front())) <= 1e-12 * lanes::dot(x, x);
+    });
+    if (met.empty())
+      for (int k = 0; k < 3; ++k) rows.push_back(Linkage::about(Vec3d::unit(k)));
+    else if (is_in_line)
+      if (const auto H = poses_.of(b.placement))
+        rows.push_back(Linkage::about((1.0 / length_of(met.front())) * (H->R * met.front())));
+    hold(b.name, std::move(rows));
+  }
+}
+
+void SceneLinkage::add_masses(const scene::Body& b) {
+  const auto H = poses_.of(b.placement);
+  if (!H || b.mass == 0.0) return;
+  std::vector<Twist> rows;
+  for (int k = 0; k < 3; ++k) rows.push_back(linkage.along(Vec3d::unit(k), motion::transform(*H, b.center_of_mass)));
+  const double trace = b.inertia(0, 0) + b.inertia(1, 1) + b.inertia(2, 2);
+  for (int i = 0; i < 3 && trace > 0.0; ++i) {
+    Vec3d row = Vec3d::zero();
+    for (int k = 0; k < 3; ++k) row += (b.inertia(i, k) / trace) * axis_of(*H, k);
+    rows.push_back(Linkage::about(row));
+  }
+  hold(b.name, std::move(rows));
+}
+
+void SceneLinkage::restrict_to(Motions motions, const Vec3d& normal) {
+  if (motions == Motions::spatial) return;
+  for (std::size_t part = 1; part < names.size(); ++part) {
+    LinkEdge edge{Linkage::ground, static_cast<int>(part), names[part], {}, Vec3d::zero(), false};
+    if (motions == Motions::planar) {
+      edge.rows.push_back(linkage.along(normal, linkage.center()));
+      for (int k = 0; k < 3; ++k) {
+        const Vec3d in_plane = lanes::cross(normal, Vec3d::unit(k));
+        if (length_of(in_plane) > 0.1) edge.rows.push_back(Linkage::about(in_plane));
+      }
+    } else {
+      for (int k = 0; k < 3; ++k) edge.rows.push_back(Linkage::about(Vec3d::unit(k)));
+    }
+    linkage.add(edge);
+  }
+}
+
+}  // namespace bough::plan

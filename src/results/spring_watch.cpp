@@ -1,0 +1,62 @@
+#include "bough/results/spring_watch.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "observe_parts.hpp"
+
+namespace bough::results {
+
+namespace {
+
+using motion::Vec3;
+
+constexpr double along = 0.9;  ///< cosine of the angle between a velocity and a line that counts as along it
+
+double cosine(const Vec3<double>& a, const Vec3<double>& b) {
+  const double sizes = std::sqrt(lanes::dot(a, a) * lanes::dot(b, b));
+  return sizes > 0.0 ? lanes::dot(a, b) / sizes : 0.0;
+}
+
+}  // namespace
+
+SpringWatch::SpringWatch(const plan::Plan& plan) {
+  const auto& springs = plan::array_of<elements::Spring>(plan.elements);
+  for (std::size_t id = 0; plan.is_dynamic && id < plan.directory.size(); ++id)
+    plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Spring>)
+        if (e.rest_length > 0.0 && e.stiffness > 0.0)
+          seen_.push_back({static_cast<int>(&e - springs.data()), plan.element_owner[id]});
+    });
+}
+
+void SpringWatch::look(const step::System& system, const step::State& state) {
+  if (seen_.empty() || passed_ != nullptr) return;
+  const elements::Field f = system.field(state);
+  const auto& springs = plan::array_of<elements::Spring>(system.plan().elements);
+  for (Seen& s : seen_) {
+    const elements::Spring& e = springs[static_cast<std::size_t>(s.spring)];
+    const PointMotion a = motion_of_port(e.ports[0], f), b = motion_of_port(e.ports[1], f);
+    const Vec3<double> span = b.pose.x - a.pose.x;
+    const Vec3<double> rate = b.pose.R * lanes::linear_part(b.v) - a.pose.R * lanes::linear_part(a.v);
+    if (!is_first_ && lanes::dot(span, s.span) < 0.0 && cosine(s.rate, s.span) < -along && cosine(rate, span) > along) {
+      passed_ = &s;
+      time_ = state.time;
+      return;
+    }
+    s.span = span;
+    s.rate = rate;
+  }
+  is_first_ = false;
+}
+
+std::string SpringWatch::text() const {
+  if (passed_ == nullptr) return "";
+  char time[32];
+  std::snprintf(time, sizeof time, "%.6g", time_);
+  return "spring '" + passed_->name + "' has passed through length 0 by time " + time +
+         ": its force has no direction there and turns round at once; hold the point beside the line, use a bushing, "
+         "or a rest length of 0";
+}
+
+}  // namespace bough::results

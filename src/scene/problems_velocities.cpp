@@ -1,0 +1,158 @@
+/// Initial velocities that joints do not allow, or that contradict each other within one rigid part.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "problem_list.hpp"
+
+namespace bough::scene {
+namespace {
+
+/// Of a given speed: what joints may be left by without a word.
+constexpr double allowed = 1e-3;
+
+/// Velocity of a rigid part in the ground's axes, linear of the point x.
+struct Velocity {
+  Vec3 linear = Vec3::zero(), angular = Vec3::zero(), x = Vec3::zero();
+  Vec3 at(const Vec3& point) const { return linear + cross(angular, Vec3(point - x)); }
+};
+
+class GivenVelocities {
+ public:
+  explicit GivenVelocities(const ProblemList& list) : list_(list) {
+    for (const InitialVelocity& v : list.scene.initial_velocities) add(v);
+  }
+
+  bool empty() const { return of_.empty(); }
+
+  /// Of the ground, of a frame at rest, or of what has a velocity in the scene.
+  std::optional<Velocity> of(const std::string& place) const {
+    if (place.empty() || place == "ground") return Velocity{};
+    auto known = of_.find(place);
+    if (known == of_.end()) known = of_.find(place.substr(0, place.rfind('.')));
+    if (known != of_.end()) return known->second;
+    const auto thing = list_.poses.find(place);
+    if (thing && thing->kind == ThingKind::frame && !list_.poses.is_moving(place)) return Velocity{};
+    return std::nullopt;
+  }
+
+ private:
+  void add(const InitialVelocity& v) {
+    const auto thing = list_.poses.find(v.of);
+    const bool is_beam = thing && thing->kind == ThingKind::beam;
+    const Beam* beam = is_beam ? &list_.scene.beams[thing->index] : nullptr;
+    const auto pose = list_.poses.of(std::string_view(is_beam ? beam->start : v.of));
+    const auto frame = list_.poses.of(std::string_view(v.frame));
+    if (!pose || !frame || list_.poses.is_moving(v.frame)) return;
+    const Mat3 axes = v.axes == LoadAxes::body ? pose->R : frame->R;
+    const Velocity given{axes * v.velocity, axes * v.angular_velocity, pose->x};
+    of_[v.of] = given;
+    if (is_beam) of_[beam->start] = of_[beam->end] = given;
+  }
+
+  const ProblemList& list_;
+  std::unordered_map<std::string, Velocity> of_;
+};
+
+/// Rates of what a joint holds: of places [m/s] and of rotations [rad/s].
+struct JointRates {
+  double linear = 0.0, angular = 0.0;
+};
+
+/// d, w: velocity of the second relative to the first, at the second's joint frame, in the axes of the first's.
+JointRates held_rates(const Joint& j, const Vec3& d, const Vec3& w, const Vec3& second_axis) {
+  const double across_axis = std::hypot(d[0], d[1]), tilting = std::hypot(w[0], w[1]);
+  switch (j.kind) {
+    case JointKind::fixed:
+      return {norm_of(d), norm_of(w)};
+    case JointKind::revolute:
+      return {norm_of(d), tilting};
+    case JointKind::spherical:
+      return {norm_of(d), 0.0};
+    case JointKind::universal:
+      return {norm_of(d), std::abs(dot(w, cross(Vec3::unit(0), second_axis)))};
+    case JointKind::prismatic:
+      return {across_axis, norm_of(w)};
+    case JointKind::cylindrical:
+      return {across_axis, tilting};
+    case JointKind::screw:
+      return {std::hypot(across_axis, d[2] - j.pitch / (2.0 * 3.14159265358979323846) * w[2]), tilting};
+    case JointKind::planar:
+      return {std::abs(d[2]), tilting};
+  }
+  return {};
+}
+
+void check_joint(ProblemList& list, std::size_t i, const GivenVelocities& velocities) {
+  const Joint& j = list.scene.joints[i];
+  const auto a = velocities.of(j.first.to), b = velocities.of(j.second.to);
+  const auto H_a = list.poses.of(j.first), H_b = list.poses.of(j.second);
+  if (!a || !b || !H_a || !H_b) return;
+  const Vec3 v_a = a->at(H_b->x), v_b = b->at(H_b->x);
+  const Vec3 d = lanes::transpose_times(H_a->R, Vec3(v_b - v_a));
+  const Vec3 w = lanes::transpose_times(H_a->R, Vec3(b->angular - a->angular));
+  const JointRates rates = held_rates(j, d, w, lanes::transpose_times(H_a->R, Vec3(column(H_b->R, 1))));
+  const double speed = std::max({norm_of(v_a), norm_of(v_b), norm_of(a->linear), norm_of(b->linear)});
+  const double turning = std::max(norm_of(a->angular), norm_of(b->angular));
+  std::string by;
+  if (rates.linear > allowed * speed) by = text_of(rates.linear) + " m/s";
+  if (rates.angular > allowed * turning) by += (by.empty() ? "" : " and ") + text_of(rates.angular) + " rad/s";
+  if (!by.empty())
+    list.warn("joints", i, "name", j.name, "the initial velocities leave this joint by " + by,
+              "the run changes them by impulses until the joint holds: give velocities that it allows");
+}
+
+/// Things that fixed joints tie to each other, by name.
+class RigidParts {
+ public:
+  explicit RigidParts(const Scene& scene) {
+    for (const Joint& j : scene.joints)
+      if (j.kind == JointKind::fixed && !is_ground(j.first.to) && !is_ground(j.second.to))
+        parent_[root(j.first.to)] = root(j.second.to);
+  }
+  std::string root(const std::string& name) {
+    std::string at = name;
+    for (auto next = parent_.find(at); next != parent_.end() && next->second != at; next = parent_.find(at))
+      at = next->second;
+    return at;
+  }
+
+ private:
+  static bool is_ground(const std::string& name) { return name.empty() || name == "ground"; }
+  std::unordered_map<std::string, std::string> parent_;
+};
+
+void check_rigid_parts(ProblemList& list, const GivenVelocities& velocities) {
+  RigidParts parts(list.scene);
+  std::unordered_map<std::string, std::string> first_of;
+  for (std::size_t i = 0; i < list.scene.initial_velocities.size(); ++i) {
+    const std::string& name = list.scene.initial_velocities[i].of;
+    const auto own = velocities.of(name);
+    if (!own) continue;
+    const auto [first, is_new] = first_of.try_emplace(parts.root(name), name);
+    if (is_new || first->second == name) continue;
+    const Velocity other = *velocities.of(first->second);
+    const double off = norm_of(own->linear - other.at(own->x)), turned = norm_of(own->angular - other.angular);
+    const double speed = std::max(norm_of(own->linear), norm_of(other.at(own->x)));
+    const double turning = std::max(norm_of(own->angular), norm_of(other.angular));
+    if (off <= allowed * speed && turned <= allowed * turning) continue;
+    list.add("initial_velocities", i, "of", name,
+             "fixed joints make this one rigid part with '" + first->second +
+                 "', and their initial velocities contradict each other by " +
+                 (off > allowed * speed ? text_of(off) + " m/s" : text_of(turned) + " rad/s"),
+             "give the part one velocity, or both the same rigid motion");
+  }
+}
+
+}  // namespace
+
+void check_initial_velocities(ProblemList& list) {
+  if (!list.is_dynamic) return;
+  const GivenVelocities velocities(list);
+  if (velocities.empty()) return;
+  check_rigid_parts(list, velocities);
+  for (std::size_t i = 0; i < list.scene.joints.size(); ++i) check_joint(list, i, velocities);
+}
+
+}  // namespace bough::scene
