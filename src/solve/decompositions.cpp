@@ -1,5 +1,6 @@
 #include "decompositions.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -18,6 +19,10 @@ std::optional<Matrix> solve_if_regular(const Matrix& a, const Matrix& b) {
 }
 
 Vector singular_values(const Matrix& a) { return Eigen::JacobiSVD<Matrix>(a).singularValues(); }
+
+Vector symmetric_eigenvalues(const Matrix& a) {
+  return Eigen::SelfAdjointEigenSolver<Matrix>(a, Eigen::EigenvaluesOnly).eigenvalues();
+}
 
 RightSingularVectors right_singular_vectors(const Matrix& a) {
   const Eigen::JacobiSVD<Matrix> svd(a, Eigen::ComputeFullV);

@@ -15,6 +15,9 @@ std::optional<Eigen::MatrixXd> solve_if_regular(const Eigen::MatrixXd& a, const 
 /// In falling order.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
 
+/// Of a symmetric matrix, its lower triangle; in rising order.
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
+
 struct RightSingularVectors {
   Eigen::VectorXd values;   ///< in falling order
   Eigen::MatrixXd vectors;  ///< a column each

@@ -71,6 +71,12 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   left_registers.assign(lanes.groups.size(), 0);
   sizes.resize(lanes.groups.size());
   asymmetries.resize(lanes.groups.size());
+  if (options.inertia && num_fronts > 0) {
+    const std::size_t full = at(front(tree.num_fronts() - 1).num_eliminated);
+    root_copy.entries.reserve(full * full);
+    root_copy.d.reserve(2 * full);
+    root_copy.indices.reserve(3 * full);
+  }
   residual.assign(n, 0.0);
   if (options.check != SolveCheck::none && options.refinement_steps > 0) correction.assign(n, 0.0);
 }

@@ -63,6 +63,15 @@ struct NullSpace {
   std::vector<double> left;   ///< dimension x unknowns, orthonormal
 };
 
+/// The root's front before it is eliminated, square, and room to eliminate it in.
+struct RootCopy {
+  std::vector<double> entries, d;
+  std::vector<int> indices;
+  int size = 0;
+  bool is_square = false;  ///< its rows are those of its columns
+  int negative = -1;       ///< eigenvalues, once counted
+};
+
 /// Root pivots below this, scaled, are looked at before they are used.
 constexpr double suspect_pivot = 1e-5;
 
@@ -118,10 +127,12 @@ struct Hierarchical::State {
   std::vector<tree::FrontId> scalar_fronts;  ///< that are never in lanes, nor in registers
   std::vector<PlainInterface> plain;         ///< by sub-domain; empty unless elimination is plain
   NullSpace null_space;
-  double* x = nullptr;            ///< of the solution at hand: the caller's array
-  const double* given = nullptr;  ///< its right-hand side
-  std::vector<double> rhs;        ///< of its own, where the caller's would not last
-  std::vector<double> residual;   ///< and scratch
+  RootCopy root_copy;              ///< SolveOptions::inertia
+  std::vector<int> row_of_column;  ///< scratch of inertia()
+  double* x = nullptr;             ///< of the solution at hand: the caller's array
+  const double* given = nullptr;   ///< its right-hand side
+  std::vector<double> rhs;         ///< of its own, where the caller's would not last
+  std::vector<double> residual;    ///< and scratch
   std::vector<double> correction;
 
   // Sub-domains in lockstep: packs of eight lanes.
@@ -230,6 +241,9 @@ struct Hierarchical::State {
   void add_child(tree::FrontId child, const FrontData& parent, int first, int last);
   void add_child_both_ways(tree::FrontId child, const FrontData& parent);
   void eliminate_front(tree::FrontId f);
+  // inertia.cpp
+  void keep_root(const FrontData& root);
+  int count_negative_in_root();
   // solve_walks.cpp
   void forward_front(tree::FrontId f);
   void gather_rhs(tree::FrontId f, double* gathered);

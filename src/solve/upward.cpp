@@ -92,6 +92,7 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
   }
   FrontMatrix matrix = d.matrix();
   const bool is_root = f + 1 == tree.num_fronts();
+  if (is_root && options.inertia) keep_root(d);
   // At the root the easy pivots go first, then the others by complete pivoting down to what decide_rank() must look at.
   const PivotRule rule{is_root ? std::max(options.pivot_threshold, 0.1) : options.pivot_threshold,
                        is_root ? 1e-2 : options.tiny_pivot};

@@ -75,6 +75,11 @@ class AnySolver {
   const FactorStatus& last_status() const {
     return std::visit([](auto& s) -> const FactorStatus& { return s.last_status(); }, solver_);
   }
+  /// Not known of solvers other than the hierarchical one.
+  Inertia inertia() {
+    auto* s = std::get_if<Hierarchical>(&solver_);
+    return s != nullptr && s->last_status().ok() ? s->inertia() : Inertia{};
+  }
   SolverCounters counters() const {
     return std::visit([](auto& s) { return s.counters(); }, solver_);
   }

@@ -70,6 +70,9 @@ class Hierarchical {
   /// second time within the same factor(), in storage allocated there once.
   const SymmetryReport& symmetry() const;
   SolverCounters counters() const;
+  /// Of the last factorization; `negative` is that of the symmetric part of A where it differs little from A.
+  /// Preconditions: SolveOptions::inertia, factor() ok. Allocates only where rows were exchanged, the root is singular.
+  Inertia inertia();
   /// Interfaces of all sub-domains but the root, in order; computes condition numbers (dense singular values: for reports, allocates) of
   /// those with at most `widest` unknowns, NaN for others. flops: of the sub-domain's own fronts; seconds are not measured here.
   std::vector<InterfaceReport> interfaces(int widest = std::numeric_limits<int>::max()) const;

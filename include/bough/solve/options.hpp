@@ -34,6 +34,8 @@ struct SolveOptions {
   Symmetry symmetry = Symmetry::general;
   /// Schur complements of all sub-domains last, so that factor() may leave alone what has not changed; more memory.
   bool partial = false;
+  /// The root's front is kept as it is assembled, for Hierarchical::inertia().
+  bool inertia = false;
   bool lanes =
       true;  ///< equal sub-domains are factored in lockstep, eight to a pack, small leaves alone in registers (flat elimination only).
   /// Bytes of matrices and factors in lanes and registers above which a factorization asks for what it reads before it needs it, and

@@ -69,6 +69,15 @@ struct SymmetryReport {
   double difference = 0.0;  ///< largest entry of its D (A - A^T) D [-], scaled variables; above 1e-9.
 };
 
+/// What the pivots of a factorization say of the eigenvalues.
+struct Inertia {
+  /// Negative eigenvalues of a symmetric A, by Sylvester's law as many as negative pivots, as long as rows and columns
+  /// are exchanged together (-1: they were not). Eigenvalues that dependent rows make zero are not counted.
+  int negative = -1;
+  /// Sign of the determinant of A, symmetric or not; 0: not known (dependent rows).
+  int determinant = 0;
+};
+
 /// Interface of one sub-domain, or the one interface problem of a form with global multipliers, after factor(). Scaled variables.
 struct InterfaceReport {
   tree::SubdomainId subdomain = tree::none;
