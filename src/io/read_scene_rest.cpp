@@ -147,6 +147,7 @@ void Converter::settings() {
     r.kind = is_static_ ? scene::AnalysisKind::statics : scene::AnalysisKind::dynamics;
     r.frame = frame_name(*a);
     r.load_steps = static_cast<int>(number_or(*a, "load_steps", 1.0));
+    if (const Value* unstable = a->find("unstable")) r.unstable = unstable->truth;
     r.end_time = number_or(*a, "end_time", 0.0);
     r.step_size = number_or(*a, "step_size", 1e-3);
     if (const Value* integrator = a->find("integrator"))
@@ -155,7 +156,7 @@ void Converter::settings() {
                                                        : scene::Integrator::generalized_alpha;
     if (const Value* arc = a->find("arc_length")) {
       scene::ArcLength& l = r.arc_length.emplace();
-      l.step = arc->find("step")->number;
+      l.step = number_or(*arc, "step", 0.0);
       l.largest_step = number_or(*arc, "largest_step", 0.0);
       l.max_steps = static_cast<int>(arc->find("max_steps")->number);
       l.end_load_factor = number_or(*arc, "end_load_factor", 1.0);

@@ -17,15 +17,17 @@ void add_analysis_rules(RuleTable& t, const Field& frame) {
       "instead of load steps. Ends where the load factor passes end_load_factor, or at a limit point.",
       {may("step", number_rule("", 0.0, true, 1.0),
            "Length of the first step: root mean square over nodes of displacements over the size of the structure and "
-           "rotations in rad [-].",
-           "0.05"),
-       may("largest_step", number_rule("", 0.0, true, 10.0), "[-]. Default: four times the first."),
+           "rotations in rad [-]. Default: 0.05, shorter where the path bends sharply at its start."),
+       may("largest_step", number_rule("", 0.0, true, 10.0), "[-]. Default: four times step, or 0.2."),
        may("max_steps", integer_rule("", 1, 1e6), "More steps are an error.", "1000"),
        may("end_load_factor", number_rule(""), "Where the run ends. Default: 1."),
        may("after_limit_points", integer_rule("", 0, 1000), "Limit points to pass before end_load_factor counts."),
        may("end_at_limit_point", integer_rule("", 1, 1000), "Number of the limit point at which the run ends.")});
   arc.at_most_one = {{"end_load_factor", "end_at_limit_point"}, {"after_limit_points", "end_at_limit_point"}};
   statics.push_back(may("arc_length", made(std::move(arc)), "Statics past limit points. Default: load steps."));
+  statics.push_back(may("unstable", boolean_rule(""),
+                        "Unstable equilibria are what is looked for: the run is not doubted because of them.",
+                        "false"));
   std::vector<Field> dynamics = {
       need("end_time", positive(""), "[s]."),
       may("step_size", positive(""), "h [s].", "1e-3"),

@@ -65,13 +65,13 @@ void write_checks(JsonText& json, const results::Checks& checks) {
 }
 
 void write_limit_points(JsonText& json, const std::vector<results::LimitPoint>& points) {
-  if (points.empty()) return;
   json.key("limit_points");
   json.begin_array();
   for (const results::LimitPoint& p : points) {
     json.begin_object();
     json.member("load_factor", p.load_factor);
     json.member("is_maximum", p.is_maximum);
+    json.member("is_located", p.is_located);
     json.end_object();
   }
   json.end_array();
@@ -88,6 +88,41 @@ void write_errors(JsonText& json, const std::vector<results::SensorError>& error
     json.member("error", e.of_steps + e.of_energy);
     json.member("range", e.range);
     json.end_object();
+  }
+  json.end_object();
+}
+
+void write_bifurcations(JsonText& json, const std::vector<results::Bifurcation>& points) {
+  json.key("bifurcations");
+  json.begin_array();
+  for (const results::Bifurcation& p : points) {
+    json.begin_object();
+    json.member("load_factor", p.load_factor);
+    json.member("mode", std::string_view(p.mode));
+    json.member("is_lost", p.is_lost);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_stability(JsonText& json, const results::Stability& s) {
+  json.key("stability");
+  json.begin_object();
+  json.member("is_known", s.is_known);
+  json.member("is_declared", s.is_declared);
+  if (!s.not_conservative.empty()) json.member("not_conservative", std::string_view(s.not_conservative));
+  json.member("unstable_directions", static_cast<long long>(s.unstable_directions));
+  if (s.first_lost) {
+    json.key("first_lost_between");
+    json.begin_array();
+    json.value(s.first_lost->before);
+    json.value(s.first_lost->after);
+    json.end_array();
+  }
+  if (!s.mode.empty()) json.member("mode", std::string_view(s.mode));
+  if (!s.hidden.empty()) {
+    json.member("hidden", std::string_view(s.hidden));
+    json.member("hidden_mode", std::string_view(s.hidden_mode));
   }
   json.end_object();
 }
@@ -261,7 +296,9 @@ std::string summary_text(const results::Summary& summary, std::string_view versi
   json.end_object();
   write_steps(json, summary);
   write_checks(json, summary.checks);
-  write_limit_points(json, summary.limit_points);
+  if (summary.follows_path) write_limit_points(json, summary.limit_points);
+  if (summary.follows_path) write_bifurcations(json, summary.bifurcations);
+  if (summary.stability) write_stability(json, *summary.stability);
   write_trust(json, summary);
   json.key("notes");
   json.begin_array();

@@ -72,6 +72,24 @@ std::string obstacle_to_definite(const Plan& plan, std::size_t rows) {
   return "";
 }
 
+/// What has no potential: loads that follow rotations, moments that do not, and the Coriolis terms of a frame in which
+/// the scene is described. In a plane a moment has one, whatever it follows.
+std::string obstacle_to_potential(const Plan& plan, bool in_plane) {
+  for (std::size_t id = 0; id < plan.directory.size(); ++id) {
+    std::string obstacle;
+    with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      if constexpr (requires { e.follows; }) {
+        const auto force = lanes::linear_part(e.wrench), moment = lanes::angular_part(e.wrench);
+        const bool follows = e.follows && (!in_plane || lanes::dot(force, force) > 0.0);
+        if (follows || (!in_plane && lanes::dot(moment, moment) > 0.0))
+          obstacle = "'" + plan.element_owner[id] + (e.follows ? "' follows rotations" : "' is a dead moment");
+      }
+    });
+    if (!obstacle.empty()) return obstacle;
+  }
+  return plan.frames.empty() ? "" : "frames move, which brings Coriolis terms";
+}
+
 }  // namespace
 
 void Builder::settle() {
@@ -105,23 +123,18 @@ void Builder::settle() {
          : scene.analysis.newton == scene::Newton::single ? "one solution a step is asked for, with its own tangent"
                                                           : "steps of one size give nearly the same matrix");
   // Followers and dead moments are not conservative; frames that move bring Coriolis terms.
-  std::string obstacle;
+  std::string obstacle = obstacle_to_potential(plan, false);
+  plan.not_conservative = obstacle_to_potential(plan, plan.unknowns.motions != Motions::spatial);
   int edges = 0;
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       int ends = 0;
       for (const Port& p : e.ports) ends += p.node != elements::ground ? 1 : 0;
       edges += std::max(0, ends - 1);
-      if constexpr (requires { e.follows; }) {
-        const bool has_moment = lanes::dot(lanes::angular_part(e.wrench), lanes::angular_part(e.wrench)) > 0.0;
-        if (obstacle.empty() && (e.follows || has_moment))
-          obstacle = "'" + plan.element_owner[id] + (e.follows ? "' follows rotations" : "' is a dead moment");
-      }
     });
   const int loops = edges - static_cast<int>(plan.nodes.size()) + 1;
   const bool hierarchical =
       scene.solver.kind == scene::SolverKind::automatic || scene.solver.kind == scene::SolverKind::hierarchical;
-  if (obstacle.empty() && !plan.frames.empty()) obstacle = "frames move, which brings Coriolis terms";
   if (obstacle.empty() && plan.is_dynamic && scene.analysis.integrator == scene::Integrator::variational)
     obstacle = "the variational integrator's matrix is not symmetric";
   if (obstacle.empty() && !hierarchical) obstacle = "the solver is not the hierarchical one";

@@ -444,7 +444,9 @@ void Builder::choose_unknowns() {
     planes = normals(*this);
   }
   settle("line",
-         "one unknown a node. Taken where only springs and forces along one line act, at the origins of nodes on it",
+         "one unknown a node. Taken where only springs and forces along one line act, at the origins of nodes on it. "
+         "What leaves the line is not seen (springs under pressure that give way sideways); statics looks once, at its "
+         "last equilibrium",
          "point masses, springs and loads lie on one line", lines,
          [this](const Vec3<double>& d) { return OfPoints(*this, d); });
   settle("translation",
@@ -455,7 +457,8 @@ void Builder::choose_unknowns() {
   settle("planar",
          "three unknowns a node, two displacements and a rotation. Taken where geometry, sections, masses, joints, "
          "loads and initial "
-         "data are their own mirror images in one plane",
+         "data are their own mirror images in one plane. What leaves the plane is not seen (buckling sideways, lateral "
+         "torsional buckling); statics looks once, at its last equilibrium",
          "geometry, sections, masses, joints, loads and initial data are symmetric about one plane", planes,
          [this](const Vec3<double>& n) { return InPlane(*this, n); });
 }

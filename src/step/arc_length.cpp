@@ -53,6 +53,41 @@ void ArcLengthPath::set_moved(const State& state) {
   }
 }
 
+double ArcLengthPath::distance(const State& from, const State& to) const {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < from.nodes.size(); ++n) {
+    const elements::NodeMotion &a = from.nodes[n], &b = to.nodes[n];
+    const Vec6<double> d = motion::Se3::log(
+        motion::relative(motion::PreciseFrame<double>{a.R, a.x}, motion::PreciseFrame<double>{b.R, b.x}));
+    sum += inner(d, d);
+  }
+  return std::sqrt(sum);
+}
+
+/// By the tangents at both ends of a very short step.
+double ArcLengthPath::choose_first_step(const State& state) {
+  constexpr double longest = 0.05, probe = 1e-5, shortest = 1e-6;
+  constexpr double most_turn = 0.25;  // rad, of the direction
+  constexpr double most_loss = 0.5;   // of the slope
+  const Vectors direction = direction_;
+  const double slope = slope_;
+  State near = state;
+  double step = longest;
+  if (advance(near, probe).converged && !set_tangent(near)) {
+    double change = 0.0;
+    for (std::size_t n = 0; n < direction.size(); ++n) {
+      const Vec6<double> d = direction_[n] - direction[n];
+      change += inner(d, d);
+    }
+    const double turn = std::sqrt(change) / probe, loss = std::abs(slope_ - slope) / (probe * std::abs(slope));
+    step = std::clamp(std::min(most_turn / std::max(turn, most_turn), most_loss / std::max(loss, most_loss)), shortest,
+                      longest);
+  }
+  direction_ = direction;
+  static_cast<void>(set_tangent(state));
+  return step;
+}
+
 /// tangent_ = K^-1 (-dR/df), with K factored and R evaluated at this load factor; leaves the loads of the load factor set.
 std::optional<Trouble> ArcLengthPath::solve_load(const State& state, double load_factor) {
   for (std::size_t i = 0; i < load_.size(); ++i) load_[i] = system_.residual()[i];

@@ -58,7 +58,7 @@ results::EffectiveOptions effective_options(const scene::Scene& scene, const ste
     }
   } else if (o.arc_length) {
     const scene::ArcLength& l = *o.arc_length;
-    list.emplace_back("analysis/arc_length/step", number(l.step));
+    if (l.step > 0.0) list.emplace_back("analysis/arc_length/step", number(l.step));
     if (l.largest_step > 0.0) list.emplace_back("analysis/arc_length/largest_step", number(l.largest_step));
     list.emplace_back("analysis/arc_length/max_steps", std::to_string(l.max_steps));
     if (l.end_at_limit_point > 0) {

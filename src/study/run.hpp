@@ -17,6 +17,8 @@
 #include "expected_figures.hpp"
 #include "finite_gate.hpp"
 #include "limit_watch.hpp"
+#include "path_search.hpp"
+#include "stability_watch.hpp"
 #include "vibration_watch.hpp"
 
 namespace bough::study {
@@ -51,13 +53,24 @@ class Run {
   bool run_statics();
   bool take_load_step(double from, double width, bool is_last);
   bool run_path();
+  /// What a step along the path comes by.
+  struct PathStep {
+    step::State end;
+    std::optional<PathPoint> limit, stop;  ///< where the load turns; where the run ends
+    bool stops_after_limit = false, ends_singular = false;
+    std::vector<results::Bifurcation> bifurcations;
+    const step::State& last() const { return stop ? stop->state : end; }
+  };
   bool take_path_step(double& length);
-  bool end_within(double from, double to, double from_factor, double to_factor);
-  bool look_within(double from, double to, double from_factor, double to_factor);
-  std::optional<step::Trouble> go_to(double distance);
-  template <class Value>
-  bool find_on_path(double from, double to, double value_from, double value_to, double tolerance, double& distance,
-                    Value&& value);
+  bool try_path_step(double& length, PathStep& step, step::StepReport& report, int& cuts);
+  std::string look_at_step(double length, bool is_last_try, PathStep& step);
+  bool passes_end(double from, double to, std::size_t limit_points) const;
+  std::string look_at_stability(double length, bool is_last_try, PathStep& step);
+  std::string find_bifurcation(PathPlace& from, PathPlace to, int unstable_there, PathStep& step);
+  bool look_within(PathPlace from, PathPlace to);
+  PathPoint find_end(PathPlace from, PathPlace to, const step::State& beyond);
+  void accept_bifurcation(results::Bifurcation&& bifurcation);
+  void accept_limit_point(const PathPoint& limit, bool is_maximum, int iterations);
   bool run_dynamics();
   bool run_controlled_segment(double begin, double end, double total_end);
   bool take_controlled_steps(double stop, double total_end);
@@ -81,6 +94,7 @@ class Run {
   void note_moved_start(const step::StartReport& consistent);
   bool run_segment(double begin, double end, double& sum_of_cuts);
   void finish();
+  void finish_statics();
 
   const scene::Scene& scene_;
   step::StepOptions options_;
@@ -108,9 +122,12 @@ class Run {
   std::string first_rejection_, not_unique_;
   int open_joint_ = -1, fast_joint_ = -1;  ///< of the largest relative violations seen, in Plan::joints
   int dependent_rows_ = 0;
-  std::optional<step::Bdf> bdf_;             ///< when chosen
-  std::optional<step::ArcLengthPath> path_;  ///< statics by arc length
-  step::State path_start_;                   ///< of its present step
+  std::optional<step::Bdf> bdf_;                 ///< when chosen
+  std::optional<step::ArcLengthPath> path_;      ///< statics by arc length
+  step::State path_start_;                       ///< of its present step
+  step::ArcLengthPath::Vectors path_direction_;  ///< of the path there
+  step::StabilityLook start_look_;               ///< there
+  std::optional<StabilityWatch> stability_;      ///< statics
   bool path_done_ = false;
   std::optional<step::LocalError> local_error_;  ///< of generalized-alpha where checks or step control ask for it
   std::optional<step::StepController> controller_;

@@ -24,6 +24,7 @@ bool Run::take_load_step(double from, double width, bool is_last) {
       part *= 2;
       continue;
     }
+    stability_->look(state_);
     last_step_ = target - before;
     if (!plan_.joints.empty()) step::accept_turns(system_, state_);
     ++part;

@@ -61,6 +61,8 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
   }
   summary_.notes = plan_.notes;
   summary_.checks.evaluated = scene.output.checks;
+  if (!plan_.is_dynamic) stability_.emplace(scene, system_);
+  summary_.follows_path = !plan_.is_dynamic && options_.arc_length.has_value();
 }
 
 Summary Run::run() {
@@ -241,8 +243,10 @@ void Run::finish() {
   summary_.checks.energy_gained = std::max(0.0, balance_.last_energy_error());
   summary_.checks.momentum_balance = balance_.momentum_error();
   if (dependent_rows_ > 0)
-    note(std::to_string(dependent_rows_) +
-         " constraint row(s) depend on others: the motion is unique, the reactions of these are not: " + not_unique_);
+    note(std::to_string(dependent_rows_) + " constraint row(s) depend on others: " +
+         (plan_.is_dynamic ? "the motion is unique, the reactions of these are not: "
+                           : "the reactions of these are not unique: ") +
+         not_unique_);
   if (limit_watch_)
     if (const auto text = limit_watch_->text(plan_, options_.step_control->tolerance)) note(*text);
   if (!first_rejection_.empty() && summary_.status != RunStatus::failed) note(first_rejection_);
@@ -258,11 +262,26 @@ void Run::finish() {
   }
   summary_.solver = solver_figures(system_, dependent_rows_);
   if (summary_.status == RunStatus::ok) look_at_last_factor(system_, summary_);
+  if (stability_) finish_statics();
   summary_.doubts = doubts_of(summary_, plan_.is_dynamic);
   if (const std::string passed = springs_.text(); !passed.empty()) summary_.doubts.push_back({"springs", passed});
   if (!after_run_) return;
   (void)catch_up();
   after_run_(system_, state_);
+}
+
+/// Stability at the end; and next to a critical load the tangent is nearly singular by nature, which is no fault of
+/// the numbers.
+void Run::finish_statics() {
+  if (summary_.status == RunStatus::ok) stability_->look_at_end(state_);
+  summary_.stability = stability_->seen();
+  if (!is_condition_doubted(summary_)) return;
+  const double condition = condition_without_load(system_);
+  if (condition == 0.0) return;
+  summary_.solver.emplace_back("condition_without_load", condition);
+  if (!is_condition_doubted(summary_))
+    note("the tangent is nearly singular at the last equilibrium, and is not without loads: the load factor " +
+         std::to_string(state_.time) + " is next to a critical one");
 }
 
 Summary simulate(const scene::Scene& scene, const SimulateOptions& options, results::Recorder& recorder,

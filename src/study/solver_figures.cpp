@@ -76,44 +76,70 @@ std::vector<results::LevelFigures> make_levels(const tree::Tree& tree, const sol
   return levels;
 }
 
+/// By inverse iteration from a vector of signs: what grows most is met within a small factor after few iterations. 0:
+/// not known. first: is told the first right-hand side with its solution, and |A|.
+template <class First>
+double estimate_condition(step::System& system, const solve::Hierarchical& solver, First&& first) {
+  constexpr int iterations = 4;
+  const std::span<const double> rows = solver.row_scale(), columns = solver.column_scale();
+  const auto n = static_cast<std::size_t>(system.tree().num_unknowns());
+  std::vector<double> scaled = signs(n), b(n), x(n);
+  const double norm = norm_of(system, solver);
+  double growth = 0.0;
+  for (int k = 0; k < iterations; ++k) {
+    for (std::size_t i = 0; i < n; ++i) b[i] = scaled[i] / rows[i];
+    (void)system.solver().solve(system.walker(), b.data(), x.data());
+    if (k == 0) first(b, x, norm);
+    for (std::size_t i = 0; i < n; ++i) scaled[i] = x[i] / columns[i];
+    const double most = largest(scaled);
+    if (!(most > 0.0) || !std::isfinite(most)) return 0.0;
+    growth = std::max(growth, most);
+    for (double& v : scaled) v /= most;
+  }
+  return norm * growth;
+}
+
+/// Backward errors of a solution by the level of the tree at which unknowns are eliminated.
+void add_backward_errors(step::System& system, const solve::Hierarchical& solver, const std::vector<double>& b,
+                         const std::vector<double>& x, double norm, std::vector<results::LevelFigures>& levels) {
+  // The system is as consistent as its rows let it be: where rows depend nothing is said.
+  if (solver.last_status().deficiency != 0) return;
+  const tree::Tree& tree = system.tree();
+  const std::span<const double> rows = solver.row_scale(), columns = solver.column_scale();
+  std::vector<double> product(x.size()), solution(x.size());
+  system.solver().multiply(system.walker(), x.data(), product.data());
+  for (std::size_t i = 0; i < x.size(); ++i) solution[i] = x[i] / columns[i];
+  const double size = norm * largest(solution) + 1.0;
+  for (int block = 0; block < system.plan().graph.num_blocks(); ++block) {
+    const tree::Front& front =
+        tree.fronts[static_cast<std::size_t>(tree.front_of_block[static_cast<std::size_t>(block)])];
+    results::LevelFigures& level =
+        levels[static_cast<std::size_t>(tree.subdomains[static_cast<std::size_t>(front.subdomain)].level)];
+    for (auto i = static_cast<std::size_t>(system.block_begin(block));
+         i < static_cast<std::size_t>(system.block_begin(block + 1)); ++i)
+      level.backward_error = std::max(level.backward_error, std::abs(b[i] - product[i]) * rows[i] / size);
+  }
+}
+
 }  // namespace
+
+double condition_without_load(step::System& system) {
+  const solve::Hierarchical* solver = system.solver().hierarchical();
+  const step::State start = step::make_initial_state(system.plan());
+  if (solver == nullptr || system.set_time(0.0) || system.evaluate(start, {}, true) || system.factor(true, {}))
+    return 0.0;
+  return estimate_condition(system, *solver, [](const auto&, const auto&, double) {});
+}
 
 void look_at_last_factor(step::System& system, results::Summary& summary) {
   const solve::Hierarchical* solver = system.solver().hierarchical();
   if (solver == nullptr || system.counts().factorizations == 0 || !solver->last_status().ok()) return;
-  const tree::Tree& tree = system.tree();
-  const std::span<const double> rows = solver->row_scale(), columns = solver->column_scale();
-  const auto n = static_cast<std::size_t>(tree.num_unknowns());
-  std::vector<double> scaled = signs(n), b(n), x(n), product(n);
-  const double norm = norm_of(system, *solver);
-  summary.levels = make_levels(tree, *solver);
-  double growth = 0.0;
-  constexpr int iterations = 4;  // of inverse iteration: what grows most is met within a small factor by then
-  for (int k = 0; k < iterations; ++k) {
-    for (std::size_t i = 0; i < n; ++i) b[i] = scaled[i] / rows[i];
-    (void)system.solver().solve(system.walker(), b.data(), x.data());
-    if (k == 0) {  // the system is as consistent as its rows let it be: residuals of dependent rows are left out below
-      system.solver().multiply(system.walker(), x.data(), product.data());
-      std::vector<double> solution(n);
-      for (std::size_t i = 0; i < n; ++i) solution[i] = x[i] / columns[i];
-      const double size = norm * largest(solution) + 1.0;
-      for (int block = 0; solver->last_status().deficiency == 0 && block < system.plan().graph.num_blocks(); ++block) {
-        const tree::Front& front =
-            tree.fronts[static_cast<std::size_t>(tree.front_of_block[static_cast<std::size_t>(block)])];
-        results::LevelFigures& level =
-            summary.levels[static_cast<std::size_t>(tree.subdomains[static_cast<std::size_t>(front.subdomain)].level)];
-        for (auto i = static_cast<std::size_t>(system.block_begin(block));
-             i < static_cast<std::size_t>(system.block_begin(block + 1)); ++i)
-          level.backward_error = std::max(level.backward_error, std::abs(b[i] - product[i]) * rows[i] / size);
-      }
-    }
-    for (std::size_t i = 0; i < n; ++i) scaled[i] = x[i] / columns[i];
-    const double most = largest(scaled);
-    if (!(most > 0.0) || !std::isfinite(most)) return;
-    growth = std::max(growth, most);
-    for (double& v : scaled) v /= most;
-  }
-  const double condition = norm * growth;
+  summary.levels = make_levels(system.tree(), *solver);
+  const double condition =
+      estimate_condition(system, *solver, [&](const std::vector<double>& b, const std::vector<double>& x, double norm) {
+        add_backward_errors(system, *solver, b, x, norm, summary.levels);
+      });
+  if (condition == 0.0) return;
   summary.solver.emplace_back("condition_estimate", condition);
   summary.solver.emplace_back("digits_lost", std::max(0.0, std::log10(condition)));
 }

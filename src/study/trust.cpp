@@ -89,7 +89,7 @@ void doubt_linear_solutions(const results::Summary& s, const TrustLimits& limits
                                                 " of the tree a linear solution leaves a residual of " +
                                                 number(level.backward_error)});
   const double condition = solver_figure(s, "condition_estimate");
-  if (passes(condition * unit_round_off, limits.lost))
+  if (is_condition_doubted(s, limits))
     doubts.push_back({"condition", "the condition number of the tangent is " + number(condition) + ": about " +
                                        number(std::log10(condition)) +
                                        " of 16 digits are lost, and results hang on the last bits; look for stiffness "
@@ -109,7 +109,35 @@ void doubt_constraints(const results::Checks& c, const TrustLimits& limits, std:
                             " of the size of the parts that meet in it (or rad) in a step; take smaller steps"});
 }
 
+void doubt_stability(const results::Stability& s, std::vector<results::Doubt>& doubts) {
+  const std::string remedy =
+      "; a small imperfection of the shape or a small load in that direction leads to the branch that the structure "
+      "takes; if unstable equilibria are what is looked for, say so with \"unstable\": true in /analysis";
+  std::string lost;
+  if (s.first_lost)
+    lost = "the first unstable equilibrium was met between load factors " + io::rounded_text(s.first_lost->before, 6) +
+           " and " + io::rounded_text(s.first_lost->after, 6);
+  if (s.unstable_directions > 0) {
+    const std::string count = !s.not_conservative.empty()  ? "an odd number of directions"
+                              : s.unstable_directions == 1 ? "one direction"
+                                                           : std::to_string(s.unstable_directions) + " directions";
+    doubts.push_back({"stability", "the last equilibrium is unstable, it is left in " + count + ": " + s.mode +
+                                       (lost.empty() ? "" : "; " + lost) + remedy});
+  } else if (s.first_lost) {
+    doubts.push_back({"stability", "equilibria on the way are unstable, the structure would have left them: " + lost +
+                                       "; " + s.mode + remedy});
+  }
+  if (!s.hidden.empty())
+    doubts.push_back({"stability", "the last equilibrium is unstable " + s.hidden +
+                                       ", which the plan leaves out of the motions: " + s.hidden_mode + remedy});
+}
+
 }  // namespace
+
+bool is_condition_doubted(const results::Summary& s, const TrustLimits& limits) {
+  const double loaded = solver_figure(s, "condition_estimate"), unloaded = solver_figure(s, "condition_without_load");
+  return passes(loaded * unit_round_off, limits.lost) && !(unloaded > 0.0 && unloaded * unit_round_off <= limits.lost);
+}
 
 std::vector<results::Doubt> doubts_of(const results::Summary& s, bool is_dynamic, const TrustLimits& limits) {
   std::vector<results::Doubt> doubts;
@@ -126,6 +154,7 @@ std::vector<results::Doubt> doubts_of(const results::Summary& s, bool is_dynamic
          std::to_string(c.steps_at_floor) + " of " + std::to_string(s.steps.accepted) +
              " steps ended at the round-off floor of the residual and left up to " + number(c.unbalanced_at_floor) +
              " of the largest force unbalanced: accelerations, reactions and section forces are no more exact"});
+  if (s.stability && !s.stability->is_declared) doubt_stability(*s.stability, doubts);
   if (static_cast<double>(s.steps.rejected) > limits.rejected * static_cast<double>(s.steps.accepted) &&
       s.status == results::RunStatus::ok)
     doubts.push_back({"steps", std::to_string(s.steps.rejected) + " steps were rejected for " +

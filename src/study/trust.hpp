@@ -34,6 +34,10 @@ struct TrustLimits {
   double rejected = 0.1;
 };
 
+/// Whether the condition of the tangent is a reason for doubt: not in statics where it is good without loads (figure
+/// `condition_without_load`).
+bool is_condition_doubted(const results::Summary& summary, const TrustLimits& limits = {});
+
 /// Why a run should not be trusted without a closer look, in words: about the run itself (it broke off), energy, linear solutions, condition,
 /// constraints, round-off, steps. Reads the summary's status, steps, checks, levels and solver figures.
 std::vector<results::Doubt> doubts_of(const results::Summary& summary, bool is_dynamic, const TrustLimits& limits = {});

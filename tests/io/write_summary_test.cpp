@@ -95,6 +95,32 @@ TEST(Summary, leaves_out_checks_that_were_not_made_and_values_that_were_not_reac
   EXPECT_STREQ(back.expected[1].verdict(), "holds");
 }
 
+TEST(Summary, a_path_without_limit_points_lists_none_and_other_runs_have_no_list) {
+  results::Summary summary = sample_summary();
+  EXPECT_EQ(parsed(summary_text(summary, "1")).find("limit_points"), nullptr);
+  summary.follows_path = true;
+  const JsonValue json = parsed(summary_text(summary, "1"));
+  for (const char* list : {"limit_points", "bifurcations"}) {
+    ASSERT_NE(json.find(list), nullptr) << list;
+    EXPECT_TRUE(json.find(list)->is(JsonKind::array));
+    EXPECT_TRUE(json.find(list)->items.empty());
+  }
+}
+
+TEST(Summary, says_what_is_known_of_stability) {
+  results::Summary summary = sample_summary();
+  EXPECT_EQ(parsed(summary_text(summary, "1")).find("stability"), nullptr);
+  results::Stability& s = summary.stability.emplace();
+  s.is_known = true;
+  s.unstable_directions = 2;
+  s.first_lost = {0.25, 0.5};
+  s.mode = "'tip' moves most, along (0, 1, 0)";
+  const JsonValue json = parsed(summary_text(summary, "1"));
+  EXPECT_EQ(json.find("stability")->find("unstable_directions")->number, 2.0);
+  EXPECT_EQ(json.find("stability")->find("first_lost_between")->items[1].number, 0.5);
+  EXPECT_EQ(json.find("stability")->find("mode")->text, s.mode);
+}
+
 TEST(Summary, components_apart_are_one_sensor_and_equal_names_stay_distinct) {
   results::Summary summary = sample_summary();
   summary.header.columns = {"a.x", "b.x", "a.y"};

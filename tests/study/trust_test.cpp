@@ -41,6 +41,33 @@ TEST(Trust, nothing_speaks_against_a_good_run) {
   EXPECT_TRUE(doubts_of(without, true).empty());
 }
 
+TEST(Trust, unstable_equilibria_are_doubted_unless_they_are_declared) {
+  results::Summary s = good();
+  results::Stability& stability = s.stability.emplace();
+  EXPECT_TRUE(doubts_of(s, false).empty());
+  stability.unstable_directions = 1;
+  EXPECT_TRUE(is_doubted(doubts_of(s, false), "stability"));
+  stability.unstable_directions = 0;
+  stability.first_lost = {0.1, 0.2};
+  EXPECT_TRUE(is_doubted(doubts_of(s, false), "stability")) << "regained later";
+  stability.first_lost.reset();
+  stability.hidden = "out of its plane";
+  EXPECT_TRUE(is_doubted(doubts_of(s, false), "stability"));
+  stability.unstable_directions = 3;
+  stability.is_declared = true;
+  EXPECT_TRUE(doubts_of(s, false).empty());
+}
+
+TEST(Trust, a_tangent_that_loads_alone_make_singular_is_that_of_a_critical_load) {
+  results::Summary s = good();
+  s.solver = {{"unknowns", 12.0}, {"condition_estimate", 1e15}};
+  EXPECT_TRUE(is_doubted(doubts_of(s, false), "condition"));
+  s.solver.emplace_back("condition_without_load", 1e14);
+  EXPECT_TRUE(is_doubted(doubts_of(s, false), "condition"));
+  s.solver.back().second = 1e6;
+  EXPECT_FALSE(is_doubted(doubts_of(s, false), "condition"));
+}
+
 /// Just below and just above each bound.
 TEST(Trust, each_bound_is_where_it_is_said_to_be) {
   const test::Untrapped untrapped;  // NaN is compared

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "support/scenes.hpp"
+#include "stability_scenes.hpp"
 
 namespace bough::verify {
 namespace {
@@ -97,6 +97,95 @@ TEST(ArcLength, deep_arch_meets_its_limit_load_and_goes_on) {
   for (const results::ExpectedResult& e : run.summary.expected) EXPECT_TRUE(e.holds) << e.name << " " << e.value;
   EXPECT_LT(run.history.last("crown.y"), -13.8) << "past the limit the crown goes on down";
   EXPECT_NEAR(run.history.last("load.fy"), 0.0, 1e-6);
+}
+
+// A step had been accepted and a point within it was not met by Newton: the run ended there, with nothing to show for
+// it.
+TEST(ArcLength, slender_arches_pass_their_limit_point) {
+  for (const char* EA : {"1e11", "1e12"}) {
+    const support::Outcome run = support::run(support::gallery(
+        "deep_arch", {std::string("/sections/0/stiffness/EA=") + EA, std::string("/sections/0/stiffness/GA2=") + EA,
+                      std::string("/sections/0/stiffness/GA3=") + EA}));
+    ASSERT_TRUE(run.ok()) << EA << ": " << run.summary.cause;
+    ASSERT_GE(run.summary.limit_points.size(), 1u);
+    // The axial stiffness of the gallery's arch hardly counts: the load of the inextensible arch is 0.02 % higher.
+    EXPECT_NEAR(1000.0 * run.summary.limit_points[0].load_factor, 897.3, 0.5) << EA;
+    EXPECT_NEAR(run.history.last("load.fy"), 0.0, 1.0) << EA;
+    std::printf("| deep arch, EA = %s | limit load %.4f | %ld steps, %ld rejected, %ld iterations, %.1f s |\n", EA,
+                1000.0 * run.summary.limit_points[0].load_factor, run.summary.steps.accepted,
+                run.summary.steps.rejected, run.summary.steps.newton_iterations, run.summary.times.total);
+  }
+}
+
+/// Lee's frame of two legs of length 120 on hinges, EI = 1440e4, loaded at a fifth of its beam.
+scene::Scene lee_frame(double slenderness, int order) {
+  const double EI = 1.44e7, EA = 12.0 * EI * slenderness * slenderness / (120.0 * 120.0), GA = EA / 3.12;
+  const auto text = [](double x) { return support::text(x); };
+  const std::string mesh = R"("order": )" + std::to_string(order) + R"(, "elements": )";
+  return support::scene_of(
+      R"({
+    "sections": [{"name": "s", "stiffness": {"EA": )" +
+      text(EA) + R"(, "GA2": )" + text(GA) + R"(, "GA3": )" + text(GA) +
+      R"(, "GJ": 1.44e7, "EI2": 1.44e7, "EI3": 1.44e7}}],
+    "nodes": [{"name": "foot"}, {"name": "corner", "position": [0, 120, 0]},
+              {"name": "loaded", "position": [24, 120, 0]},
+              {"name": "end", "position": [120, 120, 0]}],
+    "beams": [{"name": "column", "section": "s", "start": "foot", "end": "corner", "axis_2": [-1, 0, 0], )" +
+      mesh + R"(10},
+              {"name": "arm", "section": "s", "start": "corner", "end": "loaded", )" +
+      mesh + R"(2}, {"name": "rest", "section": "s", "start": "loaded", "end": "end", )" + mesh + R"(8}],
+    "joints": [{"name": "foot hinge", "kind": "revolute", "first": "ground", "second": "foot", "axis": [0, 0, 1]},
+               {"name": "end hinge", "kind": "revolute", "first": "ground", "second": "end", "axis": [0, 0, 1]}],
+    "loads": [{"name": "push", "at": "loaded", "force": [0, -20000, 0]}],
+    "sensors": [{"name": "loaded", "kind": "position", "at": "loaded"}],
+    "analysis": {"kind": "static", "arc_length": {"end_load_factor": 0, "after_limit_points": 1}}})");
+}
+
+TEST(ArcLength, slender_frames_pass_their_limit_point) {
+  double limit[4] = {};
+  for (const int order : {1, 2, 3}) {
+    const support::Outcome run = support::run(lee_frame(1e4, order));
+    ASSERT_TRUE(run.ok()) << "order " << order << ": " << run.summary.cause;
+    ASSERT_GE(run.summary.limit_points.size(), 1u);
+    limit[order] = 20000.0 * run.summary.limit_points[0].load_factor;
+    std::printf("| Lee's frame, order %d | limit load %.3f | %ld steps, %ld rejected, %ld iterations, %.1f s |\n",
+                order, limit[order], run.summary.steps.accepted, run.summary.steps.rejected,
+                run.summary.steps.newton_iterations, run.summary.times.total);
+  }
+  EXPECT_NEAR(limit[2], limit[3], 1e-3 * limit[3]);
+  EXPECT_NEAR(limit[1], limit[3], 2e-2 * limit[3]);
+  EXPECT_NEAR(limit[3], 18532.0, 40.0) << "1.8532 of the published 1e4 for slender frames";
+}
+
+// The load rises along the path where it starts; the sphere of the first step meets the branch of the opposite load as
+// well.
+TEST(ArcLength, a_frame_that_buckles_aside_is_followed_from_its_start) {
+  const support::Outcome run = support::run(right_angle_frame(2.0, 1e-3, R"("arc_length": {"end_load_factor": 0.8})"));
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  double before = 0.0;
+  for (const double factor : run.history.times) {
+    EXPECT_GE(factor, before);
+    before = factor;
+  }
+  EXPECT_TRUE(run.summary.limit_points.empty());
+  EXPECT_TRUE(run.summary.bifurcations.empty());
+  EXPECT_EQ(run.summary.stability->unstable_directions, 0);
+}
+
+TEST(ArcLength, bifurcations_of_a_straight_column_are_located_and_told) {
+  // In units of EI / L^2: P (1 + P (1 / GA - 1 / EA)) = n^2 pi^2
+  const support::Outcome run = support::run(hinged_column(60.0, R"("tolerance": 1e-11, "arc_length": {})"));
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  ASSERT_EQ(run.summary.bifurcations.size(), 2u);
+  const double flexible = (3.12 - 1.0) / 4800.0;
+  for (int n : {1, 2}) {
+    const double right = n * n * 9.869604401089358;
+    const double exact = 2.0 * right / (1.0 + std::sqrt(1.0 + 4.0 * flexible * right));
+    EXPECT_NEAR(60.0 * run.summary.bifurcations[static_cast<std::size_t>(n - 1)].load_factor, exact, 3e-4 * exact);
+  }
+  EXPECT_NE(run.summary.bifurcations[0].mode.find("'column.8' moves most, along (0, 1, 0)"), std::string::npos)
+      << run.summary.bifurcations[0].mode;
+  EXPECT_EQ(run.summary.stability->unstable_directions, 2);
 }
 
 TEST(ArcLength, every_point_of_the_arch_is_an_equilibrium_by_load_steps) {

@@ -154,6 +154,7 @@ struct Plan {
   std::optional<PlanarModel> planar;  ///< where unknowns.motions is planar
   std::vector<Decision> decisions;
   bool took(const std::string& decision) const;
+  std::string not_conservative;    ///< what keeps the loads from having a potential, in words; empty: they have one
   std::vector<HeldNode> held;      ///< empty unless the decision "held" was taken
   std::vector<DrivenNode> driven;  ///< empty unless the decision "driven" was taken
   blocks::BlockGraph graph;        ///< blocks: nodes with unknowns, then one per joint that has rows which are unknowns

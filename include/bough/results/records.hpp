@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -112,8 +113,30 @@ struct Doubt {
 };
 /// Where the load factor turns along the path of equilibria.
 struct LimitPoint {
-  double load_factor = 0.0;
+  double load_factor = 0.0;  ///< not located: by a parabola through both sides
   bool is_maximum = true;
+  bool is_located = true;
+};
+/// Where other branches cross the path of equilibria: unstable directions come or go though the load does not turn.
+struct Bifurcation {
+  double load_factor = 0.0;
+  std::string mode;     ///< what moves most in the direction of the other branch, in words
+  bool is_lost = true;  ///< stability is, along the path; else regained
+};
+/// Stability of the equilibria of statics under loads that stay as they are; under loads without a potential an even
+/// number of unstable directions, and flutter, are not seen.
+struct Stability {
+  struct Between {
+    double before = 0.0, after = 0.0;  ///< load factors of neighbouring equilibria
+  };
+  bool is_known = false;              ///< at the end
+  bool is_declared = false;           ///< the scene says that equilibria may be unstable
+  std::string not_conservative;       ///< why the loads have no potential; empty: they have one
+  int unstable_directions = 0;        ///< at the end; loads without a potential: 1 where their number is odd
+  std::optional<Between> first_lost;  ///< where the first unstable equilibrium was met
+  std::string mode;         ///< what moves most in an unstable direction, in words: at the end, or where it was lost
+  std::string hidden;       ///< which motions the plan left out, where the last equilibrium is unstable in one of them
+  std::string hidden_mode;  ///< what moves most then
 };
 struct ExpectedResult {
   std::string name;
@@ -139,7 +162,10 @@ struct Summary {
   StepTimes times;
   std::int64_t memory_peak_bytes = 0;
   Checks checks;
-  std::vector<LimitPoint> limit_points;  ///< of statics by arc length, in the order of the path
+  bool follows_path = false;              ///< statics by arc length
+  std::vector<LimitPoint> limit_points;   ///< of these, in the order of the path
+  std::vector<Bifurcation> bifurcations;  ///< of these, in the order of the path
+  std::optional<Stability> stability;     ///< of statics
   std::vector<std::string>
       notes;  ///< warnings in words: dependent constraints, impulses at the start, floors reached ...
   HistoryHeader header;

@@ -233,9 +233,10 @@ struct StepControl {
 
 /// Statics along the path of equilibria, past limit points of the load.
 struct ArcLength {
-  /// First step [-]: root mean square over nodes of displacements over the size of the structure and of rotations [rad].
-  double step = 0.05;
-  double largest_step = 0.0;  ///< [-]; 0: four times the first
+  /// First step [-]: root mean square over nodes of displacements over the size of the structure and of rotations
+  /// [rad]. 0: chosen by how the path bends at its start.
+  double step = 0.0;
+  double largest_step = 0.0;  ///< [-]; 0: four times the first, or 0.2 where that was chosen
   int max_steps = 1000;
   /// The run ends where the load factor passes this value, limit points counted before.
   double end_load_factor = 1.0;
@@ -251,6 +252,7 @@ struct Analysis {
   // statics
   int load_steps = 1;
   std::optional<ArcLength> arc_length;  ///< instead of load steps
+  bool unstable = false;                ///< unstable equilibria are what is looked for: they are not doubted
   // dynamics
   double end_time = 0.0;    ///< [s]
   double step_size = 1e-3;  ///< h [s]; of the first step where sizes are controlled

@@ -14,6 +14,7 @@ namespace bough::step {
 
 class ArcLengthPath {
  public:
+  using Vectors = std::vector<motion::Vec6<double>>;
   ArcLengthPath(System& system, const StepOptions& options);
 
   /// The tangent of the path at an equilibrium (the first: with the load factor growing). Keeps the direction of the step before.
@@ -25,11 +26,21 @@ class ArcLengthPath {
   /// may serve again. The tangent there is not set.
   StepReport advance(State& state, double length);
 
+  /// How long the first step may be, by how the path bends at an equilibrium at which set_tangent was called last:
+  /// over it the direction of the path and its slope df/ds keep nearly what they are. At most 0.05. The tangent is set
+  /// anew.
+  double choose_first_step(const State& state);
+
+  /// |D| between two states.
+  double distance(const State& from, const State& to) const;
+
   /// The direction of the last step is the path's; call when it is kept.
   void accept() { direction_.swap(moved_); }
+  /// By node, that of the last tangent or accepted step, which tells the sense of the next tangent: to come back to it.
+  const Vectors& direction() const { return direction_; }
+  void set_direction(const Vectors& direction) { direction_ = direction; }
 
  private:
-  using Vectors = std::vector<motion::Vec6<double>>;
   StepReport follow(State& state, double length);
   [[nodiscard]] std::optional<Trouble> solve_load(const State& state, double load_factor);
   /// moved_ = log(H_start^-1 H).
