@@ -190,7 +190,8 @@ void add_loads(RuleTable& t) {
        may("rotation", turning, "Prescribed rotation. Default: free."),
        may("rate", boolean_rule(""), "The laws are rates, integrated exactly from the initial pose.", "false")}));
   t.named["initial_velocity"] = made(object_of(
-      "Velocity at the start. What is not given starts at rest, or as the joints demand.",
+      "Velocity at the start. What is not given, or zero, starts at rest, or as joints and drives demand; what they do "
+      "not allow is changed, and told.",
       {need(
            "of", reference,
            "A node, a body, an inner node of a beam (\"<beam>.<k>\"), or a beam: then all its nodes, as a rigid motion "

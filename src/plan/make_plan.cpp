@@ -244,6 +244,21 @@ void Builder::add_initial_velocities() {
   }
 }
 
+/// Nodes keep their numbers from here on.
+void Builder::list_given_velocities() {
+  for (const scene::InitialVelocity& v : scene.initial_velocities) {
+    const auto beam =
+        std::find_if(plan.beams.begin(), plan.beams.end(), [&](const BeamPlan& b) { return b.name == v.of; });
+    if (beam != plan.beams.end()) {
+      for (int node : beam->nodes) plan.given_velocities.push_back({v.of, node});
+      continue;
+    }
+    plan.given_velocities.push_back({v.of, node_of.at(v.of)});
+    if (const auto offset = part_offset.find(v.of); offset != part_offset.end())
+      plan.given_velocities.back().offset = offset->second;
+  }
+}
+
 void Builder::number_elements() {
   int first = 0;
   std::uint8_t array_id = 0;
@@ -393,6 +408,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.measure_joints();
   b.list_attachments();
   b.weld_nodes();
+  b.list_given_velocities();
   b.mark_points();
   b.number_elements();
   b.choose_unknowns();

@@ -80,6 +80,7 @@ struct Builder {
   void hold_point_masses();
   void keep_from_spinning(std::size_t body, const std::vector<motion::Vec3<double>>& met);
   void add_initial_velocities();
+  void list_given_velocities();
   void stop_spins();
   void list_attachments();
   void weld_nodes();

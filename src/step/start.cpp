@@ -173,6 +173,7 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
   double speed = speed_scale(system, state);
   if (const auto t = project_velocities(system, state, nullptr, &report)) return failed(t->text);
   speed = std::max(speed, speed_scale(system, state));
+  if (report.velocity_change * speed <= still / step_size) report.velocity_change = 0.0;
   if (system.relative_violation(state, 1, &worst) > apart * speed + still / step_size) {
     char text[80];
     std::snprintf(text, sizeof text, " cannot move as asked at time %.6g: a rate of %.3g is left", state.time,

@@ -1,5 +1,6 @@
 #pragma once
 /// One simulation as it goes: state, observers, summary. simulate.cpp sets up, records and sums up; run_statics.cpp and run_dynamics.cpp step.
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "finite_gate.hpp"
 #include "limit_watch.hpp"
 #include "path_search.hpp"
+#include "reaction_watch.hpp"
 #include "stability_watch.hpp"
 #include "vibration_watch.hpp"
 
@@ -34,10 +36,15 @@ class Run {
 
  private:
   bool fail(const std::string& cause);
-  /// Keeps the largest deficiency of an accepted step, with the reactions that were not unique then.
+  /// Keeps the largest and the least deficiency of accepted steps, with the reactions that were not unique at the
+  /// largest.
   void watch_dependent_rows();
+  void note_dependent_rows();
   void note(const std::string& text);
-  void count(const step::StepReport& report, bool accepted);
+  /// Counts a step that was accepted, or rejected because it did not converge.
+  void count(const step::StepReport& report);
+  /// Counts a step that was rejected, for this cause, converged or not.
+  void reject(const step::StepReport& report, const std::string& cause);
   void watch_floor(const step::StepReport& report);
   /// The variational integrator, for which this is, damps nothing: ends a run whose unresolved vibrations make energy out of nothing.
   bool watch_vibrations();
@@ -78,6 +85,10 @@ class Run {
   /// Whether steps of a fixed size tell their errors.
   bool watches_error() const { return local_error_ && scene_.output.checks && !options_.single_solution; }
   bool look_at_error();
+  /// Looks at reactions where these ask for it.
+  bool watch_reactions();
+  /// How far one more correction would move the end of the run, over what it has moved from the start.
+  void estimate_solution_error();
   void add_error(double duration, double size);
   void see_before_look();
   void watch_errors(double norm);
@@ -121,7 +132,8 @@ class Run {
   double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< of accepted steps; of those at the floor of round-off
   std::string first_rejection_, not_unique_;
   int open_joint_ = -1, fast_joint_ = -1;  ///< of the largest relative violations seen, in Plan::joints
-  int dependent_rows_ = 0;
+  int dependent_rows_ = 0, least_dependent_rows_ = std::numeric_limits<int>::max();
+  double dependent_since_ = 0.0;                 ///< when the largest number was met first: time or load factor
   std::optional<step::Bdf> bdf_;                 ///< when chosen
   std::optional<step::ArcLengthPath> path_;      ///< statics by arc length
   step::State path_start_;                       ///< of its present step
@@ -143,6 +155,7 @@ class Run {
   step::State displaced_;
   VibrationWatch vibrations_;
   results::SpringWatch springs_;
+  std::optional<ReactionWatch> reactions_;  ///< where checks are made and sensors show reactions
   long rows_ = 0;
   bool looks_always_ = true;   ///< at each end of a step, for hooks
   bool is_untouched_ = false;  ///< the state is as the last step left it

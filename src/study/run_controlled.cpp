@@ -89,13 +89,14 @@ bool Run::take_controlled_steps(double stop, double total_end) {
         ++summary_.steps.rejected_for_error;
       }
       keep_or_restore(rejections == 0);
-      count(report, false);
+      const std::string cause =
+          report.converged ? local_error_->describe(system_.plan(), control.tolerance) : report.cause;
+      reject(report, cause);
       const double before = size;
       change(report.converged ? controller_->after_rejected(ratio, size) : controller_->after_failure(size));
       if (++rejections > most_rejections)
         return fail("the step at time " + std::to_string(state_.time) + " fails down to a step size of " +
-                    std::to_string(before) + ": " +
-                    (report.converged ? "its local error stays above the tolerance" : report.cause));
+                    std::to_string(before) + ": " + cause);
       continue;
     }
     rejections = 0;
@@ -125,8 +126,9 @@ bool Run::take_controlled_steps(double stop, double total_end) {
 
 /// What every accepted step goes through.
 bool Run::accept_controlled(const step::StepReport& report, bool is_last) {
-  count(report, true);
+  count(report);
   if (!plan_.joints.empty()) step::accept_turns(system_, state_);
+  if (reactions_ && !watch_reactions()) return false;
   if (has_balance()) work_meter_.add(system_, state_, last_step_);
   record(report.iterations, is_last);
   return report_progress(report, scene_.analysis.end_time);

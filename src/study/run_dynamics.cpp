@@ -6,7 +6,9 @@
 #include "bough/results/observe.hpp"
 #include "bough/step/growing_vibration.hpp"
 #include "effective_options.hpp"
+#include "given_velocities.hpp"
 #include "run.hpp"
+#include "trust.hpp"
 
 namespace bough::study {
 
@@ -15,11 +17,17 @@ using results::RunStatus;
 bool Run::start_segment(double step_size, bool is_first) {
   if (!catch_up()) return false;
   is_untouched_ = false;
+  if (reactions_) reactions_->restart();
   results::Energies before;
   if (!is_first && has_balance()) before = energy_meter_.eval(system_, state_);
   const step::StartReport consistent = step::make_consistent(system_, state_, is_first, step_size);
   if (!consistent.ok) return fail(consistent.cause);
+  watch_dependent_rows();
   if (is_first && consistent.position_correction > 1e-9) note_moved_start(consistent);
+  if (is_first) {
+    summary_.changed_velocities = changed_velocities(plan_, state_);
+    if (!summary_.changed_velocities.empty()) note(describe(summary_.changed_velocities));
+  }
   if (consistent.velocity_change > 1e-9) {
     char text[160];
     std::snprintf(
@@ -100,6 +108,13 @@ bool Run::catch_up() {
   return t ? fail(t->text) : true;
 }
 
+bool Run::watch_reactions() {
+  if (!reactions_->wants_look(state_)) return true;
+  if (!catch_up()) return false;
+  const auto t = reactions_->look(system_, state_);
+  return t ? fail(t->text) : true;
+}
+
 bool Run::set_step_size(double size) {
   if (size != state_.step_size) {
     if (!catch_up()) return false;
@@ -148,7 +163,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     const double target = next == (steps << level) ? end : begin + static_cast<double>(next) * size;
     if (!may_try(target)) return false;
     const step::StepReport report = advance_to(target);
-    count(report, report.converged);
+    count(report);
     if (!report.converged) {
       easy = 0;
       constexpr long most_parts = 1L << 62;  // of a segment, which a long can count
@@ -169,6 +184,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
       note("one linear solution per step: residuals are not driven to the tolerance");
     if (!plan_.joints.empty()) step::accept_turns(system_, state_);
     if (will_look(target == total_end) && !catch_up()) return false;
+    if (reactions_ && !watch_reactions()) return false;
     if (watches_error() && !look_at_error()) return false;
     if (has_balance()) {
       if (const auto t = system_.catch_up_watched(state_)) return fail(t->text);

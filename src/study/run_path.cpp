@@ -166,7 +166,7 @@ bool Run::try_path_step(double& length, PathStep& step, step::StepReport& report
     report.converged = report.cause.empty();
     if (report.converged) return true;
     state_ = path_start_;
-    count(report, false);
+    count(report);
     if (cuts == options_.max_cuts)
       return fail("the path cannot be followed from load factor " + std::to_string(state_.time) + ": " + report.cause);
     // Next to a limit point of a slender structure there is no tangent: what comes to its near side is to go past it.
@@ -194,7 +194,7 @@ bool Run::take_path_step(double& length) {
   PathStep step;
   int cuts = 0;
   if (!try_path_step(length, step, report, cuts)) return false;
-  count(report, true);
+  count(report);
   PathPlace from{0.0, 0.0, path_start_.time};
   bool has_moved = false;
   if (step.limit && (!step.stop || step.stops_after_limit)) {

@@ -17,7 +17,7 @@ bool Run::take_load_step(double from, double width, bool is_last) {
     if (!may_try(target)) return false;
     const double before = state_.time;
     const step::StepReport report = step::equilibrate(system_, state_, options_, target);
-    count(report, report.converged);
+    count(report);
     if (!report.converged) {
       if (++level > options_.max_cuts)
         return fail("no equilibrium at load factor " + std::to_string(target) + ": " + report.cause);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
+#include "bough/io/number_text.hpp"
 #include "bough/results/observe.hpp"
 #include "dependent_rows.hpp"
 #include "effective_options.hpp"
@@ -44,6 +47,12 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
   if (plan_.is_dynamic && options_.step_control) {
     controller_.emplace(options_.step_control->tolerance);
     limit_watch_.emplace(plan_);
+  }
+  if (watches_error()) {
+    const auto shows_reaction = [](const plan::SensorPlan& s) {
+      return s.sensor.kind == scene::SensorKind::joint_reaction;
+    };
+    if (std::any_of(plan_.sensors.begin(), plan_.sensors.end(), shows_reaction)) reactions_.emplace(system_);
   }
   looks_always_ = before_step_ && options.reads_state;
   if (scene.output.checks) system_.watch(work_meter_.nodes(plan_));
@@ -89,9 +98,29 @@ bool Run::fail(const std::string& cause) {
 
 void Run::watch_dependent_rows() {
   const int deficiency = system_.solver().last_status().deficiency;
+  least_dependent_rows_ = std::min(least_dependent_rows_, deficiency);
   if (deficiency <= dependent_rows_) return;
   dependent_rows_ = deficiency;
+  dependent_since_ = state_.time;
   not_unique_ = dependent_groups_text(system_);
+}
+
+/// Rows that depend on others all the time leave the motion as it is. Where they come to depend the rank of the
+/// constraints drops: parts can then move
+/// in more ways than elsewhere, and the equations do not say which way the motion goes on.
+void Run::note_dependent_rows() {
+  if (dependent_rows_ <= 0) return;
+  std::string text = std::to_string(dependent_rows_) + " constraint row(s) depend on others";
+  if (least_dependent_rows_ < dependent_rows_)
+    text += (plan_.is_dynamic ? " at time " : " at load factor ") + io::rounded_text(dependent_since_, 6) + ", and " +
+            std::to_string(std::max(0, least_dependent_rows_)) +
+            " elsewhere: the mechanism passes a singular position, where it can go on in more than one way, and the "
+            "reactions of these are not unique: ";
+  else if (plan_.is_dynamic)
+    text += ": the motion is unique, the reactions of these are not: ";
+  else
+    text += ": the reactions of these are not unique: ";
+  note(text + not_unique_);
 }
 
 void Run::note(const std::string& text) {
@@ -99,13 +128,20 @@ void Run::note(const std::string& text) {
     summary_.notes.push_back(text);
 }
 
-void Run::count(const step::StepReport& report, bool accepted) {
-  (accepted ? summary_.steps.accepted : summary_.steps.rejected) += 1;
+void Run::count(const step::StepReport& report) {
+  if (!report.converged) return reject(report, report.cause);
+  ++summary_.steps.accepted;
   summary_.steps.newton_iterations += report.iterations;
-  if (accepted) watch_floor(report);
-  if (accepted) watch_dependent_rows();
-  if (!accepted && first_rejection_.empty())
-    first_rejection_ = "the first rejected step was that from " + std::to_string(state_.time) + ": " + report.cause;
+  watch_floor(report);
+  watch_dependent_rows();
+}
+
+void Run::reject(const step::StepReport& report, const std::string& cause) {
+  if (cause.empty()) throw std::logic_error("a step was rejected without a cause");
+  ++summary_.steps.rejected;
+  summary_.steps.newton_iterations += report.iterations;
+  if (first_rejection_.empty())
+    first_rejection_ = "the first rejected step was that from " + std::to_string(state_.time) + ": " + cause;
 }
 
 /// What steps leave unbalanced at the floor counts against the largest forces of the run: at rest there are none to compare with.
@@ -220,6 +256,26 @@ double Run::energy_round_off() const {
          0.5 * mass * open * open;
 }
 
+void Run::estimate_solution_error() {
+  if (system_.counts().factorizations == 0) return;
+  constexpr double least_motion = 1e-12;  // of the structure: less is a few roundings of places
+  std::vector<double> rhs(system_.num_unknowns()), x(system_.num_unknowns());
+  if (!catch_up() || system_.evaluate(state_, {}, false)) return;
+  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system_.residual()[i];
+  if (system_.solve(rhs.data(), x.data())) return;
+  double moved = least_motion, shift = 0.0;
+  for (std::size_t n = 0; n < state_.nodes.size(); ++n) {
+    const motion::Frame<double>& from = plan_.nodes[n].pose;
+    const motion::Vec6<double> eta = system_.node_part(x.data(), static_cast<int>(n));
+    for (int i = 0; i < 3; ++i) {
+      moved = std::max(moved, std::abs(state_.nodes[n].x.hi[i] - from.x[i]) / plan_.length_scale);
+      shift = std::max({shift, std::abs(eta[i]) / plan_.length_scale, std::abs(eta[3 + i])});
+    }
+    for (int i = 0; i < 9; ++i) moved = std::max(moved, std::abs(state_.nodes[n].R.m[i] - from.R.m[i]));
+  }
+  summary_.solver.emplace_back("solution_error_estimate", shift / moved);
+}
+
 void Run::finish() {
   const step::WorkCounts& work = system_.counts();
   summary_.steps.factorizations = work.factorizations;
@@ -242,11 +298,7 @@ void Run::finish() {
   summary_.checks.numerical_dissipation = std::max(0.0, -balance_.last_energy_error());
   summary_.checks.energy_gained = std::max(0.0, balance_.last_energy_error());
   summary_.checks.momentum_balance = balance_.momentum_error();
-  if (dependent_rows_ > 0)
-    note(std::to_string(dependent_rows_) + " constraint row(s) depend on others: " +
-         (plan_.is_dynamic ? "the motion is unique, the reactions of these are not: "
-                           : "the reactions of these are not unique: ") +
-         not_unique_);
+  note_dependent_rows();
   if (limit_watch_)
     if (const auto text = limit_watch_->text(plan_, options_.step_control->tolerance)) note(*text);
   if (!first_rejection_.empty() && summary_.status != RunStatus::failed) note(first_rejection_);
@@ -261,7 +313,11 @@ void Run::finish() {
     if (!gate_.cause().empty()) (void)fail(gate_.cause());
   }
   summary_.solver = solver_figures(system_, dependent_rows_);
-  if (summary_.status == RunStatus::ok) look_at_last_factor(system_, summary_);
+  if (reactions_) summary_.unsure_reactions = reactions_->found();
+  if (summary_.status == RunStatus::ok) {
+    look_at_last_factor(system_, summary_);
+    if (!variational_ && !bdf_) estimate_solution_error();
+  }
   if (stability_) finish_statics();
   summary_.doubts = doubts_of(summary_, plan_.is_dynamic);
   if (const std::string passed = springs_.text(); !passed.empty()) summary_.doubts.push_back({"springs", passed});
@@ -275,13 +331,6 @@ void Run::finish() {
 void Run::finish_statics() {
   if (summary_.status == RunStatus::ok) stability_->look_at_end(state_);
   summary_.stability = stability_->seen();
-  if (!is_condition_doubted(summary_)) return;
-  const double condition = condition_without_load(system_);
-  if (condition == 0.0) return;
-  summary_.solver.emplace_back("condition_without_load", condition);
-  if (!is_condition_doubted(summary_))
-    note("the tangent is nearly singular at the last equilibrium, and is not without loads: the load factor " +
-         std::to_string(state_.time) + " is next to a critical one");
 }
 
 Summary simulate(const scene::Scene& scene, const SimulateOptions& options, results::Recorder& recorder,

@@ -123,14 +123,6 @@ void add_backward_errors(step::System& system, const solve::Hierarchical& solver
 
 }  // namespace
 
-double condition_without_load(step::System& system) {
-  const solve::Hierarchical* solver = system.solver().hierarchical();
-  const step::State start = step::make_initial_state(system.plan());
-  if (solver == nullptr || system.set_time(0.0) || system.evaluate(start, {}, true) || system.factor(true, {}))
-    return 0.0;
-  return estimate_condition(system, *solver, [](const auto&, const auto&, double) {});
-}
-
 void look_at_last_factor(step::System& system, results::Summary& summary) {
   const solve::Hierarchical* solver = system.solver().hierarchical();
   if (solver == nullptr || system.counts().factorizations == 0 || !solver->last_status().ok()) return;

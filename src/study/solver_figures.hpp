@@ -12,8 +12,4 @@ decltype(results::Summary::solver) solver_figures(step::System& system, int depe
 /// of it as a rule). Adds `levels` and the figures `condition_estimate`, `digits_lost`. Hierarchical solver only; allocates.
 void look_at_last_factor(step::System& system, results::Summary& summary);
 
-/// The same estimate for the tangent of the scene as it is given, without loads: 0 where it is not known. Statics; the
-/// system's factor is another one then.
-double condition_without_load(step::System& system);
-
 }  // namespace bough::study

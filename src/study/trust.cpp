@@ -88,12 +88,36 @@ void doubt_linear_solutions(const results::Summary& s, const TrustLimits& limits
       doubts.push_back({"linear solutions", "on level " + std::to_string(level.level) +
                                                 " of the tree a linear solution leaves a residual of " +
                                                 number(level.backward_error)});
-  const double condition = solver_figure(s, "condition_estimate");
-  if (is_condition_doubted(s, limits))
-    doubts.push_back({"condition", "the condition number of the tangent is " + number(condition) + ": about " +
-                                       number(std::log10(condition)) +
-                                       " of 16 digits are lost, and results hang on the last bits; look for stiffness "
-                                       "ratios or element numbers that can be less"});
+}
+
+/// What round-off and tolerance leave of results. Where a limit point was located the tangent is singular as it has to
+/// be, and the path goes on.
+void doubt_condition(const results::Summary& s, bool is_dynamic, const TrustLimits& limits,
+                     std::vector<results::Doubt>& doubts) {
+  const double error = solver_figure(s, "solution_error_estimate");
+  if (s.limit_points.empty() && passes(error, limits.lost))
+    doubts.push_back(
+        {"condition", "one more correction would move the " + std::string(is_dynamic ? "end" : "equilibrium") + " by " +
+                          number(error) + " of its displacement: it hangs on round-off and the tolerance (condition " +
+                          number(solver_figure(s, "condition_estimate")) +
+                          " of the tangent); look for parts that hardly anything holds, stiffness ratios or element "
+                          "numbers that can be less"});
+  const results::UnsureReaction* worst = nullptr;
+  std::size_t unsure = 0;
+  for (const results::UnsureReaction& r : s.unsure_reactions) {
+    if (!passes(r.error, limits.lost * r.largest)) continue;
+    ++unsure;
+    if (worst == nullptr || r.error > worst->error) worst = &r;
+  }
+  if (worst == nullptr) return;
+  doubts.push_back(
+      {"condition", "the reaction of '" + worst->joint + "'" +
+                        (unsure > 1 ? " and those of " + std::to_string(unsure - 1) + " other joints hang" : " hangs") +
+                        " on round-off and the tolerance: at time " + io::rounded_text(worst->time, 6) +
+                        " one more correction would change " + number(worst->size) + " N (N m over the " +
+                        "size of an element) by " + number(worst->error) +
+                        ": constraints come close to depending on each other there; take larger steps or "
+                        "leave these times out"});
 }
 
 std::string named(const std::string& joint) { return joint.empty() ? "a joint " : "joint '" + joint + "' "; }
@@ -132,22 +156,44 @@ void doubt_stability(const results::Stability& s, std::vector<results::Doubt>& d
                                        ", which the plan leaves out of the motions: " + s.hidden_mode + remedy});
 }
 
+std::string vector_text(const std::array<double, 3>& v) {
+  return "(" + io::rounded_text(v[0], 4) + ", " + io::rounded_text(v[1], 4) + ", " + io::rounded_text(v[2], 4) + ")";
+}
+
+void doubt_start(const std::vector<results::ChangedVelocity>& changed, const TrustLimits& limits,
+                 std::vector<results::Doubt>& doubts) {
+  if (!changed.empty() && passes(changed.front().change, limits.velocity_changed))
+    doubts.push_back({"initial velocities", describe(changed) +
+                                                "; give velocities that joints and drives allow to all parts that "
+                                                "move, or only to those that determine the motion"});
+}
+
 }  // namespace
 
-bool is_condition_doubted(const results::Summary& s, const TrustLimits& limits) {
-  const double loaded = solver_figure(s, "condition_estimate"), unloaded = solver_figure(s, "condition_without_load");
-  return passes(loaded * unit_round_off, limits.lost) && !(unloaded > 0.0 && unloaded * unit_round_off <= limits.lost);
+std::string describe(const std::vector<results::ChangedVelocity>& changed) {
+  constexpr std::size_t most_named = 3;
+  std::string text = "joints and drives do not allow the given initial velocities:";
+  for (std::size_t i = 0; i < std::min(changed.size(), most_named); ++i) {
+    const results::ChangedVelocity& v = changed[i];
+    const char* const unit = v.is_angular ? " rad/s" : " m/s";
+    text += (i == 0 ? " '" : "; '") + v.of + "' was given " + vector_text(v.asked) + unit + " and starts with " +
+            vector_text(v.got) + unit;
+  }
+  if (changed.size() > most_named) text += "; and " + std::to_string(changed.size() - most_named) + " others";
+  return text;
 }
 
 std::vector<results::Doubt> doubts_of(const results::Summary& s, bool is_dynamic, const TrustLimits& limits) {
   std::vector<results::Doubt> doubts;
   if (s.status == results::RunStatus::failed) doubts.push_back({"run", "it broke off: " + s.cause});
   if (s.status == results::RunStatus::interrupted) doubts.push_back({"run", "it was stopped before its end"});
+  doubt_start(s.changed_velocities, limits, doubts);
   const results::Checks& c = s.checks;
   if (c.evaluated && is_dynamic) doubt_energy(s, limits, doubts);
   if (c.evaluated && is_dynamic) doubt_errors(s, limits, doubts);
   if (c.evaluated) doubt_constraints(c, limits, doubts);
   doubt_linear_solutions(s, limits, doubts);
+  doubt_condition(s, is_dynamic, limits, doubts);
   if (is_dynamic && passes(c.unbalanced_at_floor, limits.unbalanced))
     doubts.push_back(
         {"round-off",

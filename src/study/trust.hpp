@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <vector>
 
 #include "bough/results/records.hpp"
@@ -7,6 +8,10 @@ namespace bough::study {
 
 /// Where a run is doubted. Each bound lies well above what the gallery shows and below what an engineer would accept unsaid.
 struct TrustLimits {
+  /// Of the largest speed: a given initial velocity that the start changes by more is not the one asked for. Numbers
+  /// in a scene have six digits at
+  /// least, so what is less may be their rounding; a note tells it.
+  double velocity_changed = 1e-6;
   /// Of the largest energy: what the integrator may have added by the end. A scheme that is stable adds what its truncation error is; a hundredth
   /// is visible in amplitudes (their half).
   double energy_gained = 1e-2;
@@ -21,7 +26,8 @@ struct TrustLimits {
   double local_error_sum = 0.04;
   /// LAPACK's bar for a solution: residual over norm, unknowns and unit round-off.
   double lapack_ratio = 30.0;
-  /// Round-off times condition: fewer than three digits of a linear solution are sure, and Newton's corrections come in that quality.
+  /// What one more correction changes of a displacement or of a reaction, over the largest: fewer than three digits
+  /// are sure.
   double lost = 1e-3;
   /// Of the size of the parts that meet in a joint, or rad: open by more than a millionth.
   double violation = 1e-6;
@@ -34,12 +40,12 @@ struct TrustLimits {
   double rejected = 0.1;
 };
 
-/// Whether the condition of the tangent is a reason for doubt: not in statics where it is good without loads (figure
-/// `condition_without_load`).
-bool is_condition_doubted(const results::Summary& summary, const TrustLimits& limits = {});
+/// Given initial velocities that the start has changed: the three changed most, asked and got, and how many others.
+std::string describe(const std::vector<results::ChangedVelocity>& changed);
 
-/// Why a run should not be trusted without a closer look, in words: about the run itself (it broke off), energy, linear solutions, condition,
-/// constraints, round-off, steps. Reads the summary's status, steps, checks, levels and solver figures.
+/// Why a run should not be trusted without a closer look, in words: about the run itself (it broke off), initial
+/// velocities, energy, errors, linear solutions, condition, constraints, stability, round-off, steps. Reads the
+/// summary's status, changed velocities, steps, checks, levels and solver figures.
 std::vector<results::Doubt> doubts_of(const results::Summary& summary, bool is_dynamic, const TrustLimits& limits = {});
 
 }  // namespace bough::study

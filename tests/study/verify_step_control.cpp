@@ -1,6 +1,7 @@
 // Step control: errors follow the tolerance, their estimate is honest, jumps are met, orders hold across changes of size.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -243,6 +244,10 @@ TEST(StepControl, cuts_a_first_step_that_is_far_too_long) {
   scene.analysis.step_control->largest_step = 0.1;
   const Outcome run = support::run(scene, [](const results::Progress& p) { return p.step < 5; });
   EXPECT_GT(run.summary.steps.rejected_for_error, 5) << "from 0.1 s down to microseconds";
+  EXPECT_TRUE(std::any_of(run.summary.notes.begin(), run.summary.notes.end(), [](const std::string& note) {
+    return note.find("the first rejected step was that from 0.000000: the local error of the ") == 0 &&
+           note.find(" times what the tolerance of step control allows") != std::string::npos;
+  })) << "a step rejected for its error says for which";
 }
 
 }  // namespace

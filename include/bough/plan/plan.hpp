@@ -19,6 +19,15 @@ struct NodePlan {
   motion::Vec6<double> twist;  ///< at the start, own axes, as given (not yet consistent)
 };
 
+/// A node whose velocity at the start the scene gives, by the name of a node or a body, or of a beam for each of its
+/// nodes. NodePlan::twist is that velocity.
+struct GivenVelocity {
+  std::string of;
+  int node = 0;
+  motion::Frame<double> offset =
+      motion::Frame<double>::identity();  ///< of the named thing in the node, where welds made them one
+};
+
 /// A constraint element and where it comes from.
 struct JointPlan {
   std::string name;
@@ -137,6 +146,7 @@ struct Plan {
   motion::Vec3<double> gravity;  ///< times laws[gravity_law]
   int gravity_law = 0;
   std::vector<NodePlan> nodes;
+  std::vector<GivenVelocity> given_velocities;  ///< in the scene's order
   ElementArrays elements;
   std::vector<ElementPlace> directory;     ///< by global element id
   std::vector<std::string> element_owner;  ///< name of the scene's thing behind each element

@@ -105,10 +105,23 @@ struct SensorError {
   double range = 0.0;      ///< of what the sensor's columns of this unit show
   double relative() const { return (of_steps + of_energy) / range; }
 };
+/// An initial velocity that the scene gives and that joints, drives or other given velocities do not allow.
+struct ChangedVelocity {
+  std::string of;                    ///< node, body or beam
+  bool is_angular = false;           ///< the angular velocity, else the velocity
+  std::array<double, 3> asked, got;  ///< in the scene, and at the start; axes of the ground [m/s] or [rad/s]
+  double change = 0.0;               ///< of it, over the largest speed of the structure [-]
+};
+/// What one more correction would change of a joint's reaction where that was largest.
+struct UnsureReaction {
+  std::string joint;
+  double time = 0.0;
+  double size = 0.0, error = 0.0;  ///< the reaction then, and the change [N]; moments over the size of an element
+  double largest = 0.0;            ///< of the run [N]
+};
 /// A reason not to trust a run without a closer look.
 struct Doubt {
-  std::string
-      about;  ///< "run", "energy", "error", "linear solutions", "condition", "constraints", "round-off", "steps"
+  std::string about;  ///< "run", "initial velocities", "energy", "error", "linear solutions", "condition", ...
   std::string text;
 };
 /// Where the load factor turns along the path of equilibria.
@@ -162,10 +175,12 @@ struct Summary {
   StepTimes times;
   std::int64_t memory_peak_bytes = 0;
   Checks checks;
-  bool follows_path = false;              ///< statics by arc length
-  std::vector<LimitPoint> limit_points;   ///< of these, in the order of the path
-  std::vector<Bifurcation> bifurcations;  ///< of these, in the order of the path
-  std::optional<Stability> stability;     ///< of statics
+  std::vector<ChangedVelocity> changed_velocities;  ///< by how much they were changed, the largest first
+  std::vector<UnsureReaction> unsure_reactions;     ///< of joints with sensors of their reactions, as far as looked at
+  bool follows_path = false;                        ///< statics by arc length
+  std::vector<LimitPoint> limit_points;             ///< of these, in the order of the path
+  std::vector<Bifurcation> bifurcations;            ///< of these, in the order of the path
+  std::optional<Stability> stability;               ///< of statics
   std::vector<std::string>
       notes;  ///< warnings in words: dependent constraints, impulses at the start, floors reached ...
   HistoryHeader header;

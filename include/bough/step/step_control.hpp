@@ -11,6 +11,7 @@
 /// e / (C_q h^3) from step to step.
 /// Sources: Zienkiewicz, Xie 1991 (error from the change of accelerations); Hairer, Wanner 1996, IV.8 (error filtered by the step's matrix).
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bough/step/options.hpp"
@@ -68,6 +69,10 @@ class LocalError {
   /// Largest parts of the last measured error over what they are compared with: size + allowance / tolerance [-].
   double relative_motion() const;    ///< of positions and rotations
   double relative_velocity() const;  ///< of velocities
+
+  /// Names the error that asks for the smallest step at this tolerance, its node, and how many times it is what the
+  /// tolerance allows.
+  std::string describe(const plan::Plan& plan, double tolerance) const;
 
   /// Largest change of e_q without the filter, over the same sizes [-]: costs no solution; at fixed steps tells when to look closer. The nodes of
   /// `after` may be behind.

@@ -1,0 +1,56 @@
+#pragma once
+/// Digits of reactions in time. Near positions in which constraints come to depend on each other, multipliers answer
+/// to gaps of joints with
+///   (G S^-1 G^T)^-1 gap,   S^-1 about beta h^2 M^-1,
+/// so that what round-off and the tolerance leave of gaps may be as large as the reaction itself. Positions and
+/// velocities do not show it.
+#include <optional>
+#include <vector>
+
+#include "bough/results/records.hpp"
+#include "bough/step/system.hpp"
+
+namespace bough::study {
+
+/// Watches the joints whose reactions sensors show. A reaction that bends from step to step by more than a small part
+/// of itself is looked at: what one more correction, S^-1 (-residual), changes of it is what is not determined. Where
+/// a look finds nothing, the next one waits for twice that bend, which fades in some hundred steps: reactions that
+/// vibrate cost a look in a hundred steps.
+class ReactionWatch {
+ public:
+  explicit ReactionWatch(const step::System& system);
+
+  /// A start, or the far side of a jump: reactions before it say nothing.
+  void restart() { num_known_ = 0; }
+  /// To be called for every accepted step: whether its reactions are to be looked at.
+  bool wants_look(const step::State& state);
+  /// Looks at them. The state must be whole, laws those of its time, the factor that of its step. Overwrites the
+  /// residual and the right-hand side.
+  [[nodiscard]] std::optional<step::Trouble> look(step::System& system, const step::State& state);
+  /// What looks have found, by joint: its least determined reaction.
+  std::vector<results::UnsureReaction> found() const;
+
+ private:
+  struct Row {
+    std::size_t multiplier;
+    std::size_t unknown;
+    double weight;  ///< 1, of a moment 1/arm [1/m]: multipliers times this are forces [N]
+    double before = 0.0, before_that = 0.0;
+  };
+  struct Watched {
+    int joint = -1;
+    std::vector<Row> rows;
+    double largest = 0.0;  ///< reaction so far [N]
+    double bend = 0.0,
+           quiet = 0.0;  ///< second difference of the reaction now; the largest that was looked at, fading [N]
+    results::UnsureReaction found;
+  };
+  double scale_of(const Watched& w) const;
+
+  const plan::Plan& plan_;
+  std::vector<Watched> joints_;
+  double largest_ = 0.0;  ///< of all
+  int num_known_ = 0;     ///< steps before this one whose reactions are known, up to 2
+};
+
+}  // namespace bough::study
