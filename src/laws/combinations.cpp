@@ -39,7 +39,7 @@ class LinearCombination final : public Node {
     }
     return sum;
   }
-  void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const override {
+  void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override {
     for (const Term& term : terms_) laws::append_breaks(term.law, t_begin, t_end, max_order, breaks);
   }
   Law integral(double t0) const override {
@@ -63,7 +63,7 @@ class Product final : public Node {
     return {a.value * b.value, a.rate * b.value + a.value * b.rate,
             a.acceleration * b.value + 2.0 * (a.rate * b.rate) + a.value * b.acceleration};
   }
-  void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const override {
+  void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override {
     laws::append_breaks(a_, t_begin, t_end, max_order, breaks);
     laws::append_breaks(b_, t_begin, t_end, max_order, breaks);
   }
@@ -83,10 +83,11 @@ class Piecewise final : public Node {
 
   LawValue at(double t, Side side) const override { return segments_[segment_of(t, side)].law.at(t, side); }
 
-  void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const override {
-    for (std::size_t i = 0; i < segments_.size(); ++i) {
+  void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override {
+    for (std::size_t i = segment_of(t_begin, Side::left); i < segments_.size(); ++i) {
       const double start = segments_[i].start;
-      if (i > 0 && order_ <= max_order && start >= t_begin && start <= t_end) breaks.push_back(start);
+      if (i > 0 && start > t_end) break;
+      if (i > 0 && order_ <= max_order && start >= t_begin) breaks.add(start);
       const double from = i == 0 ? t_begin : std::max(t_begin, start);
       const double to = i + 1 == segments_.size() ? t_end : std::min(t_end, segments_[i + 1].start);
       if (from <= to) laws::append_breaks(segments_[i].law, from, to, max_order, breaks);

@@ -40,20 +40,26 @@ class TrapsMasked {
 ///   else                                   halve [a, b]
 class SwitchFinder {
  public:
-  SwitchFinder(const Program& program, std::size_t index, std::vector<double>& found)
-      : program_(program), index_(index), found_(found) {}
+  SwitchFinder(const Program& program, std::size_t index, BreakList& found)
+      : program_(program),
+        index_(index),
+        found_(found),
+        length_(static_cast<double>(index - program.code[index].first)) {}
 
   void search(double t_begin, double t_end) {
     std::vector<Interval> boxes{{t_begin, t_end}};
     const double least = 1e-14 * (t_end - t_begin);
     std::vector<Interval> unsettled;
-    for (int work = 0; !boxes.empty(); ++work) {
+    const int max_work = found_.is_limited() ? limited_work : whole_work;
+    for (int work = 0; !boxes.empty() && !found_.is_cut; ++work) {
       const Interval box = boxes.back();
       boxes.pop_back();
       if (settle(box)) continue;
       const double middle = 0.5 * (box.lo + box.hi);
       const bool is_smallest = !(box.hi - box.lo > least) || !(middle > box.lo && middle < box.hi);
-      if (is_smallest || work >= max_work || unsettled.size() > max_unsettled) {
+      if (found_.is_limited() && work >= max_work) {
+        found_.is_cut = true;
+      } else if (is_smallest || work >= max_work || unsettled.size() > max_unsettled) {
         unsettled.push_back(box);
       } else {
         boxes.push_back({middle, box.hi});
@@ -61,19 +67,25 @@ class SwitchFinder {
       }
     }
     // A few: roots of higher order, and jumps of g. Many: g is round-off around zero, and so are its changes of sign.
-    if (unsettled.size() > max_unsettled) return;
-    for (const Interval& box : unsettled) cross(box.lo, box.hi);
+    if (unsettled.size() <= max_unsettled)
+      for (const Interval& box : unsettled) cross(box.lo, box.hi);
   }
 
  private:
-  static constexpr int max_work = 1 << 20;  // boxes; a root needs a handful
+  static constexpr int whole_work = 1 << 20;    // boxes; a root needs a handful
+  static constexpr int limited_work = 1 << 17;  // for the first thousands of roots, or to see that g is round-off
   static constexpr std::size_t max_unsettled = 1000;
 
-  double argument(double t) const { return eval_switch_argument(program_, index_, t).value; }
-  double argument_rate(double t) const { return eval_switch_argument(program_, index_, t).rate; }
+  double argument(double t) const { return jet(t).value; }
+  double argument_rate(double t) const { return jet(t).rate; }
+  Jet<double> jet(double t) const {
+    found_.work += length_;
+    return eval_switch_argument(program_, index_, t);
+  }
 
   /// True where all roots in the box are found.
   bool settle(const Interval& box) {
+    found_.work += 4.0 * length_;  // intervals, with their ends
     const Jet<Interval> g = eval_switch_range(program_, index_, box);
     if (!g.value.holds_zero()) return true;
     if (g.value.lo >= 0.0 || g.value.hi <= 0.0) {  // touches zero at most; a crossing can only sit at an end
@@ -118,13 +130,14 @@ class SwitchFinder {
   void offer(double t) {
     if (std::abs(t) < tiny_time) t = 0.0;
     if (eval_branch(program_, index_, t, Side::left) != eval_branch(program_, index_, t, Side::right)) {
-      found_.push_back(t);
+      found_.add(t);
     }
   }
 
   const Program& program_;
   std::size_t index_;
-  std::vector<double>& found_;
+  BreakList& found_;
+  double length_;  ///< instructions of the argument
 };
 
 class Expression final : public Node {
@@ -137,19 +150,23 @@ class Expression final : public Node {
     return {f.value, f.rate, f.acceleration};
   }
 
-  void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const override {
+  void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override {
     if (!program_->has_switch || !(t_begin <= t_end)) return;
     const TrapsMasked traps_masked;
-    std::vector<double> found;
+    BreakList found;
+    found.most = breaks.most;
     // From the time before, so that a root exactly at t_begin is seen as a change of sign.
     const double from = previous_time(t_begin);
     for (std::size_t i = 0; i < program_->code.size(); ++i) {
       const Op op = program_->code[i].op;
-      if (is_switch(op) && switch_order(op) <= max_order) SwitchFinder(*program_, i, found).search(from, t_end);
+      if (is_switch(op) && switch_order(op) <= max_order && !found.is_cut)
+        SwitchFinder(*program_, i, found).search(from, t_end);
     }
-    for (double t : found) {
-      if (t >= t_begin && t <= t_end) breaks.push_back(t);
+    for (double t : found.times) {
+      if (t >= t_begin && t <= t_end) breaks.add(t);
     }
+    breaks.is_cut = breaks.is_cut || found.is_cut;
+    breaks.work += found.work;
   }
 
   Law integral(double t0) const override {

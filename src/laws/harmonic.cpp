@@ -25,7 +25,7 @@ class Harmonic final : public Node {
     const double wave = wave_.amplitude * std::sin(theta);
     return {wave_.offset + wave, wave_.amplitude * wave_.omega * std::cos(theta), -wave_.omega * wave_.omega * wave};
   }
-  void append_breaks(double, double, int, std::vector<double>&) const override {}
+  void append_breaks(double, double, int, BreakList&) const override {}
   Law integral(double t0) const override;
 
  private:
@@ -45,7 +45,7 @@ class HarmonicIntegral final : public Node {
     const double value = wave_.amplitude * std::sin(theta - half * d) * (std::sin(half * d) / half) + wave_.offset * d;
     return {value, wave_.offset + wave_.amplitude * std::sin(theta), wave_.amplitude * wave_.omega * std::cos(theta)};
   }
-  void append_breaks(double, double, int, std::vector<double>&) const override {}
+  void append_breaks(double, double, int, BreakList&) const override {}
 
   /// F = -(amplitude / omega) cos(theta) + (amplitude / omega) cos(theta(t0)) + offset (t - t0), integrated term by
   /// term.

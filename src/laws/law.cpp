@@ -11,8 +11,14 @@ namespace bough::laws {
 LawValue Law::at(double t, Side side) const { return node_ ? node_->at(t, side) : LawValue{}; }
 
 std::vector<double> Law::breakpoints(double t_begin, double t_end) const {
-  return sorted_breaks(*this, t_begin, t_end, 2);
+  return sorted_breaks(*this, t_begin, t_end, 2).times;
 }
+
+Breaks Law::breakpoints(double t_begin, double t_end, std::size_t most) const {
+  return sorted_breaks(*this, t_begin, t_end, 2, most);
+}
+
+std::optional<Law> Law::integrand() const { return node_ ? node_->integrand() : std::nullopt; }
 
 Law Law::integral(double t0) const { return node_ ? node_->integral(t0) : Law{}; }
 
@@ -36,15 +42,18 @@ void require_finite(double x, const char* what) {
   if (!std::isfinite(x)) throw LawError({}, 0, std::string(what) + " must be a finite number");
 }
 
-void append_breaks(const Law& law, double t_begin, double t_end, int max_order, std::vector<double>& breaks) {
-  if (law.node() != nullptr && max_order >= 0) law.node()->append_breaks(t_begin, t_end, max_order, breaks);
+void append_breaks(const Law& law, double t_begin, double t_end, int max_order, BreakList& breaks) {
+  if (law.node() != nullptr && max_order >= 0 && !breaks.is_cut)
+    law.node()->append_breaks(t_begin, t_end, max_order, breaks);
 }
 
-std::vector<double> sorted_breaks(const Law& law, double t_begin, double t_end, int max_order) {
-  std::vector<double> breaks;
-  append_breaks(law, t_begin, t_end, max_order, breaks);
-  std::sort(breaks.begin(), breaks.end());
-  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+Breaks sorted_breaks(const Law& law, double t_begin, double t_end, int max_order, std::size_t most) {
+  BreakList list;
+  list.most = most;
+  append_breaks(law, t_begin, t_end, max_order, list);
+  Breaks breaks{std::move(list.times), list.is_cut, list.work};
+  std::sort(breaks.times.begin(), breaks.times.end());
+  breaks.times.erase(std::unique(breaks.times.begin(), breaks.times.end()), breaks.times.end());
   return breaks;
 }
 

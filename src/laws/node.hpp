@@ -1,10 +1,29 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "bough/laws/law.hpp"
 
 namespace bough::laws {
+
+/// Breaks as they are found, in any order, possibly twice; no more than asked for.
+struct BreakList {
+  std::vector<double> times;
+  std::size_t most = std::numeric_limits<std::size_t>::max();
+  bool is_cut = false;  ///< there are more, or the search was given up
+  double work = 0.0;    ///< instructions of formulas
+
+  bool is_limited() const { return most != std::numeric_limits<std::size_t>::max(); }
+  void add(double t) {
+    if (times.size() < most)
+      times.push_back(t);
+    else
+      is_cut = true;
+  }
+};
 
 /// One kind of law: the implementation behind Law. Immutable; all members may run on several threads at once.
 class Node {
@@ -18,10 +37,11 @@ class Node {
 
   /// Appends the times in [t_begin, t_end] at which a derivative of order <= max_order may jump (order 0: the value),
   /// in any order, possibly twice. 2 serves Law::breakpoints, any_order the quadrature.
-  virtual void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const = 0;
+  virtual void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const = 0;
 
   virtual Law integral(double t0) const = 0;
   virtual bool is_constant() const { return false; }
+  virtual std::optional<Law> integrand() const { return std::nullopt; }  ///< of an integral by quadrature
 };
 
 inline constexpr int any_order = 1 << 20;
@@ -30,9 +50,10 @@ inline constexpr int any_order = 1 << 20;
 void require_finite(double x, const char* what);
 
 /// Breaks of a law, sorted and unique.
-std::vector<double> sorted_breaks(const Law& law, double t_begin, double t_end, int max_order);
+Breaks sorted_breaks(const Law& law, double t_begin, double t_end, int max_order,
+                     std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// Node::append_breaks of the node behind a law.
-void append_breaks(const Law& law, double t_begin, double t_end, int max_order, std::vector<double>& breaks);
+void append_breaks(const Law& law, double t_begin, double t_end, int max_order, BreakList& breaks);
 
 }  // namespace bough::laws

@@ -48,9 +48,9 @@ std::size_t PolynomialPieces::piece_of(double t, Side side) const {
 
 LawValue PolynomialPieces::at(double t, Side side) const { return eval(pieces_[piece_of(t, side)], t); }
 
-void PolynomialPieces::append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const {
-  for (const Knot& knot : knots_) {
-    if (knot.order <= max_order && knot.time >= t_begin && knot.time <= t_end) breaks.push_back(knot.time);
+void PolynomialPieces::append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const {
+  for (std::size_t k = piece_of(t_begin, Side::left); k < knots_.size() && knots_[k].time <= t_end; ++k) {
+    if (knots_[k].order <= max_order) breaks.add(knots_[k].time);
   }
 }
 

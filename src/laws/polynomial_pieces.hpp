@@ -25,7 +25,7 @@ class PolynomialPieces final : public Node {
   PolynomialPieces(std::vector<Knot> knots, std::vector<Piece> pieces);
 
   LawValue at(double t, Side side) const override;
-  void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const override;
+  void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override;
   Law integral(double t0) const override;
   bool is_constant() const override;
 

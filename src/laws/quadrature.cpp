@@ -9,6 +9,8 @@
 #include <mutex>
 #include <utility>
 
+#include "bough/laws/make_law.hpp"
+
 namespace bough::laws {
 
 namespace {
@@ -128,29 +130,41 @@ class QuadratureIntegral final : public Node {
     if (!(distance < max_distance)) return {std::numeric_limits<double>::quiet_NaN(), f.value, f.rate};
     const double direction = t < t0_ ? -1.0 : 1.0;
     const std::size_t k = panel_of(distance);
-    const double value = sum_before(k, direction) + integrate(t0_ + direction * begin_of(k), t);
+    std::size_t evaluations = 0;  // of a part of a panel
+    const double before = sum_before(k, direction);
+    const double value =
+        std::isnan(before) ? before : before + integrate(t0_ + direction * begin_of(k), t, evaluations);
     return {value, f.value, f.rate};
   }
-  void append_breaks(double t_begin, double t_end, int max_order, std::vector<double>& breaks) const override {
+  void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override {
     laws::append_breaks(integrand_, t_begin, t_end, max_order - 1, breaks);
   }
   Law integral(double t0) const override {
     return make_quadrature_integral(Law{std::make_shared<QuadratureIntegral>(integrand_, t0_)}, t0);
   }
+  std::optional<Law> integrand() const override { return integrand_; }
 
  private:
   static constexpr double max_distance = 1e15;  // [s]; beyond, panels have no digits left
 
-  double integrate(double a, double b) const {
+  /// evaluations: counted up. NaN where they would pass max_evaluations.
+  double integrate(double a, double b, std::size_t& evaluations) const {
     if (a == b) return 0.0;
-    std::vector<double> cuts = sorted_breaks(integrand_, std::min(a, b), std::max(a, b), any_order);
+    Breaks breaks = sorted_breaks(integrand_, std::min(a, b), std::max(a, b), any_order, max_breaks);
+    std::vector<double>& cuts = breaks.times;
+    evaluations += static_cast<std::size_t>(breaks.work / 8.0) + cuts.size();
+    if (breaks.is_cut) return std::numeric_limits<double>::quiet_NaN();
     if (b < a) std::reverse(cuts.begin(), cuts.end());
     cuts.push_back(b);
-    const Function f = [this](double t) { return integrand_.at(t).value; };
+    const Function f = [this, &evaluations](double t) {
+      ++evaluations;
+      return integrand_.at(t).value;
+    };
     double sum = 0.0;
     double from = a;
     for (double to : cuts) {
       if (to == from) continue;
+      if (evaluations > max_evaluations) return std::numeric_limits<double>::quiet_NaN();
       sum += eval_quadrature(f, from, to);
       from = to;
     }
@@ -162,8 +176,10 @@ class QuadratureIntegral final : public Node {
     const std::lock_guard<std::mutex> lock(mutex_);
     Sums& sums = direction < 0.0 ? before_ : after_;
     while (sums.at_panel.size() <= k) {
-      const std::size_t next = sums.at_panel.size();  // panel next - 1 is missing
-      const double panel = integrate(t0_ + direction * begin_of(next - 1), t0_ + direction * begin_of(next));
+      const std::size_t next = sums.at_panel.size();                      // panel next - 1 is missing
+      if (std::isnan(sums.at_panel.back())) return sums.at_panel.back();  // and so is all that follows
+      const double panel =
+          integrate(t0_ + direction * begin_of(next - 1), t0_ + direction * begin_of(next), sums.evaluations);
       const double old = sums.at_panel.back();
       const double corrected = panel - sums.lost;
       const double sum = old + corrected;
@@ -176,6 +192,7 @@ class QuadratureIntegral final : public Node {
   struct Sums {
     std::vector<double> at_panel{0.0};
     double lost = 0.0;
+    std::size_t evaluations = 0;  ///< by the panels so far
   };
 
   Law integrand_;

@@ -13,12 +13,6 @@ using motion::Vec6;
 
 namespace {
 
-const scene::Section& section_of(const scene::Scene& scene, const std::string& name) {
-  for (const scene::Section& s : scene.sections)
-    if (s.name == name) return s;
-  return scene.sections.front();  // not reached: references were checked
-}
-
 /// Helicoid of a beam's axis as seen from its start: H(s) = H_0 exp(s d), s in [0, 1].
 Vec6<double> helicoid(const scene::Beam& beam, double length) {
   if (beam.curve == scene::BeamCurve::straight)
@@ -41,7 +35,8 @@ Port section_port(int node, const Frame<double>& node_pose, const Frame<double>&
 
 template <int N>
 void add_elements(Builder& b, const scene::Beam& beam, BeamPlan& plan, const std::vector<Port>& ports) {
-  const scene::Section& section = section_of(b.scene, beam.section);
+  const scene::Section& section = *b.section_of.at(beam.section);
+  const auto loads = b.loads_of_beam.find(beam.name);
   elements::Beam<N> e;
   e.length = plan.length / beam.elements;
   const Vec6<double> d = helicoid(beam, plan.length);
@@ -64,16 +59,16 @@ void add_elements(Builder& b, const scene::Beam& beam, BeamPlan& plan, const std
     elements::set_reference(e, reference);
     plan.elements.push_back(b.add(e, beam.name));
     plan.loads.emplace_back();
-    for (const scene::LineLoad& l : b.scene.line_loads) {
-      if (l.beam != beam.name) continue;
+    if (loads == b.loads_of_beam.end()) continue;
+    for (const scene::LineLoad* l : loads->second) {
       elements::LineLoad<N> load;
       for (int i = 0; i < N; ++i) load.ports[i] = e.ports[i];
       load.length = e.length;
-      for (const SpaceLoad& part : b.line_load(l)) {
+      for (const SpaceLoad& part : b.line_load(*l)) {
         load.wrench = part.wrench;
         load.follows = part.follows;
         load.law = part.law;
-        plan.loads.back().push_back(b.add(load, l.name));
+        plan.loads.back().push_back(b.add(load, l->name));
       }
     }
   }
@@ -90,6 +85,8 @@ const std::vector<SpaceLoad>& Builder::line_load(const scene::LineLoad& load) {
 }
 
 void Builder::add_beams() {
+  for (const scene::Section& s : scene.sections) section_of.emplace(s.name, &s);
+  for (const scene::LineLoad& l : scene.line_loads) loads_of_beam[l.beam].push_back(&l);
   for (const scene::Beam& beam : scene.beams) {
     const int start = node_of.at(beam.start), end = node_of.at(beam.end);
     BeamPlan p;
@@ -120,6 +117,14 @@ void Builder::add_beams() {
 }
 
 void Builder::add_sensors() {
+  std::unordered_map<std::string, int> beam_of, joint_of;
+  for (std::size_t i = 0; i < plan.beams.size(); ++i) beam_of[plan.beams[i].name] = static_cast<int>(i);
+  for (std::size_t i = 0; i < plan.joints.size(); ++i)  // the first of a prescribed motion's
+    if (plan.joints[i].what != "held rotation") joint_of.emplace(plan.joints[i].name, static_cast<int>(i));
+  const auto index_in = [](const std::unordered_map<std::string, int>& list, const std::string& name) {
+    const auto at = name.empty() ? list.end() : list.find(name);
+    return at == list.end() ? -1 : at->second;
+  };
   for (const scene::Sensor& s : scene.sensors) {
     SensorPlan p;
     p.sensor = s;
@@ -128,11 +133,8 @@ void Builder::add_sensors() {
         p.sensor.coordinate = scene::rate_coordinate(s, j.kind);
     p.components = scene::components_of(s.kind);
     if (p.components.empty()) p.components = {""};
-    for (std::size_t i = 0; i < plan.beams.size(); ++i)
-      if (!s.beam.empty() && plan.beams[i].name == s.beam) p.beam = static_cast<int>(i);
-    for (std::size_t i = 0; i < plan.joints.size(); ++i)
-      if (!s.joint.empty() && plan.joints[i].name == s.joint && plan.joints[i].what != "held rotation" && p.joint < 0)
-        p.joint = static_cast<int>(i);
+    p.beam = index_in(beam_of, s.beam);
+    p.joint = index_in(joint_of, s.joint);
     if (p.beam < 0 && !s.at.to.empty()) p.port = port_at(s.at);
     p.frame = port_at(s.frame, Frame<double>::identity());
     for (const std::string& name : s.chain) p.chain.push_back(port_at(name, Frame<double>::identity()));

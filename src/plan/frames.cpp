@@ -17,13 +17,9 @@ using motion::Vec6;
 
 namespace {
 
-using Series = lanes::Taylor<double, 3>;
+using Series = FrameCourse::Series;
 
-/// Pose and twist (own axes) as series in time.
-struct Course {
-  Frame<Series> pose;
-  Vec6<Series> twist;
-};
+using Course = FrameCourse;
 
 Course still() {
   Course c{motion::cast<Series>(Frame<double>::identity()), Vec6<Series>::zero()};
@@ -88,28 +84,26 @@ bool is_identity(const Frame<double>& H) {
   return H.x[0] == 0.0 && H.x[1] == 0.0 && H.x[2] == 0.0;
 }
 
-/// The way up to a root is as deep as frames are nested: two or three, so each frame goes it anew instead of keeping series.
-Course course_of(const Plan& plan, int frame, int root, const Series* laws) {
-  Course c = still();
-  for (int i = frame; i != root && i >= 0; i = plan.frames[static_cast<std::size_t>(i)].parent)
-    c = compose(in_parent(plan.frames[static_cast<std::size_t>(i)], laws), c);
-  return c;
-}
-
 }  // namespace
 
 void eval_frames(const Plan& plan, const lanes::Taylor<double, 3>* laws, FrameMotions& motions) {
   motions.in_ground.resize(plan.frames.size());
-  const Course observer = plan.observer < 0 ? still() : course_of(plan, plan.observer, -1, laws);
+  motions.courses.resize(plan.frames.size());
+  for (std::size_t f = 0; f < plan.frames.size(); ++f) {  // parents first
+    const FramePlan& frame = plan.frames[f];
+    const bool starts = frame.parent < 0 || (frame.in_observer && frame.parent == plan.observer);
+    const Course own = in_parent(frame, laws);
+    motions.courses[f] = starts ? own : compose(motions.courses[static_cast<std::size_t>(frame.parent)], own);
+  }
+  const Course observer = plan.observer < 0 ? still() : motions.courses[static_cast<std::size_t>(plan.observer)];
   motions.observer = motion_of(observer);
   for (std::size_t f = 0; f < plan.frames.size(); ++f) {
-    const int i = static_cast<int>(f);
-    if (i == plan.observer)
+    const Course& course = motions.courses[f];
+    if (static_cast<int>(f) == plan.observer)
       motions.in_ground[f] = CarrierMotion{};
-    else if (plan.observer < 0 || plan.frames[f].in_observer)
-      motions.in_ground[f] = motion_of(course_of(plan, i, plan.observer, laws));
     else
-      motions.in_ground[f] = motion_of(relative(observer, course_of(plan, i, -1, laws)));
+      motions.in_ground[f] =
+          motion_of(plan.observer < 0 || plan.frames[f].in_observer ? course : relative(observer, course));
   }
 }
 
@@ -126,37 +120,50 @@ FrameMotions frames_at_start(const Plan& plan) {
   return start;
 }
 
+namespace {
+
+/// Parents before their children, those above the ground first.
+std::vector<std::size_t> from_the_top(const scene::FrameTree& frames, std::size_t count) {
+  std::vector<std::size_t> order, way;
+  std::vector<bool> is_placed(count, false);
+  const auto append_way = [&](std::size_t from) {
+    way.clear();
+    for (std::size_t i = from; i != scene::FrameTree::none && !is_placed[i]; i = frames.parent(i)) {
+      is_placed[i] = true;
+      way.push_back(i);
+    }
+    order.insert(order.end(), way.rbegin(), way.rend());
+  };
+  if (!frames.above_ground().empty()) append_way(frames.above_ground().front());
+  for (std::size_t i = 0; i < count; ++i) append_way(i);
+  return order;
+}
+
+}  // namespace
+
 /// Frames in the order parents, children. Nothing where no frame moves: then all are places in the ground.
 void Builder::add_frames() {
-  const auto find = [this](const std::string& name) { return poses.frame(name); };
+  const scene::FrameTree& frames = poses.frames();
   const bool any_moves = std::any_of(scene.frames.begin(), scene.frames.end(),
                                      [](const scene::FrameDef& f) { return f.motion.has_value(); });
-  for (const scene::FrameDef& f : scene.frames)
-    frame_start[f.name] = poses.of(std::string_view(f.name)).value_or(f.placement.pose);
+  for (std::size_t i = 0; i < scene.frames.size(); ++i)
+    frame_start[scene.frames[i].name] = frames.pose(i).value_or(scene.frames[i].placement.pose);
   if (!any_moves && scene.analysis.frame.empty()) return;
-  std::vector<std::size_t> order;
-  const std::vector<std::size_t> ground = scene::frames_above(scene, scene.analysis.frame, find);
-  const auto append_way = [&](const std::string& name) {
-    std::vector<std::size_t> way = scene::frames_above(scene, name, find);
-    for (auto i = way.rbegin(); i != way.rend(); ++i)
-      if (std::find(order.begin(), order.end(), *i) == order.end()) order.push_back(*i);
-  };
-  append_way(scene.analysis.frame);
-  for (const scene::FrameDef& f : scene.frames) append_way(f.name);
-  std::map<std::string, int> plan_index;
-  for (const std::size_t i : order) {
+  std::vector<bool> is_above_ground(scene.frames.size(), false);
+  for (const std::size_t i : frames.above_ground()) is_above_ground[i] = true;
+  std::vector<int> plan_index(scene.frames.size(), -1);
+  for (const std::size_t i : from_the_top(frames, scene.frames.size())) {
     const scene::FrameDef& given = scene.frames[i];
-    const bool above_ground = std::find(ground.begin(), ground.end(), i) != ground.end();
     FramePlan f;
     f.name = given.name;
     f.pose = given.placement.pose;
-    const std::string& parent = given.placement.frame;
-    f.parent = parent.empty() || parent == "ground" ? (above_ground ? -1 : plan.observer) : plan_index.at(parent);
-    f.in_observer = !above_ground && plan.observer >= 0 &&
+    const std::size_t parent = frames.parent(i);
+    f.parent = parent != scene::FrameTree::none ? plan_index[parent] : is_above_ground[i] ? -1 : plan.observer;
+    f.in_observer = !is_above_ground[i] && plan.observer >= 0 &&
                     (f.parent == plan.observer || plan.frames[static_cast<std::size_t>(f.parent)].in_observer);
     const auto add = [&](const laws::Law& law) {
       const int id = add_law(law, given.name);
-      plan.laws.back().at_start = above_ground && !plan.is_dynamic;
+      plan.laws.back().at_start = is_above_ground[i] && !plan.is_dynamic;
       return id;
     };
     if (given.motion) {
@@ -165,12 +172,12 @@ void Builder::add_frames() {
         if (!given.motion->position[k].is_constant()) f.position[k] = add(given.motion->position[k]);
       for (const scene::Turn& t : given.motion->turns) f.turns.push_back({t.axis, add(t.angle)});
     }
-    plan_index[given.name] = static_cast<int>(plan.frames.size());
+    plan_index[i] = static_cast<int>(plan.frames.size());
     plan.frames.push_back(f);
-    if (given.name == scene.analysis.frame) plan.observer = plan_index[given.name];
+    if (given.name == scene.analysis.frame) plan.observer = plan_index[i];
   }
-  for (const auto& [name, index] : plan_index)
-    if (poses.is_moving(name)) carrier_of[name] = index;
+  for (std::size_t i = 0; i < scene.frames.size(); ++i)
+    if (frames.is_moving(i)) carrier_of[scene.frames[i].name] = plan_index[i];
   start_motions = frames_at_start(plan);
 }
 

@@ -6,6 +6,7 @@
 #include "bough/elements/rows.hpp"
 #include "bough/plan/small_inverse.hpp"
 #include "plan_builder.hpp"
+#include "sets.hpp"
 
 namespace bough::plan {
 
@@ -26,7 +27,12 @@ bool is_to_ground(const elements::Joint& e) {
 class Holder {
  public:
   explicit Holder(const Builder& b)
-      : b_(b), plan_(b.plan), laws_(b.plan.laws.size(), 0.0), joints_at_(b.plan.nodes.size()) {
+      : b_(b),
+        plan_(b.plan),
+        laws_(b.plan.laws.size(), 0.0),
+        joints_at_(b.plan.nodes.size()),
+        group_of_(b.plan.nodes.size()),
+        groups_(b.plan.nodes.size()) {
     for (std::size_t i = 0; i < laws_.size(); ++i)
       if (law(static_cast<int>(i)).is_constant()) laws_[i] = law(static_cast<int>(i)).at(0.0).value;
     for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
@@ -34,6 +40,7 @@ class Holder {
       for (const Port& p : joint_of(plan_, plan_.joints[j]).ports)
         if (p.node != elements::ground) joints_at_[static_cast<std::size_t>(p.node)].push_back(static_cast<int>(j));
     }
+    count_groups();
   }
 
   /// Joints between a node and the ground, where they have enough rows to hold it; else none.
@@ -107,24 +114,33 @@ class Holder {
   /// multipliers share a load, by least norm in scales that the node's unknowns take part in, is a matter of all of them. In a tree that is held at this node
   /// alone no combination of rows is without force.
   const char* loop_from(std::size_t node, const std::vector<int>& holding) const {
-    std::vector<std::size_t> front{node};
-    std::vector<bool> seen(plan_.nodes.size(), false);
-    seen[node] = true;
-    std::size_t ends = 0;  // two of each joint
-    for (std::size_t k = 0; k < front.size(); ++k)
-      for (int j : joints_at_[front[k]]) {
-        if (std::find(holding.begin(), holding.end(), j) != holding.end()) continue;
-        if (is_to_ground(joint(j)))
-          return "another chain of joints leads from it to the ground: their rows may depend on each other";
-        ++ends;
-        for (const Port& p : joint(j).ports)
-          if (const auto next = static_cast<std::size_t>(p.node); !seen[next]) {
-            seen[next] = true;
-            front.push_back(next);
-          }
-      }
-    return ends / 2 + 1 == front.size() ? nullptr
-                                        : "joints that it carries form a loop: their rows may depend on each other";
+    const Group& group = groups_[group_of_[node]];
+    if (group.to_ground > holding.size())
+      return "another chain of joints leads from it to the ground: their rows may depend on each other";
+    return group.between + 1 == group.nodes ? nullptr
+                                            : "joints that it carries form a loop: their rows may depend on each other";
+  }
+
+  /// Nodes that joints tie to each other, over the ground not counted.
+  struct Group {
+    std::size_t nodes = 0, between = 0, to_ground = 0;  ///< joints between two of the nodes, and from one to the ground
+  };
+  void count_groups() {
+    Sets sets(plan_.nodes.size());
+    const auto with_rows = [this](auto&& visit) {
+      for (const JointPlan& j : plan_.joints)
+        if (!j.rows.empty()) visit(joint_of(plan_, j));
+    };
+    with_rows([&](const elements::Joint& e) {
+      if (!is_to_ground(e)) sets.join(sets.index(e.ports[0]), sets.index(e.ports[1]));
+    });
+    for (std::size_t n = 0; n < plan_.nodes.size(); ++n) ++groups_[group_of_[n] = sets.of(n)].nodes;
+    with_rows([&](const elements::Joint& e) {
+      const Port& p = e.ports[e.ports[0].node == elements::ground ? 1 : 0];
+      if (p.node == elements::ground) return;
+      Group& group = groups_[group_of_[static_cast<std::size_t>(p.node)]];
+      ++(is_to_ground(e) ? group.to_ground : group.between);
+    });
   }
 
   /// Residual of a joint at the start, its rows after twelve entries of forces. multipliers: by row, max_rows of them.
@@ -181,6 +197,8 @@ class Holder {
   const Plan& plan_;
   std::vector<double> laws_;                 ///< values of those that are constant
   std::vector<std::vector<int>> joints_at_;  ///< by node, those with rows
+  std::vector<std::size_t> group_of_;        ///< by node
+  std::vector<Group> groups_;                ///< by the node that stands for one
 };
 
 /// What a decision about nodes tells of them: the first that it is taken for, how many more, and why not for the first of the others.

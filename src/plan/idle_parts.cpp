@@ -64,12 +64,15 @@ void Builder::say_idle_parts() {
     if (!is_zero(plan.nodes[n].twist) || plan.observer >= 0) is_moved[n] = true;
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t n = 0; n < count; ++n) members[parts.of(n)].push_back(n);
+  std::map<std::size_t, std::vector<std::string>> welded_to;  // names of what became part of others, by part
+  for (const auto& [name, offset] : part_offset)
+    welded_to[parts.of(static_cast<std::size_t>(node_of.at(name)))].push_back(name);
   for (const auto& [part, nodes] : members)
     if (std::none_of(nodes.begin(), nodes.end(), [&](std::size_t n) { return is_moved[n]; })) {
       std::vector<std::string> names;
       for (std::size_t n : nodes) names.push_back(plan.nodes[n].name);
-      for (const auto& [name, offset] : part_offset)
-        if (parts.of(static_cast<std::size_t>(node_of.at(name))) == part) names.push_back(name);
+      const std::vector<std::string>& others = welded_to[part];
+      names.insert(names.end(), others.begin(), others.end());
       plan.notes.push_back(
           listed(names) + (names.size() == 1 ? ": nothing moves it" : ": nothing moves them") +
           " (no load, weight, drive, tension or initial velocity): left out of the scene, the rest would "

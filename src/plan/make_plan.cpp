@@ -52,9 +52,9 @@ int Builder::add(const E& e, const std::string& owner) {
 }
 
 void Builder::add_bodies() {
-  for (const scene::Node& n : scene.nodes) add_node(n.name, scene::resolve(scene, n.placement));
+  for (const scene::Node& n : scene.nodes) add_node(n.name, poses.of(n.placement).value_or(n.placement.pose));
   for (const scene::Body& b : scene.bodies) {
-    const int id = add_node(b.name, scene::resolve(scene, b.placement));
+    const int id = add_node(b.name, poses.of(b.placement).value_or(b.placement.pose));
     elements::RigidBody body;
     body.ports[0].node = id;
     body.mass = elements::make_mass_matrix(b.mass, b.center_of_mass, b.inertia);
@@ -215,13 +215,9 @@ void Builder::add_couplings() {
 
 void Builder::add_initial_velocities() {
   for (const scene::InitialVelocity& v : scene.initial_velocities) {
-    std::vector<int> targets;
-    const auto beam =
-        std::find_if(plan.beams.begin(), plan.beams.end(), [&](const BeamPlan& b) { return b.name == v.of; });
-    if (beam != plan.beams.end())
-      targets = beam->nodes;
-    else
-      targets = {node_of.at(v.of)};
+    const auto thing = poses.find(v.of);
+    const bool is_beam = thing && thing->kind == scene::ThingKind::beam;
+    const std::vector<int> targets = is_beam ? plan.beams[thing->index].nodes : std::vector<int>{node_of.at(v.of)};
     const Frame<double> origin = plan.nodes[static_cast<std::size_t>(targets.front())].pose;
     Vec3<double> linear = v.velocity, angular = v.angular_velocity;
     if (v.axes == scene::LoadAxes::body) {

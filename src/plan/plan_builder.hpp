@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -42,9 +43,11 @@ struct Builder {
   const scene::Scene& scene;
   Plan plan;
   scene::Poses poses;
-  std::map<std::string, int> node_of;
+  std::unordered_map<std::string, int> node_of;
   OwnersOf<ElementArrays>::type owner_lists;
   std::map<std::string, std::vector<SpaceLoad>> line_loads;  ///< by name: one law for all elements under a line load
+  std::unordered_map<std::string, const scene::Section*> section_of;                   ///< by name
+  std::unordered_map<std::string, std::vector<const scene::LineLoad*>> loads_of_beam;  ///< by name of the beam
   std::map<std::string, int> carrier_of;                     ///< frames that move in the ground, in Plan::frames
   std::map<std::string, motion::Frame<double>> frame_start;  ///< pose of every frame in the ground
   FrameMotions start_motions;

@@ -78,11 +78,9 @@ void Builder::keep_from_spinning(std::size_t body, const std::vector<Vec3<double
   if (!plan.is_dynamic) return;
   const int node = plan.bodies[body].frame.node;
   spinless.emplace_back(node, (1.0 / std::sqrt(lanes::dot(line, line))) * line);
-  for (elements::RigidBody& e : array_of<elements::RigidBody>(plan.elements)) {
-    if (e.ports[0].node != node) continue;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) e.mass(3 + i, 3 + j) += e.mass(0, 0) * line[i] * line[j];
-  }
+  elements::RigidBody& e = array_of<elements::RigidBody>(plan.elements)[body];  // still one for each body of the scene
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) e.mass(3 + i, 3 + j) += e.mass(0, 0) * line[i] * line[j];
   plan.notes.push_back(
       "point mass '" + scene.bodies[body].name +
       "' is held at one line through it: nothing feels its spin about that line, which is none from start to end");

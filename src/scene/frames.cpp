@@ -4,48 +4,64 @@
 
 namespace bough::scene {
 
-std::vector<std::size_t> frames_above(const Scene& scene, const std::string& name, const FindFrame& find) {
-  std::vector<std::size_t> r;
-  for (const std::string* at = &name; !at->empty() && *at != "ground";) {
-    const auto index = find(*at);
-    if (!index || std::find(r.begin(), r.end(), *index) != r.end()) break;
-    r.push_back(*index);
-    at = &scene.frames[*index].placement.frame;
+FrameTree::FrameTree(const Scene& scene, const FindFrame& find)
+    : parent_(scene.frames.size(), none), is_lost_(scene.frames.size(), false), frames_(scene.frames.size()) {
+  const std::size_t count = scene.frames.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string& name = scene.frames[i].placement.frame;
+    if (name.empty() || name == "ground") continue;
+    parent_[i] = find(name).value_or(none);
+    is_lost_[i] = parent_[i] == none;
   }
-  return r;
-}
-
-std::optional<Frame> pose_in_ground(const Scene& scene, const Placement& placement, const FindFrame& find) {
-  const std::vector<std::size_t> ground = frames_above(scene, scene.analysis.frame, find);
-  Frame pose = placement.pose;
-  const std::string* parent = &placement.frame;
-  for (std::size_t depth = 0; depth <= scene.frames.size(); ++depth) {
-    if (parent->empty() || *parent == "ground") return pose;
-    const auto index = find(*parent);
-    if (!index) return std::nullopt;
-    if (const auto at = std::find(ground.begin(), ground.end(), *index); at != ground.end()) {
-      // The ground stands in this frame, or is it: up from the ground, then back.
-      Frame up = Frame::identity();
-      for (auto i = ground.begin(); i != at; ++i) up = motion::compose(scene.frames[*i].placement.pose, up);
-      return at == ground.begin() ? pose : motion::compose(motion::inverse(up), pose);
+  std::vector<bool> is_on_way(count, false);
+  const std::string& own = scene.analysis.frame;
+  const auto first = own.empty() || own == "ground" ? std::nullopt : find(own);
+  for (std::size_t i = first.value_or(none); i != none && !is_on_way[i]; i = parent_[i]) {
+    is_on_way[i] = true;
+    ground_.push_back(i);
+  }
+  settle_ground(scene);
+  std::vector<std::size_t> way;
+  for (std::size_t i = 0; i < count; ++i) {
+    way.clear();
+    for (std::size_t at = i; at != none && !frames_[at].known && !is_on_way[at]; at = parent_[at]) {
+      is_on_way[at] = true;
+      way.push_back(at);
     }
-    pose = motion::compose(scene.frames[*index].placement.pose, pose);
-    parent = &scene.frames[*index].placement.frame;
+    settle(scene, way);
   }
-  return std::nullopt;  // a frame stands in itself
 }
 
-bool is_moving(const Scene& scene, const std::string& name, const FindFrame& find) {
-  const std::vector<std::size_t> ground = frames_above(scene, scene.analysis.frame, find);
-  std::vector<std::size_t> way = frames_above(scene, name, find);
-  // Of both ways up, only what is not common moves one against the other.
-  const auto common = std::find_if(way.begin(), way.end(), [&](std::size_t i) {
-    return std::find(ground.begin(), ground.end(), i) != ground.end();
-  });
-  const auto moves = [&](std::size_t i) { return scene.frames[i].motion.has_value(); };
-  if (std::any_of(way.begin(), common, moves)) return true;
-  if (common == way.end()) return false;
-  return std::any_of(ground.begin(), std::find(ground.begin(), ground.end(), *common), moves);
+/// The ground stands in these frames, or is the first of them: up from the ground, then back.
+void FrameTree::settle_ground(const Scene& scene) {
+  Frame up = Frame::identity();
+  bool moves = false;
+  for (const std::size_t i : ground_) {
+    frames_[i].pose = i == ground_.front() ? Frame::identity() : motion::inverse(up);
+    frames_[i].moves = moves;
+    frames_[i].circles = parent_[ground_.back()] != none;
+    frames_[i].known = true;
+    up = motion::compose(scene.frames[i].placement.pose, up);
+    moves = moves || scene.frames[i].motion.has_value();
+  }
+}
+
+/// way: from a frame up, to one that stands in a known frame, in nothing or in a frame of the way itself.
+void FrameTree::settle(const Scene& scene, const std::vector<std::size_t>& way) {
+  for (auto i = way.rbegin(); i != way.rend(); ++i) {
+    OfFrame& frame = frames_[*i];
+    const FrameDef& given = scene.frames[*i];
+    frame.known = true;
+    frame.moves = given.motion.has_value();
+    if (parent_[*i] == none) {
+      if (!is_lost_[*i]) frame.pose = given.placement.pose;
+      continue;
+    }
+    const OfFrame& parent = frames_[parent_[*i]];
+    frame.circles = !parent.known || parent.circles || parent_[*i] == *i;
+    frame.moves = frame.moves || parent.moves;
+    if (!frame.circles && parent.pose) frame.pose = motion::compose(*parent.pose, given.placement.pose);
+  }
 }
 
 }  // namespace bough::scene

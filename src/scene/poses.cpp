@@ -3,8 +3,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "bough/scene/frames.hpp"
-
 namespace bough::scene {
 namespace {
 
@@ -16,26 +14,14 @@ void add_all(std::unordered_map<std::string, Thing>& things, const List& list, T
     if (!list[i].name.empty()) things.try_emplace(list[i].name, Thing{kind, i});
 }
 
-std::optional<std::size_t> frame_named(const Scene& scene, const std::string& name) {
-  for (std::size_t i = 0; i < scene.frames.size(); ++i)
-    if (scene.frames[i].name == name) return i;
-  return std::nullopt;
-}
-
 }  // namespace
 
 Frame resolve(const Scene& scene, const Placement& placement) {
   if (placement.frame.empty()) return placement.pose;
-  return pose_in_ground(scene, placement, [&scene](const std::string& name) { return frame_named(scene, name); })
-      .value_or(placement.pose);
+  return Poses(scene).of(placement).value_or(placement.pose);
 }
 
 std::optional<Frame> initial_pose(const Scene& scene, const std::string& name) {
-  if (name.empty() || name == "ground") return Frame::identity();
-  for (const Node& n : scene.nodes)
-    if (n.name == name) return resolve(scene, n.placement);
-  for (const Body& b : scene.bodies)
-    if (b.name == name) return resolve(scene, b.placement);
   return Poses(scene).of(std::string_view(name));
 }
 
@@ -58,18 +44,29 @@ std::optional<Mat3> axes_from(int k, const Vec3& main, const Vec3& next) {
   return R;
 }
 
-Poses::Poses(const Scene& scene) : scene_(scene) {
-  add_all(things_, scene.frames, ThingKind::frame);
-  add_all(things_, scene.nodes, ThingKind::node);
-  add_all(things_, scene.bodies, ThingKind::body);
-  add_all(things_, scene.beams, ThingKind::beam);
-  add_all(things_, scene.joints, ThingKind::joint);
-  add_all(things_, scene.springs, ThingKind::other);
-  add_all(things_, scene.bushings, ThingKind::other);
-  add_all(things_, scene.point_loads, ThingKind::other);
-  add_all(things_, scene.line_loads, ThingKind::other);
-  add_all(things_, scene.motions, ThingKind::other);
+namespace {
+
+std::unordered_map<std::string, Thing> things_of(const Scene& scene) {
+  std::unordered_map<std::string, Thing> things;
+  add_all(things, scene.frames, ThingKind::frame);
+  add_all(things, scene.nodes, ThingKind::node);
+  add_all(things, scene.bodies, ThingKind::body);
+  add_all(things, scene.beams, ThingKind::beam);
+  add_all(things, scene.joints, ThingKind::joint);
+  add_all(things, scene.springs, ThingKind::other);
+  add_all(things, scene.bushings, ThingKind::other);
+  add_all(things, scene.point_loads, ThingKind::other);
+  add_all(things, scene.line_loads, ThingKind::other);
+  add_all(things, scene.motions, ThingKind::other);
+  return things;
 }
+
+}  // namespace
+
+Poses::Poses(const Scene& scene)
+    : scene_(scene),
+      things_(things_of(scene)),
+      frames_(scene, [this](const std::string& name) { return frame(name); }) {}
 
 std::optional<Thing> Poses::find(std::string_view name) const {
   const auto it = things_.find(std::string(name));
@@ -79,7 +76,9 @@ std::optional<Thing> Poses::find(std::string_view name) const {
 
 std::optional<Frame> Poses::chain(const Placement& placement) const {
   if (placement.frame.empty() || placement.frame == "ground") return placement.pose;
-  return pose_in_ground(scene_, placement, [this](const std::string& name) { return frame(name); });
+  const auto index = frame(placement.frame);
+  if (!index || !frames_.pose(*index)) return std::nullopt;
+  return motion::compose(*frames_.pose(*index), placement.pose);
 }
 
 std::optional<std::size_t> Poses::frame(const std::string& name) const {
@@ -89,7 +88,8 @@ std::optional<std::size_t> Poses::frame(const std::string& name) const {
 }
 
 bool Poses::is_moving(const std::string& frame_name) const {
-  return scene::is_moving(scene_, frame_name, [this](const std::string& name) { return frame(name); });
+  const auto index = frame(frame_name);
+  return index && frames_.is_moving(*index);
 }
 
 std::optional<Frame> Poses::of(const Placement& placement) const { return chain(placement); }
@@ -105,7 +105,7 @@ std::optional<Frame> Poses::of(std::string_view name) const {
   if (const auto thing = find(name)) {
     switch (thing->kind) {
       case ThingKind::frame:
-        return chain(Placement{Frame::identity(), scene_.frames[thing->index].name});
+        return frames_.pose(thing->index);
       case ThingKind::node:
         return chain(scene_.nodes[thing->index].placement);
       case ThingKind::body:

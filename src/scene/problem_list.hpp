@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdio>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct ProblemList {
   std::unordered_set<std::string> defective;
   std::vector<SceneProblem> problems;
   std::vector<std::string> sections, sensors, joints, beams, places,
-      frames;         ///< names that references are compared with
+      frames;                                                          ///< names that references are compared with
+  std::unordered_map<std::string, std::size_t> section_of, sensor_of;  ///< first of a name, in the scene's lists
   double size = 1.0;  ///< of the model: diagonal of the box around all nodes and bodies [m]; 1 where that is 0
   bool is_dynamic = false;
   double last_time = 1.0;  ///< end time [s], or load factor 1
@@ -42,7 +44,19 @@ struct ProblemList {
   void check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law,
                  bool with_derivatives);
 
+  /// The nearest of some names, while the search for such names has not cost much: it goes over all names for every
+  /// fault.
+  std::string nearest(const std::string& name, const std::vector<std::string>& known);
+
   std::optional<Thing> body_of(const std::string& place) const;  ///< the body of that name, if it is one
+
+ private:
+  void put(SceneProblem problem);
+  void check_breaks(const char* section, std::size_t index, const std::string& key, const laws::Law& law);
+
+  std::size_t num_kept_[2] = {0, 0}, last_kept_[2] = {0, 0};  ///< of problems, of warnings; the last ones
+  double break_work_ = 0.0;                                   ///< instructions of formulas
+  double letters_compared_ = 0.0;                             ///< by nearest()
 };
 
 std::string text_of(double x);

@@ -6,15 +6,18 @@
 #include <unordered_map>
 
 #include "bough/motion/se3.hpp"
-#include "bough/scene/frames.hpp"
+#include "bough/scene/break_limits.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "problem_list.hpp"
 
 namespace bough::scene {
 namespace {
 
-constexpr std::size_t max_suggestions =
-    200;  // a scene with more faults than this gets no more nearest names: the search is quadratic
+constexpr std::size_t most_kept = 400;  // of problems, and of warnings: twice what is shown of them
+constexpr double most_break_work =
+    2e7;  // instructions of formulas in searches for breakpoints, some tenths of a second: the run finds the rest
+constexpr double most_letters =
+    1e7;  // compared in searches for nearest names: beyond, some tenths of a second, none are searched
 
 template <class List>
 std::vector<std::string> names_of(const List& list) {
@@ -57,19 +60,13 @@ void check_one_set(ProblemList& list, const char* section, const List& things,
   }
 }
 
-/// Whether the way up from a frame never ends.
-bool stands_in_itself(const ProblemList& list, const std::string& frame) {
-  const auto find = [&list](const std::string& name) { return list.poses.frame(name); };
-  const std::vector<std::size_t> way = frames_above(list.scene, frame, find);
-  return !way.empty() && find(list.scene.frames[way.back()].placement.frame).has_value();
-}
-
 template <class List>
 void check_placements(ProblemList& list, const char* section, const List& things) {
   for (std::size_t i = 0; i < things.size(); ++i) {
     const std::string& frame = things[i].placement.frame;
     if (frame.empty() || frame == "ground" || list.is_defective(frame)) continue;
-    if (list.check_reference(section, i, "frame", frame, list.frames, "frame") && stands_in_itself(list, frame))
+    if (list.check_reference(section, i, "frame", frame, list.frames, "frame") &&
+        list.poses.frames().stands_in_itself(*list.poses.frame(frame)))
       list.add(section, i, "frame", frame, "this frame stands in itself, directly or through others");
   }
 }
@@ -80,6 +77,8 @@ ProblemList::ProblemList(const Scene& scene_in, std::span<const std::string> def
     : scene(scene_in), poses(scene_in), defective(defective_in.begin(), defective_in.end()) {
   sections = names_of(scene.sections);
   sensors = names_of(scene.sensors);
+  for (std::size_t i = 0; i < sections.size(); ++i) section_of.emplace(sections[i], i);
+  for (std::size_t i = 0; i < sensors.size(); ++i) sensor_of.emplace(sensors[i], i);
   joints = names_of(scene.joints);
   beams = names_of(scene.beams);
   frames = names_of(scene.frames);
@@ -97,13 +96,22 @@ ProblemList::ProblemList(const Scene& scene_in, std::span<const std::string> def
 
 void ProblemList::add(const char* section, std::size_t index, std::string key, std::string value, std::string rule,
                       std::string hint) {
-  problems.push_back(
-      {section, static_cast<int>(index), std::move(key), std::move(value), std::move(rule), std::move(hint), false});
+  put({section, static_cast<int>(index), std::move(key), std::move(value), std::move(rule), std::move(hint), false});
 }
 void ProblemList::warn(const char* section, std::size_t index, std::string key, std::string value, std::string rule,
                        std::string hint) {
-  problems.push_back(
-      {section, static_cast<int>(index), std::move(key), std::move(value), std::move(rule), std::move(hint), true});
+  put({section, static_cast<int>(index), std::move(key), std::move(value), std::move(rule), std::move(hint), true});
+}
+
+void ProblemList::put(SceneProblem problem) {
+  const int kind = problem.is_warning ? 1 : 0;
+  if (num_kept_[kind] == most_kept) {
+    ++problems[last_kept_[kind]].more;
+    return;
+  }
+  ++num_kept_[kind];
+  last_kept_[kind] = problems.size();
+  problems.push_back(std::move(problem));
 }
 
 bool ProblemList::is_defective(const std::string& name) const {
@@ -112,11 +120,18 @@ bool ProblemList::is_defective(const std::string& name) const {
   return dot_at != std::string::npos && defective.count(name.substr(0, dot_at)) > 0;
 }
 
+std::string ProblemList::nearest(const std::string& name, const std::vector<std::string>& known) {
+  constexpr double usual_length = 8.0;
+  if (letters_compared_ > most_letters) return "";
+  letters_compared_ += static_cast<double>(known.size()) * usual_length * static_cast<double>(name.size() + 1);
+  return nearest_name(name, known);
+}
+
 bool ProblemList::check_reference(const char* section, std::size_t index, const std::string& key,
                                   const std::string& name, const std::vector<std::string>& known, const char* what) {
   if (is_defective(name)) return false;
   if (&known == &sections || &known == &sensors) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) return true;
+    if ((&known == &sections ? section_of : sensor_of).count(name) > 0) return true;
   } else if (const auto thing = poses.find(name)) {
     const bool fits = &known == &joints  ? thing->kind == ThingKind::joint
                       : &known == &beams ? thing->kind == ThingKind::beam
@@ -125,7 +140,7 @@ bool ProblemList::check_reference(const char* section, std::size_t index, const 
     add(section, index, key, name, std::string("this is not a ") + what);
     return false;
   }
-  const std::string near = problems.size() < max_suggestions ? nearest_name(name, known) : "";
+  const std::string near = nearest(name, known);
   std::string hint = !near.empty()   ? "did you mean \"" + near + "\"?"
                      : known.empty() ? std::string("the scene has no ") + what
                                      : "";
@@ -166,17 +181,25 @@ bool ProblemList::check_place(const char* section, std::size_t index, const std:
       return false;
     }
   }
-  const std::string near = problems.size() < max_suggestions ? nearest_name(name, places) : "";
+  const std::string near = nearest(name, places);
   add(section, index, key, name, "no node or body has this name", near.empty() ? "" : "did you mean \"" + near + "\"?");
   return false;
 }
 
 void ProblemList::check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law,
                             bool with_derivatives) {
+  // The value of an integral by quadrature takes all of the way to it: its derivatives are looked at, which are what
+  // is summed up.
+  const std::optional<laws::Law> integrand = law.integrand();
+  const auto value_at = [&](double t) {
+    if (!integrand) return law.at(t);
+    const laws::LawValue rate = integrand->at(t);
+    return laws::LawValue{0.0, rate.value, rate.rate};
+  };
   constexpr int samples = 16;
   for (int i = 0; i <= samples; ++i) {
     const double t = std::isfinite(last_time) ? last_time * i / samples : 0.0;
-    const laws::LawValue v = law.at(t);
+    const laws::LawValue v = value_at(t);
     if (std::isfinite(v.value) && (!with_derivatives || (std::isfinite(v.rate) && std::isfinite(v.acceleration))))
       continue;
     add(section, index, key, "",
@@ -185,6 +208,16 @@ void ProblemList::check_law(const char* section, std::size_t index, const std::s
         with_derivatives ? "a prescribed motion needs a finite velocity and acceleration" : "");
     return;
   }
+  check_breaks(section, index, key, law);
+}
+
+void ProblemList::check_breaks(const char* section, std::size_t index, const std::string& key, const laws::Law& law) {
+  const Analysis& a = scene.analysis;
+  const bool is_run = is_dynamic && a.end_time > 0.0 && a.step_size > 0.0 && std::isfinite(a.end_time);
+  if (!is_run || law.is_constant() || break_work_ > most_break_work) return;
+  const laws::Breaks breaks = law.breakpoints(0.0, end_of_stretch(a, 0.0), most_breaks_a_stretch);
+  break_work_ += breaks.work;
+  if (breaks.is_cut) add(section, index, key, "", "this law " + too_many_breaks(a, 0.0), fewer_breaks);
 }
 
 std::optional<Thing> ProblemList::body_of(const std::string& place) const {

@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "bough/scene/frames.hpp"
 #include "bough/scene/moving_frame.hpp"
 #include "problem_list.hpp"
 
@@ -71,8 +70,7 @@ void check_frames(ProblemList& list) {
   const std::string& name = s.analysis.frame;
   if (name.empty() || list.is_defective(name)) return;
   if (!list.check_reference("analysis", 0, "frame", name, list.frames, "frame")) return;
-  const std::vector<std::size_t> way =
-      frames_above(s, name, [&list](const std::string& frame) { return list.poses.frame(frame); });
+  const std::vector<std::size_t>& way = list.poses.frames().above_ground();
   const std::string& last = s.frames[way.back()].placement.frame;
   const bool is_whole = last.empty() || last == "ground";  // else another problem is told already
   if (is_whole && s.analysis.kind == AnalysisKind::statics) check_steady(list, way);

@@ -177,10 +177,8 @@ void check_beams(ProblemList& list) {
     if (has_ends && !b.frame.empty() && b.frame != "ground")
       has_ends = list.check_reference("beams", i, "frame", b.frame, list.frames, "frame");
     if (has_ends) check_beam_axis(list, i);
-    if (has_section && list.is_dynamic)
-      for (const Section& s : list.scene.sections)
-        if (s.name == b.section && is_zero(s.mass))
-          list.warn("beams", i, "section", b.section, "this section has no mass, and the analysis is dynamic");
+    if (has_section && list.is_dynamic && is_zero(list.scene.sections[list.section_of.at(b.section)].mass))
+      list.warn("beams", i, "section", b.section, "this section has no mass, and the analysis is dynamic");
   }
   if (!list.defective.empty()) return;  // a beam that was left out may use it
   for (std::size_t i = 0; i < list.scene.sections.size(); ++i)

@@ -18,10 +18,10 @@ std::string list_of(const std::vector<std::string>& words) {
 void check_chain(ProblemList& list, std::size_t i) {
   const Sensor& s = list.scene.sensors[i];
   if (!s.frame.empty()) list.check_place("sensors", i, "frame", s.frame, true);
+  std::unordered_set<std::string> before;
   for (std::size_t k = 0; k < s.chain.size(); ++k) {
     const std::string key = "frames/" + std::to_string(k);
-    if (std::find(s.chain.begin(), s.chain.begin() + static_cast<std::ptrdiff_t>(k), s.chain[k]) !=
-        s.chain.begin() + static_cast<std::ptrdiff_t>(k))
+    if (!before.insert(s.chain[k]).second)
       list.add("sensors", i, key, s.chain[k], "this frame stands in the chain already");
     else if (s.chain[k].empty() || s.chain[k] == "ground")
       list.add("sensors", i, key, "ground", "has to be a frame, a node or a body, not the ground",
@@ -130,26 +130,22 @@ void check_expected(ProblemList& list, std::size_t i) {
   const std::size_t dot_at = e.quantity.find('.');
   const std::string name = e.quantity.substr(0, dot_at);
   if (!list.check_reference("expected", i, "quantity", name, list.sensors, "sensor")) return;
-  for (const Sensor& s : list.scene.sensors) {
-    if (s.name != name) continue;
-    const auto& known = components_of(s.kind);
-    if (dot_at == std::string::npos) {
-      if (!known.empty())
-        list.add("expected", i, "quantity", e.quantity, "this sensor has the components " + list_of(known),
-                 "write \"" + name + "." + known[0] + "\"");
-      return;
-    }
-    const std::string component = e.quantity.substr(dot_at + 1);
-    if (std::find(known.begin(), known.end(), component) != known.end()) return;
-    const std::string near = nearest_name(component, known);
-    list.add("expected", i, "quantity", e.quantity,
-             known.empty() ? "this sensor is one number without components"
-                           : "this sensor has the components " + list_of(known),
-             known.empty()  ? "write \"" + name + "\""
-             : near.empty() ? ""
-                            : "did you mean \"" + name + "." + near + "\"?");
+  const auto& known = components_of(list.scene.sensors[list.sensor_of.at(name)].kind);
+  if (dot_at == std::string::npos) {
+    if (!known.empty())
+      list.add("expected", i, "quantity", e.quantity, "this sensor has the components " + list_of(known),
+               "write \"" + name + "." + known[0] + "\"");
     return;
   }
+  const std::string component = e.quantity.substr(dot_at + 1);
+  if (std::find(known.begin(), known.end(), component) != known.end()) return;
+  const std::string near = nearest_name(component, known);
+  list.add("expected", i, "quantity", e.quantity,
+           known.empty() ? "this sensor is one number without components"
+                         : "this sensor has the components " + list_of(known),
+           known.empty()  ? "write \"" + name + "\""
+           : near.empty() ? ""
+                          : "did you mean \"" + name + "." + near + "\"?");
 }
 
 /// Sets of things that are joined, by union and find over the places; the last one is the ground.
@@ -265,8 +261,8 @@ void check_analysis(ProblemList& list) {
   const bool has_mass = std::any_of(s.bodies.begin(), s.bodies.end(),
                                     [](const Body& b) { return b.mass > 0.0 || !(b.inertia(0, 0) == 0.0); }) ||
                         std::any_of(s.beams.begin(), s.beams.end(), [&](const Beam& b) {
-                          return std::any_of(s.sections.begin(), s.sections.end(),
-                                             [&](const Section& c) { return c.name == b.section && !is_zero(c.mass); });
+                          const auto section = list.section_of.find(b.section);
+                          return section != list.section_of.end() && !is_zero(s.sections[section->second].mass);
                         });
   if (!has_mass && list.defective.empty() && !(s.nodes.empty() && s.bodies.empty()))
     list.add("analysis", 0, "kind", "dynamic",

@@ -4,6 +4,7 @@
 
 #include "bough/io/number_text.hpp"
 #include "bough/results/observe.hpp"
+#include "break_walk.hpp"
 #include "bough/step/growing_vibration.hpp"
 #include "effective_options.hpp"
 #include "given_velocities.hpp"
@@ -204,20 +205,13 @@ bool Run::run_segment(double begin, double end, double& total_end) {
 }
 
 bool Run::run_dynamics() {
-  double end = scene_.analysis.end_time;
-  std::vector<double> cuts{0.0, end};
-  for (const plan::LawPlan& law : plan_.laws)
-    for (double t : law.law.breakpoints(0.0, end)) cuts.push_back(t);
-  std::sort(cuts.begin(), cuts.end());
-  const double least = 1e-9 * scene_.analysis.step_size;
-  std::vector<double> times{0.0};
-  for (double t : cuts)
-    if (t > times.back() + least && t < end - least) times.push_back(t);
-  times.push_back(end);
-  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+  const double end = scene_.analysis.end_time;
+  BreakWalk breaks(plan_, scene_.analysis);
+  for (double from = 0.0, to = 0.0; from < end; from = to) {
+    if (!breaks.next(from, to)) return fail(breaks.fault());
     looking_ = false;  // errors across a start say nothing
-    const bool is_done =
-        controller_ ? run_controlled_segment(times[k], times[k + 1], end) : run_segment(times[k], times[k + 1], end);
+    double last = end;
+    const bool is_done = controller_ ? run_controlled_segment(from, to, last) : run_segment(from, to, last);
     figures_.end_stretch(system_, state_, energy_meter_);
     if (!is_done) return false;
   }

@@ -244,5 +244,35 @@ TEST(Expression, nesting_is_limited_and_length_is_not) {
   EXPECT_TRUE(std::isfinite(make_expression(full).at(0.5, Side::left).value));
 }
 
+TEST(Breakpoints, the_search_ends_where_there_are_more_than_asked_for) {
+  for (const char* text :
+       {"abs(sin(1e7*t))", "step(sin(1e9*t))", "sign(sin(t/(t - 0.5)))", "min(sin(1e8*t), cos(1e8*t))"}) {
+    const Breaks breaks = make_expression(text).breakpoints(0.0, 1.0, 1000);
+    EXPECT_TRUE(breaks.is_cut) << text;
+    EXPECT_LE(breaks.times.size(), 1000U) << text;
+    EXPECT_LT(breaks.work, 1e7) << text;  // there are millions of breaks
+  }
+  EXPECT_FALSE(make_expression("abs(sin(100*t))").breakpoints(0.0, 1.0, 1000).is_cut);
+  const Law law = make_table({0.0, 1.0, 2.0, 3.0}, {0.0, 1.0, 0.0, 1.0}, Interpolation::linear);
+  EXPECT_TRUE(law.breakpoints(0.0, 9.0, 3).is_cut);
+  EXPECT_FALSE(law.breakpoints(0.0, 9.0, 4).is_cut);
+}
+
+TEST(Breakpoints, piece_by_piece_are_those_of_the_whole) {
+  const Law parts[] = {
+      make_expression("abs(sin(7*t)) + step(cos(3*t))"),
+      make_table({0.0, 1.0, 2.0, 3.0}, {0.0, 1.0, 0.0, 1.0}, Interpolation::linear),
+      make_piecewise({{0.0, make_constant(1.0)}, {1.0, make_expression("abs(t - 2.5)")}, {4.0, Law{}}})};
+  for (const Law& law : parts) {
+    Times all = law.breakpoints(0.0, 8.0), pieces;
+    for (int k = 0; k < 64; ++k) {
+      const Times piece = law.breakpoints(k / 8.0, (k + 1) / 8.0);
+      pieces.insert(pieces.end(), piece.begin(), piece.end());
+    }
+    pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+    EXPECT_EQ(pieces, all);
+  }
+}
+
 }  // namespace
 }  // namespace bough::laws

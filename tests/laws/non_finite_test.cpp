@@ -49,5 +49,12 @@ TEST(NonFinite, change_of_branch_at_a_pole_is_found) {
   EXPECT_EQ(make_expression("step(1/t)").breakpoints(-1.0, 1.0), std::vector<double>{0.0});
 }
 
+/// Each panel of the way has more corners than quadrature is given; the first tells for all.
+TEST(NonFinite, the_integral_of_a_law_that_moves_too_fast_is_given_up) {
+  EXPECT_TRUE(std::isnan(make_expression("abs(sin(1e7*t))").integral(0.0).at(1000.0).value));
+  EXPECT_TRUE(std::isnan(make_expression("sin(1e9*t*t)").integral(0.0).at(1e6).value));
+  EXPECT_NEAR(make_expression("abs(sin(1e3*t))").integral(0.0).at(1.0).value, 2.0 / 3.14159265358979, 1e-3);
+}
+
 }  // namespace
 }  // namespace bough::laws

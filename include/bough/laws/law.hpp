@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,14 @@ struct LawValue {
   double value = 0.0;
   double rate = 0.0;
   double acceleration = 0.0;
+};
+
+/// Breakpoints of a law, as far as they were looked for.
+struct Breaks {
+  std::vector<double> times;  ///< sorted, unique [s]
+  bool is_cut =
+      false;  ///< there are more than asked for, or so many places where there may be some that the search was given up
+  double work = 0.0;  ///< instructions of formulas that the search took
 };
 
 /// Which limit is meant where a law or one of its derivatives jumps.
@@ -37,6 +46,10 @@ class Law {
   /// of pieces that happen to fit), never one too few, except as stated for formulas (make_expression). Allocates.
   std::vector<double> breakpoints(double t_begin, double t_end) const;
 
+  /// The same, but the search ends once there are more than `most`: a formula may have any number of them in any
+  /// interval. Its cost grows with `most`, not with the number of breakpoints that there are.
+  Breaks breakpoints(double t_begin, double t_end, std::size_t most) const;
+
   /// The antiderivative that vanishes at t0 [s]:  F(t) = int_t0^t f(s) ds,  F' = f,  F'' = f'.
   /// Closed form for constants, ramps, tables, harmonics and for sums, multiples and pieces of those; adaptive
   /// quadrature to round-off for products and formulas. Its value does not depend on the order of calls.
@@ -44,6 +57,11 @@ class Law {
 
   /// True where the law is known to be the same at all times (by construction, not by trial).
   bool is_constant() const;
+
+  /// The law that this one sums up by quadrature from a start; nothing where it has a closed form. A value of this
+  /// one costs as much as all of the way from there, and is NaN where that would take more than quadrature is given
+  /// (make_law.hpp, limits).
+  std::optional<Law> integrand() const;
 
   /// The kind of law behind this value, null for zero. For the layer itself.
   const Node* node() const { return node_.get(); }

@@ -5,11 +5,20 @@
 
 namespace bough::plan {
 
+/// Pose and twist (own axes) of a frame as series in time: in the inertial frame, of frames that stand in the
+/// observer's in that one.
+struct FrameCourse {
+  using Series = lanes::Taylor<double, 3>;
+  motion::Frame<Series> pose;
+  motion::Vec6<Series> twist;
+};
+
 /// What eval_frames fills; sized by it, so that only the first call allocates.
 struct FrameMotions {
   std::vector<elements::CarrierMotion>
       in_ground;                     ///< of each frame in the ground: the inertial frame, or the observer's
   elements::CarrierMotion observer;  ///< of the observer's frame in the inertial one
+  std::vector<FrameCourse> courses;  ///< of each frame: scratch of eval_frames
 };
 
 /// Poses, twists and their first two derivatives from the laws' series in time (value, rate, half the acceleration, a sixth of the third

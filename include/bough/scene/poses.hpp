@@ -6,6 +6,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "bough/scene/frames.hpp"
 #include "bough/scene/scene.hpp"
 
 namespace bough::scene {
@@ -42,6 +43,7 @@ class Poses {
   std::optional<std::size_t> frame(const std::string& name) const;
   /// Whether a frame moves in the ground.
   bool is_moving(const std::string& frame_name) const;
+  const FrameTree& frames() const { return frames_; }
 
   /// Pose of the section axes of the undeformed beam at a fraction of its length [0, 1]: origin on the axis, axis 1 along it.
   /// Straight: from start to end, turned about axis 1 by fraction * twist. Curved: H(0) exp(s (1, 0, 0; k)), s = fraction * length.
@@ -57,6 +59,7 @@ class Poses {
 
   const Scene& scene_;
   std::unordered_map<std::string, Thing> things_;
+  FrameTree frames_;
 };
 
 /// Section axis 2 where none is given: such that axis 3 lies nearest to inertial z; for a beam along z, inertial y. Not normalised.

@@ -1,5 +1,6 @@
 #pragma once
 /// What is wrong with a scene as a whole: names, references, geometry, what can not be computed.
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct SceneProblem {
   std::string rule;         ///< what is asked
   std::string hint;         ///< what to do; may be empty
   bool is_warning = false;  ///< legal, but probably not meant
+  std::size_t more = 0;  ///< of the last problem and the last warning: how many more there are, which are only counted
 };
 
 /// All of them. defective: names of things that were left out of the scene because they are wrong already; references to
