@@ -31,15 +31,23 @@ void Report::add(const PlacedFault& f, bool is_warning) {
       at == nullptr ? 0 : at->offset);
 }
 
+void Report::add(const PlacedFaults& faults, bool is_warning) {
+  for (const PlacedFault& f : faults.kept()) add(f, is_warning);
+  count_others(faults.size() - faults.kept().size(), is_warning);
+}
+
 void Report::write(std::vector<Problem>& problems, std::vector<Problem>& warnings) {
-  finish(problems_, problems);
-  finish(warnings_, warnings);
+  finish(problems_, left_out_, problems);
+  finish(warnings_, warnings_left_out_, warnings);
 }
 
 void Report::put(std::vector<Placed>& list, Problem p, int source, std::size_t offset) {
   if (source > 0) {
     p.hint += std::string(p.hint.empty() ? "" : "; ") + "given by an override";
   }
+  // Keys and names may hold anything; what is shown of them may not.
+  constexpr std::size_t most = 2000;
+  for (std::string* text : {&p.pointer, &p.value, &p.rule, &p.hint}) *text = shown(*text, most);
   list.push_back({std::move(p), source == source_file, offset});
 }
 
@@ -49,7 +57,7 @@ std::string Report::owner(const std::string& pointer) const {
   return name;
 }
 
-void Report::finish(std::vector<Placed>& list, std::vector<Problem>& out) const {
+void Report::finish(std::vector<Placed>& list, std::size_t left_out, std::vector<Problem>& out) const {
   std::stable_sort(list.begin(), list.end(), [](const Placed& a, const Placed& b) {
     return a.in_file != b.in_file ? a.in_file : a.in_file && a.offset < b.offset;
   });
@@ -63,10 +71,10 @@ void Report::finish(std::vector<Placed>& list, std::vector<Problem>& out) const 
     if (p.owner = owner(p.pointer); p.owner == p.value) p.owner.clear();
     out.push_back(std::move(p));
   }
-  if (list.size() > max_problems) {
+  left_out += list.size() - std::min(list.size(), max_problems);
+  if (left_out > 0 && !out.empty()) {
     Problem& last = out.back();
-    last.hint +=
-        (last.hint.empty() ? "" : "; ") + std::to_string(list.size() - max_problems) + " more problems are not shown";
+    last.hint += (last.hint.empty() ? "" : "; ") + std::to_string(left_out) + " more problems are not shown";
   }
 }
 
@@ -122,12 +130,15 @@ const JsonValue* Report::locate(const std::string& pointer, std::string* reached
 
 namespace {
 
-std::string read_to_end(std::istream& in, Problem& problem) {
+/// expected: its size, where that is known, so that the text is not moved while it grows.
+std::string read_to_end(std::istream& in, std::uintmax_t expected, Problem& problem) {
   std::string text;
-  char buffer[1u << 16u];
+  text.reserve(expected);
+  char buffer[1u << 12u];  // on the stack, which may be small
   while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
     text.append(buffer, static_cast<std::size_t>(in.gcount()));
     if (text.size() > max_file_bytes) {
+      text = {};
       problem.rule = "the file is larger than " + std::to_string(max_file_bytes >> 20u) + " MB";
       return {};
     }
@@ -139,7 +150,7 @@ std::string read_to_end(std::istream& in, Problem& problem) {
 }  // namespace
 
 std::string read_whole_file(const std::filesystem::path& file, Problem& problem) {
-  if (file == "-") return read_to_end(std::cin, problem);
+  if (file == "-") return read_to_end(std::cin, 0, problem);
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) {
@@ -155,7 +166,8 @@ std::string read_whole_file(const std::filesystem::path& file, Problem& problem)
     problem.rule = "the file can not be opened";
     return {};
   }
-  return read_to_end(in, problem);
+  const auto size = std::filesystem::file_size(file, error);
+  return read_to_end(in, error || size > max_file_bytes ? 0 : size + 1, problem);
 }
 
 std::string Problem::text() const {

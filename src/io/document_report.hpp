@@ -22,6 +22,12 @@ class Report {
   void add(const CheckFault& f);
   void add_override(const PlacedFault& f);
   void add(const PlacedFault& f, bool is_warning);
+  void add(const PlacedFaults& faults, bool is_warning);
+
+  /// More of them, which nobody kept.
+  void count_others(std::size_t number, bool is_warning = false) {
+    (is_warning ? warnings_left_out_ : left_out_) += number;
+  }
 
   bool empty() const { return problems_.empty(); }
 
@@ -36,7 +42,7 @@ class Report {
   };
 
   void put(std::vector<Placed>& list, Problem p, int source, std::size_t offset);
-  void finish(std::vector<Placed>& list, std::vector<Problem>& out) const;
+  void finish(std::vector<Placed>& list, std::size_t left_out, std::vector<Problem>& out) const;
   std::string_view source_text(int source) const;
   std::string excerpt(int source, std::size_t offset, std::size_t length) const;
   std::string token(int source, std::size_t offset) const;
@@ -50,6 +56,7 @@ class Report {
   const JsonValue* root_;
   const std::vector<std::string>& overrides_;
   std::vector<Placed> problems_, warnings_;
+  std::size_t left_out_ = 0, warnings_left_out_ = 0;
 };
 
 /// The bytes of a file, "-": of standard input; where they can not be had, `problem.rule` says why.

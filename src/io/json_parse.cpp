@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <unordered_set>
 
 #include "bough/io/json_value.hpp"
@@ -12,12 +13,47 @@ namespace {
 
 using Base = nlohmann::json;
 
+std::string too_many_values() { return "the file holds more than " + std::to_string(max_json_values) + " values"; }
+
+/// How many values each array and object holds, in the order in which these open, so that none takes room for more.
+/// Of a text that is not JSON the numbers say nothing, but their sum is no larger than the text.
+std::vector<std::uint32_t> count_items(std::string_view text) {
+  std::vector<std::uint32_t> counts;
+  std::vector<std::size_t> open;
+  bool is_empty = false;  // nothing stands in the innermost one yet
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == ' ' || c == '\n' || c == '\t' || c == '\r') continue;
+    if (c == '}' || c == ']') {
+      if (!open.empty()) {
+        if (!is_empty) ++counts[open.back()];
+        open.pop_back();
+      }
+      is_empty = false;
+      continue;
+    }
+    is_empty = false;
+    if (c == '"') {
+      for (++i; i < text.size() && text[i] != '"'; ++i)
+        if (text[i] == '\\') ++i;
+    } else if (c == ',' && !open.empty()) {
+      ++counts[open.back()];
+    } else if (c == '{' || c == '[') {
+      if (open.size() > max_json_depth) break;  // where reading ends
+      open.push_back(counts.size());
+      counts.push_back(0);
+      is_empty = true;
+    }
+  }
+  return counts;
+}
+
 /// Builds the tree from the reader's events. The reader tells no positions, but its events come in the order of the text and each
 /// stands for one token, so a cursor that steps over the same tokens knows where every one of them lies.
 class Builder : public nlohmann::json_sax<Base> {
  public:
-  Builder(std::string_view text, int source, std::vector<JsonFault>& faults)
-      : text_(text), source_(source), faults_(faults) {
+  Builder(std::string_view text, std::int16_t source, std::vector<JsonFault>& faults, std::vector<std::uint32_t> counts)
+      : text_(text), source_(source), faults_(faults), counts_(std::move(counts)) {
     if (text_.substr(0, 3) == "\xEF\xBB\xBF") cursor_ = 3;
   }
 
@@ -47,7 +83,7 @@ class Builder : public nlohmann::json_sax<Base> {
     take_token();
     Level& level = levels_.back();
     level.key_offset = token_offset_;
-    level.is_duplicate = !level.seen.insert(val).second;
+    level.is_duplicate = !level.is_new(val);
     level.key = std::move(val);
     if (level.is_duplicate)
       fault(token_offset_, path(), std::string(text_.substr(token_offset_, token_length_)), "this key was given before",
@@ -63,7 +99,20 @@ class Builder : public nlohmann::json_sax<Base> {
     std::string key;
     std::uint32_t key_offset = 0;
     bool is_duplicate = false;
-    std::unordered_set<std::string> seen{};
+    std::unordered_set<std::string> seen{};  ///< of an object with many keys
+
+    bool is_new(const std::string& name) {
+      constexpr std::size_t few = 16;
+      const JsonItems& items = value->items;
+      if (items.size() < few) {
+        for (std::size_t i = 0; i < items.size(); ++i)
+          if (items.key(i) == name) return false;
+        return true;
+      }
+      if (seen.empty())
+        for (std::size_t i = 0; i < items.size(); ++i) seen.insert(items.key(i));
+      return seen.insert(name).second;
+    }
   };
 
   std::string path() const {
@@ -113,7 +162,7 @@ class Builder : public nlohmann::json_sax<Base> {
   bool scalar(JsonKind kind) {
     take_token();
     if (++count_ > max_json_values) {
-      fault(token_offset_, path(), "", "the file holds more than " + std::to_string(max_json_values) + " values", "");
+      fault(token_offset_, path(), "", too_many_values(), "");
       return false;
     }
     JsonValue* v = &root;
@@ -123,8 +172,8 @@ class Builder : public nlohmann::json_sax<Base> {
         spare_.push_back(std::make_unique<JsonValue>());
         v = spare_.back().get();
       } else {
-        if (level.value->is(JsonKind::object)) level.value->keys.push_back(level.key);
-        v = &level.value->items.emplace_back();
+        JsonItems& items = level.value->items;
+        v = level.value->is(JsonKind::object) ? &items.add(level.key) : &items.add();
       }
       v->key_offset = level.key_offset;
     }
@@ -168,6 +217,8 @@ class Builder : public nlohmann::json_sax<Base> {
             "arrays and objects are nested deeper than " + std::to_string(max_json_depth), "");
       return false;
     }
+    const std::size_t count = next_count_ < counts_.size() ? counts_[next_count_++] : 0;
+    if (count > 0) last_->items.reserve(count, kind == JsonKind::object);
     levels_.push_back({last_, {}, 0, false, {}});
     return true;
   }
@@ -181,8 +232,10 @@ class Builder : public nlohmann::json_sax<Base> {
   }
 
   std::string_view text_;
-  int source_;
+  std::int16_t source_;
   std::vector<JsonFault>& faults_;
+  std::vector<std::uint32_t> counts_;
+  std::size_t next_count_ = 0;
   std::size_t cursor_ = 0;
   std::size_t count_ = 0;
   std::uint32_t token_offset_ = 0, token_length_ = 0;
@@ -239,7 +292,7 @@ bool Builder::parse_error(std::size_t position, const std::string& last_token, c
 
 }  // namespace
 
-std::optional<JsonValue> parse_json(std::string_view text, int source, std::vector<JsonFault>& faults) {
+std::optional<JsonValue> parse_json(std::string_view text, std::int16_t source, std::vector<JsonFault>& faults) {
   if (text.size() > max_file_bytes) {
     faults.push_back({0, "", "", "is larger than " + std::to_string(max_file_bytes >> 20u) + " MB", ""});
     return std::nullopt;
@@ -254,7 +307,14 @@ std::optional<JsonValue> parse_json(std::string_view text, int source, std::vect
         {zero, "", "", "holds a zero byte, which no JSON text may", "remove it and what was not meant after it"});
     return std::nullopt;
   }
-  Builder builder(text, source, faults);
+  std::vector<std::uint32_t> counts = count_items(text);
+  if (std::accumulate(counts.begin(), counts.end(), std::size_t{1}) >
+      max_json_values) {  // before room is made for them
+    faults.push_back(
+        {0, "", "", too_many_values(), "split it, or give beams more elements instead of writing each as a beam"});
+    return std::nullopt;
+  }
+  Builder builder(text, source, faults, std::move(counts));
   if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder)) return std::nullopt;
   return std::move(builder.root);
 }

@@ -44,9 +44,9 @@ bool is_below(const std::string& name) {
 }
 
 bool read_files(const JsonValue& list, std::vector<FileRecord>& files) {
-  for (std::size_t k = 0; k < list.items.size() && k < list.keys.size(); ++k) {
+  for (std::size_t k = 0; k < list.items.size(); ++k) {
     const JsonValue& item = list.items[k];
-    FileRecord record{list.keys[k]};
+    FileRecord record{list.items.key(k)};
     if (!is_below(record.name)) return false;
     if (const JsonValue* bytes = item.find("bytes"); bytes != nullptr && bytes->number >= 0.0)
       record.bytes = static_cast<std::uint64_t>(bytes->number);

@@ -63,7 +63,7 @@ std::vector<std::string> read_names(const JsonValue& header, std::string_view ke
   if (!good) return names;
   for (const JsonValue& item : list->items) {
     good = good && item.is(JsonKind::string);
-    names.push_back(item.text);
+    names.push_back(item.text.str());
   }
   return names;
 }
@@ -131,7 +131,7 @@ results::MotionFrame read_frame(const JsonValue& value, const Names& names, bool
 Names read_header(const std::filesystem::path& path, const std::string& line) {
   const JsonValue header = parse_line(path, 1, line);
   const JsonValue* format = header.find("format");
-  if (format == nullptr || format->text != format_name)
+  if (format == nullptr || !(format->text == format_name))
     fail_at(path, 1, std::string("not a file of the format '") + format_name + "'");
   bool good = true;
   Names names{read_names(header, "curves", good), read_names(header, "bodies", good),

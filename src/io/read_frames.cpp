@@ -155,7 +155,7 @@ class FrameConverter : private ValueConverter {
     const auto found = std::find(names_.begin() + 1, names_.end(), name.text);
     if (found != names_.end()) return static_cast<int>(found - names_.begin());
     if (!all_named_) return 0;  // the frame's own fault was reported
-    const std::string near = scene::nearest_name(name.text, names_);
+    const std::string near = scene::nearest_name(name.text.str(), names_);
     fault(at, "no frame has this name", near.empty() ? "" : "did you mean \"" + near + "\"?");
     return 0;
   }
@@ -173,16 +173,17 @@ FrameFile read_frames_text(std::string_view text, std::string name) {
   std::vector<JsonFault> text_faults;
   std::optional<JsonValue> root = parse_json(text, source_file, text_faults);
   std::vector<CheckFault> check_faults;
-  if (root) check_rules(frame_rules(), *root, check_faults);
+  const std::size_t more_faults = root ? check_rules(frame_rules(), *root, check_faults) : 0;
   const std::vector<std::string> no_overrides;
   Report report(text, root ? &*root : nullptr, no_overrides);
   for (const JsonFault& f : text_faults) report.add(f);
   for (const CheckFault& f : check_faults) report.add(f);
+  report.count_others(more_faults);
   if (root && root->is(JsonKind::object)) {
     FrameConverter converter;
     converter.convert(*root);
-    for (const PlacedFault& f : converter.faults) report.add(f, false);
-    for (const PlacedFault& f : converter.warnings) report.add(f, true);
+    report.add(converter.faults, false);
+    report.add(converter.warnings, true);
     file.study = std::move(converter.study);
   }
   file.study.name = std::move(name);

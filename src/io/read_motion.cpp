@@ -80,16 +80,17 @@ MotionFile read_motion_text(std::string_view text) {
   std::vector<JsonFault> text_faults;
   std::optional<JsonValue> root = parse_json(text, source_file, text_faults);
   std::vector<CheckFault> check_faults;
-  if (root) check_rules(motion_rules(), *root, check_faults);
+  const std::size_t more_faults = root ? check_rules(motion_rules(), *root, check_faults) : 0;
   const std::vector<std::string> no_overrides;
   Report report(text, root ? &*root : nullptr, no_overrides);
   for (const JsonFault& f : text_faults) report.add(f);
   for (const CheckFault& f : check_faults) report.add(f);
+  report.count_others(more_faults);
   if (root && root->is(JsonKind::object)) {
     MotionConverter converter;
     converter.convert(*root);
-    for (const PlacedFault& f : converter.faults) report.add(f, false);
-    for (const PlacedFault& f : converter.warnings) report.add(f, true);
+    report.add(converter.faults, false);
+    report.add(converter.warnings, true);
     file.input = converter.input;
   }
   report.write(file.problems, file.warnings);

@@ -33,6 +33,7 @@ void add_scene_problems(const Converter& converter, Report& report) {
     const bool is_name = !f.value.empty() && f.value.find_first_not_of("-+.0123456789eE, ") != std::string::npos;
     if (is_name) f.value = "\"" + shown(f.value) + "\"";
     report.add(f, p.is_warning);
+    report.count_others(p.more, p.is_warning);
   }
 }
 
@@ -45,19 +46,21 @@ SceneFile read_scene_text(std::string_view text, std::string name, std::span<con
   std::vector<std::string> override_texts;
   std::vector<PlacedFault> override_faults;
   std::vector<CheckFault> check_faults;
+  std::size_t more_faults = 0;
   if (root) {
     apply_overrides(*root, set_overrides, override_texts, override_faults);
-    check_rules(scene_rules(), *root, check_faults);
+    more_faults = check_rules(scene_rules(), *root, check_faults);
   }
   Report report(text, root ? &*root : nullptr, override_texts);
   for (const JsonFault& f : text_faults) report.add(f);
   for (const PlacedFault& f : override_faults) report.add_override(f);
   for (const CheckFault& f : check_faults) report.add(f);
+  report.count_others(more_faults);
   if (root && root->is(JsonKind::object) && !breaks_outline(check_faults)) {
     Converter converter(*root);
     converter.convert();
-    for (const PlacedFault& f : converter.faults) report.add(f, false);
-    for (const PlacedFault& f : converter.warnings) report.add(f, true);
+    report.add(converter.faults, false);
+    report.add(converter.warnings, true);
     add_scene_problems(converter, report);
     file.scene = std::move(converter.scene);
   }

@@ -7,8 +7,10 @@
 namespace bough::io {
 namespace {
 
+constexpr std::size_t most_overrides = 10'000;  // each is a source of its own
+
 /// A bare word is a string; everything else is JSON.
-std::optional<JsonValue> parse_value(const std::string& text, int source, std::string& rule) {
+std::optional<JsonValue> parse_value(const std::string& text, std::int16_t source, std::string& rule) {
   const bool is_word = !text.empty() &&
                        (std::isalpha(static_cast<unsigned char>(text.front())) != 0 || text.front() == '_') &&
                        text != "true" && text != "false" && text != "null";
@@ -41,7 +43,8 @@ JsonValue* item_of(JsonValue& array, const std::string& token) {
 }
 
 std::string hint_for(const JsonValue& at, const std::string& token) {
-  std::vector<std::string> known = at.keys;
+  std::vector<std::string> known;
+  for (std::size_t i = 0; at.is(JsonKind::object) && i < at.items.size(); ++i) known.push_back(at.items.key(i));
   for (const JsonValue& item : at.items)
     if (const JsonValue* name = item.is(JsonKind::object) ? item.find("name") : nullptr;
         name != nullptr && at.is(JsonKind::array))
@@ -50,7 +53,7 @@ std::string hint_for(const JsonValue& at, const std::string& token) {
   return near.empty() ? "" : "did you mean \"" + near + "\"?";
 }
 
-void apply_one(JsonValue& root, const std::string& text, int source, std::string& value_text,
+void apply_one(JsonValue& root, const std::string& text, std::int16_t source, std::string& value_text,
                std::vector<PlacedFault>& faults) {
   const std::size_t equals = text.find('=');
   const std::string pointer = text.substr(0, equals);
@@ -70,16 +73,14 @@ void apply_one(JsonValue& root, const std::string& text, int source, std::string
   for (std::size_t i = 0; i < tokens->size(); ++i) {
     const std::string& token = (*tokens)[i];
     JsonValue* next = at->is(JsonKind::array)    ? item_of(*at, token)
-                      : at->is(JsonKind::object) ? at->find(token)
+                      : at->is(JsonKind::object) ? at->find_given(token)
                                                  : nullptr;
     if (next == nullptr && at->is(JsonKind::object)) {
       JsonValue made;
       made.kind = JsonKind::object;
       made.source = source;
       made.length = static_cast<std::uint32_t>(value_text.size());
-      at->keys.push_back(token);
-      at->items.push_back(std::move(made));
-      next = &at->items.back();
+      next = &(at->items.add(token) = std::move(made));
     }
     if (next == nullptr) {
       faults.push_back({pointer, token,
@@ -99,8 +100,14 @@ void apply_one(JsonValue& root, const std::string& text, int source, std::string
 void apply_overrides(JsonValue& root, std::span<const std::string> overrides, std::vector<std::string>& texts,
                      std::vector<PlacedFault>& faults) {
   texts.assign(overrides.size(), "");
+  if (overrides.size() > most_overrides) {
+    faults.push_back({"", std::to_string(overrides.size()),
+                      "at most " + std::to_string(most_overrides) + " overrides are taken",
+                      "write them into the file"});
+    return;
+  }
   for (std::size_t i = 0; i < overrides.size(); ++i)
-    apply_one(root, overrides[i], static_cast<int>(i) + 1, texts[i], faults);
+    apply_one(root, overrides[i], static_cast<std::int16_t>(i + 1), texts[i], faults);
 }
 
 }  // namespace bough::io

@@ -64,27 +64,26 @@ void Converter::material(const Value& v, const std::string& at) {
   const Value* nu = v.find("poisson");
   m.shear = nu != nullptr ? 0.5 * m.young / (1.0 + nu->number) : v.find("shear")->number;
   m.density = v.find("density")->number;
-  for (const scene::Material& other : materials_)
-    if (other.name == m.name) return fault(at + "/name", "another material has this name", "names are used once");
+  if (!material_of_.emplace(m.name, materials_.size()).second)
+    return fault(at + "/name", "another material has this name", "names are used once");
   warn_of_units(m, at);
   materials_.push_back(std::move(m));
 }
 
 const scene::Material* Converter::material_named(const std::string& name, const std::string& at) {
-  std::vector<std::string> known;
-  for (const scene::Material& m : materials_) {
-    if (m.name == name) return &m;
-    known.push_back(m.name);
-  }
-  if (std::find(defective.begin(), defective.end(), "material " + name) != defective.end()) {
+  if (const auto index = material_of_.find(name); index != material_of_.end()) return &materials_[index->second];
+  if (defective_materials_.count(name) > 0) {
     left_out_ = true;  // without a word: the material's fault was reported
     return nullptr;
   }
-  const std::string near = scene::nearest_name(name, known);
+  std::vector<std::string> known;
+  constexpr std::size_t most = 1000;  // names compared with: the search goes over all of them for every fault
+  for (std::size_t i = 0; i < std::min(most, materials_.size()); ++i) known.push_back(materials_[i].name);
+  const std::string near = faults.size() < max_problems ? scene::nearest_name(name, known) : "";
   fault(at, "no material has this name",
-        !near.empty()   ? "did you mean \"" + near + "\"?"
-        : known.empty() ? "the scene has no materials"
-                        : "");
+        !near.empty()        ? "did you mean \"" + near + "\"?"
+        : materials_.empty() ? "the scene has no materials"
+                             : "");
   return nullptr;
 }
 

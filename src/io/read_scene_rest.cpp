@@ -221,17 +221,21 @@ void Converter::each(const char* list, void (Converter::*read)(const Value&, con
     if (v.sound) (this->*read)(v, pointer_to(pointer_to("", list), std::to_string(i)));
     if (faults.size() == faults_before_ && !left_out_) continue;
     const Value* name = v.is(JsonKind::object) ? v.find("name") : nullptr;
-    const bool is_material = std::string_view(list) == "materials";
-    if (name != nullptr && name->is(JsonKind::string))
-      defective.push_back((is_material ? "material " : "") + name->text);
+    if (name == nullptr || !name->is(JsonKind::string)) continue;
+    if (std::string_view(list) == "materials")
+      defective_materials_.insert(name->text);
+    else
+      defective.push_back(name->text);
   }
 }
 
 void Converter::convert() {
-  for (const Value& list : root_.items)
-    for (const Value& item : list.is(JsonKind::array) ? list.items : std::vector<Value>{})
+  for (const Value& list : root_.items) {
+    if (!list.is(JsonKind::array)) continue;
+    for (const Value& item : list.items)
       if (const Value* name = item.is(JsonKind::object) ? item.find("name") : nullptr; name != nullptr)
         names_.insert(name->text);
+  }
   const Value* analysis = root_.find("analysis");
   const Value* kind = analysis != nullptr && analysis->is(JsonKind::object) ? analysis->find("kind") : nullptr;
   is_static_ = kind != nullptr && kind->text == "static";

@@ -60,8 +60,8 @@ void ValueConverter::warn_of_degrees(const Value& angle, const std::string& at) 
 
 Mat3 ValueConverter::rotation_from_axes(const Value& axes, const std::string& at) {
   std::vector<std::pair<int, Vec3>> given;
-  for (std::size_t i = 0; i < axes.keys.size(); ++i)
-    if (axes.keys[i] != "comment") given.emplace_back(axes.keys[i][0] - '0', vector(axes.items[i]));
+  for (std::size_t i = 0; i < axes.items.size(); ++i)
+    if (axes.items.key(i) != "comment") given.emplace_back(axes.items.key(i)[0] - '0', vector(axes.items[i]));
   if (given.size() != 2) {
     fault(at, "has to give exactly two of the axes \"1\", \"2\", \"3\"");
     return Mat3::identity();
@@ -130,7 +130,7 @@ laws::Law ValueConverter::law(const Value& v, const std::string& at) {
     if (const Value* formula = v.find("expression"))
       fault(at + "/expression", e.what(),
             "at character " + std::to_string(e.position + 1) + ": \"" +
-                shown(formula->text.substr(std::min(e.position, formula->text.size())), 20) + "\"");
+                shown(formula->text.str().substr(std::min(e.position, formula->text.str().size())), 20) + "\"");
     else
       fault(at, e.what());
     return {};
@@ -152,6 +152,18 @@ laws::Law ValueConverter::law_table(const Value& v) const {
       v.find("interpolation")->text == "cubic" ? laws::Interpolation::cubic : laws::Interpolation::linear);
 }
 
+namespace {
+
+/// Neighbours two by two, so that a product of thousands of factors is no tower of thousands of products.
+laws::Law product_of(std::vector<laws::Law> factors) {
+  for (; factors.size() > 1; factors.resize((factors.size() + 1) / 2))
+    for (std::size_t i = 0; i < factors.size(); i += 2)
+      factors[i / 2] = i + 1 < factors.size() ? laws::make_product(factors[i], factors[i + 1]) : factors[i];
+  return factors.front();
+}
+
+}  // namespace
+
 laws::Law ValueConverter::law_of_kind(const Value& v, const std::string& at) {
   const std::string& kind = v.find("kind")->text;
   const auto get = [&](const char* key) { return v.find(key)->number; };
@@ -164,10 +176,7 @@ laws::Law ValueConverter::law_of_kind(const Value& v, const std::string& at) {
   if (kind == "sum") return laws::make_sum(law_list(*v.find("terms"), at + "/terms"));
   if (kind == "scaled") return laws::make_scaled(get("factor"), law(*v.find("law"), at + "/law"));
   if (kind == "product") {
-    const std::vector<laws::Law> factors = law_list(*v.find("factors"), at + "/factors");
-    laws::Law r = factors.front();
-    for (std::size_t i = 1; i < factors.size(); ++i) r = laws::make_product(r, factors[i]);
-    return r;
+    return product_of(law_list(*v.find("factors"), at + "/factors"));
   }
   std::vector<laws::Segment> pieces;
   const Value& list = *v.find("pieces");

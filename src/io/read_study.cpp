@@ -63,7 +63,7 @@ bool StudyConverter::read_scene_file(const Value& root) {
   const Value* path = sound(root, "scene");
   if (path == nullptr) return false;
   Problem problem;
-  const std::filesystem::path file = (folder_.empty() ? "." : folder_) / path->text;
+  const std::filesystem::path file = (folder_.empty() ? "." : folder_) / path->text.str();
   spec.scene_text = read_whole_file(file, problem);
   spec.scene_name = name_of_file(file);
   if (!problem.rule.empty()) {
@@ -123,16 +123,17 @@ StudyFile read_study_text(std::string_view text, std::string name, const std::fi
   std::vector<JsonFault> text_faults;
   std::optional<JsonValue> root = parse_json(text, source_file, text_faults);
   std::vector<CheckFault> check_faults;
-  if (root) check_rules(study_rules(), *root, check_faults);
+  const std::size_t more_faults = root ? check_rules(study_rules(), *root, check_faults) : 0;
   const std::vector<std::string> no_overrides;
   Report report(text, root ? &*root : nullptr, no_overrides);
   for (const JsonFault& f : text_faults) report.add(f);
   for (const CheckFault& f : check_faults) report.add(f);
+  report.count_others(more_faults);
   if (root && root->is(JsonKind::object)) {
     StudyConverter converter(text, folder);
     converter.convert(*root);
-    for (const PlacedFault& f : converter.faults) report.add(f, false);
-    for (const PlacedFault& f : converter.warnings) report.add(f, true);
+    report.add(converter.faults, false);
+    report.add(converter.warnings, true);
     file.spec = std::move(converter.spec);
   }
   file.spec.name = std::move(name);

@@ -124,7 +124,7 @@ StudyAxis StudyConverter::read_axis(const Value& v, const std::string& at) {
           near.empty() ? "give a pointer, for instance \"/analysis/step_size\"" : near);
     return axis;
   }
-  const std::string pointer = given != nullptr ? given->text : known->pointer;
+  const std::string pointer = given != nullptr ? given->text.str() : known->pointer;
   const Value& values = *v.find("values");
   for (std::size_t i = 0; i < values.items.size(); ++i) {
     auto choice = read_value(axis.name, pointer, values.items[i], at + "/values/" + std::to_string(i),
@@ -164,7 +164,7 @@ bool StudyConverter::check_samples(const scene::Scene& scene, const std::string&
   const std::string rule = "the step size " + rounded_text(step, 9) + " does not divide " +
                            (spec.sample_interval > 0.0 ? "the sample_interval " : "the duration ") +
                            rounded_text(interval, 9);
-  const bool was_said = std::any_of(faults.begin(), faults.end(),
+  const bool was_said = std::any_of(faults.kept().begin(), faults.kept().end(),
                                     [&](const PlacedFault& f) { return f.pointer == at && f.rule == rule; });
   if (!was_said) fault(at, rule, "errors are measured at the ends of steps, without interpolation");
   return false;
@@ -175,6 +175,14 @@ void StudyConverter::check_runs(const StudyGrid& grid, const std::string& at) {
   const StudyReference* reference = grid.has_reference   ? &grid.reference
                                     : spec.has_reference ? &spec.reference
                                                          : nullptr;
+  constexpr double most_runs = 5000.0;  // each is read and checked before the first starts
+  double runs = 1.0;
+  for (const StudyAxis& axis : grid.axes) runs *= static_cast<double>(axis.choices.size());
+  if (runs > most_runs) {
+    fault(at + "/axes", "these axes make " + rounded_text(runs, 6) + " runs, and at most 5000 are taken",
+          "give fewer values, or split the grid");
+    return;
+  }
   for (const StudyQuantity& q : spec.quantities) {
     if (q.is_compared() || reference != nullptr) continue;
     fault("/quantities/" + std::to_string(&q - spec.quantities.data()), "there is nothing to compare it with",

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bough/io/json_value.hpp"
+#include "bough/io/read_scene.hpp"
 #include "bough/scene/scene.hpp"
 
 namespace bough::io {
@@ -18,10 +19,26 @@ inline constexpr double least_axis = 1e-150;
 /// Larger angles [rad] have no digit left that tells a direction.
 inline constexpr double largest_angle = 1e12;
 
+/// The first hundreds of faults, and how many there are.
+class PlacedFaults {
+ public:
+  void push_back(PlacedFault fault) {
+    constexpr std::size_t most = 2 * max_problems;
+    if (size_++ < most) kept_.push_back(std::move(fault));
+  }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const std::vector<PlacedFault>& kept() const { return kept_; }
+
+ private:
+  std::vector<PlacedFault> kept_;
+  std::size_t size_ = 0;
+};
+
 /// All members take sound values of the schema's form; what only shows here goes to `faults` and `warnings`.
 class ValueConverter {
  public:
-  std::vector<PlacedFault> faults, warnings;
+  PlacedFaults faults, warnings;
 
  protected:
   using Value = JsonValue;

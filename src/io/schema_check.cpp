@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 
 #include "bough/io/read_scene.hpp"
 #include "bough/io/schema_rule.hpp"
@@ -56,54 +57,76 @@ JsonKind json_kind(Form form) {
   }
 }
 
-std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = scene::nearest_name(word, known);
-  return near.empty() ? "" : "did you mean \"" + near + "\"?";
-}
+/// The way to a value, put into words only where something is wrong with it. Lives as long as the call that goes there.
+struct Path {
+  const Path* up = nullptr;
+  std::string_view key = {};  ///< of a member; of an item, its number
+  std::size_t item = 0;
+
+  std::string text() const {
+    if (up == nullptr) return "";
+    return key.data() == nullptr ? up->text() + "/" + std::to_string(item) : pointer_to(up->text(), key);
+  }
+  Path member(std::string_view name) const { return {this, name, 0}; }
+  Path at(std::size_t index) const { return {this, {}, index}; }
+};
+
+constexpr std::size_t most_faults =
+    2 * max_problems;  // kept: more are counted, for a file of millions of faults has no room for them
 
 class Checker {
  public:
   Checker(const RuleTable& table, std::vector<CheckFault>& faults) : table_(table), faults_(faults) {}
 
   /// True where the value and all it holds keep their rules.
-  bool check(const Rule& rule_in, JsonValue& value, const std::string& pointer) {
+  bool check(const Rule& rule_in, JsonValue& value, const Path& path) {
     const Rule& rule = table_.resolve(rule_in);
     if (!value.sound) return false;  // said by the reader of the text
-    value.sound = check_form(rule, value, pointer);
+    value.sound = check_form(rule, value, path);
     return value.sound;
   }
 
+  std::size_t num_faults() const { return num_faults_; }
+
  private:
-  bool fail(const JsonValue& value, const std::string& pointer, std::string rule, std::string hint = {},
-            bool at_key = false) {
+  /// No more faults are shown, so nothing is searched for them.
+  bool is_hopeless() const { return faults_.size() > max_problems; }
+  std::string suggestion(const std::string& word, const std::vector<std::string>& known) const {
+    const std::string near = is_hopeless() ? "" : scene::nearest_name(word, known);
+    return near.empty() ? "" : "did you mean \"" + near + "\"?";
+  }
+
+  bool fail(const JsonValue& value, const Path& path, std::string rule, std::string hint = {}, bool at_key = false) {
     const std::uint32_t offset = at_key ? value.key_offset : value.offset;
     const std::uint32_t length = at_key ? 0 : value.length;  // 0: one token
-    faults_.push_back({value.source, offset, length, pointer, std::move(rule), std::move(hint)});
+    if (faults_.size() < most_faults)
+      faults_.push_back({value.source, offset, length, path.text(), std::move(rule), std::move(hint)});
+    ++num_faults_;
     return false;
   }
 
-  bool check_form(const Rule& rule, JsonValue& value, const std::string& pointer) {
+  bool check_form(const Rule& rule, JsonValue& value, const Path& path) {
     if (value.is(JsonKind::null))
-      return fail(value, pointer, "null is not a value here", "leave the key out where nothing is meant");
-    if (rule.form == Form::choice) return check_choice(rule, value, pointer);
+      return fail(value, path, "null is not a value here", "leave the key out where nothing is meant");
+    if (rule.form == Form::choice) return check_choice(rule, value, path);
     if (!value.is(json_kind(rule.form)))
-      return fail(value, pointer, "has to be " + wanted(rule) + ", not " + with_article(value.kind),
+      return fail(value, path, "has to be " + wanted(rule) + ", not " + with_article(value.kind),
                   type_hint(rule, value));
     switch (rule.form) {
       case Form::number:
       case Form::integer:
-        return check_number(rule, value, pointer);
+        return check_number(rule, value, path);
       case Form::name: {
         const std::string fault = name_fault(value.text);
-        return fault.empty() || fail(value, pointer, fault);
+        return fault.empty() || fail(value, path, fault);
       }
       case Form::word:
         if (std::find(rule.words.begin(), rule.words.end(), value.text) != rule.words.end()) return true;
-        return fail(value, pointer, "has to be " + quoted_list(rule.words), suggestion(value.text, rule.words));
+        return fail(value, path, "has to be " + quoted_list(rule.words), suggestion(value.text, rule.words));
       case Form::array:
-        return check_array(rule, value, pointer);
+        return check_array(rule, value, path);
       case Form::object:
-        return check_object(rule, value, pointer);
+        return check_object(rule, value, path);
       default:
         return true;
     }
@@ -160,39 +183,36 @@ class Checker {
     return r;
   }
 
-  bool check_number(const Rule& rule, const JsonValue& value, const std::string& pointer) {
+  bool check_number(const Rule& rule, const JsonValue& value, const Path& path) {
     const double x = value.number;
     const bool is_whole = rule.form == Form::number || x == std::floor(x);
     if (is_whole && (rule.low_open ? x > rule.low : x >= rule.low) && x <= rule.high) return true;
-    return fail(value, pointer, "has to be " + wanted(rule));
+    return fail(value, path, "has to be " + wanted(rule));
   }
 
-  bool check_array(const Rule& rule, JsonValue& value, const std::string& pointer) {
+  bool check_array(const Rule& rule, JsonValue& value, const Path& path) {
     bool sound = true;
     const std::size_t n = value.items.size();
     if (n < rule.min_items || n > rule.max_items) {
       const std::string count = rule.min_items == rule.max_items ? std::to_string(rule.min_items)
                                 : n < rule.min_items             ? "at least " + std::to_string(rule.min_items)
                                                                  : "at most " + std::to_string(rule.max_items);
-      sound = fail(value, pointer, "has " + std::to_string(n) + " items and needs " + count);
+      sound = fail(value, path, "has " + std::to_string(n) + " items and needs " + count);
     }
-    for (std::size_t i = 0; i < n; ++i)
-      sound = check(*rule.item, value.items[i], pointer + "/" + std::to_string(i)) && sound;
+    for (std::size_t i = 0; i < n; ++i) sound = check(*rule.item, value.items[i], path.at(i)) && sound;
     return sound;
   }
 
-  bool check_object(const Rule& rule, JsonValue& value, const std::string& pointer) {
+  bool check_object(const Rule& rule, JsonValue& value, const Path& path) {
     bool sound = true;
-    std::vector<std::string> known, missing, meant;
-    for (const Field& field : rule.fields) {
-      known.push_back(field.key);
-      if (value.find(field.key) == nullptr && field.presence == Presence::required) missing.push_back(field.key);
-    }
-    for (std::size_t i = 0; i < value.keys.size(); ++i) {
-      const std::string& key = value.keys[i];
+    std::vector<std::string> missing, meant;
+    for (const Field& field : rule.fields)
+      if (field.presence == Presence::required && value.find(field.key) == nullptr) missing.push_back(field.key);
+    for (std::size_t i = 0; i < value.items.size(); ++i) {
+      const std::string& key = value.items.key(i);
       const auto field =
           std::find_if(rule.fields.begin(), rule.fields.end(), [&](const Field& f) { return f.key == key; });
-      const std::string at = pointer_to(pointer, key);
+      const Path at = path.member(key);
       if (key == "comment" && field == rule.fields.end()) {
         if (!value.items[i].is(JsonKind::string)) sound = fail(value.items[i], at, "a comment has to be a string");
       } else if (field != rule.fields.end()) {
@@ -200,34 +220,30 @@ class Checker {
       } else {
         sound = false;
         value.items[i].sound = false;
-        meant.push_back(unknown_key(value, i, at, known));
+        meant.push_back(unknown_key(rule, value, i, at));
         std::erase(missing, meant.back());
       }
     }
-    for (const std::string& key : missing)
-      sound = fail(value, pointer, "needs the key \"" + key + "\"", about(rule, key));
-    sound = check_sets(rule, value, pointer, meant) && sound;
-    for (const Field& field : rule.fields)
-      if (!field.default_json.empty() && value.find(field.key) == nullptr) {
-        add_default(field, value);
-        check(*field.rule, value.items.back(),
-              pointer_to(pointer, field.key));  // fills the defaults inside the default
-      }
+    for (const std::string& key : missing) sound = fail(value, path, "needs the key \"" + key + "\"", about(rule, key));
+    sound = check_sets(rule, value, path, meant) && sound;
+    if (const JsonValue& defaults = table_.defaults_of(rule); !defaults.items.empty())
+      value.items.set_defaults(&defaults);
     return sound;
   }
 
   /// Reports a key that is not known; returns the one that was probably meant, which is then not reported as missing.
-  std::string unknown_key(const JsonValue& value, std::size_t i, const std::string& at,
-                          const std::vector<std::string>& known) {
-    if (faults_.size() > max_problems) {  // not shown, so no search for the key that was meant: it would be quadratic
+  std::string unknown_key(const Rule& rule, const JsonValue& value, std::size_t i, const Path& at) {
+    if (is_hopeless()) {  // not shown, so no search for the key that was meant: it would be quadratic
       fail(value.items[i], at, "this key is not known here", {}, true);
       return {};
     }
+    std::vector<std::string> known;
+    for (const Field& field : rule.fields) known.push_back(field.key);
     std::vector<std::string> free_keys;
     for (const std::string& k : known)
       if (value.find(k) == nullptr) free_keys.push_back(k);
-    std::string near = scene::nearest_name(value.keys[i], free_keys);
-    if (near.empty()) near = scene::nearest_name(value.keys[i], known);
+    std::string near = scene::nearest_name(value.items.key(i), free_keys);
+    if (near.empty()) near = scene::nearest_name(value.items.key(i), known);
     std::string hint = near.empty() ? "known keys: " + quoted_list(known) : "did you mean \"" + near + "\"?";
     fail(value.items[i], at, "this key is not known here", std::move(hint), true);
     return near;
@@ -239,8 +255,7 @@ class Checker {
     return "";
   }
 
-  bool check_sets(const Rule& rule, const JsonValue& value, const std::string& pointer,
-                  const std::vector<std::string>& meant) {
+  bool check_sets(const Rule& rule, const JsonValue& value, const Path& path, const std::vector<std::string>& meant) {
     bool sound = true;
     const auto count = [&](const std::vector<std::string>& set) {
       return std::count_if(set.begin(), set.end(), [&](const std::string& k) {
@@ -248,32 +263,25 @@ class Checker {
       });
     };
     for (const auto& set : rule.exactly_one)
-      if (count(set) != 1) sound = fail(value, pointer, "needs exactly one of the keys " + quoted_list(set));
+      if (count(set) != 1) sound = fail(value, path, "needs exactly one of the keys " + quoted_list(set));
     for (const auto& set : rule.at_most_one)
-      if (count(set) > 1) sound = fail(value, pointer, "takes only one of the keys " + quoted_list(set));
+      if (count(set) > 1) sound = fail(value, path, "takes only one of the keys " + quoted_list(set));
     return sound;
   }
 
-  static void add_default(const Field& field, JsonValue& value) {
-    std::vector<JsonFault> none;
-    std::optional<JsonValue> d = parse_json(field.default_json, source_default, none);
-    value.keys.push_back(field.key);
-    value.items.push_back(std::move(*d));
-  }
-
   /// Narrows a choice by the JSON type, then objects by "kind" or marker key, then arrays by what they hold.
-  bool check_choice(const Rule& rule, JsonValue& value, const std::string& pointer) {
+  bool check_choice(const Rule& rule, JsonValue& value, const Path& path) {
     std::vector<const Rule*> fitting;
     flatten(rule, value.kind, fitting);
-    if (fitting.empty()) return fail(value, pointer, "has to be " + wanted(rule) + ", not " + with_article(value.kind));
-    if (fitting.size() == 1) return check(*fitting.front(), value, pointer);
-    if (value.is(JsonKind::object)) return check_object_choice(fitting, value, pointer);
+    if (fitting.empty()) return fail(value, path, "has to be " + wanted(rule) + ", not " + with_article(value.kind));
+    if (fitting.size() == 1) return check(*fitting.front(), value, path);
+    if (value.is(JsonKind::object)) return check_object_choice(fitting, value, path);
     if (value.is(JsonKind::array)) {
       const bool holds_arrays = !value.items.empty() && value.items.front().is(JsonKind::array);
       for (const Rule* option : fitting)
-        if ((table_.resolve(*option->item).form == Form::array) == holds_arrays) return check(*option, value, pointer);
+        if ((table_.resolve(*option->item).form == Form::array) == holds_arrays) return check(*option, value, path);
     }
-    return check(*fitting.front(), value, pointer);
+    return check(*fitting.front(), value, path);
   }
 
   void flatten(const Rule& rule, JsonKind kind, std::vector<const Rule*>& out) const {
@@ -286,47 +294,72 @@ class Checker {
     }
   }
 
-  bool check_object_choice(const std::vector<const Rule*>& options, JsonValue& value, const std::string& pointer) {
+  bool check_object_choice(const std::vector<const Rule*>& options, JsonValue& value, const Path& path) {
+    for (const Rule* option : options)
+      if (!option->marker.empty() && value.find(option->marker) != nullptr) return check(*option, value, path);
+    JsonValue* kind = value.find_given("kind");
+    if (kind != nullptr && kind->is(JsonKind::string))
+      for (const Rule* option : options)
+        if (std::find(option->kinds.begin(), option->kinds.end(), kind->text) != option->kinds.end())
+          return check(*option, value, path);
+    return no_choice(options, value, path);
+  }
+
+  /// Says what is wrong with an object that is none of the options.
+  bool no_choice(const std::vector<const Rule*>& options, JsonValue& value, const Path& path) {
     std::vector<std::string> kinds, markers, keys;
     for (const Rule* option : options) {
       kinds.insert(kinds.end(), option->kinds.begin(), option->kinds.end());
       if (!option->marker.empty()) markers.push_back(option->marker);
       for (const Field& f : option->fields) keys.push_back(f.key);
-      if (!option->marker.empty() && value.find(option->marker) != nullptr) return check(*option, value, pointer);
     }
-    JsonValue* kind = value.find("kind");
-    if (kind != nullptr && !kinds.empty()) {
-      if (!kind->is(JsonKind::string))
-        return fail(*kind, pointer_to(pointer, "kind"), "has to be " + quoted_list(kinds));
-      for (const Rule* option : options)
-        if (std::find(option->kinds.begin(), option->kinds.end(), kind->text) != option->kinds.end())
-          return check(*option, value, pointer);
-      return fail(*kind, pointer_to(pointer, "kind"), "has to be " + quoted_list(kinds), suggestion(kind->text, kinds));
-    }
+    if (JsonValue* kind = value.find_given("kind"); kind != nullptr && !kinds.empty())
+      return fail(*kind, path.member("kind"), "has to be " + quoted_list(kinds),
+                  kind->is(JsonKind::string) ? suggestion(kind->text, kinds) : "");
     std::string needed = kinds.empty() ? "" : "the key \"kind\" (" + quoted_list(kinds) + ")";
     if (!markers.empty())
       needed += (needed.empty() ? "" : ", or ") + std::string("one of the keys ") + quoted_list(markers);
     if (!kinds.empty()) keys.push_back("kind");
     std::vector<std::string> telling = markers;
     if (!kinds.empty()) telling.push_back("kind");
-    for (std::size_t i = 0; i < value.keys.size(); ++i) {
-      if (value.keys[i] == "comment" || std::find(keys.begin(), keys.end(), value.keys[i]) != keys.end()) continue;
-      std::string hint = suggestion(value.keys[i], telling);
-      if (hint.empty()) hint = suggestion(value.keys[i], keys);
-      return fail(value.items[i], pointer_to(pointer, value.keys[i]),
-                  "this key is not known here; the object needs " + needed, std::move(hint), true);
+    for (std::size_t i = 0; i < value.items.size(); ++i) {
+      const std::string& key = value.items.key(i);
+      if (key == "comment" || std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+      std::string hint = suggestion(key, telling);
+      if (hint.empty()) hint = suggestion(key, keys);
+      return fail(value.items[i], path.member(key), "this key is not known here; the object needs " + needed,
+                  std::move(hint), true);
     }
-    return fail(value, pointer, "needs " + needed);
+    return fail(value, path, "needs " + needed);
   }
 
   const RuleTable& table_;
   std::vector<CheckFault>& faults_;
+  std::size_t num_faults_ = 0;
 };
 
 }  // namespace
 
-void check_rules(const RuleTable& table, JsonValue& root, std::vector<CheckFault>& faults) {
-  Checker(table, faults).check(*table.root, root, "");
+const JsonValue& RuleTable::defaults_of(const Rule& rule) const {
+  const std::lock_guard<std::recursive_mutex> lock(defaults_->mutex);
+  const auto [at, is_new] = defaults_->of_rule.try_emplace(&rule);
+  JsonValue& defaults = at->second;
+  if (!is_new) return defaults;
+  defaults.kind = JsonKind::object;
+  std::vector<CheckFault> none;
+  for (const Field& field : rule.fields) {
+    if (field.default_json.empty()) continue;
+    std::vector<JsonFault> no_faults;
+    JsonValue& made = defaults.items.add(field.key) = *parse_json(field.default_json, source_default, no_faults);
+    Checker(*this, none).check(*field.rule, made, {});  // gives it the defaults inside the default
+  }
+  return defaults;
+}
+
+std::size_t check_rules(const RuleTable& table, JsonValue& root, std::vector<CheckFault>& faults) {
+  Checker checker(table, faults);
+  checker.check(*table.root, root, {});
+  return checker.num_faults() - std::min(checker.num_faults(), faults.size());
 }
 
 }  // namespace bough::io

@@ -11,9 +11,11 @@ const Rule& RuleTable::resolve(const Rule& rule) const {
 std::string name_fault(const std::string& name) {
   if (name.empty()) return "a name has at least one character";
   std::size_t count = 0;
+  unsigned char before = 0;
   for (const char c : name) {
     const auto b = static_cast<unsigned char>(c);
-    if (b < 0x20 || b == 0x7F) return "a name holds no control characters";
+    if (b < 0x20 || b == 0x7F || (before == 0xC2 && b < 0xA0)) return "a name holds no control characters";
+    before = b;
     if (c == '.' || c == '/') return "a name holds no '.' and no '/' (they separate components and inner nodes)";
     if ((b & 0xC0u) != 0x80u) ++count;
   }

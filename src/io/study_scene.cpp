@@ -29,7 +29,7 @@ void append_canonical(std::string& out, const JsonValue& v) {
       append_number(out, v.number);
       return;
     case JsonKind::string:
-      out += json_string(v.text);
+      out += json_string(v.text.str());
       return;
     case JsonKind::array:
       out += '[';
@@ -42,15 +42,21 @@ void append_canonical(std::string& out, const JsonValue& v) {
     case JsonKind::object:
       break;
   }
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < v.keys.size(); ++i)
-    if (v.keys[i] != "comment") order.push_back(i);
-  std::sort(order.begin(), order.end(), [&v](std::size_t a, std::size_t b) { return v.keys[a] < v.keys[b]; });
+  std::vector<std::pair<std::string_view, const JsonValue*>> members;
+  const auto gather = [&members](const JsonValue& from) {
+    for (std::size_t i = 0; i < from.items.size(); ++i)
+      if (from.items.key(i) != "comment") members.emplace_back(from.items.key(i), &from.items[i]);
+  };
+  gather(v);
+  if (const JsonValue* defaults = v.items.defaults()) gather(*defaults);
+  std::stable_sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const auto same_key = [](const auto& a, const auto& b) { return a.first == b.first; };  // given before defaults
+  members.erase(std::unique(members.begin(), members.end(), same_key), members.end());
   out += '{';
-  for (const std::size_t i : order) {
+  for (const auto& [key, value] : members) {
     if (out.back() != '{') out += ',';
-    out += json_string(v.keys[i]) + ":";
-    append_canonical(out, v.items[i]);
+    out += json_string(std::string(key)) + ":";
+    append_canonical(out, *value);
   }
   out += '}';
 }
@@ -88,7 +94,7 @@ void StudyScene::expand_tokens(const JsonValue* at, const std::vector<std::strin
 
 std::optional<scene::Scene> StudyScene::read(const std::vector<std::string>& overrides,
                                              const std::vector<SettingOrigin>& origins, const std::string& otherwise,
-                                             std::vector<PlacedFault>& faults) {
+                                             PlacedFaults& faults) {
   SceneFile file = read_scene_text(text_, name_, overrides);
   if (file.ok()) return std::move(file.scene);
   for (const Problem& problem : file.problems) {

@@ -29,7 +29,7 @@ class StudyScene {
   /// Reads the scene with overrides. Each problem becomes one fault, at the setting that the problem's place belongs to, else at `otherwise`; what
   /// was said of a place before is not said again.
   std::optional<scene::Scene> read(const std::vector<std::string>& overrides, const std::vector<SettingOrigin>& origins,
-                                   const std::string& otherwise, std::vector<PlacedFault>& faults);
+                                   const std::string& otherwise, PlacedFaults& faults);
 
  private:
   void expand_tokens(const JsonValue* at, const std::vector<std::string>& tokens, std::size_t k, std::string so_far,

@@ -225,12 +225,12 @@ void write_origin(JsonText& json, const RunOrigin& origin, const std::vector<Fil
 
 std::string text_of(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
-  return value != nullptr && value->is(JsonKind::string) ? value->text : std::string();
+  return value != nullptr && value->is(JsonKind::string) ? value->text.str() : std::string();
 }
 
 /// A number, also where it is written as "nan", "inf" or "-inf"; false where it is neither.
 bool number_of(const JsonValue& value, double& number) {
-  if (value.is(JsonKind::string)) return read_number(value.text, number);
+  if (value.is(JsonKind::string)) return read_number(value.text.str(), number);
   number = value.number;
   return value.is(JsonKind::number);
 }
@@ -241,10 +241,11 @@ long count_of(const JsonValue& object, std::string_view key) {
 }
 
 void read_expected(const JsonValue& list, SummaryFile& summary) {
-  for (std::size_t k = 0; k < list.items.size() && k < list.keys.size(); ++k) {
+  if (!list.is(JsonKind::object)) return;
+  for (std::size_t k = 0; k < list.items.size(); ++k) {
     const JsonValue& item = list.items[k];
     results::ExpectedResult figure;
-    figure.name = list.keys[k];
+    figure.name = list.items.key(k);
     const JsonValue* value = item.find("value");
     figure.has_value = value != nullptr && number_of(*value, figure.value);
     if (const JsonValue* v = item.find("reference"); v != nullptr) (void)number_of(*v, figure.reference);
@@ -335,30 +336,30 @@ SummaryFile read_summary(const std::filesystem::path& path) {
     summary.rejected = count_of(*steps, "rejected");
     summary.newton_iterations = count_of(*steps, "newton_iterations");
   }
-  if (const JsonValue* checks = json->find("checks"); checks != nullptr) {
-    for (std::size_t k = 0; k < checks->items.size() && k < checks->keys.size(); ++k) {
+  if (const JsonValue* checks = json->find("checks"); checks != nullptr && checks->is(JsonKind::object)) {
+    for (std::size_t k = 0; k < checks->items.size(); ++k) {
       double value = 0.0;
-      if (number_of(checks->items[k], value)) summary.checks.emplace_back(checks->keys[k], value);
+      if (number_of(checks->items[k], value)) summary.checks.emplace_back(checks->items.key(k), value);
     }
   }
   if (const JsonValue* trust = json->find("trust"); trust != nullptr)
     if (const JsonValue* doubts = trust->find("doubts"); doubts != nullptr)
       for (const JsonValue& doubt : doubts->items)
         summary.doubts.push_back({text_of(doubt, "about"), text_of(doubt, "text")});
-  if (const JsonValue* options = json->find("options"); options != nullptr) {
-    for (std::size_t k = 0; k < options->items.size() && k < options->keys.size(); ++k)
+  if (const JsonValue* options = json->find("options"); options != nullptr && options->is(JsonKind::object)) {
+    for (std::size_t k = 0; k < options->items.size(); ++k)
       if (options->items[k].is(JsonKind::string))
-        summary.options.emplace_back(options->keys[k], options->items[k].text);
+        summary.options.emplace_back(options->items.key(k), options->items[k].text);
   }
   if (const JsonValue* notes = json->find("notes"); notes != nullptr)
-    for (const JsonValue& note : notes->items) summary.notes.push_back(note.text);
+    for (const JsonValue& note : notes->items) summary.notes.push_back(note.text.str());
   if (const JsonValue* expected = json->find("expected"); expected != nullptr) read_expected(*expected, summary);
   if (const JsonValue* origin = json->find("origin"); origin != nullptr)
     if (const JsonValue* set = origin->find("set"); set != nullptr)
-      for (const JsonValue& item : set->items) summary.overrides.push_back(item.text);
+      for (const JsonValue& item : set->items) summary.overrides.push_back(item.text.str());
   if (const JsonValue* files = json->find("files"); files != nullptr)
-    for (std::size_t k = 0; k < files->items.size() && k < files->keys.size(); ++k)
-      summary.files.push_back({files->keys[k], 0, files->items[k].text});
+    for (std::size_t k = 0; k < files->items.size(); ++k)
+      summary.files.push_back({files->items.key(k), 0, files->items[k].text});
   return summary;
 }
 

@@ -342,5 +342,26 @@ TEST(SceneBad, an_angle_that_looks_like_degrees_is_warned_about) {
   EXPECT_NE(file.warnings[0].text().find("radians"), std::string::npos);
 }
 
+/// Keys, names and words of a file, whatever they hold, are escaped where they are shown.
+TEST(SceneBad, no_control_character_and_no_bad_byte_of_a_file_reaches_a_message) {
+  for (const char* bad : {R"(\u0000)", R"(\u001b[2J)", R"(\u009b2J)", R"(\u007f)"}) {
+    const std::string word = std::string("\"") + bad + "\"";
+    for (const std::string& text : {"{" + word + ": 1}", R"({"nodes": [{"name": )" + word + "}]}",
+                                    R"({"nodes": [{"name": "a", )" + word + ": 1}]}",
+                                    "{" + word + ": {" + word + ": [1e400]}}", "{" + word + ": 1 " + word + "}"}) {
+      const SceneFile file = read_scene_text(text, "bad");
+      ASSERT_FALSE(file.ok()) << text;
+      for (const Problem& p : file.problems)
+        for (std::size_t i = 0; i < p.text().size(); ++i) {
+          const auto c = static_cast<unsigned char>(p.text()[i]),
+                     before = static_cast<unsigned char>(i > 0 ? p.text()[i - 1] : ' ');
+          EXPECT_TRUE(c >= 0x20 && c != 0x7F && !(before == 0xC2 && c < 0xA0)) << text;
+        }
+    }
+  }
+  for (const char* bytes : {"\xED\xA0\x80", "\xC3", "\xE0\x80\x80", "\xF4\x90\x80\x80"})
+    EXPECT_EQ(shown(bytes).find("\\x"), 0u) << bytes;
+}
+
 }  // namespace
 }  // namespace bough::io

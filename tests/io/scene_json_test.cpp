@@ -165,7 +165,7 @@ TEST(SceneJson, duplicate_keys_are_all_reported_and_the_first_value_counts) {
   EXPECT_EQ(faults[0].offset, 18u);
   EXPECT_EQ(faults[1].pointer, "/a");
   EXPECT_EQ(v->find("a")->number, 1.0);
-  EXPECT_EQ(v->keys.size(), 2u);
+  EXPECT_EQ(v->items.size(), 2u);
 }
 
 TEST(SceneJson, every_value_knows_where_it_stands) {
@@ -185,7 +185,7 @@ TEST(SceneJson, every_value_knows_where_it_stands) {
 
 TEST(SceneJson, columns_count_characters_and_a_byte_order_mark_is_none) {
   const std::string text = "\xEF\xBB\xBF[\"\xE2\x82\xAC\xE2\x82\xAC\", 1]\n[2]";
-  const LineIndex lines(text);
+  LineIndex lines(text);
   EXPECT_EQ(lines.at(text.find('[')).column, 1);
   EXPECT_EQ(lines.at(text.find('1')).column, 8);
   EXPECT_EQ(lines.at(text.find('2')).line, 2);

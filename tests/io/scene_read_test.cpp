@@ -247,5 +247,19 @@ TEST(SceneRead, every_scene_of_the_gallery_is_good_and_says_what_it_has_to_meet)
   EXPECT_GE(count, 12);
 }
 
+/// Evaluated factor by factor, each in the one before, it took a stack of megabytes.
+TEST(SceneRead, a_product_of_many_factors_is_no_tower_of_products) {
+  std::string factors = R"({"expression": "1 + t"})";
+  for (int i = 1; i < 100'000; ++i) factors += R"x(, {"expression": "cos(t)"})x";
+  const SceneFile file = read_scene_text(
+      R"({"schema_version": 1, "bodies": [{"name": "a", "kind": "point_mass", "mass": 1}],
+          "loads": [{"at": "a", "force": [1, 0, 0],
+          "law": {"kind": "product", "factors": [)" +
+          factors + R"(]}}], "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.1}})",
+      "product");
+  ASSERT_TRUE(file.ok()) << file.problems.front().text();
+  EXPECT_NEAR(file.scene.point_loads.front().law.at(1e-3).value, 1.001 * std::pow(std::cos(1e-3), 99'999), 1e-9);
+}
+
 }  // namespace
 }  // namespace bough::io

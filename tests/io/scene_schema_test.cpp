@@ -16,7 +16,7 @@ TEST(SceneSchema, the_schema_is_json_and_names_its_draft) {
   const auto schema = parse_json(schema_text(), source_file, faults);
   ASSERT_TRUE(schema && faults.empty());
   EXPECT_EQ(schema->find("$schema")->text, "http://json-schema.org/draft-07/schema#");
-  EXPECT_EQ(schema->find("definitions")->keys.size(), scene_rules().named.size());
+  EXPECT_EQ(schema->find("definitions")->items.size(), scene_rules().named.size());
 }
 
 /// Visits every rule once.

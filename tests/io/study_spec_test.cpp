@@ -195,6 +195,16 @@ TEST_F(Studies, text_that_is_no_study_never_throws) {
   EXPECT_FALSE(read_study(folder_ / "none.json").ok());
 }
 
+/// Every run is read before the first starts: a grid of millions never started.
+TEST_F(Studies, a_grid_of_more_runs_than_anybody_waits_for_is_a_problem) {
+  std::string values = "[0.5";
+  for (int k = 2; k <= 3000; ++k) values += ", " + std::to_string(0.5 / k);
+  const StudyFile file = read("[0.1, 0.05]", values + "]");
+  ASSERT_FALSE(file.ok());
+  EXPECT_NE(file.problems.front().text().find("these axes make 6000 runs"), std::string::npos)
+      << file.problems.front().text();
+}
+
 TEST(CanonicalScene, is_the_same_for_the_same_scene_and_not_for_another) {
   const std::string scene = R"({"schema_version": 1, "bodies": [{"name": "b", "mass": 1, "inertia": [1, 1, 1]}],
     "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.5}})";

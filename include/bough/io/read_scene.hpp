@@ -33,10 +33,10 @@ struct SceneFile {
   bool ok() const { return problems.empty(); }
 };
 
-inline constexpr std::size_t max_problems = 200;            ///< those after are counted in the last one
-inline constexpr std::size_t max_file_bytes = 256u << 20u;  ///< larger files are refused unread
-inline constexpr std::size_t max_json_depth = 64;           ///< of arrays and objects in each other
-inline constexpr std::size_t max_json_values = 10'000'000;  ///< numbers, strings, arrays and objects together
+inline constexpr std::size_t max_problems = 200;           ///< those after are counted in the last one
+inline constexpr std::size_t max_file_bytes = 32u << 20u;  ///< larger files are refused unread
+inline constexpr std::size_t max_json_depth = 64;          ///< of arrays and objects in each other
+inline constexpr std::size_t max_json_values = 2'000'000;  ///< numbers, strings, arrays and objects together
 
 /// Reads and checks a scene. Never throws on bad input (only std::bad_alloc may pass), never returns a half-checked scene as good.
 /// set_overrides: "/pointer=value", applied before the check; the value is JSON, or a bare word taken as a string; an array item may

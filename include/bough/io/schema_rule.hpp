@@ -4,7 +4,9 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "bough/io/json_value.hpp"
@@ -59,6 +61,16 @@ struct RuleTable {
   std::map<std::string, RuleRef> named;
   RuleRef root;
   const Rule& resolve(const Rule& rule) const;
+  /// An object of the keys that an object of this rule has without being given; made once, lives as long as the table
+  /// or a copy of it.
+  const JsonValue& defaults_of(const Rule& rule) const;
+
+ private:
+  struct Defaults {
+    std::recursive_mutex mutex;
+    std::unordered_map<const Rule*, JsonValue> of_rule;
+  };
+  std::shared_ptr<Defaults> defaults_ = std::make_shared<Defaults>();
 };
 
 /// The table of scene files.
@@ -75,7 +87,8 @@ struct CheckFault {
 };
 
 /// Checks a document, fills in defaults (source_default), clears `sound` of values at fault and of all that hold them.
-void check_rules(const RuleTable& table, JsonValue& root, std::vector<CheckFault>& faults);
+/// Appends the first hundreds of faults and returns how many more there are.
+std::size_t check_rules(const RuleTable& table, JsonValue& root, std::vector<CheckFault>& faults);
 
 /// A table as a JSON Schema (draft-07).
 std::string schema_text_of(const RuleTable& table, const std::string& title);
