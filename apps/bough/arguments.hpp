@@ -18,6 +18,7 @@ struct RunArguments {
   std::filesystem::path scene, out;  ///< out empty: ./<scene>.out
   int threads = 0;                   ///< 0: as many as the machine has
   std::vector<std::string> overrides;
+  double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
   bool quiet = false;
   bool check_expected = false;
 };
@@ -31,6 +32,7 @@ struct BatchArguments {
   int threads = 0;
   double time_limit = 0.0;
   std::vector<std::string> overrides;
+  double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
   bool quiet = false;
   bool check_expected = false;
 };
@@ -40,12 +42,14 @@ struct ExportMatrixArguments {
   std::optional<double> time;
   int threads = 0;
   std::vector<std::string> overrides;
+  double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
 };
 struct ProfileArguments {
   std::filesystem::path scene, out;  ///< out empty: ./<scene>.profile
   long steps = 200;
   int threads = 0;
   std::vector<std::string> overrides;
+  double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
   bool quiet = false;
 };
 struct TuneArguments {
@@ -54,14 +58,17 @@ struct TuneArguments {
   double seconds = 60.0;
   int threads = 0;
   std::vector<std::string> overrides;
+  double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
 };
 struct PlanArguments {
   std::filesystem::path scene, json;  ///< json empty: not written
   std::vector<std::string> overrides;
+  double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
 };
 struct CheckArguments {
   std::filesystem::path scene;
   std::vector<std::string> overrides;
+  double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
 };
 struct CompareArguments {
   std::filesystem::path a, b;

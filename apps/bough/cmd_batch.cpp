@@ -9,8 +9,10 @@
 #include "bough/io/read_scene.hpp"
 #include "bough/io/run_directory.hpp"
 #include "bough/study/batch.hpp"
+#include "bough/study/estimate.hpp"
 #include "bough/study/simulate.hpp"
 #include "bough/version.hpp"
+#include "memory_limit.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
@@ -26,7 +28,8 @@ std::string first_problems(const io::SceneFile& file) {
 }
 
 /// Runs in the case's own process.
-int run_case(const study::BatchCase& which, const BatchArguments& arguments, study::CaseReport& report) {
+int run_case(const study::BatchCase& which, const BatchArguments& arguments, double memory_limit,
+             study::CaseReport& report) {
   catch_interrupts(Repeated::ignored);
   const auto start = std::chrono::steady_clock::now();
   const io::SceneFile file = io::read_scene(which.scene, arguments.overrides);
@@ -34,6 +37,8 @@ int run_case(const study::BatchCase& which, const BatchArguments& arguments, stu
     report.cause = first_problems(file);
     return exit_bad_input;
   }
+  report.cause = study::refusal(file.scene, memory_limit);
+  if (!report.cause.empty()) return exit_bad_input;
   io::RunDirectory directory(which.directory, std::string(version), origin_of(which.scene, file, arguments.overrides));
   study::SimulateOptions options{.threads = 1};
   options.stopped_by = [&]() -> std::string {
@@ -46,9 +51,9 @@ int run_case(const study::BatchCase& which, const BatchArguments& arguments, stu
     directory.open();
     summary = study::simulate(file.scene, options, directory, [](const results::Progress&) { return !interrupted(); });
   } catch (const std::exception& error) {
-    report.cause = error.what();
+    report.cause = cause_of(error);
     summary.scene = file.scene.name;
-    directory.end_as_failed(summary, error.what());
+    directory.end_as_failed(summary, cause_of(error));
     if (directory.has_ended()) report.directory = directory.directory();
     return exit_failed;
   }
@@ -70,17 +75,22 @@ void print_case(const study::CaseResult& result, std::size_t done, std::size_t a
 int batch(const BatchArguments& arguments) {
   study::BatchOptions options{arguments.folder, arguments.out,
                               arguments.threads > 0 ? arguments.threads : default_threads(), arguments.time_limit};
+  std::size_t num_cases = 1;
   try {
-    (void)study::cases_in(options);
+    num_cases = std::max<std::size_t>(1, study::cases_in(options).size());
   } catch (const std::exception& error) {
-    std::cerr << "bough: " << error.what() << "\n";
+    std::cerr << "bough: " << cause_of(error) << "\n";
     return exit_bad_input;
   }
   const io::OutputCollection collection(options.out, "batch", {arguments.folder});
+  const double memory_limit = (arguments.memory_limit > 0.0 ? arguments.memory_limit : available_memory()) /
+                              static_cast<double>(std::min(num_cases, static_cast<std::size_t>(options.threads)));
   catch_interrupts();
   const std::vector<study::CaseResult> results = study::run_batch(
       options,
-      [&](const study::BatchCase& which, study::CaseReport& report) { return run_case(which, arguments, report); },
+      [&](const study::BatchCase& which, study::CaseReport& report) {
+        return run_case(which, arguments, memory_limit, report);
+      },
       [&](const study::CaseResult& result, std::size_t done, std::size_t all) {
         print_case(result, done, all, arguments.quiet);
       },

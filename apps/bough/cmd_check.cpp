@@ -8,6 +8,7 @@
 #include "bough/io/read_scene.hpp"
 #include "bough/io/read_study.hpp"
 #include "bough/plan/plan.hpp"
+#include "memory_limit.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
@@ -45,6 +46,7 @@ int check(const CheckArguments& arguments) {
     std::cerr << file.problems.size() << (file.problems.size() == 1 ? " problem\n" : " problems\n");
     return exit_bad_input;
   }
+  if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
   const scene::Scene& s = file.scene;
   print_mobility(arguments.scene, s);
   std::string parts;

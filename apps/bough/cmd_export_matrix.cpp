@@ -6,6 +6,7 @@
 #include "bough/io/manifest.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/study/linear_system.hpp"
+#include "memory_limit.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
@@ -14,6 +15,7 @@ int export_matrix(const ExportMatrixArguments& arguments) {
   const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
   print_problems(arguments.scene, file, false);
   if (!file.ok()) return exit_bad_input;
+  if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path(file.scene.name + ".mtx") : arguments.out;
   io::refuse_to_overwrite({arguments.scene}, {out, arguments.rhs});
@@ -29,7 +31,7 @@ int export_matrix(const ExportMatrixArguments& arguments) {
     io::write_file(out, io::matrix_market_text(system->matrix, comments));
     if (!arguments.rhs.empty()) io::write_file(arguments.rhs, io::matrix_market_text(system->rhs, comments));
   } catch (const std::exception& error) {
-    std::cerr << "bough: " << error.what() << "\n";
+    std::cerr << "bough: " << cause_of(error) << "\n";
     return exit_failed;
   }
   std::cout << out.string() << ": " << system->matrix.size << " unknowns, " << system->matrix.row.size() << " entries"

@@ -1,4 +1,5 @@
 /// bough plan SCENE: what is left out of a run and why, and what the run will take.
+#include <cmath>
 #include <iostream>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/study/outlook.hpp"
+#include "memory_limit.hpp"
 #include "result_text.hpp"
 #include "terminal.hpp"
 
@@ -20,8 +22,12 @@ using io::bytes_text;
 using io::rounded_text;
 using io::seconds_text;
 
-std::string ratio_text(double without, double with) {
-  return with > 0.0 ? rounded_text(without / with, 2) + " times" : "-";
+/// "45 % less", of what it would be without the decision.
+std::string change_text(double with, double without, const char* less, const char* more) {
+  if (!(without > 0.0)) return "-";
+  const double change = 100.0 * (with / without - 1.0);
+  if (std::abs(change) < 0.5) return "the same";
+  return rounded_text(std::abs(change), 2) + " % " + (change < 0.0 ? less : more);
 }
 
 std::string saving_text(const study::OutlookDecision& d, const study::Effort& now) {
@@ -29,10 +35,11 @@ std::string saving_text(const study::OutlookDecision& d, const study::Effort& no
   const study::Effort& other = d.without;
   std::string text;
   if (other.unknowns != now.unknowns)
-    text += std::to_string(other.unknowns) + " unknowns instead of " + std::to_string(now.unknowns) + ", ";
-  text += "step " + ratio_text(other.step_seconds(), now.step_seconds());
+    text += std::to_string(now.unknowns) + " unknowns instead of " + std::to_string(other.unknowns) + ", ";
+  text += "step " + change_text(now.step_seconds(), other.step_seconds(), "shorter", "longer");
   if (other.memory_bytes != now.memory_bytes)
-    text += ", memory " + ratio_text(static_cast<double>(other.memory_bytes), static_cast<double>(now.memory_bytes));
+    text += ", memory " +
+            change_text(static_cast<double>(now.memory_bytes), static_cast<double>(other.memory_bytes), "less", "more");
   return text;
 }
 
@@ -82,9 +89,11 @@ std::string plan_text(const study::Outlook& o) {
           seconds_text(e.evaluate_seconds) + ", factor " + seconds_text(e.factor_seconds) + " (" +
           rounded_text(e.factorizations, 2) + " of " + rounded_text(1e-6 * e.factor_flops, 3) + " Mflop), solve " +
           seconds_text(e.solve_seconds) + ", nodes " + seconds_text(e.other_seconds) + "\n";
+  text += "a run, " + rounded_text(o.steps, 6) + (o.steps == 1.0 ? " step" : " steps") + ", about " +
+          seconds_text(o.steps * e.step_seconds()) + " on one thread\n";
   text += "memory, about " + bytes_text(static_cast<double>(o.process_bytes)) + ", of which " +
           bytes_text(static_cast<double>(e.memory_bytes)) + " for the scene\n\n";
-  std::vector<std::vector<std::string>> rows{{"decision", "", "saves", "because"}};
+  std::vector<std::vector<std::string>> rows{{"decision", "", "with it", "because"}};
   for (const study::OutlookDecision& d : o.decisions)
     rows.push_back({d.decision.name,
                     d.decision.taken    ? "taken"
@@ -154,6 +163,7 @@ std::string plan_json(const study::Outlook& o, const std::vector<io::Problem>& h
   json.member("fronts", static_cast<long long>(o.fronts));
   json.member("fronts_in_lanes", static_cast<long long>(o.fronts_in_lanes));
   json.member("fronts_in_registers", static_cast<long long>(o.fronts_in_registers));
+  json.member("steps", o.steps);
   json.member("process_bytes", static_cast<long long>(o.process_bytes));
   json.key("mobility");
   write_mobility(json, o.mobility);
@@ -195,11 +205,12 @@ int plan(const PlanArguments& arguments) {
   print_problems(arguments.scene, file, false);
   if (!file.ok()) return exit_bad_input;
   io::refuse_to_overwrite({arguments.scene}, {arguments.json});
+  if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
   const study::Outlook outlook = study::look_ahead(file.scene);
   try {
     if (!arguments.json.empty()) io::write_file(arguments.json, plan_json(outlook, file.warnings));
   } catch (const std::exception& error) {
-    std::cerr << "bough: " << error.what() << "\n";
+    std::cerr << "bough: " << cause_of(error) << "\n";
     return exit_failed;
   }
   std::cout << plan_text(outlook) << std::flush;

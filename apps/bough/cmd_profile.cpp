@@ -8,6 +8,7 @@
 #include "bough/io/read_scene.hpp"
 #include "bough/study/profile.hpp"
 #include "bough/version.hpp"
+#include "memory_limit.hpp"
 #include "pages.hpp"
 #include "standard_streams.hpp"
 #include "terminal.hpp"
@@ -31,6 +32,7 @@ int profile(const ProfileArguments& arguments) {
   const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
   print_problems(arguments.scene, file, arguments.quiet);
   if (!file.ok()) return exit_bad_input;
+  if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
   if (const std::string cause = study::cannot_profile(file.scene); !cause.empty()) {
     std::cerr << "bough: " << file.scene.name << ": " << cause << "\n";
     return exit_bad_input;
@@ -58,7 +60,7 @@ int profile(const ProfileArguments& arguments) {
     folder.publish(result.trouble.empty() ? io::FolderState::good : io::FolderState::failed);
   } catch (const std::exception& error) {
     bar.clear();
-    std::cerr << "bough: " << error.what() << "\n";
+    std::cerr << "bough: " << cause_of(error) << "\n";
     return exit_failed;
   }
   tell_if_beside(folder);

@@ -8,6 +8,7 @@
 #include "bough/io/run_directory.hpp"
 #include "bough/study/simulate.hpp"
 #include "bough/version.hpp"
+#include "memory_limit.hpp"
 #include "result_text.hpp"
 #include "terminal.hpp"
 
@@ -32,10 +33,10 @@ std::optional<results::Summary> simulate_into(io::RunDirectory& directory, const
     summary = study::simulate(file.scene, options, directory, on_step);
   } catch (const std::exception& error) {
     bar.clear();
-    std::cerr << "bough: " << error.what() << "\n";
+    std::cerr << "bough: " << cause_of(error) << "\n";
     summary.scene = file.scene.name;
     summary.threads = options.threads;
-    directory.end_as_failed(summary, error.what());
+    directory.end_as_failed(summary, cause_of(error));
     return std::nullopt;
   }
   bar.clear();
@@ -48,6 +49,7 @@ int run(const RunArguments& arguments) {
   const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
   print_problems(arguments.scene, file, arguments.quiet);
   if (!file.ok()) return exit_bad_input;
+  if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
   io::RunDirectory directory(arguments.out.empty() ? std::filesystem::path(file.scene.name + ".out") : arguments.out,
                              std::string(version), origin_of(arguments.scene, file, arguments.overrides));
   directory.open();

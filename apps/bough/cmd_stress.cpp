@@ -37,7 +37,7 @@ int stress(const StressArguments& arguments) {
     page = write_stress_page(folder, "stress.html", cases, options);
     folder.publish(interrupted() ? io::FolderState::failed : io::FolderState::good);
   } catch (const std::exception& error) {
-    std::cerr << "bough: " << error.what() << "\n";
+    std::cerr << "bough: " << cause_of(error) << "\n";
     return exit_failed;
   }
   tell_if_beside(folder);

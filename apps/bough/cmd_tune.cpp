@@ -10,6 +10,7 @@
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/study/tune.hpp"
+#include "memory_limit.hpp"
 #include "result_text.hpp"
 #include "standard_streams.hpp"
 #include "terminal.hpp"
@@ -38,6 +39,7 @@ int tune(const TuneArguments& arguments) {
   print_problems(arguments.scene, file, false);
   if (!file.ok()) return exit_bad_input;
   io::refuse_to_overwrite({arguments.scene}, {arguments.out});
+  if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
   catch_interrupts();
   study::TuneOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
@@ -71,7 +73,7 @@ int tune(const TuneArguments& arguments) {
   try {
     if (!arguments.out.empty()) io::write_file(arguments.out, block + "\n");
   } catch (const std::exception& error) {
-    std::cerr << "bough: " << error.what() << "\n";
+    std::cerr << "bough: " << cause_of(error) << "\n";
     return exit_failed;
   }
   std::cerr << "Use it as \"solver\" of the scene, or --set /solver='...':\n";

@@ -7,6 +7,7 @@
 #include "bough/scene/components.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/version.hpp"
+#include "memory_limit.hpp"
 
 namespace bough::app {
 namespace {
@@ -50,6 +51,18 @@ void add_without(CLI::App& verb, std::vector<std::string>& overrides) {
       ->check(CLI::IsMember(scene::decision_names()));
 }
 
+/// Scenes of which a run would take more are refused before anything is allocated for them.
+void add_memory_limit(CLI::App& verb, double& bytes, const std::string& what = "a run") {
+  verb.add_option_function<std::string>(
+          "--memory-limit", [&bytes](const std::string& text) { (void)read_memory_size(text, bytes); },
+          "Most memory that " + what + " may take, as 512M or 8G (default: what is available)")
+      ->type_name("SIZE")
+      ->check([](const std::string& text) {
+        double size = 0.0;
+        return read_memory_size(text, size) ? std::string() : "'" + text + "' is not a size in bytes, as 512M or 8G";
+      });
+}
+
 void add_threads(CLI::App& verb, int& threads, const std::string& what) {
   verb.add_option("--threads", threads, what + " (default: as many as the machine has)")
       ->type_name("N")
@@ -72,6 +85,7 @@ void add_run(CLI::App& app, RunArguments& a, int& code) {
   verb.add_option("--out", a.out, "Directory of the results (default: ./<scene>.out)")->type_name("DIR");
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
+  add_memory_limit(verb, a.memory_limit);
   add_without(verb, a.overrides);
   verb.add_flag("--quiet", a.quiet, "Print problems only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
@@ -106,6 +120,7 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
       ->type_name("S")
       ->check(between(0.001, 1e9));
   add_overrides(verb, a.overrides);
+  add_memory_limit(verb, a.memory_limit, "all cases at a time");
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
   verb.callback([&] { code = batch(a); });
@@ -130,6 +145,7 @@ void add_export_matrix(CLI::App& app, ExportMatrixArguments& a, int& code) {
       ->excludes(step);
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
+  add_memory_limit(verb, a.memory_limit);
   add_without(verb, a.overrides);
   verb.callback([&] { code = export_matrix(a); });
 }
@@ -167,6 +183,7 @@ void add_profile(CLI::App& app, ProfileArguments& a, int& code) {
   verb.add_option("--steps", a.steps, "Most steps (default: 200)")->type_name("N")->check(CLI::Range(1L, 1000000000L));
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
+  add_memory_limit(verb, a.memory_limit);
   verb.add_flag("--quiet", a.quiet, "Print problems only");
   verb.callback([&] { code = profile(a); });
 }
@@ -187,6 +204,7 @@ void add_tune(CLI::App& app, TuneArguments& a, int& code) {
       ->check(between(0.0, 1e6));
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
+  add_memory_limit(verb, a.memory_limit);
   verb.callback([&] { code = tune(a); });
 }
 
@@ -198,6 +216,7 @@ void add_plan(CLI::App& app, PlanArguments& a, int& code) {
   verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--json", a.json, "Write all of it")->type_name("FILE");
   add_overrides(verb, a.overrides);
+  add_memory_limit(verb, a.memory_limit);
   add_without(verb, a.overrides);
   verb.callback([&] { code = plan(a); });
 }
@@ -209,6 +228,7 @@ void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArgu
                "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0");
   check_verb.add_option("SCENE", check_arguments.scene, "Scene file (JSON); -: standard input")->required();
   add_overrides(check_verb, check_arguments.overrides);
+  add_memory_limit(check_verb, check_arguments.memory_limit);
   check_verb.callback([&] { code = check(check_arguments); });
 
   CLI::App& compare_verb =

@@ -6,6 +6,8 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <new>
+#include <system_error>
 #include <thread>
 
 #include "bough/io/number_text.hpp"
@@ -55,6 +57,15 @@ void catch_interrupts(Repeated repeated) {
 bool interrupted() { return stop_asked != 0; }
 
 int default_threads() { return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 1024u)); }
+
+std::string cause_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
+    return "out of memory: the scene takes more than this process gets (bough plan says how much)";
+  if (const auto* system = dynamic_cast<const std::system_error*>(&error);
+      system != nullptr && system->code() == std::errc::resource_unavailable_try_again)
+    return "the system gives this process no more threads or memory (ulimit -u, ulimit -v)";
+  return error.what();
+}
 
 ProgressBar::ProgressBar(bool quiet) : quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) != 0) {}
 

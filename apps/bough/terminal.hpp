@@ -1,6 +1,7 @@
 #pragma once
 /// What the verbs share: the stop flag of Ctrl-C, progress on the terminal, problems of scenes.
 #include <chrono>
+#include <exception>
 #include <string>
 
 #include "bough/io/output_folder.hpp"
@@ -18,6 +19,9 @@ void catch_interrupts(Repeated repeated = Repeated::ends);
 bool interrupted();
 
 int default_threads();
+
+/// What an exception says, in words for whoever runs the program.
+std::string cause_of(const std::exception& error);
 
 /// Simulated time, step size, Newton iterations and remaining time on standard error: a bar that redraws itself on a
 /// terminal, a plain line every tenth of the way (and at most every two seconds) elsewhere, nothing when quiet.

@@ -7,6 +7,7 @@
 #include "bough/step/state.hpp"
 #include "bough/step/step_cost.hpp"
 #include "bough/step/system.hpp"
+#include "bough/study/estimate.hpp"
 
 namespace bough::study {
 
@@ -96,6 +97,7 @@ Outlook look_ahead(const scene::Scene& scene) {
   const solve::SolverCounters counters = built.system.solver().counters();
   out.fronts_in_lanes = static_cast<int>(counters.fronts_in_lanes);
   out.fronts_in_registers = static_cast<int>(counters.fronts_in_registers);
+  out.steps = estimate_run(scene).steps;
   out.process_bytes = program_bytes + out.effort.memory_bytes;
   out.mobility = plan.mobility;
   out.notes = plan.notes;

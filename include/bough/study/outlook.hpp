@@ -38,6 +38,7 @@ struct Outlook {
   std::string cut;                     ///< how the tree was made
   int sub_domains = 0, leaves = 0, levels = 0, fronts_in_lanes = 0, fronts_in_registers = 0, fronts = 0;
   Effort effort;
+  double steps = 0.0;  ///< of equal size, or load steps; where errors choose steps, as many as of the first size
   std::int64_t process_bytes = 0;  ///< peak of the process that runs it, about: the program, and memory_bytes
   plan::Mobility mobility;
   std::vector<OutlookDecision> decisions;

@@ -27,6 +27,7 @@ class Result:
     out: bytes
     err: bytes
     seconds: float
+    cpu_seconds: float
     megabytes: float   # largest resident set
     timed_out: bool
 
@@ -61,11 +62,12 @@ def run(command, seconds, cwd=None, limits=None, stdin=b"", environment=None):
         elapsed = time.monotonic() - start
         out.seek(0)
         err.seek(0)
-        return Result(child.returncode, out.read(), err.read(), elapsed, usage.ru_maxrss / 1024, expired.is_set())
+        return Result(child.returncode, out.read(), err.read(), elapsed, usage.ru_utime + usage.ru_stime,
+                      usage.ru_maxrss / 1024, expired.is_set())
 
 
 def faults_of(result, what="the program"):
-    """What no run may do, whatever it is given: foreign exit status, crash, hang, bytes that a terminal should not get, silence."""
+    """What no run may do, whatever it is given: foreign exit status, crash, hang, bad bytes for a terminal, silence."""
     faults = []
     if result.timed_out:
         return [f"{what} did not end within {result.seconds:.1f} s"]
