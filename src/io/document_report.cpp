@@ -57,7 +57,7 @@ std::string Report::owner(const std::string& pointer) const {
   return name;
 }
 
-void Report::finish(std::vector<Placed>& list, std::size_t left_out, std::vector<Problem>& out) const {
+void Report::finish(std::vector<Placed>& list, std::size_t left_out, std::vector<Problem>& out) {
   std::stable_sort(list.begin(), list.end(), [](const Placed& a, const Placed& b) {
     return a.in_file != b.in_file ? a.in_file : a.in_file && a.offset < b.offset;
   });

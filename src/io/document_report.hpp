@@ -42,7 +42,7 @@ class Report {
   };
 
   void put(std::vector<Placed>& list, Problem p, int source, std::size_t offset);
-  void finish(std::vector<Placed>& list, std::size_t left_out, std::vector<Problem>& out) const;
+  void finish(std::vector<Placed>& list, std::size_t left_out, std::vector<Problem>& out);
   std::string_view source_text(int source) const;
   std::string excerpt(int source, std::size_t offset, std::size_t length) const;
   std::string token(int source, std::size_t offset) const;

@@ -95,7 +95,6 @@ class Converter : private ValueConverter {
   bool is_static_ = false;
   std::vector<scene::Material> materials_;
   std::unordered_map<std::string, double> thickness_;  ///< of sections of a given shape: its largest dimension [m]
-  std::unordered_set<std::string> names_;              ///< all names given in the file
   std::unordered_map<std::string, std::size_t> material_of_;  ///< by name, in materials_
   std::unordered_set<std::string> defective_materials_;       ///< left out, for their faults were reported
   std::unordered_set<std::string> names_;                     ///< all names given in the file

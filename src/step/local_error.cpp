@@ -40,22 +40,6 @@ bool is_of_motion(const plan::SensorPlan& s) {
   }
 }
 
-/// The node whose part of an error, or of its change since `before`, is largest in linear or angular motion.
-std::size_t worst_node(const std::vector<Vec6<double>>& now, const std::vector<Vec6<double>>* before, bool is_linear) {
-  std::size_t worst = 0;
-  double most = -1.0;
-  for (std::size_t n = 0; n < now.size(); ++n) {
-    Largest part;
-    part.include(before != nullptr ? Vec6<double>(now[n] - (*before)[n]) : now[n]);
-    const double size = is_linear ? part.linear() : part.angular();
-    if (size > most) {
-      most = size;
-      worst = n;
-    }
-  }
-  return worst;
-}
-
 }  // namespace
 
 ErrorConstants make_error_constants(const AlphaCoefficients& c) {
@@ -233,19 +217,17 @@ std::string LocalError::describe(const plan::Plan& plan, double tolerance) const
   struct Part {
     const char *what, *unit;
     double error, allowed;
-    bool is_rate, is_linear;
   };
   const double of_motion = std::pow(tolerance, 1.5);
   const ErrorParts size = sizes();
-  const Part parts[] = {
-      {"position", "m", parts_.position, of_motion * size.position, false, true},
-      {"rotation", "rad", parts_.rotation, of_motion * size.rotation, false, false},
-      {"velocity", "m/s", parts_.velocity, tolerance * size.velocity, true, true},
-      {"angular velocity", "rad/s", parts_.angular_velocity, tolerance * size.angular_velocity, true, false}};
+  const Part parts[] = {{"position", "m", parts_.position, of_motion * size.position},
+                        {"rotation", "rad", parts_.rotation, of_motion * size.rotation},
+                        {"velocity", "m/s", parts_.velocity, tolerance * size.velocity},
+                        {"angular velocity", "rad/s", parts_.angular_velocity, tolerance * size.angular_velocity}};
   const Part& worst = *std::max_element(std::begin(parts), std::end(parts), [](const Part& a, const Part& b) {
     return a.error * b.allowed < b.error * a.allowed;
   });
-  const std::size_t node = worst_node(now_, worst.is_rate ? &previous_ : nullptr, worst.is_linear);
+  const auto node = static_cast<std::size_t>(std::max(0, limit(tolerance).node));
   char text[160];
   std::snprintf(text, sizeof text, " is %.2g %s, %.3g times what the tolerance of step control allows", worst.error,
                 worst.unit, worst.error / worst.allowed);

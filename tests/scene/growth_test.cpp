@@ -55,7 +55,10 @@ TEST(ProblemsGrowth, of_sections_sensors_and_figures) {
           sensor.kind = SensorKind::section_force;
           sensor.beam = name("b", i);
           s.sensors.push_back(sensor);
-          s.expected.push_back({name("f", i) + ".N", 1.0, 0.0, 1.0, ""});
+          Expected figure;
+          figure.quantity = name("f", i) + ".N";
+          figure.tolerance = 1.0;
+          s.expected.push_back(figure);
         }
         return s;
       },

@@ -70,8 +70,8 @@ class LocalError {
   double relative_motion() const;    ///< of positions and rotations
   double relative_velocity() const;  ///< of velocities
 
-  /// Names the error that asks for the smallest step at this tolerance, its node, and how many times it is what the
-  /// tolerance allows.
+  /// Names the error that asks for the smallest step at this tolerance, the node of limit(), and how many times it is
+  /// what the tolerance allows. To be asked before `accept`.
   std::string describe(const plan::Plan& plan, double tolerance) const;
 
   /// Largest change of e_q without the filter, over the same sizes [-]: costs no solution; at fixed steps tells when to look closer. The nodes of
