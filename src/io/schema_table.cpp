@@ -117,27 +117,27 @@ void add_joints(RuleTable& t) {
                       need("law", named_rule("law"), "Value [rad] or [m]; with rate [rad/s] or [m/s]."),
                       may("rate", boolean_rule(""),
                           "The law is the rate; it is integrated exactly from the initial value.", "false")}));
-  t.named["joint"] =
-      made(object_of("A joint between two things. Its reaction is the wrench of the first on the second, at the "
-                     "second's joint frame. Axis 3 of the joint frames is the axis of revolute, prismatic, "
-                     "cylindrical and screw joints and the normal of planar ones; universal: axis 1 is fixed in the "
-                     "first, axis 2 in the second, both perpendicular.",
-                     {name_field(), need("kind", word_rule("", joint_kind_names()), "What it leaves free."),
-                      need("first", named_rule("attachment"),
-                           "What it joins. A bare name takes the place the other one, or `position`, says."),
-                      need("second", named_rule("attachment"), "What it joins to the first."),
-                      may("position", named_rule("vector"),
-                          "Place of the joint at the start, in `frame` [m]. Default: from the attachments; with two "
-                          "bare names, the origin of the second, unless that is the ground."),
-                      may("axis", named_rule("vector"),
-                          "Axis of the joint at the start, in `frame` (universal: the axis fixed in the first)."),
-                      may("second_axis", named_rule("vector"),
-                          "Universal: the axis fixed in the second. Others: direction from which the angle is counted "
-                          "(axis 1 of the joint)."),
-                      frame_field("Frame of position and axes, at the start. Default: the ground."),
-                      may("pitch", any_number, "Screw: displacement per turn [m]."),
-                      may("forces", array_rule("", force), "Springs, dampers and efforts along its coordinates.", "[]"),
-                      may("drives", array_rule("", drive), "Prescribed coordinates.", "[]")}));
+  t.named["joint"] = made(object_of(
+      "A joint between two things. Its reaction is the wrench of the first on the second, at the "
+      "second's joint frame. Axis 3 of the joint frames is the axis of revolute, prismatic, "
+      "cylindrical and screw joints and the normal of planar ones; universal: axis 1 is fixed in the "
+      "first, axis 2 in the second, both perpendicular.",
+      {name_field(), need("kind", word_rule("", joint_kind_names()), "What it leaves free."),
+       need("first", named_rule("attachment"),
+            "What it joins. A bare name takes the place the other one, or `position`, says."),
+       need("second", named_rule("attachment"), "What it joins to the first."),
+       may("position", named_rule("vector"),
+           "Place of the joint at the start, in `frame` [m]. Default: from the attachments; with two "
+           "bare names, the origin of the second, unless that is the ground."),
+       may("axis", named_rule("vector"),
+           "Axis of the joint at the start, in `frame` (universal: the axis fixed in the first)."),
+       may("second_axis", named_rule("vector"),
+           "Universal: the axis fixed in the second. Others: direction from which the angle is counted "
+           "(axis 1 of the joint)."),
+       frame_field("Frame of position and axes, at the start. Default: the ground."),
+       may("pitch", any_number, "Screw: displacement per turn [m]."),
+       may("forces", array_rule("", force, 0, 4), "Springs, dampers and efforts along its coordinates.", "[]"),
+       may("drives", array_rule("", drive), "Prescribed coordinates.", "[]")}));
 
   t.named["spring"] = made(object_of(
       "Spring and damper along the line between two points.",

@@ -342,6 +342,23 @@ TEST(SceneBad, an_angle_that_looks_like_degrees_is_warned_about) {
   EXPECT_NE(file.warnings[0].text().find("radians"), std::string::npos);
 }
 
+/// An element of a joint has room for four: the fifth was written beyond it.
+TEST(SceneBad, a_joint_with_more_forces_than_its_element_holds_is_refused) {
+  const auto read = [](int count) {
+    std::string forces = "{\"stiffness\": 1}";
+    for (int k = 1; k < count; ++k) forces += ", {\"stiffness\": 1}";
+    return read_scene_text(R"({"schema_version": 1, "bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1]}],
+        "joints": [{"name": "h", "kind": "revolute", "first": "ground", "second": "a", "position": [0, 0, 0],
+                    "axis": [0, 0, 1], "forces": [)" +
+                               forces + R"(]}], "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.1}})",
+                           "forces");
+  };
+  EXPECT_TRUE(read(4).ok());
+  const SceneFile five = read(5);
+  ASSERT_FALSE(five.ok());
+  EXPECT_NE(five.problems.front().text().find("/joints/0/forces"), std::string::npos);
+}
+
 /// Keys, names and words of a file, whatever they hold, are escaped where they are shown.
 TEST(SceneBad, no_control_character_and_no_bad_byte_of_a_file_reaches_a_message) {
   for (const char* bad : {R"(\u0000)", R"(\u001b[2J)", R"(\u009b2J)", R"(\u007f)"}) {

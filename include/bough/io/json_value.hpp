@@ -38,6 +38,7 @@ class JsonString {
   operator const std::string&() const { return str(); }  // NOLINT(google-explicit-constructor): reads as one
   bool empty() const { return text_ == nullptr; }
   friend bool operator==(const JsonString& a, std::string_view b) { return a.str() == b; }
+  friend bool operator==(const JsonString& a, const JsonString& b) { return a.str() == b.str(); }
   friend std::ostream& operator<<(std::ostream& out, const JsonString& text) { return out << text.str(); }
 
  private:
