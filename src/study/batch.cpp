@@ -119,7 +119,8 @@ std::string failing_figures(const io::SummaryFile& summary) {
   int count = 0;
   for (const results::ExpectedResult& figure : summary.expected) {
     if (!figure.reached || figure.holds || ++count > shown) continue;
-    text += (text.empty() ? "" : ", ") + figure.name + " is " + io::rounded_text(figure.value, 6) + " instead of " +
+    const std::string value = figure.has_value ? io::rounded_text(figure.value, 6) : "not there";
+    text += (text.empty() ? "" : ", ") + figure.name + " is " + value + " instead of " +
             io::rounded_text(figure.reference, 6) + " +- " + io::rounded_text(figure.tolerance, 3);
   }
   if (count > shown) text += " and " + std::to_string(count - shown) + " more";

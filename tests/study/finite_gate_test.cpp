@@ -87,5 +87,14 @@ TEST(FiniteGate, no_run_beyond_the_range_of_numbers_passes_as_good) {
   }
 }
 
+TEST(FiniteGate, no_expected_figure_of_a_run_that_it_ends_holds) {
+  const results::Summary summary = run_of(
+      R"("bodies": [{"name": "ball", "kind": "point_mass", "mass": 1, "position": [0, 0, 1e308]}],
+         "sensors": [{"name": "ball", "kind": "position", "at": "ball"}],
+         "expected": [{"quantity": "ball.x", "value": 0, "tolerance": 1}])");
+  EXPECT_NE(summary.status, results::RunStatus::ok);
+  for (const results::ExpectedResult& figure : summary.expected) EXPECT_FALSE(figure.holds) << figure.name;
+}
+
 }  // namespace
 }  // namespace bough::study
