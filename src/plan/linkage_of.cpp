@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <unordered_map>
 
 namespace bough::plan {
 
@@ -201,25 +203,34 @@ void SceneLinkage::add_stiffness() {
 /// The plan holds the rotation of a point mass where nothing feels it, and its spin about the line through all points
 /// where it is met.
 void SceneLinkage::add_point_masses() {
+  struct Use {
+    bool feels = false;  // something turns with it
+    std::vector<Vec3d> met;
+  };
+  std::unordered_map<std::string, Use> uses;
+  const auto look = [&](const auto& item, bool turns) {
+    for (const scene::Attachment* a : {&item.first, &item.second}) {
+      const auto use = uses.find(a->to);
+      if (use == uses.end()) continue;
+      use->second.feels |= turns;
+      if (length_of(a->offset.x) > 0.0) use->second.met.push_back(a->offset.x);
+    }
+  };
+  for (const scene::Body& b : scene_.bodies)
+    if (b.is_point_mass) uses.emplace(b.name, Use{});
+  for (const scene::Joint& j : scene_.joints) look(j, j.kind != JointKind::spherical);
+  for (const scene::Spring& s : scene_.springs) look(s, false);
+  for (const scene::Bushing& u : scene_.bushings) look(u, true);
+  for (const scene::Beam& beam : scene_.beams)
+    for (const std::string* end : {&beam.start, &beam.end})
+      if (const auto use = uses.find(*end); use != uses.end()) use->second.feels = true;
   for (const scene::Body& b : scene_.bodies) {
     if (!b.is_point_mass) continue;
-    bool feels = false;
-    std::vector<Vec3d> met;
-    const auto look = [&](const auto& item, bool turns) {
-      for (const scene::Attachment* a : {&item.first, &item.second})
-        if (a->to == b.name) {
-          feels |= turns;
-          if (length_of(a->offset.x) > 0.0) met.push_back(a->offset.x);
-        }
-    };
-    for (const scene::Joint& j : scene_.joints) look(j, j.kind != JointKind::spherical);
-    for (const scene::Spring& s : scene_.springs) look(s, false);
-    for (const scene::Bushing& u : scene_.bushings) look(u, true);
-    for (const scene::Beam& beam : scene_.beams) feels |= beam.start == b.name || beam.end == b.name;
+    const auto& [feels, met] = uses.at(b.name);
     if (feels) continue;
     std::vector<Twist> rows;
-    const bool is_in_line = std::all_of(met.begin(), met.end(), [&met](const Vec3d& x) {
-      return length_of(lanes::cross(x, met.front())) <= 1e-12 * lanes::dot(x, x);
+    const bool is_in_line = std::all_of(met.begin(), met.end(), [&first = met](const Vec3d& x) {
+      return length_of(lanes::cross(x, first.front())) <= 1e-12 * lanes::dot(x, x);
     });
     if (met.empty())
       for (int k = 0; k < 3; ++k) rows.push_back(Linkage::about(Vec3d::unit(k)));

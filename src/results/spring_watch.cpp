@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "observe_parts.hpp"
+#include "bough/elements/evaluate.hpp"
 
 namespace bough::results {
 
@@ -36,9 +36,11 @@ void SpringWatch::look(const step::System& system, const step::State& state) {
   const auto& springs = plan::array_of<elements::Spring>(system.plan().elements);
   for (Seen& s : seen_) {
     const elements::Spring& e = springs[static_cast<std::size_t>(s.spring)];
-    const PointMotion a = motion_of_port(e.ports[0], f), b = motion_of_port(e.ports[1], f);
-    const Vec3<double> span = b.pose.x - a.pose.x;
-    const Vec3<double> rate = b.pose.R * lanes::linear_part(b.v) - a.pose.R * lanes::linear_part(a.v);
+    const auto anchor = elements::anchor_of(e, f.nodes);
+    const auto a = elements::eval_port(e.ports[0], f.nodes, anchor, f.carriers),
+               b = elements::eval_port(e.ports[1], f.nodes, anchor, f.carriers);
+    const Vec3<double> span = b.H.x - a.H.x;
+    const Vec3<double> rate = b.H.R * lanes::linear_part(b.v) - a.H.R * lanes::linear_part(a.v);
     if (!is_first_ && lanes::dot(span, s.span) < 0.0 && cosine(s.rate, s.span) < -along && cosine(rate, span) > along) {
       passed_ = &s;
       time_ = state.time;

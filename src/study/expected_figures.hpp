@@ -51,7 +51,7 @@ class ExpectedFigures {
   };
   struct Figure {
     const scene::Expected* given = nullptr;
-    int sensor = 0;             ///< in StepWindow::sensors
+    int sensor = -1;            ///< in StepWindow::sensors; -1: the quantity is of no column of this scene
     std::size_t column = 0;     ///< of the header
     std::size_t component = 0;  ///< of the sensor
     std::optional<double> value;

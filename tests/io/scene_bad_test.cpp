@@ -361,6 +361,7 @@ TEST(SceneBad, a_joint_with_more_forces_than_its_element_holds_is_refused) {
 
 /// Keys, names and words of a file, whatever they hold, are escaped where they are shown.
 TEST(SceneBad, no_control_character_and_no_bad_byte_of_a_file_reaches_a_message) {
+  const ::bough::test::Untrapped untrapped;  // 1e400
   for (const char* bad : {R"(\u0000)", R"(\u001b[2J)", R"(\u009b2J)", R"(\u007f)"}) {
     const std::string word = std::string("\"") + bad + "\"";
     for (const std::string& text : {"{" + word + ": 1}", R"({"nodes": [{"name": )" + word + "}]}",

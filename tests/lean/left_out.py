@@ -54,13 +54,13 @@ FEATURES = [
     ("pictures", Feature(functions="eval_motion"), "links", "pictures"),
     ("checks", Feature(functions=CHECKS + " look_at_error", files="src/results/balance.cpp src/results/energies.cpp src/elements/energies.cpp src/elements/measure.cpp src/step/local_error.cpp"),
      "links", "checks"),
-    ("output of steps without a row", Feature(functions=VIOLATIONS + "check eval_energies eval_energies_lanes eval_sensors compare", files="src/results/observe.cpp"),
+    ("output of steps without a row", Feature(functions=VIOLATIONS + "check eval_energies eval_energies_lanes eval_sensors eval_motion compare"),
      "rare rows", "rows"),
     ("error estimates", Feature(functions="look_at_error add_error", files="src/step/local_error.cpp src/step/step_control.cpp"), "links",
      "step control"),
     ("moving frames", Feature(functions="set_frames set_frame_series set_turned_laws make_steady eval_frames add_observer_motion see_from_inertial"),
      "links", "moving frame"),
-    ("vibration watch", Feature(functions="watch_vibrations look judge unresolved", files="src/study/vibration_watch.cpp src/step/variational.cpp"),
+    ("vibration watch", Feature(functions="watch_vibrations judge unresolved", files="src/study/vibration_watch.cpp src/step/variational.cpp"),
      "links", "variational"),
 ]
 

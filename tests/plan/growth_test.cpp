@@ -46,7 +46,7 @@ void expect_linear(const std::function<void(Scene&, int)>& add, int size = 1500)
     add(s, n);
     return [s] { EXPECT_GT(make_plan(s).nodes.size(), 0u); };
   };
-  EXPECT_LT(test::growth_by_four(prepare, size), test::linear_by_four);
+  EXPECT_LT(test::growth_by_sixteen(prepare, size / 4), test::linear_by_sixteen);
 }
 
 TEST(PlanGrowth, of_line_loads_and_sections) {

@@ -42,7 +42,7 @@ void expect_linear(const std::function<Scene(int)>& make, int size) {
     const Scene s = make(n);
     return [s] { (void)problems_in(s); };
   };
-  EXPECT_LT(test::growth_by_four(prepare, size), test::linear_by_four);
+  EXPECT_LT(test::growth_by_sixteen(prepare, size / 4), test::linear_by_sixteen);
 }
 
 TEST(ProblemsGrowth, of_sections_sensors_and_figures) {

@@ -24,12 +24,13 @@ inline double least_seconds(const std::function<void()>& run) {
   return least;
 }
 
-/// Time of four times the size over that of the size: 4 and a little where cost is linear, 16 where it is quadratic.
-inline double growth_by_four(const std::function<std::function<void()>(int)>& prepare, int size) {
+/// Time of sixteen times the size over that of the size: 16 and what caches and allocation add where cost is linear, 256
+/// where it is quadratic.
+inline double growth_by_sixteen(const std::function<std::function<void()>(int)>& prepare, int size) {
   const double small = least_seconds(prepare(size));
-  return least_seconds(prepare(4 * size)) / std::max(small, 1e-4);
+  return least_seconds(prepare(16 * size)) / std::max(small, 1e-4);
 }
 
-inline constexpr double linear_by_four = 9.0;  ///< far from 16; caches and allocation add to 4
+inline constexpr double linear_by_sixteen = 80.0;  ///< far from both
 
 }  // namespace bough::test
