@@ -129,6 +129,7 @@ void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<
     kernel = c.mobility() > 0 ? Matrix(lu.kernel()) : Matrix(c.freedoms, 0);
   }
   c.motions = Matrix::Zero(6 * static_cast<Eigen::Index>(c.parts.size()), c.mobility());
+  if (c.mobility() == 0) return;
   for (const int part : c.parts) {
     const SpanningTree::Step& s = tree.steps[static_cast<std::size_t>(part)];
     auto own = c.motions.middleRows(6 * c.place.at(part), 6);
