@@ -98,6 +98,14 @@ class Listed {
   std::vector<FileRecord> records_, stars_;
 };
 
+/// Whether a folder holds nothing, or only what a writer leaves that was killed before its first manifest had its name.
+bool has_no_content(const fs::path& folder) {
+  const std::string unfinished = std::string(manifest_name) + ".partial";
+  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), [&](const fs::directory_entry& entry) {
+    return entry.is_regular_file() && !entry.is_symlink() && entry.path().filename() == unfinished;
+  });
+}
+
 void look_below(const fs::path& folder, const std::string& prefix, const Listed& listed, std::size_t limit,
                 std::vector<std::string>& foreign) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -106,7 +114,7 @@ void look_below(const fs::path& folder, const std::string& prefix, const Listed&
     if (!entry.is_symlink() && entry.is_directory()) {
       if (listed.has_below(name))
         look_below(entry.path(), name + "/", listed, limit, foreign);
-      else if (!read_manifest(entry.path()) && !fs::is_empty(entry.path()))
+      else if (!read_manifest(entry.path()) && !has_no_content(entry.path()))
         foreign.push_back(name + "/");
     } else if (!listed.holds(entry, name)) {
       foreign.push_back(name);

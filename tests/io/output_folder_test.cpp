@@ -294,6 +294,23 @@ TEST_F(Output, collections_hold_folders_and_files_of_their_own) {
   EXPECT_THROW(OutputCollection(out_, "test"), OutputRefused);
 }
 
+/// A case of a batch whose writer was killed before its first manifest had its name.
+TEST_F(Output, collections_take_over_folders_that_were_just_begun) {
+  const fs::path begun = OutputFolder::staging_of(out_ / "part");
+  fs::create_directories(begun);
+  write_file(begun / "manifest.json.partial", "{");
+  EXPECT_NO_THROW(OutputCollection(out_, "test"));
+  OutputFolder part(out_ / "part", "test", names);
+  part.write("a.txt", "x");
+  part.publish(FolderState::good);
+  EXPECT_EQ(text_of(out_ / "part/a.txt"), "x");
+  EXPECT_FALSE(fs::exists(begun));
+  fs::create_directories(out_ / "mine");
+  write_file(out_ / "mine/manifest.json.partial", "{");
+  write_file(out_ / "mine/thesis.txt", "mine");
+  EXPECT_THROW(OutputCollection(out_, "test"), OutputRefused);
+}
+
 TEST(Overwriting, is_told_by_whatever_path) {
   const ScratchDirectory scratch;
   write_file(scratch / "a", "a");
