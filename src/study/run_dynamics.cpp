@@ -4,8 +4,8 @@
 
 #include "bough/io/number_text.hpp"
 #include "bough/results/observe.hpp"
-#include "break_walk.hpp"
 #include "bough/step/growing_vibration.hpp"
+#include "break_walk.hpp"
 #include "effective_options.hpp"
 #include "given_velocities.hpp"
 #include "run.hpp"
