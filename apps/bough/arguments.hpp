@@ -98,6 +98,7 @@ struct StudyArguments {
   std::filesystem::path spec, out, cache;  ///< spec: a file or a folder of them; cache empty: out/references
   int threads = 0;                         ///< 0: as many as the machine has
   int repetitions = 0;                     ///< 0: as the study says
+  double memory_limit = 0.0;               ///< of the runs side by side [bytes]; 0: what is available
   bool quiet = false;
 };
 struct DoctorArguments {};
@@ -105,7 +106,8 @@ struct StressArguments {
   std::filesystem::path out;
   bool quick = false;
   int threads = 0;
-  std::string only;  ///< a case or a family; empty: all
+  std::string only;           ///< a case or a family; empty: all
+  double memory_limit = 0.0;  ///< of the cases side by side [bytes]; 0: what is available
   bool quiet = false;
 };
 

@@ -7,6 +7,7 @@
 #include "bough/io/output_folder.hpp"
 #include "bough/study/stress.hpp"
 #include "bough/version.hpp"
+#include "memory_limit.hpp"
 #include "pages.hpp"
 #include "terminal.hpp"
 
@@ -14,7 +15,8 @@ namespace bough::app {
 
 int stress(const StressArguments& arguments) {
   const study::StressOptions options{arguments.quick, arguments.threads > 0 ? arguments.threads : default_threads(),
-                                     arguments.only};
+                                     arguments.only,
+                                     arguments.memory_limit > 0.0 ? arguments.memory_limit : available_memory()};
   const std::vector<std::string> problems = problems_in(options);
   for (const std::string& problem : problems) std::cerr << "bough: " << problem << "\n";
   if (!problems.empty()) return exit_bad_input;

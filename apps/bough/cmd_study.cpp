@@ -9,6 +9,7 @@
 #include "bough/io/output_folder.hpp"
 #include "bough/io/read_study.hpp"
 #include "bough/study/sweep.hpp"
+#include "memory_limit.hpp"
 #include "pages.hpp"
 #include "terminal.hpp"
 
@@ -71,12 +72,18 @@ bool tell_faults(const study::SweepResult& r) {
   return is_good;
 }
 
-study::SweepResult run_one(const io::StudySpec& spec, const StudyArguments& arguments) {
+study::SweepOptions options_of(const StudyArguments& arguments) {
   study::SweepOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
   options.cache = arguments.cache.empty() ? arguments.out / "references" : arguments.cache;
   options.repetitions = arguments.repetitions;
+  options.memory_limit = arguments.memory_limit > 0.0 ? arguments.memory_limit : available_memory();
   options.stop = interrupted;
+  return options;
+}
+
+study::SweepResult run_one(const io::StudySpec& spec, const StudyArguments& arguments) {
+  study::SweepOptions options = options_of(arguments);
   std::size_t tenth = 0;
   if (!arguments.quiet)
     options.progress = [&](const std::string& what, std::size_t done, std::size_t all) {
@@ -117,6 +124,13 @@ int study_scene(const StudyArguments& arguments) {
     if (study.ok()) specs.push_back(std::move(study.spec));
   }
   if (specs.size() != files.size()) return exit_bad_input;
+  bool is_refused = false;
+  for (std::size_t k = 0; k < specs.size(); ++k) {
+    const std::string why = study::refusal(specs[k], options_of(arguments));
+    if (!why.empty()) std::cerr << files[k].string() << ": " << why << "\n";
+    is_refused = is_refused || !why.empty();
+  }
+  if (is_refused) return exit_bad_input;
 
   std::optional<io::OutputCollection> collection;
   if (is_folder) collection.emplace(arguments.out, "study", files);

@@ -166,6 +166,7 @@ void add_study(CLI::App& app, StudyArguments& a, int& code) {
   verb.add_option("--repetitions", a.repetitions, "Timed runs of every choice (default: as the study says)")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
+  add_memory_limit(verb, a.memory_limit, "all runs side by side");
   verb.add_option("--cache", a.cache, "Folder of computed references (default: DIR/references)")->type_name("DIR");
   verb.add_flag("--quiet", a.quiet, "Print problems only");
   verb.callback([&] { code = study_scene(a); });
@@ -273,6 +274,7 @@ void add_stress(CLI::App& app, StressArguments& a, int& code) {
   verb.add_option("--out", a.out, "Directory of the report")->type_name("DIR")->required();
   verb.add_flag("--quick", a.quick, "Every family, long runs shortened and marked");
   add_threads(verb, a.threads, "Cases side by side");
+  add_memory_limit(verb, a.memory_limit, "all cases side by side");
   verb.add_option("--case", a.only, "Only this case, or the cases of this family")->type_name("NAME");
   verb.add_flag("--quiet", a.quiet, "Print only what is not as the table lists it");
   verb.callback([&] { code = stress(a); });

@@ -35,6 +35,23 @@ done
 mkdir scenes && cp large.json scenes
 expect 1 'MB of memory' "$program" batch scenes --out batch --memory-limit 1G
 expect 2 'about 18000 MB of memory, and [0-9]* MB are there' sh -c "ulimit -v 400000; '$program' check large.json"
+# a study and the table of stiff cases: every run that they would make, before any of them
+cat > study.json << 'END'
+{"schema_version": 1, "title": "Meshes", "scene": "large.json", "sensors": [{"name": "bob", "kind": "position", "at": "bob"}],
+ "quantities": [{"name": "place", "sensor": "bob", "unit": "m", "formula": [0, 0, 0], "source": "none", "uncertainty": 0}],
+ "grids": [{"name": "meshes", "axes": [{"name": "elements", "values": [4, 8, 500000, 1000000]}]}]}
+END
+expect 2 "the run 'elements 1000000' of the grid 'meshes' (and 1 more): .* MB are there: 1000000 nodes" \
+  "$program" study study.json --out study --threads 1 --memory-limit 1G
+expect 2 'MB of memory, and 540 MB are there: .*; 2 runs go side by side' \
+  "$program" study study.json --out study --threads 2 --memory-limit 1G
+[ ! -e study ] || { failures=$((failures + 1)); echo "FAIL: a folder for a study that was refused"; }
+expect 1 'elastica: fails, listed as holds: a run would take about [0-9]* MB of memory, and 1 MB are there' \
+  "$program" stress --quick --out stress --case elastica --memory-limit 1M
+expect 0 'hold, 0 fail' "$program" stress --quick --out stress --case elastica --memory-limit 64M
+for verb in study stress; do
+  expect 2 "is not a size" "$program" $verb study.json --out study --memory-limit=nan
+done
 expect 0 'ok: ' "$program" check good.json --memory-limit 64M
 for size in 0 -1 nan 1X M; do expect 2 "is not a size" "$program" check good.json --memory-limit=$size; done
 

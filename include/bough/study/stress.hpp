@@ -1,6 +1,7 @@
 #pragma once
 /// The standing table of stiff and extreme cases: what is promised, what is measured.
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,9 @@ struct StressOptions {
   bool quick = false;     ///< every family, long runs shortened and marked
   int threads = 1;        ///< cases run side by side, each on one thread; figures do not depend on it
   std::string only = {};  ///< the one case of this name, or all of the family of this name; empty: all
+  /// Of all cases side by side [bytes]. A case that comes to a scene whose run would take more than its share fails
+  /// with the numbers, before anything is allocated for that run.
+  double memory_limit = std::numeric_limits<double>::infinity();
 };
 
 /// What is wrong with the options; empty when nothing.

@@ -124,9 +124,16 @@ struct SweepOptions {
   int threads = 1;                   ///< runs at a time while errors are measured; timed runs go one at a time
   std::filesystem::path cache = {};  ///< folder of computed references; empty: none are kept
   int repetitions = 0;               ///< timed runs of every choice; 0: as the study says
+  double memory_limit = std::numeric_limits<double>::infinity();  ///< of all runs side by side [bytes], see refusal()
   std::function<bool()> stop = {};
   std::function<void(const std::string& what, std::size_t done, std::size_t all)> progress = {};
 };
+
+/// Empty where no run of the study, references that are not in the cache included, would take more than its share of
+/// `memory_limit`: all of it, over the runs that go side by side. Otherwise the largest such run by its choices and
+/// grid, how many more there are, the numbers and what to do, in words. Allocates nothing but scenes, one at a time.
+/// Precondition: the study was read without problems.
+std::string refusal(const io::StudySpec& spec, const SweepOptions& options);
 
 /// Precondition: the study was read without problems. A run that fails is kept with its cause; a reference that cannot be computed leaves the
 /// errors of its grid unmeasured. Throws std::runtime_error where the cache cannot be written.

@@ -6,6 +6,7 @@
 
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_scene.hpp"
+#include "bough/study/estimate.hpp"
 #include "bough/study/simulate.hpp"
 
 namespace bough::study::stress {
@@ -24,6 +25,7 @@ MemoryRun Bench::try_run(const scene::Scene& scene) {
   scene::Scene in_space =
       scene;  // a plane would take away the redundant rows and soft directions that cases are made of
   in_space.without.insert(in_space.without.end(), {"line", "translation", "planar"});
+  require_memory(in_space);
   MemoryRun run = run_in_memory(in_space, {}, [&](const results::Progress&) { return !is_stopped_ || !is_stopped_(); });
   if (run.summary.status == results::RunStatus::interrupted) throw std::runtime_error(run.summary.cause);
   const results::Summary& s = run.summary;
@@ -39,6 +41,10 @@ MemoryRun Bench::try_run(const scene::Scene& scene) {
     backward_error(s.checks.linear_backward_error_max, n);
   result_.rank_error = std::max(result_.rank_error, s.checks.linear_rank_error_max);
   return run;
+}
+
+void Bench::require_memory(const scene::Scene& scene) const {
+  if (const std::string why = refusal(scene, memory_limit_); !why.empty()) throw std::runtime_error(why);
 }
 
 MemoryRun Bench::run(const scene::Scene& scene, const std::string& what) {

@@ -14,9 +14,10 @@ namespace bough::study::stress {
 /// Where a case writes what it measures.
 class Bench {
  public:
-  /// is_stopped is asked after every step of a run.
-  Bench(StressCase& result, bool is_quick, std::function<bool()> is_stopped = {})
-      : result_(result), is_quick_(is_quick), is_stopped_(std::move(is_stopped)) {}
+  /// is_stopped is asked after every step of a run; memory_limit is that of one run [bytes].
+  Bench(StressCase& result, bool is_quick, std::function<bool()> is_stopped = {},
+        double memory_limit = std::numeric_limits<double>::infinity())
+      : result_(result), is_quick_(is_quick), is_stopped_(std::move(is_stopped)), memory_limit_(memory_limit) {}
 
   bool is_quick() const { return is_quick_; }
   /// `whole`, or `part` of it in a quick table, which is marked as shortened.
@@ -30,6 +31,10 @@ class Bench {
   MemoryRun run(const scene::Scene& scene, const std::string& what = {});
   /// The same for a run that may break off.
   MemoryRun try_run(const scene::Scene& scene);
+
+  /// Ends the case as failed, with the numbers, where a run of the scene would take more memory than there is. All
+  /// runs of the bench ask this by themselves.
+  void require_memory(const scene::Scene& scene) const;
 
   /// An error relative to a reference, promised to be at most `limit` [-].
   void error(const std::string& name, double value, double limit);
@@ -52,6 +57,7 @@ class Bench {
   StressCase& result_;
   bool is_quick_;
   std::function<bool()> is_stopped_;
+  double memory_limit_;
 };
 
 /// One row of the table.

@@ -39,6 +39,7 @@ void all_depths(Bench& bench) {
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
   scene::Scene s = links(3);
   s.solver.depth = 0;
+  bench.require_memory(s);
   const TangentMatrix whole = tangent_matrix(s);
   Eigen::VectorXd row, column;
   equilibrate(whole.matrix, row, column);

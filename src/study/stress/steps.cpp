@@ -261,6 +261,7 @@ void condition_with_scaling(Bench& bench) {
     scene::Scene s = mixed_chain();
     s.analysis.step_size = std::pow(10.0, -k);
     s.analysis.end_time = 10.0 * s.analysis.step_size;
+    bench.require_memory(s);
     const TangentMatrix t = tangent_matrix(s);
     const double condition = condition_of(t.scaled), unscaled = condition_without_scaling(t);
     bench.backward_error(t.backward_error, static_cast<double>(t.matrix.rows()));

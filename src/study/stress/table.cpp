@@ -44,7 +44,8 @@ std::string figures_text(const std::vector<StressFigure>& figures) {
   return failing + (failing.empty() || holding.empty() ? "" : "; ") + holding;
 }
 
-StressCase run_case(const Definition& definition, bool is_quick, const std::function<bool()>& is_stopped) {
+StressCase run_case(const Definition& definition, bool is_quick, double memory_limit,
+                    const std::function<bool()>& is_stopped) {
   StressCase result;
   result.name = definition.name;
   result.family = definition.family;
@@ -52,7 +53,7 @@ StressCase run_case(const Definition& definition, bool is_quick, const std::func
   result.expected = definition.expected;
   result.reason = definition.reason;
   const double begin = thread_seconds();
-  Bench bench(result, is_quick, is_stopped);
+  Bench bench(result, is_quick, is_stopped, memory_limit);
   std::string cause;
   try {
     definition.body(bench);
@@ -121,6 +122,8 @@ std::vector<StressCase> run_stress(
   std::erase_if(table, [&](const stress::Definition& d) { return !stress::is_asked_for(d, options.only); });
   std::vector<StressCase> results(table.size());
   std::vector<char> is_done(table.size(), 0);
+  const double memory_limit =
+      options.memory_limit / std::max(1.0, std::min(static_cast<double>(table.size()), 1.0 * options.threads));
   std::atomic<std::size_t> next{0};
   std::size_t done = 0;
   std::mutex telling;
@@ -132,7 +135,7 @@ std::vector<StressCase> run_stress(
     for (std::size_t place = next++; place < table.size(); place = next++) {
       if (is_stopped && is_stopped()) return;
       const std::size_t k = order[place];
-      results[k] = stress::run_case(table[k], options.quick, is_stopped);
+      results[k] = stress::run_case(table[k], options.quick, memory_limit, is_stopped);
       if (is_stopped && is_stopped()) return;  // it may have been cut short
       const std::lock_guard<std::mutex> lock(telling);
       is_done[k] = 1;
