@@ -16,14 +16,15 @@ constexpr double load_difference =
     1e-4;  ///< over which loads are differenced: exact where they are proportional to the factor
 constexpr double least_alignment =
     0.5;  ///< cosine between a step and the tangent it set out along: less may be the way back
-constexpr double divergence = 1e3;  ///< change of relative motions that no step along a path needs
+constexpr double no_digits = 1e-12;  ///< of a determinant's terms: it may be 0
+constexpr double divergence = 1e3;   ///< change of relative motions that no step along a path needs
 
 }  // namespace
 
 ArcLengthPath::ArcLengthPath(System& system, const StepOptions& options)
     : system_(system), options_(options), start_(make_initial_state(system.plan())) {
   load_.assign(system.num_unknowns(), 0.0);
-  tangent_ = correction_ = x_ = load_;
+  tangent_ = correction_ = x_ = by_spring_ = load_;
   moved_.assign(system.plan().nodes.size(), Vec6<double>::zero());
   direction_ = moved_;
   scale_ = 1.0 / (system.plan().length_scale * system.plan().length_scale);
@@ -88,7 +89,57 @@ double ArcLengthPath::choose_first_step(const State& state) {
   return step;
 }
 
-/// tangent_ = K^-1 (-dR/df), with K factored and R evaluated at this load factor; leaves the loads of the load factor set.
+/// A spring on one unknown, the one that moves most where nothing else holds the shape: K + k e e^T is regular at a limit
+/// point. k is of the size of the loads over the motions that they cause, so that no digits go to it.
+std::optional<ArcLengthPath::Spring> ArcLengthPath::find_spring(const solve::FactorStatus& status) const {
+  if (!has_direction_ || status.outcome != solve::FactorOutcome::singular || status.block < 0) return std::nullopt;
+  const blocks::BlockGraph& g = system_.plan().graph;
+  const auto size_of = [&](int block) { return g.block_size[static_cast<std::size_t>(block)]; };
+  Spring spring;
+  spring.unknown = static_cast<std::size_t>(system_.block_begin(status.block) + status.local);
+  double work = 0.0;
+  for (std::size_t i = 0; i < x_.size(); ++i) work += std::abs(load_[i] * x_[i]);
+  spring.stiffness = work / (x_[spring.unknown] * x_[spring.unknown]);
+  if (!(spring.stiffness > 0.0) || !std::isfinite(spring.stiffness)) return std::nullopt;
+  for (int e = 0; e < g.num_elements(); ++e) {
+    std::int64_t size = 0, row = -1;
+    for (std::int64_t k = g.element_begin[static_cast<std::size_t>(e)];
+         k < g.element_begin[static_cast<std::size_t>(e) + 1]; ++k) {
+      const int block = g.element_blocks[static_cast<std::size_t>(k)];
+      if (block == status.block) row = size + status.local;
+      size += size_of(block);
+    }
+    if (row < 0) continue;
+    spring.element = e;
+    spring.entry = row * size + row;
+    return spring;
+  }
+  return std::nullopt;
+}
+
+/// Of K, or where that is singular of K + k e e^T, with the solution for k e.
+std::optional<Trouble> ArcLengthPath::factor(bool rescale) {
+  spring_.reset();
+  const auto trouble = system_.factor(rescale, {});
+  if (!trouble) return std::nullopt;
+  spring_ = find_spring(system_.solver().last_status());
+  if (!spring_) return trouble;
+  double& entry = system_.solver().element(spring_->element)[spring_->entry];
+  spring_->entry_without = entry;
+  entry += spring_->stiffness;
+  if (system_.factor(true, {})) return trouble;
+  std::fill(load_.begin(), load_.end(), 0.0);
+  load_[spring_->unknown] = spring_->stiffness;
+  return system_.solve(load_.data(), by_spring_.data());
+}
+
+/// The tangents as they were evaluated; the factor stays.
+void ArcLengthPath::take_spring_out() {
+  if (spring_) system_.solver().element(spring_->element)[spring_->entry] = spring_->entry_without;
+}
+
+/// tangent_ = K^-1 (-dR/df), with K (and its spring) factored and R evaluated at this load factor; leaves the loads of
+/// the load factor set.
 std::optional<Trouble> ArcLengthPath::solve_load(const State& state, double load_factor) {
   for (std::size_t i = 0; i < load_.size(); ++i) load_[i] = system_.residual()[i];
   const double step = load_difference * std::max(1.0, std::abs(load_factor));
@@ -102,8 +153,15 @@ std::optional<Trouble> ArcLengthPath::solve_load(const State& state, double load
 std::optional<Trouble> ArcLengthPath::set_tangent(const State& state) {
   if (auto t = system_.set_time(state.time)) return t;
   if (auto t = system_.evaluate(state, {}, true)) return t;
-  if (auto t = system_.factor(true, {})) return t;
+  if (auto t = factor(true)) return t;
   if (auto t = solve_load(state, state.time)) return t;
+  double load = 1.0;  // that goes with tangent_
+  if (spring_) {
+    load = 1.0 - by_spring_[spring_->unknown];
+    const double moved = tangent_[spring_->unknown];
+    for (std::size_t i = 0; i < tangent_.size(); ++i) tangent_[i] = load * tangent_[i] + moved * by_spring_[i];
+    take_spring_out();
+  }
   double length = 0.0, along = 0.0;
   for (std::size_t n = 0; n < moved_.size(); ++n) {
     const Vec6<double> x = node_part(tangent_, n);
@@ -112,12 +170,43 @@ std::optional<Trouble> ArcLengthPath::set_tangent(const State& state) {
   }
   if (!(length > 0.0) || !std::isfinite(length))
     return Trouble{"the load factor moves nothing: there is no path of equilibria to follow"};
-  slope_ = (has_direction_ && along < 0.0 ? -1.0 : 1.0) / std::sqrt(length);
-  for (double& x : tangent_) x *= slope_;  // a unit of path
+  const double unit = (has_direction_ && along < 0.0 ? -1.0 : 1.0) / std::sqrt(length);
+  slope_ = unit * load;
+  for (double& x : tangent_) x *= unit;
   has_direction_ = true;
   for (std::size_t n = 0; n < moved_.size(); ++n) direction_[n] = node_part(tangent_, n);
   x_ = tangent_;
   return std::nullopt;
+}
+
+/// correction_ = x_R + df x_f, x_R and x_f being correction_ and tangent_, such that the step keeps its length; df.
+/// What the spring adds to K is taken away again: with K' = K + k e e^T and K' x_e = k e
+///   x = x_R + df x_f + xi x_e,   xi = x . e,
+/// two equations for df and xi, regular at a limit point.
+std::optional<double> ArcLengthPath::keep_length(double length) {
+  double by_load = 0.0, by_spring = 0.0, left = 0.5 * (length * length - square(moved_));
+  for (std::size_t n = 0; n < moved_.size(); ++n) {
+    const auto along = [&](const std::vector<double>& x) {
+      return inner(moved_[n], motion::Se3::inverse_tangent_times(moved_[n], node_part(x, n)));
+    };
+    by_load += along(tangent_);
+    left -= along(correction_);
+    if (spring_) by_spring += along(by_spring_);
+  }
+  double df = left / by_load, xi = 0.0;
+  if (spring_) {
+    const double loose = 1.0 - by_spring_[spring_->unknown], x_f = tangent_[spring_->unknown],
+                 x_R = correction_[spring_->unknown];
+    const double one = by_load * loose, other = by_spring * x_f, determinant = one + other;
+    if (std::abs(determinant) <= no_digits * std::max(std::abs(one), std::abs(other))) return std::nullopt;
+    df = (left * loose - by_spring * x_R) / determinant;
+    xi = (by_load * x_R + left * x_f) / determinant;
+  }
+  if (!std::isfinite(df) || !std::isfinite(xi)) return std::nullopt;
+  for (std::size_t i = 0; i < correction_.size(); ++i) correction_[i] += df * tangent_[i];
+  if (spring_)
+    for (std::size_t i = 0; i < correction_.size(); ++i) correction_[i] += xi * by_spring_[i];
+  return df;
 }
 
 StepReport ArcLengthPath::follow(State& state, double length) {
@@ -140,30 +229,26 @@ StepReport ArcLengthPath::follow(State& state, double length) {
       const bool still = report.change < options_.tolerance &&
                          change_of_load < options_.tolerance * std::max(1.0, std::abs(state.time));
       report.converged = still && is_small(system_, report.residual, options_.tolerance);
-      const bool stalled = k > 1 && report.change > 0.3 * previous;
-      if (still && !report.converged && (stalled || report.change == 0.0))
+      // As in equilibrate(): more iterations than the tolerance asks for would make the next steps shorter.
+      const bool stalled = k > 1 && report.change > shrinks * previous;
+      const bool is_last = k > 1 && report.change * report.change <= left_open * options_.tolerance * previous;
+      if (still && !report.converged && (stalled || is_last || report.change == 0.0))
         report.converged = report.at_floor = is_at_floor(system_, report.residual, options_.tolerance);
       if (report.converged) break;
       if (k >= options_.max_iterations)
         return fail("no convergence in " + std::to_string(k) +
                     " iterations: " + describe(system_, report.residual, options_.tolerance));
     }
-    if (const auto t = system_.factor(k == 0, {})) return fail(t->text);
+    if (const auto t = factor(k == 0)) return fail(t->text);
     for (std::size_t i = 0; i < correction_.size(); ++i) load_[i] = -system_.residual()[i];
     if (const auto t = system_.solve(load_.data(), correction_.data())) return fail(t->text);
     if (const auto t = solve_load(state, state.time)) return fail(t->text);
     set_moved(state);
-    double by_load = 0.0, by_residual = 0.5 * (length * length - square(moved_));
-    for (std::size_t n = 0; n < moved_.size(); ++n) {
-      by_load += inner(moved_[n], motion::Se3::inverse_tangent_times(moved_[n], node_part(tangent_, n)));
-      by_residual -= inner(moved_[n], motion::Se3::inverse_tangent_times(moved_[n], node_part(correction_, n)));
-    }
-    if (by_load == 0.0 || !std::isfinite(by_residual)) return fail("the step along the path has no direction");
-    const double df = by_residual / by_load;
-    for (std::size_t i = 0; i < correction_.size(); ++i) correction_[i] += df * tangent_[i];
+    const auto df = keep_length(length);
+    if (!df) return fail("the step along the path has no direction");
     previous = report.change;
     report.change = system_.relative_size(state, correction_.data());
-    change_of_load = std::abs(df);
+    change_of_load = std::abs(*df);
     if (report.iterations < StepReport::remembered_changes)
       report.change_list[static_cast<std::size_t>(report.iterations)] = report.change;
     ++report.iterations;
@@ -171,7 +256,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
     if (report.change > divergence)
       return fail("the iteration diverges: " + describe(system_, report.residual, options_.tolerance));
     system_.apply_along_tree(state, correction_.data(), 1.0);
-    state.time += df;
+    state.time += *df;
   }
   set_moved(state);
   double along = 0.0;

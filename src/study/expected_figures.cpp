@@ -75,6 +75,7 @@ ExpectedFigures::ExpectedFigures(const scene::Scene& scene, const plan::Plan& pl
     figures_.push_back(std::move(figure));
   }
   std::sort(times_.begin(), times_.end());
+  times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
 }
 
 bool ExpectedFigures::is_same(double time, double end) const {

@@ -15,6 +15,8 @@ struct PathPoint {
   step::State state;      ///< the equilibrium there; not located: the nearest that was met
   bool is_located = false;
   bool is_near = false;      ///< some equilibrium between the two places was met
+  step::State extreme;       ///< the equilibrium of the largest load that was met; the least, where values rise
+  bool is_passed = false;    ///< of a limit point: its load lies beyond that where the slope changes its sign
   double value = 0.0;        ///< what is left of the value there
   double width = 0.0;        ///< not located: of what is left between two places [-]
   double load_factor = 0.0;  ///< of a limit point; not located: by a parabola through both ends of the step
@@ -58,6 +60,7 @@ PathPoint PathSearch::find(PathPlace from, PathPlace to, double tolerance, Value
   constexpr double exact = 1e-12;       // of the step: no place lies between
   constexpr double near_enough = 1e-6;  // of the step: where trials end without having met the tolerance
   const double width = std::abs(to.distance - from.distance);
+  const double sense = from.value > to.value ? 1.0 : -1.0;
   PathPoint nearest;
   step::State state;
   for (int k = 0; k < most_trials && !nearest.is_located; ++k) {
@@ -67,6 +70,7 @@ PathPoint PathSearch::find(PathPlace from, PathPlace to, double tolerance, Value
       break;
     }
     const PathPlace now{distance, value(state), state.time};
+    if (!nearest.is_near || sense * (now.load_factor - nearest.extreme.time) > 0.0) nearest.extreme = state;
     if (!nearest.is_near || std::abs(now.value) <= std::abs(nearest.value)) {
       nearest.is_near = true;
       nearest.distance = distance;

@@ -64,7 +64,7 @@ class Run {
   struct PathStep {
     step::State end;
     std::optional<PathPoint> limit, stop;  ///< where the load turns; where the run ends
-    bool stops_after_limit = false, ends_singular = false;
+    bool stops_after_limit = false;
     std::vector<results::Bifurcation> bifurcations;
     const step::State& last() const { return stop ? stop->state : end; }
   };

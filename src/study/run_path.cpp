@@ -13,9 +13,7 @@ namespace {
 constexpr int wanted_iterations =
     5;  ///< a step that needs more makes the next shorter, by the square root of the ratio (Ramm 1981)
 constexpr double shortest_part = 0.5, longest_part = 1.5;
-constexpr double close = 1e-4;  ///< the same where it is not met
-constexpr double leap = 1.5;
-constexpr int most_leaps = 6;
+constexpr double close = 1e-4;       ///< the same where it is not met
 constexpr double usual_step = 0.05;  ///< [-], where the path bends little
 constexpr double sharp = 1e-5;       ///< of slopes at limit points: the load factor is then known to the square of it
 constexpr double known = 1e-7;  ///< of load factors at limit points, where the stiffness has no factor nearer to them
@@ -61,10 +59,7 @@ std::string Run::look_at_step(double length, bool is_last_try, PathStep& step) {
   const double slope_before = path_->slope();
   step = {};
   path_->accept();
-  if (const auto t = path_->set_tangent(state_)) {
-    step.ends_singular = true;
-    return t->text;
-  }
+  if (const auto t = path_->set_tangent(state_)) return t->text;
   step.end = state_;
   PathPlace from{0.0, slope_before, path_start_.time};
   const PathPlace to{length, path_->slope(), state_.time};
@@ -85,13 +80,19 @@ std::string Run::look_at_step(double length, bool is_last_try, PathStep& step) {
       limit.value = is_end ? to.value : slope_before;
       limit.width = length;
     }
-    // The load changes by no more than that between the nearest equilibrium and the point.
     const double size = std::max(1.0, std::abs(limit.state.time));
-    limit.is_located = limit.is_located || std::abs(limit.value) * limit.width <= known * size;
-    // Next to the limit points of slender structures there are no tangents: a parabola does where it adds little.
+    limit.is_passed = limit.is_near && std::abs(limit.extreme.time - limit.state.time) > noise;
+    if (limit.is_passed) {
+      limit.state = limit.extreme;
+      limit.cause = "the slope of the path is lost in round-off there; this is the load factor of the equilibrium " +
+                    std::string("that comes nearest to it");
+    }
+    // The load changes by no more than that between the nearest equilibrium and the point.
+    limit.is_located = !limit.is_passed && (limit.is_located || std::abs(limit.value) * limit.width <= known * size);
+    // What round-off hides of it a parabola tells where it adds little.
     const double parabola = from.load_factor + 0.5 * length * slope_before * slope_before / (slope_before - to.value);
-    limit.load_factor = limit.is_located ? limit.state.time : parabola;
-    const bool is_close = std::abs(parabola - limit.state.time) <= close * size;
+    limit.load_factor = limit.is_located || limit.is_passed ? limit.state.time : parabola;
+    const bool is_close = limit.is_passed || std::abs(parabola - limit.state.time) <= close * size;
     if (!limit.is_located && !is_close && !is_last_try) return "the limit point in it was not met: " + limit.cause;
     const PathPlace turn{limit.distance, 0.0, limit.state.time};
     if (passes_end(from.load_factor, turn.load_factor, passed)) step.stop = find_end(from, turn, limit.state);
@@ -149,7 +150,7 @@ void Run::accept_limit_point(const PathPoint& limit, bool is_maximum, int iterat
   path_done_ = options_.arc_length->end_at_limit_point == static_cast<int>(summary_.limit_points.size());
   if (!limit.is_located)
     note("a limit point of the load was passed but not met, its load factor " + std::to_string(limit.load_factor) +
-         " is that of a parabola through equilibria on both sides of it: " + limit.cause);
+         (limit.is_passed ? ": " : " is that of a parabola through equilibria on both sides of it: ") + limit.cause);
   last_step_ = limit.distance;
   if (!plan_.joints.empty()) step::accept_turns(system_, state_);
   if (limit.is_near || path_done_) record(iterations, path_done_);
@@ -158,7 +159,7 @@ void Run::accept_limit_point(const PathPoint& limit, bool is_maximum, int iterat
 
 /// A step that stands, as long as asked for or shorter. Counts cuts; false: the run ends.
 bool Run::try_path_step(double& length, PathStep& step, step::StepReport& report, int& cuts) {
-  for (int leaps = 0;; ++cuts) {
+  for (;; ++cuts) {
     if (!may_try(state_.time + length * path_->slope())) return false;
     report = path_->advance(state_, length);
     const bool had_converged = report.converged;
@@ -169,13 +170,7 @@ bool Run::try_path_step(double& length, PathStep& step, step::StepReport& report
     count(report);
     if (cuts == options_.max_cuts)
       return fail("the path cannot be followed from load factor " + std::to_string(state_.time) + ": " + report.cause);
-    // Next to a limit point of a slender structure there is no tangent: what comes to its near side is to go past it.
-    const bool leaps_on = had_converged && step.ends_singular && leaps < most_leaps;
-    length *= leaps_on ? leap : 0.5;
-    if (leaps_on) {
-      ++leaps;
-      --cuts;
-    }
+    length *= 0.5;
     if (!had_converged) continue;
     path_->set_direction(path_direction_);
     if (const auto t = path_->set_tangent(state_)) return fail(t->text);

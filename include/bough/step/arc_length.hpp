@@ -6,8 +6,9 @@
 ///   R(q, f) = 0,   |D|^2 = s^2,   |D|^2 = (1/n) sum (|D_linear|^2 / L^2 + |D_angular|^2)
 /// by Newton in q and the load factor f. The matrix K of the shape alone is factored as always and solved for two right-hand sides,
 ///   K x_R = -R,  K x_f = -dR/df,   eta = x_R + df x_f,   df = ((s^2 - |D|^2)/2 - <D, T(D)^-1 x_R>) / <D, T(D)^-1 x_f>,
-/// so that the solver need not know of the bordered system, which stays regular where K is not: at limit points. Sources: Riks 1979; Crisfield 1981;
-/// Ramm 1981.
+/// so that the solver need not know of the bordered system, which stays regular where K is not: at limit points. Where K has
+/// no factor a spring k e e^T on one unknown gives it one, and is taken out of the solution again by one equation more.
+/// Sources: Riks 1979; Crisfield 1981; Ramm 1981.
 #include "bough/step/advance.hpp"
 
 namespace bough::step {
@@ -41,6 +42,17 @@ class ArcLengthPath {
   void set_direction(const Vectors& direction) { direction_ = direction; }
 
  private:
+  /// Added to one unknown where K is singular.
+  struct Spring {
+    std::size_t unknown = 0;
+    int element = 0;         ///< that takes it
+    std::int64_t entry = 0;  ///< of its matrix, which held entry_without
+    double stiffness = 0.0, entry_without = 0.0;
+  };
+  std::optional<Spring> find_spring(const solve::FactorStatus& status) const;
+  [[nodiscard]] std::optional<Trouble> factor(bool rescale);
+  void take_spring_out();
+  std::optional<double> keep_length(double length);
   StepReport follow(State& state, double length);
   [[nodiscard]] std::optional<Trouble> solve_load(const State& state, double load_factor);
   /// moved_ = log(H_start^-1 H).
@@ -53,6 +65,8 @@ class ArcLengthPath {
   const StepOptions& options_;
   State start_;
   std::vector<double> load_, tangent_, correction_, x_;
+  std::optional<Spring> spring_;   ///< in the present factor
+  std::vector<double> by_spring_;  ///< K'^-1 k e
   Vectors moved_, direction_;
   double scale_ = 1.0;  ///< 1 / L^2
   double slope_ = 0.0;
