@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "bough/io/digest.hpp"
@@ -43,7 +44,7 @@ TEST(Digest, does_not_depend_on_how_the_bytes_come) {
   std::string bytes;
   for (int k = 0; k < 1000; ++k) bytes += static_cast<char>(k * 37 % 251);
   const std::string whole = digest_of(bytes);
-  for (const std::size_t piece : {1u, 3u, 7u, 8u, 9u, 64u, 999u}) {
+  for (const std::size_t piece : {1u, 3u, 8u, 9u, 31u, 32u, 33u, 64u, 999u}) {
     Digest digest;
     for (std::size_t at = 0; at < bytes.size(); at += piece) digest.add(std::string_view(bytes).substr(at, piece));
     EXPECT_EQ(digest.text(), whole) << piece;
@@ -51,7 +52,7 @@ TEST(Digest, does_not_depend_on_how_the_bytes_come) {
 }
 
 TEST(Digest, changes_with_every_bit_and_with_the_length) {
-  const std::string bytes(24, 'x');
+  const std::string bytes(90, 'x');  // two stripes of 32 and a rest
   for (std::size_t k = 0; k < 8 * bytes.size(); ++k) {
     std::string other = bytes;
     other[k / 8] = static_cast<char>(other[k / 8] ^ (1 << (k % 8)));
@@ -59,6 +60,19 @@ TEST(Digest, changes_with_every_bit_and_with_the_length) {
   }
   EXPECT_NE(digest_of(std::string(3, '\0')), digest_of(std::string(4, '\0')));
   EXPECT_NE(digest_of(""), digest_of(std::string(8, '\0')));
+  EXPECT_NE(digest_of(""), digest_of(std::string(32, '\0')));
+}
+
+TEST(Digest, changes_with_the_order_of_words_and_stripes) {
+  std::string bytes;
+  for (int k = 0; k < 96; ++k) bytes += static_cast<char>(k);
+  for (const std::size_t size : {1u, 8u, 16u, 32u})
+    for (std::size_t from = size; from + size <= bytes.size(); from += size) {
+      std::string other = bytes;
+      std::swap_ranges(other.begin(), other.begin() + static_cast<std::ptrdiff_t>(size),
+                       other.begin() + static_cast<std::ptrdiff_t>(from));
+      EXPECT_NE(digest_of(other), digest_of(bytes)) << size << " " << from;
+    }
 }
 
 }  // namespace
