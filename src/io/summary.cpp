@@ -124,6 +124,7 @@ void write_stability(JsonText& json, const results::Stability& s) {
     json.member("hidden", std::string_view(s.hidden));
     json.member("hidden_mode", std::string_view(s.hidden_mode));
   }
+  if (!s.largest_load.empty()) json.member("largest_load", std::string_view(s.largest_load));
   json.end_object();
 }
 

@@ -10,6 +10,7 @@
 #include "bough/results/observe.hpp"
 #include "dependent_rows.hpp"
 #include "effective_options.hpp"
+#include "largest_load.hpp"
 #include "run.hpp"
 #include "solver_figures.hpp"
 #include "trust.hpp"
@@ -332,6 +333,9 @@ void Run::finish() {
 void Run::finish_statics() {
   if (summary_.status == RunStatus::ok) stability_->look_at_end(state_);
   summary_.stability = stability_->seen();
+  results::Stability& s = *summary_.stability;
+  if (s.unstable_directions > 0 || s.first_lost || !s.hidden.empty())
+    s.largest_load = largest_load(scene_, plan_, state_.time, work_meter_.mass());
 }
 
 Summary simulate(const scene::Scene& scene, const SimulateOptions& options, results::Recorder& recorder,

@@ -133,27 +133,37 @@ void doubt_constraints(const results::Checks& c, const TrustLimits& limits, std:
                             " of the size of the parts that meet in it (or rad) in a step; take smaller steps"});
 }
 
+/// "the last equilibrium is unstable, it is left in one direction: ..."; empty where it is stable in the motions that
+/// the plan has taken.
+std::string unstable_text(const results::Stability& s) {
+  if (s.unstable_directions == 0) return "";
+  const std::string count = !s.not_conservative.empty()  ? "an odd number of directions"
+                            : s.unstable_directions == 1 ? "one direction"
+                                                         : std::to_string(s.unstable_directions) + " directions";
+  return "the last equilibrium is unstable, it is left in " + count + ": " + s.mode;
+}
+
+/// One doubt, in which motions ever the structure leaves its equilibria.
 void doubt_stability(const results::Stability& s, std::vector<results::Doubt>& doubts) {
-  const std::string remedy =
-      "; a small imperfection of the shape or a small load in that direction leads to the branch that the structure "
-      "takes; if unstable equilibria are what is looked for, say so with \"unstable\": true in /analysis";
-  std::string lost;
-  if (s.first_lost)
-    lost = "the first unstable equilibrium was met between load factors " + io::rounded_text(s.first_lost->before, 6) +
-           " and " + io::rounded_text(s.first_lost->after, 6);
-  if (s.unstable_directions > 0) {
-    const std::string count = !s.not_conservative.empty()  ? "an odd number of directions"
-                              : s.unstable_directions == 1 ? "one direction"
-                                                           : std::to_string(s.unstable_directions) + " directions";
-    doubts.push_back({"stability", "the last equilibrium is unstable, it is left in " + count + ": " + s.mode +
-                                       (lost.empty() ? "" : "; " + lost) + remedy});
-  } else if (s.first_lost) {
-    doubts.push_back({"stability", "equilibria on the way are unstable, the structure would have left them: " + lost +
-                                       "; " + s.mode + remedy});
-  }
+  std::string text = unstable_text(s);
+  const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
   if (!s.hidden.empty())
-    doubts.push_back({"stability", "the last equilibrium is unstable " + s.hidden +
-                                       ", which the plan leaves out of the motions: " + s.hidden_mode + remedy});
+    add((text.empty() ? "the last equilibrium is unstable " : "it is unstable ") + s.hidden +
+        (text.empty() ? "" : " as well") + ", which the plan leaves out of the motions: " + s.hidden_mode);
+  if (s.first_lost) {
+    const std::string lost = "the first unstable equilibrium was met between load factors " +
+                             io::rounded_text(s.first_lost->before, 6) + " and " +
+                             io::rounded_text(s.first_lost->after, 6);
+    add(s.unstable_directions > 0
+            ? lost
+            : "equilibria on the way are unstable, the structure would have left them: " + lost + "; " + s.mode);
+  }
+  if (text.empty()) return;
+  if (!s.largest_load.empty()) text += "; " + s.largest_load;
+  doubts.push_back(
+      {"stability", text + "; a small imperfection of the shape or a small load in that direction leads to the branch "
+                           "that the structure takes; if unstable equilibria are what is looked for, say so with "
+                           "\"unstable\": true in /analysis"});
 }
 
 std::string vector_text(const std::array<double, 3>& v) {

@@ -54,7 +54,13 @@ TEST(Trust, unstable_equilibria_are_doubted_unless_they_are_declared) {
   stability.first_lost.reset();
   stability.hidden = "out of its plane";
   EXPECT_TRUE(is_doubted(doubts_of(s, false), "stability"));
+  EXPECT_NE(doubts_of(s, false)[0].text.find("the last equilibrium is unstable out of its plane"), std::string::npos);
   stability.unstable_directions = 3;
+  stability.first_lost = {0.1, 0.2};
+  stability.largest_load = "the largest load is 'push'";
+  ASSERT_EQ(doubts_of(s, false).size(), 1u);
+  for (const char* part : {"in 3 directions", "out of its plane as well", "between load factors 0.1 and 0.2", "'push'"})
+    EXPECT_NE(doubts_of(s, false)[0].text.find(part), std::string::npos) << part;
   stability.is_declared = true;
   EXPECT_TRUE(doubts_of(s, false).empty());
 }

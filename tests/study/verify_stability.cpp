@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -75,6 +76,12 @@ TEST(Stability, a_column_at_three_times_its_critical_load_is_doubted_unless_that
   ASSERT_TRUE(run.ok()) << run.summary.cause;
   ASSERT_NE(doubt_of(run.summary), nullptr);
   EXPECT_EQ(run.summary.stability->unstable_directions, 1);
+  const auto told = std::count_if(run.summary.doubts.begin(), run.summary.doubts.end(),
+                                  [](const results::Doubt& d) { return d.about == "stability"; });
+  EXPECT_EQ(told, 1) << "in the plane and out of it at once";
+  for (const char* part :
+       {"in one direction", "along (0, 1, 0)", "out of its plane", "the largest load is 'press', 7.39 N at 'tip'"})
+    EXPECT_NE(doubt_of(run.summary)->text.find(part), std::string::npos) << part << ": " << doubt_of(run.summary)->text;
   const double critical = 1.0 / 3.0;
   EXPECT_LT(run.summary.stability->first_lost->before, critical + 1e-6);
   EXPECT_GT(run.summary.stability->first_lost->after, critical - 1e-6);

@@ -147,9 +147,10 @@ struct Stability {
   std::string not_conservative;       ///< why the loads have no potential; empty: they have one
   int unstable_directions = 0;        ///< at the end; loads without a potential: 1 where their number is odd
   std::optional<Between> first_lost;  ///< where the first unstable equilibrium was met
-  std::string mode;         ///< what moves most in an unstable direction, in words: at the end, or where it was lost
-  std::string hidden;       ///< which motions the plan left out, where the last equilibrium is unstable in one of them
-  std::string hidden_mode;  ///< what moves most then
+  std::string mode;          ///< what moves most in an unstable direction, in words: at the end, or where it was lost
+  std::string hidden;        ///< which motions the plan left out, where the last equilibrium is unstable in one of them
+  std::string hidden_mode;   ///< what moves most then
+  std::string largest_load;  ///< at the end, in words; empty: there is none
 };
 struct ExpectedResult {
   std::string name;
