@@ -22,22 +22,16 @@ struct Largest {
   double angular() const { return std::max({most[3], most[4], most[5]}); }
 };
 
-/// Whether a sensor shows where something is or how fast it moves: forces, accelerations and energies are of the whole
-/// structure.
-bool is_of_motion(const plan::SensorPlan& s) {
+bool shows_force_or_acceleration(scene::SensorKind kind) {
   using Kind = scene::SensorKind;
-  switch (s.sensor.kind) {
-    case Kind::position:
-    case Kind::rotation:
-    case Kind::quaternion:
-    case Kind::velocity:
-    case Kind::joint_angle:
-    case Kind::joint_displacement:
-    case Kind::joint_rate:
-      return true;
-    default:
-      return false;
-  }
+  return kind == Kind::acceleration || kind == Kind::acceleration_split || kind == Kind::section_force ||
+         kind == Kind::section_strain || kind == Kind::joint_reaction;
+}
+
+bool shows_energy(scene::SensorKind kind) {
+  using Kind = scene::SensorKind;
+  return kind == Kind::kinetic_energy || kind == Kind::strain_energy || kind == Kind::potential_energy ||
+         kind == Kind::total_energy;
 }
 
 }  // namespace
@@ -66,43 +60,80 @@ LocalError::LocalError(const System& system, const StepOptions& options, double 
 }
 
 void LocalError::watch(const plan::Plan& plan) {
-  if (plan.sensors.empty() || !std::all_of(plan.sensors.begin(), plan.sensors.end(), is_of_motion)) return;
+  if (plan.sensors.empty()) return;
   std::fill(watched_.begin(), watched_.end(), Watched{});
   for (const plan::SensorPlan& s : plan.sensors) watch(plan, s);
+  const auto is_seen_whole = [](const plan::SensorPlan& s) {
+    return shows_force_or_acceleration(s.sensor.kind) || shows_energy(s.sensor.kind);
+  };
+  if (std::any_of(plan.sensors.begin(), plan.sensors.end(), is_seen_whole)) watch_mechanism(plan);
+}
+
+/// Where the mechanism is: bodies, and places of the ends of beams. Inner nodes of beams are left out, and how their
+/// ends turn: many vibrations, little of the motion.
+void LocalError::watch_mechanism(const plan::Plan& plan) {
+  std::vector<char> is_of_beam(watched_.size(), 0), is_end(watched_.size(), 0);
+  for (const plan::BeamPlan& beam : plan.beams) {
+    for (const int node : beam.nodes) is_of_beam[static_cast<std::size_t>(node)] = 1;
+    for (const int node : {beam.nodes.front(), beam.nodes.back()}) is_end[static_cast<std::size_t>(node)] = 1;
+  }
+  for (std::size_t n = 0; n < watched_.size(); ++n) {
+    if (is_of_beam[n] != 0 && is_end[n] == 0) continue;
+    watched_[n].place = true;
+    watched_[n].turns |= is_end[n] == 0;
+  }
 }
 
 void LocalError::watch(const plan::Plan& plan, const plan::SensorPlan& sensor) {
   using Kind = scene::SensorKind;
   const Kind kind = sensor.sensor.kind;
-  const bool is_place = kind == Kind::position || kind == Kind::joint_displacement;
-  const bool is_rate = kind == Kind::velocity || kind == Kind::joint_rate;
-  const auto add = [&](int node, double arm) {
-    if (node < 0) return;
-    Watched& w = watched_[static_cast<std::size_t>(node)];
-    w.place = true;
-    w.turns |= !is_place;
-    w.velocity |= is_rate;
-    w.arm = std::max(w.arm, arm);
-  };
-  const auto add_port = [&](const elements::Port& port) {
-    const motion::Vec3<double>& x = port.offset.x;
-    add(port.node, port.has_offset ? std::sqrt(lanes::dot(x, x)) : 0.0);
-  };
+  if (shows_energy(kind)) return;  // set_energy_error()
+  const bool turns = kind != Kind::position && kind != Kind::joint_displacement;
+  const bool velocity = turns && kind != Kind::rotation && kind != Kind::quaternion && kind != Kind::joint_angle;
   if (sensor.beam >= 0) {
     const plan::BeamPlan& beam = plan.beams[static_cast<std::size_t>(sensor.beam)];
     const std::size_t count = beam.elements.size(), order = (beam.nodes.size() - 1) / count;
     const double at = sensor.sensor.station * static_cast<double>(count);
     const std::size_t element = std::min(static_cast<std::size_t>(std::max(at, 0.0)), count - 1);
     for (std::size_t k = 0; k <= order; ++k)
-      add(beam.nodes[element * order + k], beam.length / static_cast<double>(count));
+      watch(beam.nodes[element * order + k], beam.length / static_cast<double>(count), turns, velocity);
   } else if (sensor.joint >= 0) {
     const int element = plan.joints[static_cast<std::size_t>(sensor.joint)].element;
     plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(element)], [&](const auto& e) {
-      for (const elements::Port& port : e.ports) add_port(port);
+      for (const elements::Port& port : e.ports) {
+        watch(port, turns, velocity);
+        if (kind == Kind::joint_reaction) watch_ends(plan, port.node);
+      }
     });
   } else {
-    add_port(sensor.port);
+    watch(sensor.port, turns, velocity);
   }
+  for (const elements::Port& port : sensor.chain) watch(port, turns, velocity);
+}
+
+/// The first elements of beams that end at a node: what vibrates in them is in a reaction there.
+void LocalError::watch_ends(const plan::Plan& plan, int node) {
+  for (const plan::BeamPlan& beam : plan.beams) {
+    const std::size_t count = beam.elements.size(), order = (beam.nodes.size() - 1) / count;
+    for (std::size_t k = 0; k <= order; ++k) {
+      if (beam.nodes.front() == node) watch(beam.nodes[k], 0.0, true, true);
+      if (beam.nodes.back() == node) watch(beam.nodes[beam.nodes.size() - 1 - k], 0.0, true, true);
+    }
+  }
+}
+
+void LocalError::watch(const elements::Port& port, bool turns, bool velocity) {
+  const motion::Vec3<double>& x = port.offset.x;
+  watch(port.node, port.has_offset ? std::sqrt(lanes::dot(x, x)) : 0.0, turns, velocity);
+}
+
+void LocalError::watch(int node, double arm, bool turns, bool velocity) {
+  if (node < 0) return;
+  Watched& w = watched_[static_cast<std::size_t>(node)];
+  w.place = true;
+  w.turns |= turns;
+  w.velocity |= velocity;
+  w.arm = std::max(w.arm, arm);
 }
 
 Vec6<double> LocalError::unfiltered_of(const State& after, std::size_t node) const {
@@ -151,6 +182,7 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
     if (has_previous_ && w.velocity) change.include(now_[n] - previous_[n]);
   }
   step_ = h;
+  energy_ = 0.0;
   const double of_change = velocity_factor();
   parts_ = {h3 * most.position, h3 * most.rotation, of_change * change.linear(), of_change * change.angular()};
   return std::nullopt;
@@ -183,9 +215,10 @@ ErrorLimit LocalError::limit(double tolerance) const {
     const bool turns = error.angular() * size.position > error.linear() * size.rotation;
     const double of_error = turns ? error.angular() : error.linear(),
                  of_changed = turns ? change.angular() : change.linear();
-    found = {static_cast<int>(n), velocity > place,
+    found = {static_cast<int>(n), velocity > place, false,
              of_error > 0.0 ? of_changed / (of_error * 0.5 * (step_ + previous_step_)) : 0.0};
   }
+  if (energy_ / std::pow(tolerance, 1.5) > most) found = {-1, false, true, 0.0};
   return found;
 }
 
@@ -193,6 +226,15 @@ void LocalError::displace(const State& after, State& to) const {
   to = after;
   for (std::size_t n = 0; n < now_.size(); ++n) {
     to.nodes[n].v += (step_ * step_) * now_[n];
+    move_node(to, n, (step_ * step_ * step_) * now_[n]);
+  }
+}
+
+void LocalError::disturb(const State& after, State& to) const {
+  to = after;
+  const double of_change = has_previous_ ? std::copysign(velocity_factor(), constants_.velocity) : 0.0;
+  for (std::size_t n = 0; n < now_.size(); ++n) {
+    to.nodes[n].v += of_change * (now_[n] - previous_[n]);
     move_node(to, n, (step_ * step_ * step_) * now_[n]);
   }
 }
@@ -227,8 +269,16 @@ std::string LocalError::describe(const plan::Plan& plan, double tolerance) const
   const Part& worst = *std::max_element(std::begin(parts), std::end(parts), [](const Part& a, const Part& b) {
     return a.error * b.allowed < b.error * a.allowed;
   });
-  const auto node = static_cast<std::size_t>(std::max(0, limit(tolerance).node));
+  const ErrorLimit most = limit(tolerance);
   char text[160];
+  if (most.is_energy) {
+    std::snprintf(text, sizeof text,
+                  "the local error of the energy is %.2g of the largest so far, %.3g times what the tolerance of step "
+                  "control allows",
+                  energy_, energy_ / std::pow(tolerance, 1.5));
+    return text;
+  }
+  const auto node = static_cast<std::size_t>(std::max(0, most.node));
   std::snprintf(text, sizeof text, " is %.2g %s, %.3g times what the tolerance of step control allows", worst.error,
                 worst.unit, worst.error / worst.allowed);
   return std::string("the local error of the ") + worst.what + " of '" + plan.nodes[node].name + "'" + text;

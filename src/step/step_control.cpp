@@ -15,7 +15,8 @@ constexpr double tiny = 1e-10;       ///< smaller E are taken as this: the facto
 }  // namespace
 
 double StepController::ratio(const LocalError& error) const {
-  return std::max(error.relative_motion() / std::pow(tolerance_, 1.5), error.relative_velocity() / tolerance_);
+  return std::max({error.relative_motion() / std::pow(tolerance_, 1.5), error.relative_velocity() / tolerance_,
+                   error.relative_energy() / std::pow(tolerance_, 1.5)});
 }
 
 double StepController::after_accepted(double ratio, double h) {

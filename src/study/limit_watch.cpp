@@ -14,6 +14,10 @@ LimitWatch::LimitWatch(const plan::Plan& plan)
 }
 
 void LimitWatch::count(const step::ErrorLimit& limit) {
+  if (limit.is_energy) {
+    ++of_energy_;
+    ++all_;
+  }
   if (limit.node < 0) return;
   const auto node = static_cast<std::size_t>(limit.node);
   Limit& l = owner_[node] < 0 ? of_node_[node] : of_beam_[static_cast<std::size_t>(owner_[node])];
@@ -32,7 +36,10 @@ std::optional<std::string> LimitWatch::text(const plan::Plan& plan, double toler
   const auto share = [&](long steps) {
     return std::to_string((100 * steps + (all_ + at_largest_) / 2) / (all_ + at_largest_)) + " % of the steps";
   };
-  if (most == 0 && at_largest_ == 0) return std::nullopt;
+  if (most == 0 && of_energy_ == 0 && at_largest_ == 0) return std::nullopt;
+  if (of_energy_ > std::max(most, at_largest_))
+    return "the tolerance of " + io::rounded_text(tolerance, 2) + " for the error of energies decided the size of " +
+           share(of_energy_);
   if (at_largest_ >= most)
     return "the largest step allowed decided the size of " + share(at_largest_) + ", no error did";
   const Limit& limit = is_beam ? *beam : *node;

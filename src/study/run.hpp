@@ -14,6 +14,7 @@
 #include "bough/step/step_control.hpp"
 #include "bough/step/variational.hpp"
 #include "bough/study/simulate.hpp"
+#include "energy_error.hpp"
 #include "error_watch.hpp"
 #include "expected_figures.hpp"
 #include "finite_gate.hpp"
@@ -81,6 +82,7 @@ class Run {
   bool run_dynamics();
   bool run_controlled_segment(double begin, double end, double total_end);
   bool take_controlled_steps(double stop, double total_end);
+  bool measure_controlled();
   bool accept_controlled(const step::StepReport& report, bool is_last);
   /// Whether steps of a fixed size tell their errors.
   bool watches_error() const { return local_error_ && scene_.output.checks && !options_.single_solution; }
@@ -143,10 +145,11 @@ class Run {
   bool path_done_ = false;
   std::optional<step::LocalError> local_error_;  ///< of generalized-alpha where checks or step control ask for it
   std::optional<step::StepController> controller_;
-  std::optional<LimitWatch> limit_watch_;  ///< of controlled steps
-  double wanted_size_ = 0.0;               ///< of the next controlled step [s]
-  double looked_at_ = 0.0;                 ///< time of the last look at a local error, at fixed steps
-  double unfiltered_looked_ = 0.0;         ///< largest unfiltered error at a look
+  std::optional<LimitWatch> limit_watch_;    ///< of controlled steps
+  std::optional<EnergyError> energy_error_;  ///< of these, where sensors show forces or energies
+  double wanted_size_ = 0.0;                 ///< of the next controlled step [s]
+  double looked_at_ = 0.0;                   ///< time of the last look at a local error, at fixed steps
+  double unfiltered_looked_ = 0.0;           ///< largest unfiltered error at a look
   long steps_since_look_ = 0;
   long looks_every_ = 1;                   ///< steps of one size between two looks at local errors
   bool looking_ = false;                   ///< at the second of two steps

@@ -80,8 +80,7 @@ bool Run::take_controlled_steps(double stop, double total_end) {
     const double target = is_last ? stop : begin + static_cast<double>(done + 1) * size;
     if (!may_try(target)) return false;
     const step::StepReport report = step::advance(system_, state_, options_, target);
-    if (report.converged)
-      if (const auto t = local_error_->measure(system_, state_)) return fail(t->text);
+    if (report.converged && !measure_controlled()) return false;
     const double ratio = report.converged ? controller_->ratio(*local_error_) : 0.0;
     if (!report.converged || !(ratio <= 1.0)) {
       if (report.converged) {
@@ -120,6 +119,16 @@ bool Run::take_controlled_steps(double stop, double total_end) {
     } else if (done == steps) {
       wanted_size_ = next < size ? next : std::max(next, wanted_size_);
     }
+  }
+  return true;
+}
+
+/// The local errors of the step just taken.
+bool Run::measure_controlled() {
+  if (const auto t = local_error_->measure(system_, state_)) return fail(t->text);
+  if (energy_error_) {
+    local_error_->disturb(state_, displaced_);
+    local_error_->set_energy_error(energy_error_->eval(system_, state_, displaced_, energy_meter_));
   }
   return true;
 }

@@ -48,6 +48,10 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
   if (plan_.is_dynamic && options_.step_control) {
     controller_.emplace(options_.step_control->tolerance);
     limit_watch_.emplace(plan_);
+    if (EnergyError::is_needed(plan_)) {
+      energy_error_.emplace(plan_, scene.analysis.end_time, work_meter_.mass());
+      displaced_ = state_;  // a step does not allocate
+    }
   }
   if (watches_error()) {
     const auto shows_reaction = [](const plan::SensorPlan& s) {

@@ -215,6 +215,26 @@ constexpr const char* elastic_slider_crank = R"({
               {"name": "middle", "kind": "position", "beam": "rod", "station": 0.5}],
   "analysis": {"kind": "dynamic", "end_time": 0.1, "step_size": 1e-4, "spectral_radius": 0.8}})";
 
+/// Root of the mean square difference of the columns at the times of the run, over the range of the reference; the
+/// largest of all columns that have one. The reference has many more rows.
+double mean_error(const Table& run, const Table& reference) {
+  double most = 0.0;
+  for (std::size_t c = 0; c < reference.columns.size(); ++c) {
+    double low = reference.rows[0][c], high = low, squares = 0.0;
+    for (const std::vector<double>& row : reference.rows) {
+      low = std::min(low, row[c]);
+      high = std::max(high, row[c]);
+    }
+    for (std::size_t k = 0, r = 0; k < run.rows.size(); ++k) {
+      while (r + 1 < reference.rows.size() && reference.times[r] < run.times[k]) ++r;
+      squares += std::pow(run.rows[k][c] - reference.rows[r][c], 2);
+    }
+    const double mean = std::sqrt(squares / static_cast<double>(run.rows.size()));
+    if (high - low > 1e-6) most = std::max(most, mean / (high - low));
+  }
+  return most;
+}
+
 TEST(StepControl, vibrations_that_no_sensor_sees_do_not_decide_the_step) {
   scene::Scene scene = support::scene_of(elastic_slider_crank);
   scene.analysis.step_size = 1e-5;
@@ -236,6 +256,72 @@ TEST(StepControl, vibrations_that_no_sensor_sees_do_not_decide_the_step) {
   EXPECT_LT(slider, 1e-4);
   EXPECT_LT(middle, 1e-4);
   EXPECT_NE(limit.find("beam 'rod'"), std::string::npos) << limit;
+}
+
+scene::Sensor sensor_of(scene::SensorKind kind) {
+  scene::Sensor sensor;
+  sensor.name = "s";
+  sensor.kind = kind;
+  return sensor;
+}
+
+/// The same crank, of which sensors show a force, an acceleration or energies. Where errors count at every node, each of
+/// these runs takes some 65 000 steps.
+TEST(StepControl, forces_and_energies_do_not_ask_for_every_vibration) {
+  using Kind = scene::SensorKind;
+  struct Case {
+    const char* what;
+    Kind kind;
+    double error;  ///< root of the mean square, of the range; forces are mostly vibrations' own
+  };
+  const Case cases[] = {{"reaction", Kind::joint_reaction, 0.3},
+                        {"acceleration", Kind::acceleration, 0.3},
+                        {"kinetic energy", Kind::kinetic_energy, 0.1},
+                        {"strain energy", Kind::strain_energy, 0.1},
+                        {"potential energy", Kind::potential_energy, 0.01},
+                        {"total energy", Kind::total_energy, 0.1}};
+  for (const Case& c : cases) {
+    scene::Scene scene = support::scene_of(elastic_slider_crank);
+    scene.analysis.end_time = 0.02;
+    scene.sensors = {sensor_of(c.kind)};
+    scene.sensors[0].joint = c.kind == Kind::joint_reaction ? "main bearing" : "";
+    scene.sensors[0].at.to = c.kind == Kind::acceleration ? "slider" : "";
+    scene.analysis.step_size = 2e-6;
+    const Outcome reference = support::run(scene);
+    scene.analysis.step_size = 1e-4;
+    scene.analysis.step_control.emplace().tolerance = 1e-4;
+    const Outcome run = support::run(scene, [&](const results::Progress& p) { return p.step < 2000; });
+    ASSERT_TRUE(reference.ok() && run.ok()) << c.what << run.summary.cause;
+    const double error = mean_error(run.history, reference.history);
+    std::printf("| elastic slider-crank, 0.02 s, %s | %ld steps | error %.2g of the range |\n", c.what,
+                run.summary.steps.accepted, error);
+    EXPECT_LT(run.summary.steps.accepted, 1000) << c.what;
+    EXPECT_LT(error, c.error) << c.what;
+  }
+}
+
+/// Nothing else is shown, and yet the motion is kept.
+TEST(StepControl, errors_of_energies_follow_the_tolerance) {
+  for (const auto kind : {scene::SensorKind::kinetic_energy, scene::SensorKind::potential_energy}) {
+    const char* const what = kind == scene::SensorKind::kinetic_energy ? "kinetic" : "potential";
+    scene::Scene scene = support::gallery("double_pendulum", {"/analysis/end_time=1"});
+    scene.sensors = {sensor_of(kind)};
+    const std::vector<double> times = times_up_to(1.0, 10);
+    double errors[2];
+    scene.expected.clear();
+    scene.analysis.step_size = 1e-4;
+    const Outcome reference = support::run(scene);
+    for (int k = 0; k < 2; ++k) {
+      scene::Scene steps = controlled(scene, k == 0 ? 1e-3 : 1e-5, times);
+      for (scene::Expected& e : steps.expected) e.quantity = "s";
+      const Outcome run = support::run(steps);
+      ASSERT_TRUE(run.ok() && reference.ok()) << run.summary.cause;
+      errors[k] = error_of(run.history, reference.history, {"s"}, times);
+      std::printf("| double pendulum, %s | error %.1e | %ld steps |\n", what, errors[k], run.summary.steps.accepted);
+    }
+    EXPECT_GT(std::log10(errors[0] / errors[1]) / 2.0, 0.8) << what;
+    EXPECT_LT(errors[1], 1e-3) << what;
+  }
 }
 
 TEST(StepControl, cuts_a_first_step_that_is_far_too_long) {

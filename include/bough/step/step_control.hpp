@@ -37,6 +37,7 @@ ErrorConstants make_error_constants(const AlphaCoefficients& c);
 struct ErrorLimit {
   int node = -1;             ///< in Plan::nodes, where it was largest
   bool is_velocity = false;  ///< of a velocity rather than of a place
+  bool is_energy = false;    ///< of an energy of the whole structure; then there is no node
   double frequency =
       0.0;  ///< at which the error changes there from step to step [rad/s]; of a vibration, its own up to 2 / h
 };
@@ -46,10 +47,9 @@ class LocalError {
  public:
   /// `absolute`: allowances beside the tolerance, 0: none. Sizes that errors are compared with: the size of the structure, 1 rad, the largest speeds
   /// so far, and these at the least: the size of the structure and 1 rad in `duration` [s].
-  /// Where step control is on and all sensors show motions, errors count at nodes that they look at, those of
-  /// velocities where sensors show velocities: a vibration faster than the step that no sensor sees would otherwise ask
-  /// for steps that resolve it, although the scheme filters it. Forces, accelerations and energies are of the whole
-  /// structure: with sensors of these, or none, errors count everywhere.
+  /// Where step control is on, errors count where sensors look: a vibration faster than the step that no sensor sees
+  /// would otherwise ask for steps that resolve it, although the scheme filters it. Without sensors they count
+  /// everywhere. What each kind of sensor watches stands in src/step/README.md.
   LocalError(const System& system, const StepOptions& options, double duration);
 
   /// A start, or the far side of a jump: v''' is not known in the first step.
@@ -69,6 +69,13 @@ class LocalError {
   /// Largest parts of the last measured error over what they are compared with: size + allowance / tolerance [-].
   double relative_motion() const;    ///< of positions and rotations
   double relative_velocity() const;  ///< of velocities
+  double relative_energy() const { return energy_; }
+
+  /// `after` with its nodes displaced by the last measured e_q, and velocities changed by e_v as far as it is known:
+  /// what an energy changes by from one to the other is its local error.
+  void disturb(const State& after, State& to) const;
+  /// The error of energies that sensors show in the last measured step, over the largest energy so far [-].
+  void set_energy_error(double relative) { energy_ = relative; }
 
   /// Names the error that asks for the smallest step at this tolerance, the node of limit(), and how many times it is
   /// what the tolerance allows. To be asked before `accept`.
@@ -81,6 +88,10 @@ class LocalError {
  private:
   void watch(const plan::Plan& plan);
   void watch(const plan::Plan& plan, const plan::SensorPlan& sensor);
+  void watch_ends(const plan::Plan& plan, int node);
+  void watch_mechanism(const plan::Plan& plan);
+  void watch(const elements::Port& port, bool turns, bool velocity);
+  void watch(int node, double arm, bool turns, bool velocity);
   double velocity_factor() const;
   /// What errors are compared with: size + allowance / tolerance.
   ErrorParts sizes() const;
@@ -91,6 +102,7 @@ class LocalError {
   ErrorParts least_, allowance_;  ///< least sizes; absolute tolerances over the relative one
   double speed_ = 0.0, spin_ = 0.0;
   ErrorParts parts_;
+  double energy_ = 0.0;
   std::vector<motion::Vec6<double>> now_, previous_;  ///< e / h^3 by node
   double step_ = 0.0, previous_step_ = 0.0;
   bool has_previous_ = false;
@@ -104,8 +116,8 @@ class LocalError {
 };
 
 /// Step sizes from errors. A step is accepted where its local error keeps
-///   E = max(e_q / tolerance^(3/2), e_v / tolerance) <= 1,
-/// e relative to sizes. The integrator is of second order, so steps are of the order of tolerance^(1/2) of the motion's characteristic time, and
+///   E = max(e_q / tolerance^(3/2), e_v / tolerance, e_E / tolerance^(3/2)) <= 1,
+/// e relative to sizes, e_E of energies where sensors show these. The integrator is of second order, so steps are of the order of tolerance^(1/2) of the motion's characteristic time, and
 /// the local errors of one such time add up to about the tolerance: the global error follows the tolerance (tolerances are transformed so by
 /// RADAU5, too, Hairer, Wanner 1996, IV.8). Error per unit of time would do the same, but not where parts vibrate faster than the step: errors
 /// there are their amplitude, whatever the step, and smaller steps would only make matters worse. Velocities of smooth motions follow positions;
