@@ -19,13 +19,6 @@ using motion::Vec6;
 
 namespace {
 
-Vec3<double> position_of(const Field& f, const step::State& state, const Port& port) {
-  if (port.carrier >= 0) return motion::transform(f.carriers[port.carrier].pose, port.offset.x);
-  if (port.node == elements::ground) return port.offset.x;
-  const elements::NodeMotion& n = state.nodes[static_cast<std::size_t>(port.node)];
-  return n.x.hi + n.x.lo + (port.has_offset ? n.R * port.offset.x : Vec3<double>::zero());
-}
-
 /// A material point of a beam: section pose, twist, acceleration, strain.
 struct BeamPoint {
   Frame<double> pose;  ///< position in the inertial frame

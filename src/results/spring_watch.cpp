@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "bough/elements/evaluate.hpp"
+#include "observe_parts.hpp"
 
 namespace bough::results {
 
@@ -30,24 +31,29 @@ SpringWatch::SpringWatch(const plan::Plan& plan) {
     });
 }
 
+Vec3<double> SpringWatch::rate_of(const elements::Spring& e, const elements::Field& f) {
+  const auto anchor = elements::anchor_of(e, f.nodes);
+  const auto a = elements::eval_port(e.ports[0], f.nodes, anchor, f.carriers),
+             b = elements::eval_port(e.ports[1], f.nodes, anchor, f.carriers);
+  return b.H.R * lanes::linear_part(b.v) - a.H.R * lanes::linear_part(a.v);
+}
+
+/// Places alone tell most of it: velocities are looked at where the line has turned round, and at first.
 void SpringWatch::look(const step::System& system, const step::State& state) {
   if (seen_.empty() || passed_ != nullptr) return;
   const elements::Field f = system.field(state);
   const auto& springs = plan::array_of<elements::Spring>(system.plan().elements);
   for (Seen& s : seen_) {
     const elements::Spring& e = springs[static_cast<std::size_t>(s.spring)];
-    const auto anchor = elements::anchor_of(e, f.nodes);
-    const auto a = elements::eval_port(e.ports[0], f.nodes, anchor, f.carriers),
-               b = elements::eval_port(e.ports[1], f.nodes, anchor, f.carriers);
-    const Vec3<double> span = b.H.x - a.H.x;
-    const Vec3<double> rate = b.H.R * lanes::linear_part(b.v) - a.H.R * lanes::linear_part(a.v);
-    if (!is_first_ && lanes::dot(span, s.span) < 0.0 && cosine(s.rate, s.span) < -along && cosine(rate, span) > along) {
+    const Vec3<double> span = position_of(f, state, e.ports[1]) - position_of(f, state, e.ports[0]);
+    if (!is_first_ && lanes::dot(span, s.span) < 0.0 && cosine(s.approach, s.span) < -along &&
+        cosine(rate_of(e, f), span) > along) {
       passed_ = &s;
       time_ = state.time;
       return;
     }
+    s.approach = is_first_ ? rate_of(e, f) : span - s.span;
     s.span = span;
-    s.rate = rate;
   }
   is_first_ = false;
 }

@@ -206,6 +206,70 @@ TEST(Trust, reactions_that_hang_on_round_off_near_a_flat_four_bar_are_doubted_by
   EXPECT_FALSE(is_doubted(run_in_memory(s).summary.doubts, "condition"));
 }
 
+/// However far apart the rows of the history are that springs are looked at in; the first stride passes between the
+/// first two rows. A mass that orbits the anchor turns the spring round as well.
+TEST(Trust, springs_that_pass_through_length_0_are_named_and_those_that_turn_round_are_not) {
+  const auto is_told = [](double sideways, double along, int stride) {
+    scene::Scene s;
+    s.bodies = {make_body("dot", 1.0, {{1.0, 1.0, 1.0}}, {{0.0, -0.1, 0.0}})};
+    scene::Spring spring;
+    spring.name = "rope";
+    spring.second.to = "dot";
+    spring.stiffness = 8000.0;
+    spring.rest_length = 0.05;
+    s.springs = {spring};
+    scene::InitialVelocity v;
+    v.of = "dot";
+    v.velocity = {{sideways, along, 0.0}};
+    s.initial_velocities = {v};
+    s.analysis.end_time = 0.12;
+    s.analysis.step_size = 1e-3;
+    s.output.stride = stride;
+    const MemoryRun run = run_in_memory(s);
+    EXPECT_TRUE(run.ok()) << run.text();
+    return is_doubted(run.summary.doubts, "springs");
+  };
+  for (const int stride : {1, 3}) EXPECT_TRUE(is_told(0.0, 8.0, stride)) << stride;
+  for (const int stride : {1, 3, 20, 50, 78, 79, 80}) EXPECT_FALSE(is_told(6.3, 0.0, stride)) << stride;
+}
+
+/// Reactions of three cranks on two couplers have a pole where they are flat, which steps do not resolve: how large they
+/// are there hangs on when the motion comes by. Errors are those against reactions of the closed form, of the range.
+TEST(Trust, reactions_at_a_pole_that_the_motion_comes_to_late_are_doubted) {
+  struct Case {
+    int windows;
+    double speed, step;
+    bool is_wrong;
+  };
+  for (const Case& c : {Case{3, 3.0, 5e-3, true},      // off by 43 %
+                        Case{3, 3.0, 2e-3, true},      // 7.3 %
+                        Case{2, 3.0, 1e-3, true},      // 4.0 %
+                        Case{2, 1.0, 5e-3, true},      // 1.5 %
+                        Case{2, 3.0, 2e-3, true},      // 1.3 %
+                        Case{2, 3.0, 5e-4, false},     // 0.7 %
+                        Case{3, 3.0, 5e-4, false},     // 0.7 %
+                        Case{2, 1.0, 1e-3, false},     // 0.08 %
+                        Case{3, 1.0, 1e-3, false},     // 0.1 %
+                        Case{1, 3.0, 5e-3, false}}) {  // 0.03 %: no pole
+    scene::Scene s = make_four_bars(c.windows);
+    for (scene::InitialVelocity& v : s.initial_velocities) {
+      for (int i = 0; i < 3; ++i) {
+        v.velocity[i] *= c.speed;
+        v.angular_velocity[i] *= c.speed;
+      }
+    }
+    for (const scene::Joint& j : s.joints) s.sensors.push_back(make_joint_sensor("at " + j.name, j.name));
+    s.analysis.end_time = 0.9;
+    s.analysis.step_size = c.step;
+    const MemoryRun run = run_in_memory(s);
+    ASSERT_TRUE(run.ok()) << run.text();
+    bool is_doubted = false;
+    for (const results::Doubt& d : run.summary.doubts)
+      is_doubted |= d.about == "error" && d.text.find("pole") != std::string::npos;
+    EXPECT_EQ(is_doubted, c.is_wrong) << c.windows << " windows, " << c.speed << " m/s, " << c.step << " s";
+  }
+}
+
 /// Rows of a parallelogram depend on each other where it is flat, and nowhere else: it can go on as a parallelogram or
 /// crossed.
 TEST(Trust, a_mechanism_that_passes_a_singular_position_is_not_called_unique) {

@@ -24,8 +24,11 @@ class SpringWatch {
   struct Seen {
     int spring = 0;  ///< in the array of springs
     std::string name;
-    motion::Vec3<double> span = motion::Vec3<double>::zero(), rate = motion::Vec3<double>::zero();
+    motion::Vec3<double> span = motion::Vec3<double>::zero();
+    motion::Vec3<double> approach =
+        motion::Vec3<double>::zero();  ///< its change since the look before; at first its rate
   };
+  static motion::Vec3<double> rate_of(const elements::Spring& spring, const elements::Field& field);
 
   std::vector<Seen> seen_;
   bool is_first_ = true;
