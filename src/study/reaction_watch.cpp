@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bough/elements/rows.hpp"
+#include "bough/io/number_text.hpp"
 
 namespace bough::study {
 
@@ -11,6 +12,12 @@ namespace {
 
 constexpr double worth_a_look = 5e-4;  ///< bend over the largest reaction: half of what is doubted (TrustLimits::lost)
 constexpr double louder = 2.0, fading = 0.995;
+constexpr double growth = 3.0;       ///< of local errors on the way, as ErrorWatch takes it
+constexpr double unresolved = 0.05;  ///< bend over the largest reaction, next to a pole that steps do not resolve
+constexpr double like_a_pole = 0.1;  ///< relative: how well four steps have to lie on c / (t - t0) + b
+/// Of the largest reaction: an estimated error that is doubted. The estimate is 1.1 to 3.6 times the error of four-bars
+/// of two and three windows in steps of 0.5 to 5 ms: so those are doubted that are off by a hundredth or a little more.
+constexpr double misplaced_by = 0.014;
 constexpr double least_share = 1e-3;  ///< reactions below this part of the largest of all joints are held to that part
 
 }  // namespace
@@ -39,23 +46,66 @@ ReactionWatch::ReactionWatch(const step::System& system) : plan_(system.plan()) 
 
 double ReactionWatch::scale_of(const Watched& w) const { return std::max(w.largest, least_share * largest_); }
 
-bool ReactionWatch::wants_look(const step::State& state) {
+/// Four values at equal steps lie on c / (t - t0) + b where their cross ratio is that of their times, 4/3. The slope at
+/// an inner one is then the harmonic mean of the differences on both sides of it.
+double ReactionWatch::steepness_at_pole(const Row& r, double now, double scale) {
+  const double bend =
+      std::max(std::abs(r.first - 2.0 * r.before_that + r.before), std::abs(r.before_that - 2.0 * r.before + now));
+  if (bend < unresolved * scale) return 0.0;
+  const double one = (r.first - r.before) * (r.before_that - now),
+               other = 4.0 / 3.0 * (r.first - now) * (r.before_that - r.before);
+  if (std::abs(one - other) > like_a_pole * std::max(std::abs(one), std::abs(other))) return 0.0;
+  const auto slope = [](double a, double b) { return a + b == 0.0 ? 0.0 : std::abs(2.0 * a * b / (a + b)); };
+  const double a = r.before_that - r.first, b = r.before - r.before_that, c = now - r.before;
+  return std::max(slope(a, b), slope(b, c));
+}
+
+/// Of the motion, by the time that the fastest part takes for its error [s].
+double ReactionWatch::delay(const step::State& state) const {
+  double square = 0.0;
+  for (const elements::NodeMotion& n : state.nodes) {
+    const motion::Vec3<double> v = lanes::linear_part(n.v), w = lanes::angular_part(n.v);
+    square = std::max({square, lanes::dot(v, v) / (plan_.length_scale * plan_.length_scale), lanes::dot(w, w)});
+  }
+  return square > 0.0 ? growth * drift_ / std::sqrt(square) : 0.0;
+}
+
+bool ReactionWatch::wants_look(const step::State& state, double drift) {
   bool wants = false;
+  num_equal_ = num_known_ == 0 ? 0 : state.step_size != step_size_ ? 1 : std::min(num_equal_ + 1, 3);
+  step_size_ = state.step_size;
+  drift_ = drift;
   for (Watched& w : joints_) {
     w.bend = 0.0;
+    w.steepness = 0.0;
     for (Row& r : w.rows) {
       const double now = r.weight * state.multipliers[r.multiplier];
       w.largest = std::max(w.largest, std::abs(now));
       w.bend = std::max(w.bend, std::abs(now - 2.0 * r.before + r.before_that));
+      if (num_equal_ == 3) w.steepness = std::max(w.steepness, steepness_at_pole(r, now, scale_of(w)));
+      r.first = r.before_that;
       r.before_that = r.before;
       r.before = now;
     }
     largest_ = std::max(largest_, w.largest);
     w.quiet *= fading;
     wants |= num_known_ == 2 && w.bend > std::max(worth_a_look * scale_of(w), louder * w.quiet);
+    wants |= w.steepness > 0.0;
   }
   num_known_ = std::min(num_known_ + 1, 2);
   return wants;
+}
+
+std::string ReactionWatch::misplaced() const {
+  const auto part = [this](const Watched& w) { return w.shifted > 0.0 ? w.shifted / scale_of(w) : 0.0; };
+  const auto worst = std::max_element(joints_.begin(), joints_.end(),
+                                      [&](const Watched& a, const Watched& b) { return part(a) < part(b); });
+  if (worst == joints_.end() || !(part(*worst) > misplaced_by)) return "";
+  return "the reaction of '" + worst->found.joint + "' is off by about " + io::rounded_text(worst->shifted, 3) +
+         " N (N m over the size of an element) near time " + io::rounded_text(worst->shifted_at, 6) + ", " +
+         io::rounded_text(100.0 * part(*worst), 2) +
+         " % of the largest: constraints come to depend on each other there and it passes a pole between two steps, " +
+         "where the estimated error of the motion shifts it; take smaller steps or leave these times out";
 }
 
 std::optional<step::Trouble> ReactionWatch::look(step::System& system, const step::State& state) {
@@ -70,6 +120,11 @@ std::optional<step::Trouble> ReactionWatch::look(step::System& system, const ste
       size = std::max(size, r.weight * std::abs(state.multipliers[r.multiplier]));
     }
     w.quiet = std::max(w.quiet, w.bend);
+    const double shifted = w.steepness > 0.0 ? w.steepness / step_size_ * delay(state) : 0.0;
+    if (shifted > w.shifted) {
+      w.shifted = shifted;
+      w.shifted_at = state.time - step_size_;
+    }
     if (error <= w.found.error) continue;
     w.found.error = error;
     w.found.size = size;

@@ -110,7 +110,7 @@ bool Run::catch_up() {
 }
 
 bool Run::watch_reactions() {
-  if (!reactions_->wants_look(state_)) return true;
+  if (!reactions_->wants_look(state_, summary_.checks.local_error_sum)) return true;
   if (!catch_up()) return false;
   const auto t = reactions_->look(system_, state_);
   return t ? fail(t->text) : true;

@@ -327,6 +327,8 @@ void Run::finish() {
   if (stability_) finish_statics();
   summary_.doubts = doubts_of(summary_, plan_.is_dynamic);
   if (const std::string passed = springs_.text(); !passed.empty()) summary_.doubts.push_back({"springs", passed});
+  if (reactions_)
+    if (const std::string wrong = reactions_->misplaced(); !wrong.empty()) summary_.doubts.push_back({"error", wrong});
   if (!after_run_) return;
   (void)catch_up();
   after_run_(system_, state_);
