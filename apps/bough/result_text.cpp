@@ -88,6 +88,7 @@ std::string result_text(const results::Summary& summary, const std::string& dire
           " s with " + count_text(summary.threads, "thread") + "\n";
   text += checks_text(summary);
   for (const results::Doubt& doubt : summary.doubts) text += "  DOUBT (" + doubt.about + "): " + doubt.text + "\n";
+  if (!summary.not_judged.empty()) text += "  not judged: " + summary.not_judged + "\n";
   for (const std::string& note : summary.notes) text += "  note: " + note + "\n";
   if (!summary.expected.empty()) text += expected_text(summary.expected);
   text += "  results in " + directory + ":";

@@ -132,8 +132,13 @@ void write_stability(JsonText& json, const results::Stability& s) {
 void write_trust(JsonText& json, const results::Summary& summary) {
   json.key("trust");
   json.begin_object();
-  json.member("verdict", summary.doubts.empty() ? std::string_view("nothing speaks against this run")
-                                                : std::string_view("not to be trusted without a closer look"));
+  const std::string& not_judged = summary.not_judged;
+  const std::string nothing = not_judged.empty()
+                                  ? "nothing speaks against this run"
+                                  : "nothing speaks against this run in what was judged; not judged: " + not_judged;
+  json.member("verdict",
+              std::string_view(summary.doubts.empty() ? nothing : "not to be trusted without a closer look"));
+  if (!not_judged.empty()) json.member("not_judged", std::string_view(not_judged));
   json.key("doubts");
   json.begin_array();
   for (const results::Doubt& doubt : summary.doubts) {
@@ -343,6 +348,8 @@ SummaryFile read_summary(const std::filesystem::path& path) {
       if (number_of(checks->items[k], value)) summary.checks.emplace_back(checks->items.key(k), value);
     }
   }
+  if (const JsonValue* trust = json->find("trust"); trust != nullptr)
+    summary.not_judged = text_of(*trust, "not_judged");
   if (const JsonValue* trust = json->find("trust"); trust != nullptr)
     if (const JsonValue* doubts = trust->find("doubts"); doubts != nullptr)
       for (const JsonValue& doubt : doubts->items)

@@ -150,6 +150,7 @@ std::string tables(const io::SummaryFile& summary) {
       html += "<li>" + escaped(doubt.about) + ": " + escaped(doubt.text) + "</li>\n";
     html += "</ul>\n";
   }
+  if (!summary.not_judged.empty()) html += "<p class=\"lead\">Not judged: " + escaped(summary.not_judged) + ".</p>\n";
   if (!summary.checks.empty()) {
     html += "<h2>Checks</h2>\n<div class=\"wide\"><table>\n";
     for (const auto& [name, value] : summary.checks)

@@ -11,6 +11,7 @@
 #include "dependent_rows.hpp"
 #include "effective_options.hpp"
 #include "largest_load.hpp"
+#include "not_judged.hpp"
 #include "run.hpp"
 #include "solver_figures.hpp"
 #include "trust.hpp"
@@ -300,6 +301,7 @@ void Run::finish() {
   summary_.checks.energy_scale = balance_.energy_scale();
   if (plan_.is_dynamic) summary_.checks.energy_round_off = energy_round_off();
   if (error_watch_) summary_.sensor_errors = error_watch_->errors(summary_.header);
+  summary_.not_judged = error_not_judged(plan_, options_, scene_.output.checks, summary_.sensor_errors);
   summary_.checks.numerical_dissipation = std::max(0.0, -balance_.last_energy_error());
   summary_.checks.energy_gained = std::max(0.0, balance_.last_energy_error());
   summary_.checks.momentum_balance = balance_.momentum_error();

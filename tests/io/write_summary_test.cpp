@@ -151,6 +151,18 @@ TEST(Summary, comes_back_with_what_reports_need) {
   EXPECT_EQ(back.expected[1].reference, -0.2);
 }
 
+TEST(Summary, says_what_was_not_judged) {
+  const ScratchDirectory scratch;
+  results::Summary summary = sample_summary();
+  summary.not_judged = "the error in time of 'pull' is not estimated";
+  const std::string text = summary_text(summary, "1");
+  const JsonValue written = parsed(text);
+  EXPECT_NE(written.find("trust")->find("verdict")->text.str().find("not judged: the error in time of 'pull'"),
+            std::string::npos);
+  write_file(scratch / "summary.json", text);
+  EXPECT_EQ(read_summary(scratch / "summary.json").not_judged, summary.not_judged);
+}
+
 TEST(Summary, says_whether_to_trust_the_run_and_why_not) {
   const ScratchDirectory scratch;
   results::Summary summary = sample_summary();

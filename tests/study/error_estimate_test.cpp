@@ -147,6 +147,59 @@ TEST(ErrorEstimate, names_a_step_that_does) {
   EXPECT_TRUE(run_with(support::gallery("pendulum"), 0.95 * step).summary.doubts.empty()) << text;
 }
 
+/// A spatial slider-crank under its weight whose steps of 2 ms let the integrator take a fifth of the energy: its rate
+/// after 2 s is wrong, the run says so with a step, and this step makes it right.
+TEST(ErrorEstimate, names_a_step_that_does_for_a_spatial_slider_crank) {
+  scene::Scene scene = support::scene_of(free_slider_crank, {"/gravity=[0,0,-9.81]", "/analysis/end_time=2"});
+  for (scene::InitialVelocity& v : scene.initial_velocities)
+    if (v.of == "rod") v.angular_velocity = {{0.0, 0.0, 12.0}};  // as crank and slider ask
+  const Outcome reference = [&] {
+    scene::Scene fine = scene;
+    fine.analysis.spectral_radius = 0.9;
+    return run_with(fine, 1e-4);
+  }();
+  const Outcome coarse = run_with(scene, 2e-3);
+  ASSERT_TRUE(reference.ok() && coarse.ok()) << coarse.summary.cause;
+  EXPECT_GT(std::abs(coarse.history.last("rate") - reference.history.last("rate")), 3.0) << "of 37.5 rad/s";
+  std::string text;
+  for (const results::Doubt& d : coarse.summary.doubts)
+    if (d.about == "error") text = d.text;
+  const std::size_t at = text.find("steps of ");
+  ASSERT_NE(at, std::string::npos) << text;
+  const double step = std::stod(text.substr(at + 9));
+  EXPECT_GT(step, 1e-4) << text;
+  const Outcome named = run_with(scene, step);
+  ASSERT_TRUE(named.ok()) << named.summary.cause;
+  EXPECT_TRUE(named.summary.doubts.empty()) << named.summary.doubts[0].text;
+  const double range = named.summary.sensor_errors[0].range;
+  EXPECT_NEAR(named.history.last("rate"), reference.history.last("rate"), 0.05 * range) << step;
+}
+
+/// Silence is no approval: where no error was estimated, the verdict says of what.
+TEST(ErrorEstimate, says_of_which_sensors_there_is_none) {
+  scene::Scene scene = support::gallery("pendulum", {"/analysis/end_time=0.2"});
+  scene.expected.clear();
+  scene.sensors = {support::joint_sensor("angle", scene::SensorKind::joint_angle, "hinge")};
+  const auto not_judged = [](const scene::Scene& s) {
+    const Outcome run = support::run(s);
+    EXPECT_TRUE(run.ok()) << run.summary.cause;
+    return run.summary.not_judged;
+  };
+  EXPECT_EQ(not_judged(scene), "");
+  scene::Scene other = scene;
+  other.sensors.push_back(support::joint_sensor("pull", scene::SensorKind::joint_reaction, "hinge"));
+  EXPECT_NE(not_judged(other).find("the error in time of 'pull' is not estimated"), std::string::npos)
+      << not_judged(other);
+  other = scene;
+  other.analysis.integrator = scene::Integrator::variational;
+  EXPECT_NE(not_judged(other).find("not estimated, the variational integrator"), std::string::npos);
+  other.analysis.integrator = scene::Integrator::bdf;
+  EXPECT_NE(not_judged(other).find("not estimated, backward differences"), std::string::npos);
+  other = scene;
+  other.output.checks = false;
+  EXPECT_NE(not_judged(other).find("/output/checks is false"), std::string::npos);
+}
+
 /// Two bodies on joints, free to turn, at rest in a world without gravity: the start makes them consistent to
 /// round-off, and that is all the energy there is.
 TEST(ErrorEstimate, energies_of_round_off_do_not_grow) {

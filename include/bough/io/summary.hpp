@@ -36,6 +36,7 @@ struct SummaryFile {
   std::vector<std::pair<std::string, std::string>> options;  ///< by JSON pointer; texts only
   std::vector<std::string> notes;
   std::vector<results::Doubt> doubts;  ///< why the run should not be trusted
+  std::string not_judged;              ///< what it may hide all the same
   std::vector<results::ExpectedResult> expected;
   std::vector<std::string> overrides;  ///< of the scene, as they were given
   std::vector<FileRecord> files;       ///< that were written with it

@@ -189,6 +189,7 @@ struct Summary {
   std::vector<ExpectedResult> expected;
   std::vector<Doubt> doubts;               ///< why the run should not be trusted, in words; empty: nothing was found
   std::vector<SensorError> sensor_errors;  ///< of sensors of motions, where local errors are known
+  std::string not_judged;                  ///< of which sensors no error in time was estimated and why, in words
   double step_size = 0.0;                  ///< longest of the run [s]
   std::string
       instability;  ///< why the integrator may make vibrations grow, and what to do; empty: nothing is known of such
