@@ -1,6 +1,7 @@
 #include "reaction_watch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bough/elements/rows.hpp"
@@ -55,9 +56,14 @@ double ReactionWatch::steepness_at_pole(const Row& r, double now, double scale) 
   const double one = (r.first - r.before) * (r.before_that - now),
                other = 4.0 / 3.0 * (r.first - now) * (r.before_that - r.before);
   if (std::abs(one - other) > like_a_pole * std::max(std::abs(one), std::abs(other))) return 0.0;
+  const std::array<double, 3> d = {r.before_that - r.first, r.before - r.before_that, now - r.before};
+  // Across the pole the value leaps against the sense of all other steps, and farthest.
+  const auto leap = static_cast<std::size_t>(
+      std::max_element(d.begin(), d.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) - d.begin());
+  for (std::size_t k = 0; k < d.size(); ++k)
+    if (k != leap && d[k] * d[leap] >= 0.0) return 0.0;
   const auto slope = [](double a, double b) { return a + b == 0.0 ? 0.0 : std::abs(2.0 * a * b / (a + b)); };
-  const double a = r.before_that - r.first, b = r.before - r.before_that, c = now - r.before;
-  return std::max(slope(a, b), slope(b, c));
+  return std::max(slope(d[0], d[1]), slope(d[1], d[2]));
 }
 
 /// Of the motion, by the time that the fastest part takes for its error [s].
