@@ -68,9 +68,8 @@ ErrorWatch::ErrorWatch(const plan::Plan& plan) : is_driven_(is_driven(plan)) {
 void ErrorWatch::see(const std::vector<double>& values) {
   for (Column& c : columns_) {
     const double value = values[c.index];
-    c.lowest = c.is_seen ? std::min(c.lowest, value) : value;
-    c.highest = c.is_seen ? std::max(c.highest, value) : value;
-    c.is_seen = true;
+    c.lowest = std::min(c.lowest, value);
+    c.highest = std::max(c.highest, value);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -49,12 +50,11 @@ class ErrorWatch {
   struct Column {
     std::size_t index = 0, group = 0;     ///< in the header; in `least_range_`
     bool is_rate = false, jumps = false;  ///< a velocity; a rotation vector or a quaternion
-    double lowest = 0.0, highest = 0.0;
-    double share = 0.0;          ///< |d| / norm at the last look
-    double sum = 0.0;            ///< A so far
-    double squares = 0.0;        ///< of the values at looks
-    double squared_rates = 0.0;  ///< of ds/dt at looks
-    bool is_seen = false;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;  ///< seen
+    double share = 0.0;                                                          ///< |d| / norm at the last look
+    double sum = 0.0;                                                            ///< A so far
+    double squares = 0.0;                                                        ///< of the values at looks
+    double squared_rates = 0.0;                                                  ///< of ds/dt at looks
   };
   double slowed_by() const;
 

@@ -1,5 +1,6 @@
 #pragma once
 /// The gate at the end of a run: what is not a finite number does not pass as a result.
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -25,7 +26,9 @@ class FiniteGate {
   void look_at(const step::State& state, const plan::Plan& plan);
   void look_at(const results::Summary& summary);
   /// One number of the run by its name.
-  void look_at(std::string_view name, double value, double time);
+  void look_at(std::string_view name, double value, double time) {
+    if (!std::isfinite(value)) fail_at(name, value, time);
+  }
 
   /// Empty where all that was looked at is finite; else the time, what is not finite, where, and what to do.
   const std::string& cause() const { return cause_; }
@@ -33,6 +36,7 @@ class FiniteGate {
  private:
   static std::string_view not_finite_in(const results::Energies& energies);
   static std::string worst_part(const results::MotionFrame& frame);
+  void fail_at(std::string_view name, double value, double time);
   void fail(double time, const std::string& what);
 
   std::string cause_;

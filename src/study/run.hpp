@@ -130,6 +130,7 @@ class Run {
   results::Balance balance_;
   FiniteGate gate_;
   std::vector<double> values_;
+  results::HistoryRow row_;  ///< the last one recorded
   ExpectedFigures figures_;
   double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< of accepted steps; of those at the floor of round-off
   std::string first_rejection_, not_unique_;

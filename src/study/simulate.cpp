@@ -181,14 +181,12 @@ void Run::record(int iterations, bool is_last) {
   if (due) springs_.look(system_, state_);
   if (due && scene_.output.checks) check();
   if (due) {
-    results::HistoryRow out;
-    out.time = state_.time;
-    out.step_size = rows_ == 1 ? 0.0 : last_step_;
-    out.iterations = iterations;
-    out.values = values_;
-    gate_.look_at(summary_.header, out);
-    recorder_.row(out);
-    summary_.final_values = values_;
+    row_.time = state_.time;
+    row_.step_size = rows_ == 1 ? 0.0 : last_step_;
+    row_.iterations = iterations;
+    row_.values = values_;
+    gate_.look_at(summary_.header, row_);
+    recorder_.row(row_);
   }
   if (is_motion_due(row, is_last)) {
     const results::MotionFrame frame = results::eval_motion(system_, state_);
@@ -284,6 +282,7 @@ void Run::estimate_solution_error() {
 
 void Run::finish() {
   const step::WorkCounts& work = system_.counts();
+  summary_.final_values = row_.values;
   summary_.steps.factorizations = work.factorizations;
   summary_.times.assemble = work.assemble;
   summary_.times.factor = work.factor;
