@@ -15,7 +15,8 @@ namespace {
 constexpr double load_difference =
     1e-4;  ///< over which loads are differenced: exact where they are proportional to the factor
 constexpr double least_alignment =
-    0.5;  ///< cosine between a step and the tangent it set out along: less may be the way back
+    0.5;                           ///< cosine between a step and the tangent it set out along: less may be the way back
+constexpr double at_rest = 1e-10;  ///< of the largest motion along the path
 constexpr double no_digits = 1e-12;  ///< of a determinant's terms: it may be 0
 constexpr double divergence = 1e3;   ///< change of relative motions that no step along a path needs
 
@@ -97,10 +98,14 @@ std::optional<ArcLengthPath::Spring> ArcLengthPath::find_spring(const solve::Fac
   const auto size_of = [&](int block) { return g.block_size[static_cast<std::size_t>(block)]; };
   Spring spring;
   spring.unknown = static_cast<std::size_t>(system_.block_begin(status.block) + status.local);
-  double work = 0.0;
-  for (std::size_t i = 0; i < x_.size(); ++i) work += std::abs(load_[i] * x_[i]);
-  spring.stiffness = work / (x_[spring.unknown] * x_[spring.unknown]);
-  if (!(spring.stiffness > 0.0) || !std::isfinite(spring.stiffness)) return std::nullopt;
+  double work = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    work += std::abs(load_[i] * x_[i]);
+    largest = std::max(largest, std::abs(x_[i]));
+  }
+  const double moved = std::abs(x_[spring.unknown]);
+  if (!(moved > at_rest * largest) || !(work > 0.0)) return std::nullopt;  // another branch crosses the path
+  spring.stiffness = work / (moved * moved);
   for (int e = 0; e < g.num_elements(); ++e) {
     std::int64_t size = 0, row = -1;
     for (std::int64_t k = g.element_begin[static_cast<std::size_t>(e)];
@@ -193,8 +198,11 @@ std::optional<double> ArcLengthPath::keep_length(double length) {
     left -= along(correction_);
     if (spring_) by_spring += along(by_spring_);
   }
-  double df = left / by_load, xi = 0.0;
-  if (spring_) {
+  if (by_load == 0.0 && !spring_) return std::nullopt;
+  double df = 0.0, xi = 0.0;
+  if (!spring_) {
+    df = left / by_load;
+  } else {
     const double loose = 1.0 - by_spring_[spring_->unknown], x_f = tangent_[spring_->unknown],
                  x_R = correction_[spring_->unknown];
     const double one = by_load * loose, other = by_spring * x_f, determinant = one + other;
