@@ -67,6 +67,7 @@ class Run {
     std::optional<PathPoint> limit, stop;  ///< where the load turns; where the run ends
     bool stops_after_limit = false;
     std::vector<results::Bifurcation> bifurcations;
+    std::optional<step::StabilityLook> look;  ///< at its end, where no other equilibrium was looked at since
     const step::State& last() const { return stop ? stop->state : end; }
   };
   bool take_path_step(double& length);

@@ -213,7 +213,7 @@ bool Run::take_path_step(double& length) {
            "found there: the run ends at " + std::to_string(state_.time) + ". " + step.stop->cause);
   }
   if (!plan_.joints.empty()) step::accept_turns(system_, state_);
-  stability_->look(state_);
+  stability_->look(state_, has_moved ? std::nullopt : step.look);
   record(report.iterations, path_done_);
   length *= std::clamp(std::sqrt(static_cast<double>(wanted_iterations) / report.iterations), shortest_part,
                        cuts > 0 ? 1.0 : longest_part);

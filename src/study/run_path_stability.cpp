@@ -20,6 +20,7 @@ constexpr double leap = 10.0;         ///< times the way between two equilibria 
 /// branch crosses the path. If neither is found the step came to another branch, and is to be taken anew, shorter.
 std::string Run::look_at_stability(double length, bool is_last_try, PathStep& step) {
   const step::StabilityLook look = stability_->stability().look();
+  step.look = look;
   if (!look.is_known || !start_look_.is_known || look.unstable == start_look_.unstable) return {};
   // Next to a critical load of a slender structure signs are those of round-off.
   if (look.unstable > start_look_.unstable && !stability_->stability().find_mode(state_)) return {};
@@ -27,6 +28,7 @@ std::string Run::look_at_stability(double length, bool is_last_try, PathStep& st
   if (passes_limit && std::abs(look.unstable - start_look_.unstable) == 1) return {};
   std::string cause = "the number of unstable directions changes by more than the limit point in it explains";
   if (!passes_limit) {
+    step.look.reset();
     const PathPlace to{length, static_cast<double>(look.unstable), step.last().time};
     PathPlace from{0.0, static_cast<double>(start_look_.unstable), path_start_.time};
     cause.clear();

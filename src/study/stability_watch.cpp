@@ -23,8 +23,8 @@ std::string StabilityWatch::describe(const plan::Plan& plan, const step::Unstabl
          (mode.turns ? "' turns most, about " : "' moves most, along ") + axis + ")";
 }
 
-int StabilityWatch::look(const step::State& state) {
-  step::StabilityLook look = stability_.look();
+int StabilityWatch::look(const step::State& state, std::optional<step::StabilityLook> known) {
+  step::StabilityLook look = known ? *known : stability_.look();
   if (look.is_known && look.unstable > 0 && seen_.unstable_directions == 0) {
     const auto mode = seen_.is_declared ? std::nullopt : stability_.find_mode(state);
     if (mode) seen_.mode = describe(system_.plan(), *mode);

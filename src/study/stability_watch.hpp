@@ -13,8 +13,8 @@ class StabilityWatch {
   StabilityWatch(const scene::Scene& scene, step::System& system);
 
   /// An equilibrium that was just found, whose tangents are present and were factored there or next to it. Returns the
-  /// directions in which it is left.
-  int look(const step::State& state);
+  /// directions in which it is left. known: what stability().look() has told of the same tangents, where it was asked.
+  int look(const step::State& state, std::optional<step::StabilityLook> known = {});
   /// The last equilibrium of the run, unless unstable ones are declared: what moves in its unstable direction, and
   /// whether it is stable in the motions that the plan has left out. Makes a plan with these, and evaluates it once.
   void look_at_end(const step::State& state);
