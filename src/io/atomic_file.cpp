@@ -124,8 +124,16 @@ void AtomicFile::flush() {
   fail(error);
 }
 
-void AtomicFile::commit(Durability durability) {
+void AtomicFile::start_writing_out() {
   flush();
+  (void)::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);  // what fails is told by the fsync that follows
+}
+
+void AtomicFile::commit(Durability durability) {
+  if (durability == Durability::later)
+    start_writing_out();
+  else
+    flush();
   if (const int error = durability != Durability::later ? sync_descriptor(descriptor_) : 0; error != 0) {
     give_up();  // the system may have dropped what it could not write: a second fsync would say nothing of that
     fail(error);

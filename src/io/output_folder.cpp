@@ -134,12 +134,16 @@ void settle(const fs::path& staging, const fs::path& final) {
   remove_listed(staging);
 }
 
+/// Where a folder is written whose place is known.
+fs::path staging_at(const fs::path& place, bool stays) {
+  return stays ? place / inner_name : place.parent_path() / ("." + place.filename().string() + ".bough-new");
+}
+
 }  // namespace
 
 fs::path OutputFolder::staging_of(const fs::path& folder) {
   const fs::path place = resolved(folder);
-  return has_to_stay(place) ? place / inner_name
-                            : place.parent_path() / ("." + place.filename().string() + ".bough-new");
+  return staging_at(place, has_to_stay(place));
 }
 
 OutputFolder::OutputFolder(fs::path folder, std::string made_by, std::vector<std::string> names,
@@ -153,7 +157,7 @@ OutputFolder::OutputFolder(fs::path folder, std::string made_by, std::vector<std
   if (fs::exists(fs::symlink_status(final_)) && !is_folder(final_))
     throw std::runtime_error("cannot write into " + shown_.string() + ": not a directory");
   is_in_place_ = has_to_stay(final_);
-  staging_ = staging_of(final_);
+  staging_ = staging_at(final_, is_in_place_);
   claim_staging();
   try {
     settle_former_staging();
@@ -209,8 +213,35 @@ void OutputFolder::prepare_staging() {
 }
 
 void OutputFolder::write(const std::string& name, std::string_view text) {
-  write_file(staging_ / name, text, Durability::content);
+  write_file(staging_ / name, text, Durability::later);
   add({name, text.size(), digest_of(text)});
+}
+
+void OutputFolder::write_index(const std::string& name, std::string_view text) {
+  write(name, text);
+  index_ = name;
+}
+
+/// What cannot be made durable is taken away: the system may have dropped it, and a second fsync would say nothing of
+/// that.
+void OutputFolder::make_durable() {
+  std::exception_ptr failure;
+  std::error_code ignored;
+  std::vector<fs::path> folders;
+  for (const FileRecord& file : files_) {
+    const fs::path path = staging_ / file.name, within = path.parent_path();
+    if (within != staging_ && std::find(folders.begin(), folders.end(), within) == folders.end())
+      folders.push_back(within);
+    try {
+      sync_file(path);
+    } catch (const std::runtime_error&) {
+      if (!failure) failure = std::current_exception();
+      fs::remove(path, ignored);
+    }
+  }
+  if (failure && !index_.empty()) fs::remove(staging_ / index_, ignored);
+  if (failure) std::rethrow_exception(failure);
+  for (const fs::path& folder : folders) sync_directory(folder);
 }
 
 /// The first name beside the final folder that is free, or holds what failed instead of the same good results before.
@@ -239,7 +270,11 @@ void OutputFolder::publish(FolderState state) {
   std::exception_ptr failure;
   try {
     const std::string instead_of = obstacle(state).empty() ? "" : final_.filename().string();
-    write_file(staging_ / manifest_name, manifest_text({made_by_, state, instead_of, files_}), Durability::content);
+    AtomicFile manifest(staging_ / manifest_name);
+    manifest.write(manifest_text({made_by_, state, instead_of, files_}));
+    manifest.start_writing_out();
+    make_durable();
+    manifest.commit(Durability::content);  // none that lists sizes comes before what it lists
     sync_directory(staging_);
   } catch (...) {  // a full disk: the files stand under the list of names that was made at the start, as unfinished
     failure = std::current_exception();

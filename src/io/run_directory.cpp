@@ -85,11 +85,11 @@ std::exception_ptr RunDirectory::commit_files() {
   };
   const auto commit = [this](auto& writer) {
     try {
-      writer.commit(Durability::content);
+      writer.commit(Durability::later);
     } catch (const std::exception&) {
       // The rows since the last flush are lost; those before it are whole and may still be given their name.
       if (!writer.can_commit()) throw;
-      writer.commit(Durability::content);
+      writer.commit(Durability::later);
       list(writer.record());
       throw;
     }
@@ -101,12 +101,10 @@ std::exception_ptr RunDirectory::commit_files() {
     if (motion_lines_) {
       attempt("motion", [&] {
         for (const FileRecord& frame : frame_records_) list(frame);
-        for (const PvdEntry& frame : frames_) sync_file(folder_->staging() / frame.file);
-        sync_directory(folder_->staging() / "motion");
       });
       attempt("motion.pvd", [&] {
         const std::string text = pvd_text(frames_);
-        write_file(folder_->staging() / "motion.pvd", text, Durability::content);
+        write_file(folder_->staging() / "motion.pvd", text, Durability::later);
         list({"motion.pvd", text.size(), digest_of(text)});
       });
     }
@@ -120,7 +118,7 @@ void RunDirectory::end(const results::Summary& summary) {
   std::exception_ptr failure = commit_files();
   if (!failure) {  // else no summary: the directory is not whole
     try {
-      folder_->write("summary.json", summary_text(summary, version_, origin_, records_));
+      folder_->write_index("summary.json", summary_text(summary, version_, origin_, records_));
       files_.emplace_back("summary.json");
     } catch (...) {
       failure = std::current_exception();

@@ -26,6 +26,7 @@ for call in write fsync rename; do
     [ -z "$(find out -name '*.partial' 2> /dev/null)" ] || problem="$problem partial files left"
     if [ -e out/history.csv ] && [ "$(tail -c 1 out/history.csv | od -An -c | tr -d ' ')" != '\n' ]; then problem="$problem cut row"; fi
     if [ -e out/summary.json ] && ! python3 -c 'import json; json.load(open("out/summary.json"))' 2> /dev/null; then problem="$problem bad summary"; fi
+    if [ -e out/summary.json ] && [ ! -e out/history.csv ]; then problem="$problem summary without its history"; fi
     for frame in out/motion/*.vtu; do
       [ -e "$frame" ] && ! cmp -s "$frame" "whole/motion/$(basename "$frame")" && problem="$problem cut $frame"
     done

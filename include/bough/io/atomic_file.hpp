@@ -29,8 +29,12 @@ class AtomicFile {
   /// dropped, so that what is in the file is always a sequence of whole flushes.
   void flush();
 
+  /// Flush, and the disk begins to take what was flushed; nobody waits for it. Of several files that are handed over
+  /// so, the first fsync waits for all, and those after it find little left to do.
+  void start_writing_out();
+
   /// Flush, fsync of the file, rename, fsync of the directory. On failure the final name keeps its former content.
-  /// content: without the fsync of the directory; later: without both. Whoever writes many files calls `sync_file`
+  /// content: without the fsync of the directory; later: the disk begins to take it, and nothing is waited for. Whoever writes many files calls `sync_file`
   /// on each that lacks it and `sync_directory` once when all are written.
   void commit(Durability durability = Durability::now);
 

@@ -46,12 +46,15 @@ class OutputFolder {
   void add(FileRecord record) { files_.push_back(std::move(record)); }
   /// Writes a file there and lists it.
   void write(const std::string& name, std::string_view text);
+  /// The same of a file that tells of all others: where one of them cannot be made durable, it is taken away, too.
+  void write_index(const std::string& name, std::string_view text);
 
-  /// Gives the results their name. Without a summary to trust, say after a full disk, they are marked as failed.
+  /// Makes all that is listed durable, together, and gives the results their name. Without a summary to trust, say after a full disk, they are marked as failed.
   void publish(FolderState state);
 
  private:
   void claim_staging();
+  void make_durable();
   void prepare_staging();
   void settle_former_staging();
   void replace_final(const std::filesystem::path& target);
@@ -64,6 +67,7 @@ class OutputFolder {
   std::string made_by_;
   std::vector<std::string> names_;
   std::vector<FileRecord> files_;
+  std::string index_;  ///< file that tells of all others
   bool is_in_place_ = false;  ///< staging lies within the final folder
   std::string obstacle_;      ///< why the results stand beside
   bool is_whole_ = false;     ///< all that is wanted of it is in the staging folder
