@@ -130,11 +130,12 @@ void AtomicFile::start_writing_out() {
 }
 
 void AtomicFile::commit(Durability durability) {
-  if (durability == Durability::later)
+  if (durability == Durability::soon)
     start_writing_out();
   else
     flush();
-  if (const int error = durability != Durability::later ? sync_descriptor(descriptor_) : 0; error != 0) {
+  const bool is_waited_for = durability == Durability::now || durability == Durability::content;
+  if (const int error = is_waited_for ? sync_descriptor(descriptor_) : 0; error != 0) {
     give_up();  // the system may have dropped what it could not write: a second fsync would say nothing of that
     fail(error);
   }

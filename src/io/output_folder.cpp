@@ -213,7 +213,7 @@ void OutputFolder::prepare_staging() {
 }
 
 void OutputFolder::write(const std::string& name, std::string_view text) {
-  write_file(staging_ / name, text, Durability::later);
+  write_file(staging_ / name, text, Durability::soon);
   add({name, text.size(), digest_of(text)});
 }
 

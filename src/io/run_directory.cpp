@@ -61,7 +61,7 @@ void RunDirectory::motion(const results::MotionFrame& frame) {
   if constexpr (has_vtk) {
     const std::string name = frame_name(frames_.size());
     const std::string text = vtu_text(frame, vtu_options_);
-    write_file(folder_->staging() / name, text, Durability::later);
+    write_file(folder_->staging() / name, text, Durability::soon);
     frames_.push_back({frame.time, name});
     frame_records_.push_back({name, text.size(), digest_of(text)});
   }
@@ -85,11 +85,11 @@ std::exception_ptr RunDirectory::commit_files() {
   };
   const auto commit = [this](auto& writer) {
     try {
-      writer.commit(Durability::later);
+      writer.commit(Durability::soon);
     } catch (const std::exception&) {
       // The rows since the last flush are lost; those before it are whole and may still be given their name.
       if (!writer.can_commit()) throw;
-      writer.commit(Durability::later);
+      writer.commit(Durability::soon);
       list(writer.record());
       throw;
     }
@@ -104,7 +104,7 @@ std::exception_ptr RunDirectory::commit_files() {
       });
       attempt("motion.pvd", [&] {
         const std::string text = pvd_text(frames_);
-        write_file(folder_->staging() / "motion.pvd", text, Durability::later);
+        write_file(folder_->staging() / "motion.pvd", text, Durability::soon);
         list({"motion.pvd", text.size(), digest_of(text)});
       });
     }

@@ -8,8 +8,9 @@
 
 namespace bough::io {
 
-/// What `commit` waits for: now: the content and the name are on disk; content: the content alone; later: neither.
-enum class Durability { now, content, later };
+/// What `commit` waits for: now: the content and the name are on disk; content: the content alone; soon: neither, but
+/// the disk begins to take the content; later: neither.
+enum class Durability { now, content, soon, later };
 
 /// Writes to `<name>.partial` beside the final name; `commit` makes it durable and renames it. A former file of the final name stays
 /// untouched until then. Without `commit` the destructor removes the partial file; after a crash the next writer takes it over.
@@ -34,7 +35,7 @@ class AtomicFile {
   void start_writing_out();
 
   /// Flush, fsync of the file, rename, fsync of the directory. On failure the final name keeps its former content.
-  /// content: without the fsync of the directory; later: the disk begins to take it, and nothing is waited for. Whoever writes many files calls `sync_file`
+  /// content: without the fsync of the directory; soon, later: without both. Whoever writes many files calls `sync_file`
   /// on each that lacks it and `sync_directory` once when all are written.
   void commit(Durability durability = Durability::now);
 

@@ -67,7 +67,7 @@ class OutputFolder {
   std::string made_by_;
   std::vector<std::string> names_;
   std::vector<FileRecord> files_;
-  std::string index_;  ///< file that tells of all others
+  std::string index_;         ///< file that tells of all others
   bool is_in_place_ = false;  ///< staging lies within the final folder
   std::string obstacle_;      ///< why the results stand beside
   bool is_whole_ = false;     ///< all that is wanted of it is in the staging folder
