@@ -51,15 +51,15 @@ struct Integrator {
     return describe_turn(system, static_cast<std::size_t>(far - state.nodes.begin()));
   }
 
-  /// Predictor: dv/dt changes as it did over the last step, or stays where that would have been nearer; a_{n+1} follows. Multipliers stay:
-  /// the first solution finds them, whatever they were. Writes all of `state`, its nodes in one pass over the start.
+  /// Predictor: dv/dt goes on as the polynomial through past ones that would have been nearest last; a_{n+1} follows. So do
+  /// multipliers: the first solution would find them whatever they were, but an old factor the better the nearer they
+  /// are. Writes all of `state`, its nodes in one pass over the start.
   void predict(System& system, State& state, bool in_plane, bool is_end) const {
     state.step_size = start.step_size;
-    state.multipliers = start.multipliers;
+    system.predict_multipliers(start, state);
     state.turns = start.turns;
     state.behind = 0;
     if (in_plane) return system.planar_step()->enter(start, is_end, rule, system.walker());
-    const double trend = start.follows_trend ? 1.0 : 0.0;
     state.nodes.resize(start.nodes.size());
     state.rotation.resize(start.nodes.size());
     state.algorithmic.resize(start.nodes.size());
@@ -69,8 +69,9 @@ struct Integrator {
         const std::size_t some = std::min(nodes_in_lanes, static_cast<std::size_t>(end) - n);
         for (std::size_t i = 0; i < some; ++i) {
           const elements::NodeMotion& from = start.nodes[n + i];
-          eta[i] = rule.predict(from.v, from.a, start.algorithmic[n + i],
-                                Vec6<double>(trend * start.acceleration_trend[n + i]));
+          const Vec6<double> change =
+              predicted_change(start.predictor_order, start.acceleration_trend[n + i], start.trend_change[n + i]);
+          eta[i] = rule.predict(from.v, from.a, start.algorithmic[n + i], change);
           state.nodes[n + i] = from;
           state.nodes[n + i].dq = eta[i];
           state.rotation[n + i] = start.rotation[n + i];
@@ -88,39 +89,53 @@ struct Integrator {
   }
 };
 
-/// What the next predictor goes by. Angular accelerations count by the arm that turns them into linear ones.
-void note_trend(System& system, const State& start, State& state) {
-  const double arm = system.moment_arm();
-  std::vector<Workspace::Trend>& parts = system.work().trends;
+/// What the next step goes by: its predictor, and how far it iterates. Angular accelerations count by the arm that turns
+/// them into linear ones.
+void note_end(System& system, const AlphaRule& rule, const State& start, State& state) {
+  const double arm = system.moment_arm(), per_length = 1.0 / system.plan().length_scale;
+  std::vector<Workspace::StepEnd>& parts = system.work().step_ends;
   const std::size_t count = state.nodes.size();
   state.acceleration_trend.resize(count);
+  state.trend_change.resize(count);
   parts.resize((count + block_grain - 1) / block_grain);
+  const auto square = [arm](const Vec6<double>& a) {
+    return lanes::dot(lanes::linear_part(a), lanes::linear_part(a)) +
+           arm * arm * lanes::dot(lanes::angular_part(a), lanes::angular_part(a));
+  };
+  const auto include = [per_length](double& most, const Vec6<double>& v) {
+    for (int i = 0; i < 6; ++i) most = std::max(most, (i < 3 ? per_length : 1.0) * std::abs(v[i]));
+  };
   auto by_node = [&](std::int64_t begin, std::int64_t end) {
-    Workspace::Trend part;
+    Workspace::StepEnd part;
     for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) {
-      const Vec6<double> now = state.nodes[n].a - start.nodes[n].a;
-      const Vec6<double> turn = now - start.acceleration_trend[n];
-      const auto size = [arm](const Vec6<double>& a) {
-        return lanes::dot(lanes::linear_part(a), lanes::linear_part(a)) +
-               arm * arm * lanes::dot(lanes::angular_part(a), lanes::angular_part(a));
-      };
-      part.from_start += size(now);
-      part.from_trend += size(turn);
+      const elements::NodeMotion& node = state.nodes[n];
+      const Vec6<double> now = node.a - start.nodes[n].a;
+      const Vec6<double> of_trend = now - start.acceleration_trend[n];
+      part.misses[0] += square(now);
+      part.misses[1] += square(of_trend);
+      part.misses[2] += square(of_trend - start.trend_change[n]);
+      include(part.error, rule.local_error(now, motion::cross6_times(node.v, node.a)));
+      include(part.increment, node.dq);
       state.acceleration_trend[n] = now;
+      state.trend_change[n] = of_trend;
     }
     parts[static_cast<std::size_t>(begin / block_grain)] = part;
   };
   system.walker().for_each_chunk(static_cast<std::int64_t>(count), block_grain, tree::make_chunk(by_node));
 }
 
-/// Whether the last step was nearer to its trend, once Workspace::trends tell of all chunks.
-void choose_trend(System& system, State& state) {
-  Workspace::Trend whole;
-  for (const Workspace::Trend& part : system.work().trends) {
-    whole.from_start += part.from_start;
-    whole.from_trend += part.from_trend;
+/// The same over all nodes, once Workspace::step_ends tell of all chunks.
+void note_whole_end(System& system, const State& start, State& state) {
+  Workspace::StepEnd whole;
+  for (const Workspace::StepEnd& part : system.work().step_ends) {
+    for (std::size_t k = 0; k < whole.misses.size(); ++k) whole.misses[k] += part.misses[k];
+    whole.error = std::max(whole.error, part.error);
+    whole.increment = std::max(whole.increment, part.increment);
   }
-  state.follows_trend = whole.from_trend < whole.from_start;
+  state.predictor_order = least_missed(whole.misses);
+  state.local_error = whole.error;
+  state.increment = whole.increment;
+  system.note_multipliers(start, state);
 }
 
 Integrator make_rule(const StepOptions& options, const State& start) {
@@ -151,22 +166,23 @@ StepReport try_step(System& system, State& state, State& start, const StepOption
   const bool stays = plane != nullptr && plane->joints_with_angles().empty();  // these are looked at in space
   if (const auto t = enter(system, state, step, end_time, plane != nullptr, stays && handover.is_untouched))
     return fail(*t);
-  report = iterate(system, state, options, step.rule.slopes(), [&](State& s) { return step.follow(system, s); });
+  report = iterate(system, state, options, make_goal(start), step.rule.slopes(),
+                   [&](State& s) { return step.follow(system, s); });
   if (!report.converged) return fail({report.cause});
   const bool is_read = handover.is_read || !stays;
   if (plane == nullptr) {
     if (const auto t = check_shape(system, state)) return fail(*t);
-    note_trend(system, start, state);
+    note_end(system, step.rule, start, state);
   } else {
     if (const auto t = check_folds_in_plane(system)) return fail(*t);
-    plane->finish(system.moment_arm(), system.work().trends, system.walker());
+    plane->finish(system.moment_arm(), system.work().step_ends, system.walker());
     if (is_read)
       plane->write(state, system.walker());
     else
       plane->keep(start, state);
     if (const auto t = check_flips_in_plane(system, state)) return fail(*t);
   }
-  choose_trend(system, state);
+  note_whole_end(system, start, state);
   if (is_read) system.recover_multipliers(state);
   return report;
 }

@@ -30,6 +30,13 @@ struct AlphaRule {
             share * V((1.0 - c.alpha_m) * next + c.alpha_m * algorithmic - c.alpha_f * a), next};
   }
 
+  /// What the step leaves without the filter of stiff parts, e_q of step_control.hpp, where dv/dt changed by `change`;
+  /// bracket: ad(v) dv/dt.
+  template <class V>
+  V local_error(const V& change, const V& bracket) const {
+    return (h * h * (c.beta + 0.5 * c.shift() - 1.0 / 6.0)) * change - (h * h * h / 12.0) * bracket;
+  }
+
   /// dq where dv/dt changes by `change`.
   template <class V>
   V predict(const V& v, const V& a, const V& algorithmic, const V& change) const {
@@ -37,5 +44,12 @@ struct AlphaRule {
     return h * v + (h * h) * V((0.5 - c.beta) * algorithmic + c.beta * next);
   }
 };
+
+/// How a quantity changes over a step where it goes on as the polynomial of an order, 0, 1 or 2, through its values at
+/// the ends of past steps of the same size. change: over the last step; of_change: of that, from the step before.
+template <class V>
+V predicted_change(int order, const V& change, const V& of_change) {
+  return order == 2 ? V(change + of_change) : order == 1 ? change : V::zero();
+}
 
 }  // namespace bough::step

@@ -166,7 +166,7 @@ StepReport Bdf::take_step(State& state, const StepOptions& options, double end_t
   predict(state);
   if (const auto t = follow(state)) return failed(report, t->text);
   const elements::Slopes slopes{c_.c0 / h_, (c_.c0 / h_) * (c_.c0 / h_), false};
-  report = iterate(system_, state, options, slopes, [&](State& s) { return follow(s); });
+  report = iterate(system_, state, options, {}, slopes, [&](State& s) { return follow(s); });
   if (!report.converged) return report;
   if (const auto t = check_shape(system_, state)) return failed(report, t->text);
   for (std::size_t n = 0; n < state.nodes.size(); ++n) state.nodes[n].dq = c_.c0 * state.nodes[n].dq;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <limits>
 
 #include "bough/step/step_control.hpp"
 #include "planar_step.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include "planar_step.hpp"
 #include "system_parts.hpp"
@@ -34,16 +35,31 @@ bool is_small(const System& system, const ResidualSize& r, double tolerance) {
   return largest_share(system, r) <= tolerance;
 }
 
-bool is_settled(const System& system, const ResidualSize& r, double tolerance, double share) {
-  const double arm = system.moment_arm();
+IterationGoal make_goal(const State& start) {
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  constexpr double share_of_error = 3e-5, least_residual = 1e-13, roundings_of_increment = 4.0;
+  if (!(start.local_error > eps)) return {};
+  return {std::max(share_of_error * start.local_error, least_residual), roundings_of_increment * eps * start.increment};
+}
+
+bool is_settled(const System& system, const ResidualSize& r, double tolerance, const IterationGoal& goal, double error,
+                double share) {
+  const double arm = system.moment_arm(), usual = left_open * tolerance;
   const ResidualSize& noise = system.noise();
-  const auto within = [tolerance, share](double part, double whole, double rounding) {
-    return share * part <=
-           std::max(left_open * tolerance * whole, std::min(tolerance * whole, noise_spread * rounding));
+  const auto within = [&](double part, double whole, double rounding, double left) {
+    return share * part <= std::max(left * whole, std::min(tolerance * whole, noise_spread * rounding));
   };
-  return within(r.force, std::max(r.force_scale, r.moment_scale / arm), noise.force) &&
-         within(r.moment, std::max(r.moment_scale, r.force_scale * arm), noise.moment) &&
-         within(r.length, system.plan().length_scale, 0.0) && within(r.angle, 1.0, 0.0);
+  const double force = std::max(r.force_scale, r.moment_scale / arm),
+               moment = std::max(r.moment_scale, r.force_scale * arm);
+  const auto forces_within = [&](double left) {
+    return within(r.force, force, noise.force, left) && within(r.moment, moment, noise.moment, left);
+  };
+  if (!within(r.length, system.plan().length_scale, 0.0, usual) || !within(r.angle, 1.0, 0.0, usual)) return false;
+  if (!forces_within(usual)) return false;
+  if (goal.residual >= usual || error <= goal.round_off || forces_within(goal.residual)) return true;
+  const ResidualSize& floor = system.round_off_of_poses();
+  return share * r.force <= std::max(floor.force, goal.residual * force) &&
+         share * r.moment <= std::max(floor.moment, goal.residual * moment);
 }
 
 bool is_noise(const System& system, const ResidualSize& r, double tolerance, double size, double expected) {

@@ -20,10 +20,20 @@ constexpr double shrinks = 0.3;
 /// What was not measured is taken to be this much larger than the last ratio of changes or residuals lets expect.
 constexpr double unseen_growth = 1.2;
 
+/// What the local error of the last step asks of an iteration beside the tolerance; as made: nothing.
+struct IterationGoal {
+  double residual = 1.0;   ///< that may be left, relative to what makes it [-]
+  double round_off = 0.0;  ///< changes of relative motions that rounding of a step's increments makes [-]
+};
+
+/// Iterations may leave 3e-5 of the local error, as a residual relative to what makes it, down to 1e-13. Nothing is asked
+/// where the error is round-off itself, as where drives prescribe all motion, nor after a start.
+IterationGoal make_goal(const State& start);
+
 /// Repeats: evaluate, stop when converged, factor, solve, apply. `follow` brings velocities and accelerations along with the positions.
 template <class Follow>
-StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes,
-                   Follow&& follow);
+StepReport iterate(System& system, State& state, const StepOptions& options, const IterationGoal& goal,
+                   const elements::Slopes& slopes, Follow&& follow);
 
 /// The largest of forces, moments, lengths and angles of a residual, each relative to what makes it.
 double largest_share(const System& system, const ResidualSize& r);
@@ -31,8 +41,12 @@ double largest_share(const System& system, const ResidualSize& r);
 /// Whether that is within the tolerance.
 bool is_small(const System& system, const ResidualSize& r, double tolerance);
 
-/// Whether `share` of a residual may be left: within left_open of the tolerance, or, below the tolerance, within the round-off that iterations met.
-bool is_settled(const System& system, const ResidualSize& r, double tolerance, double share = 1.0);
+/// Whether `share` of a residual may be left where the motion still lacks `error`, relative: within left_open of the
+/// tolerance, or, below the tolerance, within the round-off that iterations met. Where the goal asks for less, it is
+/// met, or what is left is round-off of poses, or of reactions alone, which move nothing any more and do not add up
+/// over steps.
+bool is_settled(const System& system, const ResidualSize& r, double tolerance, const IterationGoal& goal, double error,
+                double share = 1.0);
 
 /// Whether a residual, `size` of what makes it, is much larger than `expected` of it and yet, below the tolerance, as small as round-off can make it.
 bool is_noise(const System& system, const ResidualSize& r, double tolerance, double size, double expected);

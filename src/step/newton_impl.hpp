@@ -6,8 +6,8 @@
 namespace bough::step {
 
 template <class Follow>
-StepReport iterate(System& system, State& state, const StepOptions& options, const elements::Slopes& slopes,
-                   Follow&& follow) {
+StepReport iterate(System& system, State& state, const StepOptions& options, const IterationGoal& goal,
+                   const elements::Slopes& slopes, Follow&& follow) {
   StepReport report;
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
   const auto fail = [&report](const Trouble& t) {
@@ -16,7 +16,9 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
   };
   const bool may_reuse = !options.single_solution && options.reuse_factors;
   const double tolerance = options.tolerance;
-  const double negligible = std::max(left_open * tolerance, least_change);
+  // Increments are rounded less than places: tolerances far below the usual one ask for their digits.
+  const double least = goal.round_off > 0.0 ? std::min(goal.round_off, least_change) : least_change;
+  const double negligible = std::max(left_open * tolerance, least);
   bool fresh = !may_reuse || !system.has_factor(slopes) || system.is_factor_worn();  // the next solution gets a new one
   bool is_own = false;                // whether the factor was made in this step
   int served = 0;                     // solutions in this step with the present factor
@@ -41,13 +43,14 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
         return report;
       }
       shrunk = size < before ? size / before : 1.0;
-      const bool still = (k > 1 && rate <= shrinks ? unseen_growth * rate : 1.0) * report.change <= negligible;
-      if (still && is_settled(system, report.residual, tolerance)) return converge();
+      const double error = (k > 1 && rate <= shrinks ? unseen_growth * rate : 1.0) * report.change;
+      const bool still = error <= negligible;
+      if (still && is_settled(system, report.residual, tolerance, goal, error)) return converge();
       const bool lies_still = shrunk > shrinks && report.change <= least_change;
       if (k > 1 && report.change < tolerance &&
           is_noise(system, report.residual, tolerance, size, lies_still ? 0.0 : expected)) {
         system.note_noise(report.residual);
-        if (still && is_settled(system, report.residual, tolerance)) return converge();
+        if (still && is_settled(system, report.residual, tolerance, goal, error)) return converge();
       }
       const bool stalled = k > 1 && rate > shrinks && is_own;  // with an old factor: it contracts badly here
       if (report.change < tolerance && stalled && size <= tolerance) return converge();
@@ -68,9 +71,11 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
         return report;
       }
       // A new factor costs some renewal_cost solutions, and serves for one at least: it pays where as many with this one would not do.
-      const double left = std::pow(std::min(rate, 1.0), system.renewal_cost() + 1.0);
-      const bool is_slow = k > 1 && (rate > shrinks || left * report.change > negligible ||
-                                     !is_settled(system, report.residual, tolerance, left));
+      const double solutions = system.renewal_cost() + 1.0;
+      const double left = std::pow(std::min(rate, 1.0), solutions) * report.change;
+      const bool is_slow =
+          k > 1 && ((rate > shrinks && shrunk > shrinks) || left > negligible ||
+                    !is_settled(system, report.residual, tolerance, goal, left, std::pow(shrunk, solutions)));
       if (k > 1 && is_own && rate > slowest_contraction && system.takes_symmetric_parts())
         system.drop_symmetry();  // not the factor's age
       fresh = !may_reuse || is_slow || !system.has_factor(slopes);
@@ -98,8 +103,9 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     // contradict each other stay open while changes vanish.
     const double share = unseen_growth * std::max({rate, shrunk, is_own ? 0.0 : system.last_contraction()});
     expected = share * size;
-    if (rate <= shrinks && share * report.change <= negligible && is_closed(system, report.residual, tolerance) &&
-        is_settled(system, report.residual, tolerance, share))
+    const double error = share * report.change;
+    if (rate <= shrinks && error <= negligible && is_closed(system, report.residual, tolerance) &&
+        is_settled(system, report.residual, tolerance, goal, error, share))
       return converge();
   }
 }

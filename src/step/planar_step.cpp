@@ -178,7 +178,8 @@ void PlanarStep::enter(const State& start, bool is_end, const AlphaRule& rule, c
     for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
       if (reads) read_nodes(start, g);
       const StartLanes& s = starts_[g];
-      const Vec3<Pack> eta = rule_.predict(s.v, s.a, s.algorithmic, start.follows_trend ? s.trend : Vec3<Pack>::zero());
+      const Vec3<Pack> change = predicted_change(start.predictor_order, s.trend, s.trend_change);
+      const Vec3<Pack> eta = rule_.predict(s.v, s.a, s.algorithmic, change);
       MoverLanes& mover = movers_[g];
       mover = {s.turn, s.x, eta};
       mover.move(eta);
@@ -271,14 +272,14 @@ std::int64_t PlanarStep::first_folded(const tree::Walker& walker) const {
   return first_bad.get();
 }
 
-void PlanarStep::finish(double arm, std::vector<Workspace::Trend>& trends, const tree::Walker& walker) {
+void PlanarStep::finish(double arm, std::vector<Workspace::StepEnd>& ends, const tree::Walker& walker) {
   is_under_way_ = false;
   ++number_;
-  trends.resize(turn_max_.size());
+  ends.resize(turn_max_.size());
   auto by_group = [&](std::int64_t begin, std::int64_t end) {
-    Workspace::Trend trend;
-    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) finish_nodes(arm, g, trend);
-    trends[static_cast<std::size_t>(begin / group_grain)] = trend;
+    Workspace::StepEnd part;
+    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) finish_nodes(arm, g, part);
+    ends[static_cast<std::size_t>(begin / group_grain)] = part;
   };
   walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
 }
@@ -300,20 +301,24 @@ std::array<double, 2> PlanarStep::largest_error(double per_change, const tree::W
   return most;
 }
 
-void PlanarStep::finish_nodes(double arm, std::size_t group, Workspace::Trend& trend) {
+void PlanarStep::finish_nodes(double arm, std::size_t group, Workspace::StepEnd& end) {
   StartLanes& s = starts_[group];
   const MoverLanes& node = movers_[group];
   const AlphaRule::Rates<Vec3<Pack>> rates = rule_.follow(node.dq, s.v, s.a, s.algorithmic);
-  const Vec3<Pack> change = rates.a - s.a, bend = change - s.trend;
+  const Vec3<Pack> change = rates.a - s.a, of_trend = change - s.trend;
   const auto size = [arm](const Vec3<Pack>& a) {
     return Pack(lanes::dot(plane_part(a), plane_part(a)) + arm * arm * a[2] * a[2]);
   };
-  const Pack from_start = size(change), from_trend = size(bend);
-  for (std::size_t l = 0; l < count_of(group); ++l) {
-    trend.from_start += from_start[static_cast<int>(l)];
-    trend.from_trend += from_trend[static_cast<int>(l)];
-  }
-  s = {node.turn, node.x, rates.v, rates.a, change, rates.algorithmic, node.dq};
+  const Pack miss[] = {size(change), size(of_trend), size(of_trend - s.trend_change)};
+  for (std::size_t k = 0; k < end.misses.size(); ++k)
+    for (std::size_t l = 0; l < count_of(group); ++l) end.misses[k] += miss[k][static_cast<int>(l)];
+  const Pack per_length(1.0 / plan_.length_scale);
+  const auto largest = [&per_length](const Vec3<Pack>& v) {
+    return largest_of(larger(per_length * larger(lanes::abs(v[0]), lanes::abs(v[1])), lanes::abs(v[2])));
+  };
+  end.error = std::max(end.error, largest(rule_.local_error(change, motion::plane_bracket(rates.v, rates.a))));
+  end.increment = std::max(end.increment, largest(node.dq));
+  s = {node.turn, node.x, rates.v, rates.a, change, of_trend, rates.algorithmic, node.dq};
 }
 
 }  // namespace bough::step

@@ -40,12 +40,12 @@ class PlanarStep {
   std::int64_t first_folded(const tree::Walker& walker) const;
   /// Joints that can flip in the plane, as elements. All others have no rows of angles there, or hold nodes at rest.
   const std::vector<int>& joints_with_angles() const { return joints_with_angles_; }
-  /// Ends the step, which the next one may start from; trends: by chunk of nodes, angular accelerations counted by `arm` [m].
-  void finish(double arm, std::vector<Workspace::Trend>& trends, const tree::Walker& walker);
+  /// Ends the step, which the next one may start from; ends: by chunk of nodes, angular accelerations counted by `arm` [m].
+  void finish(double arm, std::vector<Workspace::StepEnd>& ends, const tree::Walker& walker);
   /// Leaves the nodes of `state`, which is the end of the last step from `start`, behind: those of `start` become its own.
   void keep(State& start, State& state) const;
-  /// Writes the nodes of `state`, which is the end of the last step, its algorithmic and its acceleration_trend. Whether others were written before
-  /// changes nothing.
+  /// Writes the nodes of `state`, which is the end of the last step, its algorithmic, acceleration_trend and trend_change.
+  /// Whether others were written before changes nothing.
   void write(State& state, const tree::Walker& walker);
   /// The same for the nodes of `watch` and their neighbours in lanes alone: `state`, whose nodes are behind, stays so but for these.
   void watch(const std::vector<int>& nodes);
@@ -69,7 +69,7 @@ class PlanarStep {
   struct StartLanes {
     motion::Vec2<Pack> turn;
     elements::planar::PairOf<Pack> x;
-    motion::Vec3<Pack> v, a, trend, algorithmic, dq;
+    motion::Vec3<Pack> v, a, trend, trend_change, algorithmic, dq;
   };
   /// Where nodes stand, and how far they moved in the step.
   struct MoverLanes {
@@ -84,7 +84,7 @@ class PlanarStep {
   bool moves(int node) const { return node != elements::ground && unknowns_[static_cast<std::size_t>(node)] >= 0; }
   void read_nodes(const State& start, std::size_t group);
   void show_nodes(std::size_t group, Pack& turned);
-  void finish_nodes(double arm, std::size_t group, Workspace::Trend& trend);
+  void finish_nodes(double arm, std::size_t group, Workspace::StepEnd& end);
   void write_nodes(State& state, std::size_t group) const;
   double largest_change(const double* x, std::int64_t begin, std::int64_t end) const;
 

@@ -59,11 +59,12 @@ void PlanarStep::read_nodes(const State& start, std::size_t group) {
   const std::size_t from = group * nodes_in_lanes, count = count_of(group);
   SpaceLanes node;
   Pack q[4];
-  Vec6<Pack> algorithmic, trend;
+  Vec6<Pack> algorithmic, trend, trend_change;
   gather<numbers_before_increment>(start.nodes.data(), from, count, node.R.m);
   gather<4>(start.rotation.data(), from, count, q);
   gather<6>(start.algorithmic.data(), from, count, algorithmic.v);
   gather<6>(start.acceleration_trend.data(), from, count, trend.v);
+  gather<6>(start.trend_change.data(), from, count, trend_change.v);
   const Mat3<Pack>& B = bases_[group];
   // As PlanarSystem::set_nodes.
   StartLanes& s = starts_[group];
@@ -83,6 +84,7 @@ void PlanarStep::read_nodes(const State& start, std::size_t group) {
   s.a = in_plane(B, node.a);
   s.algorithmic = in_plane(B, algorithmic);
   s.trend = in_plane(B, trend);
+  s.trend_change = in_plane(B, trend_change);
   read_[group] = {node.x, {q[0], {{q[1], q[2], q[3]}}}, s.turn, s.x};
 }
 
@@ -91,6 +93,7 @@ void PlanarStep::keep(State& start, State& state) const {
   std::swap(state.rotation, start.rotation);
   std::swap(state.algorithmic, start.algorithmic);
   std::swap(state.acceleration_trend, start.acceleration_trend);
+  std::swap(state.trend_change, start.trend_change);
   state.behind = number_;
 }
 
@@ -100,6 +103,7 @@ void PlanarStep::write(State& state, const tree::Walker& walker) {
   state.rotation.resize(count);
   state.algorithmic.resize(count);
   state.acceleration_trend.resize(count);
+  state.trend_change.resize(count);
   auto by_group = [&](std::int64_t begin, std::int64_t end) {
     for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) write_nodes(state, g);
   };
@@ -154,6 +158,7 @@ void PlanarStep::write_nodes(State& state, std::size_t group) const {
   scatter<4>(q, state.rotation.data(), first, count);
   scatter<6>(in_space(B, s.algorithmic).v, state.algorithmic.data(), first, count);
   scatter<6>(in_space(B, s.trend).v, state.acceleration_trend.data(), first, count);
+  scatter<6>(in_space(B, s.trend_change).v, state.trend_change.data(), first, count);
 }
 
 }  // namespace bough::step

@@ -210,7 +210,12 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   state.step_size = h;
   state.acceleration_trend.resize(jerk.size());
   for (std::size_t n = 0; n < jerk.size(); ++n) state.acceleration_trend[n] = h * jerk[n];
-  state.follows_trend = true;
+  state.trend_change.assign(jerk.size(), Vec6<double>::zero());
+  state.predictor_order = 1;
+  state.local_error = state.increment = 0.0;
+  state.multiplier_trend.assign(state.multipliers.size(), 0.0);
+  state.multiplier_trend_change.assign(state.multipliers.size(), 0.0);
+  state.multiplier_order = 0;
   StartReport report;
   report.ok = true;
   if (system.plan().num_multipliers == 0) return report;

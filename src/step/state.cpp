@@ -13,8 +13,9 @@ State make_initial_state(const plan::Plan& plan) {
   s.nodes.resize(n);
   s.rotation.resize(n);
   s.algorithmic.assign(n, motion::Vec6<double>::zero());
-  s.acceleration_trend = s.algorithmic;
+  s.acceleration_trend = s.trend_change = s.algorithmic;
   s.multipliers.assign(static_cast<std::size_t>(plan.num_multipliers), 0.0);
+  s.multiplier_trend = s.multiplier_trend_change = s.multipliers;
   for (std::size_t i = 0; i < n; ++i) {
     elements::NodeMotion& node = s.nodes[i];
     s.rotation[i] = motion::normalise(motion::quaternion_of(plan.nodes[i].pose.R));

@@ -190,6 +190,7 @@ void System::begin_matrices() {
   solver_->trust_symmetry(false);
   is_of_matrices_ = false;
   round_off_floor_.reset();
+  round_off_of_poses_.reset();
 }
 
 void System::set_matrix(int element, int num_unknowns, const double* entries) {

@@ -86,6 +86,31 @@ void System::add_multipliers(State& state, const double* x, double factor) const
   for (const MultiplierPlace& at : multiplier_places_) state.multipliers[at.multiplier] += factor * x[at.unknown];
 }
 
+void System::predict_multipliers(const State& start, State& state) const {
+  state.multipliers = start.multipliers;
+  if (start.multiplier_order == 0) return;
+  const double of_change = start.multiplier_order == 2 ? 1.0 : 0.0;
+  for (const MultiplierPlace& at : multiplier_places_)
+    state.multipliers[at.multiplier] +=
+        start.multiplier_trend[at.multiplier] + of_change * start.multiplier_trend_change[at.multiplier];
+}
+
+void System::note_multipliers(const State& start, State& state) const {
+  Workspace::Misses misses{};
+  state.multiplier_trend.resize(state.multipliers.size());
+  state.multiplier_trend_change.resize(state.multipliers.size());
+  for (const MultiplierPlace& at : multiplier_places_) {
+    const std::size_t m = at.multiplier;
+    const double now = state.multipliers[m] - start.multipliers[m], of_trend = now - start.multiplier_trend[m];
+    const double weight = is_length_[at.unknown] != 0 ? 1.0 : 1.0 / moment_arm_;  // moments count as forces at the arm
+    const double missed[] = {now, of_trend, of_trend - start.multiplier_trend_change[m]};
+    for (std::size_t k = 0; k < misses.size(); ++k) misses[k] += (weight * missed[k]) * (weight * missed[k]);
+    state.multiplier_trend[m] = now;
+    state.multiplier_trend_change[m] = of_trend;
+  }
+  state.multiplier_order = least_missed(misses);
+}
+
 double System::apply(State& state, const double* x) {
   PhaseTimer timer{clock_, counts_.update};
   if (planar_step_ && planar_step_->is_under_way()) {

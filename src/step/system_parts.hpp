@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 /// Shared by the files of System.
 #include <atomic>
 #include <cstdint>
@@ -74,6 +75,11 @@ void for_each_multiplier(const System& system, F&& f) {
       f(static_cast<int>(j), multiplier + row, unknown + i, row);
     }
   }
+}
+
+/// The order that missed least, of equal ones the lowest.
+inline int least_missed(const Workspace::Misses& misses) {
+  return static_cast<int>(std::min_element(misses.begin(), misses.end()) - misses.begin());
 }
 
 }  // namespace bough::step

@@ -229,13 +229,30 @@ void System::name_worst(ResidualSize& size) const {
 }
 
 const ResidualSize& System::round_off_floor() const {
-  if (round_off_floor_) return *round_off_floor_;
+  if (!round_off_floor_) round_off_floor_ = sum_round_off([](int) { return true; });
+  return *round_off_floor_;
+}
+
+const ResidualSize& System::round_off_of_poses() const {
+  const auto is_between = [this](int element) {
+    bool is = false;
+    plan::with_element(plan_.elements, plan_.directory[static_cast<std::size_t>(element)],
+                       [&is](const auto& e) { is = std::decay_t<decltype(e)>::num_ports > 1; });
+    return is;
+  };
+  if (!round_off_of_poses_) round_off_of_poses_ = sum_round_off(is_between);
+  return *round_off_of_poses_;
+}
+
+template <class Counts>
+ResidualSize System::sum_round_off(Counts&& counts) const {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   std::vector<double>& floor = floor_;
   std::vector<std::int64_t>& unknowns = floor_unknowns_;
   floor.assign(num_unknowns(), 0.0);
   const auto count = static_cast<std::size_t>(plan_.unknowns.count);
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
+    if (!counts(static_cast<int>(e))) continue;
     const solve::ConstElementView K = matrix_of(static_cast<int>(e), unknowns);
     const int j = joint_of_element_[e];
     const std::size_t n = unknowns.size(), rows = j < 0 || plan_.joints[static_cast<std::size_t>(j)].block < 0
@@ -261,7 +278,7 @@ const ResidualSize& System::round_off_floor() const {
   }
   s.length = 8.0 * eps * plan_.length_scale;
   s.angle = 8.0 * eps;
-  return round_off_floor_.emplace(s);
+  return s;
 }
 
 }  // namespace bough::step

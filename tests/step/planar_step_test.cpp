@@ -146,7 +146,7 @@ void expect_same_state(const State& a, const State& b) {
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
   EXPECT_EQ(a.behind, 0);
   EXPECT_EQ(a.time, b.time);
-  EXPECT_EQ(a.follows_trend, b.follows_trend);
+  EXPECT_EQ(a.predictor_order, b.predictor_order);
   for (std::size_t n = 0; n < a.nodes.size(); ++n) {
     for (int i = 0; i < 9; ++i) EXPECT_EQ(a.nodes[n].R.m[i], b.nodes[n].R.m[i]);
     for (int i = 0; i < 3; ++i) {

@@ -79,8 +79,10 @@ inline void expect_equal(const Rig& a, const Rig& b, double tolerance) {
       speed = std::max(speed, std::abs(n.v[i]));
       size = std::max(size, std::abs(n.a[i]));
     }
-  const double h = b.state.step_size;                                               // 0 before the first step
-  const double rounding = h > 0.0 ? 2.2e-16 * b.plan.length_scale / (h * h) : 0.0;  // of places, in accelerations
+  const double h = b.state.step_size;  // 0 before the first step
+  // Places are rounded, and accelerations hold their increments dq / (beta h^2).
+  const double beta = step::make_alpha_coefficients(b.scene.analysis.spectral_radius).beta;
+  const double rounding = h > 0.0 ? 2.2e-16 * b.plan.length_scale / (beta * h * h) : 0.0;
   for (std::size_t n = 0; n < a.state.nodes.size(); ++n)
     for (int i = 0; i < 6; ++i) {
       if (i < 3) {

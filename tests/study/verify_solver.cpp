@@ -87,7 +87,7 @@ std::vector<double> maxima(const Outcome& a) {
 /// Runs to be compared iterate to round-off: what Newton leaves at a tolerance of 1e-8 is not the solver's.
 scene::Scene sharp_gallery(const std::string& name) {
   scene::Scene s = short_gallery(name);
-  s.analysis.tolerance = 1e-11;
+  s.analysis.tolerance = 1e-13;
   return s;
 }
 

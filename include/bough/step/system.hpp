@@ -1,6 +1,7 @@
 #pragma once
 /// A plan with its tree, its linear solver and the buffers to evaluate it: residuals, tangents, linear solutions. Allocates when made,
 /// not afterwards.
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,11 +46,14 @@ struct Workspace {
   std::vector<double> rhs, x;  ///< of the linear system
   State start;                 ///< of a step
   State before;                ///< statics: where an iteration started
-  /// Squares of how far accelerations are from those before, and from what their trend had them be.
-  struct Trend {
-    double from_start = 0.0, from_trend = 0.0;
+  /// Squares of how far quantities are from where polynomials of order 0, 1 and 2 through past ones had them be.
+  using Misses = std::array<double, 3>;
+  /// What the end of a step tells about a chunk of nodes.
+  struct StepEnd {
+    Misses misses{};                      ///< of accelerations
+    double error = 0.0, increment = 0.0;  ///< as State::local_error and State::increment
   };
-  std::vector<Trend> trends;  ///< by chunk of nodes
+  std::vector<StepEnd> step_ends;  ///< by chunk of nodes
 };
 
 /// What a plan and the options of a scene ask of the linear solver.
@@ -108,6 +112,9 @@ class System {
   void name_worst(ResidualSize& size) const;
   /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment, K the element matrices now present.
   const ResidualSize& round_off_floor() const;
+  /// The same of elements between two ports alone, which answer to differences of rounded poses. Inertia of a body
+  /// answers to the increment of a step, which is rounded much less.
+  const ResidualSize& round_off_of_poses() const;
   /// Residual that iterations of this run could not make smaller although they contracted: zero until one met it, and again after 64 iterations.
   const ResidualSize& noise() const { return noise_; }
   void note_noise(const ResidualSize& r) { noise_ = r; }
@@ -121,6 +128,10 @@ class System {
   /// Whether the present factor was made with these slopes (of some earlier state).
   bool has_factor(const elements::Slopes& slopes) const;
   /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
+  /// Multipliers of the next step of generalized-alpha, by the polynomial of State::multiplier_order.
+  void predict_multipliers(const State& start, State& state) const;
+  /// What the next prediction goes by, from the step between the two states.
+  void note_multipliers(const State& start, State& state) const;
   double last_contraction() const { return contraction_; }
   void set_last_contraction(double contraction) { contraction_ = contraction; }
   /// Solutions that a tangent and its factor cost, by estimate_step_cost.
@@ -222,6 +233,9 @@ class System {
   const PlanarStep* planar_step() const { return planar_step_.get(); }
 
  private:
+  /// sum |K| eps |coordinates| over the elements that count.
+  template <class Counts>
+  ResidualSize sum_round_off(Counts&& counts) const;
   struct ChunkSize {
     ResidualSize size;
     bool is_finite;
@@ -294,10 +308,11 @@ class System {
   std::int64_t num_node_sums_ = 0, num_row_sums_ = 0;
   std::vector<std::int64_t> uses_;  ///< places in parts_ that add up, fixed order
   std::vector<double> residual_;
-  mutable std::optional<ResidualSize> round_off_floor_;  ///< of the element matrices now present, once asked for
-  mutable std::vector<double> floor_;                    ///< scratch of round_off_floor
-  mutable std::vector<std::int64_t> floor_unknowns_;     ///< scratch of round_off_floor
-  std::vector<ChunkSize> chunk_sizes_;                   ///< of residual_, by chunk of sums
+  mutable std::optional<ResidualSize> round_off_floor_;     ///< of the element matrices now present, once asked for
+  mutable std::optional<ResidualSize> round_off_of_poses_;  ///< likewise
+  mutable std::vector<double> floor_;                       ///< scratch of round_off_floor
+  mutable std::vector<std::int64_t> floor_unknowns_;        ///< scratch of round_off_floor
+  std::vector<ChunkSize> chunk_sizes_;                      ///< of residual_, by chunk of sums
   std::vector<char> is_length_;  ///< by unknown: whether it is the multiplier of a length, in blocks of joints
   struct MultiplierPlace {
     std::size_t multiplier, unknown;
