@@ -127,11 +127,11 @@ class System {
   [[nodiscard]] std::optional<Trouble> factor(bool rescale, const elements::Slopes& slopes);
   /// Whether the present factor was made with these slopes (of some earlier state).
   bool has_factor(const elements::Slopes& slopes) const;
-  /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
   /// Multipliers of the next step of generalized-alpha, by the polynomial of State::multiplier_order.
   void predict_multipliers(const State& start, State& state) const;
   /// What the next prediction goes by, from the step between the two states.
   void note_multipliers(const State& start, State& state) const;
+  /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
   double last_contraction() const { return contraction_; }
   void set_last_contraction(double contraction) { contraction_ = contraction; }
   /// Solutions that a tangent and its factor cost, by estimate_step_cost.
