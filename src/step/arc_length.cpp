@@ -237,10 +237,8 @@ StepReport ArcLengthPath::follow(State& state, double length) {
       const bool still = report.change < options_.tolerance &&
                          change_of_load < options_.tolerance * std::max(1.0, std::abs(state.time));
       report.converged = still && is_small(system_, report.residual, options_.tolerance);
-      // As in equilibrate(): more iterations than the tolerance asks for would make the next steps shorter.
-      const bool stalled = k > 1 && report.change > shrinks * previous;
-      const bool is_last = k > 1 && report.change * report.change <= left_open * options_.tolerance * previous;
-      if (still && !report.converged && (stalled || is_last || report.change == 0.0))
+      // More iterations than the tolerance asks for would make the next steps shorter.
+      if (still && !report.converged && may_be_round_off(k, report.change, previous, options_.tolerance))
         report.converged = report.at_floor = is_at_floor(system_, report.residual, options_.tolerance);
       if (report.converged) break;
       if (k >= options_.max_iterations)

@@ -9,6 +9,9 @@ namespace bough::step {
 namespace {
 
 constexpr double taken_whole = 1e-2;  ///< smaller changes are not tested: there Newton's own convergence has set in
+/// The second order of smaller changes is below the rounding of strains: nodes take them as they are, without the roundings
+/// of the way along the tree.
+constexpr double taken_by_node = 1e-8;
 constexpr double loose =
     0.8;  ///< part of the first power that may be left: the search only keeps Newton from overshooting
 constexpr int max_trials = 6;
@@ -18,6 +21,10 @@ constexpr double divergence = 1e3;  ///< change of relative motions that no shap
 /// Matthies, Strang 1979):  g(s) = residual(q(s)) . dq/ds,  not  g(s) / g(0) < -loose;  by regula falsi between 0 and 1.
 void apply_damped(System& system, State& state, double size) {
   const std::vector<double>& x = system.work().x;
+  if (size <= taken_by_node) {
+    system.apply(state, x.data());
+    return;
+  }
   if (size <= taken_whole) return system.apply_along_tree(state, x.data(), 1.0);
   State& before = system.work().before;
   before = state;
@@ -54,11 +61,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
     if (k > 0) {
       const bool still = report.change < options.tolerance;
       report.converged = still && (is_small(system, report.residual, options.tolerance) || options.single_solution);
-      // A residual above the tolerance may be what rounded places leave. It is, where changes no longer shrink, or shrink so
-      // fast that the next would be negligible.
-      const bool stalled = k > 1 && report.change > shrinks * previous;
-      const bool is_last = k > 1 && report.change * report.change <= left_open * options.tolerance * previous;
-      if (still && !report.converged && (stalled || is_last || report.change == 0.0))
+      if (still && !report.converged && may_be_round_off(k, report.change, previous, options.tolerance))
         report.converged = report.at_floor = is_at_floor(system, report.residual, options.tolerance);
       if (report.converged) break;
       if (k >= options.max_iterations)

@@ -54,6 +54,13 @@ bool is_noise(const System& system, const ResidualSize& r, double tolerance, dou
 /// Whether the gaps of joints are within the tolerance.
 bool is_closed(const System& system, const ResidualSize& r, double tolerance);
 
+/// Whether iteration k of statics leaves a residual above the tolerance that may be what rounded places leave: changes, the
+/// last one and that before, no longer shrink, or shrink so fast that the next would be negligible.
+inline bool may_be_round_off(int k, double change, double previous, double tolerance) {
+  if (change == 0.0) return true;
+  return k > 1 && (change > shrinks * previous || change * change <= left_open * tolerance * previous);
+}
+
 /// Whether what is left of a residual above the tolerance may be round-off.
 bool is_at_floor(const System& system, const ResidualSize& r, double tolerance);
 
