@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "bough/step/step_control.hpp"
-#include "planar_step.hpp"
 
 namespace bough::step {
 
@@ -141,21 +140,6 @@ Vec6<double> LocalError::unfiltered_of(const State& after, std::size_t node) con
   const elements::NodeMotion& to = after.nodes[node];
   return (constants_.position / after.step_size) * after.acceleration_trend[node] -
          (1.0 / 12.0) * motion::cross6_times(to.v, to.a);
-}
-
-double LocalError::unfiltered(System& system, const State& after) const {
-  const double h3 = after.step_size * after.step_size * after.step_size;
-  const auto of_size = [&](double linear, double angular) {
-    return std::max(h3 * linear / (least_.position + allowance_.position),
-                    h3 * angular / (least_.rotation + allowance_.rotation));
-  };
-  if (PlanarStep* plane = system.planar_step()) {
-    const std::array<double, 2> most = plane->largest_error(constants_.position / after.step_size, system.walker());
-    return of_size(most[0], most[1]);
-  }
-  Largest error;
-  for (std::size_t n = 0; n < after.nodes.size(); ++n) error.include(unfiltered_of(after, n));
-  return of_size(error.linear(), error.angular());
 }
 
 std::optional<Trouble> LocalError::measure(System& system, const State& after) {

@@ -61,7 +61,6 @@ PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::
   unknowns_ = node_begin;
   unknowns_.resize(groups * nodes_in_lanes, node_begin.empty() ? -1 : node_begin.back());
   turn_max_.resize((groups + group_grain - 1) / group_grain);
-  error_max_.resize(turn_max_.size());
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.planar->elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
@@ -282,23 +281,6 @@ void PlanarStep::finish(double arm, std::vector<Workspace::StepEnd>& ends, const
     ends[static_cast<std::size_t>(begin / group_grain)] = part;
   };
   walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
-}
-
-std::array<double, 2> PlanarStep::largest_error(double per_change, const tree::Walker& walker) {
-  auto by_group = [&](std::int64_t begin, std::int64_t end) {
-    Pack linear(0.0), angular(0.0);
-    for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
-      const StartLanes& s = starts_[g];
-      const Vec3<Pack> error = per_change * s.trend - (1.0 / 12.0) * motion::plane_bracket(s.v, s.a);
-      linear = larger(larger(linear, lanes::abs(error[0])), lanes::abs(error[1]));
-      angular = larger(angular, lanes::abs(error[2]));
-    }
-    error_max_[static_cast<std::size_t>(begin / group_grain)] = {largest_of(linear), largest_of(angular)};
-  };
-  walker.for_each_chunk(static_cast<std::int64_t>(starts_.size()), group_grain, tree::make_chunk(by_group));
-  std::array<double, 2> most{0.0, 0.0};
-  for (const std::array<double, 2>& part : error_max_) most = {std::max(most[0], part[0]), std::max(most[1], part[1])};
-  return most;
 }
 
 void PlanarStep::finish_nodes(double arm, std::size_t group, Workspace::StepEnd& end) {

@@ -51,8 +51,6 @@ class PlanarStep {
   void watch(const std::vector<int>& nodes);
   void write_watched(State& state, const tree::Walker& walker);
   void abandon() { is_under_way_ = false; }
-  /// Largest parts over all nodes of  per_change (change of dv/dt over the last step) - ad(v) dv/dt / 12,  along its planar axes: linear; angular.
-  std::array<double, 2> largest_error(double per_change, const tree::Walker& walker);
   /// accept_turns of a state whose nodes are behind.
   void count_turns(State& state, const tree::Walker& walker) const;
 
@@ -126,9 +124,8 @@ class PlanarStep {
   std::vector<Ends> beam_ends_;
   std::vector<int> joints_with_angles_;
   std::vector<TurnCounter> turn_counters_;
-  std::vector<double> chunk_max_;                 ///< squares of changes, by chunk of pairs
-  std::vector<double> turn_max_;                  ///< of |dq_w|, by chunk of nodes [rad]
-  std::vector<std::array<double, 2>> error_max_;  ///< by chunk of nodes
+  std::vector<double> chunk_max_;  ///< squares of changes, by chunk of pairs
+  std::vector<double> turn_max_;   ///< of |dq_w|, by chunk of nodes [rad]
   std::vector<std::size_t> watched_groups_;
   std::int64_t number_ = 0;  ///< of what the lanes hold: counts reading and finished steps
   bool is_under_way_ = false;

@@ -174,7 +174,7 @@ void Run::watch_errors(double norm) {
 /// solution and two evaluations in one of 16 steps.
 bool Run::look_at_error() {
   const bool is_second = looking_;
-  const double unfiltered = local_error_->unfiltered(system_, state_);
+  const double unfiltered = state_.local_error;
   if (error_watch_) error_watch_->pass(unfiltered);
   if (!is_second) {
     if (++steps_since_look_ < looks_every_ && unfiltered <= worth_a_look * unfiltered_looked_) return true;

@@ -81,10 +81,6 @@ class LocalError {
   /// what the tolerance allows. To be asked before `accept`.
   std::string describe(const plan::Plan& plan, double tolerance) const;
 
-  /// Largest change of e_q without the filter, over the same sizes [-]: costs no solution; at fixed steps tells when to look closer. The nodes of
-  /// `after` may be behind.
-  double unfiltered(System& system, const State& after) const;
-
  private:
   void watch(const plan::Plan& plan);
   void watch(const plan::Plan& plan, const plan::SensorPlan& sensor);
