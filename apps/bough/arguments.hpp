@@ -70,6 +70,10 @@ struct CheckArguments {
   std::vector<std::string> overrides;
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
 };
+struct ExpandArguments {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;
+};
 struct CompareArguments {
   std::filesystem::path a, b;
   double relative = 1e-9, absolute = 0.0;
@@ -120,6 +124,7 @@ int profile(const ProfileArguments& arguments);
 int tune(const TuneArguments& arguments);
 int plan(const PlanArguments& arguments);
 int check(const CheckArguments& arguments);
+int expand(const ExpandArguments& arguments);
 int compare(const CompareArguments& arguments);
 int kinematics_razi(const RaziArguments& arguments);
 int kinematics_motion(const MotionArguments& arguments);

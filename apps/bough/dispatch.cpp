@@ -12,9 +12,9 @@
 namespace bough::app {
 namespace {
 
-const std::vector<std::string> verbs = {"run",     "view",       "batch",         "check", "schema",
-                                        "compare", "kinematics", "export-matrix", "study", "stress",
-                                        "profile", "tune",       "plan",          "doctor"};
+const std::vector<std::string> verbs = {"run",    "view",    "batch",      "check",         "expand",
+                                        "schema", "compare", "kinematics", "export-matrix", "study",
+                                        "stress", "profile", "tune",       "plan",          "doctor"};
 
 /// A finite number from low to high. (CLI::Range lets NaN pass.)
 CLI::Validator between(double low, double high) {
@@ -222,8 +222,8 @@ void add_plan(CLI::App& app, PlanArguments& a, int& code) {
   verb.callback([&] { code = plan(a); });
 }
 
-void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArguments& compare_arguments,
-                     SchemaArguments& schema_arguments, int& code) {
+void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, ExpandArguments& expand_arguments,
+                     CompareArguments& compare_arguments, SchemaArguments& schema_arguments, int& code) {
   CLI::App& check_verb =
       add_verb(app, "check", "Say what is wrong with a scene, without running it",
                "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0");
@@ -231,6 +231,14 @@ void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, CompareArgu
   add_overrides(check_verb, check_arguments.overrides);
   add_memory_limit(check_verb, check_arguments.memory_limit);
   check_verb.callback([&] { code = check(check_arguments); });
+
+  CLI::App& expand_verb =
+      add_verb(app, "expand", "Print a scene with numbers for its parameters and formulas, and all copies",
+               "  bough expand data/scenarios/rod_chain.json --set /parameters/N=3\n"
+               "What is printed is a scene that gives the same results. Exit status: 0 done, 2 bad input.");
+  expand_verb.add_option("SCENE", expand_arguments.scene, "Scene file (JSON); -: standard input")->required();
+  add_overrides(expand_verb, expand_arguments.overrides);
+  expand_verb.callback([&] { code = expand(expand_arguments); });
 
   CLI::App& compare_verb =
       add_verb(app, "compare", "Compare two runs, column by column",
@@ -382,7 +390,8 @@ int dispatch(int count, char** values) {
   add_tune(app, tune_arguments, code);
   PlanArguments plan_arguments;
   add_plan(app, plan_arguments, code);
-  add_small_verbs(app, check_arguments, compare_arguments, schema_arguments, code);
+  ExpandArguments expand_arguments;
+  add_small_verbs(app, check_arguments, expand_arguments, compare_arguments, schema_arguments, code);
   StudyArguments study_arguments;
   add_study(app, study_arguments, code);
   StressArguments stress_arguments;

@@ -5,6 +5,8 @@
 #include <iostream>
 #include <system_error>
 
+#include "bough/io/number_text.hpp"
+
 namespace bough::io {
 
 void Report::add(const JsonFault& f) {
@@ -14,11 +16,22 @@ void Report::add(const JsonFault& f) {
 void Report::add(const CheckFault& f) {
   std::string value = f.length == 0 ? token(f.source, f.offset) : excerpt(f.source, f.offset, f.length);
   if (const JsonValue* at = f.length == 0 ? nullptr : locate(f.pointer, nullptr)) value = summary(*at);
-  put(problems_, {f.pointer, 0, 0, std::move(value), f.rule, f.hint}, f.source, f.offset);
+  put(problems_, {f.pointer, 0, 0, std::move(value), f.rule, f.hint}, f.source, f.offset).other_copies +=
+      f.other_copies;
+}
+
+void Report::add(const ExpansionFault& f, bool is_warning) {
+  std::string value = f.length == 0 ? token(f.source, f.offset) : excerpt(f.source, f.offset, f.length);
+  Problem p{f.pointer, 0, 0, std::move(value), f.rule, f.hint};
+  p.instance = f.instance;
+  Placed& placed = put(is_warning ? warnings_ : problems_, std::move(p), f.source, f.offset);
+  placed.is_expanded = false;
+  placed.other_copies = f.other_copies;
 }
 
 void Report::add_override(const PlacedFault& f) {
-  put(problems_, {f.pointer, 0, 0, shown(f.value), f.rule, f.hint}, 1, 0);
+  Placed& placed = put(problems_, {f.pointer, 0, 0, shown(f.value), f.rule, f.hint}, 1, 0);
+  placed.is_expanded = origins_ == nullptr || origins_->empty();  // what an override names, it names in the file
 }
 
 void Report::add(const PlacedFault& f, bool is_warning) {
@@ -27,8 +40,11 @@ void Report::add(const PlacedFault& f, bool is_warning) {
   // The value at fault may be inside what the pointer names; a longer pointer than the document has is cut to what is there.
   Problem p{reached, 0, 0, f.value, f.rule, f.hint};
   if (p.value.empty() && at != nullptr) p.value = summary(*at);
-  put(is_warning ? warnings_ : problems_, std::move(p), at == nullptr ? source_default : at->source,
-      at == nullptr ? 0 : at->offset);
+  std::vector<Placed>& list = is_warning ? warnings_ : problems_;
+  const int source = at == nullptr ? source_default : at->source;
+  const std::size_t offset = at == nullptr ? 0 : at->offset;
+  if (at != nullptr && at->is_copy && is_of_another_copy(list, p, source, offset)) return;
+  put(list, std::move(p), source, offset);
 }
 
 void Report::add(const PlacedFaults& faults, bool is_warning) {
@@ -41,7 +57,7 @@ void Report::write(std::vector<Problem>& problems, std::vector<Problem>& warning
   finish(warnings_, warnings_left_out_, warnings);
 }
 
-void Report::put(std::vector<Placed>& list, Problem p, int source, std::size_t offset) {
+Report::Placed& Report::put(std::vector<Placed>& list, Problem p, int source, std::size_t offset) {
   if (source > 0) {
     p.hint += std::string(p.hint.empty() ? "" : "; ") + "given by an override";
   }
@@ -49,6 +65,16 @@ void Report::put(std::vector<Placed>& list, Problem p, int source, std::size_t o
   constexpr std::size_t most = 2000;
   for (std::string* text : {&p.pointer, &p.value, &p.rule, &p.hint}) *text = shown(*text, most);
   list.push_back({std::move(p), source == source_file, offset});
+  return list.back();
+}
+
+/// True where the same was said of another copy of the same text, which then counts this one.
+bool Report::is_of_another_copy(std::vector<Placed>& list, const Problem& p, int source, std::size_t offset) {
+  const std::string key =
+      (&list == &warnings_ ? "w " : "p ") + std::to_string(source) + " " + std::to_string(offset) + " " + p.rule;
+  const auto [at, is_new] = of_copies_.try_emplace(key, list.size());
+  if (!is_new) ++list[at->second].other_copies;
+  return !is_new;
 }
 
 std::string Report::owner(const std::string& pointer) const {
@@ -68,7 +94,17 @@ void Report::finish(std::vector<Placed>& list, std::size_t left_out, std::vector
       list[i].problem.column = at.column;
     }
     Problem& p = list[i].problem;  // of those shown alone: a search for each of many would be quadratic
-    if (p.owner = owner(p.pointer); p.owner == p.value) p.owner.clear();
+    if (list[i].is_expanded) {
+      if (p.owner = owner(p.pointer); p.owner == p.value) p.owner.clear();
+      if (origins_ != nullptr) {
+        CopyOrigins::Place place = origins_->source_of(p.pointer);
+        p.pointer = std::move(place.pointer);
+        p.instance = std::move(place.instance);
+      }
+    }
+    if (const std::size_t others = list[i].other_copies; others > 0)
+      p.hint += std::string(p.hint.empty() ? "" : "; ") + "the same in " + std::to_string(others) +
+                (others == 1 ? " more copy" : " more copies");
     out.push_back(std::move(p));
   }
   left_out += list.size() - std::min(list.size(), max_problems);
@@ -101,7 +137,10 @@ std::string Report::token(int source, std::size_t offset) const {
 std::string Report::summary(const JsonValue& v) const {
   const JsonValue* name = v.is(JsonKind::object) ? v.find("name") : nullptr;
   const JsonValue& told = name != nullptr && name->is(JsonKind::string) ? *name : v;
-  return excerpt(told.source, told.offset, told.length);
+  const std::string written = excerpt(told.source, told.offset, told.length);
+  if (!told.is_made) return written;
+  if (told.is(JsonKind::string)) return "\"" + shown(told.text.str()) + "\"";
+  return written + " = " + rounded_text(told.number, 6);
 }
 
 /// The value at a pointer, or the innermost one on the way to it; and the innermost name of a thing that is passed.
@@ -175,6 +214,7 @@ std::string Problem::text() const {
   if (line > 0) r += "line " + std::to_string(line) + ", column " + std::to_string(column) + ", ";
   r += pointer.empty() ? "the file" : pointer;
   if (!owner.empty()) r += " of " + owner;
+  if (!instance.empty()) r += ", copy " + instance;
   r += (value.empty() ? "" : " (" + value + ")") + ": " + rule;
   if (!hint.empty()) r += "; " + hint;
   return r;

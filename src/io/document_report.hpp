@@ -1,6 +1,7 @@
 #pragma once
 /// What is wrong with a document, gathered from all checks and placed in its text. Scenes and chains of frames share it.
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "bough/io/json_value.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/schema_rule.hpp"
+#include "expand_scene.hpp"
 #include "read_values.hpp"
 
 namespace bough::io {
@@ -15,11 +17,14 @@ namespace bough::io {
 /// Collects what is wrong and knows where in the texts it stands. Keeps references to what it is made from.
 class Report {
  public:
-  Report(std::string_view text, const JsonValue* root, const std::vector<std::string>& overrides)
-      : text_(text), lines_(text), root_(root), overrides_(overrides) {}
+  /// origins: of the items of the document that are copies; nullptr: there are none.
+  Report(std::string_view text, const JsonValue* root, const std::vector<std::string>& overrides,
+         const CopyOrigins* origins = nullptr)
+      : text_(text), lines_(text), root_(root), overrides_(overrides), origins_(origins) {}
 
   void add(const JsonFault& f);
   void add(const CheckFault& f);
+  void add(const ExpansionFault& f, bool is_warning);
   void add_override(const PlacedFault& f);
   void add(const PlacedFault& f, bool is_warning);
   void add(const PlacedFaults& faults, bool is_warning);
@@ -39,9 +44,12 @@ class Report {
     Problem problem;
     bool in_file;
     std::size_t offset;
+    bool is_expanded = true;  ///< its pointer is one into the document as it is checked, not into the file
+    std::size_t other_copies = 0;
   };
 
-  void put(std::vector<Placed>& list, Problem p, int source, std::size_t offset);
+  Placed& put(std::vector<Placed>& list, Problem p, int source, std::size_t offset);
+  bool is_of_another_copy(std::vector<Placed>& list, const Problem& p, int source, std::size_t offset);
   void finish(std::vector<Placed>& list, std::size_t left_out, std::vector<Problem>& out);
   std::string_view source_text(int source) const;
   std::string excerpt(int source, std::size_t offset, std::size_t length) const;
@@ -55,6 +63,8 @@ class Report {
   LineIndex lines_;
   const JsonValue* root_;
   const std::vector<std::string>& overrides_;
+  const CopyOrigins* origins_;
+  std::map<std::string, std::size_t> of_copies_;  ///< list, place and rule: which of the list
   std::vector<Placed> problems_, warnings_;
   std::size_t left_out_ = 0, warnings_left_out_ = 0;
 };

@@ -6,6 +6,8 @@
 #include "bough/io/schema_rule.hpp"
 #include "bough/scene/problems.hpp"
 #include "document_report.hpp"
+#include "expand_scene.hpp"
+#include "printed_json.hpp"
 #include "read_scene_impl.hpp"
 
 namespace bough::io {
@@ -37,26 +39,35 @@ void add_scene_problems(const Converter& converter, Report& report) {
   }
 }
 
-}  // namespace
-
-SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides) {
+/// A scene and the document that it was read from.
+struct ReadScene {
   SceneFile file;
+  std::optional<JsonValue> document;
+};
+
+ReadScene read(std::string_view text, std::string name, std::span<const std::string> set_overrides) {
+  ReadScene result;
+  SceneFile& file = result.file;
   std::vector<JsonFault> text_faults;
   std::optional<JsonValue> root = parse_json(text, source_file, text_faults);
   std::vector<std::string> override_texts;
   std::vector<PlacedFault> override_faults;
   std::vector<CheckFault> check_faults;
   std::size_t more_faults = 0;
+  Expansion expansion;
   if (root) {
     apply_overrides(*root, set_overrides, override_texts, override_faults);
-    more_faults = check_rules(scene_rules(), *root, check_faults);
+    expansion = expand_scene(*root);
+    more_faults = check_rules(scene_rules(), *root, check_faults) + expansion.more_faults;
   }
-  Report report(text, root ? &*root : nullptr, override_texts);
+  Report report(text, root ? &*root : nullptr, override_texts, &expansion.origins);
   for (const JsonFault& f : text_faults) report.add(f);
   for (const PlacedFault& f : override_faults) report.add_override(f);
+  for (const ExpansionFault& f : expansion.faults) report.add(f, false);
+  for (const ExpansionFault& f : expansion.warnings) report.add(f, true);
   for (const CheckFault& f : check_faults) report.add(f);
   report.count_others(more_faults);
-  if (root && root->is(JsonKind::object) && !breaks_outline(check_faults)) {
+  if (root && root->is(JsonKind::object) && expansion.has_outline && !breaks_outline(check_faults)) {
     Converter converter(*root);
     converter.convert();
     report.add(converter.faults, false);
@@ -67,7 +78,33 @@ SceneFile read_scene_text(std::string_view text, std::string name, std::span<con
   file.scene.name = std::move(name);
   file.hash = digest_of(text);
   report.write(file.problems, file.warnings);
-  return file;
+  result.document = std::move(root);
+  return result;
+}
+
+/// Calls read_text(text, name) with the text of a file, or says why it can not be had.
+template <class ReadText>
+auto read_file(const std::filesystem::path& file, const ReadText& read_text) {
+  Problem problem;
+  const std::string text = read_whole_file(file, problem);
+  if (problem.rule.empty()) return read_text(text, file == "-" ? "scene" : name_of_file(file));
+  decltype(read_text(text, std::string())) r;
+  problem.value = shown(file.string(), 200);
+  r.problems.push_back(std::move(problem));
+  return r;
+}
+
+}  // namespace
+
+SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides) {
+  return read(text, std::move(name), set_overrides).file;
+}
+
+ExpandedScene expanded_scene_text(std::string_view text, std::span<const std::string> set_overrides) {
+  ReadScene result = read(text, "", set_overrides);
+  ExpandedScene expanded{"", std::move(result.file.problems), std::move(result.file.warnings)};
+  if (expanded.ok()) expanded.text = printed(*result.document) + "\n";
+  return expanded;
 }
 
 std::string name_of_file(const std::filesystem::path& file) {
@@ -76,13 +113,14 @@ std::string name_of_file(const std::filesystem::path& file) {
 }
 
 SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides) {
-  Problem problem;
-  const std::string text = read_whole_file(file, problem);
-  if (problem.rule.empty()) return read_scene_text(text, file == "-" ? "scene" : name_of_file(file), set_overrides);
-  SceneFile r;
-  problem.value = shown(file.string(), 200);
-  r.problems.push_back(std::move(problem));
-  return r;
+  return read_file(file, [&](const std::string& text, std::string name) {
+    return read_scene_text(text, std::move(name), set_overrides);
+  });
+}
+
+ExpandedScene expanded_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides) {
+  return read_file(
+      file, [&](const std::string& text, const std::string&) { return expanded_scene_text(text, set_overrides); });
 }
 
 }  // namespace bough::io

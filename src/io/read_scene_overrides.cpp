@@ -75,6 +75,11 @@ void apply_one(JsonValue& root, const std::string& text, std::int16_t source, st
     JsonValue* next = at->is(JsonKind::array)    ? item_of(*at, token)
                       : at->is(JsonKind::object) ? at->find_given(token)
                                                  : nullptr;
+    const bool is_parameter = tokens->size() == 2 && i == 1 && tokens->front() == "parameters";
+    if (next == nullptr && is_parameter && at->is(JsonKind::object)) {  // one that no formula names would do nothing
+      faults.push_back({pointer, token, "the scene has no parameter of this name", hint_for(*at, token)});
+      return;
+    }
     if (next == nullptr && at->is(JsonKind::object)) {
       JsonValue made;
       made.kind = JsonKind::object;

@@ -2,10 +2,14 @@
 #include <cmath>
 #include <cstdio>
 #include <mutex>
+#include <unordered_map>
 
 #include "bough/io/read_scene.hpp"
 #include "bough/io/schema_rule.hpp"
+#include "bough/laws/formula.hpp"
+#include "bough/laws/law_error.hpp"
 #include "bough/scene/nearest_name.hpp"
+#include "json_path.hpp"
 
 namespace bough::io {
 namespace {
@@ -57,19 +61,7 @@ JsonKind json_kind(Form form) {
   }
 }
 
-/// The way to a value, put into words only where something is wrong with it. Lives as long as the call that goes there.
-struct Path {
-  const Path* up = nullptr;
-  std::string_view key = {};  ///< of a member; of an item, its number
-  std::size_t item = 0;
-
-  std::string text() const {
-    if (up == nullptr) return "";
-    return key.data() == nullptr ? up->text() + "/" + std::to_string(item) : pointer_to(up->text(), key);
-  }
-  Path member(std::string_view name) const { return {this, name, 0}; }
-  Path at(std::size_t index) const { return {this, {}, index}; }
-};
+using Path = JsonPath;
 
 constexpr std::size_t most_faults =
     2 * max_problems;  // kept: more are counted, for a file of millions of faults has no room for them
@@ -82,6 +74,7 @@ class Checker {
   bool check(const Rule& rule_in, JsonValue& value, const Path& path) {
     const Rule& rule = table_.resolve(rule_in);
     if (!value.sound) return false;  // said by the reader of the text
+    if (rule.is_deferred) return true;
     value.sound = check_form(rule, value, path);
     return value.sound;
   }
@@ -99,16 +92,30 @@ class Checker {
   bool fail(const JsonValue& value, const Path& path, std::string rule, std::string hint = {}, bool at_key = false) {
     const std::uint32_t offset = at_key ? value.key_offset : value.offset;
     const std::uint32_t length = at_key ? 0 : value.length;  // 0: one token
+    if (value.is_copy && is_of_another_copy(value.source, offset, rule)) return false;
     if (faults_.size() < most_faults)
       faults_.push_back({value.source, offset, length, path.text(), std::move(rule), std::move(hint)});
     ++num_faults_;
     return false;
   }
 
+  /// True where the same was said of another copy of the same text, which then counts this one: a thousand copies with
+  /// one fault are one fault.
+  bool is_of_another_copy(int source, std::uint32_t offset, const std::string& rule) {
+    const std::string key = std::to_string(source) + " " + std::to_string(offset) + " " + rule;
+    const auto [at, is_new] = of_copies_.try_emplace(key, faults_.size());
+    if (is_new) return false;
+    if (at->second < faults_.size()) ++faults_[at->second].other_copies;
+    return true;
+  }
+
   bool check_form(const Rule& rule, JsonValue& value, const Path& path) {
     if (value.is(JsonKind::null))
       return fail(value, path, "null is not a value here", "leave the key out where nothing is meant");
     if (rule.form == Form::choice) return check_choice(rule, value, path);
+    if (table_.has_formulas && json_kind(rule.form) == JsonKind::number && value.find_given("expression") != nullptr &&
+        !evaluate(value, path))
+      return false;
     if (!value.is(json_kind(rule.form)))
       return fail(value, path, "has to be " + wanted(rule) + ", not " + with_article(value.kind),
                   type_hint(rule, value));
@@ -130,6 +137,26 @@ class Checker {
       default:
         return true;
     }
+  }
+
+  /// Puts the number that a formula gives in the place of the formula.
+  bool evaluate(JsonValue& value, const Path& path) {
+    if (!check_object(*table_.named.at("formula"), value, path)) return false;
+    const JsonValue& formula = *value.find_given("expression");
+    const Path at = path.member("expression");
+    double x = 0.0;
+    try {
+      x = laws::eval_constant(formula.text);
+    } catch (const laws::LawError& e) {
+      const std::string& text = formula.text;
+      return fail(formula, at, e.what(), "at \"" + shown(text.substr(std::min(e.position, text.size())), 20) + "\"");
+    }
+    if (!std::isfinite(x)) return fail(formula, at, "gives " + shown_number(x) + ", and numbers are finite");
+    value.kind = JsonKind::number;
+    value.number = x;
+    value.items = {};
+    value.is_made = true;
+    return true;
   }
 
   static std::string type_hint(const Rule& rule, const JsonValue& value) {
@@ -183,7 +210,10 @@ class Checker {
     return r;
   }
 
-  bool check_number(const Rule& rule, const JsonValue& value, const Path& path) {
+  bool check_number(const Rule& rule, JsonValue& value, const Path& path) {
+    // A formula for a count carries round-off, as 0.3 / 0.1 does; what is further off was not meant as one.
+    if (rule.form == Form::integer && value.is_made && std::abs(value.number - std::round(value.number)) <= 1e-9)
+      value.number = std::round(value.number);
     const double x = value.number;
     const bool is_whole = rule.form == Form::number || x == std::floor(x);
     if (is_whole && (rule.low_open ? x > rule.low : x >= rule.low) && x <= rule.high) return true;
@@ -217,6 +247,8 @@ class Checker {
         if (!value.items[i].is(JsonKind::string)) sound = fail(value.items[i], at, "a comment has to be a string");
       } else if (field != rule.fields.end()) {
         sound = check(*field->rule, value.items[i], at) && sound;
+      } else if (rule.others != nullptr) {
+        sound = check(*rule.others, value.items[i], at) && sound;
       } else {
         sound = false;
         value.items[i].sound = false;
@@ -273,6 +305,7 @@ class Checker {
   bool check_choice(const Rule& rule, JsonValue& value, const Path& path) {
     std::vector<const Rule*> fitting;
     flatten(rule, value.kind, fitting);
+    if (fitting.empty() && value.find_given("expression") != nullptr) flatten(rule, JsonKind::number, fitting);
     if (fitting.empty()) return fail(value, path, "has to be " + wanted(rule) + ", not " + with_article(value.kind));
     if (fitting.size() == 1) return check(*fitting.front(), value, path);
     if (value.is(JsonKind::object)) return check_object_choice(fitting, value, path);
@@ -336,6 +369,7 @@ class Checker {
   const RuleTable& table_;
   std::vector<CheckFault>& faults_;
   std::size_t num_faults_ = 0;
+  std::unordered_map<std::string, std::size_t> of_copies_;  ///< place and rule of faults in copies: which one it is
 };
 
 }  // namespace
@@ -357,8 +391,13 @@ const JsonValue& RuleTable::defaults_of(const Rule& rule) const {
 }
 
 std::size_t check_rules(const RuleTable& table, JsonValue& root, std::vector<CheckFault>& faults) {
+  return check_rules(table, *table.root, root, "", faults);
+}
+
+std::size_t check_rules(const RuleTable& table, const Rule& rule, JsonValue& value, std::string_view pointer,
+                        std::vector<CheckFault>& faults) {
   Checker checker(table, faults);
-  checker.check(*table.root, root, {});
+  checker.check(rule, value, {nullptr, pointer, 0});
   return checker.num_faults() - std::min(checker.num_faults(), faults.size());
 }
 

@@ -9,6 +9,12 @@ void add_law_rules(RuleTable& table);
 /// Statics and dynamics with their step control and paths; `frame`: the field that names the frame of description.
 void add_analysis_rules(RuleTable& table, const Field& frame);
 
+/// `parameters` and `repeat`; lists: the lists of a scene of which copies can be made.
+void add_expansion_rules(RuleTable& table, const std::vector<Field>& lists);
+/// How many copies are made, and the index of the first.
+RuleRef copy_count_rule();
+RuleRef copy_first_rule();
+
 /// An object rule: all its fields, told by a marker key where the choice around it needs one.
 Rule object_of(std::string about, std::vector<Field> fields, std::string marker = {});
 /// An object rule told by "kind".

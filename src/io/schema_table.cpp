@@ -323,13 +323,33 @@ RuleTable make_table() {
   const auto list = [](std::string key, std::string item, std::string about) {
     return may(std::move(key), array_rule("", named_rule(std::move(item))), std::move(about), "[]");
   };
-  t.root = made(object_of(
+  const std::vector<Field> lists = {list("frames", "frame", "Frames, fixed or moving."),
+                                    list("materials", "material", "Materials."),
+                                    list("sections", "section", "Beam sections."),
+                                    list("nodes", "node", "Nodes."),
+                                    list("bodies", "body", "Rigid bodies and point masses."),
+                                    list("beams", "beam", "Beams."),
+                                    list("joints", "joint", "Joints."),
+                                    list("springs", "spring", "Springs and dampers between points."),
+                                    list("bushings", "bushing", "Bushings."),
+                                    list("loads", "load", "Loads."),
+                                    list("motions", "motion", "Prescribed motions."),
+                                    list("initial_velocities", "initial_velocity", "Velocities at the start."),
+                                    list("sensors", "sensor", "What is measured."),
+                                    list("expected", "expected", "Figures the run has to meet.")};
+  add_expansion_rules(t, lists);
+  t.has_formulas = true;
+  Rule root = object_of(
       "A bough scene. SI units and radians throughout. Things are named and refer to each other by name: frames, "
       "nodes, bodies, beams, joints, springs, bushings, loads and motions share one set of names; "
       "materials, sections and sensors have their own. Axis 1 of a section runs along the beam; section resultants are "
       "(N, Q2, Q3, T, M2, M3). Quaternions have the scalar first. A reaction is the wrench "
       "of the first on the second, at the joint. A dead moment is a vector fixed in space; a follower turns with its "
-      "node. A \"comment\" string is allowed in every object. null is never a value.",
+      "node. A \"comment\" string is allowed in every object. null is never a value. {\"expression\": \"...\"} may "
+      "stand "
+      "for any number, of t only where a law of time stands. In scenes with `parameters` or `repeat`, braces in "
+      "strings hold a "
+      "formula for a whole number, {{ and }} are single braces.",
       {may("$schema", text_rule(""), "Address of this schema, for editors; not read."),
        need("schema_version", integer_rule("", 1, 1), "Version of the format: 1."),
        may("title", text_rule(""), "One line.", "\"\""),
@@ -339,25 +359,15 @@ RuleTable make_table() {
                     made(object_of("Gravity that changes.", {need("vector", named_rule("vector"), "[m/s^2], inertial."),
                                                              law_field("Factor over time.")}))}),
            "Acceleration of gravity [m/s^2], inertial.", "[0, 0, 0]"),
-       list("frames", "frame", "Frames, fixed or moving."),
-       list("materials", "material", "Materials."),
-       list("sections", "section", "Beam sections."),
-       list("nodes", "node", "Nodes."),
-       list("bodies", "body", "Rigid bodies and point masses."),
-       list("beams", "beam", "Beams."),
-       list("joints", "joint", "Joints."),
-       list("springs", "spring", "Springs and dampers between points."),
-       list("bushings", "bushing", "Bushings."),
-       list("loads", "load", "Loads."),
-       list("motions", "motion", "Prescribed motions."),
-       list("initial_velocities", "initial_velocity", "Velocities at the start."),
-       list("sensors", "sensor", "What is measured."),
        need("analysis", named_rule("analysis"), "What is computed."),
        may("solver", named_rule("solver"), "Linear solver.", "{}"),
        may("output", named_rule("output"), "What is written.", "{}"),
        may("without", array_rule("", word_rule("", scene::decision_names())),
            "Decisions that the plan is not to take (`bough plan` lists them), for comparison.", "[]"),
-       list("expected", "expected", "Figures the run has to meet.")}));
+       may("parameters", named_rule("parameters"), "Named numbers of formulas."),
+       may("repeat", named_rule("repeat"), "Parts that come many times.")});
+  root.fields.insert(root.fields.begin() + 4, lists.begin(), lists.end());
+  t.root = made(std::move(root));
   return t;
 }
 

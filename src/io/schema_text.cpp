@@ -4,13 +4,15 @@
 
 #include "bough/io/read_scene.hpp"
 #include "bough/io/schema_rule.hpp"
+#include "bough/laws/formula.hpp"
 
 namespace bough::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_schema(const Rule& rule);
+/// formulas: {"expression": ...} may stand for numbers.
+Json to_schema(const Rule& rule, bool formulas);
 
 Json number_of(double x) {
   return x == std::floor(x) && std::abs(x) < 1e15 ? Json(static_cast<long long>(x)) : Json(x);
@@ -27,11 +29,17 @@ Json one_required(const std::vector<std::string>& keys) {
   return list;
 }
 
-void add_object(const Rule& rule, Json& out) {
+/// What may name a number in formulas.
+Json formula_name_schema() {
+  return Json{
+      {"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}, {"maxLength", 100}, {"not", Json{{"enum", laws::formula_words()}}}};
+}
+
+void add_object(const Rule& rule, Json& out, bool formulas) {
   out["type"] = "object";
   Json properties = Json::object(), required = Json::array();
   for (const Field& f : rule.fields) {
-    Json p = to_schema(*f.rule);
+    Json p = to_schema(*f.rule, formulas);
     if (f.key == "kind" && !rule.kinds.empty()) p = Json{{"enum", rule.kinds}};
     // draft-07 ignores what stands beside a $ref, so a described reference is wrapped
     if (p.contains("$ref")) p = Json{{"allOf", Json::array({p})}};
@@ -46,7 +54,8 @@ void add_object(const Rule& rule, Json& out) {
   if (!rule.marker.empty() && std::find(required.begin(), required.end(), rule.marker) == required.end())
     required.push_back(rule.marker);
   if (!required.empty()) out["required"] = std::move(required);
-  out["additionalProperties"] = false;
+  out["additionalProperties"] = rule.others == nullptr ? Json(false) : to_schema(*rule.others, formulas);
+  if (rule.others != nullptr) out["propertyNames"] = formula_name_schema();
   Json all = Json::array();
   for (const auto& set : rule.exactly_one) all.push_back(Json{{"oneOf", one_required(set)}});
   for (const auto& set : rule.at_most_one) {
@@ -58,19 +67,21 @@ void add_object(const Rule& rule, Json& out) {
   if (!all.empty()) out["allOf"] = std::move(all);
 }
 
-Json to_schema(const Rule& rule) {
+Json to_schema(const Rule& rule, bool formulas) {
   if (rule.form == Form::named) return Json{{"$ref", "#/definitions/" + rule.target}};
   Json out = Json::object();
   if (!rule.about.empty()) out["description"] = rule.about;
   switch (rule.form) {
     case Form::number:
-      out["type"] = "number";
-      add_range(rule, out);
+    case Form::integer: {
+      Json number = Json{{"type", rule.form == Form::number ? "number" : "integer"}};
+      add_range(rule, number);
+      if (formulas)
+        out["anyOf"] = Json::array({std::move(number), Json{{"$ref", "#/definitions/formula"}}});
+      else
+        out.update(number);
       break;
-    case Form::integer:
-      out["type"] = "integer";
-      add_range(rule, out);
-      break;
+    }
     case Form::boolean:
       out["type"] = "boolean";
       break;
@@ -89,16 +100,20 @@ Json to_schema(const Rule& rule) {
       break;
     case Form::array:
       out["type"] = "array";
-      out["items"] = to_schema(*rule.item);
+      out["items"] = to_schema(*rule.item, formulas);
       if (rule.min_items > 0) out["minItems"] = rule.min_items;
       if (rule.max_items != std::numeric_limits<std::size_t>::max()) out["maxItems"] = rule.max_items;
       break;
     case Form::object:
-      add_object(rule, out);
+      add_object(rule, out, formulas);
       break;
     case Form::choice: {
+      // Of a choice that has formulas of its own, as laws do, a number is a number: exactly one option may fit.
+      const bool has_own = std::any_of(rule.options.begin(), rule.options.end(),
+                                       [](const RuleRef& option) { return option->marker == "expression"; });
       Json options = Json::array();
-      for (const RuleRef& option : rule.options) options.push_back(to_schema(*option));
+      for (const RuleRef& option : rule.options)
+        options.push_back(to_schema(*option, formulas && !(has_own && option->form == Form::number)));
       out["oneOf"] = std::move(options);
       break;
     }
@@ -116,10 +131,10 @@ std::string schema_text_of(const RuleTable& table, const std::string& title) {
   Json out = Json::object();
   out["$schema"] = "http://json-schema.org/draft-07/schema#";
   out["title"] = title;
-  const Json root = to_schema(*table.root);
+  const Json root = to_schema(*table.root, table.has_formulas);
   for (const auto& [key, value] : root.items()) out[key] = value;
   Json definitions = Json::object();
-  for (const auto& [name, rule] : table.named) definitions[name] = to_schema(*rule);
+  for (const auto& [name, rule] : table.named) definitions[name] = to_schema(*rule, table.has_formulas);
   out["definitions"] = std::move(definitions);
   return out.dump(2) + "\n";
 }

@@ -6,6 +6,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_study.hpp"
 #include "bough/io/schema_rule.hpp"
+#include "expand_scene.hpp"
 #include "read_scene_impl.hpp"
 
 namespace bough::io {
@@ -121,8 +122,10 @@ std::string canonical_scene(std::string_view text, std::span<const std::string> 
   std::vector<PlacedFault> override_faults;
   std::vector<CheckFault> check_faults;
   apply_overrides(*root, overrides, texts, override_faults);
+  const Expansion expansion = expand_scene(*root);
   check_rules(scene_rules(), *root, check_faults);
-  if (!override_faults.empty() || !check_faults.empty()) return {};
+  if (!override_faults.empty() || !expansion.faults.empty() || !expansion.has_outline || !check_faults.empty())
+    return {};
   std::string out;
   append_canonical(out, *root);
   return out;

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "bough/laws/formula.hpp"
 #include "bough/laws/law_error.hpp"
 #include "eval_program.hpp"
 #include "program.hpp"
@@ -296,5 +297,14 @@ class Parser {
 }  // namespace
 
 Program parse_formula(const std::string& text) { return Parser(text).run(); }
+
+const std::vector<std::string>& formula_words() {
+  static const std::vector<std::string> words = [] {
+    std::vector<std::string> all(symbols.begin(), symbols.end());
+    for (const FunctionName& f : functions) all.emplace_back(f.name);
+    return all;
+  }();
+  return words;
+}
 
 }  // namespace bough::laws

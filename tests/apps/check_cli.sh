@@ -4,6 +4,7 @@ set -u
 program=$(realpath "$1")
 . "$(dirname "$0")/scenes.sh"
 reference=$(realpath "$(dirname "$0")/../../data/reference/razi_unit_disc.csv")
+gallery=$(realpath "$(dirname "$0")/../../data/scenarios")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch" || exit 1
@@ -35,7 +36,7 @@ echo '{"schema_version": 1, "bodies": [{"name": "a", "mass": -1}, 7], "nonsense"
 # words
 expect 0 '^bough [0-9]' --version
 expect 0 'bough run' --help
-for verb in run view batch check schema compare export-matrix kinematics study stress profile tune plan doctor; do expect 0 '  bough '$verb $verb --help; done
+for verb in run view batch check expand schema compare export-matrix kinematics study stress profile tune plan doctor; do expect 0 '  bough '$verb $verb --help; done
 expect 2 "did you mean 'run'" rnu good.json
 expect 2 "did you mean 'compare'" comapre a b
 expect 2 'Verbs:' xyzzy
@@ -64,6 +65,15 @@ expect 2 'problem' check bad.json
 expect 2 . run good.json --set /analysis/step_size=-1 --out bad.out
 expect 2 . run good.json --set nonsense --out bad.out
 holds test ! -e bad.out
+
+# a scene that varies is expanded to one that gives the same results
+expect 0 '"rod 2"' expand "$gallery/rod_chain.json" --set /parameters/N=3
+"$program" expand "$gallery/rod_chain.json" --set /parameters/N=3 > expanded.json
+expect 0 'done' run expanded.json --set /analysis/end_time=0.05 --out expanded.out
+expect 0 'done' run "$gallery/rod_chain.json" --set /parameters/N=3 --set /analysis/end_time=0.05 --out varied.out
+holds cmp expanded.out/history.csv varied.out/history.csv
+expect 2 'no parameter' expand "$gallery/rod_chain.json" --set /parameters/M=3
+expect 2 'mass' expand bad.json
 
 # a run
 expect 0 '1 body, 1 joint' check good.json

@@ -107,6 +107,15 @@ TEST(VerifyMechanisms, four_bars_pass_flat_positions_on_their_branch) {
   EXPECT_GT(crossings, 5);
 }
 
+/// The scene with copies of its windows and the one written out by hand name their joints differently, and that is all.
+TEST(VerifyMechanisms, windows_by_repeat_give_the_bits_of_those_written_out) {
+  const Table hand = support::run(support::gallery("four_bar_planar", {"/analysis/end_time=1"})).history;
+  const Table copies = support::run(support::gallery("four_bar_windows", {"/parameters/N=2"})).history;
+  ASSERT_EQ(hand.times.size(), 501u);
+  EXPECT_EQ(hand.columns, copies.columns);
+  EXPECT_EQ(hand.rows, copies.rows);
+}
+
 TEST(VerifyMechanisms, andrews_squeezer_meets_minimal_coordinates) {
   const Table exact = support::reference("A03_andrews_iftomm.csv");
   scene::Scene scene = support::gallery("andrews_squeezer");

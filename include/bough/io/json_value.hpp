@@ -102,8 +102,10 @@ class JsonItems {
 /// One value, 40 bytes: of files of millions of them none may cost 30 times its text.
 struct JsonValue {
   JsonKind kind = JsonKind::null;
-  bool truth : 1 = false;  ///< of a boolean
-  bool sound : 1 = true;   ///< cleared by the schema check where this value or anything in it is at fault
+  bool truth : 1 = false;    ///< of a boolean
+  bool sound : 1 = true;     ///< cleared by the schema check where this value or anything in it is at fault
+  bool is_made : 1 = false;  ///< computed from what stands at its place in the text
+  bool is_copy : 1 = false;  ///< one of several that stand at the same place of the text
   std::int16_t source = source_file;
   std::uint32_t offset = 0;      ///< of the first byte in its source
   std::uint32_t length = 0;      ///< [bytes]

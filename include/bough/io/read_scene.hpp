@@ -12,13 +12,14 @@ namespace bough::io {
 
 /// One thing wrong with a file.
 struct Problem {
-  std::string pointer;     ///< JSON pointer (RFC 6901) of the value or key at fault
-  int line = 0;            ///< from 1; 0: not in the file (given by an override, or the file itself)
-  int column = 0;          ///< from 1, counted in characters
-  std::string value;       ///< the text at fault as written, shortened
-  std::string rule;        ///< what is asked of it
-  std::string hint;        ///< what to do, or the nearest known name; may be empty
-  std::string owner = {};  ///< name of the thing that the pointer leads into; empty where the value tells it
+  std::string pointer;        ///< JSON pointer (RFC 6901) of the value or key at fault
+  int line = 0;               ///< from 1; 0: not in the file (given by an override, or the file itself)
+  int column = 0;             ///< from 1, counted in characters
+  std::string value;          ///< the text at fault as written, shortened
+  std::string rule;           ///< what is asked of it
+  std::string hint;           ///< what to do, or the nearest known name; may be empty
+  std::string owner = {};     ///< name of the thing that the pointer leads into; empty where the value tells it
+  std::string instance = {};  ///< which copy of a repeated part: "i = 3, j = 0"; empty: none
 
   /// "line 12, column 7, /beams/0/section: "stel": no section has this name; did you mean "steel"?"
   std::string text() const;
@@ -50,6 +51,16 @@ std::string name_of_file(const std::filesystem::path& file);
 
 /// The same from a text in memory. name: becomes Scene::name.
 SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides = {});
+
+/// A scene with numbers in the place of its parameters and formulas, and all copies of its repeated parts, as a file
+/// of its own. Read again it gives the same scene, to the last bit. text: empty where there are problems.
+struct ExpandedScene {
+  std::string text;
+  std::vector<Problem> problems, warnings;
+  bool ok() const { return problems.empty(); }
+};
+ExpandedScene expanded_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides = {});
+ExpandedScene expanded_scene_text(std::string_view text, std::span<const std::string> set_overrides = {});
 
 /// The JSON Schema (draft-07) of scene files, made from the table that checks them.
 std::string schema_text();

@@ -48,18 +48,21 @@ struct Rule {
   std::size_t min_items = 0, max_items = std::numeric_limits<std::size_t>::max();
   RuleRef item = nullptr;
   std::vector<Field> fields = {};
+  RuleRef others = nullptr;  ///< of an object: rule of all members that are no field; nullptr: there are none
   std::vector<std::string> kinds =
       {};                   ///< of an object told by "kind": the values that mean this one (they become the key's enum)
   std::string marker = {};  ///< of an object in a choice: the key whose presence tells it
   std::vector<std::vector<std::string>> exactly_one = {};  ///< sets of keys of which exactly one is given
   std::vector<std::vector<std::string>> at_most_one = {};
   std::vector<RuleRef> options = {};
-  std::string target = {};  ///< of a named rule
+  std::string target = {};   ///< of a named rule
+  bool is_deferred = false;  ///< taken as it is for now: it is checked when its copies are made (`repeat`)
 };
 
 struct RuleTable {
   std::map<std::string, RuleRef> named;
   RuleRef root;
+  bool has_formulas = false;  ///< {"expression": ...} may stand for any number
   const Rule& resolve(const Rule& rule) const;
   /// An object of the keys that an object of this rule has without being given; made once, lives as long as the table
   /// or a copy of it.
@@ -84,11 +87,16 @@ struct CheckFault {
   int source = source_file;
   std::uint32_t offset = 0, length = 0;  ///< of the value at fault; an unknown key, or the object that misses one
   std::string pointer, rule, hint;
+  std::size_t other_copies = 0;  ///< of the same text that are at fault in the same way
 };
 
-/// Checks a document, fills in defaults (source_default), clears `sound` of values at fault and of all that hold them.
+/// Checks a document, fills in defaults (source_default), puts numbers in the place of formulas, clears
+/// `sound` of values at fault and of all that hold them.
 /// Appends the first hundreds of faults and returns how many more there are.
 std::size_t check_rules(const RuleTable& table, JsonValue& root, std::vector<CheckFault>& faults);
+/// The same for a value by one rule of the table; pointer: of the value.
+std::size_t check_rules(const RuleTable& table, const Rule& rule, JsonValue& value, std::string_view pointer,
+                        std::vector<CheckFault>& faults);
 
 /// A table as a JSON Schema (draft-07).
 std::string schema_text_of(const RuleTable& table, const std::string& title);

@@ -39,6 +39,17 @@ SMALL = [
      "motions": [{"name": "m", "at": "q", "x": {"kind": "harmonic", "amplitude": 0.1, "omega": 3}}],
      "sensors": [{"name": "angle", "kind": "joint_angle", "joint": "h"}, {"name": "e", "kind": "total_energy"}],
      "analysis": {"kind": "dynamic", "end_time": 0.02, "step_size": 0.002}},
+    {"schema_version": 1, "parameters": {"N": 3, "M": {"expression": "N - 1"}, "L": {"expression": "1/M"}},
+     "repeat": [{"index": "i", "count": {"expression": "N"},
+                 "bodies": [{"name": "p {i}", "mass": {"expression": "L + i"}, "inertia": [0.1, 0.2, 0.25],
+                             "position": [{"expression": "i*L"}, 0, 0]}],
+                 "repeat": [{"index": "j", "first": 1, "count": {"expression": "i"},
+                             "loads": [{"at": "p {i}", "force": [0, 1, 0], "law": {"expression": "L*sin(j*t)"}}]}]},
+                {"index": "i", "count": {"expression": "M"},
+                 "springs": [{"name": "k {i}", "first": "p {i}", "second": "p {i+1}", "stiffness": 100}]}],
+     "joints": [{"name": "wall", "kind": "fixed", "first": "ground", "second": "p {N-1}"}],
+     "sensors": [{"name": "end", "kind": "position", "at": "p 0"}],
+     "analysis": {"kind": "dynamic", "end_time": 0.02, "step_size": 0.002}},
 ]
 
 

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "bough/io/json_value.hpp"
+
+namespace bough::io {
+
+/// A value as text for people: what fits stands on one line of up to 120 characters, numbers are the shortest that read
+/// back to the same bits. What an object has by default alone is left out.
+std::string printed(const JsonValue& value);
+
+}  // namespace bough::io
