@@ -36,6 +36,15 @@ struct BatchArguments {
   bool quiet = false;
   bool check_expected = false;
 };
+struct SweepArguments {
+  std::filesystem::path file, out;
+  int threads = 0;
+  double time_limit = 0.0;
+  std::vector<std::string> overrides, only;  ///< only: names of cases; empty: all
+  std::string keep = "few";                  ///< folders of cases: all, none, or of no more than 200
+  double memory_limit = 0.0;                 ///< of all cases at a time [bytes]; 0: what is available
+  bool quiet = false, check_expected = false, dry_run = false;
+};
 struct ExportMatrixArguments {
   std::filesystem::path scene, out, rhs;  ///< out empty: ./<scene>.mtx; rhs empty: not written
   std::optional<long> step;
@@ -96,7 +105,7 @@ struct MotionArguments {
 };
 struct SchemaArguments {
   bool chain = false, motion = false;  ///< of the files of bough kinematics, not of scenes
-  bool study = false;                  ///< of the files of bough study
+  bool study = false, sweep = false;   ///< of the files of bough study and bough sweep
 };
 struct StudyArguments {
   std::filesystem::path spec, out, cache;  ///< spec: a file or a folder of them; cache empty: out/references
@@ -119,6 +128,7 @@ struct StressArguments {
 int run(const RunArguments& arguments);
 int view(const ViewArguments& arguments);
 int batch(const BatchArguments& arguments);
+int sweep(const SweepArguments& arguments);
 int export_matrix(const ExportMatrixArguments& arguments);
 int profile(const ProfileArguments& arguments);
 int tune(const TuneArguments& arguments);

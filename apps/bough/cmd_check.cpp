@@ -7,6 +7,7 @@
 #include "bough/io/read_motion.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/read_study.hpp"
+#include "bough/io/read_sweep.hpp"
 #include "bough/plan/plan.hpp"
 #include "memory_limit.hpp"
 #include "terminal.hpp"
@@ -68,6 +69,7 @@ int schema(const SchemaArguments& arguments) {
   std::cout << (arguments.chain    ? io::frames_schema_text()
                 : arguments.motion ? io::motion_schema_text()
                 : arguments.study  ? io::study_schema_text()
+                : arguments.sweep  ? io::sweep_schema_text()
                                    : io::schema_text())
             << std::flush;
   return std::cout.good() ? exit_done : exit_failed;

@@ -12,9 +12,9 @@
 namespace bough::app {
 namespace {
 
-const std::vector<std::string> verbs = {"run",    "view",    "batch",      "check",         "expand",
-                                        "schema", "compare", "kinematics", "export-matrix", "study",
-                                        "stress", "profile", "tune",       "plan",          "doctor"};
+const std::vector<std::string> verbs = {"run",     "view",    "batch",      "sweep",         "check", "expand",
+                                        "schema",  "compare", "kinematics", "export-matrix", "study", "stress",
+                                        "profile", "tune",    "plan",       "doctor"};
 
 /// A finite number from low to high. (CLI::Range lets NaN pass.)
 CLI::Validator between(double low, double high) {
@@ -109,10 +109,11 @@ void add_view(CLI::App& app, ViewArguments& a, int& code) {
 }
 
 void add_batch(CLI::App& app, BatchArguments& a, int& code) {
-  CLI::App& verb = add_verb(app, "batch", "Run every scene of a folder, one thread a case",
-                            "  bough batch scenes --out results --threads 8\n"
-                            "Writes results/NAME for every NAME.json and the table results/batch.csv.\n"
-                            "Exit status: 0 all done, 1 a case failed, 2 nothing could be run.");
+  CLI::App& verb =
+      add_verb(app, "batch", "Run every scene of a folder, one thread a case",
+               "  bough batch scenes --out results --threads 8\n"
+               "Writes results/NAME for every NAME.json, the tables batch.csv and batch.json, and cost.csv.\n"
+               "Exit status: 0 all done, 1 a case failed, 2 nothing could be run.");
   verb.add_option("FOLDER", a.folder, "Folder of scene files")->required();
   verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR")->required();
   add_threads(verb, a.threads, "Cases at a time");
@@ -124,6 +125,35 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
   verb.callback([&] { code = batch(a); });
+}
+
+void add_sweep(CLI::App& app, SweepArguments& a, int& code) {
+  CLI::App& verb = add_verb(
+      app, "sweep", "Run one scene in many cases: grids, tables, draws of distributions",
+      "  bough sweep data/sweeps/beam.json --dry-run\n"
+      "  bough sweep data/sweeps/beam.json --out results --threads 8\n"
+      "  bough sweep data/sweeps/beam.json --out one --case 0042\n"
+      "Writes cases.csv (what varies), batch.csv and batch.json (what came of it), cost.csv (times and memory), and a\n"
+      "folder a case where there are no more than 200. `bough schema --sweep` prints the format.\n"
+      "Exit status: 0 all done, 1 a case failed, 2 bad input.");
+  verb.add_option("FILE", a.file, "Sweep (JSON)")->required();
+  verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR");
+  verb.add_flag("--dry-run", a.dry_run, "List the cases and what they will take, and run none");
+  verb.add_option("--case", a.only, "Only this case; may be given several times")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb.add_option("--keep", a.keep, "Folders of cases: all, none, or few, which is up to 200 (default: few)")
+      ->check(CLI::IsMember({"all", "none", "few"}));
+  add_threads(verb, a.threads, "Cases at a time");
+  verb.add_option("--time-limit", a.time_limit, "Stop a case after so many seconds (default: none)")
+      ->type_name("S")
+      ->check(between(0.001, 1e9));
+  add_overrides(verb, a.overrides);
+  add_memory_limit(verb, a.memory_limit, "all cases at a time");
+  verb.add_flag("--quiet", a.quiet, "Print failed cases only");
+  verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
+  verb.callback([&] { code = sweep(a); });
 }
 
 void add_export_matrix(CLI::App& app, ExportMatrixArguments& a, int& code) {
@@ -266,6 +296,10 @@ void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, ExpandArgum
   schema_verb.add_flag("--study", schema_arguments.study, "Of the studies of bough study")
       ->excludes("--chain")
       ->excludes("--motion");
+  schema_verb.add_flag("--sweep", schema_arguments.sweep, "Of the sweeps of bough sweep")
+      ->excludes("--chain")
+      ->excludes("--motion")
+      ->excludes("--study");
   add_verb(app, "doctor", "Say what this program was built with and test itself", "  bough doctor").callback([&] {
     code = doctor({});
   });
@@ -381,6 +415,8 @@ int dispatch(int count, char** values) {
   add_run(app, run_arguments, code);
   add_view(app, view_arguments, code);
   add_batch(app, batch_arguments, code);
+  SweepArguments sweep_arguments;
+  add_sweep(app, sweep_arguments, code);
   SchemaArguments schema_arguments;
   ExportMatrixArguments export_arguments;
   add_export_matrix(app, export_arguments, code);

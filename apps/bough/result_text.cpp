@@ -91,6 +91,12 @@ std::string result_text(const results::Summary& summary, const std::string& dire
   if (!summary.not_judged.empty()) text += "  not judged: " + summary.not_judged + "\n";
   for (const std::string& note : summary.notes) text += "  note: " + note + "\n";
   if (!summary.expected.empty()) text += expected_text(summary.expected);
+  if (!summary.measures.empty()) {
+    std::vector<std::vector<std::string>> rows;
+    for (const results::MeasureResult& m : summary.measures)
+      rows.push_back({"  " + m.name, m.value ? rounded_text(*m.value, 9) : "none"});
+    text += table_text(rows);
+  }
   text += "  results in " + directory + ":";
   for (const std::string& file : files) text += " " + file;
   return text + "\n";

@@ -139,13 +139,14 @@ class Expander {
       const std::string& key = v.items.key(i);
       if (key == "comment") continue;
       if (key == "expression" && v.items[i].is(JsonKind::string))
-        apply_to_text(v.items[i], path.member(key), true);
+        apply_to_text(v.items[i], path.member(key), true, v.find("of"));
       else
         apply(v.items[i], path.member(key));
     }
   }
 
-  void apply_to_text(JsonValue& v, const JsonPath& path, bool is_formula) {
+  /// own: an object whose keys are names of the formula's own.
+  void apply_to_text(JsonValue& v, const JsonPath& path, bool is_formula, const JsonValue* own = nullptr) {
     v.is_copy = !around_.empty();
     if (!is_formula && v.text.str().find_first_of("{}") == std::string::npos) return;
     if (is_full_) {
@@ -153,7 +154,8 @@ class Expander {
       return;
     }
     std::string text = v.text;
-    const std::optional<NamedFault> fault = is_formula ? names_.put_into_formula(text) : names_.put_into_text(text);
+    const std::optional<NamedFault> fault =
+        is_formula ? names_.put_into_formula(text, own) : names_.put_into_text(text);
     if (fault) {
       v.sound = false;
       if (fault->was_told) return;

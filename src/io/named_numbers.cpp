@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/laws/formula.hpp"
@@ -46,12 +45,12 @@ std::string NamedNumbers::hint_for(const std::string& name) {
   return near.empty() ? "names are those of \"parameters\" and the index of copies" : "did you mean \"" + near + "\"?";
 }
 
-std::optional<NamedFault> NamedNumbers::put_into_formula(std::string& formula) {
+std::optional<NamedFault> NamedNumbers::put_into_formula(std::string& formula, const JsonValue* own) {
   std::string made;
   std::size_t done = 0;
   for (const laws::NamePlace& place : laws::names_in(formula)) {
     const std::string name = formula.substr(place.position, place.length);
-    if (is_word_of_formulas(name)) continue;
+    if (is_word_of_formulas(name) || (own != nullptr && own->find(name) != nullptr)) continue;
     if (defective_.count(name) > 0) return NamedFault{"", "", "", true};
     const auto at = values_.find(name);
     if (at == values_.end()) return NamedFault{"no number has the name \"" + shown(name) + "\"", "", name};

@@ -7,6 +7,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "bough/io/json_value.hpp"
+
 namespace bough::io {
 
 /// What is wrong with a text that holds names.
@@ -28,7 +30,8 @@ class NamedNumbers {
 
   /// The formula with numbers, in parentheses, for all names but t, pi, e and functions; braces are parentheses, so
   /// that {i} reads as in other strings.
-  std::optional<NamedFault> put_into_formula(std::string& formula);
+  /// own: names that are left as they are.
+  std::optional<NamedFault> put_into_formula(std::string& formula, const JsonValue* own = nullptr);
   /// The text with whole numbers for all formulas in braces; {{ and }} are single braces. A number is whole to 1e-9.
   std::optional<NamedFault> put_into_text(std::string& text);
 

@@ -67,6 +67,8 @@ class Converter : private ValueConverter {
   void initial_velocity(const Value& v, const std::string& at);
   void sensor(const Value& v, const std::string& at);
   void expected(const Value& v, const std::string& at);
+  void measure(const Value& v, const std::string& at);
+  void read_measured_names(const Value& v, const std::string& at, scene::Measure& m);
   void settings();
 
   // Units in disguise, and settings without effect: hints.
@@ -98,6 +100,7 @@ class Converter : private ValueConverter {
   std::unordered_map<std::string, std::size_t> material_of_;  ///< by name, in materials_
   std::unordered_set<std::string> defective_materials_;       ///< left out, for their faults were reported
   std::unordered_set<std::string> names_;                     ///< all names given in the file
+  std::unordered_set<std::string> measure_names_;
   int unnamed_ = 0;
   std::optional<scene::Poses> poses_;
 };

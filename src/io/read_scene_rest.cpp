@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include "bough/laws/formula.hpp"
 #include "bough/laws/make_law.hpp"
 #include "bough/scene/components.hpp"
+#include "named_numbers.hpp"
 #include "read_scene_impl.hpp"
 
 namespace bough::io {
@@ -110,6 +112,59 @@ void Converter::expected(const Value& v, const std::string& at) {
   e.relative_tolerance = number_or(v, "relative_tolerance", 0.0);
   e.source = v.find("source")->text;
   add(scene.expected, "expected", std::move(e), at);
+}
+
+void Converter::measure(const Value& v, const std::string& at) {
+  scene::Measure m;
+  m.name = v.find("name")->text;
+  m.quantity = text_or(v, "quantity");
+  m.expression = text_or(v, "expression");
+  for (int k = 0; k <= static_cast<int>(scene::MeasureKind::equivalent_range); ++k)
+    if (scene::to_string(static_cast<scene::MeasureKind>(k)) == text_or(v, "figure"))
+      m.kind = static_cast<scene::MeasureKind>(k);
+  const auto optional = [&v](const char* key) {
+    const Value* given = v.find(key);
+    return given == nullptr ? std::nullopt : std::optional<double>(given->number);
+  };
+  m.time = optional("time");
+  m.level = optional("level");
+  m.target = optional("target");
+  m.cycles = optional("cycles");
+  m.percent = number_or(v, "percent", m.percent);
+  m.band = number_or(v, "band", m.band);
+  m.range = number_or(v, "range", m.range);
+  m.exponent = number_or(v, "exponent", m.exponent);
+  if (!measure_names_.insert(m.name).second)
+    fault(at + "/name", "another measure has this name", "names are used once");
+  if (m.kind == scene::MeasureKind::settling_time && v.find("band") == nullptr)
+    fault(at, "needs the key \"band\"", "how far from the target counts as settled");
+  read_measured_names(v, at, m);
+  add(scene.measures, "measures", std::move(m), at);
+}
+
+/// The quantities that an expression names.
+void Converter::read_measured_names(const Value& v, const std::string& at, scene::Measure& m) {
+  const Value* of = v.find("of");
+  if (m.expression.empty()) {
+    if (of != nullptr) fault(at + "/of", "goes with an \"expression\"");
+    return;
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; of != nullptr && i < of->items.size(); ++i) {
+    const std::string& name = of->items.key(i);
+    if (name == "comment") continue;
+    if (const std::string rule = NamedNumbers::fault_of_name(name); !rule.empty())
+      fault(pointer_to(at + "/of", name), rule);
+    names.push_back(name);
+    m.names.emplace_back(name, of->items[i].text);
+  }
+  if (names.empty())
+    return fault(at, "an expression needs the key \"of\" with its quantities", "\"of\": {\"x\": \"tip.x\"}");
+  try {
+    (void)laws::Formula(m.expression, names);
+  } catch (const laws::LawError& e) {
+    fault(at + "/expression", e.what());
+  }
 }
 
 /// Keys that were given and that the other choices leave without effect.
@@ -256,6 +311,7 @@ void Converter::convert() {
   each("initial_velocities", &Converter::initial_velocity);
   each("sensors", &Converter::sensor);
   each("expected", &Converter::expected);
+  each("measures", &Converter::measure);
 }
 
 }  // namespace bough::io

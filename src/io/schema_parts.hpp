@@ -9,6 +9,8 @@ void add_law_rules(RuleTable& table);
 /// Statics and dynamics with their step control and paths; `frame`: the field that names the frame of description.
 void add_analysis_rules(RuleTable& table, const Field& frame);
 
+/// Measures; also those of sweeps.
+void add_measure_rules(RuleTable& table);
 /// `parameters` and `repeat`; lists: the lists of a scene of which copies can be made.
 void add_expansion_rules(RuleTable& table, const std::vector<Field>& lists);
 /// How many copies are made, and the index of the first.

@@ -319,6 +319,7 @@ RuleTable make_table() {
   add_joints(t);
   add_loads(t);
   add_sensors(t);
+  add_measure_rules(t);
   add_settings(t);
   const auto list = [](std::string key, std::string item, std::string about) {
     return may(std::move(key), array_rule("", named_rule(std::move(item))), std::move(about), "[]");
@@ -336,7 +337,8 @@ RuleTable make_table() {
                                     list("motions", "motion", "Prescribed motions."),
                                     list("initial_velocities", "initial_velocity", "Velocities at the start."),
                                     list("sensors", "sensor", "What is measured."),
-                                    list("expected", "expected", "Figures the run has to meet.")};
+                                    list("expected", "expected", "Figures the run has to meet."),
+                                    list("measures", "measure", "Figures of the run, columns of batches and sweeps.")};
   add_expansion_rules(t, lists);
   t.has_formulas = true;
   Rule root = object_of(

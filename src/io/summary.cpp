@@ -211,6 +211,20 @@ void write_expected(JsonText& json, const std::vector<results::ExpectedResult>& 
   json.end_object();
 }
 
+void write_measures(JsonText& json, const std::vector<results::MeasureResult>& measures) {
+  if (measures.empty()) return;
+  json.key("measures");
+  json.begin_object();
+  for (const results::MeasureResult& m : measures) {
+    json.key(m.name);
+    if (m.value)
+      json.value(*m.value);
+    else
+      json.value("none");
+  }
+  json.end_object();
+}
+
 void write_origin(JsonText& json, const RunOrigin& origin, const std::vector<FileRecord>& files) {
   json.key("origin");
   json.begin_object();
@@ -261,6 +275,15 @@ void read_expected(const JsonValue& list, SummaryFile& summary) {
     figure.source = text_of(item, "source");
     figure.taken = text_of(item, "taken");
     summary.expected.push_back(std::move(figure));
+  }
+}
+
+void read_measures(const JsonValue& list, SummaryFile& summary) {
+  for (std::size_t k = 0; k < list.items.size(); ++k) {
+    const JsonValue& item = list.items[k];
+    results::MeasureResult m{list.items.key(k), {}};
+    if (item.is(JsonKind::number)) m.value = item.number;
+    summary.measures.push_back(std::move(m));
   }
 }
 
@@ -317,6 +340,7 @@ std::string summary_text(const results::Summary& summary, std::string_view versi
   json.end_object();
   write_sensors(json, summary);
   write_expected(json, summary.expected);
+  write_measures(json, summary.measures);
   write_origin(json, origin, files);
   json.end_object();
   return json.text();
@@ -361,6 +385,7 @@ SummaryFile read_summary(const std::filesystem::path& path) {
   }
   if (const JsonValue* notes = json->find("notes"); notes != nullptr)
     for (const JsonValue& note : notes->items) summary.notes.push_back(note.text.str());
+  if (const JsonValue* measures = json->find("measures"); measures != nullptr) read_measures(*measures, summary);
   if (const JsonValue* expected = json->find("expected"); expected != nullptr) read_expected(*expected, summary);
   if (const JsonValue* origin = json->find("origin"); origin != nullptr)
     if (const JsonValue* set = origin->find("set"); set != nullptr)

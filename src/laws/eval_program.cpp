@@ -175,13 +175,16 @@ using Stack = std::array<Jet<S>, max_stack>;
 
 /// One instruction on one stack. branch: of a switch, for numbers.
 template <class S>
-void apply(const Instruction& instruction, int branch, const Jet<S>& t, Stack<S>& stack, std::size_t height) {
+void apply(const Instruction& instruction, int branch, const Jet<S>& t, Stack<S>& stack, std::size_t height,
+           const double* variables = nullptr) {
   // height: of the stack before the instruction
   const Op op = instruction.op;
   if (op == Op::number) {
     stack[height] = number_jet<S>(instruction.number);
   } else if (op == Op::time) {
     stack[height] = t;
+  } else if (op == Op::variable) {
+    stack[height] = number_jet<S>(variables[instruction.first]);
   } else if (has_two_arguments(op)) {
     Jet<S>& a = stack[height - 2];
     const Jet<S>& b = stack[height - 1];
@@ -217,7 +220,8 @@ Jet<S> switch_argument(Op op, const Stack<S>& stack, std::size_t height) {
 /// the stack of a run at the last time before t, kept in step by this one for the branches seen from the left.
 template <class S>
 std::size_t run(const Program& program, std::size_t begin, std::size_t end, const Jet<S>& t, Stack<S>& stack,
-                const Jet<double>* t_before = nullptr, Stack<double>* before = nullptr) {
+                const Jet<double>* t_before = nullptr, Stack<double>* before = nullptr,
+                const double* variables = nullptr) {
   std::size_t height = 0;
   for (std::size_t i = begin; i < end; ++i) {
     const Instruction& instruction = program.code[i];
@@ -233,8 +237,8 @@ std::size_t run(const Program& program, std::size_t begin, std::size_t end, cons
         branch = branch_of(switch_argument(op, stack, height), nullptr);
       }
     }
-    apply(instruction, branch, t, stack, height);
-    if (op == Op::number || op == Op::time) ++height;
+    apply(instruction, branch, t, stack, height, variables);
+    if (op == Op::number || op == Op::time || op == Op::variable) ++height;
     if (has_two_arguments(op)) --height;
   }
   return height;
@@ -246,6 +250,12 @@ Jet<double> time_jet(double t) { return {t, 1.0, 0.0}; }
 
 double previous_time(double t) {
   return std::min(std::nextafter(t, -std::numeric_limits<double>::infinity()), t - tiny_time);
+}
+
+double eval_program(const Program& program, std::span<const double> variables) {
+  Stack<double> stack;
+  run(program, 0, program.code.size(), number_jet<double>(0.0), stack, nullptr, nullptr, variables.data());
+  return stack[0].value;
 }
 
 Jet<double> eval_program(const Program& program, double t, Side side) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "bough/laws/law.hpp"
 #include "jet.hpp"
 #include "program.hpp"
@@ -14,6 +16,9 @@ double previous_time(double t);
 
 /// Value and derivatives of a formula at t, at a change of branch from the given side. Pure: no allocation, no failure.
 Jet<double> eval_program(const Program& program, double t, Side side);
+
+/// Value of a formula of variables, which are taken as constant in time; t is 0.
+double eval_program(const Program& program, std::span<const double> variables);
 
 /// Argument that decides the branch of the switch at instruction `index`: zero where the branch changes.
 Jet<double> eval_switch_argument(const Program& program, std::size_t index, double t);

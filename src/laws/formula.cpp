@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "bough/laws/law_error.hpp"
+#include "eval_program.hpp"
 #include "program.hpp"
 
 namespace bough::laws {
@@ -19,6 +20,18 @@ std::size_t end_of_number(std::string_view text, std::size_t at) {
   const auto [end, status] = std::from_chars(begin, text.data() + text.size(), number);
   return at + std::max<std::size_t>(1, static_cast<std::size_t>(end - begin));
 }
+
+/// Masks floating-point traps while it lives: what 1/0 gives is for the caller to judge.
+class TrapsMasked {
+ public:
+  TrapsMasked() { std::feholdexcept(&environment_); }
+  TrapsMasked(const TrapsMasked&) = delete;
+  TrapsMasked& operator=(const TrapsMasked&) = delete;
+  ~TrapsMasked() { std::fesetenv(&environment_); }
+
+ private:
+  std::fenv_t environment_{};
+};
 
 }  // namespace
 
@@ -43,23 +56,22 @@ bool is_formula_name(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
 }
 
-double eval_constant(const std::string& formula) {
-  std::fenv_t environment;
-  std::feholdexcept(&environment);  // 1/0 is for the caller to judge, not to trap
-  Program program;
-  try {
-    program = parse_formula(formula);
-  } catch (...) {
-    std::fesetenv(&environment);
-    throw;
+Formula::Formula(const std::string& text, std::span<const std::string> names) {
+  const TrapsMasked masked;
+  Program program = parse_formula(text, names);
+  if (std::any_of(program.code.begin(), program.code.end(), [](const Instruction& i) { return i.op == Op::time; })) {
+    for (const NamePlace& name : names_in(text))
+      if (text.compare(name.position, name.length, "t") == 0)
+        throw LawError(text, name.position, "t stands in laws of time only, and here a number is needed");
   }
-  std::fesetenv(&environment);
-  if (program.code.size() == 1 && program.code[0].op == Op::number) return program.code[0].number;
-  // The reader evaluates what is constant at once, so what is left depends on t.
-  for (const NamePlace& name : names_in(formula))
-    if (formula.compare(name.position, name.length, "t") == 0)
-      throw LawError(formula, name.position, "t stands in laws of time only, and here a number is needed");
-  throw LawError(formula, 0, "this is not a constant");
+  program_ = std::make_shared<const Program>(std::move(program));
 }
+
+double Formula::operator()(std::span<const double> values) const {
+  const TrapsMasked masked;
+  return eval_program(*program_, values);
+}
+
+double eval_constant(const std::string& formula) { return Formula(formula, {})({}); }
 
 }  // namespace bough::laws

@@ -66,7 +66,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 /// The known name nearest to one that is not known, empty where none is near (more than two letters or half of it off).
-std::string_view nearest_name(std::string_view unknown) {
+std::string_view nearest_name(std::string_view unknown, std::span<const std::string> variables) {
   std::string_view best;
   std::size_t least = std::min<std::size_t>(2, (unknown.size() + 1) / 2) + 1;
   const auto offer = [&](std::string_view name) {
@@ -78,6 +78,7 @@ std::string_view nearest_name(std::string_view unknown) {
   };
   for (const FunctionName& f : functions) offer(f.name);
   for (std::string_view name : symbols) offer(name);
+  for (std::string_view name : variables) offer(name);
   return best;
 }
 
@@ -86,7 +87,7 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 
 class Parser {
  public:
-  explicit Parser(const std::string& text) : text_(text) {}
+  Parser(const std::string& text, std::span<const std::string> variables) : text_(text), variables_(variables) {}
 
   Program run() {
     skip_space();
@@ -137,9 +138,9 @@ class Parser {
     return code.size() >= from_end && code[code.size() - from_end].op == Op::number;
   }
 
-  void emit_leaf(Op op, double number) {
+  void emit_leaf(Op op, double number, std::uint32_t which = 0) {
     if (++height_ > max_stack) fail(at_, "too many unfinished terms");
-    program_.code.push_back({op, number, 0});
+    program_.code.push_back({op, number, which});
   }
 
   /// Adds an operation on the last one or two results; `first` is where the instructions of its arguments begin.
@@ -259,7 +260,10 @@ class Parser {
     for (const FunctionName& f : functions) {
       if (f.name == name) return parse_call(f);
     }
-    const std::string_view near = nearest_name(name);
+    const auto variable = std::find(variables_.begin(), variables_.end(), name);
+    if (variable != variables_.end())
+      return emit_leaf(Op::variable, 0.0, static_cast<std::uint32_t>(variable - variables_.begin()));
+    const std::string_view near = nearest_name(name, variables_);
     fail(begin, "unknown name '" + std::string(name) + "'" +
                     (near.empty() ? "" : ", did you mean '" + std::string(near) + "'?"));
   }
@@ -288,6 +292,7 @@ class Parser {
   static std::string count(std::size_t n) { return n == 1 ? "one argument" : "two arguments"; }
 
   const std::string& text_;
+  std::span<const std::string> variables_;
   std::size_t at_ = 0;
   int depth_ = 0;
   int height_ = 0;
@@ -296,7 +301,9 @@ class Parser {
 
 }  // namespace
 
-Program parse_formula(const std::string& text) { return Parser(text).run(); }
+Program parse_formula(const std::string& text, std::span<const std::string> variables) {
+  return Parser(text, variables).run();
+}
 
 const std::vector<std::string>& formula_words() {
   static const std::vector<std::string> words = [] {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@ namespace bough::laws {
 enum class Op : std::uint8_t {
   number,
   time,
+  variable,
   negate,
   add,
   subtract,
@@ -45,7 +47,7 @@ constexpr bool has_two_arguments(Op op) {
 struct Instruction {
   Op op = Op::number;
   double number = 0.0;      ///< the number; the exponent of pow_number
-  std::uint32_t first = 0;  ///< of a switch: where the instructions of its arguments begin
+  std::uint32_t first = 0;  ///< of a switch: where the instructions of its arguments begin; of a variable: which
 };
 
 /// A formula in postfix order: each instruction takes its arguments from a stack and leaves its result there.
@@ -59,6 +61,7 @@ inline constexpr int max_stack = 256;
 inline constexpr int max_nesting = 64;
 
 /// Reads a formula; constant parts are evaluated at once. Throws LawError (make_expression says when).
-Program parse_formula(const std::string& text);
+/// variables: names that stand for numbers given when the program runs, beside t, pi, e.
+Program parse_formula(const std::string& text, std::span<const std::string> variables = {});
 
 }  // namespace bough::laws

@@ -107,8 +107,12 @@ std::string rate_coordinate(const Sensor& sensor, JointKind kind) {
   return !sensor.coordinate.empty() || known.empty() ? sensor.coordinate : known.front();
 }
 
-std::string to_string(FigureKind kind) {
-  static const char* const names[] = {"value", "max", "min", "time_of_max", "time_of_min", "range", "period"};
+std::string to_string(FigureKind kind) { return to_string(static_cast<MeasureKind>(kind)); }
+
+std::string to_string(MeasureKind kind) {
+  static const char* const names[] = {
+      "value", "max", "min",        "time_of_max",   "time_of_min",        "range",  "period",
+      "mean",  "rms", "percentile", "settling_time", "dominant_frequency", "cycles", "equivalent_range"};
   return names[static_cast<int>(kind)];
 }
 

@@ -124,28 +124,44 @@ void check_figure(ProblemList& list, std::size_t i) {
     list.warn("expected", i, "time", text_of(*e.time), rule + ", so this figure is not reached");
 }
 
-void check_expected(ProblemList& list, std::size_t i) {
-  const Expected& e = list.scene.expected[i];
-  check_figure(list, i);
-  const std::size_t dot_at = e.quantity.find('.');
-  const std::string name = e.quantity.substr(0, dot_at);
-  if (!list.check_reference("expected", i, "quantity", name, list.sensors, "sensor")) return;
+/// "<sensor>.<component>", or "<sensor>" of one without components.
+void check_quantity(ProblemList& list, const char* section, std::size_t i, const std::string& key,
+                    const std::string& quantity) {
+  const std::size_t dot_at = quantity.find('.');
+  const std::string name = quantity.substr(0, dot_at);
+  if (!list.check_reference(section, i, key, name, list.sensors, "sensor")) return;
   const auto& known = components_of(list.scene.sensors[list.sensor_of.at(name)].kind);
   if (dot_at == std::string::npos) {
     if (!known.empty())
-      list.add("expected", i, "quantity", e.quantity, "this sensor has the components " + list_of(known),
+      list.add(section, i, key, quantity, "this sensor has the components " + list_of(known),
                "write \"" + name + "." + known[0] + "\"");
     return;
   }
-  const std::string component = e.quantity.substr(dot_at + 1);
+  const std::string component = quantity.substr(dot_at + 1);
   if (std::find(known.begin(), known.end(), component) != known.end()) return;
   const std::string near = nearest_name(component, known);
-  list.add("expected", i, "quantity", e.quantity,
+  list.add(section, i, key, quantity,
            known.empty() ? "this sensor is one number without components"
                          : "this sensor has the components " + list_of(known),
            known.empty()  ? "write \"" + name + "\""
            : near.empty() ? ""
                           : "did you mean \"" + name + "." + near + "\"?");
+}
+
+void check_measure(ProblemList& list, std::size_t i) {
+  const Measure& m = list.scene.measures[i];
+  if (m.expression.empty()) check_quantity(list, "measures", i, "quantity", m.quantity);
+  for (const auto& [name, quantity] : m.names) check_quantity(list, "measures", i, "of/" + name, quantity);
+  const std::string figure = to_string(m.kind);
+  const bool is_static = list.scene.analysis.kind == AnalysisKind::statics;
+  const bool is_of_time = m.kind == MeasureKind::period || m.kind == MeasureKind::dominant_frequency ||
+                          m.kind == MeasureKind::settling_time;
+  if (is_static && is_of_time)
+    list.add("measures", i, "figure", figure, "this is a figure of time, and the analysis is static");
+  if (m.kind == MeasureKind::equivalent_range && is_static && !m.cycles)
+    list.add("measures", i, "", "", "needs the key \"cycles\": a static analysis has no seconds to count cycles in");
+  if (m.time && m.kind != MeasureKind::value)
+    list.add("measures", i, "time", text_of(*m.time), "a " + figure + " is one of the whole run, not of a time");
 }
 
 /// Sets of things that are joined, by union and find over the places; the last one is the ground.
@@ -206,7 +222,11 @@ bool is_clamp(const Joint& j) {
 
 void check_sensors(ProblemList& list) {
   for (std::size_t i = 0; i < list.scene.sensors.size(); ++i) check_sensor(list, i);
-  for (std::size_t i = 0; i < list.scene.expected.size(); ++i) check_expected(list, i);
+  for (std::size_t i = 0; i < list.scene.expected.size(); ++i) {
+    check_figure(list, i);
+    check_quantity(list, "expected", i, "quantity", list.scene.expected[i].quantity);
+  }
+  for (std::size_t i = 0; i < list.scene.measures.size(); ++i) check_measure(list, i);
 }
 
 void check_analysis(ProblemList& list) {

@@ -1,7 +1,9 @@
 #include "bough/study/batch.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,11 +16,9 @@
 #include <system_error>
 #include <thread>
 
-#include "bough/io/history.hpp"
-#include "bough/io/number_text.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/run_directory.hpp"
-#include "bough/io/summary.hpp"
+#include "cases/case_report.hpp"
 
 namespace bough::study {
 namespace {
@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t max_cause = 4000;  // [bytes], less than a pipe holds, so that a child never waits for its reader
-constexpr std::chrono::milliseconds poll_interval{20};
+constexpr std::size_t max_cause = 4000;  // [bytes]
+constexpr int poll_milliseconds = 20;
 constexpr double least_grace = 2.0, part_of_limit = 0.1;  // wall time to end by itself past the time limit [s], [-]
 
 struct Child {
@@ -35,6 +35,7 @@ struct Child {
   pid_t process = -1;
   int pipe = -1;
   Clock::time_point started;
+  std::string told;  ///< what came through the pipe so far
   bool timed_out = false, killed = false;
 };
 
@@ -50,7 +51,16 @@ void end_with_parent(pid_t parent) {
   if (::getppid() != parent) ::_exit(1);
 }
 
-/// The pipe carries the directory of the results, a zero byte, and the cause.
+bool write_all(int pipe, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(pipe, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
 [[noreturn]] void run_in_child(const BatchCase& which, const RunCase& run_case, int pipe) {
   CaseReport report;
   int code = 1;
@@ -61,9 +71,8 @@ void end_with_parent(pid_t parent) {
   } catch (...) {
     report.cause = "unknown failure";
   }
-  std::string text = report.directory.string() + '\0' + report.cause;
-  if (text.size() > max_cause) text.resize(max_cause);
-  [[maybe_unused]] const ssize_t written = ::write(pipe, text.data(), text.size());
+  if (report.cause.size() > max_cause) report.cause.resize(max_cause);
+  (void)write_all(pipe, text_of(report));
   ::_exit(code);  // nothing of the parent's is flushed or destroyed twice
 }
 
@@ -85,17 +94,19 @@ std::optional<Child> start(const BatchCase& which, std::size_t index, const RunC
     run_in_child(which, run_case, ends[1]);
   }
   ::close(ends[1]);
-  return Child{index, process, ends[0], Clock::now()};
+  ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
+  return Child{index, process, ends[0], Clock::now(), {}};
 }
 
-std::string read_all(int pipe) {
-  std::string text;
+/// Takes what is there, without waiting; false at the end of the pipe.
+bool read_some(Child& child) {
   char buffer[4096];
   while (true) {
-    const ssize_t count = ::read(pipe, buffer, sizeof buffer);
+    const ssize_t count = ::read(child.pipe, buffer, sizeof buffer);
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return text;
-    text.append(buffer, static_cast<std::size_t>(count));
+    if (count < 0) return errno == EAGAIN;
+    if (count == 0) return false;
+    child.told.append(buffer, static_cast<std::size_t>(count));
   }
 }
 
@@ -112,38 +123,6 @@ CaseStatus status_of(const Child& child, int wait_status) {
   }
 }
 
-/// The first expected figures that do not hold.
-std::string failing_figures(const io::SummaryFile& summary) {
-  constexpr int shown = 3;
-  std::string text;
-  int count = 0;
-  for (const results::ExpectedResult& figure : summary.expected) {
-    if (!figure.reached || figure.holds || ++count > shown) continue;
-    const std::string value = figure.has_value ? io::rounded_text(figure.value, 6) : "not there";
-    text += (text.empty() ? "" : ", ") + figure.name + " is " + value + " instead of " +
-            io::rounded_text(figure.reference, 6) + " +- " + io::rounded_text(figure.tolerance, 3);
-  }
-  if (count > shown) text += " and " + std::to_string(count - shown) + " more";
-  return text;
-}
-
-void read_summary_into(CaseResult& result, const fs::path& directory) {
-  const fs::path path = directory / "summary.json";
-  if (!fs::exists(path)) return;
-  const io::SummaryFile summary = io::read_summary(path);
-  result.accepted = summary.accepted;
-  result.rejected = summary.rejected;
-  result.newton_iterations = summary.newton_iterations;
-  for (const results::ExpectedResult& figure : summary.expected)
-    if (figure.reached) ++(figure.holds ? result.expected_holds : result.expected_fails);
-  if (result.status == CaseStatus::ok && result.expected_fails > 0) {
-    result.status = CaseStatus::figures_fail;
-    result.cause = failing_figures(summary);
-  }
-  if (summary.status == "interrupted" && result.status == CaseStatus::failed) result.status = CaseStatus::interrupted;
-  if (result.cause.empty()) result.cause = one_line(summary.cause);
-}
-
 /// What is kept of a case that was killed, in words.
 std::string kept_rows(const BatchCase& which) {
   try {
@@ -154,27 +133,40 @@ std::string kept_rows(const BatchCase& which) {
   }
 }
 
-CaseResult result_of(const Child& child, const BatchCase& which, int wait_status) {
+CaseCost cost_of(const Child& child, const rusage& usage) {
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  const std::chrono::duration<double> age = Clock::now() - child.started;
+  return {age.count(), seconds(usage.ru_utime) + seconds(usage.ru_stime),
+          1024.0 * static_cast<double>(usage.ru_maxrss)};
+}
+
+CaseResult result_of(Child& child, const BatchCase& which, int wait_status, const rusage& usage) {
   CaseResult result;
   result.which = which;
   result.status = status_of(child, wait_status);
-  const std::string told = read_all(child.pipe);
+  result.cost = cost_of(child, usage);
+  (void)read_some(child);
   ::close(child.pipe);
-  const std::size_t zero = std::min(told.find('\0'), told.size());
-  const fs::path directory = told.substr(0, zero);  // empty: it left no results, and what stands there is older
-  result.cause = one_line(told.substr(std::min(zero + 1, told.size())));
+  if (!report_of(child.told, result.report) && result.status != CaseStatus::crashed &&
+      result.status != CaseStatus::timed_out) {
+    result.status = CaseStatus::failed;
+    result.report.cause = "what it told of its end did not arrive whole";
+  }
+  const CaseReport& report = result.report;
+  result.cause = one_line(report.cause);
   if (result.status == CaseStatus::timed_out && (child.killed || WIFSIGNALED(wait_status)))
     result.cause = "killed at the time limit, since it did not stop by itself; " + kept_rows(which);
   if (result.status == CaseStatus::crashed)
     result.cause = "ended by signal " + std::to_string(WTERMSIG(wait_status)) + "; " + kept_rows(which);
-  try {
-    if (!directory.empty()) read_summary_into(result, directory);
-  } catch (const std::exception& error) {
-    result.status = CaseStatus::failed;
-    result.cause = error.what();
+  if (result.status == CaseStatus::ok && report.expected_fails > 0) {
+    result.status = CaseStatus::figures_fail;
+    result.cause = report.failing;
   }
-  if (!directory.empty() && directory != which.directory)
-    result.cause += " (the former results were good and are kept; see " + directory.string() + ")";
+  if (report.was_interrupted && result.status == CaseStatus::failed) result.status = CaseStatus::interrupted;
+  if (!report.directory.empty() && report.directory != which.directory)
+    result.cause += " (the former results were good and are kept; see " + report.directory.string() + ")";
   return result;
 }
 
@@ -200,16 +192,16 @@ std::string_view text_of(CaseStatus status) {
   return "failed";
 }
 
-std::vector<BatchCase> cases_in(const BatchOptions& options) {
+std::vector<BatchCase> cases_in(const fs::path& folder, const fs::path& out) {
   std::error_code error;
   std::vector<BatchCase> cases;
-  for (fs::directory_iterator it(options.folder, error), end; !error && it != end; it.increment(error)) {
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     if (it->path().extension() != ".json" || it->is_directory()) continue;
     const std::string name = io::name_of_file(it->path());
-    cases.push_back({name, it->path(), options.out / name});
+    cases.push_back({name, it->path(), out / name});
   }
-  if (error) throw std::runtime_error("cannot read the folder " + options.folder.string() + ": " + error.message());
-  if (cases.empty()) throw std::runtime_error("no scene (*.json) in " + options.folder.string());
+  if (error) throw std::runtime_error("cannot read the folder " + folder.string() + ": " + error.message());
+  if (cases.empty()) throw std::runtime_error("no scene (*.json) in " + folder.string());
   std::sort(cases.begin(), cases.end(), [](const BatchCase& a, const BatchCase& b) { return a.name < b.name; });
   return cases;
 }
@@ -234,64 +226,91 @@ CaseResult not_started(const BatchCase& which, int error) {
   return result;
 }
 
-}  // namespace
+/// Waits until a case tells something or ends, but no longer than limits are looked at.
+void wait_for(std::vector<Child>& running) {
+  std::vector<pollfd> pipes;
+  for (const Child& child : running) pipes.push_back({child.pipe, POLLIN, 0});
+  (void)::poll(pipes.data(), pipes.size(), poll_milliseconds);
+  for (std::size_t k = 0; k < running.size(); ++k)
+    if (pipes[k].revents != 0 && !read_some(running[k])) std::this_thread::yield();  // it is about to end
+}
 
-std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& run_case, const CaseDone& done,
-                                  const std::function<bool()>& stop) {
-  const std::vector<BatchCase> cases = cases_in(options);
-  std::vector<CaseResult> results(cases.size());
-  std::vector<Child> running;
-  std::size_t next = 0, num_done = 0;
-  bool stopping = false;
-  while (next < cases.size() || !running.empty()) {
-    if (!stopping && stop()) {
-      stopping = true;
-      for (const Child& child : running) ::kill(child.process, SIGTERM);
-    }
-    while (!stopping && next < cases.size() && running.size() < static_cast<std::size_t>(options.threads)) {
-      if (const std::optional<Child> child = start(cases[next], next, run_case)) {
-        running.push_back(*child);
-      } else {
-        results[next] = not_started(cases[next], errno);
-        done(results[next], ++num_done, cases.size());
+/// One batch as it goes.
+class Batch {
+ public:
+  Batch(const std::vector<BatchCase>& cases, const BatchOptions& options, const RunCase& run_case, const CaseDone& done)
+      : cases_(cases), options_(options), run_case_(run_case), done_(done), results_(cases.size()) {
+    order_ = options.order;
+    for (std::size_t k = order_.size(); k < cases.size(); ++k) order_.push_back(k);
+  }
+
+  std::vector<CaseResult> run(const std::function<bool()>& stop) {
+    bool stopping = false;
+    while (next_ < order_.size() || !running_.empty()) {
+      if (!stopping && stop()) {
+        stopping = true;
+        for (const Child& child : running_) ::kill(child.process, SIGTERM);
       }
-      ++next;
+      if (stopping && running_.empty()) break;
+      while (!stopping && next_ < order_.size() && running_.size() < static_cast<std::size_t>(options_.threads))
+        start_next();
+      if (!collect()) wait_for(running_);
     }
+    for (; next_ < order_.size(); ++next_) {
+      CaseResult& result = results_[order_[next_]];
+      result.which = cases_[order_[next_]];
+      result.status = CaseStatus::interrupted;
+      result.cause = "not started";
+    }
+    return std::move(results_);
+  }
+
+ private:
+  void start_next() {
+    const std::size_t index = order_[next_++];
+    if (std::optional<Child> child = start(cases_[index], index, run_case_)) {
+      running_.push_back(std::move(*child));
+      return;
+    }
+    results_[index] = not_started(cases_[index], errno);
+    done_(results_[index], ++num_done_, cases_.size());
+  }
+
+  /// True where a case has ended.
+  bool collect() {
     bool any_ended = false;
-    for (std::size_t k = 0; k < running.size();) {
-      Child& child = running[k];
+    for (std::size_t k = 0; k < running_.size();) {
+      Child& child = running_[k];
       int wait_status = 0;
-      if (::waitpid(child.process, &wait_status, WNOHANG) == child.process) {
-        results[child.index] = result_of(child, cases[child.index], wait_status);
-        done(results[child.index], ++num_done, cases.size());
-        running.erase(running.begin() + static_cast<std::ptrdiff_t>(k));
+      rusage usage{};
+      if (::wait4(child.process, &wait_status, WNOHANG, &usage) == child.process) {
+        CaseResult& result = results_[child.index] = result_of(child, cases_[child.index], wait_status, usage);
+        running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(k));
+        done_(result, ++num_done_, cases_.size());
         any_ended = true;
         continue;
       }
-      keep_to_limit(child, options.time_limit);
+      keep_to_limit(child, options_.time_limit);
       ++k;
     }
-    if (stopping && running.empty()) break;
-    if (!any_ended) std::this_thread::sleep_for(poll_interval);
+    return any_ended;
   }
-  for (; next < cases.size(); ++next) {
-    results[next].which = cases[next];
-    results[next].status = CaseStatus::interrupted;
-    results[next].cause = "not started";
-  }
-  return results;
-}
 
-std::string batch_csv(const std::vector<CaseResult>& results) {
-  std::string text =
-      "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails\n";
-  for (const CaseResult& result : results) {
-    text += io::csv_field(result.which.name) + ',' + std::string(text_of(result.status)) + ',' +
-            io::csv_field(result.cause) + ',' + std::to_string(result.accepted) + ',' +
-            std::to_string(result.rejected) + ',' + std::to_string(result.newton_iterations) + ',' +
-            std::to_string(result.expected_holds) + ',' + std::to_string(result.expected_fails) + '\n';
-  }
-  return text;
+  const std::vector<BatchCase>& cases_;
+  const BatchOptions& options_;
+  const RunCase& run_case_;
+  const CaseDone& done_;
+  std::vector<CaseResult> results_;
+  std::vector<std::size_t> order_;
+  std::vector<Child> running_;
+  std::size_t next_ = 0, num_done_ = 0;
+};
+
+}  // namespace
+
+std::vector<CaseResult> run_batch(const std::vector<BatchCase>& cases, const BatchOptions& options,
+                                  const RunCase& run_case, const CaseDone& done, const std::function<bool()>& stop) {
+  return Batch(cases, options, run_case, done).run(stop);
 }
 
 }  // namespace bough::study

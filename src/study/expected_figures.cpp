@@ -27,14 +27,14 @@ bool needs_least(FigureKind k) {
 }
 
 /// Sensors that somebody asks for, by their places in the plan.
-std::vector<int> sensors_asked_for(const scene::Scene& scene, const plan::Plan& plan, bool all) {
+std::vector<int> sensors_asked_for(const std::vector<scene::Expected>& expected, const plan::Plan& plan, bool all) {
   std::vector<int> sensors;
   for (std::size_t k = 0; k < plan.sensors.size(); ++k) {
     const std::string& name = plan.sensors[k].sensor.name;
     const auto asks = [&](const scene::Expected& e) {
       return (is_at_time(e) || is_of_whole_run(e)) && e.quantity.substr(0, e.quantity.find('.')) == name;
     };
-    if (all || std::any_of(scene.expected.begin(), scene.expected.end(), asks)) sensors.push_back(static_cast<int>(k));
+    if (all || std::any_of(expected.begin(), expected.end(), asks)) sensors.push_back(static_cast<int>(k));
   }
   return sensors;
 }
@@ -47,19 +47,19 @@ std::string name_of(const scene::Expected& e) {
 
 }  // namespace
 
-ExpectedFigures::ExpectedFigures(const scene::Scene& scene, const plan::Plan& plan,
-                                 const results::HistoryHeader& header, std::vector<double> sample_times,
-                                 decltype(SimulateOptions::sample) sample)
+ExpectedFigures::ExpectedFigures(const scene::Scene& scene, const std::vector<scene::Expected>& expected,
+                                 const plan::Plan& plan, const results::HistoryHeader& header,
+                                 std::vector<double> sample_times, decltype(SimulateOptions::sample) sample)
     : scene_(scene),
       plan_(plan),
       sample_times_(sample ? std::move(sample_times) : std::vector<double>{}),
       sample_(std::move(sample)),
-      window_(plan, sensors_asked_for(scene, plan, sample_ != nullptr)) {
+      window_(plan, sensors_asked_for(expected, plan, sample_ != nullptr)) {
   const scene::Analysis& analysis = scene.analysis;
   reach_ = plan.is_dynamic ? analysis.step_control ? analysis.end_time : around * analysis.step_size : 0.0;
   std::vector<std::size_t> first_column{0};
   for (const plan::SensorPlan& s : plan.sensors) first_column.push_back(first_column.back() + s.components.size());
-  for (const scene::Expected& e : scene.expected) {
+  for (const scene::Expected& e : expected) {
     Figure figure;
     figure.given = &e;
     figure.column = static_cast<std::size_t>(std::find(header.columns.begin(), header.columns.end(), e.quantity) -

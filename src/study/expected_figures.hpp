@@ -17,9 +17,10 @@ namespace bough::study {
 /// chosen. Extremes, ranges and periods look at the ends of all accepted steps, whatever the stride of the output, and at what lies between.
 class ExpectedFigures {
  public:
-  /// sample_times: ascending; looked at where `sample` is given.
-  ExpectedFigures(const scene::Scene& scene, const plan::Plan& plan, const results::HistoryHeader& header,
-                  std::vector<double> sample_times, decltype(SimulateOptions::sample) sample);
+  /// expected: outlives this object. sample_times: ascending; looked at where `sample` is given.
+  ExpectedFigures(const scene::Scene& scene, const std::vector<scene::Expected>& expected, const plan::Plan& plan,
+                  const results::HistoryHeader& header, std::vector<double> sample_times,
+                  decltype(SimulateOptions::sample) sample);
 
   /// Whether the end of a step at this time has to be handed to `add`: never where nothing is asked for. Some ends around a time are.
   bool wants(double time) const;

@@ -13,6 +13,7 @@
 #include "bough/step/bdf.hpp"
 #include "bough/step/step_control.hpp"
 #include "bough/step/variational.hpp"
+#include "bough/study/measures.hpp"
 #include "bough/study/simulate.hpp"
 #include "energy_error.hpp"
 #include "error_watch.hpp"
@@ -108,6 +109,8 @@ class Run {
   void note_moved_start(const step::StartReport& consistent);
   bool run_segment(double begin, double end, double& sum_of_cuts);
   void finish();
+  /// Expected figures and measures of what was run.
+  void take_figures();
   void finish_statics();
 
   const scene::Scene& scene_;
@@ -131,8 +134,10 @@ class Run {
   results::Balance balance_;
   FiniteGate gate_;
   std::vector<double> values_;
-  results::HistoryRow row_;  ///< the last one recorded
+  results::HistoryRow row_;             ///< the last one recorded
+  std::vector<scene::Expected> asked_;  ///< what the scene expects, then what it measures in the same way
   ExpectedFigures figures_;
+  Measures measures_;
   double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< of accepted steps; of those at the floor of round-off
   std::string first_rejection_, not_unique_;
   int open_joint_ = -1, fast_joint_ = -1;  ///< of the largest relative violations seen, in Plan::joints

@@ -101,7 +101,8 @@ void Run::note_moved_start(const step::StartReport& consistent) {
 
 /// Whether somebody reads the state at the end of the step that makes the next row.
 bool Run::will_look(bool is_last) const {
-  return looks_always_ || is_due(rows_, is_last) || is_motion_due(rows_, is_last) || figures_.wants(state_.time);
+  return looks_always_ || is_due(rows_, is_last) || is_motion_due(rows_, is_last) || !measures_.empty() ||
+         figures_.wants(state_.time);
 }
 
 bool Run::catch_up() {

@@ -21,6 +21,25 @@ namespace bough::study {
 using results::RunStatus;
 using results::Summary;
 
+namespace {
+
+/// What the scene expects, then what it measures in the same way.
+std::vector<scene::Expected> figures_asked_for(const scene::Scene& scene) {
+  std::vector<scene::Expected> figures = scene.expected;
+  for (const scene::Measure& m : scene.measures) {
+    if (!Measures::is_figure(m)) continue;
+    scene::Expected figure;
+    figure.quantity = m.quantity;
+    figure.figure = static_cast<scene::FigureKind>(m.kind);
+    figure.time = m.time;
+    figure.level = m.level;
+    figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+}  // namespace
+
 Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Recorder& recorder,
          const ProgressCallback& progress)
     : scene_(scene),
@@ -38,7 +57,9 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
       state_(step::make_initial_state(plan_)),
       work_meter_(plan_),
       energy_meter_(plan_),
-      figures_(scene, plan_, results::make_header(plan_), options.stops, options.sample),
+      asked_(figures_asked_for(scene)),
+      figures_(scene, asked_, plan_, results::make_header(plan_), options.stops, options.sample),
+      measures_(scene, results::make_header(plan_)),
       springs_(plan_) {
   options_.reuse_factors = plan_.took("reuse");
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::variational)
@@ -174,9 +195,10 @@ void Run::record(int iterations, bool is_last) {
   const long row = rows_++;
   summary_.step_size = std::max(summary_.step_size, last_step_);
   const bool due = is_due(row, is_last);
-  if (due && !plan_.sensors.empty()) {
+  if ((due || !measures_.empty()) && !plan_.sensors.empty()) {
     results::eval_sensors(system_, state_, energy_meter_, values_);
-    if (error_watch_) error_watch_->see(values_);
+    if (due && error_watch_) error_watch_->see(values_);
+    if (!measures_.empty()) measures_.add(state_.time, values_);
   }
   if (due) springs_.look(system_, state_);
   if (due && scene_.output.checks) check();
@@ -194,6 +216,26 @@ void Run::record(int iterations, bool is_last) {
     recorder_.motion(frame);
   }
   figures_.add(system_, state_, energy_meter_);
+}
+
+void Run::take_figures() {
+  summary_.expected = figures_.results(summary_);
+  const std::vector<results::MeasureResult> of_whole_run = measures_.results();
+  summary_.measures.clear();
+  std::size_t next_figure = scene_.expected.size(), next_measure = 0;
+  for (const scene::Measure& m : scene_.measures) {
+    if (!Measures::is_figure(m)) {
+      summary_.measures.push_back(of_whole_run[next_measure++]);
+      continue;
+    }
+    const results::ExpectedResult& figure = summary_.expected[next_figure++];
+    const bool is_there = figure.reached && figure.has_value && std::isfinite(figure.value);
+    summary_.measures.push_back({m.name, is_there ? std::optional<double>(figure.value) : std::nullopt});
+  }
+  if (summary_.status != RunStatus::ok)
+    for (results::MeasureResult& m : summary_.measures)
+      m.value.reset();  // what a part of a run shows is no figure of it
+  summary_.expected.resize(scene_.expected.size());
 }
 
 bool Run::is_due(long row, bool is_last) const { return row % std::max(1, scene_.output.stride) == 0 || is_last; }
@@ -312,12 +354,11 @@ void Run::finish() {
     note("the symmetric parts of tangents were given up for whole ones: Newton's iteration had slowed down");
   if (summary_.checks.round_off_floor_reached)
     note("some steps were accepted at the round-off floor of the residual, above the tolerance asked for");
-  summary_.expected = figures_.results(summary_);
+  take_figures();
   if (summary_.status == RunStatus::ok) {
     gate_.look_at(state_, plan_);
     gate_.look_at(summary_);
-    if (!gate_.cause().empty() && !fail(gate_.cause()))
-      summary_.expected = figures_.results(summary_);  // of a run that failed none holds
+    if (!gate_.cause().empty() && !fail(gate_.cause())) take_figures();  // of a run that failed none holds
   }
   summary_.solver = solver_figures(system_, dependent_rows_);
   if (reactions_) summary_.unsure_reactions = reactions_->found();

@@ -36,7 +36,7 @@ echo '{"schema_version": 1, "bodies": [{"name": "a", "mass": -1}, 7], "nonsense"
 # words
 expect 0 '^bough [0-9]' --version
 expect 0 'bough run' --help
-for verb in run view batch check expand schema compare export-matrix kinematics study stress profile tune plan doctor; do expect 0 '  bough '$verb $verb --help; done
+for verb in run view batch sweep check expand schema compare export-matrix kinematics study stress profile tune plan doctor; do expect 0 '  bough '$verb $verb --help; done
 expect 2 "did you mean 'run'" rnu good.json
 expect 2 "did you mean 'compare'" comapre a b
 expect 2 'Verbs:' xyzzy
@@ -74,6 +74,22 @@ expect 0 'done' run "$gallery/rod_chain.json" --set /parameters/N=3 --set /analy
 holds cmp expanded.out/history.csv varied.out/history.csv
 expect 2 'no parameter' expand "$gallery/rod_chain.json" --set /parameters/M=3
 expect 2 'mass' expand bad.json
+
+# a sweep: the table does not depend on threads or on what is kept; what is measured is a column
+sweeps=$gallery/../sweeps
+expect 0 '25 cases, 5 left out' sweep "$sweeps/rod_chain_lengths.json" --dry-run
+expect 0 '25 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.one --threads 1
+expect 0 silence sweep "$sweeps/rod_chain_lengths.json" --out sweep.two --threads 2 --keep none --quiet
+for file in batch.csv batch.json cases.csv; do holds cmp sweep.one/$file sweep.two/$file; done
+holds grep -q ',N,l,g,lowest,reach$' sweep.one/batch.csv
+holds test -s sweep.one/07/history.csv
+holds test ! -e sweep.two/07
+expect 0 '1 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07
+holds cmp sweep.one/07/history.csv sweep.case/07/history.csv
+expect 2 'no case' sweep "$sweeps/rod_chain_lengths.json" --out sweep.none --case 7
+expect 2 'out DIR' sweep "$sweeps/rod_chain_lengths.json"
+expect 2 'designs' sweep good.json --dry-run
+expect 0 'bough sweep' schema --sweep
 
 # a run
 expect 0 '1 body, 1 joint' check good.json

@@ -38,4 +38,6 @@ scenes = [cases / "base.json", *sorted(scenarios.glob("*.json"))]
 failures = failures_in(cases, scenes) + failures_in(cases / "chain", [cases / "chain" / "base.json"])
 studies = [cases / "study" / "base.json", *sorted((scenarios.parent / "studies").glob("*.json"))]
 failures += failures_in(cases / "study", studies)
+sweeps = [cases / "sweep" / "base.json", *sorted((scenarios.parent / "sweeps").glob("*.json"))]
+failures += failures_in(cases / "sweep", sweeps)
 sys.exit(1 if failures or len(scenes) < 2 else 0)

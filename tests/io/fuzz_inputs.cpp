@@ -1,6 +1,6 @@
 // fuzz_inputs FOLDER: reads inputs from standard input, one after the other, and says what came of each, for
 // tests/tools/campaign/fuzz.py. an input:  KIND NUMBER_OF_OVERRIDES\n, then the text and each override as
-// LENGTH\nBYTES;  KIND: scene, study, motion or frames an answer: ok|refused CPU_SECONDS PEAK_MEGABYTES FAULT\n,
+// LENGTH\nBYTES;  KIND: scene, study, sweep, motion or frames an answer: ok|refused CPU_SECONDS PEAK_MEGABYTES FAULT\n,
 // FAULT in words, empty where the input was dealt with as it must A study's files lie in FOLDER. Scenes that are
 // small are run for some steps as well. A crash ends the process before the answer.
 #include <sys/resource.h>
@@ -14,6 +14,7 @@
 #include "bough/io/read_frames.hpp"
 #include "bough/io/read_motion.hpp"
 #include "bough/io/read_study.hpp"
+#include "bough/io/read_sweep.hpp"
 #include "bough/study/estimate.hpp"
 #include "bough/study/memory_run.hpp"
 #include "bough/study/simulate.hpp"
@@ -115,6 +116,11 @@ std::string deal_with(const Input& input, const std::string& folder, bool& is_ok
   }
   if (input.kind == "study") {
     const auto file = bough::io::read_study_text(input.text, "fuzz", folder);
+    is_ok = file.ok();
+    return fault_of(file.problems, file.warnings);
+  }
+  if (input.kind == "sweep") {
+    const auto file = bough::io::read_sweep_text(input.text, "fuzz", folder);
     is_ok = file.ok();
     return fault_of(file.problems, file.warnings);
   }

@@ -7,6 +7,7 @@
 #include "bough/io/read_frames.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/read_study.hpp"
+#include "bough/io/read_sweep.hpp"
 #include "frames_base.hpp"
 #include "scene_base.hpp"
 #include "scene_table_cases.hpp"
@@ -44,5 +45,13 @@ int main(int argc, char** argv) {
               std::vector<std::string>{R"({"schema_version": 1, "scene": "a.json", "quantities": [], "grids": []})",
                                        R"({"schema_version": 1, "scene": 7})", R"([])"},
               [](const std::string& text) { return text; });
+  write_cases(
+      directory / "sweep", io::sweep_schema_text(), R"({
+      "schema_version": 1, "scene": "a.json", "designs": [{"kind": "grid", "variables": [{"name": "m", "values": [1]}]}]})",
+      std::vector<std::string>{R"({"schema_version": 1, "scene": "a.json", "designs": []})",
+                               R"({"schema_version": 1, "scene": "a.json", "designs": [{"kind": "random", "samples": 0,
+                                           "variables": [{"name": "m", "distribution": {"kind": "normal"}}]}]})",
+                               R"([])"},
+      [](const std::string& text) { return text; });
   return 0;
 }

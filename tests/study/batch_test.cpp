@@ -11,6 +11,7 @@
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/run_directory.hpp"
+#include "cases/case_report.hpp"
 #include "io/write_samples.hpp"
 
 namespace bough::study {
@@ -21,9 +22,8 @@ class Batch : public testing::Test {
  protected:
   Batch() { std::filesystem::create_directory(scratch_ / "in"); }
   void add(const std::string& name) { io::write_file(scratch_ / "in" / (name + ".json"), "{}"); }
-  BatchOptions options(int threads, double time_limit = 0.0) const {
-    return {scratch_ / "in", scratch_ / "out", threads, time_limit};
-  }
+  static BatchOptions options(int threads, double time_limit = 0.0) { return {threads, time_limit, {}}; }
+  std::vector<BatchCase> cases() const { return cases_in(scratch_ / "in", scratch_ / "out"); }
 
   static int run_case(const BatchCase& which, CaseReport& report) {
     if (which.name.starts_with("bad")) {
@@ -57,14 +57,15 @@ class Batch : public testing::Test {
       summary.cause = "no equilibrium";
     }
     run.end(summary);
+    report.take(summary);
     report.directory = run.directory();
     return summary.status == results::RunStatus::ok ? 0 : 1;
   }
 
   std::vector<CaseResult> run(const BatchOptions& o) {
-    std::filesystem::create_directories(o.out);
+    std::filesystem::create_directories(scratch_ / "out");
     return run_batch(
-        o, run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+        cases(), o, run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
   }
 
   io::ScratchDirectory scratch_;
@@ -86,9 +87,9 @@ TEST_F(Batch, every_kind_of_failure_is_told_and_harms_no_other) {
   EXPECT_EQ(by_name["talks"].status, CaseStatus::ok);
   for (const char* name : {"good_1", "good_2"}) {
     EXPECT_EQ(by_name[name].status, CaseStatus::ok);
-    EXPECT_EQ(by_name[name].accepted, 10);
-    EXPECT_EQ(by_name[name].expected_holds, 2);
-    EXPECT_EQ(by_name[name].expected_fails, 0);
+    EXPECT_EQ(by_name[name].report.accepted, 10);
+    EXPECT_EQ(by_name[name].report.expected_holds, 2);
+    EXPECT_EQ(by_name[name].report.expected_fails, 0);
     EXPECT_TRUE(std::filesystem::exists(scratch_ / "out" / name / "summary.json"));
   }
 }
@@ -98,9 +99,53 @@ TEST_F(Batch, the_table_is_the_same_for_any_number_of_threads) {
   const std::string table = batch_csv(run(options(1)));
   EXPECT_EQ(table, batch_csv(run(options(3))));
   EXPECT_EQ(table.substr(0, table.find('\n')),
-            "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails");
+            "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails,doubts");
   EXPECT_LT(table.find("\na,ok"), table.find("\nb,ok"));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 6);
+}
+
+TEST_F(Batch, rows_do_not_depend_on_the_order_in_which_cases_are_started) {
+  for (const char* name : {"c", "a", "fails", "b", "bad"}) add(name);
+  BatchOptions turned = options(2);
+  const std::string table = batch_csv(run(turned));
+  for (const std::vector<std::size_t>& order : {std::vector<std::size_t>{4, 3, 2, 1, 0}, {2, 0, 4, 1, 3}}) {
+    turned.order = order;
+    EXPECT_EQ(batch_csv(run(turned)), table);
+  }
+}
+
+TEST_F(Batch, tables_hold_inputs_and_measures_and_no_formula_of_a_spreadsheet) {
+  CaseResult one, two;
+  one.which = {"=1+1", "a.json", "out", {}, {{"k", "-1.5"}, {"@word", "\"+cmd\""}}};
+  one.status = two.status = CaseStatus::ok;
+  one.report.measures = {{"top", 0.1}, {"none", {}}};
+  two.which.name = "b";
+  two.report.measures = {{"other", -2.0}, {"top", 1e300}};
+  two.report.doubts = {"energy", "error"};
+  const std::string table = batch_csv({one, two});
+  EXPECT_EQ(table.substr(table.find(",doubts")),
+            ",doubts,k,'@word,top,none,other\n'=1+1,ok,,0,0,0,0,0,,-1.5,'+cmd,0.1,,\n"
+            "b,ok,,0,0,0,0,0,energy; error,,,1e+300,,-2\n");
+  EXPECT_NE(batch_json({one, two}, "t").find("\"k\": -1.5"), std::string::npos);
+}
+
+TEST(CaseReports, go_through_a_pipe_with_all_their_bits) {
+  CaseReport r;
+  r.cause = "line 1\n\"quoted\" \xC3\xA9";
+  r.directory = "out/a";
+  r.accepted = 1L << 40u;
+  r.expected_fails = 3;
+  r.doubts = {"energy", ""};
+  r.measures = {{"a", 0.1 + 0.2}, {"b", {}}, {"c", -5e-324}};
+  const std::string text = text_of(r);
+  CaseReport back;
+  ASSERT_TRUE(report_of(text, back));
+  EXPECT_EQ(text_of(back), text);
+  EXPECT_EQ(back.measures[2].value, -5e-324);
+  for (std::size_t n = 0; n + 2 < text.size(); ++n) {
+    CaseReport part;
+    EXPECT_FALSE(report_of(text.substr(0, n), part)) << n;
+  }
 }
 
 TEST_F(Batch, a_case_that_hangs_is_stopped_at_the_limit) {
@@ -124,7 +169,7 @@ TEST_F(Batch, a_case_past_its_limit_that_stops_by_itself_keeps_its_results) {
   const CaseResult result = run(options(1, 0.2)).at(0);
   EXPECT_EQ(result.status, CaseStatus::timed_out);
   EXPECT_EQ(result.cause, "stopped when told so");
-  EXPECT_EQ(result.accepted, 10);
+  EXPECT_EQ(result.report.accepted, 10);
 }
 
 TEST_F(Batch, a_case_that_has_to_be_killed_at_its_limit_keeps_the_rows_it_had_written) {
@@ -153,7 +198,7 @@ TEST_F(Batch, older_results_are_not_told_as_those_of_a_case_that_left_none) {
   std::filesystem::rename(scratch_ / "out/good", scratch_ / "out/throws");
   const CaseResult result = run(options(1)).at(0);
   EXPECT_EQ(result.status, CaseStatus::failed);
-  EXPECT_EQ(result.accepted, 0);
+  EXPECT_EQ(result.report.accepted, 0);
   EXPECT_EQ(result.cause, "could not, so did not");
 }
 
@@ -171,7 +216,7 @@ TEST_F(Batch, its_cases_end_with_it) {
   const pid_t batch = fork();
   if (batch == 0) {
     (void)run_batch(
-        options(1),
+        cases(), options(1),
         [&](const BatchCase&, CaseReport&) {
           io::write_file(mark, std::to_string(getpid()));
           std::this_thread::sleep_for(std::chrono::seconds(60));
@@ -196,7 +241,7 @@ TEST_F(Batch, its_cases_end_with_it) {
 
 TEST_F(Batch, names_of_dots_stay_within_the_folder) {
   for (const char* name : {"..", "...", "a"}) add(name);
-  for (const BatchCase& which : cases_in(options(1)))
+  for (const BatchCase& which : cases())
     EXPECT_EQ(which.directory.lexically_normal().parent_path(), scratch_ / "out") << which.name;
 }
 
@@ -205,15 +250,15 @@ TEST_F(Batch, stopping_ends_what_runs_and_starts_nothing_more) {
   std::filesystem::create_directories(scratch_ / "out");
   int asked = 0;
   const auto results = run_batch(
-      options(2), run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [&] { return ++asked > 3; });
+      cases(), options(2), run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [&] { return ++asked > 3; });
   EXPECT_EQ(results.at(0).status, CaseStatus::crashed) << "these children do not catch SIGTERM";
   EXPECT_EQ(results.at(2).status, CaseStatus::interrupted);
   EXPECT_EQ(results.at(2).cause, "not started");
 }
 
 TEST_F(Batch, a_folder_without_scenes_is_refused) {
-  EXPECT_THROW((void)cases_in(options(1)), std::runtime_error);
-  EXPECT_THROW((void)cases_in({scratch_ / "none", scratch_ / "out"}), std::runtime_error);
+  EXPECT_THROW((void)cases(), std::runtime_error);
+  EXPECT_THROW((void)cases_in(scratch_ / "none", scratch_ / "out"), std::runtime_error);
 }
 
 }  // namespace

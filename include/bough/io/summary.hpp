@@ -38,6 +38,7 @@ struct SummaryFile {
   std::vector<results::Doubt> doubts;  ///< why the run should not be trusted
   std::string not_judged;              ///< what it may hide all the same
   std::vector<results::ExpectedResult> expected;
+  std::vector<results::MeasureResult> measures;
   std::vector<std::string> overrides;  ///< of the scene, as they were given
   std::vector<FileRecord> files;       ///< that were written with it
 };

@@ -163,6 +163,12 @@ struct ExpectedResult {
   /// "holds", "fails" or "not reached".
   const char* verdict() const { return !reached ? "not reached" : holds ? "holds" : "fails"; }
 };
+/// A measure of the scene; no value: the run ended before its time, a quantity is not finite, or it has none (a period
+/// without crossings).
+struct MeasureResult {
+  std::string name;
+  std::optional<double> value;
+};
 /// Nested plain options as they were used: JSON pointer (without the leading slash) to text of a JSON value.
 using EffectiveOptions = std::vector<std::pair<std::string, std::string>>;
 
@@ -187,6 +193,7 @@ struct Summary {
   HistoryHeader header;
   std::vector<double> final_values;  ///< by header
   std::vector<ExpectedResult> expected;
+  std::vector<MeasureResult> measures;     ///< in the order of the scene
   std::vector<Doubt> doubts;               ///< why the run should not be trusted, in words; empty: nothing was found
   std::vector<SensorError> sensor_errors;  ///< of sensors of motions, where local errors are known
   std::string not_judged;                  ///< of which sensors no error in time was estimated and why, in words

@@ -39,5 +39,9 @@ std::string rate_coordinate(const Sensor& sensor, JointKind kind);
 std::string to_string(JointKind kind);
 std::string to_string(SensorKind kind);
 std::string to_string(FigureKind kind);
+std::string to_string(MeasureKind kind);
+
+/// Figures that FigureKind and MeasureKind share come first in both, in the same order.
+static_assert(static_cast<int>(MeasureKind::period) == static_cast<int>(FigureKind::period));
 
 }  // namespace bough::scene

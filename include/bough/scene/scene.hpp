@@ -306,6 +306,41 @@ struct Expected {
   double allowed() const { return tolerance + relative_tolerance * std::abs(value); }
 };
 
+/// What is measured of a quantity over a run: the figures of FigureKind and more, which take the whole of it.
+enum class MeasureKind : std::uint8_t {
+  value,
+  max,
+  min,
+  time_of_max,
+  time_of_min,
+  range,
+  period,
+  mean,                ///< over time
+  rms,                 ///< root mean square over time
+  percentile,          ///< at or below it for `percent` of the time
+  settling_time,       ///< after it no further from `target` than `band`
+  dominant_frequency,  ///< [1/s]
+  cycles,              ///< number of rainflow cycles of a range of at least `range`
+  equivalent_range     ///< of `cycles` equal cycles of the same damage, with exponent m: the damage-equivalent load
+};
+
+/// A figure of a run that nothing is expected of: a column of batches and sweeps.
+struct Measure {
+  std::string name;
+  std::string quantity;    ///< "<sensor>.<component>" or "<sensor>"; empty: the expression
+  std::string expression;  ///< of `names`
+  std::vector<std::pair<std::string, std::string>> names;  ///< in the expression, each with its quantity
+  MeasureKind kind = MeasureKind::value;
+  std::optional<double> time;    ///< of `value`; none: at the end
+  std::optional<double> level;   ///< of `period`; none: 0
+  double percent = 50.0;         ///< of `percentile`
+  double band = 0.0;             ///< of `settling_time`
+  std::optional<double> target;  ///< of `settling_time`; none: the value at the end
+  double range = 0.0;            ///< of `cycles`
+  double exponent = 10.0;        ///< of `equivalent_range`: m, of the S-N line
+  std::optional<double> cycles;  ///< of `equivalent_range`; none: one a second
+};
+
 struct Scene {
   std::string name;  ///< file name without ending
   std::string title;
@@ -330,6 +365,7 @@ struct Scene {
   Output output;
   std::vector<std::string> without;  ///< decisions of the plan that are not to be taken ("planar", ...)
   std::vector<Expected> expected;
+  std::vector<Measure> measures;
 };
 
 }  // namespace bough::scene

@@ -1,39 +1,58 @@
 #pragma once
-/// Many scenes, each a case of its own: one thread a case, one directory and one row of `batch.csv` a case.
+/// Many cases, each a run of its own: one thread a case, one row of `batch.csv` a case. Scenes of a folder and the cases of a
+/// sweep are run by the same engine.
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "bough/results/records.hpp"
 
 namespace bough::study {
 
 struct BatchOptions {
-  std::filesystem::path folder;  ///< every *.json in it is a case, named by its stem; not searched deeper
-  std::filesystem::path out;     ///< case NAME writes to out/NAME
-  int threads = 1;               ///< cases at a time, >= 1
-  double time_limit = 0.0;       ///< wall time of one case [s]; 0: none
+  int threads = 1;                 ///< cases at a time, >= 1
+  double time_limit = 0.0;         ///< wall time of one case [s]; 0: none
+  std::vector<std::size_t> order;  ///< in which cases are started; empty: as they come. Rows do not depend on it
 };
 
 struct BatchCase {
   std::string name;
-  std::filesystem::path scene, directory;
+  std::filesystem::path scene, directory;  ///< directory: of its results
+  std::vector<std::string> overrides = {};
+  std::vector<std::pair<std::string, std::string>> inputs = {};  ///< what varies and its value as JSON, for tables
 };
 
 /// figures_fail: the run is complete, and an expected figure of its scene does not hold.
 enum class CaseStatus { ok, figures_fail, failed, interrupted, bad_input, crashed, timed_out };
 
+/// What a case tells of itself when it ends; it is handed from its process to the one that collects.
+struct CaseReport {
+  std::string cause;                ///< what to report
+  std::filesystem::path directory;  ///< where its results stand; empty: it left none
+  bool was_interrupted = false;
+  long accepted = 0, rejected = 0, newton_iterations = 0;
+  int expected_holds = 0, expected_fails = 0;
+  std::string failing;              ///< the first expected figures that do not hold, in words
+  std::vector<std::string> doubts;  ///< what they are about
+  std::vector<results::MeasureResult> measures;
+  /// Counts, figures and measures of a run.
+  void take(const results::Summary& summary);
+};
+
+/// What it took: measured by clocks, and so not the same twice.
+struct CaseCost {
+  double wall_seconds = 0.0, cpu_seconds = 0.0;
+  double peak_bytes = 0.0;
+};
+
 struct CaseResult {
   BatchCase which;
   CaseStatus status = CaseStatus::failed;
   std::string cause;  ///< in one line; empty where ok
-  long accepted = 0, rejected = 0, newton_iterations = 0;
-  int expected_holds = 0, expected_fails = 0;
-};
-
-/// What a case tells of itself when it ends.
-struct CaseReport {
-  std::string cause;                ///< what to report
-  std::filesystem::path directory;  ///< where its results stand; empty: it left none
+  CaseReport report;
+  CaseCost cost;
 };
 
 /// How a case is run, in a process of its own: the exit status of `bough run` (0 done, 1 failed, 2 bad input).
@@ -42,20 +61,26 @@ using RunCase = std::function<int(const BatchCase&, CaseReport& report)>;
 /// Told after every case: how many are done, of how many.
 using CaseDone = std::function<void(const CaseResult&, std::size_t done, std::size_t all)>;
 
-/// The cases of a folder by name. Throws std::runtime_error where it cannot be read or holds none.
-std::vector<BatchCase> cases_in(const BatchOptions& options);
+/// Every *.json of a folder is a case, by name; not searched deeper; case NAME writes to out/NAME. Throws
+/// std::runtime_error where the folder cannot be read or holds none.
+std::vector<BatchCase> cases_in(const std::filesystem::path& folder, const std::filesystem::path& out);
 
-/// Runs all cases; rows are in the order of `cases_in` whatever finishes first. Each case runs in a child process, so
+/// Runs all cases; results are in the order of the cases whatever finishes first. Each case runs in a child process, so
 /// that one that crashes, hangs or takes all memory harms no other; all of them end with this process, however it
 /// ends. A case for which no process can be started has failed. `stop` is asked between cases; once true no further
 /// case starts and those running are told to stop (SIGTERM). A case past its time limit is told so, too, and is
 /// killed where it does not end by itself. Call it while the process has one thread.
-std::vector<CaseResult> run_batch(const BatchOptions& options, const RunCase& run_case, const CaseDone& done,
-                                  const std::function<bool()>& stop);
+std::vector<CaseResult> run_batch(const std::vector<BatchCase>& cases, const BatchOptions& options,
+                                  const RunCase& run_case, const CaseDone& done, const std::function<bool()>& stop);
 
-/// The table: case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails. Holds
-/// no times, so that equal results give equal files.
+/// The table, a row a case: case, status, cause, counts of steps and figures, doubts, then inputs, then measures, each by
+/// name; empty cells where a case has none. Holds nothing that a clock gave, so that equal results give equal files. Text
+/// that a spreadsheet would take for a formula begins with an apostrophe.
 std::string batch_csv(const std::vector<CaseResult>& results);
+/// The same as JSON, with inputs and measures as numbers.
+std::string batch_json(const std::vector<CaseResult>& results, const std::string& title);
+/// case,wall_seconds,cpu_seconds,peak_megabytes
+std::string cost_csv(const std::vector<CaseResult>& results);
 
 std::string_view text_of(CaseStatus status);
 

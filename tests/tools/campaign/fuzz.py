@@ -63,6 +63,7 @@ def corpus(source):
     seeds = [("scene", json.dumps(scene).encode()) for scene in SMALL] * 4
     seeds += [("scene", path.read_bytes()) for path in sorted((source / "data/scenarios").glob("*.json"))]
     seeds += [("study", path.read_bytes()) for path in sorted((source / "data/studies").glob("*.json"))]
+    seeds += [("sweep", path.read_bytes()) for path in sorted((source / "data/sweeps").glob("*.json"))] * 4
     seeds += [("frames", json.dumps({
         "schema_version": 1, "frames": [{"name": "shaft", "turns": [{"axis": [0, 0, 1],
                                                                      "angle": {"expression": "t"}}]},

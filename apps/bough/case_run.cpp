@@ -1,0 +1,141 @@
+#include "case_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <numeric>
+
+#include "arguments.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/io/run_directory.hpp"
+#include "bough/study/estimate.hpp"
+#include "bough/study/simulate.hpp"
+#include "bough/version.hpp"
+#include "memory_limit.hpp"
+#include "terminal.hpp"
+
+namespace bough::app {
+namespace {
+
+/// Enough to know what is meant; `bough check` tells all.
+std::string first_problems(const io::SceneFile& file) {
+  constexpr std::size_t shown = 3;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(shown, file.problems.size()); ++k) text += file.problems[k].text() + "\n";
+  if (file.problems.size() > shown) text += "and " + std::to_string(file.problems.size() - shown) + " more problems";
+  return text;
+}
+
+/// Takes a run whose results nobody keeps.
+struct NoRecorder final : results::Recorder {
+  void begin(const results::HistoryHeader&) override {}
+  void row(const results::HistoryRow&) override {}
+  void motion(const results::MotionFrame&) override {}
+  void end(const results::Summary&) override {}
+};
+
+results::Summary simulate(const scene::Scene& scene, const CaseSettings& settings,
+                          std::chrono::steady_clock::time_point start, results::Recorder& recorder) {
+  study::SimulateOptions options{.threads = 1};
+  options.stopped_by = [&]() -> std::string {
+    const std::chrono::duration<double> age = std::chrono::steady_clock::now() - start;
+    const bool is_late = settings.time_limit > 0.0 && age.count() >= 0.99 * settings.time_limit;
+    return is_late ? "the time limit of " + io::rounded_text(settings.time_limit, 6) + " s" : "the user";
+  };
+  return study::simulate(scene, options, recorder, [](const results::Progress&) { return !interrupted(); });
+}
+
+/// Runs in the case's own process.
+int run_case(const study::BatchCase& which, const CaseSettings& settings, const ReadCase& read,
+             study::CaseReport& report) {
+  catch_interrupts(Repeated::ignored);
+  const auto start = std::chrono::steady_clock::now();
+  const io::SceneFile file = read(which);
+  if (!file.ok()) {
+    report.cause = first_problems(file);
+    return exit_bad_input;
+  }
+  report.cause = study::refusal(file.scene, settings.memory_limit);
+  if (!report.cause.empty()) return exit_bad_input;
+  results::Summary summary;
+  if (!settings.keeps_results) {
+    NoRecorder nothing;
+    summary = simulate(file.scene, settings, start, nothing);
+    report.take(summary);
+    return summary.status == results::RunStatus::ok ? exit_done : exit_failed;
+  }
+  io::RunDirectory directory(which.directory, std::string(version), origin_of(which.scene, file, which.overrides));
+  try {
+    directory.open();
+    summary = simulate(file.scene, settings, start, directory);
+  } catch (const std::exception& error) {
+    report.cause = cause_of(error);
+    summary.scene = file.scene.name;
+    directory.end_as_failed(summary, cause_of(error));
+    if (directory.has_ended()) report.directory = directory.directory();
+    return exit_failed;
+  }
+  report.take(summary);
+  report.directory = directory.directory();
+  return summary.status == results::RunStatus::ok ? exit_done : exit_failed;
+}
+
+void print_case(const study::CaseResult& result, std::size_t done, std::size_t all, bool quiet) {
+  const bool good = result.status == study::CaseStatus::ok;
+  if (good && quiet) return;
+  (good ? std::cout : std::cerr) << "[" << done << "/" << all << "] " << result.which.name << ": "
+                                 << study::text_of(result.status) << (result.cause.empty() ? "" : ": ") << result.cause
+                                 << std::endl;
+}
+
+/// Large cases first, so that none is left to run alone at the end. Only a thousand are looked at: of more, the last ones
+/// are a small part of the whole.
+std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, int threads, const ReadCase& read) {
+  constexpr std::size_t most = 1000;
+  std::vector<std::size_t> order(cases.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (threads < 2 || cases.size() > most) return order;
+  std::vector<double> seconds;
+  for (const study::BatchCase& c : cases) {
+    const io::SceneFile file = read(c);
+    seconds.push_back(file.ok() ? study::estimate_run(file.scene).seconds() : 0.0);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return seconds[a] > seconds[b]; });
+  return order;
+}
+
+}  // namespace
+
+int run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& given, const ReadCase& read,
+              const io::OutputCollection& collection) {
+  CaseSettings settings = given;
+  if (settings.threads <= 0) settings.threads = default_threads();
+  const std::size_t side_by_side = std::clamp<std::size_t>(cases.size(), 1, static_cast<std::size_t>(settings.threads));
+  if (settings.memory_limit <= 0.0) settings.memory_limit = available_memory();
+  settings.memory_limit /= static_cast<double>(side_by_side);
+  catch_interrupts();
+  const study::BatchOptions options{settings.threads, settings.time_limit, order_of(cases, settings.threads, read)};
+  const std::vector<study::CaseResult> results = study::run_batch(
+      cases, options,
+      [&](const study::BatchCase& which, study::CaseReport& report) { return run_case(which, settings, read, report); },
+      [&](const study::CaseResult& result, std::size_t done, std::size_t all) {
+        print_case(result, done, all, settings.quiet);
+      },
+      interrupted);
+  collection.write("batch.csv", study::batch_csv(results));
+  collection.write("batch.json", study::batch_json(results, settings.title));
+  collection.write("cost.csv", study::cost_csv(results));
+
+  const auto count = [&](const auto& condition) { return std::count_if(results.begin(), results.end(), condition); };
+  const auto num_failed = count([](const study::CaseResult& r) {
+    return r.status != study::CaseStatus::ok && r.status != study::CaseStatus::figures_fail;
+  });
+  const auto num_not_as_expected = count([](const study::CaseResult& r) { return r.report.expected_fails > 0; });
+  if (!settings.quiet) {
+    std::cout << results.size() << " cases, " << num_failed << " not done, " << num_not_as_expected
+              << " with an expected figure that fails: " << (settings.out / "batch.csv").string() << "\n";
+  }
+  return num_failed > 0 || (settings.check_expected && num_not_as_expected > 0) ? exit_failed : exit_done;
+}
+
+}  // namespace bough::app

@@ -1,0 +1,30 @@
+#pragma once
+/// What `bough batch` and `bough sweep` share: how a case is run, told and summed up.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bough/io/output_folder.hpp"
+#include "bough/io/read_scene.hpp"
+#include "bough/study/batch.hpp"
+
+namespace bough::app {
+
+struct CaseSettings {
+  std::filesystem::path out;
+  std::string title;
+  int threads = 0;
+  double time_limit = 0.0, memory_limit = 0.0;
+  bool keeps_results = true;  ///< every case gets a folder; else its row is all that is left of it
+  bool quiet = false, check_expected = false;
+};
+
+/// Reads the scene of a case.
+using ReadCase = std::function<io::SceneFile(const study::BatchCase&)>;
+
+/// Runs the cases, large ones first where they are few enough to be looked at before, and writes batch.csv, batch.json and
+/// cost.csv. Returns the exit status.
+int run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& settings, const ReadCase& read,
+              const io::OutputCollection& collection);
+
+}  // namespace bough::app

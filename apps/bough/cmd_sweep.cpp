@@ -1,0 +1,125 @@
+/// bough sweep FILE: one scene in many cases.
+#include <algorithm>
+#include <iostream>
+
+#include "arguments.hpp"
+#include "bough/io/history.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/io/quantity_text.hpp"
+#include "bough/io/read_sweep.hpp"
+#include "bough/study/cases.hpp"
+#include "bough/study/estimate.hpp"
+#include "case_run.hpp"
+#include "result_text.hpp"
+#include "terminal.hpp"
+
+namespace bough::app {
+namespace {
+
+constexpr std::size_t most_folders = 200;  // of cases, unless more are asked for
+
+std::vector<study::BatchCase> batch_cases(const io::SweepSpec& spec, const study::SweepCases& made,
+                                          const SweepArguments& arguments) {
+  std::vector<study::BatchCase> cases;
+  for (const study::SweepCase& c : made.cases) {
+    if (!arguments.only.empty() &&
+        std::find(arguments.only.begin(), arguments.only.end(), c.name) == arguments.only.end())
+      continue;
+    study::BatchCase one{c.name, spec.scene_file, arguments.out / c.name, study::overrides_of(spec, c), {}};
+    one.overrides.insert(one.overrides.end(), arguments.overrides.begin(), arguments.overrides.end());
+    for (std::size_t k = 0; k < made.variables.size(); ++k)
+      one.inputs.emplace_back(made.variables[k], c.inputs[k].text);
+    cases.push_back(std::move(one));
+  }
+  return cases;
+}
+
+/// All cases with what they change, for whoever runs them again.
+std::string cases_csv(const study::SweepCases& made) {
+  std::string text = "case";
+  for (const std::string& name : made.variables) text += ',' + io::csv_field(name);
+  text += '\n';
+  for (const study::SweepCase& c : made.cases) {
+    text += c.name;
+    for (const io::SweepValue& v : c.inputs) text += ',' + io::csv_field(v.text);
+    text += '\n';
+  }
+  return text;
+}
+
+/// Lists the cases and what they will take, and runs none.
+int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out, int threads, const ReadCase& read) {
+  constexpr std::size_t most_rows = 50;
+  std::vector<std::vector<std::string>> rows = {{"case"}};
+  for (std::size_t k = 0; !cases.empty() && k < cases.front().inputs.size(); ++k)
+    rows[0].push_back(cases.front().inputs[k].first);
+  for (const char* name : {"unknowns", "steps", "time", "memory"}) rows[0].emplace_back(name);
+  double seconds = 0.0, most_bytes = 0.0;
+  std::size_t bad = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    std::vector<std::string> row = {cases[i].name};
+    for (const auto& [name, value] : cases[i].inputs) row.push_back(value);
+    const io::SceneFile file = read(cases[i]);
+    if (file.ok()) {
+      const study::Estimate e = study::estimate_run(file.scene);
+      seconds += e.seconds();
+      most_bytes = std::max(most_bytes, e.memory_bytes);
+      row.insert(row.end(), {io::rounded_text(e.unknowns, 6), io::rounded_text(e.steps, 6),
+                             io::seconds_text(e.seconds()), io::bytes_text(e.memory_bytes)});
+    } else {
+      ++bad;
+      row.push_back("refused: " + file.problems.front().text());
+    }
+    if (i < most_rows) rows.push_back(std::move(row));
+  }
+  std::cout << table_text(rows);
+  if (cases.size() > most_rows) std::cout << "and " << cases.size() - most_rows << " more\n";
+  std::cout << cases.size() << " cases, " << left_out << " left out by conditions, " << bad << " refused: about "
+            << io::seconds_text(seconds / threads) << " on " << threads << (threads == 1 ? " thread" : " threads")
+            << ", up to " << io::bytes_text(most_bytes) << " a case\n";
+  return bad > 0 ? exit_bad_input : exit_done;
+}
+
+}  // namespace
+
+int sweep(const SweepArguments& arguments) {
+  const io::SweepFile file = io::read_sweep(arguments.file);
+  print_problems(arguments.file, file.problems, file.warnings);
+  if (!file.ok()) return exit_bad_input;
+  study::SweepCases made;
+  try {
+    made = study::make_cases(file.spec);
+  } catch (const std::exception& error) {
+    std::cerr << "bough: " << cause_of(error) << "\n";
+    return exit_bad_input;
+  }
+  const std::vector<study::BatchCase> cases = batch_cases(file.spec, made, arguments);
+  for (const std::string& name : arguments.only)
+    if (std::none_of(cases.begin(), cases.end(), [&](const study::BatchCase& c) { return c.name == name; })) {
+      std::cerr << "bough: the sweep has no case " << name << "\n";
+      return exit_bad_input;
+    }
+  if (cases.empty()) {
+    std::cerr << "bough: the conditions of the sweep leave no case\n";
+    return exit_bad_input;
+  }
+  const ReadCase read = [&](const study::BatchCase& which) {
+    return io::read_scene_text(file.spec.scene_text, file.spec.scene_name, which.overrides);
+  };
+  if (arguments.dry_run)
+    return print_plan(cases, made.left_out, arguments.threads > 0 ? arguments.threads : default_threads(), read);
+  if (arguments.out.empty()) {
+    std::cerr << "bough: --out DIR is needed, but with --dry-run\n";
+    return exit_bad_input;
+  }
+  const io::OutputCollection collection(arguments.out, "sweep", {arguments.file, file.spec.scene_file});
+  collection.write("cases.csv", cases_csv(made));
+  const bool keeps = arguments.keep == "all" || (arguments.keep == "few" && cases.size() <= most_folders);
+  const std::string title = file.spec.title.empty() ? file.spec.name : file.spec.title;
+  return run_cases(cases,
+                   {arguments.out, title, arguments.threads, arguments.time_limit, arguments.memory_limit, keeps,
+                    arguments.quiet, arguments.check_expected},
+                   read, collection);
+}
+
+}  // namespace bough::app

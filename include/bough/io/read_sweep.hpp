@@ -1,0 +1,25 @@
+#pragma once
+/// Sweeps from JSON files (`bough sweep`).
+#include "bough/io/read_scene.hpp"
+#include "bough/io/sweep_spec.hpp"
+
+namespace bough::io {
+
+/// A sweep as far as it could be read. It is usable only when `problems` is empty; then the scene of its first case is
+/// sound, too: what others make of it shows when they run.
+struct SweepFile {
+  SweepSpec spec;
+  std::vector<Problem> problems;  ///< in the order of the file; at most max_problems
+  std::vector<Problem> warnings;
+  bool ok() const { return problems.empty(); }
+};
+
+/// Reads and checks a sweep with its scene and tables. Never throws on bad input. Names of files are relative to the
+/// sweep's folder.
+SweepFile read_sweep(const std::filesystem::path& file);
+SweepFile read_sweep_text(std::string_view text, std::string name, const std::filesystem::path& folder);
+
+/// The JSON Schema (draft-07) of such files.
+std::string sweep_schema_text();
+
+}  // namespace bough::io

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+#include "bough/io/history.hpp"
+#include "bough/io/json_text.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/study/batch.hpp"
+
+namespace bough::study {
+namespace {
+
+/// A field of text: one that a spreadsheet would run as a formula is shown to be text by an apostrophe.
+std::string text_field(const std::string& text) {
+  const bool looks_like_formula =
+      !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+  return io::csv_field(looks_like_formula ? "'" + text : text);
+}
+
+/// An input is JSON text: a number or a word as it is, a string without its quotes.
+std::string input_field(const std::string& json) {
+  double number = 0.0;
+  if (io::read_number(json, number)) return json;
+  return text_field(json.size() >= 2 && json.front() == '"' ? json.substr(1, json.size() - 2) : json);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& w : words) text += (text.empty() ? "" : "; ") + w;
+  return text;
+}
+
+/// Names in the order in which cases bring them.
+class Columns {
+ public:
+  void add(const std::string& name) {
+    if (index_.try_emplace(name, names_.size()).second) names_.push_back(name);
+  }
+  const std::vector<std::string>& names() const { return names_; }
+  std::size_t at(const std::string& name) const { return index_.at(name); }
+
+ private:
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::size_t> index_;
+};
+
+void append_cells(std::string& text, const std::vector<std::string>& cells) {
+  for (const std::string& cell : cells) text += ',' + cell;
+}
+
+}  // namespace
+
+std::string batch_csv(const std::vector<CaseResult>& results) {
+  Columns inputs, measures;
+  for (const CaseResult& r : results) {
+    for (const auto& [name, value] : r.which.inputs) inputs.add(name);
+    for (const results::MeasureResult& m : r.report.measures) measures.add(m.name);
+  }
+  std::string text =
+      "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails,doubts";
+  for (const Columns* columns : {&inputs, &measures})
+    for (const std::string& name : columns->names()) text += ',' + text_field(name);
+  text += '\n';
+  for (const CaseResult& r : results) {
+    text += text_field(r.which.name) + ',' + std::string(text_of(r.status)) + ',' + text_field(r.cause);
+    for (const long n : {r.report.accepted, r.report.rejected, r.report.newton_iterations,
+                         static_cast<long>(r.report.expected_holds), static_cast<long>(r.report.expected_fails)})
+      text += ',' + std::to_string(n);
+    text += ',' + text_field(joined(r.report.doubts));
+    std::vector<std::string> in(inputs.names().size()), out(measures.names().size());
+    for (const auto& [name, value] : r.which.inputs) in[inputs.at(name)] = input_field(value);
+    for (const results::MeasureResult& m : r.report.measures)
+      if (m.value) io::append_number(out[measures.at(m.name)], *m.value);
+    append_cells(text, in);
+    append_cells(text, out);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string batch_json(const std::vector<CaseResult>& results, const std::string& title) {
+  io::JsonText json;
+  json.begin_object();
+  json.member("title", std::string_view(title));
+  json.key("cases");
+  json.begin_array();
+  for (const CaseResult& r : results) {
+    json.begin_object();
+    json.member("case", std::string_view(r.which.name));
+    if (!r.which.inputs.empty()) {
+      json.key("inputs");
+      json.begin_object();
+      for (const auto& [name, value] : r.which.inputs) {
+        json.key(name);
+        json.raw(value);
+      }
+      json.end_object();
+    }
+    json.member("status", text_of(r.status));
+    if (!r.cause.empty()) json.member("cause", std::string_view(r.cause));
+    json.member("steps_accepted", static_cast<long long>(r.report.accepted));
+    json.member("steps_rejected", static_cast<long long>(r.report.rejected));
+    json.member("newton_iterations", static_cast<long long>(r.report.newton_iterations));
+    json.member("expected_holds", static_cast<long long>(r.report.expected_holds));
+    json.member("expected_fails", static_cast<long long>(r.report.expected_fails));
+    json.key("doubts");
+    json.begin_array();
+    for (const std::string& d : r.report.doubts) json.value(std::string_view(d));
+    json.end_array();
+    json.key("measures");
+    json.begin_object();
+    for (const results::MeasureResult& m : r.report.measures)
+      if (m.value) json.member(m.name, *m.value);
+    json.end_object();
+    json.end_object();
+  }
+  json.end_array();
+  json.end_object();
+  return json.text();
+}
+
+std::string cost_csv(const std::vector<CaseResult>& results) {
+  std::string text = "case,wall_seconds,cpu_seconds,peak_megabytes\n";
+  for (const CaseResult& r : results)
+    text += text_field(r.which.name) + ',' + io::rounded_text(r.cost.wall_seconds, 4) + ',' +
+            io::rounded_text(r.cost.cpu_seconds, 4) + ',' + io::rounded_text(1e-6 * r.cost.peak_bytes, 4) + '\n';
+  return text;
+}
+
+}  // namespace bough::study

@@ -1,0 +1,103 @@
+#include "case_report.hpp"
+
+#include <algorithm>
+
+#include "bough/io/json_text.hpp"
+#include "bough/io/json_value.hpp"
+#include "bough/io/number_text.hpp"
+
+namespace bough::study {
+namespace {
+
+/// The first expected figures that do not hold.
+std::string failing_figures(const results::Summary& summary) {
+  constexpr int shown = 3;
+  std::string text;
+  int count = 0;
+  for (const results::ExpectedResult& figure : summary.expected) {
+    if (!figure.reached || figure.holds || ++count > shown) continue;
+    const std::string value = figure.has_value ? io::rounded_text(figure.value, 6) : "not there";
+    text += (text.empty() ? "" : ", ") + figure.name + " is " + value + " instead of " +
+            io::rounded_text(figure.reference, 6) + " +- " + io::rounded_text(figure.tolerance, 3);
+  }
+  if (count > shown) text += " and " + std::to_string(count - shown) + " more";
+  return text;
+}
+
+}  // namespace
+
+void CaseReport::take(const results::Summary& summary) {
+  was_interrupted = summary.status == results::RunStatus::interrupted;
+  accepted = summary.steps.accepted;
+  rejected = summary.steps.rejected;
+  newton_iterations = summary.steps.newton_iterations;
+  expected_holds = expected_fails = 0;
+  for (const results::ExpectedResult& figure : summary.expected)
+    if (figure.reached) ++(figure.holds ? expected_holds : expected_fails);
+  failing = failing_figures(summary);
+  doubts.clear();
+  for (const results::Doubt& d : summary.doubts)
+    if (std::find(doubts.begin(), doubts.end(), d.about) == doubts.end()) doubts.push_back(d.about);
+  measures = summary.measures;
+  if (cause.empty()) cause = summary.cause;
+}
+
+std::string text_of(const CaseReport& r) {
+  io::JsonText json;
+  json.begin_object();
+  json.member("cause", std::string_view(r.cause));
+  json.member("directory", std::string_view(r.directory.string()));
+  json.member("interrupted", r.was_interrupted);
+  json.key("counts");
+  json.begin_array();
+  for (const long n : {r.accepted, r.rejected, r.newton_iterations, static_cast<long>(r.expected_holds),
+                       static_cast<long>(r.expected_fails)})
+    json.value(static_cast<long long>(n));
+  json.end_array();
+  json.member("failing", std::string_view(r.failing));
+  json.key("doubts");
+  json.begin_array();
+  for (const std::string& d : r.doubts) json.value(std::string_view(d));
+  json.end_array();
+  json.key("measures");
+  json.begin_array();
+  for (const results::MeasureResult& m : r.measures) {
+    json.value(std::string_view(m.name));
+    if (m.value)
+      json.value(*m.value);
+    else
+      json.value(false);
+  }
+  json.end_array();
+  json.end_object();
+  return json.text();
+}
+
+bool report_of(std::string_view text, CaseReport& r) {
+  std::vector<io::JsonFault> faults;
+  const std::optional<io::JsonValue> root = io::parse_json(text, io::source_file, faults);
+  if (!root || !faults.empty()) return false;
+  const auto* counts = root->find("counts");
+  const auto* measures = root->find("measures");
+  const auto* doubts = root->find("doubts");
+  if (counts == nullptr || counts->items.size() != 5 || measures == nullptr || doubts == nullptr) return false;
+  const auto count = [counts](std::size_t k) { return static_cast<long>(counts->items[k].number); };
+  r.cause = root->find("cause")->text;
+  r.directory = root->find("directory")->text.str();
+  r.was_interrupted = root->find("interrupted")->truth;
+  r.accepted = count(0);
+  r.rejected = count(1);
+  r.newton_iterations = count(2);
+  r.expected_holds = static_cast<int>(count(3));
+  r.expected_fails = static_cast<int>(count(4));
+  r.failing = root->find("failing")->text;
+  for (const io::JsonValue& d : doubts->items) r.doubts.push_back(d.text);
+  for (std::size_t k = 0; k + 1 < measures->items.size(); k += 2) {
+    results::MeasureResult m{measures->items[k].text, {}};
+    if (measures->items[k + 1].is(io::JsonKind::number)) m.value = measures->items[k + 1].number;
+    r.measures.push_back(std::move(m));
+  }
+  return true;
+}
+
+}  // namespace bough::study
