@@ -7,6 +7,7 @@
 
 #include "arguments.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/io/quantity_text.hpp"
 #include "bough/io/run_directory.hpp"
 #include "bough/study/estimate.hpp"
 #include "bough/study/simulate.hpp"
@@ -80,13 +81,33 @@ int run_case(const study::BatchCase& which, const CaseSettings& settings, const 
   return summary.status == results::RunStatus::ok ? exit_done : exit_failed;
 }
 
-void print_case(const study::CaseResult& result, std::size_t done, std::size_t all, bool quiet) {
-  const bool good = result.status == study::CaseStatus::ok;
-  if (good && quiet) return;
-  (good ? std::cout : std::cerr) << "[" << done << "/" << all << "] " << result.which.name << ": "
-                                 << study::text_of(result.status) << (result.cause.empty() ? "" : ": ") << result.cause
-                                 << std::endl;
-}
+/// Tells of cases as they end: each of a few; of many those that did not end well, and about once a second how far it is.
+class CaseProgress {
+ public:
+  explicit CaseProgress(bool quiet) : quiet_(quiet) {}
+
+  void tell(const study::CaseResult& result, std::size_t done, std::size_t all) {
+    constexpr std::size_t few = 50;
+    const bool good = result.status == study::CaseStatus::ok;
+    failed_ += good ? 0 : 1;
+    if (!good || (!quiet_ && all <= few))
+      (good ? std::cout : std::cerr) << "[" << done << "/" << all << "] " << result.which.name << ": "
+                                     << study::text_of(result.status) << (result.cause.empty() ? "" : ": ")
+                                     << result.cause << std::endl;
+    if (quiet_ || all <= few || (done < all && Clock::now() - told_at_ < std::chrono::seconds(1))) return;
+    told_at_ = Clock::now();
+    const double seconds = std::chrono::duration<double>(told_at_ - start_).count();
+    const double rate = static_cast<double>(done) / std::max(seconds, 1e-9);
+    std::cout << "[" << done << "/" << all << "] " << io::rounded_text(rate, 3) << " cases a second, " << failed_
+              << " not ok, about " << io::seconds_text(static_cast<double>(all - done) / rate) << " left" << std::endl;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool quiet_;
+  std::size_t failed_ = 0;
+  Clock::time_point start_ = Clock::now(), told_at_ = start_;
+};
 
 /// Large cases first, so that none is left to run alone at the end. Only a thousand are looked at: of more, the last ones
 /// are a small part of the whole.
@@ -106,8 +127,8 @@ std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, in
 
 }  // namespace
 
-int run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& given, const ReadCase& read,
-              const io::OutputCollection& collection) {
+std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& given,
+                                         const ReadCase& read) {
   CaseSettings settings = given;
   if (settings.threads <= 0) settings.threads = default_threads();
   const std::size_t side_by_side = std::clamp<std::size_t>(cases.size(), 1, static_cast<std::size_t>(settings.threads));
@@ -115,16 +136,21 @@ int run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& gi
   settings.memory_limit /= static_cast<double>(side_by_side);
   catch_interrupts();
   const study::BatchOptions options{settings.threads, settings.time_limit, order_of(cases, settings.threads, read)};
-  const std::vector<study::CaseResult> results = study::run_batch(
+  CaseProgress progress(settings.quiet);
+  return study::run_batch(
       cases, options,
       [&](const study::BatchCase& which, study::CaseReport& report) { return run_case(which, settings, read, report); },
-      [&](const study::CaseResult& result, std::size_t done, std::size_t all) {
-        print_case(result, done, all, settings.quiet);
-      },
+      [&](const study::CaseResult& result, std::size_t done, std::size_t all) { progress.tell(result, done, all); },
       interrupted);
+}
+
+int finish_cases(const std::vector<study::CaseResult>& results,
+                 const std::vector<study::MeasureSensitivity>& sensitivities, const CaseSettings& settings,
+                 const io::OutputCollection& collection) {
   collection.write("batch.csv", study::batch_csv(results));
-  collection.write("batch.json", study::batch_json(results, settings.title));
+  collection.write("batch.json", study::batch_json(results, settings.title, sensitivities));
   collection.write("cost.csv", study::cost_csv(results));
+  if (!sensitivities.empty()) collection.write("sensitivities.csv", study::sensitivities_csv(sensitivities));
 
   const auto count = [&](const auto& condition) { return std::count_if(results.begin(), results.end(), condition); };
   const auto num_failed = count([](const study::CaseResult& r) {

@@ -22,9 +22,14 @@ struct CaseSettings {
 /// Reads the scene of a case.
 using ReadCase = std::function<io::SceneFile(const study::BatchCase&)>;
 
-/// Runs the cases, large ones first where they are few enough to be looked at before, and writes batch.csv, batch.json and
-/// cost.csv. Returns the exit status.
-int run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& settings, const ReadCase& read,
-              const io::OutputCollection& collection);
+/// Runs the cases, large ones first where they are few enough to be looked at before.
+std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& settings,
+                                         const ReadCase& read);
+
+/// Writes batch.csv, batch.json, cost.csv and, where there are sensitivities, sensitivities.csv; tells what came of the
+/// cases and returns the exit status.
+int finish_cases(const std::vector<study::CaseResult>& results,
+                 const std::vector<study::MeasureSensitivity>& sensitivities, const CaseSettings& settings,
+                 const io::OutputCollection& collection);
 
 }  // namespace bough::app

@@ -20,9 +20,8 @@ int batch(const BatchArguments& arguments) {
   const CaseSettings settings{arguments.out,        arguments.folder.string(), arguments.threads,
                               arguments.time_limit, arguments.memory_limit,    true,
                               arguments.quiet,      arguments.check_expected};
-  return run_cases(
-      cases, settings, [](const study::BatchCase& which) { return io::read_scene(which.scene, which.overrides); },
-      collection);
+  const ReadCase read = [](const study::BatchCase& which) { return io::read_scene(which.scene, which.overrides); };
+  return finish_cases(run_cases(cases, settings, read), {}, settings, collection);
 }
 
 }  // namespace bough::app

@@ -80,6 +80,32 @@ int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out,
   return bad > 0 ? exit_bad_input : exit_done;
 }
 
+/// "0.31 (0.28 to 0.34)"
+std::string index_text(const study::Index& index) {
+  std::string text = io::rounded_text(index.value, 3);
+  if (index.low && index.high)
+    text += " (" + io::rounded_text(*index.low, 3) + " to " + io::rounded_text(*index.high, 3) + ")";
+  return text;
+}
+
+void print_sensitivities(const std::vector<study::MeasureSensitivity>& sensitivities) {
+  for (const study::MeasureSensitivity& s : sensitivities) {
+    std::cout << s.measure << ": " << s.of.method << " over " << s.of.rows << " cases";
+    if (s.of.explained)
+      std::cout << ", a linear function explains " << io::rounded_text(100.0 * *s.of.explained, 3)
+                << " % of the variance, " << io::rounded_text(100.0 * *s.of.explained_ranks, 3)
+                << " % of that of ranks";
+    std::cout << "\n";
+    std::vector<std::vector<std::string>> rows = {{"  "}};
+    rows[0].insert(rows[0].end(), s.of.indices.begin(), s.of.indices.end());
+    for (std::size_t k = 0; k < s.variables.size(); ++k) {
+      rows.push_back({"  " + s.variables[k]});
+      for (const std::vector<study::Index>& of : s.of.values) rows.back().push_back(index_text(of[k]));
+    }
+    std::cout << table_text(rows);
+  }
+}
+
 }  // namespace
 
 int sweep(const SweepArguments& arguments) {
@@ -116,10 +142,12 @@ int sweep(const SweepArguments& arguments) {
   collection.write("cases.csv", cases_csv(made));
   const bool keeps = arguments.keep == "all" || (arguments.keep == "few" && cases.size() <= most_folders);
   const std::string title = file.spec.title.empty() ? file.spec.name : file.spec.title;
-  return run_cases(cases,
-                   {arguments.out, title, arguments.threads, arguments.time_limit, arguments.memory_limit, keeps,
-                    arguments.quiet, arguments.check_expected},
-                   read, collection);
+  const CaseSettings settings{arguments.out,          title, arguments.threads, arguments.time_limit,
+                              arguments.memory_limit, keeps, arguments.quiet,   arguments.check_expected};
+  const std::vector<study::CaseResult> results = run_cases(cases, settings, read);
+  const std::vector<study::MeasureSensitivity> sensitivities = study::sensitivities_of(file.spec, results);
+  if (!arguments.quiet) print_sensitivities(sensitivities);
+  return finish_cases(results, sensitivities, settings, collection);
 }
 
 }  // namespace bough::app

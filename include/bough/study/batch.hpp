@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bough/results/records.hpp"
+#include "bough/study/sensitivity.hpp"
 
 namespace bough::study {
 
@@ -77,8 +78,11 @@ std::vector<CaseResult> run_batch(const std::vector<BatchCase>& cases, const Bat
 /// name; empty cells where a case has none. Holds nothing that a clock gave, so that equal results give equal files. Text
 /// that a spreadsheet would take for a formula begins with an apostrophe.
 std::string batch_csv(const std::vector<CaseResult>& results);
-/// The same as JSON, with inputs and measures as numbers.
-std::string batch_json(const std::vector<CaseResult>& results, const std::string& title);
+/// The same as JSON, with inputs and measures as numbers, and how much inputs decide each measure.
+std::string batch_json(const std::vector<CaseResult>& results, const std::string& title,
+                       const std::vector<MeasureSensitivity>& sensitivities = {});
+/// measure,method,index,variable,value,low,high,cases
+std::string sensitivities_csv(const std::vector<MeasureSensitivity>& sensitivities);
 /// case,wall_seconds,cpu_seconds,peak_megabytes
 std::string cost_csv(const std::vector<CaseResult>& results);
 

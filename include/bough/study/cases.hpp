@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bough/io/sweep_spec.hpp"
+#include "bough/study/batch.hpp"
 
 namespace bough::study {
 
@@ -24,6 +25,10 @@ SweepCases make_cases(const io::SweepSpec& spec);
 
 /// "/pointer=value" for all that a case changes.
 std::vector<std::string> overrides_of(const io::SweepSpec& spec, const SweepCase& which);
+
+/// How much what varies decides each measure: of a sweep with one design that draws, no other. Cases that conditions left
+/// out, or that failed, have no value.
+std::vector<MeasureSensitivity> sensitivities_of(const io::SweepSpec& spec, const std::vector<CaseResult>& results);
 
 /// The rows of one design, each with a value a variable. number: of the design in its sweep, from 0.
 std::vector<std::vector<io::SweepValue>> rows_of(const io::SweepDesign& design, std::uint32_t number);

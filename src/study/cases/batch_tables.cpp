@@ -78,7 +78,62 @@ std::string batch_csv(const std::vector<CaseResult>& results) {
   return text;
 }
 
-std::string batch_json(const std::vector<CaseResult>& results, const std::string& title) {
+namespace {
+
+void write_index(io::JsonText& json, const Index& index) {
+  json.begin_object();
+  json.member("value", index.value);
+  if (index.low) json.member("low", *index.low);
+  if (index.high) json.member("high", *index.high);
+  json.end_object();
+}
+
+void write_sensitivities(io::JsonText& json, const std::vector<MeasureSensitivity>& sensitivities) {
+  json.key("sensitivities");
+  json.begin_array();
+  for (const MeasureSensitivity& s : sensitivities) {
+    json.begin_object();
+    json.member("measure", std::string_view(s.measure));
+    json.member("method", std::string_view(s.of.method));
+    json.member("cases", static_cast<long long>(s.of.rows));
+    if (s.of.explained) json.member("explained", *s.of.explained);
+    if (s.of.explained_ranks) json.member("explained_ranks", *s.of.explained_ranks);
+    for (std::size_t i = 0; i < s.of.indices.size(); ++i) {
+      json.key(s.of.indices[i]);
+      json.begin_object();
+      for (std::size_t k = 0; k < s.variables.size(); ++k) {
+        json.key(s.variables[k]);
+        write_index(json, s.of.values[i][k]);
+      }
+      json.end_object();
+    }
+    json.end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace
+
+std::string sensitivities_csv(const std::vector<MeasureSensitivity>& sensitivities) {
+  std::string text = "measure,method,index,variable,value,low,high,cases\n";
+  for (const MeasureSensitivity& s : sensitivities)
+    for (std::size_t i = 0; i < s.of.indices.size(); ++i)
+      for (std::size_t k = 0; k < s.variables.size(); ++k) {
+        const Index& index = s.of.values[i][k];
+        text +=
+            text_field(s.measure) + ',' + s.of.method + ',' + s.of.indices[i] + ',' + text_field(s.variables[k]) + ',';
+        io::append_number(text, index.value);
+        for (const std::optional<double>& end : {index.low, index.high}) {
+          text += ',';
+          if (end) io::append_number(text, *end);
+        }
+        text += ',' + std::to_string(s.of.rows) + '\n';
+      }
+  return text;
+}
+
+std::string batch_json(const std::vector<CaseResult>& results, const std::string& title,
+                       const std::vector<MeasureSensitivity>& sensitivities) {
   io::JsonText json;
   json.begin_object();
   json.member("title", std::string_view(title));
@@ -115,6 +170,7 @@ std::string batch_json(const std::vector<CaseResult>& results, const std::string
     json.end_object();
   }
   json.end_array();
+  if (!sensitivities.empty()) write_sensitivities(json, sensitivities);
   json.end_object();
   return json.text();
 }
