@@ -13,6 +13,7 @@
 #include "bough/study/simulate.hpp"
 #include "bough/version.hpp"
 #include "memory_limit.hpp"
+#include "pages.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
@@ -109,6 +110,31 @@ class CaseProgress {
   Clock::time_point start_ = Clock::now(), told_at_ = start_;
 };
 
+/// The page of what has ended so far, rewritten so rarely that it takes a small part of the time.
+class LivePage {
+ public:
+  LivePage(const std::string& title, const io::OutputCollection& collection) : title_(title), collection_(collection) {}
+
+  void take(const study::CaseResult& result, std::size_t all) {
+    constexpr double least_seconds = 5.0, part = 0.02;
+    done_.push_back(result);
+    const auto start = Clock::now();
+    if (seconds(start - written_at_) < std::max(least_seconds, took_ / part) || done_.size() == all) return;
+    write_batch_page(collection_, done_, title_, {}, all);
+    written_at_ = Clock::now();
+    took_ = seconds(written_at_ - start);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
+  const std::string& title_;
+  const io::OutputCollection& collection_;
+  std::vector<study::CaseResult> done_;
+  Clock::time_point written_at_ = Clock::now();
+  double took_ = 0.0;
+};
+
 /// Large cases first, so that none is left to run alone at the end. Only a thousand are looked at: of more, the last ones
 /// are a small part of the whole.
 std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, int threads, const ReadCase& read) {
@@ -128,7 +154,7 @@ std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, in
 }  // namespace
 
 std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& given,
-                                         const ReadCase& read) {
+                                         const ReadCase& read, const io::OutputCollection& collection) {
   CaseSettings settings = given;
   if (settings.threads <= 0) settings.threads = default_threads();
   const std::size_t side_by_side = std::clamp<std::size_t>(cases.size(), 1, static_cast<std::size_t>(settings.threads));
@@ -137,6 +163,7 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
   catch_interrupts();
   const study::BatchOptions options{settings.threads, settings.time_limit, order_of(cases, settings.threads, read)};
   CaseProgress progress(settings.quiet);
+  LivePage page(settings.title, collection);
   return study::run_batch(
       cases, options,
       [&](const study::BatchCase& which, study::CaseReport& report) { return run_case(which, settings, read, report); },
@@ -150,6 +177,7 @@ int finish_cases(const std::vector<study::CaseResult>& results,
   collection.write("batch.csv", study::batch_csv(results));
   collection.write("batch.json", study::batch_json(results, settings.title, sensitivities));
   collection.write("cost.csv", study::cost_csv(results));
+  write_batch_page(collection, results, settings.title, sensitivities, results.size());
   if (!sensitivities.empty()) collection.write("sensitivities.csv", study::sensitivities_csv(sensitivities));
 
   const auto count = [&](const auto& condition) { return std::count_if(results.begin(), results.end(), condition); };

@@ -23,10 +23,11 @@ struct CaseSettings {
 using ReadCase = std::function<io::SceneFile(const study::BatchCase&)>;
 
 /// Runs the cases, large ones first where they are few enough to be looked at before.
+/// batch.html is rewritten from time to time.
 std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& settings,
-                                         const ReadCase& read);
+                                         const ReadCase& read, const io::OutputCollection& collection);
 
-/// Writes batch.csv, batch.json, cost.csv and, where there are sensitivities, sensitivities.csv; tells what came of the
+/// Writes batch.csv, batch.json, batch.html, cost.csv and, where there are sensitivities, sensitivities.csv; tells what came of the
 /// cases and returns the exit status.
 int finish_cases(const std::vector<study::CaseResult>& results,
                  const std::vector<study::MeasureSensitivity>& sensitivities, const CaseSettings& settings,

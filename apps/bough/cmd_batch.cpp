@@ -21,7 +21,7 @@ int batch(const BatchArguments& arguments) {
                               arguments.time_limit, arguments.memory_limit,    true,
                               arguments.quiet,      arguments.check_expected};
   const ReadCase read = [](const study::BatchCase& which) { return io::read_scene(which.scene, which.overrides); };
-  return finish_cases(run_cases(cases, settings, read), {}, settings, collection);
+  return finish_cases(run_cases(cases, settings, read, collection), {}, settings, collection);
 }
 
 }  // namespace bough::app

@@ -144,7 +144,7 @@ int sweep(const SweepArguments& arguments) {
   const std::string title = file.spec.title.empty() ? file.spec.name : file.spec.title;
   const CaseSettings settings{arguments.out,          title, arguments.threads, arguments.time_limit,
                               arguments.memory_limit, keeps, arguments.quiet,   arguments.check_expected};
-  const std::vector<study::CaseResult> results = run_cases(cases, settings, read);
+  const std::vector<study::CaseResult> results = run_cases(cases, settings, read, collection);
   const std::vector<study::MeasureSensitivity> sensitivities = study::sensitivities_of(file.spec, results);
   if (!arguments.quiet) print_sensitivities(sensitivities);
   return finish_cases(results, sensitivities, settings, collection);

@@ -1,6 +1,7 @@
 #include "pages.hpp"
 
 #include "bough/io/atomic_file.hpp"
+#include "bough/report/batch_page.hpp"
 #include "bough/report/profile_page.hpp"
 #include "bough/report/split_plot.hpp"
 #include "bough/report/stress_page.hpp"
@@ -20,6 +21,12 @@ std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
                               const std::vector<study::StressCase>& cases, const study::StressOptions& options) {
   folder.write(name, report::stress_page(cases, options));
   return name;
+}
+
+void write_batch_page(const io::OutputCollection& folder, const std::vector<study::CaseResult>& results,
+                      const std::string& title, const std::vector<study::MeasureSensitivity>& sensitivities,
+                      std::size_t num_cases) {
+  folder.write("batch.html", report::batch_page(results, title, sensitivities, num_cases));
 }
 
 void write_split_picture(const std::filesystem::path& path, const io::SplitTable& table) {

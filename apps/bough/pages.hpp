@@ -11,6 +11,7 @@
 #include "bough/io/output_folder.hpp"
 #include "bough/io/split_table.hpp"
 #include "bough/results/profile.hpp"
+#include "bough/study/batch.hpp"
 #include "bough/study/stress.hpp"
 #include "bough/study/sweep.hpp"
 
@@ -27,6 +28,11 @@ std::string write_profile_page(io::OutputFolder& folder, const std::string& name
 /// The page of the table of stiff and extreme cases; returns its name where it was written, or an empty one.
 std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
                               const std::vector<study::StressCase>& cases, const study::StressOptions& options);
+
+/// The page of a batch or sweep, of `num_cases` cases; does nothing without reports.
+void write_batch_page(const io::OutputCollection& folder, const std::vector<study::CaseResult>& results,
+                      const std::string& title, const std::vector<study::MeasureSensitivity>& sensitivities,
+                      std::size_t num_cases);
 
 /// The split of an acceleration as SVG. Precondition: can_draw.
 void write_split_picture(const std::filesystem::path& path, const io::SplitTable& table);

@@ -140,13 +140,26 @@ void Document::figure(std::string_view svg, std::string_view caption) {
   body_ += "</figure>\n";
 }
 
+void Document::figures(const std::vector<std::string>& svgs) {
+  body_ += "<div class=\"charts\">\n";
+  for (const std::string& svg : svgs) figure(svg);
+  body_ += "</div>\n";
+}
+
+void Document::program(std::string_view id, std::string_view json, std::string_view script) {
+  program_ = "<script type=\"application/json\" id=\"" + escaped(id) + "\">" + inside_script(json) +
+             "</script>\n<script>" + std::string(script) + "</script>\n";
+}
+
 std::string Document::html() const {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'" +
+         std::string(program_.empty() ? "" : "; script-src 'unsafe-inline'") +
+         "\">\n"
          "<title>" +
          escaped(title_) + "</title>\n<style>" + std::string(page_style) + std::string(style_text()) +
-         "</style>\n</head>\n<body>\n" + body_ + "</main>\n</body>\n</html>\n";
+         "</style>\n</head>\n<body>\n" + body_ + "</main>\n" + program_ + "</body>\n</html>\n";
 }
 
 }  // namespace bough::report

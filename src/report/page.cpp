@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::size_t max_plots = 24, max_samples = 500;
 
-/// JSON text that may stand inside a <script> element.
-std::string inside_script(const std::string& json) {
-  std::string text;
-  for (const char c : json) c == '<' ? text += "\\u003c" : text += c;
-  return text;
-}
-
 void append_value(std::string& json, double value) {
   const bool finite = std::isfinite(value);
   if (!finite) json += '"';

@@ -19,7 +19,9 @@ table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:3
 .charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,420px),1fr));gap:12px;margin:8px 0}
 h3{font-size:15px;margin:18px 0 4px}caption{text-align:left;padding:0 0 4px;color:#52514e}figcaption{font-size:13px;color:#52514e}
 td.number,th.number{text-align:right}td.number{white-space:nowrap}td:first-child{min-width:9em}.good{color:#00684a}.bad{color:#b3261e}.soft-text{color:#52514e}a{color:#1c5cab}
-@media (prefers-color-scheme:dark){body{background:#0d0d0d;color:#fff}.lead,.reading{color:#c3c2b7}td,th{border-color:#383835}
+tr.chosen td{background:#fbe3d8}th button{min-width:0;padding:0;border:0;background:none;font-weight:600;color:inherit;cursor:pointer}
+#cases td{cursor:default;max-width:28em;overflow-wrap:anywhere}
+@media (prefers-color-scheme:dark){tr.chosen td{background:#5a2f1c}body{background:#0d0d0d;color:#fff}.lead,.reading{color:#c3c2b7}td,th{border-color:#383835}
 caption,figcaption,.soft-text{color:#c3c2b7}.good{color:#5ad0a5}.bad{color:#ff8a80}a{color:#86b6ef}}
 @media print{body{max-width:none;padding:0;background:#fff;font-size:12px}figure,tr{break-inside:avoid}h2,h3{break-after:avoid}.wide{overflow:visible}
 .charts,.plots{grid-template-columns:1fr 1fr}}

@@ -32,6 +32,13 @@ inline std::string escaped(std::string_view text) {
   return result;
 }
 
+/// JSON text that may stand inside a <script> element: no name of a case can end it.
+inline std::string inside_script(std::string_view json) {
+  std::string text;
+  for (const char c : json) c == '<' ? text += "\\u003c" : text += c;
+  return text;
+}
+
 /// A coordinate on paper, to a twentieth of a pixel. What lies further than any page, infinity and what is not a
 /// number included, is put at the end of what 32-bit readers of coordinates can hold.
 inline void append_pixel(std::string& text, double value) {

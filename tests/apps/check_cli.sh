@@ -80,7 +80,7 @@ sweeps=$gallery/../sweeps
 expect 0 '25 cases, 5 left out' sweep "$sweeps/rod_chain_lengths.json" --dry-run
 expect 0 '25 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.one --threads 1
 expect 0 silence sweep "$sweeps/rod_chain_lengths.json" --out sweep.two --threads 2 --keep none --quiet
-for file in batch.csv batch.json cases.csv; do holds cmp sweep.one/$file sweep.two/$file; done
+for file in batch.csv batch.json batch.html cases.csv; do holds cmp sweep.one/$file sweep.two/$file; done
 holds grep -q ',N,l,g,lowest,reach$' sweep.one/batch.csv
 holds test -s sweep.one/07/history.csv
 holds test ! -e sweep.two/07

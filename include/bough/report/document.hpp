@@ -1,5 +1,6 @@
 #pragma once
-/// Self-contained pages of text, tables and charts: one file, no network, no scripts; light, dark and printed.
+/// Self-contained pages of text, tables and charts: one file, no network, no scripts but a page's own; light, dark and
+/// printed.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,10 +43,14 @@ class Document {
   void charts(const std::vector<Chart>& charts);
   void figure(std::string_view svg, std::string_view caption = {});  ///< a drawing of one's own; svg is taken as it is
 
+  void figures(const std::vector<std::string>& svgs);  ///< drawings of one's own beside each other
+  /// Data and a script that reads them from the element of this id, at the end of the page. The page has no scripts else.
+  void program(std::string_view id, std::string_view json, std::string_view script);
+
   std::string html() const;  ///< the whole page
 
  private:
-  std::string title_, body_;
+  std::string title_, body_, program_;
 };
 
 }  // namespace bough::report

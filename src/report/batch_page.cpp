@@ -1,0 +1,386 @@
+#include "bough/report/batch_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "batch_script.hpp"
+#include "bough/io/json_text.hpp"
+#include "bough/io/json_value.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/report/document.hpp"
+#include "bough/report/plot.hpp"
+#include "svg_text.hpp"
+
+namespace bough::report {
+namespace {
+
+using study::CaseResult;
+using study::CaseStatus;
+
+/// The values of one measure over all cases that have one.
+struct Measured {
+  std::string name;
+  std::vector<double> values;
+  std::vector<std::size_t> cases;  ///< ascending values
+};
+
+std::vector<Measured> measured_in(const std::vector<CaseResult>& results) {
+  std::vector<Measured> all;
+  std::map<std::string, std::size_t> index;
+  for (std::size_t i = 0; i < results.size(); ++i)
+    for (const results::MeasureResult& m : results[i].report.measures) {
+      const auto [at, is_new] = index.try_emplace(m.name, all.size());
+      if (is_new) all.push_back({m.name, {}, {}});
+      if (!m.value) continue;
+      all[at->second].values.push_back(*m.value);
+      all[at->second].cases.push_back(i);
+    }
+  for (Measured& m : all) {
+    std::vector<std::size_t> order(m.values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&m](std::size_t a, std::size_t b) { return m.values[a] < m.values[b]; });
+    Measured sorted{m.name, {}, {}};
+    for (const std::size_t k : order) {
+      sorted.values.push_back(m.values[k]);
+      sorted.cases.push_back(m.cases[k]);
+    }
+    m = std::move(sorted);
+  }
+  return all;
+}
+
+bool is_good(const CaseResult& r) { return r.status == CaseStatus::ok; }
+
+Table status_table(const std::vector<CaseResult>& results) {
+  std::map<CaseStatus, std::size_t> counts;
+  for (const CaseResult& r : results) ++counts[r.status];
+  Table table{{"status", "cases"}, {}};
+  for (const auto& [status, count] : counts)
+    table.rows.push_back({{std::string(study::text_of(status)), status == CaseStatus::ok ? Tone::good : Tone::bad},
+                          number_cell(static_cast<double>(count), 9)});
+  return table;
+}
+
+/// A cause without its numbers, so that causes which differ in these alone are one.
+std::string kind_of(const std::string& cause) {
+  std::string kind;
+  for (std::size_t i = 0; i < cause.size() && kind.size() < 160; ++i) {
+    const bool is_digit = cause[i] >= '0' && cause[i] <= '9';
+    if (!is_digit)
+      kind += cause[i];
+    else if (kind.empty() || kind.back() != '#')
+      kind += '#';
+  }
+  return kind;
+}
+
+/// Failures by cause, the most frequent first.
+Table failure_table(const std::vector<CaseResult>& results) {
+  struct Group {
+    std::string status, example;
+    std::vector<std::string> cases;
+  };
+  std::map<std::string, Group> groups;
+  for (const CaseResult& r : results) {
+    if (is_good(r)) continue;
+    Group& g = groups[std::string(study::text_of(r.status)) + " " + kind_of(r.cause)];
+    if (g.cases.empty()) {
+      g.status = study::text_of(r.status);
+      g.example = r.cause;
+    }
+    g.cases.push_back(r.which.name);
+  }
+  std::vector<const Group*> order;
+  for (const auto& [key, group] : groups) order.push_back(&group);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Group* a, const Group* b) { return a->cases.size() > b->cases.size(); });
+  constexpr std::size_t most_groups = 50, most_names = 5;
+  Table table{{"status", "cause, of the first", "cases", "which"}, {}};
+  for (const Group* g : order) {
+    if (table.rows.size() == most_groups) break;
+    std::string names;
+    for (std::size_t k = 0; k < std::min(most_names, g->cases.size()); ++k) names += (k > 0 ? ", " : "") + g->cases[k];
+    if (g->cases.size() > most_names) names += ", ...";
+    table.rows.push_back(
+        {{g->status, Tone::bad}, {g->example}, number_cell(static_cast<double>(g->cases.size()), 9), {names}});
+  }
+  return table;
+}
+
+double at_share(const Measured& m, double share) {
+  return m.values[static_cast<std::size_t>(share * static_cast<double>(m.values.size() - 1) + 0.5)];
+}
+
+Table measure_table(const std::vector<Measured>& all, const std::vector<CaseResult>& results) {
+  Table table{
+      {"measure", "cases", "mean", "deviation", "least", "in case", "5 %", "median", "95 %", "largest", "in case"}, {}};
+  for (const Measured& m : all) {
+    if (m.values.empty()) continue;
+    const double count = static_cast<double>(m.values.size());
+    const double mean = std::accumulate(m.values.begin(), m.values.end(), 0.0) / count;
+    double squares = 0.0;
+    for (const double x : m.values) squares += (x - mean) * (x - mean);
+    table.rows.push_back(
+        {{m.name},
+         number_cell(count, 9),
+         number_cell(mean, 5),
+         number_cell(
+             m.values.size() > 1 ? std::sqrt(squares / (count - 1.0)) : std::numeric_limits<double>::quiet_NaN(), 4),
+         number_cell(m.values.front(), 5),
+         {results[m.cases.front()].which.name},
+         number_cell(at_share(m, 0.05), 5),
+         number_cell(at_share(m, 0.5), 5),
+         number_cell(at_share(m, 0.95), 5),
+         number_cell(m.values.back(), 5),
+         {results[m.cases.back()].which.name}});
+  }
+  return table;
+}
+
+constexpr double paper_width = 468.0, plot_left = 60.0, plot_right = 452.0;
+
+std::string rectangle(double x, double y, double width, double height, std::string_view classes,
+                      const std::string& note) {
+  return "<rect class=\"" + std::string(classes) + "\" x=\"" + pixel(x) + "\" y=\"" + pixel(y) + "\" width=\"" +
+         pixel(width) + "\" height=\"" + pixel(height) + "\"><title>" + escaped(note) + "</title></rect>\n";
+}
+
+std::string text_at(double x, double y, std::string_view classes, std::string_view anchor, const std::string& text) {
+  return "<text class=\"" + std::string(classes) + "\" x=\"" + pixel(x) + "\" y=\"" + pixel(y) + "\" text-anchor=\"" +
+         std::string(anchor) + "\">" + escaped(text) + "</text>\n";
+}
+
+std::string svg_of(double height, const std::string& inner) {
+  return "<svg viewBox=\"0 0 " + pixel(paper_width) + " " + pixel(height) +
+         "\" xmlns=\"http://www.w3.org/2000/svg\">\n" + "<rect class=\"paper\" width=\"" + pixel(paper_width) +
+         "\" height=\"" + pixel(height) + "\"/>\n" + inner + "</svg>\n";
+}
+
+/// How often values come, in equal intervals: about as many as the root of their number.
+std::string histogram(const Measured& m) {
+  constexpr double top = 34.0, bottom = 170.0;
+  const double low = m.values.front(), high = m.values.back();
+  const double root = std::sqrt(static_cast<double>(m.values.size()));
+  const std::size_t bins = high > low ? static_cast<std::size_t>(std::clamp(root, 5.0, 40.0)) : 1;
+  std::vector<std::size_t> counts(bins);
+  for (const double x : m.values) {
+    const double share = high > low ? (x - low) / (high - low) : 0.0;
+    ++counts[std::min(bins - 1, static_cast<std::size_t>(share * static_cast<double>(bins)))];
+  }
+  const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
+  const double width = (plot_right - plot_left) / static_cast<double>(bins);
+  std::string inner = text_at(plot_left, 20.0, "ink head", "start", m.name);
+  for (std::size_t k = 0; k < bins; ++k) {
+    if (counts[k] == 0) continue;
+    const double height = (bottom - top) * static_cast<double>(counts[k]) / most;
+    const auto edge = [&](std::size_t i) {
+      return io::rounded_text(low + (high - low) * static_cast<double>(i) / static_cast<double>(bins), 5);
+    };
+    inner +=
+        rectangle(plot_left + width * static_cast<double>(k) + 0.5, bottom - height, std::max(1.0, width - 1.0), height,
+                  "s0 solid", edge(k) + " to " + edge(k + 1) + ": " + std::to_string(counts[k]) + " cases");
+  }
+  inner += text_at(plot_left - 6.0, top + 4.0, "soft tiny", "end", io::rounded_text(most, 6));
+  inner += text_at(plot_left, bottom + 16.0, "soft tiny", "start", io::rounded_text(low, 5));
+  inner += text_at(plot_right, bottom + 16.0, "soft tiny", "end", io::rounded_text(high, 5));
+  return svg_of(bottom + 26.0, inner);
+}
+
+/// A name that fits beside a plot.
+std::string shortened(const std::string& name) {
+  constexpr std::size_t most = 16;
+  return io::shown(name, most);
+}
+
+/// Bars of the indices of one measure, one colour an index, with intervals of confidence.
+std::string index_bars(const study::MeasureSensitivity& s) {
+  constexpr double bar = 12.0, gap = 10.0, left = 120.0;
+  double most = 0.0;
+  for (const auto& of : s.of.values)
+    for (const study::Index& i : of)
+      most = std::max({most, std::abs(i.value), std::abs(i.high.value_or(0.0)), std::abs(i.low.value_or(0.0))});
+  if (!(most > 0.0)) most = 1.0;
+  const auto to_x = [&](double value) {
+    return left + (plot_right - 40.0 - left) * std::min(1.0, std::abs(value) / most);
+  };
+  std::string inner = text_at(16.0, 20.0, "ink head", "start", s.measure);
+  double legend = 200.0;
+  for (std::size_t i = 0; i < s.of.indices.size(); ++i) {
+    const std::string colour = "s" + std::to_string(i % 6) + " solid";
+    inner += rectangle(legend, 11.0, 10.0, 10.0, colour, s.of.indices[i]);
+    inner += text_at(legend + 14.0, 20.0, "soft tiny", "start", s.of.indices[i]);
+    legend += 26.0 + 7.0 * static_cast<double>(s.of.indices[i].size());
+  }
+  double y = 34.0;
+  for (std::size_t k = 0; k < s.variables.size(); ++k) {
+    inner += text_at(left - 6.0, y + 0.5 * bar * static_cast<double>(s.of.indices.size()) + 4.0, "ink tiny", "end",
+                     shortened(s.variables[k]));
+    for (std::size_t i = 0; i < s.of.indices.size(); ++i, y += bar) {
+      const study::Index& index = s.of.values[i][k];
+      inner += rectangle(left, y + 1.0, to_x(index.value) - left, bar - 2.0, "s" + std::to_string(i % 6) + " solid",
+                         s.variables[k] + ", " + s.of.indices[i] + ": " + io::rounded_text(index.value, 4));
+      if (index.low && index.high)
+        inner += line_element("mark", to_x(std::max(0.0, *index.low)), y + 0.5 * bar, to_x(*index.high), y + 0.5 * bar);
+      const double end = std::max(to_x(index.value), index.high ? to_x(*index.high) : left);
+      inner += text_at(end + 4.0, y + bar - 2.0, "soft tiny", "start", io::rounded_text(index.value, 2));
+    }
+    y += gap;
+  }
+  return svg_of(y + 8.0, inner);
+}
+
+void add_sensitivities(Document& page, const std::vector<study::MeasureSensitivity>& sensitivities) {
+  if (sensitivities.empty()) return;
+  page.section("What decides them");
+  const std::string& method = sensitivities.front().of.method;
+  page.paragraph(
+      method == "morris"
+          ? "Elementary effects: change of the measure over that of the quantile. mu: mean, mu_star: mean "
+            "of magnitudes, sigma: deviation, which interactions and curvature make."
+      : method == "sobol_indices"
+          ? "Sobol's indices: the share of the variance that a variable has alone (first), and with all its "
+            "interactions (total). Lines are intervals of confidence of 95 %."
+          : "Coefficients of a linear fit of standardised values (src) and of ranks (srrc); bars show magnitudes.",
+      Tone::soft);
+  for (const study::MeasureSensitivity& s : sensitivities) {
+    page.figure(index_bars(s), s.of.explained
+                                   ? "A linear function explains " + io::rounded_text(100.0 * *s.of.explained, 3) +
+                                         " % of the variance, and " +
+                                         io::rounded_text(100.0 * *s.of.explained_ranks, 3) + " % of that of ranks."
+                                   : std::string());
+  }
+}
+
+/// A value of an input: a number, or a text.
+void write_input(io::JsonText& json, const std::string& text) {
+  double number = 0.0;
+  if (io::read_number(text, number) && std::isfinite(number))
+    json.value(number);
+  else
+    json.value(std::string_view(text.size() >= 2 && text.front() == '"' ? text.substr(1, text.size() - 2) : text));
+}
+
+std::string json_of(const std::vector<CaseResult>& results, const std::vector<Measured>& measured) {
+  std::vector<std::string> inputs;
+  for (const CaseResult& r : results)
+    for (const auto& [name, value] : r.which.inputs)
+      if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) inputs.push_back(name);
+  io::JsonText json;
+  json.begin_object();
+  json.member("inputs", static_cast<long long>(inputs.size()));
+  json.key("columns");
+  json.begin_array();
+  for (const char* name : {"case", "status", "cause", "doubts"}) json.value(name);
+  for (const std::string& name : inputs) json.value(std::string_view(name));
+  for (const Measured& m : measured) json.value(std::string_view(m.name));
+  json.value("steps");
+  json.end_array();
+  json.key("numeric");
+  json.begin_array();
+  for (int k = 0; k < 4; ++k) json.value(false);
+  for (std::size_t k = 0; k < inputs.size() + measured.size() + 1; ++k) json.value(true);
+  json.end_array();
+  json.key("rows");
+  json.begin_array();
+  for (const std::size_t i : cases_shown(results)) {
+    const CaseResult& r = results[i];
+    json.begin_array();
+    json.value(std::string_view(r.which.name));
+    json.value(study::text_of(r.status));
+    json.value(std::string_view(r.cause.substr(0, 200)));
+    std::string doubts;
+    for (const std::string& d : r.report.doubts) doubts += (doubts.empty() ? "" : ", ") + d;
+    json.value(std::string_view(doubts));
+    for (const std::string& name : inputs) {
+      const auto at =
+          std::find_if(r.which.inputs.begin(), r.which.inputs.end(), [&](const auto& in) { return in.first == name; });
+      if (at == r.which.inputs.end())
+        json.raw("null");
+      else
+        write_input(json, at->second);
+    }
+    for (const Measured& m : measured) {
+      const auto at = std::find_if(r.report.measures.begin(), r.report.measures.end(),
+                                   [&](const results::MeasureResult& x) { return x.name == m.name; });
+      if (at == r.report.measures.end() || !at->value)
+        json.raw("null");
+      else
+        json.value(*at->value);
+    }
+    json.value(static_cast<long long>(r.report.accepted));
+    json.end_array();
+  }
+  json.end_array();
+  json.end_object();
+  return json.text();
+}
+
+}  // namespace
+
+std::vector<std::size_t> cases_shown(const std::vector<CaseResult>& results, std::size_t most) {
+  std::vector<std::size_t> all(results.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (all.size() <= most) return all;
+  std::set<std::size_t> chosen;
+  const std::vector<Measured> measured = measured_in(results);
+  for (std::size_t k = 0; chosen.size() < most / 2 && k < results.size(); ++k) {  // the extremes, from outside in
+    const std::size_t before = chosen.size();
+    for (const Measured& m : measured) {
+      if (2 * k >= m.cases.size()) continue;
+      chosen.insert(m.cases[k]);
+      chosen.insert(m.cases[m.cases.size() - 1 - k]);
+    }
+    if (chosen.size() == before && k > results.size() / 2) break;
+  }
+  for (std::size_t i = 0; i < results.size() && chosen.size() < 3 * most / 4; ++i)
+    if (!is_good(results[i])) chosen.insert(i);
+  // A sample at equal distances: cases of designs that draw have no order.
+  const std::size_t left = most - std::min(most, chosen.size());
+  for (std::size_t k = 0; k < left; ++k) chosen.insert(k * results.size() / left);
+  return {chosen.begin(), chosen.end()};
+}
+
+std::string batch_page(const std::vector<CaseResult>& results, const std::string& title,
+                       const std::vector<study::MeasureSensitivity>& sensitivities, std::size_t num_cases) {
+  const auto good = static_cast<std::size_t>(std::count_if(results.begin(), results.end(), is_good));
+  std::string lead = std::to_string(results.size()) + " cases, " + std::to_string(good) + " ok.";
+  if (results.size() < num_cases)
+    lead += " The batch goes on: " + std::to_string(num_cases - results.size()) + " of " + std::to_string(num_cases) +
+            " are left.";
+  Document page(title, lead);
+  page.section("What came of them");
+  page.table(status_table(results));
+  if (good < results.size()) {
+    page.subsection("Causes");
+    page.table(failure_table(results));
+  }
+  const std::vector<Measured> measured = measured_in(results);
+  if (!measured.empty()) {
+    page.section("What was measured");
+    page.table(measure_table(measured, results));
+    constexpr std::size_t most_histograms = 24;
+    std::vector<std::string> drawings;
+    for (const Measured& m : measured)
+      if (!m.values.empty() && drawings.size() < most_histograms) drawings.push_back(histogram(m));
+    page.figures(drawings);
+  }
+  add_sensitivities(page, sensitivities);
+  page.section("Cases");
+  const std::size_t shown = cases_shown(results).size();
+  page.paragraph(shown < results.size() ? "The extreme cases of every measure, failures and a sample, " +
+                                              std::to_string(shown) + " in all; batch.csv holds every case."
+                                        : "A click on a heading sorts, one on a row or point selects.",
+                 Tone::soft);
+  page.figure(
+      "<div id=\"scatter\"></div><div id=\"cases\"></div><noscript>The table and its chart need scripts; batch.csv "
+      "holds the same.</noscript>");
+  page.program("batch", json_of(results, measured), batch_script);
+  return page.html();
+}
+
+}  // namespace bough::report

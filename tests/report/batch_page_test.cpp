@@ -1,0 +1,85 @@
+// The page of a batch: what it counts, what it shows of many cases, and that no text of a scene becomes part of it.
+#include "bough/report/batch_page.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace bough::report {
+namespace {
+
+using study::CaseResult;
+using study::CaseStatus;
+
+CaseResult result_of(std::size_t number, double value) {
+  CaseResult r;
+  r.which.name = std::to_string(number);
+  r.which.inputs = {{"k", std::to_string(value)}};
+  r.status = CaseStatus::ok;
+  r.report.measures = {{"tip", value * value}};
+  return r;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++count;
+  return count;
+}
+
+TEST(BatchPage, no_text_of_a_scene_ends_a_script_or_opens_an_element) {
+  const std::string evil = "</script><script>alert(1)</script><img src=x onerror=alert(2)>\"'&";
+  std::vector<CaseResult> results = {result_of(1, 2.0), result_of(2, 3.0)};
+  results[0].which.name = results[0].cause = evil;
+  results[0].status = CaseStatus::failed;
+  results[0].which.inputs = {{evil, "\"" + evil + "\""}};
+  results[1].report.measures[0].name = evil;
+  results[1].report.doubts = {evil};
+  study::MeasureSensitivity s{evil, {evil}, {"morris", {"mu"}, {{{1.0, {}, {}}}}, 4, {}, {}}};
+  const std::string page = batch_page(results, evil, {s}, 2);
+  EXPECT_EQ(count_of(page, "<script"), 2u);
+  EXPECT_EQ(count_of(page, "</script"), 2u);
+  EXPECT_EQ(count_of(page, "<img"), 0u);
+  EXPECT_GT(count_of(page, "&lt;img"), 3u);
+}
+
+TEST(BatchPage, failures_are_grouped_by_cause_whatever_numbers_it_holds) {
+  std::vector<CaseResult> results;
+  for (std::size_t k = 1; k <= 9; ++k) {
+    results.push_back(result_of(k, static_cast<double>(k)));
+    if (k % 3 != 0) continue;
+    results.back().status = CaseStatus::failed;
+    results.back().cause = "the step at time 0." + std::to_string(k) + " fails";
+  }
+  const std::string page = batch_page(results, "t", {}, 9);
+  EXPECT_EQ(count_of(page, ">failed</td>"), 2u);  // a status, and one cause
+  EXPECT_NE(page.find("3, 6, 9"), std::string::npos);
+  EXPECT_NE(page.find("9 cases, 6 ok."), std::string::npos);
+  EXPECT_NE(batch_page(results, "t", {}, 20).find("11 of 20 are left"), std::string::npos);
+}
+
+TEST(BatchPage, of_many_cases_extremes_failures_and_a_sample_are_shown) {
+  std::vector<CaseResult> results;
+  for (std::size_t k = 0; k < 30'000; ++k)
+    results.push_back(result_of(k, 1.0 + static_cast<double>((k * 7919) % 30'011)));
+  results[12'345].status = CaseStatus::crashed;
+  const std::vector<std::size_t> shown = cases_shown(results);
+  EXPECT_LE(shown.size(), 2000u);
+  EXPECT_GT(shown.size(), 1500u);
+  EXPECT_TRUE(std::is_sorted(shown.begin(), shown.end()));
+  const auto is_shown = [&](std::size_t k) { return std::binary_search(shown.begin(), shown.end(), k); };
+  EXPECT_TRUE(is_shown(12'345));
+  const auto value = [](const CaseResult& r) { return *r.report.measures[0].value; };
+  const auto less = [&](const CaseResult& a, const CaseResult& b) { return value(a) < value(b); };
+  EXPECT_TRUE(
+      is_shown(static_cast<std::size_t>(std::min_element(results.begin(), results.end(), less) - results.begin())));
+  EXPECT_TRUE(
+      is_shown(static_cast<std::size_t>(std::max_element(results.begin(), results.end(), less) - results.begin())));
+  EXPECT_LT(batch_page(results, "t", {}, results.size()).size(), 400'000u);
+}
+
+TEST(BatchPage, an_empty_batch_is_a_page) {
+  EXPECT_NE(batch_page({}, "t", {}, 5).find("5 of 5 are left"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bough::report
