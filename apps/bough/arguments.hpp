@@ -12,6 +12,7 @@ enum Exit : int {
   exit_done = 0,
   exit_failed = 1,     ///< a run failed, histories differ
   exit_bad_input = 2,  ///< bad input, bad options, a file that cannot be read
+  exit_stopped = 3,    ///< a batch or sweep was stopped; --resume goes on with it
 };
 
 struct RunArguments {
@@ -35,14 +36,16 @@ struct BatchArguments {
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
   bool quiet = false;
   bool check_expected = false;
+  bool resume = false;
 };
 struct SweepArguments {
   std::filesystem::path file, out;
   int threads = 0;
   double time_limit = 0.0;
   std::vector<std::string> overrides, only;  ///< only: names of cases; empty: all
-  std::string keep = "few";                  ///< folders of cases: all, none, or of no more than 200
-  double memory_limit = 0.0;                 ///< of all cases at a time [bytes]; 0: what is available
+  bool resume = false;
+  std::string keep = "few";   ///< folders of cases: all, none, or of no more than 200
+  double memory_limit = 0.0;  ///< of all cases at a time [bytes]; 0: what is available
   bool quiet = false, check_expected = false, dry_run = false;
 };
 struct ExportMatrixArguments {

@@ -4,12 +4,14 @@
 #include <chrono>
 #include <iostream>
 #include <numeric>
+#include <unordered_map>
 
 #include "arguments.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/run_directory.hpp"
 #include "bough/study/estimate.hpp"
+#include "bough/study/journal.hpp"
 #include "bough/study/simulate.hpp"
 #include "bough/version.hpp"
 #include "memory_limit.hpp"
@@ -48,11 +50,11 @@ results::Summary simulate(const scene::Scene& scene, const CaseSettings& setting
 }
 
 /// Runs in the case's own process.
-int run_case(const study::BatchCase& which, const CaseSettings& settings, const ReadCase& read,
+int run_case(const study::BatchCase& which, const CaseSettings& settings, const CaseSource& source,
              study::CaseReport& report) {
   catch_interrupts(Repeated::ignored);
   const auto start = std::chrono::steady_clock::now();
-  const io::SceneFile file = read(which);
+  const io::SceneFile file = source.read(which);
   if (!file.ok()) {
     report.cause = first_problems(file);
     return exit_bad_input;
@@ -113,9 +115,21 @@ class CaseProgress {
 /// The page of what has ended so far, rewritten so rarely that it takes a small part of the time.
 class LivePage {
  public:
-  LivePage(const std::string& title, const io::OutputCollection& collection) : title_(title), collection_(collection) {}
+  /// results: those of all cases but `left`, which are to come.
+  LivePage(const std::string& title, const io::OutputCollection& collection,
+           const std::vector<study::CaseResult>& results, const std::vector<std::size_t>& left)
+      : title_(title), collection_(collection) {
+    for (std::size_t i = 0, next = 0; i < results.size(); ++i) {
+      if (next < left.size() && left[next] == i)
+        ++next;
+      else
+        done_.push_back(results[i]);
+    }
+    num_before_ = done_.size();
+  }
 
-  void take(const study::CaseResult& result, std::size_t all) {
+  void take(const study::CaseResult& result, std::size_t left) {
+    const std::size_t all = num_before_ + left;
     constexpr double least_seconds = 5.0, part = 0.02;
     done_.push_back(result);
     const auto start = Clock::now();
@@ -131,20 +145,21 @@ class LivePage {
   const std::string& title_;
   const io::OutputCollection& collection_;
   std::vector<study::CaseResult> done_;
+  std::size_t num_before_ = 0;
   Clock::time_point written_at_ = Clock::now();
   double took_ = 0.0;
 };
 
 /// Large cases first, so that none is left to run alone at the end. Only a thousand are looked at: of more, the last ones
 /// are a small part of the whole.
-std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, int threads, const ReadCase& read) {
+std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, int threads, const CaseSource& source) {
   constexpr std::size_t most = 1000;
   std::vector<std::size_t> order(cases.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (threads < 2 || cases.size() > most) return order;
   std::vector<double> seconds;
   for (const study::BatchCase& c : cases) {
-    const io::SceneFile file = read(c);
+    const io::SceneFile file = source.read(c);
     seconds.push_back(file.ok() ? study::estimate_run(file.scene).seconds() : 0.0);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return seconds[a] > seconds[b]; });
@@ -153,22 +168,67 @@ std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, in
 
 }  // namespace
 
+namespace {
+
+/// Takes from the journal what is done, with its results where these are to be kept; returns which cases are left.
+std::vector<std::size_t> take_over(const std::vector<study::BatchCase>& cases, const std::vector<std::string>& keys,
+                                   const study::Journal& journal, bool keeps_results,
+                                   std::vector<study::CaseResult>& results) {
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const study::CaseResult* done = journal.find(keys[i]);
+    const bool has_results = !keeps_results || done == nullptr || done->report.directory.empty() ||
+                             std::filesystem::exists(cases[i].directory / "summary.json");
+    if (done == nullptr || !study::is_final(done->status) || !has_results) {
+      left.push_back(i);
+      continue;
+    }
+    results[i] = *done;
+    results[i].which = cases[i];
+  }
+  return left;
+}
+
+}  // namespace
+
 std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& given,
-                                         const ReadCase& read, const io::OutputCollection& collection) {
+                                         const CaseSource& source, const io::OutputCollection& collection) {
   CaseSettings settings = given;
   if (settings.threads <= 0) settings.threads = default_threads();
   const std::size_t side_by_side = std::clamp<std::size_t>(cases.size(), 1, static_cast<std::size_t>(settings.threads));
   if (settings.memory_limit <= 0.0) settings.memory_limit = available_memory();
   settings.memory_limit /= static_cast<double>(side_by_side);
+  collection.list("journal.jsonl");
+  study::Journal journal(settings.out / "journal.jsonl", settings.resumes);
+  std::vector<std::string> keys;
+  for (const study::BatchCase& c : cases) keys.push_back(study::key_of(c, source.text(c)));
+  std::vector<study::CaseResult> results(cases.size());
+  const std::vector<std::size_t> left = take_over(cases, keys, journal, settings.keeps_results, results);
+  if (settings.resumes && !settings.quiet)
+    std::cout << cases.size() - left.size() << " of " << cases.size() << " cases are done" << std::endl;
+
+  std::vector<study::BatchCase> to_run;
+  for (const std::size_t i : left) to_run.push_back(cases[i]);
   catch_interrupts();
-  const study::BatchOptions options{settings.threads, settings.time_limit, order_of(cases, settings.threads, read)};
+  const study::BatchOptions options{settings.threads, settings.time_limit, order_of(to_run, settings.threads, source)};
   CaseProgress progress(settings.quiet);
-  LivePage page(settings.title, collection);
-  return study::run_batch(
-      cases, options,
-      [&](const study::BatchCase& which, study::CaseReport& report) { return run_case(which, settings, read, report); },
-      [&](const study::CaseResult& result, std::size_t done, std::size_t all) { progress.tell(result, done, all); },
+  LivePage page(settings.title, collection, results, left);
+  std::unordered_map<std::string, std::string> key_of_name;
+  for (const std::size_t i : left) key_of_name[cases[i].name] = keys[i];
+  std::vector<study::CaseResult> run = study::run_batch(
+      to_run, options,
+      [&](const study::BatchCase& which, study::CaseReport& report) {
+        journal.release();
+        return run_case(which, settings, source, report);
+      },
+      [&](const study::CaseResult& result, std::size_t done, std::size_t all) {
+        if (study::is_final(result.status)) journal.add(key_of_name.at(result.which.name), result);
+        progress.tell(result, done, all);
+        page.take(result, all);
+      },
       interrupted);
+  for (std::size_t k = 0; k < left.size(); ++k) results[left[k]] = std::move(run[k]);
+  return results;
 }
 
 int finish_cases(const std::vector<study::CaseResult>& results,
@@ -188,6 +248,11 @@ int finish_cases(const std::vector<study::CaseResult>& results,
   if (!settings.quiet) {
     std::cout << results.size() << " cases, " << num_failed << " not done, " << num_not_as_expected
               << " with an expected figure that fails: " << (settings.out / "batch.csv").string() << "\n";
+  }
+  const auto num_stopped = count([](const study::CaseResult& r) { return r.status == study::CaseStatus::interrupted; });
+  if (num_stopped > 0) {
+    std::cerr << "stopped: " << num_stopped << " cases are left; the same command with --resume goes on\n";
+    return exit_stopped;
   }
   return num_failed > 0 || (settings.check_expected && num_not_as_expected > 0) ? exit_failed : exit_done;
 }

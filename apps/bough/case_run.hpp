@@ -17,15 +17,20 @@ struct CaseSettings {
   double time_limit = 0.0, memory_limit = 0.0;
   bool keeps_results = true;  ///< every case gets a folder; else its row is all that is left of it
   bool quiet = false, check_expected = false;
+  bool resumes = false;  ///< takes over what a batch into the same folder has done
 };
 
-/// Reads the scene of a case.
-using ReadCase = std::function<io::SceneFile(const study::BatchCase&)>;
+/// The scene of a case.
+struct CaseSource {
+  std::function<io::SceneFile(const study::BatchCase&)> read;
+  std::function<std::string(const study::BatchCase&)> text;  ///< what it is read from, without what the case changes
+};
 
 /// Runs the cases, large ones first where they are few enough to be looked at before.
-/// batch.html is rewritten from time to time.
+/// batch.html is rewritten from time to time. Every case that ends is written into journal.jsonl at once; cases that a
+/// journal taken over holds are not run again. Throws io::OutputRefused where another batch writes into the folder.
 std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& settings,
-                                         const ReadCase& read, const io::OutputCollection& collection);
+                                         const CaseSource& source, const io::OutputCollection& collection);
 
 /// Writes batch.csv, batch.json, batch.html, cost.csv and, where there are sensitivities, sensitivities.csv; tells what came of the
 /// cases and returns the exit status.

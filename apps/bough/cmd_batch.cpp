@@ -1,5 +1,7 @@
 /// bough batch FOLDER: every scene of a folder, one thread a case.
+#include <fstream>
 #include <iostream>
+#include <iterator>
 
 #include "arguments.hpp"
 #include "case_run.hpp"
@@ -19,9 +21,14 @@ int batch(const BatchArguments& arguments) {
   const io::OutputCollection collection(arguments.out, "batch", {arguments.folder});
   const CaseSettings settings{arguments.out,        arguments.folder.string(), arguments.threads,
                               arguments.time_limit, arguments.memory_limit,    true,
-                              arguments.quiet,      arguments.check_expected};
-  const ReadCase read = [](const study::BatchCase& which) { return io::read_scene(which.scene, which.overrides); };
-  return finish_cases(run_cases(cases, settings, read, collection), {}, settings, collection);
+                              arguments.quiet,      arguments.check_expected,  arguments.resume};
+  const CaseSource source{[](const study::BatchCase& which) { return io::read_scene(which.scene, which.overrides); },
+                          [](const study::BatchCase& which) {
+                            std::ifstream in(which.scene,
+                                             std::ios::binary);  // of one that cannot be read its case tells
+                            return std::string(std::istreambuf_iterator<char>(in), {});
+                          }};
+  return finish_cases(run_cases(cases, settings, source, collection), {}, settings, collection);
 }
 
 }  // namespace bough::app

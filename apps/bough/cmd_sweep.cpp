@@ -48,7 +48,8 @@ std::string cases_csv(const study::SweepCases& made) {
 }
 
 /// Lists the cases and what they will take, and runs none.
-int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out, int threads, const ReadCase& read) {
+int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out, int threads,
+               const CaseSource& source) {
   constexpr std::size_t most_rows = 50;
   std::vector<std::vector<std::string>> rows = {{"case"}};
   for (std::size_t k = 0; !cases.empty() && k < cases.front().inputs.size(); ++k)
@@ -59,7 +60,7 @@ int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out,
   for (std::size_t i = 0; i < cases.size(); ++i) {
     std::vector<std::string> row = {cases[i].name};
     for (const auto& [name, value] : cases[i].inputs) row.push_back(value);
-    const io::SceneFile file = read(cases[i]);
+    const io::SceneFile file = source.read(cases[i]);
     if (file.ok()) {
       const study::Estimate e = study::estimate_run(file.scene);
       seconds += e.seconds();
@@ -129,11 +130,12 @@ int sweep(const SweepArguments& arguments) {
     std::cerr << "bough: the conditions of the sweep leave no case\n";
     return exit_bad_input;
   }
-  const ReadCase read = [&](const study::BatchCase& which) {
-    return io::read_scene_text(file.spec.scene_text, file.spec.scene_name, which.overrides);
-  };
+  const CaseSource source{[&](const study::BatchCase& which) {
+                            return io::read_scene_text(file.spec.scene_text, file.spec.scene_name, which.overrides);
+                          },
+                          [&](const study::BatchCase&) { return file.spec.scene_text; }};
   if (arguments.dry_run)
-    return print_plan(cases, made.left_out, arguments.threads > 0 ? arguments.threads : default_threads(), read);
+    return print_plan(cases, made.left_out, arguments.threads > 0 ? arguments.threads : default_threads(), source);
   if (arguments.out.empty()) {
     std::cerr << "bough: --out DIR is needed, but with --dry-run\n";
     return exit_bad_input;
@@ -143,8 +145,9 @@ int sweep(const SweepArguments& arguments) {
   const bool keeps = arguments.keep == "all" || (arguments.keep == "few" && cases.size() <= most_folders);
   const std::string title = file.spec.title.empty() ? file.spec.name : file.spec.title;
   const CaseSettings settings{arguments.out,          title, arguments.threads, arguments.time_limit,
-                              arguments.memory_limit, keeps, arguments.quiet,   arguments.check_expected};
-  const std::vector<study::CaseResult> results = run_cases(cases, settings, read, collection);
+                              arguments.memory_limit, keeps, arguments.quiet,   arguments.check_expected,
+                              arguments.resume};
+  const std::vector<study::CaseResult> results = run_cases(cases, settings, source, collection);
   const std::vector<study::MeasureSensitivity> sensitivities = study::sensitivities_of(file.spec, results);
   if (!arguments.quiet) print_sensitivities(sensitivities);
   return finish_cases(results, sensitivities, settings, collection);

@@ -69,6 +69,11 @@ void add_threads(CLI::App& verb, int& threads, const std::string& what) {
       ->check(CLI::Range(1, 1024));
 }
 
+void add_resume(CLI::App& verb, bool& resume) {
+  verb.add_flag("--resume", resume,
+                "Go on where a batch into this directory was stopped or killed: what is done stays");
+}
+
 CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples) {
   CLI::App* verb = app.add_subcommand(name, what);
   verb->footer("Examples:\n" + examples);
@@ -113,7 +118,7 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
       add_verb(app, "batch", "Run every scene of a folder, one thread a case",
                "  bough batch scenes --out results --threads 8\n"
                "Writes results/NAME for every NAME.json, the tables batch.csv and batch.json, and cost.csv.\n"
-               "Exit status: 0 all done, 1 a case failed, 2 nothing could be run.");
+               "Exit status: 0 all done, 1 a case failed, 2 nothing could be run, 3 stopped: --resume goes on.");
   verb.add_option("FOLDER", a.folder, "Folder of scene files")->required();
   verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR")->required();
   add_threads(verb, a.threads, "Cases at a time");
@@ -124,6 +129,7 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
   add_memory_limit(verb, a.memory_limit, "all cases at a time");
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
+  add_resume(verb, a.resume);
   verb.callback([&] { code = batch(a); });
 }
 
@@ -135,7 +141,7 @@ void add_sweep(CLI::App& app, SweepArguments& a, int& code) {
       "  bough sweep data/sweeps/beam.json --out one --case 0042\n"
       "Writes cases.csv (what varies), batch.csv and batch.json (what came of it), cost.csv (times and memory), and a\n"
       "folder a case where there are no more than 200. `bough schema --sweep` prints the format.\n"
-      "Exit status: 0 all done, 1 a case failed, 2 bad input.");
+      "Exit status: 0 all done, 1 a case failed, 2 bad input, 3 stopped: --resume goes on.");
   verb.add_option("FILE", a.file, "Sweep (JSON)")->required();
   verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR");
   verb.add_flag("--dry-run", a.dry_run, "List the cases and what they will take, and run none");
@@ -153,6 +159,7 @@ void add_sweep(CLI::App& app, SweepArguments& a, int& code) {
   add_memory_limit(verb, a.memory_limit, "all cases at a time");
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
+  add_resume(verb, a.resume);
   verb.callback([&] { code = sweep(a); });
 }
 

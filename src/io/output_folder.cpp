@@ -356,4 +356,6 @@ void OutputCollection::write(const std::string& name, std::string_view text) con
   write_listed_file(folder_, made_by_, name, text);
 }
 
+void OutputCollection::list(const std::string& name) const { list_file(folder_, made_by_, name); }
+
 }  // namespace bough::io

@@ -81,6 +81,8 @@ class OutputCollection {
   OutputCollection(std::filesystem::path folder, std::string made_by,
                    const std::vector<std::filesystem::path>& inputs = {});
   void write(const std::string& name, std::string_view text) const;
+  /// Lists a file that somebody else writes there.
+  void list(const std::string& name) const;
 
  private:
   std::filesystem::path folder_;

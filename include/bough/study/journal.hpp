@@ -1,0 +1,47 @@
+#pragma once
+/// What a batch has done so far, in a file that survives kills and power failures.
+#include <filesystem>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "bough/study/batch.hpp"
+
+namespace bough::study {
+
+/// What a case is: a hash of the text of its scene, of what it changes there, and of the program, its instruction set and
+/// the bits of its mathematical library. Equal keys give equal results.
+std::string key_of(const BatchCase& which, const std::string& scene_text);
+
+/// Whether a case that ended so is done for good: it would end so again. Cases that were stopped, by a user or by a
+/// limit of time, are not.
+bool is_final(CaseStatus status);
+
+/// One line a case: a hash, a blank, the record as JSON. A record counts when its line is whole and its hash fits, so that
+/// what a kill or a full disk cut off is as if it had not been written.
+class Journal {
+ public:
+  /// resumes: takes over the records that are there, and drops what is damaged; else starts empty. Throws
+  /// std::runtime_error where the file cannot be written, io::OutputRefused where another process has it open.
+  Journal(std::filesystem::path file, bool resumes);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// For a child process, which is not to hold the file: it can no longer add.
+  void release();
+
+  /// The result of a case of this key, with `which` as it is asked for; nothing where there is none.
+  const CaseResult* find(const std::string& key) const;
+  std::size_t size() const { return records_.size(); }
+
+  /// Returns when the record is on the disk. Throws std::runtime_error where it cannot be.
+  void add(const std::string& key, const CaseResult& result);
+
+ private:
+  std::filesystem::path file_;
+  std::unordered_map<std::string, CaseResult> records_;
+  int descriptor_ = -1;
+};
+
+}  // namespace bough::study

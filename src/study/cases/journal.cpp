@@ -1,0 +1,189 @@
+#include "bough/study/journal.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/digest.hpp"
+#include "bough/io/json_text.hpp"
+#include "bough/io/json_value.hpp"
+#include "bough/io/manifest.hpp"
+#include "bough/io/program_hash.hpp"
+#include "bough/step/instruction_set.hpp"
+#include "case_report.hpp"
+
+namespace bough::study {
+namespace {
+
+constexpr std::array statuses{CaseStatus::ok,          CaseStatus::figures_fail, CaseStatus::failed,
+                              CaseStatus::interrupted, CaseStatus::bad_input,    CaseStatus::crashed,
+                              CaseStatus::timed_out};
+
+/// Bits of functions whose last digit differs between mathematical libraries.
+std::string library_bits() {
+  io::Digest digest;
+  for (int k = 1; k <= 200; ++k) {
+    const double x = 0.37 * k;
+    for (const double y : {std::sin(x), std::cos(x), std::tan(x), std::exp(-x), std::log(x), std::pow(x, 0.3),
+                           std::atan(x), std::erfc(0.1 * x)}) {
+      std::array<char, sizeof(double)> bytes{};
+      std::memcpy(bytes.data(), &y, sizeof y);
+      digest.add({bytes.data(), bytes.size()});
+    }
+  }
+  return digest.text();
+}
+
+const std::string& machine_key() {
+  static const std::string key =
+      io::program_hash() + " " + std::string(step::instruction_set().name) + " " + library_bits();
+  return key;
+}
+
+/// JSON on one line: line ends stand between values only, since strings escape theirs.
+std::string one_line(const std::string& json) {
+  std::string line;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    if (json[i] != '\n') {
+      line += json[i];
+      continue;
+    }
+    while (i + 1 < json.size() && json[i + 1] == ' ') ++i;
+  }
+  return line;
+}
+
+std::string record_of(const std::string& key, const CaseResult& r) {
+  io::JsonText json;
+  json.begin_object();
+  json.member("key", std::string_view(key));
+  json.member("case", std::string_view(r.which.name));
+  json.member("status", text_of(r.status));
+  json.member("cause", std::string_view(r.cause));
+  json.key("cost");
+  json.begin_array();
+  for (const double x : {r.cost.wall_seconds, r.cost.cpu_seconds, r.cost.peak_bytes}) json.value(x);
+  json.end_array();
+  json.member("report", std::string_view(one_line(text_of(r.report))));
+  json.end_object();
+  const std::string line = one_line(json.text());
+  return io::digest_of(line) + " " + line + "\n";
+}
+
+/// False where the line is damaged.
+bool read_record(std::string_view line, std::string& key, CaseResult& r) {
+  const std::size_t blank = line.find(' ');
+  if (blank == std::string_view::npos || io::digest_of(line.substr(blank + 1)) != line.substr(0, blank)) return false;
+  std::vector<io::JsonFault> faults;
+  const std::optional<io::JsonValue> root = io::parse_json(line.substr(blank + 1), io::source_file, faults);
+  if (!root || !faults.empty()) return false;
+  for (const char* name : {"key", "case", "status", "cause", "cost", "report"})
+    if (root->find(name) == nullptr) return false;
+  const io::JsonValue& cost = *root->find("cost");
+  if (cost.items.size() != 3 || !report_of(root->find("report")->text.str(), r.report)) return false;
+  key = root->find("key")->text;
+  r.which.name = root->find("case")->text;
+  r.cause = root->find("cause")->text;
+  r.cost = {cost.items[0].number, cost.items[1].number, cost.items[2].number};
+  for (const CaseStatus status : statuses)
+    if (text_of(status) == root->find("status")->text) r.status = status;
+  return true;
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+  throw std::runtime_error("cannot write the journal " + file.string() + ": " + std::generic_category().message(error));
+}
+
+}  // namespace
+
+std::string key_of(const BatchCase& which, const std::string& scene_text) {
+  io::Digest digest;
+  digest.add(machine_key());
+  digest.add(scene_text);
+  for (const std::string& o : which.overrides) {
+    digest.add(std::string_view("\0", 1));
+    digest.add(o);
+  }
+  return digest.text();
+}
+
+bool is_final(CaseStatus status) {
+  return status == CaseStatus::ok || status == CaseStatus::figures_fail || status == CaseStatus::failed ||
+         status == CaseStatus::bad_input || status == CaseStatus::crashed;
+}
+
+namespace {
+
+/// A file that is opened and locked; -1 where another process holds it. The lock ends with the process.
+int open_locked(const std::filesystem::path& file, int flags) {
+  const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail(file, errno);
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return descriptor;
+  ::close(descriptor);
+  return -1;
+}
+
+/// The same; waits a moment for cases of a batch that was killed, which end with it.
+int open_mine(const std::filesystem::path& file, int flags) {
+  for (int k = 0; k < 25; ++k) {
+    if (const int descriptor = open_locked(file, flags); descriptor >= 0) return descriptor;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  throw io::OutputRefused("another batch writes into " + file.parent_path().string());
+}
+
+}  // namespace
+
+Journal::Journal(std::filesystem::path file, bool resumes) : file_(std::move(file)) {
+  const int former = open_mine(file_, O_RDWR | O_CREAT);  // held until the new one is
+  std::string kept;
+  if (std::ifstream in(file_, std::ios::binary); resumes && in) {
+    for (std::string line; std::getline(in, line);) {
+      if (in.eof()) break;  // its end was cut off
+      std::string key;
+      CaseResult result;
+      if (!read_record(line, key, result)) continue;
+      records_[key] = std::move(result);
+      kept += line + "\n";
+    }
+  }
+  io::write_file(file_, kept);  // whole records, durable, before any is added
+  descriptor_ = open_mine(file_, O_WRONLY | O_APPEND);
+  ::close(former);
+}
+
+Journal::~Journal() { release(); }
+
+void Journal::release() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+}
+
+const CaseResult* Journal::find(const std::string& key) const {
+  const auto at = records_.find(key);
+  return at == records_.end() ? nullptr : &at->second;
+}
+
+void Journal::add(const std::string& key, const CaseResult& result) {
+  const std::string record = record_of(key, result);
+  for (std::string_view left = record; !left.empty();) {
+    const ssize_t count = ::write(descriptor_, left.data(), left.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail(file_, errno);
+    left.remove_prefix(static_cast<std::size_t>(count));
+  }
+  if (::fdatasync(descriptor_) != 0) fail(file_, errno);
+}
+
+}  // namespace bough::study
