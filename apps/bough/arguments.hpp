@@ -25,6 +25,7 @@ struct RunArguments {
 };
 struct ViewArguments {
   std::filesystem::path directory, out, svg;
+  std::string which;  ///< case of a batch; empty: the directory is that of a run
   std::string view = "auto";
   int positions = 9;
 };

@@ -21,7 +21,16 @@ void write_page(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-int view(const ViewArguments& arguments) {
+int view(const ViewArguments& given) {
+  ViewArguments arguments = given;
+  if (!given.which.empty()) {
+    arguments.directory /= std::filesystem::path(given.which).filename();
+    if (!std::filesystem::exists(arguments.directory)) {
+      std::cerr << "bough: the results of case " << given.which << " were not kept: bough sweep FILE --case "
+                << given.which << " --out DIR runs it again\n";
+      return exit_bad_input;
+    }
+  }
   const std::filesystem::path page = arguments.out.empty() ? arguments.directory / "view.html" : arguments.out;
   std::vector<std::filesystem::path> inputs;
   for (const char* name : {"history.csv", "motion.jsonl", "motion.pvd", "summary.json", io::manifest_name})

@@ -103,6 +103,7 @@ void add_view(CLI::App& app, ViewArguments& a, int& code) {
                             "  bough view four_bar.out --view xz --out page.html --svg four_bar.svg\n"
                             "The page is one file: it needs no network, and can be read without scripts.");
   verb.add_option("DIR", a.directory, "Directory of the results")->required();
+  verb.add_option("--case", a.which, "Case of the batch or sweep whose results DIR holds")->type_name("NAME");
   verb.add_option("--out", a.out, "Page to write (default: DIR/view.html)")->type_name("FILE");
   verb.add_option("--svg", a.svg, "Write the drawing of the motion alone, too")->type_name("FILE");
   verb.add_option("--view", a.view, "auto, xy, xz, yz or iso (default: auto)")

@@ -94,6 +94,21 @@ std::optional<StudyChoice> StudyConverter::read_value(const std::string& name, c
   return choice;
 }
 
+namespace {
+
+/// Whether a pointer leads to the mechanics of a scene, not to how they are computed. What parameters are used for is not
+/// known here.
+bool changes_the_scene(const std::string& pointer) {
+  const auto tokens = split_pointer(pointer);
+  if (!tokens || tokens->empty()) return false;  // told as no pointer
+  const std::string& first = tokens->front();
+  if (first == "beams") return tokens->back() != "elements" && tokens->back() != "order";
+  if (first == "analysis") return tokens->back() == "end_time" || tokens->back() == "kind" || tokens->back() == "frame";
+  return first != "solver" && first != "output" && first != "without" && first != "parameters";
+}
+
+}  // namespace
+
 StudyAxis StudyConverter::read_axis(const Value& v, const std::string& at) {
   StudyAxis axis;
   axis.name = v.find("name")->text;
@@ -125,6 +140,11 @@ StudyAxis StudyConverter::read_axis(const Value& v, const std::string& at) {
     return axis;
   }
   const std::string pointer = given != nullptr ? given->text.str() : known->pointer;
+  if (given != nullptr && changes_the_scene(pointer)) {
+    fault(at + "/pointer", "this changes what is computed, and errors compare how the same is computed",
+          "bough sweep varies scenes and says what comes of it");
+    return axis;
+  }
   const Value& values = *v.find("values");
   for (std::size_t i = 0; i < values.items.size(); ++i) {
     auto choice = read_value(axis.name, pointer, values.items[i], at + "/values/" + std::to_string(i),

@@ -82,6 +82,8 @@ expect 0 '25 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.one --thr
 expect 0 silence sweep "$sweeps/rod_chain_lengths.json" --out sweep.two --threads 2 --keep none --quiet
 for file in batch.csv batch.json batch.html cases.csv; do holds cmp sweep.one/$file sweep.two/$file; done
 holds grep -q ',N,l,g,lowest,reach$' sweep.one/batch.csv
+expect 0 'view.html' view sweep.one --case 07
+expect 2 'were not kept' view sweep.two --case 07
 holds test -s sweep.one/07/history.csv
 holds test ! -e sweep.two/07
 expect 0 '1 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07

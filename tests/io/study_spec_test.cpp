@@ -156,6 +156,15 @@ TEST_F(Studies, a_value_that_the_scene_does_not_take_is_blamed_on_the_value) {
   EXPECT_EQ(problem(R"("value": 1e-10)", R"("value": "small")").pointer, "/set");
 }
 
+TEST_F(Studies, an_axis_that_changes_the_mechanics_is_refused_with_where_to_go) {
+  const char* const integrators = R"({"name": "integrator", "values": ["generalized_alpha", "variational"]})";
+  for (const std::string pointer : {"/gravity", "/beams/*/section", "/analysis/end_time", "/bodies/0/mass"}) {
+    const Problem p = problem(integrators, R"({"name": "x", "pointer": ")" + pointer + R"(", "values": [1, 2]})");
+    EXPECT_NE(p.text().find("bough sweep"), std::string::npos) << p.text();
+    EXPECT_EQ(p.pointer, "/grids/0/axes/0/pointer");
+  }
+}
+
 TEST_F(Studies, steps_divide_the_sample_interval) {
   const Problem p = problem("[0.1, 0.05]", "[0.1, 0.03]");
   EXPECT_EQ(p.pointer, "/grids/0/axes/1/values/1");

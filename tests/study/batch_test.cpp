@@ -99,7 +99,8 @@ TEST_F(Batch, the_table_is_the_same_for_any_number_of_threads) {
   const std::string table = batch_csv(run(options(1)));
   EXPECT_EQ(table, batch_csv(run(options(3))));
   EXPECT_EQ(table.substr(0, table.find('\n')),
-            "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails,doubts");
+            "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails,doubts,"
+            "energy_error,constraint_error");
   EXPECT_LT(table.find("\na,ok"), table.find("\nb,ok"));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 6);
 }
@@ -122,10 +123,11 @@ TEST_F(Batch, tables_hold_inputs_and_measures_and_no_formula_of_a_spreadsheet) {
   two.which.name = "b";
   two.report.measures = {{"other", -2.0}, {"top", 1e300}};
   two.report.doubts = {"energy", "error"};
+  two.report.energy_error = 0.25;
   const std::string table = batch_csv({one, two});
   EXPECT_EQ(table.substr(table.find(",doubts")),
-            ",doubts,k,'@word,top,none,other\n'=1+1,ok,,0,0,0,0,0,,-1.5,'+cmd,0.1,,\n"
-            "b,ok,,0,0,0,0,0,energy; error,,,1e+300,,-2\n");
+            ",doubts,energy_error,constraint_error,k,'@word,top,none,other\n'=1+1,ok,,0,0,0,0,0,,,,-1.5,'+cmd,0.1,,\n"
+            "b,ok,,0,0,0,0,0,energy; error,0.25,,,,1e+300,,-2\n");
   EXPECT_NE(batch_json({one, two}, "t").find("\"k\": -1.5"), std::string::npos);
 }
 
@@ -136,6 +138,7 @@ TEST(CaseReports, go_through_a_pipe_with_all_their_bits) {
   r.accepted = 1L << 40u;
   r.expected_fails = 3;
   r.doubts = {"energy", ""};
+  r.constraint_error = 1e-17 / 3.0;
   r.measures = {{"a", 0.1 + 0.2}, {"b", {}}, {"c", -5e-324}};
   const std::string text = text_of(r);
   CaseReport back;

@@ -3,6 +3,7 @@
 /// sweep are run by the same engine.
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,8 @@ struct CaseReport {
   std::string failing;              ///< the first expected figures that do not hold, in words
   std::vector<std::string> doubts;  ///< what they are about
   std::vector<results::MeasureResult> measures;
+  std::optional<double> energy_error,
+      constraint_error;  ///< largest, over the largest energy; over the size of the parts
   /// Counts, figures and measures of a run.
   void take(const results::Summary& summary);
 };
@@ -74,7 +77,7 @@ std::vector<BatchCase> cases_in(const std::filesystem::path& folder, const std::
 std::vector<CaseResult> run_batch(const std::vector<BatchCase>& cases, const BatchOptions& options,
                                   const RunCase& run_case, const CaseDone& done, const std::function<bool()>& stop);
 
-/// The table, a row a case: case, status, cause, counts of steps and figures, doubts, then inputs, then measures, each by
+/// The table, a row a case: case, status, cause, counts of steps and figures, doubts, checks, then inputs, then measures, each by
 /// name; empty cells where a case has none. Holds nothing that a clock gave, so that equal results give equal files. Text
 /// that a spreadsheet would take for a formula begins with an apostrophe.
 std::string batch_csv(const std::vector<CaseResult>& results);

@@ -57,7 +57,8 @@ std::string batch_csv(const std::vector<CaseResult>& results) {
     for (const results::MeasureResult& m : r.report.measures) measures.add(m.name);
   }
   std::string text =
-      "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails,doubts";
+      "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails,doubts,"
+      "energy_error,constraint_error";
   for (const Columns* columns : {&inputs, &measures})
     for (const std::string& name : columns->names()) text += ',' + text_field(name);
   text += '\n';
@@ -67,6 +68,10 @@ std::string batch_csv(const std::vector<CaseResult>& results) {
                          static_cast<long>(r.report.expected_holds), static_cast<long>(r.report.expected_fails)})
       text += ',' + std::to_string(n);
     text += ',' + text_field(joined(r.report.doubts));
+    for (const std::optional<double>& x : {r.report.energy_error, r.report.constraint_error}) {
+      text += ',';
+      if (x) io::append_rounded(text, *x, 6);
+    }
     std::vector<std::string> in(inputs.names().size()), out(measures.names().size());
     for (const auto& [name, value] : r.which.inputs) in[inputs.at(name)] = input_field(value);
     for (const results::MeasureResult& m : r.report.measures)
@@ -162,6 +167,8 @@ std::string batch_json(const std::vector<CaseResult>& results, const std::string
     json.begin_array();
     for (const std::string& d : r.report.doubts) json.value(std::string_view(d));
     json.end_array();
+    if (r.report.energy_error) json.member("energy_error", *r.report.energy_error);
+    if (r.report.constraint_error) json.member("constraint_error", *r.report.constraint_error);
     json.key("measures");
     json.begin_object();
     for (const results::MeasureResult& m : r.report.measures)

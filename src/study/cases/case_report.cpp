@@ -1,6 +1,7 @@
 #include "case_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
@@ -39,6 +40,10 @@ void CaseReport::take(const results::Summary& summary) {
   for (const results::Doubt& d : summary.doubts)
     if (std::find(doubts.begin(), doubts.end(), d.about) == doubts.end()) doubts.push_back(d.about);
   measures = summary.measures;
+  const results::Checks& checks = summary.checks;
+  energy_error = constraint_error = std::nullopt;
+  if (checks.evaluated && checks.energy_scale > 0.0) energy_error = checks.energy_balance / checks.energy_scale;
+  if (checks.evaluated) constraint_error = checks.relative_violation_position;
   if (cause.empty()) cause = summary.cause;
 }
 
@@ -58,6 +63,15 @@ std::string text_of(const CaseReport& r) {
   json.key("doubts");
   json.begin_array();
   for (const std::string& d : r.doubts) json.value(std::string_view(d));
+  json.end_array();
+  json.key("checks");
+  json.begin_array();
+  for (const std::optional<double>& x : {r.energy_error, r.constraint_error}) {
+    if (x && std::isfinite(*x))
+      json.value(*x);
+    else
+      json.value(false);
+  }
   json.end_array();
   json.key("measures");
   json.begin_array();
@@ -80,7 +94,10 @@ bool report_of(std::string_view text, CaseReport& r) {
   const auto* counts = root->find("counts");
   const auto* measures = root->find("measures");
   const auto* doubts = root->find("doubts");
-  if (counts == nullptr || counts->items.size() != 5 || measures == nullptr || doubts == nullptr) return false;
+  const auto* checks = root->find("checks");
+  if (counts == nullptr || counts->items.size() != 5 || measures == nullptr || doubts == nullptr || checks == nullptr ||
+      checks->items.size() != 2)
+    return false;
   const auto count = [counts](std::size_t k) { return static_cast<long>(counts->items[k].number); };
   r.cause = root->find("cause")->text;
   r.directory = root->find("directory")->text.str();
@@ -92,6 +109,8 @@ bool report_of(std::string_view text, CaseReport& r) {
   r.expected_fails = static_cast<int>(count(4));
   r.failing = root->find("failing")->text;
   for (const io::JsonValue& d : doubts->items) r.doubts.push_back(d.text);
+  if (checks->items[0].is(io::JsonKind::number)) r.energy_error = checks->items[0].number;
+  if (checks->items[1].is(io::JsonKind::number)) r.constraint_error = checks->items[1].number;
   for (std::size_t k = 0; k + 1 < measures->items.size(); k += 2) {
     results::MeasureResult m{measures->items[k].text, {}};
     if (measures->items[k + 1].is(io::JsonKind::number)) m.value = measures->items[k + 1].number;
