@@ -37,6 +37,7 @@ struct BatchArguments {
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
   bool quiet = false;
   bool check_expected = false;
+  double stop_after = 0.0;  ///< of the whole batch [s]; 0: never
   bool resume = false;
 };
 struct SweepArguments {
@@ -44,6 +45,7 @@ struct SweepArguments {
   int threads = 0;
   double time_limit = 0.0;
   std::vector<std::string> overrides, only;  ///< only: names of cases; empty: all
+  double stop_after = 0.0;                   ///< of the whole batch [s]; 0: never
   bool resume = false;
   std::string keep = "few";   ///< folders of cases: all, none, or of no more than 200
   double memory_limit = 0.0;  ///< of all cases at a time [bytes]; 0: what is available

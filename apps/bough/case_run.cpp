@@ -1,5 +1,7 @@
 #include "case_run.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -49,9 +51,18 @@ results::Summary simulate(const scene::Scene& scene, const CaseSettings& setting
   return study::simulate(scene, options, recorder, [](const results::Progress&) { return !interrupted(); });
 }
 
+/// What was not foreseen for a case by its estimate ends as a lack of memory in this case, not as one of the machine.
+void limit_memory(double bytes) {
+  constexpr double program = 128e6;  // what the program itself and its reader take
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  limit.rlim_cur = std::min(limit.rlim_cur, static_cast<rlim_t>(std::min(bytes + program, 1e18)));
+  (void)::setrlimit(RLIMIT_DATA, &limit);
+}
+
 /// Runs in the case's own process.
-int run_case(const study::BatchCase& which, const CaseSettings& settings, const CaseSource& source,
-             study::CaseReport& report) {
+int run_case_within(const study::BatchCase& which, const CaseSettings& settings, const CaseSource& source,
+                    study::CaseReport& report) {
   catch_interrupts(Repeated::ignored);
   const auto start = std::chrono::steady_clock::now();
   const io::SceneFile file = source.read(which);
@@ -82,6 +93,17 @@ int run_case(const study::BatchCase& which, const CaseSettings& settings, const 
   report.take(summary);
   report.directory = directory.directory();
   return summary.status == results::RunStatus::ok ? exit_done : exit_failed;
+}
+
+int run_case(const study::BatchCase& which, const CaseSettings& settings, const CaseSource& source,
+             study::CaseReport& report) {
+  limit_memory(settings.memory_limit);
+  try {
+    return run_case_within(which, settings, source, report);
+  } catch (const std::exception& error) {
+    report.cause = cause_of(error);
+    return exit_failed;
+  }
 }
 
 /// Tells of cases as they end: each of a few; of many those that did not end well, and about once a second how far it is.
@@ -193,6 +215,7 @@ std::vector<std::size_t> take_over(const std::vector<study::BatchCase>& cases, c
 
 std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& given,
                                          const CaseSource& source, const io::OutputCollection& collection) {
+  const auto start = std::chrono::steady_clock::now();
   CaseSettings settings = given;
   if (settings.threads <= 0) settings.threads = default_threads();
   const std::size_t side_by_side = std::clamp<std::size_t>(cases.size(), 1, static_cast<std::size_t>(settings.threads));
@@ -226,7 +249,10 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
         progress.tell(result, done, all);
         page.take(result, all);
       },
-      interrupted);
+      [&] {
+        const std::chrono::duration<double> age = std::chrono::steady_clock::now() - start;
+        return interrupted() || (settings.stop_after > 0.0 && age.count() >= settings.stop_after);
+      });
   for (std::size_t k = 0; k < left.size(); ++k) results[left[k]] = std::move(run[k]);
   return results;
 }

@@ -17,7 +17,8 @@ struct CaseSettings {
   double time_limit = 0.0, memory_limit = 0.0;
   bool keeps_results = true;  ///< every case gets a folder; else its row is all that is left of it
   bool quiet = false, check_expected = false;
-  bool resumes = false;  ///< takes over what a batch into the same folder has done
+  double stop_after = 0.0;  ///< [s] from the start, stops as a user would; 0: never
+  bool resumes = false;     ///< takes over what a batch into the same folder has done
 };
 
 /// The scene of a case.

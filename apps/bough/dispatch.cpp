@@ -69,9 +69,12 @@ void add_threads(CLI::App& verb, int& threads, const std::string& what) {
       ->check(CLI::Range(1, 1024));
 }
 
-void add_resume(CLI::App& verb, bool& resume) {
+void add_resume(CLI::App& verb, bool& resume, double& stop_after) {
   verb.add_flag("--resume", resume,
                 "Go on where a batch into this directory was stopped or killed: what is done stays");
+  verb.add_option("--stop-after", stop_after, "Stop the whole after so many seconds, so that --resume goes on")
+      ->type_name("S")
+      ->check(between(0.001, 1e9));
 }
 
 CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples) {
@@ -130,7 +133,7 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
   add_memory_limit(verb, a.memory_limit, "all cases at a time");
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
-  add_resume(verb, a.resume);
+  add_resume(verb, a.resume, a.stop_after);
   verb.callback([&] { code = batch(a); });
 }
 
@@ -160,7 +163,7 @@ void add_sweep(CLI::App& app, SweepArguments& a, int& code) {
   add_memory_limit(verb, a.memory_limit, "all cases at a time");
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
-  add_resume(verb, a.resume);
+  add_resume(verb, a.resume, a.stop_after);
   verb.callback([&] { code = sweep(a); });
 }
 

@@ -88,6 +88,16 @@ holds test -s sweep.one/07/history.csv
 holds test ! -e sweep.two/07
 expect 0 '1 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07
 holds cmp sweep.one/07/history.csv sweep.case/07/history.csv
+expect 3 'are left' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --threads 1 --stop-after 0.02 --quiet
+expect 0 'cases are done' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --resume
+holds cmp sweep.one/batch.csv sweep.stopped/batch.csv
+mkdir large
+cp good.json large/small.json
+awk 'BEGIN { n = 700000; printf "{\"schema_version\": 1, \"bodies\": [{\"name\": \"a\", \"kind\": \"point_mass\", \"mass\": 1}], \"loads\": [{\"at\": \"a\", \"force\": [1, 0, 0], \"law\": {\"kind\": \"table\", \"times\": [0"
+  for (i = 1; i < n; ++i) printf ",%d", i; printf "], \"values\": [0"; for (i = 1; i < n; ++i) printf ",1"
+  printf "]}}], \"analysis\": {\"kind\": \"dynamic\", \"end_time\": 1, \"step_size\": 0.1}}" }' > large/table.json
+expect 1 'out of memory' batch large --out large.out --threads 2 --memory-limit 40M
+holds grep -q '^small,ok,' large.out/batch.csv
 expect 2 'no case' sweep "$sweeps/rod_chain_lengths.json" --out sweep.none --case 7
 expect 2 'out DIR' sweep "$sweeps/rod_chain_lengths.json"
 expect 2 'designs' sweep good.json --dry-run
