@@ -248,6 +248,25 @@ TEST_F(Batch, names_of_dots_stay_within_the_folder) {
     EXPECT_EQ(which.directory.lexically_normal().parent_path(), scratch_ / "out") << which.name;
 }
 
+TEST_F(Batch, a_worker_serves_many_cases_and_is_replaced_where_it_dies) {
+  for (const char* name : {"good_1", "good_2", "crashes", "good_3", "good_4"}) add(name);
+  std::filesystem::create_directories(scratch_ / "out");
+  const auto results = run_batch(
+      cases(), options(1),
+      [](const BatchCase& which, CaseReport& report) {
+        const int code = run_case(which, report);
+        report.doubts = {std::to_string(getpid())};
+        return code;
+      },
+      [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+  ASSERT_EQ(results.size(), 5u);  // by name: crashes, good_1 to good_4
+  EXPECT_EQ(results[0].status, CaseStatus::crashed);
+  for (std::size_t k = 1; k < 5; ++k) {
+    EXPECT_EQ(results[k].status, CaseStatus::ok) << results[k].cause;
+    EXPECT_EQ(results[k].report.doubts, results[1].report.doubts);
+  }
+}
+
 TEST_F(Batch, stopping_ends_what_runs_and_starts_nothing_more) {
   for (const char* name : {"hangs_1", "hangs_2", "later"}) add(name);
   std::filesystem::create_directories(scratch_ / "out");

@@ -59,7 +59,7 @@ struct CaseResult {
   CaseCost cost;
 };
 
-/// How a case is run, in a process of its own: the exit status of `bough run` (0 done, 1 failed, 2 bad input).
+/// How a case is run, in another process than that which collects: the exit status of `bough run` (0 done, 1 failed, 2 bad input).
 using RunCase = std::function<int(const BatchCase&, CaseReport& report)>;
 
 /// Told after every case: how many are done, of how many.
@@ -69,11 +69,12 @@ using CaseDone = std::function<void(const CaseResult&, std::size_t done, std::si
 /// std::runtime_error where the folder cannot be read or holds none.
 std::vector<BatchCase> cases_in(const std::filesystem::path& folder, const std::filesystem::path& out);
 
-/// Runs all cases; results are in the order of the cases whatever finishes first. Each case runs in a child process, so
-/// that one that crashes, hangs or takes all memory harms no other; all of them end with this process, however it
-/// ends. A case for which no process can be started has failed. `stop` is asked between cases; once true no further
-/// case starts and those running are told to stop (SIGTERM). A case past its time limit is told so, too, and is
-/// killed where it does not end by itself. Call it while the process has one thread.
+/// Runs all cases; results are in the order of the cases whatever finishes first. Cases run in worker processes, one at a
+/// time in each and many one after the other, so that one that crashes, hangs or takes all memory harms no other: its worker
+/// is replaced. All workers end with this process, however it ends. Where no process can be started a case has failed.
+/// `stop` is asked between cases; once true no further case starts and those running are told to stop (SIGTERM). A case
+/// past its time limit is told so, too, and is killed where it does not end by itself. Call it while the process has one
+/// thread.
 std::vector<CaseResult> run_batch(const std::vector<BatchCase>& cases, const BatchOptions& options,
                                   const RunCase& run_case, const CaseDone& done, const std::function<bool()>& stop);
 
