@@ -21,6 +21,12 @@ template <class A, class S>
 BOUGH_INLINE Vec2<S> conjugate_times(const Vec2<A>& a, const Vec2<S>& b) {
   return {{multiply_add(a[1], b[1], S(a[0] * b[0])), negative_multiply_add(a[1], b[0], S(a[0] * b[1]))}};
 }
+/// x + a b
+template <class S>
+BOUGH_INLINE Vec2<S> add_complex(const Vec2<S>& x, const Vec2<S>& a, const Vec2<S>& b) {
+  return {{negative_multiply_add(a[1], b[1], multiply_add(a[0], b[0], x[0])),
+           multiply_add(a[1], b[0], multiply_add(a[0], b[1], x[1]))}};
+}
 /// i a
 template <class S>
 BOUGH_INLINE Vec2<S> quarter_turn(const Vec2<S>& a) {
