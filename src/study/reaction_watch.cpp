@@ -13,7 +13,8 @@ namespace {
 
 constexpr double worth_a_look = 5e-4;  ///< bend over the largest reaction: half of what is doubted (TrustLimits::lost)
 constexpr double louder = 2.0, fading = 0.995;
-constexpr double growth = 3.0;       ///< of local errors on the way, as ErrorWatch takes it
+constexpr int followed = 3;     ///< steps after one that is looked at, since what round-off leaves of gaps is chance
+constexpr double growth = 3.0;  ///< of local errors on the way, as ErrorWatch takes it
 constexpr double unresolved = 0.05;  ///< bend over the largest reaction, next to a pole that steps do not resolve
 constexpr double like_a_pole = 0.1;  ///< relative: how well four steps have to lie on c / (t - t0) + b
 /// Of the largest reaction: an estimated error that is doubted. The estimate is 1.1 to 3.6 times the error of four-bars
@@ -77,7 +78,7 @@ double ReactionWatch::delay(const step::State& state) const {
 }
 
 bool ReactionWatch::wants_look(const step::State& state, double drift) {
-  bool wants = false;
+  bool wants = false, bends = false;
   num_equal_ = num_known_ == 0 ? 0 : state.step_size != step_size_ ? 1 : std::min(num_equal_ + 1, 3);
   step_size_ = state.step_size;
   drift_ = drift;
@@ -95,10 +96,17 @@ bool ReactionWatch::wants_look(const step::State& state, double drift) {
     }
     largest_ = std::max(largest_, w.largest);
     w.quiet *= fading;
+    bends |= num_known_ == 2 && w.bend > worth_a_look * scale_of(w);
     wants |= num_known_ == 2 && w.bend > std::max(worth_a_look * scale_of(w), louder * w.quiet);
     wants |= w.steepness > 0.0;
   }
   num_known_ = std::min(num_known_ + 1, 2);
+  if (wants) {
+    num_due_ = followed;
+  } else if (bends && num_due_ > 0) {
+    --num_due_;
+    wants = true;
+  }
   return wants;
 }
 

@@ -17,8 +17,8 @@ namespace bough::study {
 
 /// Watches the joints whose reactions sensors show. A reaction that bends from step to step by more than a small part
 /// of itself is looked at: what one more correction, S^-1 (-residual), changes of it is what is not determined. Where
-/// a look finds nothing, the next one waits for twice that bend, which fades in some hundred steps: reactions that
-/// vibrate cost a look in a hundred steps.
+/// a look finds nothing in this step and the next ones, further ones wait for twice that bend, which fades in some
+/// hundred steps: reactions that vibrate cost a few looks in a hundred steps.
 class ReactionWatch {
  public:
   explicit ReactionWatch(const step::System& system);
@@ -63,6 +63,7 @@ class ReactionWatch {
   std::vector<Watched> joints_;
   double largest_ = 0.0;  ///< of all
   int num_known_ = 0;     ///< steps before this one whose reactions are known, up to 2
+  int num_due_ = 0;       ///< steps after the last look that are looked at, too
   int num_equal_ = 0;     ///< steps of one size up to this one, up to 3
   double step_size_ = 0.0, drift_ = 0.0;
 };
