@@ -170,7 +170,8 @@ void planar_alone(benchmark::State& state, const PlanarCase<N>& c) {
   constexpr int n = 3 * N;
   double residual[n], magnitude[n], tangent[n * n];
   for (auto _ : state) {
-    planar::evaluate(c.beam, field, nullptr, 0.0, residual, magnitude, with_tangent ? tangent : nullptr);
+    evaluate(c.beam, field, nullptr, 0.0, residual, with_tangent ? tangent : nullptr);
+    eval_magnitude(c.beam, field, residual, magnitude);
     benchmark::DoNotOptimize(residual);
     benchmark::DoNotOptimize(tangent);
   }
@@ -189,14 +190,13 @@ void planar_lanes(benchmark::State& state, const PlanarCase<N>& c) {
     auto* to = reinterpret_cast<LanePack*>(&nodes[k]);
     for (int i = 0; i < planar::numbers_of_node; ++i) to[i] = LanePack(from[i]);
   }
-  const auto e = planar::make_lane_element(elements, 1, ports, 0);
+  const auto e = make_lane_element(elements, 1, ports, 0);
   const planar::FieldLanes field{nodes, {{{0.0, -9.81}}, nullptr, state.range(0) != 0}, slopes};
   constexpr int n = 3 * N;
   const LanePack turns(0.0);
   LanePack residual[n], magnitude[n], tangent[n * n];
   for (auto _ : state) {
-    planar::evaluate_lanes<planar::LaneElement<planar::Beam<N>>>(e, field, nullptr, turns, residual, magnitude,
-                                                                 with_tangent ? tangent : nullptr);
+    evaluate_lanes(e, field, nullptr, turns, residual, magnitude, with_tangent ? tangent : nullptr);
     benchmark::DoNotOptimize(residual);
     benchmark::DoNotOptimize(tangent);
   }

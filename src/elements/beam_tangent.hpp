@@ -1,382 +1,363 @@
 #pragma once
-/// Tangents of beams and line loads in closed form. All that moves a section, from the nodes' increments on, is an operator on motions, a
-/// dual matrix, so only masses, stiffnesses and what they multiply are full 6x6 blocks. Derivation: README.md, "Tangent".
+/// Tangents of beams of three and four nodes and of line loads in closed form. All that moves a section, from the nodes' increments on, is
+/// a map of motions in the group's compact form, so only masses, stiffnesses and what they multiply are full blocks. Derivation: README.md,
+/// "Tangent".
 #include "bough/elements/beam_forces.hpp"
 #include "screw_tangent.hpp"
-#include "tangent_blocks.hpp"
 
 namespace bough::elements {
 
-/// Derivatives of d_i, z_i, d_i', z_i' (see BeamRates) by the increment of one node: operators on motions.
-template <class S>
+/// Derivatives of d_i, z_i, d_i', z_i' (see BeamRates) by the increment of one node.
+template <class G, class S>
 struct RateSlopes {
-  DualMat<S> d, z, rate, zz;
+  typename G::template Map<S> d, z, rate, zz;
 };
 
 /// Column blocks of one element: by node i itself and by the reference node.
-template <class S, int N>
+template <class G, class S, int N>
 struct BeamColumns {
-  RateSlopes<S> own[N], reference[N];
-  DualMat<S> b[N];  ///< of a - (R^T g; 0) of every node by its own increment
+  RateSlopes<G, S> own[N], reference[N];
+  typename G::template Map<S> b[N];  ///< of a - (R^T g; 0) of every node by its own increment
 };
 
-/// z_i = U w_i, d_i' = z_i + ad(d_i) v_r, z_i' = U c_i + (D U[d_i']) w_i, with dd_i = U eta_i - (U - ad(d_i)) eta_r.
-template <class S, int N>
-void eval_beam_columns(const BeamRates<S, N>& b, const PortMotion<S>* p, const PortSlopes<S>* ports,
-                       const Surroundings<S>& around, bool has_mass, bool has_rates, BeamColumns<S, N>& columns) {
-  constexpr int r = Beam<N>::reference;
-  const bool moves = ports[r].moves;
-  if (has_mass)
-    for (int i = 0; i < N; ++i) {
-      columns.b[i] = around.has_inertia ? ports[i].acceleration : DualMat<S>::zero();
-      if (moves) columns.b[i].b = columns.b[i].b - lanes::skew(lanes::transpose_times(p[i].H.R, around.gravity));
-    }
-  const DualMat<S> zero = DualMat<S>::zero();
-  for (int i = 0; i < N; ++i) {
-    if (i == r) continue;
-    const DualSeries<S>& inverse = b.inverse[i];
-    const DualMat<S> U = matrix(inverse);
-    RateSlopes<S>&own = columns.own[i], &ref = columns.reference[i];
-    own.d = moves ? U : zero;
-    ref.d = moves ? motion::skew(b.d[i]) - U : zero;
-    DualMat<S> by_w, slope, by_d;
-    if (has_rates) {
-      own.z = product(U, ports[i].velocity);
-      ref.z = product(U, motion::scaled(-1.0, ports[r].velocity));
-      if (moves) {
-        by_w = jacobian(inverse, b.w[i]);
-        add_product(own.z, by_w, own.d);
-        add_product(ref.z, by_w, ref.d);
-      }
-      own.rate = own.z;
-      ref.rate = ref.z;
-      if (moves) {
-        const DualMat<S> v = motion::skew(-b.v);
-        add_product(own.rate, v, own.d);
-        add_product(ref.rate, v, ref.d);
-        add_product(ref.rate, motion::skew(b.d[i]), ports[r].velocity);
-      }
-    }
-    if (!has_mass || N == 2) continue;  // screw_tangent.hpp does without
-    own.zz = product(U, columns.b[i]);
-    ref.zz = product(U, motion::scaled(-1.0, columns.b[r]));
-    if (!moves) continue;
-    by_d = jacobian(inverse, b.c[i]);
-    if (has_rates) {
-      by_d = by_d + second_jacobian(inverse, b.rate[i], b.w[i]);
-      slope = slope_matrix(inverse, b.rate[i]);
-      add_product(own.zz, slope, ports[i].velocity);
-      add_product(ref.zz, slope, motion::scaled(-1.0, ports[r].velocity));
-      add_product(own.zz, by_w, own.rate);
-      add_product(ref.zz, by_w, ref.rate);
-    }
-    add_product(own.zz, by_d, own.d);
-    add_product(ref.zz, by_d, ref.d);
+/// z_i = U w_i, d_i' = z_i + ad(d_i) v_r, z_i' = U c_i + (D U[d_i']) w_i, with dd_i = U eta_i - (U - ad(d_i)) eta_r. What z_i' follows of d_i',
+/// J_i dd_i' with J_i = d(U w_i)/dd_i, is put to what it follows of z_i and d_i: dd_i' = dz_i - ad(v_r) dd_i + ad(d_i) dv_r.
+template <class G, class S, int N>
+void eval_node_columns(const BeamRates<G, S, N>& b, const PortSlopesOn<G, S>* ports, bool has_mass,
+                       const BeamTerms& terms, int i, BeamColumns<G, S, N>& columns) {
+  constexpr int r = beam_reference<N>;
+  const auto& inverse = b.inverse[i];
+  const auto U = matrix(inverse);
+  RateSlopes<G, S>&own = columns.own[i], &ref = columns.reference[i];
+  if (terms.moves) {
+    own.d = U;
+    ref.d = G::minus(G::ad(b.d[i]), U);
   }
+  typename G::template BracketMap<S> by_w;
+  typename G::template Map<S> carried;  ///< ref.z + ad(d_i) dv_r
+  if (terms.rates) {
+    by_w = jacobian(inverse, b.w[i]);
+    own.z = G::product(U, ports[i].velocity);
+    ref.z = G::negated(G::product(U, ports[r].velocity));
+    G::add_product(own.z, by_w, own.d);
+    G::add_product(ref.z, by_w, ref.d);
+    carried = ref.z;
+    G::add_product(carried, G::ad(b.d[i]), ports[r].velocity);
+  }
+  if (terms.viscous) {
+    const auto v = G::ad(-b.v);
+    own.rate = own.z;
+    ref.rate = carried;
+    G::add_product(own.rate, v, own.d);
+    G::add_product(ref.rate, v, ref.d);
+  }
+  if (!has_mass) return;
+  own.zz = G::product(U, columns.b[i]);
+  ref.zz = G::negated(G::product(U, columns.b[r]));
+  if (!terms.moves) return;
+  auto by_d = jacobian(inverse, b.c[i]);
+  if (terms.rates) {
+    by_d = G::plus(by_d, second_jacobian(inverse, b.rate[i], b.w[i]));
+    G::subtract_times_ad(by_d, by_w, b.v);
+    const auto slope = slope_matrix(inverse, b.rate[i]);
+    G::add_product(own.zz, slope, ports[i].velocity);
+    G::subtract_product(ref.zz, slope, ports[r].velocity);
+    G::add_product(own.zz, by_w, own.z);
+    G::add_product(ref.zz, by_w, carried);
+  }
+  G::add_product(own.zz, by_d, own.d);
+  G::add_product(ref.zz, by_d, ref.d);
+}
+template <class G, class S, int N>
+void eval_beam_columns(const BeamRates<G, S, N>& b, const PortMotionOn<G, S>* p, const PortSlopesOn<G, S>* ports,
+                       const SurroundingsOn<G, S>& around, bool has_mass, const BeamTerms& terms,
+                       BeamColumns<G, S, N>& columns) {
+  if (has_mass)
+    for (int i = 0; i < N; ++i) columns.b[i] = weighed_slope(p[i], ports[i], around);
+  for (int i = 0; i < N; ++i)
+    if (i != beam_reference<N>) eval_node_columns<G, S, N>(b, ports, has_mass, terms, i, columns);
 }
 
-/// A blend over the nodes, by the increment of node j.
-template <class S, int N>
-DualMat<S> blend_column(const double* shape, const BeamColumns<S, N>& columns, DualMat<S> RateSlopes<S>::*of, int j) {
-  constexpr int r = Beam<N>::reference;
-  if (j != r) return motion::scaled(shape[j], columns.own[j].*of);
-  DualMat<S> sum = motion::scaled(shape[r == 0 ? 1 : 0], columns.reference[r == 0 ? 1 : 0].*of);
-  for (int i = 1; i < N; ++i)
-    if (i != r && !(r == 0 && i == 1)) add_scaled_to(sum, shape[i], columns.reference[i].*of);
+/// A blend over the nodes by the increment of the reference node, or of another without its factor shape[j].
+template <class G, class S, int N>
+typename G::template Map<S> section_column(const double* shape, const BeamColumns<G, S, N>& columns,
+                                           typename G::template Map<S> RateSlopes<G, S>::*of, int j) {
+  constexpr int r = beam_reference<N>, first = r == 0 ? 1 : 0;
+  if (j != r) return columns.own[j].*of;
+  auto sum = G::scaled(shape[first], columns.reference[first].*of);
+  for (int i = first + 1; i < N; ++i)
+    if (i != r) G::add_to(sum, shape[i], columns.reference[i].*of);
   return sum;
 }
 
-/// Forces conjugate to d_i and their sum over all nodes, with derivatives by the nodes' increments.
-template <class S, int N>
+/// Derivatives of forces conjugate to d_i and of their sum over all nodes, by the nodes' increments.
+template <class G, class S, int N>
 struct BeamBlocks {
-  DualVec<S> force[N], sum;
-  Mat6<S> by[N][N], sum_by[N];
+  typename G::template Matrix<S> by[N][N], sum_by[N];
 };
 
-/// Elasticity and damping.
-template <class S, int N, class C>
-void eval_internal_blocks(const Beam<N, C>& beam, const BeamRates<S, N>& b, bool viscous,
-                          const BeamColumns<S, N>& columns, BeamBlocks<S, N>& out) {
-  constexpr int r = Beam<N>::reference;
-  const C inverse = 1.0 / beam.length;
-  const auto add_column = [&](Mat6<S>& x, const auto& k, DualMat<S> RateSlopes<S>::*of, int i, int j) {
-    add_motion_product(x, k, j == r ? columns.reference[i].*of : columns.own[j].*of);
-  };
-  if constexpr (N == 2) {
-    const Mat6<C> K = inverse * beam.stiffness;
-    out.by[1][0] = motion_product(K, columns.reference[1].d);
-    out.by[1][1] = motion_product(K, columns.own[1].d);
-    if (viscous) {
-      const Mat6<C> D = inverse * beam.damping;
-      add_column(out.by[1][0], D, &RateSlopes<S>::rate, 1, 0);
-      add_column(out.by[1][1], D, &RateSlopes<S>::rate, 1, 1);
-    }
-  } else {
-    const auto& rule = strain_rule<N>();
-    Mat6<S> by_d[N][N] = {};
-    Mat6<S> by_rate[N][N];
-    if (viscous)
-      for (auto& row : by_rate)
-        for (Mat6<S>& block : row) block = Mat6<S>::zero();
-    for (int g = 0; g < Beam<N>::num_strain_points; ++g) {
-      const double *shape = rule.shape[g], *slope = rule.slope[g], w = rule.weight[g];
-      StrainPoint<S> s;
-      eval_strain_point<S, N>(beam, b, viscous, g, s);
-      const DualMat<S> T = matrix(s.T), &A = s.bending, G = transpose_jacobian(s.T, s.n);
-      const Mat6<C> K = inverse * beam.stiffness;
-      Mat6<C> D;
-      if (viscous) D = inverse * beam.damping;
-      Mat6<S> n_d = motion_product(K, A), n_y = motion_product(K, T), n_d1, n_y1;
-      if (viscous) {
-        add_motion_product(n_d, D, jacobian(s.T, s.y1) + second_jacobian(s.T, s.d1, s.y));
-        add_motion_product(n_y, D, slope_matrix(s.T, s.d1));
-        n_d1 = motion_product(D, A);
-        n_y1 = motion_product(D, T);
-      }
-      const DualMat<S> G_transposed{lanes::transpose(G.a), lanes::transpose(G.b)};
-      Mat6<S> slope_d = transposed_product(T, n_d), shape_d = transposed_product(A, n_d),
-              shape_y = transposed_product(A, n_y);
-      const Mat6<S> slope_y = transposed_product(T, n_y);
-      add_wrench(slope_d, G);
-      add_wrench(shape_d, hessian(s.T, s.n, s.y));
-      add_wrench(shape_y, G_transposed);
-      const auto spread = [&](Mat6<S>(&blocks)[N][N], const Mat6<S>& sd, const Mat6<S>& sy, const Mat6<S>& hd,
-                              const Mat6<S>& hy) {
-        for (int i = 0; i < N; ++i)
-          for (int j = 0; j < N; ++j) {
-            if (i == r || j == r) continue;
-            add_scaled_to(blocks[i][j], w * slope[i] * shape[j], sd);
-            add_scaled_to(blocks[i][j], w * slope[i] * slope[j], sy);
-            add_scaled_to(blocks[i][j], w * shape[i] * shape[j], hd);
-            add_scaled_to(blocks[i][j], w * shape[i] * slope[j], hy);
-          }
-      };
-      spread(by_d, slope_d, slope_y, shape_d, shape_y);
-      if (viscous)
-        spread(by_rate, transposed_product(T, n_d1), transposed_product(T, n_y1), transposed_product(A, n_d1),
-               transposed_product(A, n_y1));
-    }
-    for (int i = 0; i < N; ++i)
-      for (int j = 0; j < N; ++j) {
-        if (i == r) continue;
-        Mat6<S>& x = out.by[i][j] = Mat6<S>::zero();
-        for (int k = 0; k < N; ++k) {
-          if (k == r || (j != r && j != k)) continue;
-          add_motion_product(x, by_d[i][k], j == r ? columns.reference[k].d : columns.own[k].d);
-          if (viscous) add_motion_product(x, by_rate[i][k], j == r ? columns.reference[k].rate : columns.own[k].rate);
-        }
-      }
-  }
-  // what the nodes bear together: sum_i ad(d_i)^T p_i
+/// Derivatives of the forces of a strain point, T^T n by the node's slope and A^T n by its value, by d and y = dd/ds there.
+template <class G, class S>
+struct StrainBlocks {
+  typename G::template Matrix<S> slope_d, slope_y, shape_d, shape_y;
+};
+/// Adds w (N_i' s_j + N_i h_j), s_j = N_j slope_d + N_j' slope_y and h_j the same of the others, to the derivatives of p_i by d_j.
+template <class G, class S, int N>
+void spread(const ShapeRule<N, N - 1>& rule, int point, const StrainBlocks<G, S>& s,
+            typename G::template Matrix<S> (&by_d)[N][N]) {
+  constexpr int r = beam_reference<N>;
+  const double *shape = rule.shape[point], *slope = rule.slope[point], w = rule.weight[point];
   for (int j = 0; j < N; ++j) {
-    out.sum_by[j] = Mat6<S>::zero();
+    if (j == r) continue;
+    typename G::template Matrix<S> by_slope = shape[j] * s.slope_d, by_shape = shape[j] * s.shape_d;
+    add_scaled_to(by_slope, slope[j], s.slope_y);
+    add_scaled_to(by_shape, slope[j], s.shape_y);
     for (int i = 0; i < N; ++i) {
       if (i == r) continue;
-      add_cross_transposed(out.sum_by[j], b.d[i], out.by[i][j]);
-      if (j == i || j == r)
-        add_wrench(out.sum_by[j],
-                   product(motion::skew(out.force[i]), j == r ? columns.reference[i].d : columns.own[i].d));
+      add_scaled_to(by_d[i][j], w * slope[i], by_slope);
+      add_scaled_to(by_d[i][j], w * shape[i], by_shape);
     }
   }
 }
 
-/// Inertia and gravity at a mass point:  dv = dv_r + T dz + J(z) dd,  db = db_r + T dz' + T' dz + J(z) dd' + (J(z') + J'(z)) dd.
-template <class S, int N, class C>
-void add_mass_point(const Beam<N, C>& beam, const PortSlopes<S>* ports, int point, const MassPoint<S>& m,
-                    bool has_rates, const BeamColumns<S, N>& columns, BeamBlocks<S, N>& out) {
-  constexpr int r = Beam<N>::reference;
-  const bool moves = ports[r].moves;
-  const double* shape = mass_rule<N>().shape[point];
-  const DualMat<S> T = matrix(m.T);
-  const Mat6<C> mass = C(mass_rule<N>().weight[point] * beam.length) * beam.mass;
-  DualMat<S> slope, by_z, by_d, by_f;
-  Mat6<S> f_v;
-  if (moves) {
+/// Elasticity and damping at one strain point.
+template <class G, class S, int N, class C>
+void add_strain_point(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>& b, bool viscous,
+                      const ShapeRule<N, N - 1>& rule, int point, typename G::template Matrix<S> (&by_d)[N][N],
+                      typename G::template Matrix<S> (&by_rate)[N][N]) {
+  using Block = typename G::template Matrix<S>;
+  const C inverse = 1.0 / beam.length;
+  StrainPoint<G, S> s;
+  eval_strain_point<G, S, N, C>(beam, b, viscous, rule, point, s);
+  const auto T = matrix(s.T);
+  const auto& A = s.bending;
+  const auto by_force = transpose_jacobian(s.T, s.n);
+  const typename G::template Matrix<C> K = inverse * beam.stiffness;
+  Block n_d = G::block_product(K, A), n_y = G::block_product(K, T);
+  if (viscous) {
+    const typename G::template Matrix<C> D = inverse * beam.damping;
+    G::add_block_product(n_d, D, G::plus(jacobian(s.T, s.y1), second_jacobian(s.T, s.d1, s.y)));
+    G::add_block_product(n_y, D, slope_matrix(s.T, s.d1));
+    const Block n_d1 = G::block_product(D, A), n_y1 = G::block_product(D, T);
+    const StrainBlocks<G, S> rates{G::transposed_product(T, n_d1), G::transposed_product(T, n_y1),
+                                   G::transposed_product(A, n_d1), G::transposed_product(A, n_y1)};
+    spread<G, S, N>(rule, point, rates, by_rate);
+  }
+  StrainBlocks<G, S> blocks{G::transposed_product(T, n_d), G::transposed_product(T, n_y), G::transposed_product(A, n_d),
+                            G::transposed_product(A, n_y)};
+  G::add_wrench_map(blocks.slope_d, by_force);
+  G::add_wrench_map(blocks.shape_d, hessian(s.T, s.n, s.y));
+  G::add_wrench_map(blocks.shape_y, G::transposed(by_force));
+  spread<G, S, N>(rule, point, blocks, by_d);
+}
+
+/// Elasticity and damping.
+template <class G, class S, int N, class C>
+void eval_internal_blocks(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>& b, bool viscous,
+                          const BeamColumns<G, S, N>& columns, BeamBlocks<G, S, N>& out) {
+  using Block = typename G::template Matrix<S>;
+  constexpr int r = beam_reference<N>;
+  const auto& rule = strain_rule<N>();
+  Block by_d[N][N], by_rate[N][N];
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) {
+      by_d[i][j] = Block::zero();
+      if (viscous) by_rate[i][j] = Block::zero();
+    }
+  for (int g = 0; g < N - 1; ++g) add_strain_point<G, S, N, C>(beam, b, viscous, rule, g, by_d, by_rate);
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) {
+      if (i == r) continue;
+      Block& x = out.by[i][j] = Block::zero();
+      for (int k = 0; k < N; ++k) {
+        if (k == r || (j != r && j != k)) continue;
+        const RateSlopes<G, S>& column = j == r ? columns.reference[k] : columns.own[k];
+        G::add_block_product(x, by_d[i][k], column.d);
+        if (viscous) G::add_block_product(x, by_rate[i][k], column.rate);
+      }
+    }
+}
+/// What the nodes bear together of it: sum_i ad(d_i)^T p_i.
+template <class G, class S, int N>
+void sum_internal_blocks(const BeamRates<G, S, N>& b, const typename G::template Wrench<S>* p,
+                         const BeamColumns<G, S, N>& columns, BeamBlocks<G, S, N>& out) {
+  constexpr int r = beam_reference<N>;
+  for (int j = 0; j < N; ++j) {
+    out.sum_by[j] = G::template Matrix<S>::zero();
+    for (int i = 0; i < N; ++i) {
+      if (i == r) continue;
+      G::add_ad_transposed(out.sum_by[j], b.d[i], out.by[i][j]);
+      if (j == i || j == r)
+        G::add_wrench_product(out.sum_by[j], G::hat(p[i]), j == r ? columns.reference[i].d : columns.own[i].d);
+    }
+  }
+}
+
+/// Inertia and gravity at a mass point:  dv = dv_r + T dz + J(z) dd,  db = db_r + T dz' + T' dz + J(z) dd' + (J(z') + J'(z)) dd, where
+/// again dd' = dz - ad(v_r) dd + ad(d) dv_r.
+template <class G, class S, int N, class C>
+void add_mass_point(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>& b, const PortSlopesOn<G, S>* ports,
+                    const ShapeRule<N, N>& rule, int point, const MassPoint<G, S>& m, const BeamTerms& terms,
+                    const BeamColumns<G, S, N>& columns, BeamBlocks<G, S, N>& out) {
+  using Rates = RateSlopes<G, S>;
+  constexpr int r = beam_reference<N>;
+  const double* shape = rule.shape[point];
+  const auto T = matrix(m.T);
+  const typename G::template Matrix<C> mass = C(rule.weight[point] * beam.length) * beam.mass;
+  typename G::template BracketMap<S> J, by_z, by_d;
+  typename G::template WrenchMap<S> by_f;
+  typename G::template Matrix<S> f_v;
+  if (terms.moves) {
     by_f = transpose_jacobian(m.T, m.f);
     by_d = jacobian(m.T, m.zz);
-    if (has_rates) {
-      by_d = by_d + second_jacobian(m.T, m.rate, m.z);
-      by_z = jacobian(m.T, m.z);
-      slope = slope_matrix(m.T, m.rate);
-      f_v = gyroscopic_matrix(mass, m.v, motion::wrench_dual(Vec6<S>(mass * motion::motion_vector(m.v))));
-    }
+  }
+  if (terms.rates) {
+    J = jacobian(m.T, m.z);
+    by_z = G::plus(J, slope_matrix(m.T, m.rate));
+    by_d = G::plus(by_d, second_jacobian(m.T, m.rate, m.z));
+    G::subtract_times_ad(by_d, J, b.v);
+    f_v = G::gyroscopic(mass, m.v);
   }
   for (int j = 0; j < N; ++j) {
-    using Rates = RateSlopes<S>;
-    DualMat<S> a = product(T, blend_column(shape, columns, &Rates::zz, j));
-    if (j == r) a = a + columns.b[r];
-    DualMat<S> d;
-    Mat6<S> f;
-    if (moves) {
-      d = blend_column(shape, columns, &Rates::d, j);
-      add_product(a, by_d, d);
+    const double factor = j == r ? 1.0 : shape[j];  // of other nodes without it, which the blocks take at the end
+    auto a = G::product(T, section_column<G, S, N>(shape, columns, &Rates::zz, j));
+    if (j == r) a = G::plus(a, columns.b[r]);
+    typename G::template Map<S> d;
+    if (terms.moves) {
+      d = section_column<G, S, N>(shape, columns, &Rates::d, j);
+      G::add_product(a, by_d, d);
     }
-    if (moves && has_rates) {
-      const DualMat<S> z = blend_column(shape, columns, &Rates::z, j);
-      add_product(a, slope, z);
-      add_product(a, by_z, blend_column(shape, columns, &Rates::rate, j));
-      DualMat<S> v = product(T, z);
-      add_product(v, by_z, d);
-      if (j == r) v = v + ports[r].velocity;
-      f = motion_product(f_v, v);
-      add_motion_product(f, mass, a);
+    typename G::template Matrix<S> f;
+    if (terms.rates) {
+      const auto z = section_column<G, S, N>(shape, columns, &Rates::z, j);
+      G::add_product(a, by_z, z);
+      auto v = G::product(T, z);
+      G::add_product(v, J, d);
+      if (j == r) {
+        v = G::plus(v, ports[r].velocity);
+        G::add_product(a, J, G::product(G::ad(m.T.d), ports[r].velocity));
+      }
+      f = G::block_product(f_v, v);
+      G::add_block_product(f, mass, a);
     } else {
-      f = motion_product(mass, a);
+      f = G::block_product(mass, a);
     }
-    Mat6<S> q = transposed_product(T, f);
-    if (moves) add_wrench(q, product(by_f, d));
+    auto q = G::transposed_product(T, f);
+    if (terms.moves) G::add_wrench_product(q, by_f, d);
     for (int i = 0; i < N; ++i)
-      if (i != r) add_scaled_to(out.by[i][j], shape[i], q);
-    out.sum_by[j] += f;
+      if (i != r) add_scaled_to(out.by[i][j], shape[i] * factor, q);
+    add_scaled_to(out.sum_by[j], factor, f);
   }
 }
 
-/// What acts on the other node of a two-node beam directly, not through d.
-template <class S>
-struct DirectBlocks {
-  DualVec<S> force;
-  DualMat<S> by_d;  ///< its derivative by d, [0, A; A, B]
-  Mat6<S> by[2];    ///< the rest of it, by the nodes' increments
-};
-
-/// From forces conjugate to d_i to the nodes:  F_i = U_i^T p_i (+ direct),  F_r = sum - sum_i F_i.  `matrix`: 6N x 6N, row-major.
-template <class S, int N>
-void carry_to_nodes(const BeamRates<S, N>& b, const PortSlopes<S>* ports, const BeamColumns<S, N>& columns,
-                    BeamBlocks<S, N>& blocks, S* matrix_out, const DirectBlocks<S>* direct = nullptr) {
-  constexpr int r = Beam<N>::reference;
-  const bool moves = ports[r].moves;
+/// From forces conjugate to d_i to the nodes:  F_i = U_i^T p_i,  F_r = sum - sum_i F_i, as put(i, j, block).
+template <class G, class S, int N, class Put>
+void carry_to_nodes(const BeamRates<G, S, N>& b, bool moves, const typename G::template Wrench<S>* p,
+                    const BeamColumns<G, S, N>& columns, BeamBlocks<G, S, N>& blocks, const Put& put) {
+  constexpr int r = beam_reference<N>;
   for (int i = 0; i < N; ++i) {
     if (i == r) continue;
-    const DualMat<S> U = matrix(b.inverse[i]);
-    DualMat<S> by_force;
-    if (moves) by_force = transpose_jacobian(b.inverse[i], blocks.force[i]);
-    if (moves && direct != nullptr) by_force = by_force + direct->by_d;
+    const auto U = matrix(b.inverse[i]);
+    typename G::template WrenchMap<S> by_force;
+    if (moves) by_force = transpose_jacobian(b.inverse[i], p[i]);
     for (int j = 0; j < N; ++j) {
-      Mat6<S> f = transposed_product(U, blocks.by[i][j]);
-      if (direct != nullptr) f += direct->by[j];
-      if (moves && j == i) add_wrench(f, product(by_force, columns.own[i].d));
-      if (moves && j == r) add_wrench(f, product(by_force, columns.reference[i].d));
-      put_block(f, 6 * i, 6 * j, 6 * N, matrix_out);
-      for (int k = 0; k < 36; ++k) blocks.sum_by[j].m[k] = blocks.sum_by[j].m[k] - f.m[k];
+      auto f = G::transposed_product(U, blocks.by[i][j]);
+      if (moves && j == i) G::add_wrench_product(f, by_force, columns.own[i].d);
+      if (moves && j == r) G::add_wrench_product(f, by_force, columns.reference[i].d);
+      put(i, j, f);
+      add_scaled_to(blocks.sum_by[j], -1.0, f);
     }
   }
-  for (int j = 0; j < N; ++j) put_block(blocks.sum_by[j], 6 * r, 6 * j, 6 * N, matrix_out);
+  for (int j = 0; j < N; ++j) put(r, j, blocks.sum_by[j]);
 }
 
-/// Inertia and gravity of a two-node beam; elasticity stands in `blocks`.
-template <class S, class C>
-void eval_screw_tangent(const Beam<2, C>& beam, const BeamRates<S, 2>& b, const PortSlopes<S>* ports, bool has_inertia,
-                        const BeamColumns<S, 2>& columns, BeamBlocks<S, 2>& blocks, S* residual, S* matrix_out) {
+/// No derivatives yet.
+template <class G, class S, int N>
+void clear(BeamBlocks<G, S, N>& blocks) {
+  for (int j = 0; j < N; ++j) {
+    blocks.sum_by[j] = G::template Matrix<S>::zero();
+    for (int i = 0; i < N; ++i) blocks.by[i][j] = G::template Matrix<S>::zero();
+  }
+}
+
+/// Residual of a beam, the bits of eval_residual, and its derivative by the ports' increments as put(i, j, block).
+template <class G, class S, int N, class C, class Put>
+requires(N > 2) void eval_tangent(const BeamOn<G, N, C>& beam, const PortMotionOn<G, S>* p,
+                                  const PortSlopesOn<G, S>* ports, const SurroundingsOn<G, S>& around, S* residual,
+                                  const Put& put) {
+  const BeamTerms terms(beam, ports[0].moves, around.has_inertia);
+  BeamRates<G, S, N> b;
+  eval_beam_rates<G, S, N>(p, around, beam.has_mass, beam.has_damping, b);
+  BeamColumns<G, S, N> columns;
+  eval_beam_columns<G, S, N>(b, p, ports, around, beam.has_mass, terms, columns);
+  BeamBlocks<G, S, N> blocks;
+  typename G::template Wrench<S> force[N];
+  eval_internal_forces<G, S, N, C>(beam, b, around.has_inertia && beam.has_damping, force);
+  auto sum = sum_relative_forces<G, S, N>(b, force);
+  if (terms.moves) {
+    eval_internal_blocks<G, S, N, C>(beam, b, terms.viscous, columns, blocks);
+    sum_internal_blocks<G, S, N>(b, force, columns, blocks);
+  } else {
+    clear<G, S, N>(blocks);
+  }
+  if (beam.has_mass) {
+    const auto& rule = mass_rule<N>();
+    for (int g = 0; g < N; ++g) {
+      MassPoint<G, S> m;
+      eval_mass_point<G, S, N, C>(beam, b, around.has_inertia, rule, g, m);
+      add_mass_forces<G, S, N>(rule.shape[g], m, force, sum);
+      add_mass_point<G, S, N, C>(beam, b, ports, rule, g, m, terms, columns, blocks);
+    }
+  }
+  eval_nodal_wrenches<G, S, N>(b, force, sum, residual);
+  carry_to_nodes<G, S, N>(b, terms.moves, force, columns, blocks, put);
+}
+
+/// The same of a line load. A dead load turns against the section, which moves by eta_r + T (dd - ad(d) eta_r).
+template <class G, class S, int N, class C, class Put>
+void eval_tangent(const LineLoadOn<G, N, C>& load, const PortMotionOn<G, S>* p, const PortSlopesOn<G, S>* ports,
+                  const SurroundingsOn<G, S>& around, S* residual, const Put& put) {
+  constexpr int r = beam_reference<N>;
   const bool moves = ports[0].moves;
-  const Mat6<C> mass = point_mass(beam);
-  const ScrewBlend<S> blend = eval_screw_blend(b.d[1]);
-  GaussPair<S> g;
-  eval_gauss_forces(mass, blend, b, has_inertia, g);
-  DirectBlocks<S> direct;
-  direct.force = eval_gauss_wrench(blend, g);
-  if (moves) direct.by_d = gauss_wrench_jacobian(blend, g);
-  blocks.sum = blocks.sum + g.sum;
-  ScrewSlopes<S> slopes;
-  eval_screw_slopes(blend, b, moves, has_inertia, slopes);
-  Mat6<S> f_v[2];
-  if (moves && has_inertia)
-    for (int k = 0; k < 2; ++k)
-      f_v[k] = gyroscopic_matrix(mass, g.v[k], motion::wrench_dual(Vec6<S>(mass * motion::motion_vector(g.v[k]))));
-  for (int j = 0; j < 2; ++j) {
-    const ScrewColumn<S> column{j == 0 ? columns.reference[1].d : columns.own[1].d, ports[j].velocity, columns.b[j],
-                                j == 0};
-    direct.by[j] = Mat6<S>::zero();
-    add_gauss_blocks(mass, f_v, slopes, column, moves, has_inertia, direct.by[j], blocks.sum_by[j]);
-  }
-  eval_nodal_wrenches<S, 2>(b, blocks.force, blocks.sum, residual, &direct.force);
-  carry_to_nodes(b, ports, columns, blocks, matrix_out, &direct);
-}
-
-/// Residual of a beam, and its derivative by the ports' increments, 6N x 6N, row-major.
-template <class S, int N, class C>
-void eval_tangent(const Beam<N, C>& beam, const PortMotion<S>* p, const PortSlopes<S>* ports,
-                  const Surroundings<S>& around, S* residual, S* matrix_out) {
-  constexpr int r = Beam<N>::reference;
-  const bool viscous = around.has_inertia && beam.has_damping,
-             has_rates = around.has_inertia && (beam.has_mass || beam.has_damping);
-  BeamRates<S, N> b;
-  eval_beam_rates<S, N>(p, around, beam.has_mass, beam.has_damping, b);
-  BeamColumns<S, N> columns;
-  eval_beam_columns(b, p, ports, around, beam.has_mass, N == 2 ? viscous : has_rates, columns);
-  BeamBlocks<S, N> blocks;
-  eval_internal_forces<S, N>(beam, b, viscous, blocks.force);
-  eval_internal_blocks(beam, b, viscous, columns, blocks);
-  blocks.sum = DualVec<S>::zero();
-  for (int i = 0; i < N; ++i)
-    if (i != r) blocks.sum = add_cross(blocks.sum, blocks.force[i], b.d[i]);
-  if constexpr (N == 2) {
-    if (beam.has_mass)
-      return eval_screw_tangent(beam, b, ports, around.has_inertia, columns, blocks, residual, matrix_out);
-  } else if (beam.has_mass)
-    for (int g = 0; g < Beam<N>::num_mass_points; ++g) {
-      MassPoint<S> m;
-      eval_mass_point<S, N>(beam, b, around.has_inertia, g, m);
-      const DualVec<S> q = transpose_times(m.T, m.f);
-      for (int i = 0; i < N; ++i)
-        if (i != r) blocks.force[i] = add_scaled(blocks.force[i], mass_rule<N>().shape[g][i], q);
-      blocks.sum = blocks.sum + m.f;
-      add_mass_point(beam, ports, g, m, around.has_inertia, columns, blocks);
-    }
-  eval_nodal_wrenches<S, N>(b, blocks.force, blocks.sum, residual);
-  carry_to_nodes(b, ports, columns, blocks, matrix_out);
-}
-
-/// The same of a line load. A dead load turns against the section: d(R^T q) = ~(R^T q) theta.
-template <class S, int N, class C>
-void eval_tangent(const LineLoad<N, C>& load, const PortMotion<S>* p, const PortSlopes<S>* ports,
-                  const Surroundings<S>& around, S* residual, S* matrix_out) {
-  constexpr int r = Beam<N>::reference;
-  BeamRates<S, N> b;
-  eval_relative_motions<S, N>(p, b);
-  BeamColumns<S, N> columns;
-  eval_beam_columns(b, p, ports, around, false, false, columns);
-  BeamBlocks<S, N> blocks;
-  blocks.sum = DualVec<S>::zero();
-  for (int i = 0; i < N; ++i) {
-    blocks.force[i] = DualVec<S>::zero();
-    blocks.sum_by[i] = Mat6<S>::zero();
-    for (int j = 0; j < N; ++j) blocks.by[i][j] = Mat6<S>::zero();
-  }
+  BeamRates<G, S, N> b;
+  eval_relative_motions<G, S, N>(p, b);
+  BeamColumns<G, S, N> columns;
+  eval_beam_columns<G, S, N>(b, p, ports, around, false, {moves, false, false}, columns);
+  BeamBlocks<G, S, N> blocks;
+  clear<G, S, N>(blocks);
+  const auto zero = G::wrench(G::template Vector<S>::zero());
+  typename G::template Wrench<S> force[N], sum = zero;
+  for (int i = 0; i < N; ++i) force[i] = zero;
+  const auto& rule = mass_rule<N>();
   for (int g = 0; g < N; ++g) {
-    const double* shape = mass_rule<N>().shape[g];
-    const DualSeries<S> series = motion::dual_tangent(blend<S, N>(shape, b.d));
-    const DualVec<S> f = eval_load(load, p[r], series, around, g), q = transpose_times(series, f);
+    const double* shape = rule.shape[g];
+    const auto at = motion::eval_tangent_operator<G, S>(blend<G, S, N>(shape, b.d));
+    const auto f = eval_load<G, S, N, C>(load, p[r], at, around, rule, g);
+    const auto q = transpose_times(at, f);
     for (int i = 0; i < N; ++i)
-      if (i != r) blocks.force[i] = add_scaled(blocks.force[i], shape[i], q);
-    blocks.sum = blocks.sum + f;
-    if (!ports[r].moves) continue;
-    const DualMat<S> T = matrix(series), by_f = transpose_jacobian(series, f);
-    const Mat3<S> force = lanes::skew(f.a), moment = lanes::skew(f.b);
+      if (i != r) force[i] = G::add(force[i], shape[i], q);
+    sum = sum + f;
+    if (!moves) continue;
+    const auto T = matrix(at);
+    const auto by_f = transpose_jacobian(at, f);
     for (int j = 0; j < N; ++j) {
-      const DualMat<S> d = blend_column(shape, columns, &RateSlopes<S>::d, j);
-      Mat6<S> f_j = Mat6<S>::zero();
-      if (!load.follows) {    // by the rotation theta of the section
-        Mat3<S> theta = d.a;  // theta = theta_r + T (dd - ad(d) eta_r), angular parts
-        if (j == r) theta = theta - lanes::skew(series.psi.a);
-        theta = T.a * theta;
-        if (j == r)
-          for (int i = 0; i < 3; ++i) theta(i, i) = theta(i, i) + 1.0;
-        const Mat3<S> upper = force * theta, lower = moment * theta;
-        for (int i = 0; i < 3; ++i)
-          for (int k = 0; k < 3; ++k) {
-            f_j(i, 3 + k) = upper(i, k);
-            f_j(3 + i, 3 + k) = lower(i, k);
-          }
+      const double factor = j == r ? 1.0 : shape[j];
+      const auto d = section_column<G, S, N>(shape, columns, &RateSlopes<G, S>::d, j);
+      auto f_j = G::template Matrix<S>::zero();
+      if (!load.follows) {
+        auto section = G::product(T, d);
+        if (j == r) section = G::with_diagonal(G::minus(section, G::product(T, G::as_map(G::ad(at.d)))), 1.0);
+        G::add_turning_product(f_j, f, section);
       }
-      Mat6<S> q_j = transposed_product(T, f_j);
-      add_wrench(q_j, product(by_f, d));
+      auto q_j = G::transposed_product(T, f_j);
+      G::add_wrench_product(q_j, by_f, d);
       for (int i = 0; i < N; ++i)
-        if (i != r) add_scaled_to(blocks.by[i][j], shape[i], q_j);
-      blocks.sum_by[j] += f_j;
+        if (i != r) add_scaled_to(blocks.by[i][j], shape[i] * factor, q_j);
+      add_scaled_to(blocks.sum_by[j], factor, f_j);
     }
   }
-  eval_nodal_wrenches<S, N>(b, blocks.force, blocks.sum, residual);
-  carry_to_nodes(b, ports, columns, blocks, matrix_out);
+  eval_nodal_wrenches<G, S, N>(b, force, sum, residual);
+  carry_to_nodes<G, S, N>(b, moves, force, columns, blocks, put);
 }
 
 }  // namespace bough::elements

@@ -6,56 +6,82 @@
 namespace bough::elements {
 
 /// Each field of an element as visit(field of the first, field of the second): numbers that may differ between lanes.
-template <class A, class B, class Visit>
-void visit_frame(const Frame<A>& a, Frame<B>& b, const Visit& visit) {
-  for (int i = 0; i < 9; ++i) visit(a.R.m[i], b.R.m[i]);
-  for (int i = 0; i < 3; ++i) visit(a.x[i], b.x[i]);
-}
 template <class A, class B, int N, class Visit>
 void visit_all(const Vec<A, N>& a, Vec<B, N>& b, const Visit& visit) {
   for (int i = 0; i < N; ++i) visit(a[i], b[i]);
 }
-template <class A, class B, class Visit>
-void visit_all(const Mat6<A>& a, Mat6<B>& b, const Visit& visit) {
-  for (int i = 0; i < 36; ++i) visit(a.m[i], b.m[i]);
+template <class A, class B, int R, int C, class Visit>
+void visit_all(const Mat<A, R, C>& a, Mat<B, R, C>& b, const Visit& visit) {
+  for (int i = 0; i < R * C; ++i) visit(a.m[i], b.m[i]);
 }
-template <int N, class A, class B, class Visit>
-void visit_numbers(const Beam<N, A>& a, Beam<N, B>& b, const Visit& visit) {
+template <class PoseA, class PoseB, class Visit>
+void visit_pose(const PoseA& a, PoseB& b, const Visit& visit) {
+  visit_all(a.R, b.R, visit);
+  visit_all(a.x, b.x, visit);
+}
+/// Directions of rows in a plane are numbers, in space they are named by their axes.
+template <class A, class B, class Visit>
+void visit_direction(const motion::Se3::Direction<A>&, motion::Se3::Direction<B>&, const Visit&) {}
+template <class A, class B, class Visit>
+void visit_direction(const motion::Se2::Direction<A>& a, motion::Se2::Direction<B>& b, const Visit& visit) {
+  visit_all(a.d, b.d, visit);
+}
+template <class A>
+bool has_same_axes(const motion::Se3::Direction<A>& a, const motion::Se3::Direction<A>& b) {
+  return a.i == b.i && a.j == b.j;
+}
+template <class A>
+bool has_same_axes(const motion::Se2::Direction<A>&, const motion::Se2::Direction<A>&) {
+  return true;
+}
+template <class A, class B>
+void set_axes(const motion::Se3::Direction<A>& a, motion::Se3::Direction<B>& b) {
+  b.i = a.i;
+  b.j = a.j;
+}
+template <class A, class B>
+void set_axes(const motion::Se2::Direction<A>&, motion::Se2::Direction<B>&) {}
+template <class G, int N, class A, class B, class Visit>
+void visit_numbers(const BeamOn<G, N, A>& a, BeamOn<G, N, B>& b, const Visit& visit) {
   visit(a.length, b.length);
   visit_all(a.stiffness, b.stiffness, visit);
   visit_all(a.damping, b.damping, visit);
   visit_all(a.mass, b.mass, visit);
   for (int g = 0; g < N - 1; ++g) visit_all(a.reference_strain[g], b.reference_strain[g], visit);
 }
-template <int N, class A, class B, class Visit>
-void visit_numbers(const LineLoad<N, A>& a, LineLoad<N, B>& b, const Visit& visit) {
+template <class G, int N, class A, class B, class Visit>
+void visit_numbers(const LineLoadOn<G, N, A>& a, LineLoadOn<G, N, B>& b, const Visit& visit) {
   visit(a.length, b.length);
   visit_all(a.wrench, b.wrench, visit);
 }
-template <class A, class B, class Visit>
-void visit_numbers(const RigidBodyOf<A>& a, RigidBodyOf<B>& b, const Visit& visit) {
+template <class G, class A, class B, class Visit>
+void visit_numbers(const RigidBodyOn<G, A>& a, RigidBodyOn<G, B>& b, const Visit& visit) {
   visit_all(a.mass, b.mass, visit);
 }
-template <class A, class B, class Visit>
-void visit_numbers(const PointLoadOf<A>& a, PointLoadOf<B>& b, const Visit& visit) {
+template <class G, class A, class B, class Visit>
+void visit_numbers(const PointLoadOn<G, A>& a, PointLoadOn<G, B>& b, const Visit& visit) {
   visit_all(a.wrench, b.wrench, visit);
 }
-template <class A, class B, class Visit>
-void visit_numbers(const SpringOf<A>& a, SpringOf<B>& b, const Visit& visit) {
+template <class G, class A, class B, class Visit>
+void visit_numbers(const SpringOn<G, A>& a, SpringOn<G, B>& b, const Visit& visit) {
   visit(a.stiffness, b.stiffness);
   visit(a.rest_length, b.rest_length);
   visit(a.damping, b.damping);
 }
-template <class A, class B, class Visit>
-void visit_numbers(const BushingOf<A>& a, BushingOf<B>& b, const Visit& visit) {
+template <class G, class A, class B, class Visit>
+void visit_numbers(const BushingOn<G, A>& a, BushingOn<G, B>& b, const Visit& visit) {
   visit_all(a.stiffness, b.stiffness, visit);
   visit_all(a.damping, b.damping, visit);
   visit_all(a.rest, b.rest, visit);
 }
-template <class A, class B, class Visit>
-void visit_numbers(const JointOf<A>& a, JointOf<B>& b, const Visit& visit) {
-  for (int k = 0; k < a.num_rows; ++k) visit(a.rows[k].pitch, b.rows[k].pitch);
+template <class G, class A, class B, class Visit>
+void visit_numbers(const JointOn<G, A>& a, JointOn<G, B>& b, const Visit& visit) {
+  for (int k = 0; k < a.num_rows; ++k) {
+    visit_direction(a.rows[k], b.rows[k], visit);
+    visit(a.rows[k].pitch, b.rows[k].pitch);
+  }
   for (int k = 0; k < a.num_efforts; ++k) {
+    visit_direction(a.efforts[k].direction, b.efforts[k].direction, visit);
     visit(a.efforts[k].stiffness, b.efforts[k].stiffness);
     visit(a.efforts[k].rest, b.efforts[k].rest);
     visit(a.efforts[k].damping, b.efforts[k].damping);
@@ -63,60 +89,83 @@ void visit_numbers(const JointOf<A>& a, JointOf<B>& b, const Visit& visit) {
 }
 
 /// Terms that an element has: the same for all lanes.
-template <int N>
-bool is_same_kind(const Beam<N>& a, const Beam<N>& b) {
+template <class G, int N>
+bool is_same_kind(const BeamOn<G, N>& a, const BeamOn<G, N>& b) {
   return a.has_damping == b.has_damping && a.has_mass == b.has_mass;
 }
-template <int N>
-bool is_same_kind(const LineLoad<N>& a, const LineLoad<N>& b) {
+template <class G, int N>
+bool is_same_kind(const LineLoadOn<G, N>& a, const LineLoadOn<G, N>& b) {
   return a.follows == b.follows;
 }
-inline bool is_same_kind(const RigidBody& a, const RigidBody& b) { return a.is_point == b.is_point; }
-inline bool is_same_kind(const PointLoad& a, const PointLoad& b) { return a.follows == b.follows; }
-inline bool is_same_kind(const Spring&, const Spring&) { return true; }
-inline bool is_same_kind(const Bushing& a, const Bushing& b) { return a.has_damping == b.has_damping; }
-inline bool is_same_kind(const Joint& a, const Joint& b) {
+template <class G>
+bool is_same_kind(const RigidBodyOn<G, double>& a, const RigidBodyOn<G, double>& b) {
+  return a.is_point == b.is_point;
+}
+template <class G>
+bool is_same_kind(const PointLoadOn<G, double>& a, const PointLoadOn<G, double>& b) {
+  return a.follows == b.follows;
+}
+template <class G>
+bool is_same_kind(const SpringOn<G, double>&, const SpringOn<G, double>&) {
+  return true;
+}
+template <class G>
+bool is_same_kind(const BushingOn<G, double>& a, const BushingOn<G, double>& b) {
+  return a.has_damping == b.has_damping;
+}
+template <class G>
+bool is_same_kind(const JointOn<G, double>& a, const JointOn<G, double>& b) {
   if (a.num_rows != b.num_rows || a.num_efforts != b.num_efforts) return false;
   for (int k = 0; k < a.num_rows; ++k) {
-    const ConstraintRow &p = a.rows[k], &q = b.rows[k];
-    if (p.kind != q.kind || p.i != q.i || p.j != q.j || (p.law < 0) != (q.law < 0)) return false;
+    const auto &p = a.rows[k], &q = b.rows[k];
+    if (p.kind != q.kind || !has_same_axes(p, q) || (p.law < 0) != (q.law < 0)) return false;
   }
   for (int k = 0; k < a.num_efforts; ++k) {
-    const Effort &p = a.efforts[k], &q = b.efforts[k];
-    if (p.coordinate != q.coordinate || (p.law < 0) != (q.law < 0)) return false;
+    const auto &p = a.efforts[k], &q = b.efforts[k];
+    if (p.coordinate != q.coordinate || !has_same_axes(p.direction, q.direction) || (p.law < 0) != (q.law < 0))
+      return false;
   }
   return true;
 }
 
 /// Copies the kind and renumbers the laws from `law` on.
-template <int N>
-void set_kind(const Beam<N>& a, Beam<N, LanePack>& b, int) {
+template <class G, int N>
+void set_kind(const BeamOn<G, N>& a, BeamOn<G, N, LanePack>& b, int) {
   b.has_damping = a.has_damping;
   b.has_mass = a.has_mass;
 }
-template <int N>
-void set_kind(const LineLoad<N>& a, LineLoad<N, LanePack>& b, int law) {
+template <class G, int N>
+void set_kind(const LineLoadOn<G, N>& a, LineLoadOn<G, N, LanePack>& b, int law) {
   b.follows = a.follows;
   b.law = law;
 }
-inline void set_kind(const RigidBody& a, RigidBodyOf<LanePack>& b, int) { b.is_point = a.is_point; }
-inline void set_kind(const PointLoad& a, PointLoadOf<LanePack>& b, int law) {
+template <class G>
+void set_kind(const RigidBodyOn<G, double>& a, RigidBodyOn<G, LanePack>& b, int) {
+  b.is_point = a.is_point;
+}
+template <class G>
+void set_kind(const PointLoadOn<G, double>& a, PointLoadOn<G, LanePack>& b, int law) {
   b.follows = a.follows;
   b.law = law;
 }
-inline void set_kind(const Spring&, SpringOf<LanePack>&, int) {}
-inline void set_kind(const Bushing& a, BushingOf<LanePack>& b, int) { b.has_damping = a.has_damping; }
-inline void set_kind(const Joint& a, JointOf<LanePack>& b, int law) {
+template <class G>
+void set_kind(const SpringOn<G, double>&, SpringOn<G, LanePack>&, int) {}
+template <class G>
+void set_kind(const BushingOn<G, double>& a, BushingOn<G, LanePack>& b, int) {
+  b.has_damping = a.has_damping;
+}
+template <class G>
+void set_kind(const JointOn<G, double>& a, JointOn<G, LanePack>& b, int law) {
   b.num_rows = a.num_rows;
   b.num_efforts = a.num_efforts;
   for (int k = 0; k < a.num_rows; ++k) {
     b.rows[k].kind = a.rows[k].kind;
-    b.rows[k].i = a.rows[k].i;
-    b.rows[k].j = a.rows[k].j;
+    set_axes(a.rows[k], b.rows[k]);
     b.rows[k].law = a.rows[k].law < 0 ? -1 : law++;
   }
   for (int k = 0; k < a.num_efforts; ++k) {
     b.efforts[k].coordinate = a.efforts[k].coordinate;
+    set_axes(a.efforts[k].direction, b.efforts[k].direction);
     b.efforts[k].law = a.efforts[k].law < 0 ? -1 : law++;
   }
 }
@@ -136,7 +185,7 @@ bool has_same_numbers(const E& a, const E& b) {
   bool is_same = true;
   E to = b;
   const auto compare = [&is_same](double x, double y) { is_same = is_same && x == y; };
-  for (int k = 0; k < E::num_ports; ++k) visit_frame(a.ports[k].offset, to.ports[k].offset, compare);
+  for (int k = 0; k < E::num_ports; ++k) visit_pose(a.ports[k].offset, to.ports[k].offset, compare);
   visit_numbers(a, to, compare);
   return is_same;
 }
@@ -153,25 +202,29 @@ LaneElement<E> make_lane_element(const E* const* elements, int count, const int*
   for (int lane = 0; lane < num_lanes; ++lane) {
     const E& e = *elements[lane < count ? lane : count - 1];
     const auto set = [lane](double from, LanePack& to) { to.set(lane, from); };
-    for (int k = 0; k < E::num_ports; ++k) visit_frame(e.ports[k].offset, r.ports[k].offset, set);
+    for (int k = 0; k < E::num_ports; ++k) visit_pose(e.ports[k].offset, r.ports[k].offset, set);
     visit_numbers(e, r, set);
   }
   return r;
 }
 
 template <class E>
-void evaluate_lanes(const E& e, const FieldLanes& field, const LanePack* multipliers, const LanePack& turns,
-                    LanePack* residual, LanePack* magnitude, LanePack* tangent) {
-  evaluate_element<E, LanePack>(e, field, multipliers, turns, residual, tangent);
-  if (magnitude != nullptr) eval_magnitude<E, LanePack>(e, field, residual, magnitude);
+void evaluate_lanes(const E& e, const FieldOn<typename E::Group, LanePack>& field, const LanePack* multipliers,
+                    const LanePack& turns, LanePack* residual, LanePack* magnitude, LanePack* tangent) {
+  evaluate_element(e, field, multipliers, turns, residual, tangent);
+  if (magnitude != nullptr) eval_magnitude(e, field, residual, magnitude);
 }
 
 }  // namespace bough::elements
 
 /// Instantiates the lane form of one element type.
-#define BOUGH_INSTANTIATE_LANES(E)                                                                                    \
-  template bool may_share_lanes(const E&, const E&);                                                                  \
-  template bool has_same_numbers(const E&, const E&);                                                                 \
-  template LaneElement<E> make_lane_element(const E* const*, int, const int*, int);                                   \
-  template void evaluate_lanes(const LaneElement<E>&, const FieldLanes&, const LanePack*, const LanePack&, LanePack*, \
-                               LanePack*, LanePack*);
+#define BOUGH_INSTANTIATE_LANES(E)                                                                         \
+  template bool may_share_lanes(const E&, const E&);                                                       \
+  template bool has_same_numbers(const E&, const E&);                                                      \
+  template LaneElement<E> make_lane_element(const E* const*, int, const int*, int);                        \
+  template void evaluate_lanes(const LaneElement<E>&, const FieldOn<E::Group, LanePack>&, const LanePack*, \
+                               const LanePack&, LanePack*, LanePack*, LanePack*);
+/// Both forms of an element in a plane, which have their constants alike.
+#define BOUGH_INSTANTIATE_PLANAR(E)                                                                            \
+  template void evaluate(const E&, const FieldOn<E::Group, double>&, const double*, double, double*, double*); \
+  BOUGH_INSTANTIATE_LANES(E)

@@ -40,7 +40,7 @@ Measures measure_load(const E& e, const Field& field) {
   Vec3<double> anchor;
   eval_ports_from_inertial(e, field, p, anchor);
   double out[6 * E::num_ports];
-  eval_residual(e, p, static_cast<const double*>(nullptr), field.around, out);
+  eval_residual(e, p, field.around, out);
   Measures m;
   for (int k = 0; k < E::num_ports; ++k) {
     Vec6<double> f;
@@ -58,13 +58,13 @@ Measures measure_coupling(const E& e, const Field& field, bool with_energies) {
   Vec3<double> anchor;
   eval_ports_from_inertial(e, field, p, anchor);
   double out[12], elastic[12];
-  eval_residual(e, p, static_cast<const double*>(nullptr), field.around, out);
+  eval_residual(e, p, field.around, out);
   Measures m;
   if (with_energies) m = begin_measures(e, field, 0.0);
   if (field.around.has_inertia) {
     Surroundings<double> still = field.around;
     still.has_inertia = false;
-    eval_residual(e, p, static_cast<const double*>(nullptr), still, elastic);
+    eval_residual(e, p, still, elastic);
     for (int k = 0; k < 12; ++k) m.dissipation_rate += (out[k] - elastic[k]) * p[k / 6].v[k % 6];
   }
   add_ground_reaction(e, p, anchor, out, m);
@@ -79,7 +79,7 @@ void add_ground_reaction_if_any(const E& e, const PortMotion<double>* p, const V
   for (const Port& port : e.ports) grounded = grounded || port.node == ground;
   if (!grounded) return;
   double out[6 * E::num_ports];
-  eval_residual(e, p, static_cast<const double*>(nullptr), field.around, out);
+  eval_residual(e, p, field.around, out);
   add_ground_reaction(e, p, anchor, out, m);
 }
 
@@ -90,13 +90,14 @@ Measures measure_beam(const Beam<N>& beam, const Field& field) {
   eval_ports_from_inertial(beam, field, p, anchor);
   Measures m = begin_measures(beam, field, 0.0);
   if (field.around.has_inertia && beam.has_damping) {
-    BeamRates<double, N> rates;
-    eval_beam_rates<double, N>(p, field.around, false, true, rates);
-    DualVec<double> viscous[N], elastic[N];
-    eval_internal_forces<double, N>(beam, rates, true, viscous);
-    eval_internal_forces<double, N>(beam, rates, false, elastic);
+    using G = motion::Se3;
+    BeamRates<G, double, N> rates;
+    eval_beam_rates<G, double, N>(p, field.around, false, true, rates);
+    G::Wrench<double> viscous[N], elastic[N];
+    eval_internal_forces<G, double, N, double>(beam, rates, true, viscous);
+    eval_internal_forces<G, double, N, double>(beam, rates, false, elastic);
     for (int i = 0; i < N; ++i)
-      if (i != Beam<N>::reference) m.dissipation_rate += dot(viscous[i] - elastic[i], rates.rate[i]).b;
+      if (i != Beam<N>::reference) m.dissipation_rate += G::real_power(viscous[i] - elastic[i], rates.rate[i]);
   }
   add_ground_reaction_if_any(beam, p, anchor, field, m);
   return m;
@@ -155,8 +156,8 @@ Measures measure(const Joint& joint, const Field& field, const double* multiplie
   PortMotion<double> p[2];
   Vec3<double> anchor;
   eval_ports_from_inertial(joint, field, p, anchor);
-  double out[12 + max_rows];
-  eval_residual(joint, p, multipliers, field.around, out, turns);
+  double out[12], rows[max_rows];
+  eval_residual(joint, p, multipliers, field.around, turns, out, rows);
   Measures m;
   if (with_energies) m = begin_measures(joint, field, turns);
   add_ground_reaction(joint, p, anchor, out, m);
@@ -170,8 +171,9 @@ Measures measure(const Joint& joint, const Field& field, const double* multiplie
   }
   for (int k = 0; k < joint.num_efforts; ++k) {
     const Effort& e = joint.efforts[k];
-    eval_coordinate(e.coordinate, H, turns, gradient);
-    const double rate = lanes::dot(gradient, twist);
+    motion::Se3::Wrench<double> g;
+    eval_coordinate<motion::Se3, double, double>(e, H, turns, g);
+    const double rate = lanes::dot(motion::wrench_vector(g), twist);
     m.dissipation_rate += e.damping * rate * rate;
     if (e.law >= 0) m.work_rate += field.around.laws[e.law] * rate;
   }
@@ -182,8 +184,8 @@ Vec6<double> eval_reaction(const Joint& joint, const Field& field, const double*
   PortMotion<double> p[2];
   Vec3<double> anchor;
   eval_ports_from_inertial(joint, field, p, anchor);
-  double out[12 + max_rows];
-  eval_residual(joint, p, multipliers, field.around, out, turns);
+  double out[12], rows[max_rows];
+  eval_residual(joint, p, multipliers, field.around, turns, out, rows);
   Vec6<double> wrench;
   for (int k = 0; k < 6; ++k) wrench[k] = -out[6 + k];
   return wrench;

@@ -1,7 +1,5 @@
 #include "bough/elements/momentum.hpp"
 
-#include "tangent_blocks.hpp"
-
 namespace bough::elements {
 
 template <class E>
@@ -41,12 +39,12 @@ namespace {
 
 /// d_i' = U_i v_i + (ad(d_i) - U_i) v_r.
 struct RelativeRates {
-  DualMat<double> own, reference;
+  motion::DualMat<double> own, reference;
   int port = 0;
 };
 template <int N>
-RelativeRates relative_rates(const BeamRates<double, N>& b, int i) {
-  const DualMat<double> U = matrix(b.inverse[i]);
+RelativeRates relative_rates(const BeamRates<motion::Se3, double, N>& b, int i) {
+  const motion::DualMat<double> U = matrix(b.inverse[i]);
   return {U, motion::skew(b.d[i]) - U, i};
 }
 
@@ -70,11 +68,12 @@ void add_block(const E& e, const Mat6<double>& block, int p, int q, double facto
 template <class E>
 void add_pair(const E& e, const RelativeRates& a, const RelativeRates& b, const Mat6<double>& k, int r, double factor,
               int size, double* matrix) {
-  const Mat6<double> own = motion_product(k, b.own), reference = motion_product(k, b.reference);
-  add_block(e, transposed_product(a.own, own), a.port, b.port, factor, size, matrix);
-  add_block(e, transposed_product(a.own, reference), a.port, r, factor, size, matrix);
-  add_block(e, transposed_product(a.reference, own), r, b.port, factor, size, matrix);
-  add_block(e, transposed_product(a.reference, reference), r, r, factor, size, matrix);
+  using G = motion::Se3;
+  const Mat6<double> own = G::block_product(k, b.own), reference = G::block_product(k, b.reference);
+  add_block(e, G::transposed_product(a.own, own), a.port, b.port, factor, size, matrix);
+  add_block(e, G::transposed_product(a.own, reference), a.port, r, factor, size, matrix);
+  add_block(e, G::transposed_product(a.reference, own), r, b.port, factor, size, matrix);
+  add_block(e, G::transposed_product(a.reference, reference), r, r, factor, size, matrix);
 }
 
 }  // namespace
@@ -87,14 +86,14 @@ void add_elastic_mass(const E& e, const Field& field, double factor, double* mat
   PortMotion<double> p[P];
   for (int k = 0; k < P; ++k) p[k] = eval_port(e.ports[k], field.nodes, anchor);
   if constexpr (std::is_same_v<E, Bushing>) {
-    BeamRates<double, 2> b;
-    eval_relative_motions<double, 2>(p, b);
+    BeamRates<motion::Se3, double, 2> b;
+    eval_relative_motions<motion::Se3, double, 2>(p, b);
     const RelativeRates rates = relative_rates<2>(b, 1);
     add_pair(e, rates, rates, e.stiffness, 0, factor, size, matrix);
   } else if constexpr (requires { e.reference_strain; }) {
     constexpr int r = Beam<P>::reference;
-    BeamRates<double, P> b;
-    eval_relative_motions<double, P>(p, b);
+    BeamRates<motion::Se3, double, P> b;
+    eval_relative_motions<motion::Se3, double, P>(p, b);
     RelativeRates rates[P];
     for (int i = 0; i < P; ++i)
       if (i != r) rates[i] = relative_rates<P>(b, i);
@@ -102,10 +101,10 @@ void add_elastic_mass(const E& e, const Field& field, double factor, double* mat
       if (j == r) continue;
       Mat6<double> column[P];  // K_ij, from unit rates
       for (int k = 0; k < 6; ++k) {
-        DualVec<double> q[P];
-        for (int i = 0; i < P; ++i) b.rate[i] = q[i] = DualVec<double>::zero();
+        motion::DualVec<double> q[P];
+        for (int i = 0; i < P; ++i) b.rate[i] = q[i] = motion::DualVec<double>::zero();
         b.rate[j] = motion::motion_dual(Vec6<double>::unit(k));
-        add_elastic_momentum<double, P>(e, b, 1.0, q, nullptr);
+        add_elastic_momentum<motion::Se3, double, P, double>(e, b, 1.0, q, nullptr);
         for (int i = 0; i < P; ++i) {
           const Vec6<double> entries = motion::wrench_vector(q[i]);
           for (int l = 0; l < 6; ++l) column[i](l, k) = entries[l];

@@ -1,153 +1,247 @@
 #pragma once
-/// Tangent of the inertia forces of a two-node beam (elements/screw_blend.hpp): odd and even parts of every operator serve both Gauss points.
-#include "bough/elements/beam_forces.hpp"
-#include "tangent_blocks.hpp"
+/// Tangent of the two-node beam (elements/screw_beam.hpp). Odd and even parts of every operator serve both Gauss points. Derivation:
+/// README.md, "Tangent".
+#include "beam_terms.hpp"
+#include "bough/elements/screw_beam.hpp"
 
 namespace bough::elements {
 
-/// d(p D y)/dd and d((t + q D^2) y)/dd.
-template <class S>
-DualMat<S> odd_jacobian(const ScrewBlend<S>& f, const DualVec<S>& y, const DualVec<S>& y1) {
-  DualMat<S> m = motion::skew(-(f.p * y));
-  add_outer(m, twice(f.dp * y1), f.d);
-  return m;
-}
-template <class S>
-DualMat<S> even_jacobian(const ScrewBlend<S>& f, const DualVec<S>& y, const DualVec<S>& y1, const DualVec<S>& y2) {
-  DualMat<S> m = motion::skew(-(f.q * y1));
-  add_outer(m, add_scaled(twice(f.dq * y2), -f.q, y), f.d);
-  add_diagonal(m, f.q * dot(f.d, y));
-  return m;
-}
-
 /// An operator at the Gauss points: odd -+ even.
-template <class S>
+template <class T>
 struct OddEven {
-  DualMat<S> odd, even;
+  T odd, even;
 };
+
+/// How d follows the nodes' increments, dd = by_node[0] eta_r + by_node[1] eta_1, and how d' = T(d)^-1 w + ad(d) v_r follows d.
+template <class G, class S>
+struct ScrewColumns {
+  typename G::template Map<S> by_node[2];  ///< ad(d) - U and U = T(d)^-1
+  typename G::template BracketMap<S> rate_by_d;
+};
+template <class G, class S>
+BOUGH_INLINE void eval_screw_columns(const ScrewRates<G, S>& r, const BeamTerms& terms, ScrewColumns<G, S>& columns) {
+  const auto& d = r.inverse.d;
+  columns.by_node[1] = matrix(r.inverse);
+  columns.by_node[0] = G::minus(G::ad(d), columns.by_node[1]);
+  if (!terms.rates) return;
+  const auto w2 = G::bracket(d, r.w1);
+  const auto axis = G::add(r.v + G::scaled(0.5, r.w), r.inverse.q, r.w1);
+  columns.rate_by_d = G::ad(-axis);
+  G::add_second(columns.rate_by_d, G::times(G::twice(r.inverse.dq), w2), d, G::times(r.inverse.q, r.w));
+}
 
 /// Operators on a section, all at one d.
-template <class S>
+template <class G, class S>
 struct ScrewSlopes {
-  OddEven<S> P, rate;   ///< P and its derivative along d'
-  OddEven<S> by_d;      ///< d(P w)/dd
-  OddEven<S> b_by_d;    ///< d(P c + P' w)/dd, twists of the nodes held
-  DualVec<S> odd_axis;  ///< p d: the odd part of P is its cross product
+  OddEven<typename G::template Map<S>> P;
+  OddEven<typename G::template BracketMap<S>> rate;    ///< the derivative of P along d'
+  OddEven<typename G::template BracketMap<S>> by_d;    ///< d(P w)/dd
+  OddEven<typename G::template BracketMap<S>> b_by_d;  ///< d(P c + P' w)/dd, twists of the nodes held
+  typename G::template Motion<S> odd_axis;             ///< p d: the odd part of P is 1/2 + ad of it
+};
+template <class G, class S>
+BOUGH_INLINE void eval_screw_slopes(const ScrewBlend<G, S>& f, const ScrewRates<G, S>& r,
+                                    const ScrewColumns<G, S>& columns, const BeamTerms& terms, ScrewSlopes<G, S>& m) {
+  const auto &d = r.inverse.d, &e = r.rate;
+  m.odd_axis = G::times(f.p, d);
+  m.P.odd = G::with_diagonal(G::ad(m.odd_axis), 0.5);
+  auto even = G::template BracketMap<S>::zero();
+  G::add_pair(even, G::times(f.q, d), d);
+  m.P.even = G::with_diagonal(even, motion::gauss_offset);
+  if (!terms.moves) return;
+  auto &odd = m.b_by_d.odd, &second = m.b_by_d.even;
+  const auto c1 = G::bracket(d, r.c);
+  if (!terms.rates) {
+    odd = G::ad(-G::times(f.p, r.c));
+    G::add_polar(odd, G::times(G::twice(f.dp), c1), d);
+    second = G::ad(-G::times(f.q, c1));
+    G::add_second(second, G::times(G::twice(f.dq), G::bracket(d, c1)), d, G::times(f.q, r.c));
+    return;
+  }
+  const auto s = G::twice(G::pairing(d, e)), s_dp = s * f.dp, s_dq = s * f.dq;
+  const auto w2 = G::bracket(d, r.w1), a1 = G::add_bracket(c1, e, r.w);
+  const auto p_w1 = G::times(G::twice(f.dp), r.w1), q_w1 = G::times(f.q, r.w1), q_w2 = G::times(G::twice(f.dq), w2);
+  const auto q_w = G::times(f.q, r.w), qe = G::times(f.q, e);
+  m.by_d.odd = G::ad(-G::times(f.p, r.w));
+  G::add_polar(m.by_d.odd, p_w1, d);
+  m.by_d.even = G::ad(-q_w1);
+  G::add_second(m.by_d.even, q_w2, d, q_w);
+  m.rate.odd = G::ad(G::add(G::times(f.p, e), s_dp, d));
+  m.rate.even = G::template BracketMap<S>::zero();
+  G::add_pair(m.rate.even, d, G::add(qe, s_dq, d));
+  G::add_pair(m.rate.even, qe, d);
+  odd = G::ad(-G::add(G::times(f.p, r.c), s_dp, r.w));
+  G::add_polar(odd, G::add(G::times(G::twice(f.dp), a1), G::twice(s * f.ddp), r.w1), d);
+  G::add_polar(odd, p_w1, e);
+  second = G::ad(-G::add(G::times(f.q, a1), s_dq, r.w1));
+  const auto left = G::bracket(d, G::add(G::times(G::twice(f.dq), a1), G::twice(s * f.ddq), r.w1));
+  G::add_second(second, G::add_bracket(left, e, G::times(G::twice(f.dq), r.w1)), d,
+                G::add(G::times(f.q, r.c), s_dq, r.w));
+  G::add_second(second, q_w2, e, q_w);
+  G::add_product(odd, m.by_d.odd, columns.rate_by_d);
+  G::add_product(second, m.by_d.even, columns.rate_by_d);
+}
+
+/// Derivatives of the wrench on node 1 and of the sum over both nodes, by the increments of the nodes.
+template <class G, class S>
+struct ScrewBlocks {
+  typename G::template Matrix<S> first[2], sum[2];
 };
 
-template <class S>
-void eval_screw_slopes(const ScrewBlend<S>& f, const BeamRates<S, 2>& b, bool moves, bool has_rates,
-                       ScrewSlopes<S>& m) {
-  const DualVec<S>&d = f.d, &w = b.w[1], &c = b.c[1], &e = b.rate[1];
-  const Dual<S> zero{S(0.0), S(0.0)};
-  m.odd_axis = f.p * d;
-  m.P.odd = motion::skew(m.odd_axis);
-  add_diagonal(m.P.odd, Dual<S>{S(0.5), S(0.0)});
-  m.P.even = DualMat<S>::zero();
-  add_outer(m.P.even, f.q * d, d);
-  add_diagonal(m.P.even, Dual<S>{S(detail::gauss_offset), S(0.0)} - f.q * f.x);
-  if (!moves) return;
-  const DualVec<S> c1 = cross(d, c), c2 = cross(d, c1);
-  m.b_by_d = {odd_jacobian(f, c, c1), even_jacobian(f, c, c1, c2)};
-  if (!has_rates) return;
-  const DualVec<S> w1 = cross(d, w), w2 = cross(d, w1), ew = cross(e, w), qe = f.q * e;
-  const DualVec<S> turned = add_cross(cross(e, w1), d, ew);
-  const Dual<S> s = twice(dot(d, e)), s_dp = s * f.dp, s_dq = s * f.dq;
-  m.by_d = {odd_jacobian(f, w, w1), even_jacobian(f, w, w1, w2)};
-  m.rate.odd = motion::skew(add_scaled(f.p * e, s_dp, d));
-  m.rate.even = DualMat<S>::zero();
-  add_outer(m.rate.even, add_scaled(qe, s_dq, d), d);
-  add_outer(m.rate.even, d, qe);
-  add_diagonal(m.rate.even, zero - s * f.q - s_dq * f.x);
-  // derivatives of p' s w1 + p e x w and of q' s w2 + q (e x w1 + d x (e x w))
-  DualMat<S>&odd = m.b_by_d.odd, &even = m.b_by_d.even;
-  add_outer(odd, twice(add_scaled((s * f.ddp) * w1, f.dp, ew)), d);
-  add_outer(odd, twice(f.dp * w1), e);
-  odd = odd - motion::skew(s_dp * w);
-  add_outer(even, add_scaled(twice(add_scaled((s * f.ddq) * w2, f.dq, turned)), -s_dq, w), d);
-  add_outer(even, add_scaled(twice(f.dq * w2), -f.q, w), e);
-  add_diagonal(even, s_dq * dot(d, w) + f.q * dot(e, w));
-  even = even - motion::skew(add_scaled(s_dq * w1, f.q, ew));
-  // d' = T(d)^-1 w + ad(d) v_r
-  const DualMat<S> rate_by_d = jacobian(b.inverse[1], w) - motion::skew(b.v);
-  add_product(odd, m.by_d.odd, rate_by_d);
-  add_product(even, m.by_d.even, rate_by_d);
-}
-
-/// Derivative of the sum of P^T f by d, forces held.
-template <class S>
-DualMat<S> gauss_wrench_jacobian(const ScrewBlend<S>& f, const GaussPair<S>& g) {
-  const DualVec<S> s1 = cross(f.d, g.sum), d1 = cross(f.d, g.difference), d2 = cross(f.d, d1);
-  return even_jacobian(f, g.difference, d1, d2) - odd_jacobian(f, g.sum, s1);
-}
-
-/// How d and a node's own twist and acceleration (less the weight's) follow its increment. The reference's share of P is 1 - P.
-template <class S>
-struct ScrewColumn {
-  DualMat<S> d, velocity, b;
-  bool is_reference;
-};
-
-/// m = x - m and m = -m.
-template <class S>
-void subtract_from(const DualMat<S>& x, DualMat<S>& m) {
-  for (int i = 0; i < 9; ++i) {
-    m.a.m[i] = x.a.m[i] - m.a.m[i];
-    m.b.m[i] = x.b.m[i] - m.b.m[i];
+/// Adds those of inertia and gravity by the increment of node j, the reference or the other.
+template <class G, class S, class C>
+BOUGH_INLINE void add_gauss_blocks(const typename G::template Matrix<C>& mass,
+                                   const typename G::template Matrix<S>* f_v, const ScrewSlopes<G, S>& m,
+                                   const typename G::template Map<S>& d, const typename G::template Map<S>& velocity,
+                                   const typename G::template Map<S>& b, int j, const BeamTerms& terms,
+                                   ScrewBlocks<G, S>& blocks) {
+  using Map = typename G::template Map<S>;
+  using Block = typename G::template Matrix<S>;
+  OddEven<Map> a{G::product(m.P.odd, b), G::product(m.P.even, b)}, v;
+  if (terms.rates) v = {G::product(m.P.odd, velocity), G::product(m.P.even, velocity)};
+  if (j == 0) {  // the reference's share of P is 1 - P
+    a = {G::minus(b, a.odd), G::negated(a.even)};
+    if (terms.rates) v = {G::minus(velocity, v.odd), G::negated(v.even)};
   }
-}
-template <class S>
-void negate(DualMat<S>& m) {
-  for (int i = 0; i < 9; ++i) {
-    m.a.m[i] = -m.a.m[i];
-    m.b.m[i] = -m.b.m[i];
+  if (terms.rates) {
+    // P' dw + d(P w)/dd applied to the part T(d)^-1 dw + ad(d) dv_r of d', which is d times dv
+    const double sign = j == 0 ? -1.0 : 1.0;
+    auto turned = G::product(m.by_d.odd, d);
+    G::add_to(v.odd, 1.0, turned);
+    G::add_to(turned, sign, m.rate.odd);
+    G::add_product(a.odd, turned, velocity);
+    turned = G::product(m.by_d.even, d);
+    G::add_to(v.even, 1.0, turned);
+    G::add_to(turned, sign, m.rate.even);
+    G::add_product(a.even, turned, velocity);
   }
+  if (terms.moves) {
+    G::add_product(a.odd, m.b_by_d.odd, d);
+    G::add_product(a.even, m.b_by_d.even, d);
+  }
+  Block at[2] = {G::block_product(mass, G::minus(a.odd, a.even)), G::block_product(mass, G::plus(a.odd, a.even))};
+  if (terms.rates) {
+    G::add_block_product(at[0], f_v[0], G::minus(v.odd, v.even));
+    G::add_block_product(at[1], f_v[1], G::plus(v.odd, v.even));
+  }
+  const Block both = at[0] + at[1], difference = at[1] - at[0];
+  blocks.sum[j] += both;
+  blocks.first[j] += G::transposed_product(m.P.even, difference);
+  add_scaled_to(blocks.first[j], 0.5, both);
+  G::add_ad_transposed(blocks.first[j], m.odd_axis, both);
 }
 
-/// Adds the inertia's blocks by one node's increment: to the wrench on node 1 and to the sum over both nodes.
-template <class S, class C>
-void add_gauss_blocks(const Mat6<C>& mass, const Mat6<S>* f_v, const ScrewSlopes<S>& m, const ScrewColumn<S>& column,
-                      bool moves, bool has_rates, Mat6<S>& first, Mat6<S>& sum) {
-  OddEven<S> a{product(m.P.odd, column.b), product(m.P.even, column.b)}, v;
-  if (moves && has_rates) v = {product(m.P.odd, column.velocity), product(m.P.even, column.velocity)};
-  if (column.is_reference) {
-    subtract_from(column.b, a.odd);
-    negate(a.even);
-    if (moves && has_rates) {
-      subtract_from(column.velocity, v.odd);
-      negate(v.even);
+/// Those of elasticity and damping, n held where it turns with the nodes: U^T dn and ad(d)^T dn + hat(n) dd.
+template <class G, class S, class C>
+BOUGH_INLINE void eval_elastic_blocks(const ScrewElasticity<G, C>& e, const ScrewRates<G, S>& r,
+                                      const typename G::template Wrench<S>& n, const ScrewColumns<G, S>& columns,
+                                      const PortSlopesOn<G, S>* ports, const BeamTerms& terms,
+                                      ScrewBlocks<G, S>& blocks) {
+  const typename G::template Matrix<C> K = e.inverse * e.stiffness;
+  const auto n_hat = G::hat(n);
+  for (int j = 0; j < 2; ++j) {
+    auto by = G::block_product(K, columns.by_node[j]);
+    if (terms.viscous) {
+      auto rate = G::product(columns.by_node[j], ports[j].velocity);
+      G::add_product(rate, columns.rate_by_d, columns.by_node[j]);
+      G::add_block_product(by, typename G::template Matrix<C>(e.inverse * e.damping), rate);
     }
+    blocks.first[j] = G::transposed_product(columns.by_node[1], by);
+    blocks.sum[j] = G::template Matrix<S>::zero();
+    G::add_ad_transposed(blocks.sum[j], r.inverse.d, by);
+    G::add_wrench_product(blocks.sum[j], n_hat, columns.by_node[j]);
   }
-  if (moves && has_rates) {
-    // P' dw + d(P w)/dd applied to the part T(d)^-1 dw + ad(d) dv_r of d', which is column.d times dv
-    const double sign = column.is_reference ? -1.0 : 1.0;
-    DualMat<S> turned = product(m.by_d.odd, column.d);
-    add_scaled_to(v.odd, 1.0, turned);
-    add_scaled_to(turned, sign, m.rate.odd);
-    add_product(a.odd, turned, column.velocity);
-    turned = product(m.by_d.even, column.d);
-    add_scaled_to(v.even, 1.0, turned);
-    add_scaled_to(turned, sign, m.rate.even);
-    add_product(a.even, turned, column.velocity);
+}
+
+/// Forces on the nodes, F_1 = first + D^T inner and F_r = sum - F_1, put together term by term. The derivative of F_1 by d, forces held,
+/// is hat(inner + n/2) + 2 (D^T slope) <d, .> + D^T hat(pair).
+template <class G, class S>
+struct ScrewForces {
+  typename G::template Wrench<S> first, sum, inner, slope, pair;
+};
+/// Those of elasticity and damping.
+template <class G, class S>
+BOUGH_INLINE void begin_screw_forces(const ScrewRates<G, S>& r, const typename G::template Wrench<S>& n,
+                                     ScrewForces<G, S>& f) {
+  f.sum = G::dual_bracket(r.inverse.d, n);
+  f.inner = G::times(r.inverse.q, f.sum);
+  f.first = G::add(n, 0.5, f.sum);
+  f.slope = G::times(r.inverse.dq, f.sum);
+  f.pair = G::times(r.inverse.q, n);
+}
+/// Adds those of inertia and gravity.
+template <class G, class S>
+BOUGH_INLINE void add_gauss_forces(const ScrewBlend<G, S>& b, const ScrewRates<G, S>& r, const GaussPair<G, S>& g,
+                                   ScrewForces<G, S>& f) {
+  const auto& d = r.inverse.d;
+  f.inner = G::add(G::add_dual_bracket(f.inner, d, G::times(b.q, g.difference)), b.p, g.sum);
+  f.first = G::add(G::add(f.first, 0.5, g.sum), motion::gauss_offset, g.difference);
+  f.sum = f.sum + g.sum;
+  f.slope = G::add(G::add(f.slope, b.dq, G::dual_bracket(d, g.difference)), b.dp, g.sum);
+  f.pair = G::add(f.pair, b.q, g.difference);
+}
+
+/// Columns of d, and blocks of elasticity and damping.
+template <class G, class S, class C>
+BOUGH_INLINE void begin_screw_blocks(const ScrewElasticity<G, C>& e, const ScrewRates<G, S>& r,
+                                     const typename G::template Wrench<S>& n, const PortSlopesOn<G, S>* ports,
+                                     const BeamTerms& terms, ScrewColumns<G, S>& columns, ScrewBlocks<G, S>& blocks) {
+  if (terms.moves) {
+    eval_screw_columns<G, S>(r, terms, columns);
+    eval_elastic_blocks<G, S, C>(e, r, n, columns, ports, terms, blocks);
+  } else {
+    for (int j = 0; j < 2; ++j) blocks.first[j] = blocks.sum[j] = G::template Matrix<S>::zero();
   }
-  if (moves) {
-    add_product(a.odd, m.b_by_d.odd, column.d);
-    add_product(a.even, m.b_by_d.even, column.d);
+}
+template <class G, class S, class Put>
+BOUGH_INLINE void finish_screw(const ScrewRates<G, S>& r, const typename G::template Wrench<S>& n,
+                               const ScrewForces<G, S>& f, const BeamTerms& terms, const ScrewColumns<G, S>& columns,
+                               ScrewBlocks<G, S>& blocks, S* residual, const Put& put) {
+  const auto& d = r.inverse.d;
+  auto by_d = G::hat(G::add(f.inner, 0.5, n));
+  G::add_dual_second(by_d, G::dual_bracket(d, f.slope + f.slope), d, f.pair);
+  const auto first = G::add_dual_bracket(f.first, d, f.inner);
+  G::put(first, residual + G::dof);
+  G::put(f.sum - first, residual);
+  for (int j = 0; j < 2; ++j) {
+    if (terms.moves) G::add_wrench_product(blocks.first[j], by_d, columns.by_node[j]);
+    put(1, j, blocks.first[j]);
+    subtract_from(blocks.sum[j], blocks.first[j]);
+    put(0, j, blocks.first[j]);
   }
-  Mat6<S> f[2];
-  for (int g = 0; g < 2; ++g) {
-    f[g] = motion_product(mass, g == 0 ? a.odd - a.even : a.odd + a.even);
-    if (moves && has_rates) add_motion_product(f[g], f_v[g], g == 0 ? v.odd - v.even : v.odd + v.even);
+}
+
+/// Residual, the bits of eval_residual, and its derivative by the ports' increments as put(i, j, block).
+template <class G, class S, class C, class Put>
+BOUGH_INLINE void eval_tangent(const BeamOn<G, 2, C>& beam, const PortMotionOn<G, S>* p,
+                               const PortSlopesOn<G, S>* ports, const SurroundingsOn<G, S>& around, S* residual,
+                               const Put& put) {
+  using Block = typename G::template Matrix<S>;
+  const BeamTerms terms(beam, ports[0].moves, around.has_inertia);
+  ScrewRates<G, S> r;
+  eval_screw_rates<G, S>(p, around, beam.has_mass, around.has_inertia && (beam.has_mass || beam.has_damping), r);
+  const auto n = eval_screw_resultant<G, S, C>(elasticity_of(beam), r, around.has_inertia && beam.has_damping);
+  ScrewForces<G, S> forces;
+  begin_screw_forces<G, S>(r, n, forces);
+  ScrewColumns<G, S> columns;
+  ScrewBlocks<G, S> blocks;
+  begin_screw_blocks<G, S, C>(elasticity_of(beam), r, n, ports, terms, columns, blocks);
+  if (beam.has_mass) {
+    const typename G::template Matrix<C> mass = C(0.5 * beam.length) * beam.mass;
+    const ScrewBlend<G, S> f = motion::eval_screw_blend<G, S>(r.inverse.d);
+    GaussPair<G, S> g;
+    eval_gauss_forces<G, S, C>(mass, f, r, around.has_inertia, g);
+    add_gauss_forces<G, S>(f, r, g, forces);
+    ScrewSlopes<G, S> slopes;
+    eval_screw_slopes<G, S>(f, r, columns, terms, slopes);
+    Block f_v[2];
+    if (terms.rates)
+      for (int k = 0; k < 2; ++k) f_v[k] = G::gyroscopic(mass, g.v[k]);
+    for (int j = 0; j < 2; ++j)
+      add_gauss_blocks<G, S, C>(mass, f_v, slopes, columns.by_node[j], ports[j].velocity,
+                                weighed_slope(p[j], ports[j], around), j, terms, blocks);
   }
-  Mat6<S> both, difference;
-  for (int k = 0; k < 36; ++k) {
-    both.m[k] = f[0].m[k] + f[1].m[k];
-    difference.m[k] = f[1].m[k] - f[0].m[k];
-    sum.m[k] = sum.m[k] + both.m[k];
-  }
-  first += transposed_product(m.P.even, difference);
-  add_scaled_to(first, 0.5, both);
-  add_cross_transposed(first, m.odd_axis, both);
+  finish_screw<G, S>(r, n, forces, terms, columns, blocks, residual, put);
 }
 
 }  // namespace bough::elements

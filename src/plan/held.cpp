@@ -149,7 +149,7 @@ class Holder {
     elements::PortMotion<double> p[2];
     for (int k = 0; k < 2; ++k) p[k] = {b_.initial_pose(e.ports[k]), Vec6<double>::zero(), Vec6<double>::zero()};
     const elements::Surroundings<double> around{motion::Vec3<double>::zero(), laws_.data(), false};
-    elements::eval_residual(e, p, multipliers, around, out, 0.0);
+    elements::eval_residual(e, p, multipliers, around, 0.0, out, out + 12);
   }
 
   /// Rows of joints whose laws are constant.

@@ -115,7 +115,7 @@ class Flattener {
     r.ports[1] = port(e.ports[1], Bb);
     for (int row : rows) {
       const elements::ConstraintRow& from = e.rows[row];
-      flat::RowOf<double>& to = r.rows[r.num_rows++];
+      elements::ConstraintRowOn<motion::Se2, double>& to = r.rows[r.num_rows++];
       to.kind = from.kind;
       to.law = from.law;
       if (from.kind == RowKind::along) {
@@ -128,10 +128,9 @@ class Flattener {
       }
     }
     for (int k = 0; k < e.num_efforts; ++k) {
-      flat::EffortOf<double>& to = r.efforts[r.num_efforts++];
-      to.coordinate = e.efforts[k].coordinate;
-      to.d = e.efforts[k].coordinate == elements::Coordinate::angle ? sign : unit(Ba, 2);
-      to.effort = e.efforts[k];
+      const elements::Effort& from = e.efforts[k];
+      const Vec2<double> d = from.coordinate == elements::Coordinate::angle ? sign : unit(Ba, 2);
+      r.efforts[r.num_efforts++] = {from.coordinate, from.stiffness, from.rest, from.damping, from.law, {d}};
     }
     return r;
   }
@@ -171,13 +170,14 @@ class Flattener {
                                  ? Mat3<double>::identity()
                                  : b_.plan.unknowns.basis[static_cast<std::size_t>(p.node)];
     const Mat3<double> Q = lanes::transpose_times(own, turned);
-    r.turn = {{Q(0, 0), Q(1, 0)}};
+    motion::PlanePose<double>& at = r.offset;
+    at.R = {{Q(0, 0), Q(1, 0)}};
     if (on_ground)
-      r.x = in_plane(Vec3<double>(p.offset.x - model_.origin), own);
+      at.x = in_plane(Vec3<double>(p.offset.x - model_.origin), own);
     else if (p.has_offset)
-      r.x = in_plane(p.offset.x, own);
-    if (std::abs(r.turn[1]) <= round_off && r.turn[0] > 0.0) r.turn = {{1.0, 0.0}};
-    r.has_offset = r.turn[1] != 0.0 || r.turn[0] != 1.0 || r.x[0] != 0.0 || r.x[1] != 0.0;
+      at.x = in_plane(p.offset.x, own);
+    if (std::abs(at.R[1]) <= round_off && at.R[0] > 0.0) at.R = {{1.0, 0.0}};
+    r.has_offset = at.R[1] != 0.0 || at.R[0] != 1.0 || at.x[0] != 0.0 || at.x[1] != 0.0;
     return r;
   }
   template <std::size_t P>

@@ -81,9 +81,9 @@ double advance_grounds(const plan::Plan& plan, const E& e, const Field& f, const
   eval_ports(e, f, ports);
   double out[6 * E::num_ports + E::num_multipliers];
   if constexpr (E::num_multipliers > 0)
-    elements::eval_residual(e, ports, multipliers, f.around, out, turns);
+    elements::eval_residual(e, ports, multipliers, f.around, turns, out, out + 6 * E::num_ports);
   else
-    elements::eval_residual(e, ports, static_cast<const double*>(nullptr), f.around, out);
+    elements::eval_residual(e, ports, f.around, out);
   double work = 0.0;
   for (int k = 0; k < E::num_ports; ++k) {
     if (!is_moved(plan, e.ports[k])) continue;
@@ -105,7 +105,7 @@ double advance_load(const E& e, const Field& f, P* last) {
   elements::PortMotion<double> ports[n];
   eval_ports(e, f, ports);
   double out[6 * n];
-  elements::eval_residual(e, ports, static_cast<const double*>(nullptr), f.around, out);
+  elements::eval_residual(e, ports, f.around, out);
   double work = 0.0;
   for (std::size_t k = 0; k < n; ++k) {
     P now;

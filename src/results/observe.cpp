@@ -53,7 +53,7 @@ void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& 
                           double* sum) {
   constexpr int n = 6 * E::num_ports;
   double out[n];
-  elements::eval_residual(e, p, static_cast<const double*>(nullptr), f.around, out);
+  elements::eval_residual(e, p, f.around, out);
   for (int k = 0; k < n; ++k) sum[k] += out[k];
   if (state.unsettled.empty()) return;
   PortMotion<Series> moved[E::num_ports];
@@ -66,7 +66,7 @@ void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& 
     own.law = 0;
   }
   Series change[n];
-  elements::eval_residual(own, moved, static_cast<const Series*>(nullptr), around, change);
+  elements::eval_residual(own, moved, around, change);
   for (int k = 0; k < n; ++k) sum[k] += change[k].c[1];
 }
 

@@ -44,7 +44,7 @@ struct PlanarKernels {
   using FieldLanes = elements::planar::FieldLanes;
   static constexpr int node_unknowns = 3, node_numbers = elements::planar::numbers_of_node;
   template <class E>
-  static constexpr int most_rows = E::num_rows_at_most;
+  static constexpr int most_rows = E::num_multipliers;
   static const Arrays& arrays(const plan::Plan& plan) { return plan.planar->elements; }
 };
 

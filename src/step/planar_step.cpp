@@ -34,7 +34,7 @@ Vec3<Pack> gather_increments(const double* x, const std::int64_t* unknown) {
 
 /// Of a port in its node's axes, or on the ground.
 Vec2<double> own_turn(const elements::planar::Port& p) {
-  return p.node == elements::ground || p.has_offset ? p.turn : Vec2<double>{{1.0, 0.0}};
+  return p.node == elements::ground || p.has_offset ? p.offset.R : Vec2<double>{{1.0, 0.0}};
 }
 
 Pack larger(const Pack& a, const Pack& b) { return select(less(a, b), b, a); }
@@ -83,7 +83,7 @@ PlanarStep::Ends PlanarStep::ends_of(const E& e, std::int64_t owner, int port) {
 }
 
 Vec2<double> PlanarStep::turn_of(int node) const {
-  return node == elements::ground ? Vec2<double>{{1.0, 0.0}} : system_.nodes()[static_cast<std::size_t>(node)].turn;
+  return node == elements::ground ? Vec2<double>{{1.0, 0.0}} : system_.nodes()[static_cast<std::size_t>(node)].R;
 }
 
 void PlanarStep::watch_turns(std::size_t joint) {
@@ -123,7 +123,7 @@ void PlanarStep::place_pairs(const std::vector<NodePair>& pairs, const std::vect
   chunk_max_.resize((pairs_.size() + pair_group_grain - 1) / pair_group_grain);
   const auto place = [&](PairLanes::Side& side, std::size_t lane, int node) {
     const auto n = static_cast<std::size_t>(node);
-    side.node[lane] = node < 0 ? nothing : &system_.nodes()[n].turn[0];
+    side.node[lane] = node < 0 ? nothing : &system_.nodes()[n].R[0];
     side.unknown[lane] = node < 0 ? -1 : node_begin[n];
   };
   for (std::size_t g = 0; g < pairs_.size(); ++g)
@@ -245,8 +245,7 @@ void PlanarStep::show_nodes(std::size_t group, Pack& turned) {
   const MoverLanes& mover = movers_[group];
   const AlphaRule::Rates<Vec3<Pack>> rates = rule_.follow(mover.dq, start.v, start.a, start.algorithmic);
   const PlanarNodeLanes n{mover.turn, mover.x, rates.v, rates.a, mover.dq};
-  scatter<elements::planar::numbers_of_node>(&n.turn[0], system_.nodes().data(), group * nodes_in_lanes,
-                                             count_of(group));
+  scatter<elements::planar::numbers_of_node>(&n.R[0], system_.nodes().data(), group * nodes_in_lanes, count_of(group));
   turned = larger(turned, lanes::abs(mover.dq[2]));
 }
 
@@ -298,7 +297,8 @@ void PlanarStep::finish_nodes(double arm, std::size_t group, Workspace::StepEnd&
   const auto largest = [&per_length](const Vec3<Pack>& v) {
     return largest_of(larger(per_length * larger(lanes::abs(v[0]), lanes::abs(v[1])), lanes::abs(v[2])));
   };
-  end.error = std::max(end.error, largest(rule_.local_error(change, motion::plane_bracket(rates.v, rates.a))));
+  end.error = std::max(
+      end.error, largest(rule_.local_error(change, motion::Se2::widened(motion::Se2::bracket(rates.v, rates.a)))));
   end.increment = std::max(end.increment, largest(node.dq));
   s = {node.turn, node.x, rates.v, rates.a, change, of_trend, rates.algorithmic, node.dq};
 }

@@ -61,18 +61,18 @@ class PlanarStep {
     motion::PositionPair<Pack> place;
     motion::Quaternion<Pack> rotation;
     motion::Vec2<Pack> turn;
-    elements::planar::PairOf<Pack> x;
+    motion::PositionPair<Pack, 2> x;
   };
   /// Where a step starts: turn, position [m], velocity, its derivative and the change of that over the last step, a_n, the last step's increment.
   struct StartLanes {
     motion::Vec2<Pack> turn;
-    elements::planar::PairOf<Pack> x;
+    motion::PositionPair<Pack, 2> x;
     motion::Vec3<Pack> v, a, trend, trend_change, algorithmic, dq;
   };
   /// Where nodes stand, and how far they moved in the step.
   struct MoverLanes {
     motion::Vec2<Pack> turn;
-    elements::planar::PairOf<Pack> x;
+    motion::PositionPair<Pack, 2> x;
     motion::Vec3<Pack> dq;
     void move(const motion::Vec3<Pack>& eta);
     void follow(const StartLanes& start, const Pack& eta_w);

@@ -39,7 +39,7 @@ void PlanarSystem::set_nodes(const State& state, std::int64_t begin, std::int64_
     }
     for (int i = 0; i < 2; ++i) {
       const Vec3<double> axis = lanes::column(axes, i);
-      to.turn[i] = lanes::dot(axis, first);
+      to.R[i] = lanes::dot(axis, first);
       to.x.hi[i] = lanes::dot(axis, hi);
       to.x.lo[i] = lanes::dot(axis, lo);
     }
@@ -67,7 +67,8 @@ PlanarSystem::Counts PlanarSystem::evaluate_alone(std::size_t id, const State& s
   }
   Counts counts{};
   plan::with_element(plan_.planar->elements, plan_.directory[id], [&](const auto& e) {
-    elements::planar::evaluate(e, field_, multipliers.data(), turns, residual, magnitude, tangent);
+    elements::evaluate(e, field_, multipliers.data(), turns, residual, tangent);
+    elements::eval_magnitude(e, field_, residual, magnitude);
     counts = {num_unknowns(e), num_multipliers(e)};
   });
   return counts;

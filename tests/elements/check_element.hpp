@@ -70,9 +70,9 @@ template <class S, class E>
 void eval_kernel_of(const E& e, const PortMotion<S>* p, const S* multipliers, const Surroundings<S>& around, S* out,
                     double turns) {
   if constexpr (E::num_multipliers > 0)
-    eval_residual(e, p, multipliers, around, out, turns);
+    eval_residual(e, p, multipliers, around, turns, out, out + 6 * E::num_ports);
   else
-    eval_residual(e, p, multipliers, around, out);
+    eval_residual(e, p, around, out);
 }
 
 template <class S, class E>

@@ -1,11 +1,115 @@
 #pragma once
-/// Tangents of planar beams from their residual's own source run on jets, which the library does for other elements. In a file of its
-/// own: a test that saw the library's templates would instantiate the rest of them anew instead of calling the library.
+/// Residual and tangent of an element in a plane from its kernel run on jets through a driver of its own: forces of kinetics against
+/// which the library's closed forms and its driver are checked.
+#include <vector>
+
 #include "bough/elements/planar/evaluate.hpp"
 
 namespace bough::elements::check {
 
-template <int N>
-void eval_tangent_on_jets(const planar::Beam<N>& beam, const planar::Field& field, double* tangent);
+/// T(d)^-1 of SE(2), T(d) = sum (-ad d)^k / (k + 1)! = [C, t; 0, 1] with C that of a complex number.
+inline Mat3<double> inverse_tangent_by_series(const Vec3<double>& d) {
+  const Mat3<double> minus_ad{{0, d[2], -d[1], -d[2], 0, d[0], 0, 0, 0}};
+  Mat3<double> term = Mat3<double>::identity(), T = term;
+  for (int k = 2; k < 30; ++k) {
+    term = (1.0 / k) * (term * minus_ad);
+    T += term;
+  }
+  const double by = 1.0 / (T(0, 0) * T(0, 0) + T(1, 0) * T(1, 0)), c = by * T(0, 0), s = by * T(1, 0);
+  return {{c, s, -(c * T(0, 2) + s * T(1, 2)), -s, c, s * T(0, 2) - c * T(1, 2), 0, 0, 1}};
+}
+
+struct PlanarResult {
+  std::vector<double> residual, tangent;
+};
+
+/// Columns: the nodes' increments, then the multipliers. With `mass_only` the unknowns are accelerations: rows keep the gradient by poses, and
+/// of forces only what follows the acceleration is left.
+template <class E>
+PlanarResult evaluate_on_jets(const E& e, const planar::Field& field, const double* multipliers, double turns) {
+  using G = motion::Se2;
+  constexpr int P = E::num_ports, D = 3 * P;
+  using T = lanes::Jet<double, D>;
+  const int m = num_multipliers(e), n = num_unknowns(e), forces = n - m;
+  const auto anchor = anchor_of(e, field.nodes);
+  const auto seeded = [&](bool moves, bool has_rates, PortMotionOn<G, T>* p) {
+    for (int k = 0; k < P; ++k) {
+      const planar::Port& port = e.ports[k];
+      PortMotionOn<G, double> at =
+          port.node == ground
+              ? PortMotionOn<G, double>{{port.offset.R,
+                                         motion::difference(motion::PositionPair<double, 2>::from(port.offset.x),
+                                                            anchor)},
+                                        Vec3<double>::zero(),
+                                        Vec3<double>::zero()}
+              : PortMotionOn<G, double>{
+                    {field.nodes[port.node].R, motion::difference(field.nodes[port.node].x, anchor)},
+                    field.nodes[port.node].v,
+                    field.nodes[port.node].a};
+      p[k] = {{lanes::cast<T>(at.H.R), lanes::cast<T>(at.H.x)}, lanes::cast<T>(at.v), lanes::cast<T>(at.a)};
+      if (port.node == ground) continue;
+      if (moves) {  // dR = i R theta, dx = R u
+        p[k].H.R[0].d[3 * k + 2] = -at.H.R[1];
+        p[k].H.R[1].d[3 * k + 2] = at.H.R[0];
+        p[k].H.x[0].d[3 * k] = p[k].H.x[1].d[3 * k + 1] = at.H.R[0];
+        p[k].H.x[1].d[3 * k] = at.H.R[1];
+        p[k].H.x[0].d[3 * k + 1] = -at.H.R[1];
+      }
+      if (has_rates) {
+        const bool held = field.slopes.mass_only;
+        const Mat3<double> U = held ? Mat3<double>::identity() : inverse_tangent_by_series(field.nodes[port.node].dq);
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) {
+            if (!held) p[k].v[i].d[3 * k + j] = field.slopes.velocity * U(i, j);
+            p[k].a[i].d[3 * k + j] = held ? U(i, j) : field.slopes.acceleration * U(i, j);
+          }
+      }
+      if (!port.has_offset) continue;
+      const motion::Vec2<T> x = motion::complex_times(lanes::cast<T>(port.offset.x), p[k].H.R);
+      p[k].H = {motion::complex_times(lanes::cast<T>(port.offset.R), p[k].H.R), motion::Vec2<T>(p[k].H.x + x)};
+      p[k].v = G::inverse_adjoint_times(port.offset, p[k].v);
+      p[k].a = G::inverse_adjoint_times(port.offset, p[k].a);
+    }
+  };
+  const SurroundingsOn<G, T> around{lanes::cast<T>(field.around.gravity), field.around.laws, field.around.has_inertia,
+                                    field.around.nodes_turn};
+  PlanarResult r{std::vector<double>(static_cast<std::size_t>(n)),
+                 std::vector<double>(static_cast<std::size_t>(n * n))};
+  const auto at = [](auto& v, int i) -> double& { return v[static_cast<std::size_t>(i)]; };
+  const auto fill = [&](bool moves, bool has_rates, bool keep_forces, bool keep_rows) {
+    PortMotionOn<G, T> p[P];
+    seeded(moves, has_rates, p);
+    T out[D], rows[E::num_multipliers + 1];
+    if constexpr (E::num_multipliers > 0)
+      eval_residual(e, p, multipliers, around, turns, out, rows);
+    else
+      eval_residual(e, p, around, out);
+    int row = 0;
+    const auto put = [&](int i, const T& x, bool keep) {
+      at(r.residual, i) = x.a;
+      int column = 0;
+      for (int q = 0; q < P; ++q) {
+        if (e.ports[q].node == ground) continue;
+        for (int j = 0; j < 3; ++j, ++column)
+          if (keep) at(r.tangent, i * n + column) = x.d[3 * q + j];
+      }
+    };
+    for (int k = 0; k < P; ++k) {
+      if (e.ports[k].node == ground) continue;
+      Vec3<T> f{{out[3 * k], out[3 * k + 1], out[3 * k + 2]}};
+      if (e.ports[k].has_offset) f = G::inverse_adjoint_transpose_times(e.ports[k].offset, f);
+      for (int i = 0; i < 3; ++i) put(row++, f[i], keep_forces);
+    }
+    for (int k = 0; k < m; ++k) {
+      put(row++, rows[k], keep_rows);
+      for (int j = 0; j < forces && keep_rows; ++j)
+        at(r.tangent, j * n + forces + k) = at(r.tangent, (forces + k) * n + j);
+    }
+  };
+  const bool start = field.slopes.mass_only;
+  fill(!start, field.around.has_inertia, true, !start);
+  if (start && m > 0) fill(true, false, false, true);
+  return r;
+}
 
 }  // namespace bough::elements::check

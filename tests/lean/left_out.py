@@ -31,13 +31,13 @@ class Feature:
 VIOLATIONS = " constraint_violation constraint_violations relative_violation largest_violation evaluate_constraint_rates "
 CHECKS = VIOLATIONS + "check measure measure_beam measure_load measure_coupling eval_energies eval_energies_lanes energies_of add_energies eval_strain_energy eval_kinetic_energy"
 JOINTS = Feature(
-    functions="""eval_row eval_angle angle_gradient across_gradient eval_coordinate eval_effort across_slope angle_slope
-        eval_row_slopes eval_joint eval_joint_motion add_efforts evaluate_constraint_series constraint_series add_multipliers for_each_multiplier
+    functions="""eval_row eval_angle eval_axial_angle axial_moment axial_slope cosine_slope eval_coordinate eval_effort
+        eval_gradient_slope add_effort_slopes eval_joint_motion add_efforts evaluate_constraint_series constraint_series add_multipliers for_each_multiplier
         accept_turns""",
-    types=r"\bJointOf<[^<>,]*(?:Pack<8> ?)?> const&")
-DAMPING = Feature(functions="add_damping_slopes", terms=r"\bdamping\b|\bby_twist\b|\bby_rate\b|\brate = lanes::dot", asks=r"is_present|is_damped|viscous,")
-GYROSCOPIC = Feature(functions="gyroscopic gyroscopic_matrix cross6_transpose_times", terms=r"\bmomentum\b")
-POINTS = Feature(functions="cross6_transpose_times", terms=r"\bbody\.mass \*|\(body\.mass,|\be\.mass \*")
+    types=r"\bJointOn<[^<>]*(?:Pack<8> ?)?> const&")
+DAMPING = Feature(functions="relative_twist", terms=r"\bdamping\b|\bby_twist\b|\bby_rate\b|\brate = lanes::dot", asks=r"is_present|is_damped|viscous,")
+GYROSCOPIC = Feature(functions="gyroscopic spin add_spin_rows subtract_dual_bracket", terms=r"\bmomentum\b")
+POINTS = Feature(functions="subtract_dual_bracket", terms=r"\(body\.mass,|\(e\.mass,")
 # What is left out, what belongs to it, the scene that is without it and the one that has it.
 FEATURES = [
     ("joints", JOINTS, "bushings", "links"),

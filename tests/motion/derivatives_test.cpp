@@ -3,7 +3,6 @@
 
 #include "bough/lanes/jet.hpp"
 #include "bough/lanes/taylor.hpp"
-#include "bough/motion/dual_series.hpp"
 #include "bough/motion/group.hpp"
 #include "samples.hpp"
 
@@ -46,53 +45,6 @@ TEST(Derivatives, of_the_inverse_tangent_transpose_times_a_wrench_match_the_comp
 /// [A, B; 0, A] and [0, A; A, B] of A + e B.
 Mat6<double> on_motions(const DualMat<double>& m) { return detail::upper(m.a, m.b); }
 Mat6<double> on_wrenches(const DualMat<double>& m) { return detail::lower_right(m.a, m.b); }
-
-/// The dual form of an operator against its 6x6 form, and its second derivatives against the complex step of the first.
-template <class Operator>
-void expect_dual_form(const DualSeries<double>& f, const Vec6<double>& d, const Operator& operator_at, double bound,
-                      bool has_pole, test::Random& random) {
-  const Vec6<double> x = random.vector<6>(), y = random.vector<6>(), n = random.vector<6>();
-  const auto op = operator_at(d);
-  const DualVec<double> dx = motion_dual(x), dy = motion_dual(y), dn = wrench_dual(n);
-  EXPECT_LT(test::largest(on_motions(matrix(f)) - op.matrix()), bound);
-  EXPECT_LT(test::largest(motion_vector(times(f, dy)) - op.times(y)), bound);
-  EXPECT_LT(test::largest(wrench_vector(transpose_times(f, dn)) - op.transpose_times(n)), bound);
-  EXPECT_LT(test::largest(motion_vector(times(matrix(f), dy)) - op.times(y)), bound);
-  EXPECT_LT(test::largest(wrench_vector(transpose_times(matrix(f), dn)) - op.transpose_times(n)), bound);
-  EXPECT_LT(test::largest(on_motions(jacobian(f, dy)) - op.derivative(y)), bound);
-  EXPECT_LT(test::largest(on_wrenches(transpose_jacobian(f, dn)) - op.transpose_derivative(n)), bound);
-  EXPECT_LT(test::largest(motion_vector(slope_times(f, dx, dy)) - op.slope_times(x, y)), bound);
-  EXPECT_LT(test::largest(on_motions(slope_matrix(f, dx)) * y - op.slope_times(x, y)), bound);
-  const auto along_x = [&](const Vec6<Complex>& z) {
-    return operator_at(z).slope_times(lanes::cast<Complex>(x), lanes::cast<Complex>(y));
-  };
-  const auto gradient = [&](const Vec6<Complex>& z) {
-    return lanes::transpose_times(operator_at(z).derivative(lanes::cast<Complex>(y)), lanes::cast<Complex>(n));
-  };
-  const Mat6<double> second = test::complex_step<6>(along_x, d), hessian_matrix = test::complex_step<6>(gradient, d);
-  EXPECT_LT(test::largest(on_motions(second_jacobian(f, dx, dy)) - second),
-            bound * (has_pole ? 1.0 + test::largest(second) : 1.0));
-  EXPECT_LT(test::largest(on_wrenches(hessian(f, dn, dy)) - hessian_matrix),
-            bound * (has_pole ? 1.0 + test::largest(hessian_matrix) : 1.0));
-}
-
-TEST(Derivatives, of_operators_in_dual_form_up_to_the_second_match_the_complex_step) {
-  test::Random random(21);
-  for (const double phi : test::angles_beyond_pi()) {
-    SCOPED_TRACE(phi);
-    const Vec6<double> d = random.motion(phi);
-    const DualVec<double> dual = motion_dual(d);
-    expect_dual_form(
-        dual_tangent(dual), d, [](const auto& z) { return tangent_operator(z); }, 64 * test::epsilon, false, random);
-    const double x = dot(dual.a, dual.a);
-    const auto k = eval_inverse_coefficients(x);
-    // near 2 pi the inverse has a pole: entries grow with k and its first derivative, which lose digits to the distance from it
-    const double size = (1.0 + std::abs(k.k) + std::abs(k.dk)) / (1.0 - phi / (2.0 * std::numbers::pi));
-    expect_dual_form(
-        dual_inverse_tangent(dual, x, k), d, [](const auto& z) { return inverse_tangent_operator(z); },
-        64 * test::epsilon * size, true, random);
-  }
-}
 
 TEST(Derivatives, products_of_dual_matrices_are_those_of_operators_on_motions) {
   test::Random random(22);

@@ -34,8 +34,7 @@ template <class G>
 double difference(const typename G::template Matrix<double>& m, const Mat6<double>& expected) {
   double most = 0.0;
   for (int i = 0; i < G::dof; ++i)
-    for (int j = 0; j < G::dof; ++j)
-      most = std::max(most, std::abs(m(i, j) - expected(place<G>(i), place<G>(j))));
+    for (int j = 0; j < G::dof; ++j) most = std::max(most, std::abs(m(i, j) - expected(place<G>(i), place<G>(j))));
   return most;
 }
 template <class G, class M>
@@ -123,7 +122,7 @@ TEST(GroupOperators, in_a_plane_are_those_of_six_by_six_matrices) { expect_opera
 /// Poses of the group, as poses in space.
 Frame<double> in_space(const Frame<double>& H) { return H; }
 Frame<double> in_space(const PlanePose<double>& H) {
-  return {{{H.turn[0], -H.turn[1], 0, H.turn[1], H.turn[0], 0, 0, 0, 1}}, {{H.x[0], H.x[1], 0}}};
+  return {{{H.R[0], -H.R[1], 0, H.R[1], H.R[0], 0, 0, 0, 1}}, {{H.x[0], H.x[1], 0}}};
 }
 
 template <class G>
@@ -140,7 +139,8 @@ void expect_poses(unsigned seed) {
               64 * test::epsilon);
     const Frame<double> relative = motion::relative(in_space(H), in_space(K)), r = in_space(G::relative(H, K));
     EXPECT_LT(test::largest(r.R - relative.R) + test::largest(r.x - relative.x), 16 * test::epsilon);
-    EXPECT_LT(difference<G>(on_motions<G>(G::inverse_adjoint_map(H)), inverse_adjoint(in_space(H))), 16 * test::epsilon);
+    EXPECT_LT(difference<G>(on_motions<G>(G::inverse_adjoint_map(H)), inverse_adjoint(in_space(H))),
+              16 * test::epsilon);
     EXPECT_LT(difference<G>(G::inverse_adjoint_times(H, v.y), inverse_adjoint_times(in_space(H), in_space<G>(v.y))),
               16 * test::epsilon);
     EXPECT_LT(difference<G>(G::inverse_adjoint_transpose_times(H, v.n),

@@ -8,21 +8,35 @@
 
 namespace bough::elements {
 
-/// Constant data of one element. Section matrices are 6x6 about the reference axis, order (N, Q2, Q3, T, M2, M3).
-template <int N, class C = double>
-struct Beam {
+/// Index of the reference node: 2 nodes: the first; 3: the middle; 4: the second.
+template <int N>
+inline constexpr int beam_reference = N / 2 == 1 ? (N == 3 ? 1 : 0) : 1;
+
+/// Constant data of one element on the group G. Section matrices are those of the reference axis, in space of the order
+/// (N, Q2, Q3, T, M2, M3), in a plane (N, Q, M).
+template <class G, int N, class C = double>
+struct BeamOn {
+  using Group = G;
   static constexpr int num_ports = N;
   static constexpr int num_multipliers = 0;
-  static constexpr int reference =
-      N / 2 == 1 ? (N == 3 ? 1 : 0) : 1;           ///< 2 nodes: the first; 3: the middle; 4: the second
+  static constexpr int reference = beam_reference<N>;
   static constexpr int num_strain_points = N - 1;  ///< reduced: no locking
   static constexpr int num_mass_points = N;
-  PortOf<C> ports[N];
-  C length = 0.0;                    ///< of the reference axis [m]
-  Mat6<C> stiffness, damping, mass;  ///< see scene::Section
+  PortOn<G, C> ports[N];
+  C length = 0.0;                                           ///< of the reference axis [m]
+  typename G::template Matrix<C> stiffness, damping, mass;  ///< see scene::Section
   bool has_damping = false, has_mass = false;
-  Vec6<C> reference_strain[N - 1];  ///< (1 + axial, shear; curvature) of the stress-free shape at the strain points
+  typename G::template Vector<C>
+      reference_strain[N - 1];  ///< (1 + axial, shear; curvature) of the stress-free shape at the strain points
 };
+template <int N, class C = double>
+using Beam = BeamOn<motion::Se3, N, C>;
+
+/// Whether an element's forces depend on velocities or accelerations.
+template <class G, int N, class C>
+bool looks_at_rates(const BeamOn<G, N, C>& e) {
+  return e.has_mass || e.has_damping;
+}
 
 /// Motions of the nodes relative to the reference node: the only positions that a beam looks at.
 template <class S, int N>

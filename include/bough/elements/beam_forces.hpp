@@ -1,194 +1,197 @@
 #pragma once
-/// Forces of beams and line loads on their nodes, from BeamRates. Derivation: README.md, "Beam".
-#include "bough/elements/screw_blend.hpp"
+/// Forces of beams of three and four nodes, and of line loads, on their nodes, from BeamRates. Derivation: README.md, "Beam".
+#include "bough/elements/screw_beam.hpp"
 
 namespace bough::elements {
 
-/// Section of a beam at a mass point: what its force f per length times `weight` is made of.
-template <class S>
+/// Section at a mass point: what its force f per length times `weight` is made of.
+template <class G, class S>
 struct MassPoint {
-  DualSeries<S> T;            ///< T(d)
-  DualVec<S> z, rate, zz, v;  ///< blends of the nodes', and the twist
-  DualVec<S> f;               ///< weight (m b - ad(v)^T m v)
-  S weight;                   ///< of the point times the length
+  Tangent<G, S> T;                             ///< T(d)
+  typename G::template Motion<S> z, rate, zz;  ///< blends of the nodes'
+  typename G::template Motion<S> v;            ///< twist
+  typename G::template Wrench<S> f;            ///< weight (m b - ad(v)^T m v)
 };
 
 /// m b = m (a - (R^T g; 0)),  a = a_r + T z' + (D T(d)[d']) z.
-template <class S, int N, class C>
-void eval_mass_point(const Beam<N, C>& beam, const BeamRates<S, N>& b, bool moves, int point, MassPoint<S>& m) {
-  const auto& rule = mass_rule<N>();
+template <class G, class S, int N, class C>
+void eval_mass_point(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>& b, bool moves, const ShapeRule<N, N>& rule,
+                     int point, MassPoint<G, S>& m) {
   const double* shape = rule.shape[point];
-  m.weight = S(rule.weight[point] * beam.length);
-  m.T = motion::dual_tangent(blend<S, N>(shape, b.d));
-  m.zz = blend<S, N>(shape, b.zz);
-  DualVec<S> a = b.b + times(m.T, m.zz);
-  Vec6<S> momentum;
+  const C weight = rule.weight[point] * beam.length;
+  m.T = motion::eval_tangent_operator<G, S>(blend<G, S, N>(shape, b.d));
+  m.zz = blend<G, S, N>(shape, b.zz);
+  auto a = b.b + times(m.T, m.zz);
   if (moves) {
-    m.z = blend<S, N>(shape, b.z);
-    m.rate = blend<S, N>(shape, b.rate);
+    m.z = blend<G, S, N>(shape, b.z);
+    m.rate = blend<G, S, N>(shape, b.rate);
     m.v = b.v + times(m.T, m.z);
-    a = a + slope_times(m.T, m.rate, m.z);
-    momentum = beam.mass * motion::motion_vector(m.v);
+    a = G::add(a, 1.0, slope_times(m.T, m.rate, m.z));
+    const auto f = G::subtract_dual_bracket(G::matrix_times(beam.mass, a), m.v, G::matrix_times(beam.mass, m.v));
+    m.f = G::scaled(weight, f);
+  } else {
+    m.f = G::scaled(weight, G::matrix_times(beam.mass, a));
   }
-  DualVec<S> f = motion::wrench_dual(Vec6<S>(beam.mass * motion::motion_vector(a)));
-  if (moves) f = add_cross(f, m.v, motion::wrench_dual(momentum));
-  m.f = motion::scaled(m.weight, f);
 }
 
 /// Section at a strain point: strain, its derivative A = d(T d')/dd and the stress resultant n.
-template <class S>
+template <class G, class S>
 struct StrainPoint {
-  DualSeries<S> T;
-  DualVec<S> d1, y1;   ///< rates of d and of its slope
-  DualVec<S> y;        ///< dd/ds
-  DualMat<S> bending;  ///< A
-  DualVec<S> n;
+  Tangent<G, S> T;
+  typename G::template Motion<S> d1, y1;       ///< rates of d and of its slope
+  typename G::template Motion<S> y;            ///< dd/ds
+  typename G::template BracketMap<S> bending;  ///< A
+  typename G::template Wrench<S> n;
 };
 
 /// n = C (e - e0) + D e',  e = T(d) d' / L.
-template <class S, int N, class C>
-void eval_strain_point(const Beam<N, C>& beam, const BeamRates<S, N>& b, bool viscous, int point, StrainPoint<S>& s) {
-  const auto& rule = strain_rule<N>();
+template <class G, class S, int N, class C>
+void eval_strain_point(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>& b, bool viscous,
+                       const ShapeRule<N, N - 1>& rule, int point, StrainPoint<G, S>& s) {
   const double *shape = rule.shape[point], *slope = rule.slope[point];
   const C inverse = 1.0 / beam.length;
-  s.T = motion::dual_tangent(blend<S, N>(shape, b.d));
-  s.y = blend<S, N>(slope, b.d);
+  s.T = motion::eval_tangent_operator<G, S>(blend<G, S, N>(shape, b.d));
+  s.y = blend<G, S, N>(slope, b.d);
   s.bending = jacobian(s.T, s.y);
-  Vec6<S> e = inverse * motion::motion_vector(times(s.T, s.y));
-  for (int k = 0; k < 6; ++k) e[k] = e[k] - beam.reference_strain[point][k];
-  Vec6<S> n = beam.stiffness * e;
-  if (viscous) {
-    s.d1 = blend<S, N>(shape, b.rate);
-    s.y1 = blend<S, N>(slope, b.rate);
-    n += beam.damping * (inverse * motion::motion_vector(times(s.T, s.y1) + times(s.bending, s.d1)));
-  }
-  s.n = motion::wrench_dual(n);
+  s.n = G::matrix_times(beam.stiffness, G::strain(inverse, times(s.T, s.y), beam.reference_strain[point]));
+  if (!viscous) return;
+  s.d1 = blend<G, S, N>(shape, b.rate);
+  s.y1 = blend<G, S, N>(slope, b.rate);
+  const auto rate = G::add(times(s.T, s.y1), 1.0, G::times(s.bending, s.d1));
+  s.n = G::add(s.n, inverse, G::matrix_times(beam.damping, rate));
 }
 
 /// Elastic and viscous forces conjugate to d_i:  p_i = w (N_i' T^T n + N_i A^T n).
-template <class S, int N, class C>
-void eval_internal_forces(const Beam<N, C>& beam, const BeamRates<S, N>& b, bool viscous, DualVec<S>* p) {
-  constexpr int r = Beam<N>::reference;
+template <class G, class S, int N, class C>
+void eval_internal_forces(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>& b, bool viscous,
+                          typename G::template Wrench<S>* p) {
+  constexpr int r = beam_reference<N>;
   if constexpr (N == 2) {  // d' is parallel to d, and T(d) d = d
     const C inverse = 1.0 / beam.length;
-    Vec6<S> e = inverse * motion::motion_vector(b.d[1]);
-    for (int k = 0; k < 6; ++k) e[k] = e[k] - beam.reference_strain[0][k];
-    Vec6<S> n = beam.stiffness * e;
-    if (viscous) n += beam.damping * (inverse * motion::motion_vector(b.rate[1]));
-    p[1] = motion::wrench_dual(n);
+    p[1] = G::matrix_times(beam.stiffness, G::strain(inverse, b.d[1], beam.reference_strain[0]));
+    if (viscous) p[1] = G::add(p[1], inverse, G::matrix_times(beam.damping, b.rate[1]));
   } else {
     const auto& rule = strain_rule<N>();
-    for (int i = 0; i < N; ++i) p[i] = DualVec<S>::zero();
-    for (int g = 0; g < Beam<N>::num_strain_points; ++g) {
-      StrainPoint<S> s;
-      eval_strain_point<S, N>(beam, b, viscous, g, s);
-      const DualVec<S> by_slope = transpose_times(s.T, s.n), by_shape = transpose_times(s.bending, s.n);
-      for (int i = 0; i < N; ++i)
-        if (i != r)
-          p[i] = add_scaled(add_scaled(p[i], rule.weight[g] * rule.slope[g][i], by_slope),
-                            rule.weight[g] * rule.shape[g][i], by_shape);
+    for (int i = 0; i < N; ++i) p[i] = G::wrench(G::template Vector<S>::zero());
+    for (int g = 0; g < N - 1; ++g) {
+      StrainPoint<G, S> s;
+      eval_strain_point<G, S, N, C>(beam, b, viscous, rule, g, s);
+      const auto by_slope = transpose_times(s.T, s.n), by_shape = G::transpose_times(s.bending, s.n);
+      for (int i = 0; i < N; ++i) {
+        if (i == r) continue;
+        p[i] = G::add(p[i], rule.weight[g] * rule.slope[g][i], by_slope);
+        p[i] = G::add(p[i], rule.weight[g] * rule.shape[g][i], by_shape);
+      }
     }
   }
 }
 
-/// Wrenches on the nodes in the ports' own axes:  F_i = T(d_i)^-T p_i (+ direct, if given),  F_r = sum - sum_i F_i, where `sum` is what all
-/// nodes bear together.
-template <class S, int N>
-void eval_nodal_wrenches(const BeamRates<S, N>& b, const DualVec<S>* p, DualVec<S> sum, S* out,
-                         const DualVec<S>* direct = nullptr) {
-  constexpr int r = Beam<N>::reference;
-  const auto put = [out](int node, const DualVec<S>& f) {
-    for (int k = 0; k < 3; ++k) {
-      out[6 * node + k] = f.a[k];
-      out[6 * node + 3 + k] = f.b[k];
-    }
-  };
+/// What all nodes bear together of forces conjugate to d_i: sum_i ad(d_i)^T p_i, as ad(d_i)^T p_i = F_i - Ad(H_ri^-1)^T F_i.
+template <class G, class S, int N>
+typename G::template Wrench<S> sum_relative_forces(const BeamRates<G, S, N>& b,
+                                                   const typename G::template Wrench<S>* p) {
+  constexpr int r = beam_reference<N>, first = r == 0 ? 1 : 0;
+  auto sum = G::dual_bracket(b.d[first], p[first]);
+  for (int i = first + 1; i < N; ++i)
+    if (i != r) sum = G::add_dual_bracket(sum, b.d[i], p[i]);
+  return sum;
+}
+
+/// Wrenches on the nodes in the ports' own axes:  F_i = T(d_i)^-T p_i,  F_r = sum - sum_i F_i, where `sum` is what all nodes bear together.
+template <class G, class S, int N>
+void eval_nodal_wrenches(const BeamRates<G, S, N>& b, const typename G::template Wrench<S>* p,
+                         typename G::template Wrench<S> sum, S* out) {
+  constexpr int r = beam_reference<N>;
   for (int i = 0; i < N; ++i) {
     if (i == r) continue;
-    DualVec<S> f = transpose_times(b.inverse[i], p[i]);
-    if (direct != nullptr) f = f + *direct;
-    put(i, f);
+    const auto f = transpose_times(b.inverse[i], p[i]);
+    G::put(f, out + G::dof * i);
     sum = sum - f;
   }
-  put(r, sum);
+  G::put(sum, out + G::dof * r);
+}
+
+/// Adds a mass point's force to those conjugate to d_i and to their sum.
+template <class G, class S, int N>
+void add_mass_forces(const double* shape, const MassPoint<G, S>& m, typename G::template Wrench<S>* p,
+                     typename G::template Wrench<S>& sum) {
+  const auto q = transpose_times(m.T, m.f);
+  for (int i = 0; i < N; ++i)
+    if (i != beam_reference<N>) p[i] = G::add(p[i], shape[i], q);
+  sum = sum + m.f;
 }
 
 /// Wrenches of elasticity, damping, inertia and gravity on the nodes, in the ports' own axes.
-template <class S, int N, class C>
-void eval_residual(const Beam<N, C>& beam, const PortMotion<S>* ports, const S*, const Surroundings<S>& around,
-                   S* out) {
-  constexpr int r = Beam<N>::reference;
-  BeamRates<S, N> b;
-  eval_beam_rates<S, N>(ports, around, beam.has_mass, beam.has_damping, b);
-  DualVec<S> p[N], sum = DualVec<S>::zero();
-  eval_internal_forces<S, N>(beam, b, around.has_inertia && beam.has_damping, p);
-  for (int i = 0; i < N; ++i)
-    if (i != r) sum = add_cross(sum, p[i], b.d[i]);  // ad(d_i)^T p_i = F_i - Ad(H_ri^-1)^T F_i
-  if constexpr (N == 2) {
-    if (beam.has_mass) {
-      const ScrewBlend<S> f = eval_screw_blend(b.d[1]);
-      GaussPair<S> g;
-      eval_gauss_forces(point_mass(beam), f, b, around.has_inertia, g);
-      const DualVec<S> direct = eval_gauss_wrench(f, g);
-      return eval_nodal_wrenches<S, N>(b, p, sum + g.sum, out, &direct);
-    }
-  } else if (beam.has_mass) {
-    for (int g = 0; g < Beam<N>::num_mass_points; ++g) {
-      MassPoint<S> m;
-      eval_mass_point<S, N>(beam, b, around.has_inertia, g, m);
-      const DualVec<S> q = transpose_times(m.T, m.f);
-      for (int i = 0; i < N; ++i)
-        if (i != r) p[i] = add_scaled(p[i], mass_rule<N>().shape[g][i], q);
-      sum = sum + m.f;
+template <class G, class S, int N, class C>
+requires(N > 2) void eval_residual(const BeamOn<G, N, C>& beam, const PortMotionOn<G, S>* ports,
+                                   const SurroundingsOn<G, S>& around, S* out) {
+  BeamRates<G, S, N> b;
+  eval_beam_rates<G, S, N>(ports, around, beam.has_mass, beam.has_damping, b);
+  typename G::template Wrench<S> p[N];
+  eval_internal_forces<G, S, N, C>(beam, b, around.has_inertia && beam.has_damping, p);
+  auto sum = sum_relative_forces<G, S, N>(b, p);
+  if (beam.has_mass) {
+    const auto& rule = mass_rule<N>();  // a call, which empties the registers: once
+    for (int g = 0; g < N; ++g) {
+      MassPoint<G, S> m;
+      eval_mass_point<G, S, N, C>(beam, b, around.has_inertia, rule, g, m);
+      add_mass_forces<G, S, N>(rule.shape[g], m, p, sum);
     }
   }
-  eval_nodal_wrenches<S, N>(b, p, sum, out);
+  eval_nodal_wrenches<G, S, N>(b, p, sum, out);
 }
 
 /// Load per reference length on a beam, integrated with the beam's own interpolation (same ports as the beam).
-template <int N, class C = double>
-struct LineLoad {
+template <class G, int N, class C = double>
+struct LineLoadOn {
+  using Group = G;
   static constexpr int num_ports = N;
   static constexpr int num_multipliers = 0;
-  PortOf<C> ports[N];
+  PortOn<G, C> ports[N];
   C length = 0.0;
-  Vec6<C> wrench;        ///< (force [N/m]; moment [N]) per reference length, times the law
-  bool follows = false;  ///< true: in section axes; false: in inertial axes
+  typename G::template Vector<C> wrench;  ///< (force [N/m]; moment [N]) per reference length, times the law
+  bool follows = false;                   ///< true: in section axes; false: in inertial axes
   int law = 0;
 };
+template <int N, class C = double>
+using LineLoad = LineLoadOn<motion::Se3, N, C>;
 
-/// The load at a mass point, times its weight, in section axes.
-template <class S, int N, class C>
-DualVec<S> eval_load(const LineLoad<N, C>& load, const PortMotion<S>& r, const DualSeries<S>& T,
-                     const Surroundings<S>& around, int point) {
-  const S factor = -mass_rule<N>().weight[point] * load.length * around.laws[load.law];
-  Vec3<S> force, moment;
-  for (int k = 0; k < 3; ++k) {
-    force[k] = factor * load.wrench[k];
-    moment[k] = factor * load.wrench[3 + k];
-  }
-  if (load.follows) return {force, moment};
-  const Mat3<S> R = r.H.R * motion::exp_so3(T.psi.a);
-  return {lanes::transpose_times(R, force), lanes::transpose_times(R, moment)};
+template <class G, int N, class C>
+bool looks_at_rates(const LineLoadOn<G, N, C>&) {
+  return false;
 }
 
-template <class S, int N, class C>
-void eval_residual(const LineLoad<N, C>& load, const PortMotion<S>* ports, const S*, const Surroundings<S>& around,
+/// The load at a mass point, times its weight, in section axes.
+template <class G, class S, int N, class C>
+typename G::template Wrench<S> eval_load(const LineLoadOn<G, N, C>& load, const PortMotionOn<G, S>& r,
+                                         const Tangent<G, S>& T, const SurroundingsOn<G, S>& around,
+                                         const ShapeRule<N, N>& rule, int point) {
+  const Constant<S> factor = -(rule.weight[point] * load.length * around.laws[load.law]);
+  typename G::template Vector<S> f;
+  for (int k = 0; k < G::dof; ++k) f[k] = S(factor * load.wrench[k]);
+  if (load.follows) return G::wrench(f);
+  return G::turned_back(r.H, T.d, f);
+}
+
+template <class G, class S, int N, class C>
+void eval_residual(const LineLoadOn<G, N, C>& load, const PortMotionOn<G, S>* ports, const SurroundingsOn<G, S>& around,
                    S* out) {
-  constexpr int r = Beam<N>::reference;
-  BeamRates<S, N> b;
-  eval_relative_motions<S, N>(ports, b);
-  DualVec<S> p[N], sum = DualVec<S>::zero();
-  for (int i = 0; i < N; ++i) p[i] = DualVec<S>::zero();
+  constexpr int r = beam_reference<N>;
+  BeamRates<G, S, N> b;
+  eval_relative_motions<G, S, N>(ports, b);
+  const auto zero = G::wrench(G::template Vector<S>::zero());
+  typename G::template Wrench<S> p[N], sum = zero;
+  for (int i = 0; i < N; ++i) p[i] = zero;
+  const auto& rule = mass_rule<N>();
   for (int g = 0; g < N; ++g) {
-    const double* shape = mass_rule<N>().shape[g];
-    const DualSeries<S> T = motion::dual_tangent(blend<S, N>(shape, b.d));
-    const DualVec<S> f = eval_load(load, ports[r], T, around, g), q = transpose_times(T, f);
+    const auto T = motion::eval_tangent_operator<G, S>(blend<G, S, N>(rule.shape[g], b.d));
+    const auto f = eval_load<G, S, N, C>(load, ports[r], T, around, rule, g);
+    const auto q = transpose_times(T, f);
     for (int i = 0; i < N; ++i)
-      if (i != r) p[i] = add_scaled(p[i], shape[i], q);
+      if (i != r) p[i] = G::add(p[i], rule.shape[g][i], q);
     sum = sum + f;
   }
-  eval_nodal_wrenches<S, N>(b, p, sum, out);
+  eval_nodal_wrenches<G, S, N>(b, p, sum, out);
 }
 
 }  // namespace bough::elements

@@ -1,161 +1,208 @@
 #pragma once
-/// Rigid body, point loads, springs and bushings: elements of one or two ports without multipliers.
-#include "bough/elements/port.hpp"
+/// Rigid body, point load, spring and bushing: elements of one or two ports without multipliers, on any group.
+#include "bough/elements/screw_beam.hpp"
 
 namespace bough::elements {
 
-/// Rigid body about its node's frame.  F = M (a - (R^T g; 0)) - ad(v)^T M v,  M the 6x6 mass about the node [kg, kg m, kg m^2].
-/// A point at the node's origin, M = m (1, 0; 0, 0), v = (u; w), bears no moment:  f = m (u' - R^T g) - (m u) x w.
-template <class C>
-struct RigidBodyOf {
+/// Rigid body about its node's frame.  F = M (a - (R^T g; 0)) - ad(v)^T M v,  M the mass matrix about the node [kg, kg m, kg m^2].
+/// A point at the node's origin, M = m (1, 0; 0, 0), v = (u; w), bears no moment:  f = m (u' - R^T g) + w x m u.
+template <class G, class C>
+struct RigidBodyOn {
+  using Group = G;
   static constexpr int num_ports = 1;
   static constexpr int num_multipliers = 0;
-  PortOf<C> ports[1];
-  Mat6<C> mass;
+  PortOn<G, C> ports[1];
+  typename G::template Matrix<C> mass;
   bool is_point = false;  ///< mass holds m alone: products with its zeros are left out
 };
+template <class C>
+using RigidBodyOf = RigidBodyOn<motion::Se3, C>;
 using RigidBody = RigidBodyOf<double>;
 
-template <class S, class C>
-bool is_seen_as_point(const RigidBodyOf<C>& body, const Surroundings<S>& around) {
+template <class G, class C>
+bool looks_at_rates(const RigidBodyOn<G, C>&) {
+  return true;
+}
+template <class G, class S, class C>
+bool is_seen_as_point(const RigidBodyOn<G, C>& body, const SurroundingsOn<G, S>& around) {
   return body.is_point || !around.nodes_turn;
 }
 
 /// 6x6 mass about the frame's origin, from the mass, its centre and the inertia about the centre, in the frame's axes.
 Mat6<double> make_mass_matrix(double mass, const Vec3<double>& center, const Mat3<double>& inertia);
 
-template <class S, class C>
-void eval_residual(const RigidBodyOf<C>& body, const PortMotion<S>* p, const S*, const Surroundings<S>& around,
-                   S* out) {
-  const Vec3<S> weight = lanes::transpose_times(p[0].H.R, around.gravity);
+template <class G, class S, class C>
+BOUGH_INLINE void eval_residual(const RigidBodyOn<G, C>& body, const PortMotionOn<G, S>* p,
+                                const SurroundingsOn<G, S>& around, S* out) {
   if (is_seen_as_point(body, around)) {
-    Vec3<S> a = -weight;
-    if (around.has_inertia) a += lanes::linear_part(p[0].a);
-    Vec3<S> f = body.mass(0, 0) * a;
-    if (around.has_inertia && around.nodes_turn)
-      f -= lanes::cross(Vec3<S>(body.mass(0, 0) * lanes::linear_part(p[0].v)), lanes::angular_part(p[0].v));
-    for (int k = 0; k < 3; ++k) {
-      out[k] = f[k];
-      out[3 + k] = S(0.0);
-    }
-    return;
+    typename G::template Translation<S> a = -G::turned_back(p[0].H, around.gravity);
+    if (around.has_inertia) a += G::linear(p[0].a);
+    typename G::template Translation<S> f = body.mass(0, 0) * a;
+    if (around.has_inertia && around.nodes_turn) f += G::spin(p[0].v, body.mass(0, 0) * G::linear(p[0].v));
+    return G::put_force(f, out);
   }
-  Vec6<S> a = lanes::join<S>(-weight, Vec3<S>::zero());
-  if (around.has_inertia) a += p[0].a;
-  Vec6<S> f = body.mass * a;
-  if (around.has_inertia) f -= motion::cross6_transpose_times(p[0].v, Vec6<S>(body.mass * p[0].v));
-  for (int k = 0; k < 6; ++k) out[k] = f[k];
+  if (!around.has_inertia) {
+    const typename G::template Translation<S> lift = -G::turned_back(p[0].H, around.gravity);
+    return G::put(G::matrix_times(body.mass, lift), out);
+  }
+  const auto v = G::motion(p[0].v);
+  const auto f = G::matrix_times(body.mass, eval_weighed_acceleration(p[0], around));
+  G::put(G::subtract_dual_bracket(f, v, G::matrix_times(body.mass, v)), out);
 }
 
-template <class S, class C>
-S eval_kinetic_energy(const RigidBodyOf<C>& body, const PortMotion<S>* p) {
-  return 0.5 * lanes::dot(p[0].v, Vec6<S>(body.mass * p[0].v));
+template <class G, class S, class C>
+S eval_kinetic_energy(const RigidBodyOn<G, C>& body, const PortMotionOn<G, S>* p) {
+  const typename G::template Vector<S> momentum = body.mass * p[0].v;
+  return 0.5 * lanes::dot(p[0].v, momentum);
 }
 
 /// Force and moment at a port, dead (inertial axes) or following the port; times a law.
-template <class C>
-struct PointLoadOf {
+template <class G, class C>
+struct PointLoadOn {
+  using Group = G;
   static constexpr int num_ports = 1;
   static constexpr int num_multipliers = 0;
-  PortOf<C> ports[1];
-  Vec6<C> wrench;  ///< (force [N]; moment [N m])
+  PortOn<G, C> ports[1];
+  typename G::template Vector<C> wrench;  ///< (force [N]; moment [N m])
   bool follows = false;
   int law = 0;
 };
+template <class C>
+using PointLoadOf = PointLoadOn<motion::Se3, C>;
 using PointLoad = PointLoadOf<double>;
 
-template <class S, class C>
-void eval_residual(const PointLoadOf<C>& load, const PortMotion<S>* p, const S*, const Surroundings<S>& around,
-                   S* out) {
-  const S factor = -around.laws[load.law];
-  Vec6<S> f;
-  for (int k = 0; k < 6; ++k) f[k] = factor * load.wrench[k];
-  if (!load.follows)
-    f = lanes::join<S>(lanes::transpose_times(p[0].H.R, lanes::linear_part(f)),
-                       lanes::transpose_times(p[0].H.R, lanes::angular_part(f)));
-  for (int k = 0; k < 6; ++k) out[k] = f[k];
+template <class G, class C>
+bool looks_at_rates(const PointLoadOn<G, C>&) {
+  return false;
+}
+
+template <class G, class S, class C>
+BOUGH_INLINE void eval_residual(const PointLoadOn<G, C>& load, const PortMotionOn<G, S>* p,
+                                const SurroundingsOn<G, S>& around, S* out) {
+  const Constant<S> factor = -around.laws[load.law];
+  typename G::template Vector<S> f;
+  for (int k = 0; k < G::dof; ++k) f[k] = S(factor * load.wrench[k]);
+  if (load.follows)
+    G::put(G::wrench(f), out);
+  else
+    G::put(G::wrench_turned_back(p[0].H, f), out);
 }
 
 /// Spring and damper along the line between two points:  tension = k (l - l0) + c l'.
-template <class C>
-struct SpringOf {
+template <class G, class C>
+struct SpringOn {
+  using Group = G;
   static constexpr int num_ports = 2;
   static constexpr int num_multipliers = 0;
-  PortOf<C> ports[2];
+  PortOn<G, C> ports[2];
   C stiffness = 0.0, rest_length = 0.0, damping = 0.0;
 };
+template <class C>
+using SpringOf = SpringOn<motion::Se3, C>;
 using Spring = SpringOf<double>;
 
-template <class S>
-S eval_length(const PortMotion<S>* p) {
+template <class G, class C>
+bool looks_at_rates(const SpringOn<G, C>& e) {
+  return is_present(e.damping);
+}
+
+/// What a spring sees: its line n = (x_b - x_a) / l in inertial axes, its force and how this follows the line.
+template <class G, class S>
+struct SpringLine {
+  typename G::template Translation<S> n;
+  typename G::template Translation<S> w;  ///< relative velocity of the points; where it damps
+  S inverse;                              ///< 1/l
+  S along;                                ///< l' = n . w; where it damps
+  S tension;
+};
+template <class G, class S, class C>
+BOUGH_INLINE SpringLine<G, S> eval_spring_line(const SpringOn<G, C>& spring, const PortMotionOn<G, S>* p, bool damps) {
   using std::sqrt;
-  const Vec3<S> r = p[1].H.x - p[0].H.x;
-  return sqrt(lanes::dot(r, r));
+  SpringLine<G, S> line;
+  const typename G::template Translation<S> r = p[1].H.x - p[0].H.x;
+  const S length = sqrt(lanes::dot(r, r));
+  line.inverse = S(1.0) / length;
+  line.n = line.inverse * r;
+  line.tension = spring.stiffness * (length - spring.rest_length);
+  if (damps) {
+    line.w = G::turned(p[1].H, G::linear(p[1].v)) - G::turned(p[0].H, G::linear(p[0].v));
+    line.along = lanes::dot(line.n, line.w);
+    line.tension = line.tension + spring.damping * line.along;
+  }
+  return line;
 }
 
-template <class S, class C>
-void eval_residual(const SpringOf<C>& spring, const PortMotion<S>* p, const S*, const Surroundings<S>& around, S* out) {
-  const Vec3<S> r = p[1].H.x - p[0].H.x;
-  const S length = eval_length(p);
-  const Vec3<S> n = (S(1.0) / length) * r;
-  S tension = spring.stiffness * (length - spring.rest_length);
-  if (around.has_inertia && is_present(spring.damping)) {
-    const Vec3<S> velocity = p[1].H.R * lanes::linear_part(p[1].v) - p[0].H.R * lanes::linear_part(p[0].v);
-    tension = tension + spring.damping * lanes::dot(n, velocity);
-  }
-  const Vec3<S> at_first = lanes::transpose_times(p[0].H.R, Vec3<S>(-tension * n));
-  const Vec3<S> at_second = lanes::transpose_times(p[1].H.R, Vec3<S>(tension * n));
-  for (int k = 0; k < 3; ++k) {
-    out[k] = at_first[k];
-    out[6 + k] = at_second[k];
-    out[3 + k] = out[9 + k] = S(0.0);
-  }
+template <class G, class S, class C>
+BOUGH_INLINE void eval_residual(const SpringOn<G, C>& spring, const PortMotionOn<G, S>* p,
+                                const SurroundingsOn<G, S>& around, S* out) {
+  const auto line = eval_spring_line<G, S, C>(spring, p, around.has_inertia && is_present(spring.damping));
+  const typename G::template Translation<S> f = line.tension * line.n;
+  G::put_force(G::turned_back(p[0].H, -f), out);
+  G::put_force(G::turned_back(p[1].H, f), out + G::dof);
 }
 
-template <class S, class C>
-S eval_strain_energy(const SpringOf<C>& spring, const PortMotion<S>* p) {
-  const S stretch = eval_length(p) - spring.rest_length;
+template <class G, class S, class C>
+S eval_strain_energy(const SpringOn<G, C>& spring, const PortMotionOn<G, S>* p) {
+  using std::sqrt;
+  const typename G::template Translation<S> r = p[1].H.x - p[0].H.x;
+  const S stretch = sqrt(lanes::dot(r, r)) - spring.rest_length;
   return 0.5 * spring.stiffness * stretch * stretch;
 }
 
 /// Elastic and viscous coupling of all relative motions of two frames:  d = log(H_a^-1 H_b),
 ///   F_b = T(d)^-T (K (d - d0) + D d'),  F_a = -Ad(H_ab^-1)^T F_b.
-template <class C>
-struct BushingOf {
+/// The same as a two-node beam of length 1 without mass.
+template <class G, class C>
+struct BushingOn {
+  using Group = G;
   static constexpr int num_ports = 2;
   static constexpr int num_multipliers = 0;
-  PortOf<C> ports[2];
-  Mat6<C> stiffness, damping;
-  Vec6<C> rest = Vec6<C>::zero();
+  PortOn<G, C> ports[2];
+  typename G::template Matrix<C> stiffness, damping;
+  typename G::template Vector<C> rest = G::template Vector<C>::zero();
   bool has_damping = false;
 };
+template <class C>
+using BushingOf = BushingOn<motion::Se3, C>;
 using Bushing = BushingOf<double>;
 
-template <class S, class C>
-void eval_residual(const BushingOf<C>& bushing, const PortMotion<S>* p, const S*, const Surroundings<S>& around,
-                   S* out) {
-  const Frame<S> relative = motion::relative(p[0].H, p[1].H);
-  const Vec3<S> psi = motion::log_so3(relative.R);
-  motion::MotionOperator<S> inverse{motion::inverse_tangent_series(lanes::dot(psi, psi)), {}};
-  inverse.d = lanes::join(motion::series_times(motion::transposed(inverse.f), psi, relative.x), psi);
-  Vec6<S> stretch = inverse.d;
-  for (int k = 0; k < 6; ++k) stretch[k] = stretch[k] - bushing.rest[k];
-  Vec6<S> n = bushing.stiffness * stretch;
-  if (around.has_inertia && bushing.has_damping)
-    n += bushing.damping * inverse.times(p[1].v - motion::inverse_adjoint_times(relative, p[0].v));
-  const Vec6<S> second = inverse.transpose_times(n);
-  const Vec6<S> first = motion::inverse_adjoint_transpose_times(relative, second);
-  for (int k = 0; k < 6; ++k) {
-    out[k] = -first[k];
-    out[6 + k] = second[k];
-  }
+template <class G, class C>
+bool looks_at_rates(const BushingOn<G, C>& e) {
+  return e.has_damping;
+}
+template <class G, class C>
+ScrewElasticity<G, C> elasticity_of(const BushingOn<G, C>& e) {
+  return {e.stiffness, e.damping, e.rest, C(1.0)};
 }
 
-template <class S, class C>
-S eval_strain_energy(const BushingOf<C>& bushing, const PortMotion<S>* p) {
-  Vec6<S> d = motion::Se3::log(motion::relative(p[0].H, p[1].H));
-  for (int k = 0; k < 6; ++k) d[k] = d[k] - bushing.rest[k];
-  return 0.5 * lanes::dot(d, Vec6<S>(bushing.stiffness * d));
+/// Wrenches F_b = T(d)^-T n and F_a = ad(d)^T n - F_b of what resists d; returns F_b.
+template <class G, class S>
+BOUGH_INLINE typename G::template Wrench<S> put_screw_wrenches(const ScrewRates<G, S>& r,
+                                                               const typename G::template Wrench<S>& n, S* out) {
+  const auto sum = G::dual_bracket(r.inverse.d, n);
+  const auto second = G::add_dual_bracket(G::add(n, 0.5, sum), r.inverse.d, G::times(r.inverse.q, sum));
+  G::put(second, out + G::dof);
+  G::put(sum - second, out);
+  return second;
+}
+
+template <class G, class S, class C>
+BOUGH_INLINE void eval_residual(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* p,
+                                const SurroundingsOn<G, S>& around, S* out) {
+  const bool viscous = around.has_inertia && bushing.has_damping;
+  ScrewRates<G, S> r;
+  eval_screw_rates<G, S>(p, around, false, viscous, r);
+  const auto n = eval_screw_resultant<G, S, C>(elasticity_of(bushing), r, viscous);
+  put_screw_wrenches<G, S>(r, n, out);
+}
+
+template <class G, class S, class C>
+S eval_strain_energy(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* p) {
+  const auto inverse = motion::eval_log<G, S>(G::relative(p[0].H, p[1].H));
+  typename G::template Vector<S> d = G::vector_of_motion(inverse.d);
+  for (int k = 0; k < G::dof; ++k) d[k] = d[k] - bushing.rest[k];
+  const typename G::template Vector<S> n = bushing.stiffness * d;
+  return 0.5 * lanes::dot(d, n);
 }
 
 }  // namespace bough::elements

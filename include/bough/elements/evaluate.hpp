@@ -12,14 +12,16 @@
 
 namespace bough::elements {
 
-/// Motion of a node: pose, position as a compensated pair, twist and its derivative in the node's axes, and the increment `dq` since the
-/// last accepted step (H = H_n exp(dq)).
-template <class S>
-struct NodeMotionOf {
-  Mat3<S> R;
-  motion::PositionPair<S> x;
-  Vec6<S> v, a, dq;
+/// Motion of a node on the group G: rotation, position as a compensated pair, twist and its derivative in the node's axes, and the increment
+/// `dq` since the last accepted step (H = H_n exp(dq)).
+template <class G, class S>
+struct NodeMotionOn {
+  typename G::template Rotation<S> R;
+  motion::PositionPair<S, G::translations> x;
+  typename G::template Vector<S> v, a, dq;
 };
+template <class S>
+using NodeMotionOf = NodeMotionOn<motion::Se3, S>;
 using NodeMotion = NodeMotionOf<double>;
 
 /// How velocity and acceleration follow a position increment eta of the iteration:  dv = velocity T(dq)^-1 eta, da = acceleration T(dq)^-1 eta.
@@ -33,14 +35,17 @@ struct Slopes {
 /// Node motions and what surrounds them, as read by all elements of a model.
 /// observer: the frame in which nodes, ground, carriers and gravity are described, where that moves (its motion in the inertial frame); null:
 /// they are described in the inertial frame. Only elements with mass look at it: all others see relative motions.
-template <class S>
-struct FieldOf {
-  const NodeMotionOf<S>* nodes = nullptr;
-  Surroundings<S> around;
+/// Frames move in space alone.
+template <class G, class S>
+struct FieldOn {
+  const NodeMotionOn<G, S>* nodes = nullptr;
+  SurroundingsOn<G, S> around;
   Slopes slopes;
   const CarrierMotionOf<S>* carriers = nullptr;
   const CarrierMotionOf<S>* observer = nullptr;
 };
+template <class S>
+using FieldOf = FieldOn<motion::Se3, S>;
 using Field = FieldOf<double>;
 
 /// Elements whose forces depend on motions in the inertial frame.
@@ -50,40 +55,39 @@ constexpr bool has_mass_matrix = requires(const E& e) {
 };
 
 /// Position of the element's first node off the ground: kernels see positions relative to it.
-template <class E, class S>
-motion::PositionPair<S> anchor_of(const E& e, const NodeMotionOf<S>* nodes) {
+template <class E, class G, class S>
+BOUGH_INLINE motion::PositionPair<S, G::translations> anchor_of(const E& e, const NodeMotionOn<G, S>* nodes) {
   for (const auto& port : e.ports)
     if (port.node != ground) return nodes[port.node].x;
-  return motion::PositionPair<S>::from(Vec3<S>::zero());
+  return motion::PositionPair<S, G::translations>::from(G::template Translation<S>::zero());
 }
 
 /// Motion of one port; `anchor` is subtracted from its position. carriers: looked at by ports that name one.
 template <class S>
-PortMotion<S> eval_port(const PortOf<S>& port, const NodeMotionOf<S>* nodes, const motion::PositionPair<S>& anchor,
-                        const CarrierMotionOf<S>* carriers = nullptr) {
+PortMotion<S> eval_carried_port(const PortOf<S>& port, const motion::PositionPair<S>& anchor,
+                                const CarrierMotionOf<S>& c) {
   PortMotion<S> p;
-  if (port.node == ground && port.carrier >= 0) {
-    const CarrierMotionOf<S>& c = carriers[port.carrier];
-    p.H.R = c.pose.R * port.offset.R;
-    p.H.x = motion::difference(motion::PositionPair<S>{c.pose.x, c.pose.R * port.offset.x}, anchor);
-    p.v = motion::inverse_adjoint_times(port.offset, c.twist);
-    p.a = motion::inverse_adjoint_times(port.offset, c.twist_rate);
-    return p;
-  }
-  if (port.node == ground) {
-    p.H.R = port.offset.R;
-    p.H.x = motion::difference(motion::PositionPair<S>::from(port.offset.x), anchor);
-    p.v = p.a = Vec6<S>::zero();
-    return p;
-  }
-  const NodeMotionOf<S>& n = nodes[port.node];
-  const Vec3<S> x = motion::difference(n.x, anchor);
-  if (!port.has_offset) return {{n.R, x}, n.v, n.a};
-  p.H.R = n.R * port.offset.R;
-  p.H.x = x + n.R * port.offset.x;
-  p.v = motion::inverse_adjoint_times(port.offset, n.v);
-  p.a = motion::inverse_adjoint_times(port.offset, n.a);
+  p.H.R = c.pose.R * port.offset.R;
+  p.H.x = motion::difference(motion::PositionPair<S>{c.pose.x, c.pose.R * port.offset.x}, anchor);
+  p.v = motion::inverse_adjoint_times(port.offset, c.twist);
+  p.a = motion::inverse_adjoint_times(port.offset, c.twist_rate);
   return p;
+}
+template <class G, class S>
+BOUGH_INLINE PortMotionOn<G, S> eval_port(const PortOn<G, S>& port, const NodeMotionOn<G, S>* nodes,
+                                          const motion::PositionPair<S, G::translations>& anchor,
+                                          const CarrierMotionOf<S>* carriers = nullptr) {
+  using Pair = motion::PositionPair<S, G::translations>;
+  using Vector = typename G::template Vector<S>;
+  if constexpr (G::has_moving_frames)
+    if (port.node == ground && port.carrier >= 0) return eval_carried_port(port, anchor, carriers[port.carrier]);
+  if (port.node == ground)
+    return {{port.offset.R, motion::difference(Pair::from(port.offset.x), anchor)}, Vector::zero(), Vector::zero()};
+  const NodeMotionOn<G, S>& n = nodes[port.node];
+  const typename G::template Pose<S> H{n.R, motion::difference(n.x, anchor)};
+  if (!port.has_offset) return {H, n.v, n.a};
+  return {G::compose(H, port.offset), G::inverse_adjoint_times(port.offset, n.v),
+          G::inverse_adjoint_times(port.offset, n.a)};
 }
 
 /// The rotation of a port alone, for what is asked of every element after every step.
@@ -94,7 +98,7 @@ inline motion::Mat3<double> eval_port_rotation(const Port& port, const Field& fi
   return port.has_offset ? node * port.offset.R : node;
 }
 
-/// Unknowns of an element: 6 per port off the ground, then its multipliers.
+/// Unknowns of an element: those of its group per port off the ground, then its multipliers.
 template <class E>
 int num_multipliers(const E& e) {
   if constexpr (E::num_multipliers > 0)
@@ -105,45 +109,51 @@ int num_multipliers(const E& e) {
 template <class E>
 int num_unknowns(const E& e) {
   int n = num_multipliers(e);
-  for (const auto& port : e.ports) n += port.node == ground ? 0 : 6;
+  for (const auto& port : e.ports) n += port.node == ground ? 0 : E::Group::dof;
   return n;
 }
 
 /// Residual in the unknowns of the nodes (and constraint rows), and the tangent dR/d(eta, lambda), row-major, when `tangent` is given.
 /// `multipliers` and `turns` are looked at by joints only. No allocation.
 template <class E>
-void evaluate(const E& e, const Field& field, const double* multipliers, double turns, double* residual,
-              double* tangent);
+void evaluate(const E& e, const FieldOn<typename E::Group, double>& field, const double* multipliers, double turns,
+              double* residual, double* tangent);
 
 /// Sum of the magnitudes of the terms behind each entry of a residual, against which its smallness is measured. Elements between nodes push
 /// and pull on several; a body's own terms balance within it and are told apart:  |M a| + |M g| + |ad(v)^T M v|.
-template <class E, class S>
-void eval_magnitude(const E& e, const FieldOf<S>& field, const S* residual, S* magnitude) {
+template <class E, class G, class S>
+void eval_magnitude(const E& e, const FieldOn<G, S>&, const S* residual, S* magnitude) {
   using std::abs;
   for (int i = 0; i < num_unknowns(e); ++i) magnitude[i] = abs(residual[i]);
-  if constexpr (std::is_same_v<E, RigidBodyOf<S>>) {
-    const NodeMotionOf<S>& n = field.nodes[e.ports[0].node];
-    const Vec3<S> weight = lanes::transpose_times(n.R, field.around.gravity);
-    PortMotion<S> p{{n.R, n.x.hi + n.x.lo}, n.v, n.a};
+}
+template <class G, class C, class S>
+void eval_magnitude(const RigidBodyOn<G, C>& e, const FieldOn<G, S>& field, const S* residual, S* magnitude) {
+  using std::abs;
+  using Vector = typename G::template Vector<S>;
+  const NodeMotionOn<G, S>& n = field.nodes[e.ports[0].node];
+  PortMotionOn<G, S> p{{n.R, n.x.hi + n.x.lo}, n.v, n.a};
+  if constexpr (G::has_moving_frames)
     if (field.around.has_inertia && field.observer != nullptr)
       add_observer_motion(p, Vec3<S>::zero(), field.observer->twist, field.observer->twist_rate);
-    if (is_seen_as_point(e, field.around)) {
-      Vec3<S> terms[3] = {e.mass(0, 0) * weight, Vec3<S>::zero(), Vec3<S>::zero()};
-      if (field.around.has_inertia) terms[1] = e.mass(0, 0) * lanes::linear_part(p.a);
-      if (field.around.has_inertia && field.around.nodes_turn)
-        terms[2] = lanes::cross(Vec3<S>(e.mass(0, 0) * lanes::linear_part(p.v)), lanes::angular_part(p.v));
-      for (int i = 0; i < 3; ++i)
-        for (const Vec3<S>& t : terms) magnitude[i] = magnitude[i] + abs(t[i]);
-      return;
-    }
-    Vec6<S> terms[3] = {e.mass * lanes::join(weight, Vec3<S>::zero()), Vec6<S>::zero(), Vec6<S>::zero()};
-    if (field.around.has_inertia) {
-      terms[1] = e.mass * p.a;
-      terms[2] = motion::cross6_transpose_times(p.v, Vec6<S>(e.mass * p.v));
-    }
-    for (int i = 0; i < 6; ++i)
-      for (const Vec6<S>& t : terms) magnitude[i] = magnitude[i] + abs(t[i]);
+  for (int i = 0; i < G::dof; ++i) magnitude[i] = abs(residual[i]);
+  Vector term;
+  const auto add = [&] {
+    for (int i = 0; i < G::dof; ++i) magnitude[i] = magnitude[i] + abs(term[i]);
+  };
+  const auto weight = G::turned_back(p.H, field.around.gravity);
+  if (is_seen_as_point(e, field.around)) {
+    const S m = e.mass(0, 0);
+    G::put_force(m * weight, term.v), add();
+    if (!field.around.has_inertia) return;
+    G::put_force(m * G::linear(p.a), term.v), add();
+    if (field.around.nodes_turn) G::put_force(G::spin(p.v, m * G::linear(p.v)), term.v), add();
+    return;
   }
+  G::put(G::matrix_times(e.mass, weight), term.v), add();
+  if (!field.around.has_inertia) return;
+  const auto v = G::motion(p.v);
+  G::put(G::matrix_times(e.mass, G::motion(p.a)), term.v), add();
+  G::put(G::dual_bracket(v, G::matrix_times(e.mass, v)), term.v), add();
 }
 
 /// Energies, powers and momentum of one element, all of them those of the inertial frame, momentum and load in the axes of the frame in which

@@ -26,25 +26,37 @@ using FieldLanes = FieldOf<LanePack>;
 namespace detail {
 template <class E>
 struct OverLanes;
-template <template <class> class E>
-struct OverLanes<E<double>> {
-  using Type = E<LanePack>;
+template <template <class, class> class E, class G>
+struct OverLanes<E<G, double>> {
+  using Type = E<G, LanePack>;
 };
-template <template <int, class> class E, int N>
-struct OverLanes<E<N, double>> {
-  using Type = E<N, LanePack>;
+template <template <class, int, class> class E, class G, int N>
+struct OverLanes<E<G, N, double>> {
+  using Type = E<G, N, LanePack>;
 };
 }  // namespace detail
-/// The element E with constants in lanes: Beam<2> gives Beam<2, LanePack>, Joint gives JointOf<LanePack>.
+/// The element E with constants in lanes: Beam<2> gives Beam<2, LanePack>, and so on.
 template <class E>
 using LaneElement = typename detail::OverLanes<E>::Type;
 
 /// Laws an element looks at, in the order of its rows, then efforts; returns their number.
 constexpr int max_laws = max_rows + max_efforts;
-int list_laws(const Joint& e, int* laws);
-int list_laws(const PointLoad& e, int* laws);
-template <int N>
-int list_laws(const LineLoad<N>& e, int* laws) {
+template <class G>
+int list_laws(const JointOn<G, double>& e, int* laws) {
+  int n = 0;
+  for (int k = 0; k < e.num_rows; ++k)
+    if (e.rows[k].law >= 0) laws[n++] = e.rows[k].law;
+  for (int k = 0; k < e.num_efforts; ++k)
+    if (e.efforts[k].law >= 0) laws[n++] = e.efforts[k].law;
+  return n;
+}
+template <class G>
+int list_laws(const PointLoadOn<G, double>& e, int* laws) {
+  laws[0] = e.law;
+  return 1;
+}
+template <class G, int N>
+int list_laws(const LineLoadOn<G, N>& e, int* laws) {
   laws[0] = e.law;
   return 1;
 }
@@ -89,7 +101,7 @@ inline void set_all_lanes(CarrierLanes& to, const CarrierMotion& from) {
 /// Residual and, where asked for (not nullptr), its magnitude (eval_magnitude) and tangent, of num_unknowns(e) = n entries, n, n x n row-major.
 /// `multipliers` (num_multipliers(e) packs) and `turns` are looked at by joints only.
 template <class E>
-void evaluate_lanes(const E& e, const FieldLanes& field, const LanePack* multipliers, const LanePack& turns,
-                    LanePack* residual, LanePack* magnitude, LanePack* tangent);
+void evaluate_lanes(const E& e, const FieldOn<typename E::Group, LanePack>& field, const LanePack* multipliers,
+                    const LanePack& turns, LanePack* residual, LanePack* magnitude, LanePack* tangent);
 
 }  // namespace bough::elements

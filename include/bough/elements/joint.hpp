@@ -1,8 +1,8 @@
 #pragma once
-/// Kinematic constraints between two frames, each row a scalar function of the relative motion H = H_a^-1 H_b = (R, u) alone, with one
+/// Kinematic constraints between two frames, each row a scalar function of the relative motion H = H_a^-1 H_b alone, with one
 /// multiplier; and efforts (springs, dampers, torques) along the joint's free coordinates.
 ///   residual: F_b = G^T lambda + efforts,  F_a = -Ad(H^-1)^T F_b,  and the rows Phi(H, t) themselves.
-/// G holds the rows' gradients with respect to the right increment zeta of the second frame: R <- R (1 + ~zeta_w), u <- u + R zeta_u.
+/// G holds the rows' gradients with respect to the right increment zeta of the second frame, H <- H exp(zeta).
 #include "bough/elements/port.hpp"
 
 namespace bough::elements {
@@ -14,23 +14,29 @@ enum class RowKind : std::uint8_t {
   screw,   ///< u_3 - pitch theta - law = 0
 };
 
-template <class C>
-struct ConstraintRowOf {
+/// A row, and the directions that it compares: in space axes i of the first and j of the second frame, in a plane one direction d.
+template <class G, class C>
+struct ConstraintRowOn : G::template Direction<C> {
   RowKind kind = RowKind::along;
-  int i = 0, j = 0;
   int law = -1;   ///< -1: zero
   C pitch = 0.0;  ///< displacement per radian [m/rad] (screw)
 };
+template <class C>
+using ConstraintRowOf = ConstraintRowOn<motion::Se3, C>;
 using ConstraintRow = ConstraintRowOf<double>;
 
 enum class Coordinate : std::uint8_t { angle, displacement };
 
-template <class C>
-struct EffortOf {
+template <class G, class C>
+struct EffortOn {
   Coordinate coordinate = Coordinate::angle;
   C stiffness = 0.0, rest = 0.0, damping = 0.0;
   int law = -1;  ///< effort on the second body along the axis; -1: none
+  typename G::template Direction<C> direction =
+      G::template Direction<C>::axial();  ///< in space axis 3 of the first frame
 };
+template <class C>
+using EffortOf = EffortOn<motion::Se3, C>;
 using Effort = EffortOf<double>;
 
 constexpr int max_rows = 6;
@@ -38,135 +44,169 @@ constexpr int max_efforts = 4;
 
 /// A joint of `num_rows` rows, the first of the array. The angle at the last accepted step, from which the present one is unwrapped, belongs to
 /// the state of a run and is handed to the kernel as `turns`.
-template <class C>
-struct JointOf {
+template <class G, class C>
+struct JointOn {
+  using Group = G;
   static constexpr int num_ports = 2;
   static constexpr int num_multipliers = max_rows;  ///< at most
-  PortOf<C> ports[2];
-  ConstraintRowOf<C> rows[max_rows];
+  PortOn<G, C> ports[2];
+  ConstraintRowOn<G, C> rows[max_rows];
   int num_rows = 0;
-  EffortOf<C> efforts[max_efforts];
+  EffortOn<G, C> efforts[max_efforts];
   int num_efforts = 0;
 };
+template <class C>
+using JointOf = JointOn<motion::Se3, C>;
 using Joint = JointOf<double>;
 
 /// Whether an effort damps; else nothing looks at velocities.
-template <class C>
-bool is_damped(const JointOf<C>& joint) {
+template <class G, class C>
+bool is_damped(const JointOn<G, C>& joint) {
   bool damped = false;
   for (int k = 0; k < joint.num_efforts; ++k) damped = damped || is_present(joint.efforts[k].damping);
   return damped;
 }
+template <class G, class C>
+bool looks_at_rates(const JointOn<G, C>& joint) {
+  return is_damped(joint);
+}
 
 /// theta = turns + atan2(s', c'), (c', s') the rotation about axis 3 seen from the last accepted angle: smooth over any number of turns.
-template <class S, class C>
-S eval_angle(const Mat3<S>& R, const C& turns) {
-  using lanes::atan2;  // of complex numbers, which lie in std
-  using std::atan2;
+/// turn: (c, s) of the rotation, times any positive factor.
+template <class G, class S, class C>
+BOUGH_INLINE S eval_axial_angle(const lanes::Vec<S, 2>& turn, const C& turns) {
   using std::cos;
   using std::sin;
   const C c0 = cos(turns), s0 = sin(turns);
-  const S s = R(1, 0) - R(0, 1), c = R(0, 0) + R(1, 1);
-  return atan2(S(c0 * s - s0 * c), S(c0 * c + s0 * s)) + turns;
+  return G::angle_of_turn(S(c0 * turn[0] + s0 * turn[1]), S(c0 * turn[1] - s0 * turn[0])) + turns;
 }
-
-/// Gradient of e_i . R e_j by the rotation increment: e_j x (R^T e_i).
-template <class S>
-Vec3<S> across_gradient(const Mat3<S>& R, int i, int j) {
-  const Vec3<S> row{{R(i, 0), R(i, 1), R(i, 2)}};
-  return lanes::cross(Vec3<S>::unit(j), row);
+template <class S, class C>
+S eval_angle(const Mat3<S>& R, const C& turns) {
+  return eval_axial_angle<motion::Se3>(lanes::Vec<S, 2>{{R(0, 0) + R(1, 1), R(1, 0) - R(0, 1)}}, turns);
 }
-
+/// Gradient of the angle by the rotation's right increment.
 template <class S>
 Vec3<S> angle_gradient(const Mat3<S>& R) {
-  const S s = R(1, 0) - R(0, 1), c = R(0, 0) + R(1, 1);
-  const S inverse = S(1.0) / (s * s + c * c);
-  const Vec3<S> gs = across_gradient(R, 1, 0) - across_gradient(R, 0, 1);
-  const Vec3<S> gc = across_gradient(R, 0, 0) + across_gradient(R, 1, 1);
-  return (c * inverse) * gs - (s * inverse) * gc;
+  return motion::Se3::axial_moment(Frame<S>{R, {}}, motion::Se3::Direction<S>{});
 }
 
-/// Value and gradient (linear; angular in the second frame) of one row.
-template <class S, class C>
-S eval_row(const ConstraintRowOf<C>& row, const Frame<S>& H, const C& turns, const S* laws, Vec6<S>& gradient) {
-  const S target = row.law >= 0 ? laws[row.law] : S(0.0);
-  const Vec3<S> none = Vec3<S>::zero();
-  const auto along = [&H](int i) { return Vec3<S>{{H.R(i, 0), H.R(i, 1), H.R(i, 2)}}; };
-  switch (row.kind) {
-    case RowKind::along:
-      gradient = lanes::join(along(row.i), none);
-      return H.x[row.i] - target;
-    case RowKind::across:
-      gradient = lanes::join(none, across_gradient(H.R, row.i, row.j));
-      return H.R(row.i, row.j);
-    case RowKind::angle:
-      gradient = lanes::join(none, angle_gradient(H.R));
-      return eval_angle(H.R, turns) - target;
-    case RowKind::screw:
-      gradient = lanes::join(along(2), Vec3<S>(-row.pitch * angle_gradient(H.R)));
-      return H.x[2] - row.pitch * eval_angle(H.R, turns) - target;
+/// Value of a row without its law, and its gradient, a wrench in the axes of the second frame.
+template <class G, class S, class C>
+BOUGH_INLINE S eval_coordinate(RowKind kind, const typename G::template Direction<C>& direction, const C& pitch,
+                               const typename G::template Pose<S>& H, const C& turns,
+                               typename G::template Wrench<S>& gradient) {
+  if (kind == RowKind::along) {
+    gradient = G::force(G::seen(H, direction));
+    return G::component(H, direction);
   }
-  return S(0.0);
+  if (kind == RowKind::across) {
+    const auto s = G::seen(H, direction);
+    gradient = G::moment(G::cosine_moment(direction, s));
+    return G::cosine(direction, s);
+  }
+  const S angle = eval_axial_angle<G>(G::axial_turn(H, direction), turns);
+  const auto moment = G::axial_moment(H, direction);
+  if (kind == RowKind::angle) {
+    gradient = G::moment(moment);
+    return angle;
+  }
+  const S minus_pitch = S(-pitch);
+  const auto axis = G::template Direction<C>::axial();
+  gradient = G::force_moment(G::seen(H, axis), minus_pitch * moment);
+  return G::component(H, axis) + minus_pitch * angle;
+}
+template <class G, class S, class C>
+BOUGH_INLINE S eval_row(const ConstraintRowOn<G, C>& row, const typename G::template Pose<S>& H, const C& turns,
+                        const Constant<S>* laws, typename G::template Wrench<S>& gradient) {
+  const S value = eval_coordinate<G, S, C>(row.kind, row, row.pitch, H, turns, gradient);
+  return row.law < 0 ? value : S(value - laws[row.law]);
+}
+
+/// In space, the gradient (linear; angular) as a plain vector.
+template <class S, class C>
+S eval_row(const ConstraintRowOf<C>& row, const Frame<S>& H, const C& turns, const Constant<S>* laws,
+           Vec6<S>& gradient) {
+  motion::DualVec<S> g;
+  const S value = eval_row<motion::Se3, S, C>(row, H, turns, laws, g);
+  gradient = motion::wrench_vector(g);
+  return value;
 }
 
 /// Coordinate of an effort and its gradient.
-template <class S, class C>
-S eval_coordinate(Coordinate coordinate, const Frame<S>& H, const C& turns, Vec6<S>& gradient) {
-  ConstraintRowOf<C> row;
-  row.kind = coordinate == Coordinate::angle ? RowKind::angle : RowKind::along;
-  row.i = 2;
-  return eval_row<S, C>(row, H, turns, nullptr, gradient);
+template <class G, class S, class C>
+BOUGH_INLINE S eval_coordinate(const EffortOn<G, C>& e, const typename G::template Pose<S>& H, const C& turns,
+                               typename G::template Wrench<S>& gradient) {
+  const RowKind kind = e.coordinate == Coordinate::angle ? RowKind::angle : RowKind::along;
+  return eval_coordinate<G, S, C>(kind, e.direction, C(0.0), H, turns, gradient);
 }
 
 /// Effort of the springs, dampers and drives without constraint along one coordinate, on the second body, against the motion. rate: of the
 /// coordinate, nullptr where nothing damps it.
-template <class S, class C>
-S eval_effort(const EffortOf<C>& e, const S& coordinate, const S* rate, const S* laws) {
+template <class G, class S, class C>
+BOUGH_INLINE S eval_effort(const EffortOn<G, C>& e, const S& coordinate, const S* rate, const Constant<S>* laws) {
   S f = e.stiffness * (coordinate - e.rest);
   if (rate != nullptr) f = f + e.damping * *rate;
   if (e.law >= 0) f = f - laws[e.law];
   return f;
 }
 
+/// Twist of the second frame relative to the first, in the axes of the second.
+template <class G, class S>
+BOUGH_INLINE typename G::template Motion<S> relative_twist(const typename G::template Pose<S>& H,
+                                                           const PortMotionOn<G, S>* p) {
+  return G::motion(p[1].v) - G::motion(G::inverse_adjoint_times(H, p[0].v));
+}
+
 /// Adds the efforts along all free coordinates, as a wrench on the second port that resists the motion.
-template <class S, class C>
-void add_efforts(const JointOf<C>& joint, const Frame<S>& H, const PortMotion<S>* p, const Surroundings<S>& around,
-                 const C& turns, Vec6<S>& f) {
-  Vec6<S> gradient;
+template <class G, class S, class C>
+BOUGH_INLINE void add_efforts(const JointOn<G, C>& joint, const typename G::template Pose<S>& H,
+                              const PortMotionOn<G, S>* p, const SurroundingsOn<G, S>& around, const C& turns,
+                              typename G::template Wrench<S>& f) {
+  typename G::template Wrench<S> gradient;
   for (int k = 0; k < joint.num_efforts; ++k) {
-    const S value = eval_coordinate(joint.efforts[k].coordinate, H, turns, gradient);
+    const S value = eval_coordinate<G, S, C>(joint.efforts[k], H, turns, gradient);
     const bool damps = around.has_inertia && is_present(joint.efforts[k].damping);
     S rate(0.0);
-    if (damps) rate = lanes::dot(gradient, p[1].v - motion::inverse_adjoint_times(H, p[0].v));
-    f += eval_effort(joint.efforts[k], value, damps ? &rate : nullptr, around.laws) * gradient;
+    if (damps) rate = G::real_power(gradient, relative_twist<G, S>(H, p));
+    f = G::add(f, eval_effort<G, S, C>(joint.efforts[k], value, damps ? &rate : nullptr, around.laws), gradient);
   }
 }
 
-template <class S, class C>
-void eval_residual(const JointOf<C>& joint, const PortMotion<S>* p, const S* multipliers, const Surroundings<S>& around,
-                   S* out, const C& turns) {
-  const Frame<S> H = motion::relative(p[0].H, p[1].H);
-  Vec6<S> f = Vec6<S>::zero(), gradient;
-  for (int k = 0; k < joint.num_rows; ++k) {
-    out[12 + k] = eval_row(joint.rows[k], H, turns, around.laws, gradient);
-    f += multipliers[k] * gradient;
-  }
-  add_efforts(joint, H, p, around, turns, f);
-  const Vec6<S> first = motion::inverse_adjoint_transpose_times(H, f);
-  for (int k = 0; k < 6; ++k) {
+/// Wrenches on both ports from that on the second.
+template <class G, class S>
+BOUGH_INLINE void put_relative_wrench(const typename G::template Pose<S>& H, const typename G::template Wrench<S>& f,
+                                      S* out) {
+  const typename G::template Vector<S> second = G::vector_of_wrench(f),
+                                       first = G::inverse_adjoint_transpose_times(H, second);
+  for (int k = 0; k < G::dof; ++k) {
     out[k] = -first[k];
-    out[6 + k] = f[k];
+    out[G::dof + k] = second[k];
   }
+}
+
+/// out: wrenches on the ports; rows: values of the constraints.
+template <class G, class S, class C>
+BOUGH_INLINE void eval_residual(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const Constant<S>* multipliers,
+                                const SurroundingsOn<G, S>& around, const C& turns, S* out, S* rows) {
+  const typename G::template Pose<S> H = G::relative(p[0].H, p[1].H);
+  auto f = G::wrench(G::template Vector<S>::zero());
+  typename G::template Wrench<S> gradient;
+  for (int k = 0; k < joint.num_rows; ++k) {
+    rows[k] = eval_row<G, S, C>(joint.rows[k], H, turns, around.laws, gradient);
+    f = G::add(f, multipliers[k], gradient);
+  }
+  add_efforts<G, S, C>(joint, H, p, around, turns, f);
+  put_relative_wrench<G, S>(H, f, out);
 }
 
 /// Strain energy of the efforts' springs [J].
-template <class S, class C>
-S eval_strain_energy(const JointOf<C>& joint, const PortMotion<S>* p, const C& turns) {
-  const Frame<S> H = motion::relative(p[0].H, p[1].H);
-  Vec6<S> gradient;
+template <class G, class S, class C>
+S eval_strain_energy(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const C& turns) {
+  const typename G::template Pose<S> H = G::relative(p[0].H, p[1].H);
+  typename G::template Wrench<S> gradient;
   S sum(0.0);
   for (int k = 0; k < joint.num_efforts; ++k) {
-    const S stretch = eval_coordinate(joint.efforts[k].coordinate, H, turns, gradient) - joint.efforts[k].rest;
+    const S stretch = eval_coordinate<G, S, C>(joint.efforts[k], H, turns, gradient) - joint.efforts[k].rest;
     sum = sum + 0.5 * joint.efforts[k].stiffness * stretch * stretch;
   }
   return sum;

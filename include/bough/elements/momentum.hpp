@@ -12,175 +12,161 @@ namespace bough::elements {
 /// motion has any of it. For linear elasticity tau = (beta - 1/4) h^2 makes the midpoint rule that of Newmark
 /// with beta (Kane, Marsden, Ortiz, West 2000). Surroundings of dynamics; accelerations are not looked at.
 /// Here: elements without inertia, whose force is their residual.
-template <class E, class S>
-void eval_momentum(const E& e, const PortMotion<S>* p, const Surroundings<S>& around, double /*elastic_inertia*/,
-                   S* momentum, S* force) {
-  for (int k = 0; k < 6 * E::num_ports; ++k) momentum[k] = S(0.0);
-  if (force != nullptr) eval_residual(e, p, static_cast<const S*>(nullptr), around, force);
+template <class E, class G, class S>
+void eval_momentum(const E& e, const PortMotionOn<G, S>* p, const SurroundingsOn<G, S>& around,
+                   double /*elastic_inertia*/, S* momentum, S* force) {
+  for (int k = 0; k < G::dof * E::num_ports; ++k) momentum[k] = S(0.0);
+  if (force != nullptr) eval_residual(e, p, around, force);
 }
 
 /// The efforts of a joint; its constraints are the integrator's (evaluate_rows).
-template <class S, class C>
-void eval_momentum(const JointOf<C>& joint, const PortMotion<S>* p, const Surroundings<S>& around, double turns,
-                   S* momentum, S* force) {
-  for (int k = 0; k < 12; ++k) momentum[k] = S(0.0);
+template <class G, class S, class C>
+void eval_momentum(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const SurroundingsOn<G, S>& around,
+                   double turns, S* momentum, S* force) {
+  for (int k = 0; k < 2 * G::dof; ++k) momentum[k] = S(0.0);
   if (force == nullptr) return;
-  const Frame<S> H = motion::relative(p[0].H, p[1].H);
-  Vec6<S> f = Vec6<S>::zero();
-  add_efforts(joint, H, p, around, C(turns), f);
-  const Vec6<S> first = motion::inverse_adjoint_transpose_times(H, f);
-  for (int k = 0; k < 6; ++k) {
-    force[k] = -first[k];
-    force[6 + k] = f[k];
-  }
+  const typename G::template Pose<S> H = G::relative(p[0].H, p[1].H);
+  auto f = G::wrench(G::template Vector<S>::zero());
+  add_efforts<G, S, C>(joint, H, p, around, C(turns), f);
+  put_relative_wrench<G, S>(H, f, force);
 }
 
 /// P = M v, F = -M (R^T g; 0).
-template <class S, class C>
-void eval_momentum(const RigidBodyOf<C>& body, const PortMotion<S>* p, const Surroundings<S>& around,
+template <class G, class S, class C>
+void eval_momentum(const RigidBodyOn<G, C>& body, const PortMotionOn<G, S>* p, const SurroundingsOn<G, S>& around,
                    double /*elastic_inertia*/, S* momentum, S* force) {
-  const Vec6<S> P = body.mass * p[0].v;
-  for (int k = 0; k < 6; ++k) momentum[k] = P[k];
+  G::put(G::matrix_times(body.mass, G::motion(p[0].v)), momentum);
   if (force == nullptr) return;
-  const Vec3<S> weight = lanes::transpose_times(p[0].H.R, around.gravity);
-  const Vec6<S> F = body.mass * lanes::join<S>(-weight, Vec3<S>::zero());
-  for (int k = 0; k < 6; ++k) force[k] = F[k];
+  const typename G::template Translation<S> lift = -G::turned_back(p[0].H, around.gravity);
+  G::put(G::matrix_times(body.mass, G::translation(lift)), force);
 }
 
 /// Momenta of relative motions d_i = log(H_r^-1 H_i) and of the twists that they blend (see BeamRates).
-template <class S, int N>
+template <class G, class S, int N>
 struct RateMomenta {
-  DualVec<S> by_rate[N];  ///< dL/d(d_i')
-  DualVec<S> by_z[N];     ///< dL/dz_i at fixed d_i', v_r
-  DualVec<S> by_r;        ///< dL/dv_r at fixed d_i', z_i
-  RateMomenta() : by_r(DualVec<S>::zero()) {
-    for (int i = 0; i < N; ++i) by_rate[i] = by_z[i] = DualVec<S>::zero();
+  using Wrench = typename G::template Wrench<S>;
+  Wrench by_rate[N];  ///< dL/d(d_i')
+  Wrench by_z[N];     ///< dL/dz_i at fixed d_i', v_r
+  Wrench by_r;        ///< dL/dv_r at fixed d_i', z_i
+  RateMomenta() : by_r(G::wrench(G::template Vector<S>::zero())) {
+    for (int i = 0; i < N; ++i) by_rate[i] = by_z[i] = by_r;
   }
 };
 
 /// Momenta of the ports,  P_i = U_i^T (by_z_i + by_rate_i),  P_r = by_r + sum_i ad(d_i)^T by_rate_i - sum_i P_i,  and what z_i = U_i(d_i) (v_i - v_r),
 /// d_i' = z_i + ad(d_i) v_r do at fixed twists to the forces p_i conjugate to d_i (if any):
 ///   p_i -= J_i^T (by_z_i + by_rate_i) - ad(v_r)^T by_rate_i,   J_i = d(U_i (v_i - v_r))/dd_i.
-template <class S, int N>
-void eval_port_momenta(const BeamRates<S, N>& b, const RateMomenta<S, N>& m, S* momentum, DualVec<S>* p) {
-  DualVec<S> q[N], sum = m.by_r;
+template <class G, class S, int N>
+void eval_port_momenta(const BeamRates<G, S, N>& b, const RateMomenta<G, S, N>& m, S* momentum,
+                       typename G::template Wrench<S>* p) {
+  typename G::template Wrench<S> q[N], sum = m.by_r;
   for (int i = 0; i < N; ++i) {
-    if (i == Beam<N>::reference) continue;
+    if (i == beam_reference<N>) continue;
     q[i] = m.by_z[i] + m.by_rate[i];
-    sum = add_cross(sum, m.by_rate[i], b.d[i]);
-    if (p != nullptr) p[i] = add_cross(p[i], m.by_rate[i], b.v) - transpose_times(jacobian(b.inverse[i], b.w[i]), q[i]);
+    sum = G::add_dual_bracket(sum, b.d[i], m.by_rate[i]);
+    if (p != nullptr)
+      p[i] = G::add_dual_bracket(p[i], b.v, m.by_rate[i]) - G::transpose_times(jacobian(b.inverse[i], b.w[i]), q[i]);
   }
-  eval_nodal_wrenches<S, N>(b, q, sum, momentum);
-}
-
-/// Forces on the ports from those conjugate to d_i alone: together they bear sum_i ad(d_i)^T p_i.
-template <class S, int N>
-DualVec<S> sum_relative_forces(const BeamRates<S, N>& b, const DualVec<S>* p) {
-  DualVec<S> sum = DualVec<S>::zero();
-  for (int i = 0; i < N; ++i)
-    if (i != Beam<N>::reference) sum = add_cross(sum, p[i], b.d[i]);
-  return sum;
+  eval_nodal_wrenches<G, S, N>(b, q, sum, momentum);
 }
 
 /// With the elastic inertia's momentum tau K d', d = log(H_a^-1 H_b).
-template <class S, class C>
-void eval_momentum(const BushingOf<C>& bushing, const PortMotion<S>* ports, const Surroundings<S>& around,
+template <class G, class S, class C>
+void eval_momentum(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* ports, const SurroundingsOn<G, S>& around,
                    double elastic_inertia, S* momentum, S* force) {
-  BeamRates<S, 2> b;
-  eval_beam_rates<S, 2>(ports, around, false, true, b);
-  RateMomenta<S, 2> m;
-  m.by_rate[1] = motion::wrench_dual(Vec6<S>(elastic_inertia * (bushing.stiffness * motion::motion_vector(b.rate[1]))));
-  DualVec<S> p[2] = {DualVec<S>::zero(), DualVec<S>::zero()};
-  eval_port_momenta<S, 2>(b, m, momentum, p);
+  BeamRates<G, S, 2> b;
+  eval_beam_rates<G, S, 2>(ports, around, false, true, b);
+  RateMomenta<G, S, 2> m;
+  m.by_rate[1] = G::scaled(elastic_inertia, G::matrix_times(bushing.stiffness, b.rate[1]));
+  const auto zero = G::wrench(G::template Vector<S>::zero());
+  typename G::template Wrench<S> p[2] = {zero, zero};
+  eval_port_momenta<G, S, 2>(b, m, momentum, p);
   if (force == nullptr) return;
-  S inertial[12];
-  eval_nodal_wrenches<S, 2>(b, p, sum_relative_forces<S, 2>(b, p), inertial);
-  eval_residual(bushing, ports, static_cast<const S*>(nullptr), around, force);
-  for (int k = 0; k < 12; ++k) force[k] = force[k] + inertial[k];
+  S inertial[2 * G::dof];
+  eval_nodal_wrenches<G, S, 2>(b, p, sum_relative_forces<G, S, 2>(b, p), inertial);
+  eval_residual(bushing, ports, around, force);
+  for (int k = 0; k < 2 * G::dof; ++k) force[k] = force[k] + inertial[k];
 }
 
 /// The elastic inertia tau/2 e'^T C e' of the strain rates e' = (T y' + A d')/L, y = dd/ds, A = d(T y)/dd: momenta by d_i', and, with
 /// m = tau w C e', what it does to the forces p_i (if any):
 ///   by_rate_i += N_i' T^T m + N_i A^T m,   p_i -= (N_i d(T y' + T' y)/dd + N_i' T')^T m,   T' the derivative of T along d'.
-template <class S, int N, class C>
-void add_elastic_momentum(const Beam<N, C>& beam, const BeamRates<S, N>& b, double elastic_inertia, DualVec<S>* by_rate,
-                          DualVec<S>* p) {
-  constexpr int r = Beam<N>::reference;
+template <class G, class S, int N, class C>
+void add_elastic_momentum(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>& b, double elastic_inertia,
+                          typename G::template Wrench<S>* by_rate, typename G::template Wrench<S>* p) {
+  constexpr int r = beam_reference<N>;
   const C inverse = 1.0 / beam.length;
   if constexpr (N == 2) {
-    const Vec6<S> m = beam.stiffness * motion::motion_vector(b.rate[1]);
-    by_rate[1] = add_scaled(by_rate[1], elastic_inertia * inverse, motion::wrench_dual(m));
+    by_rate[1] = G::add(by_rate[1], elastic_inertia * inverse, G::matrix_times(beam.stiffness, b.rate[1]));
   } else {
     const auto& rule = strain_rule<N>();
-    for (int g = 0; g < Beam<N>::num_strain_points; ++g) {
+    for (int g = 0; g < N - 1; ++g) {
       const double *shape = rule.shape[g], *slope = rule.slope[g];
-      const DualVec<S> y = blend<S, N>(slope, b.d), d1 = blend<S, N>(shape, b.rate), y1 = blend<S, N>(slope, b.rate);
-      const DualSeries<S> T = motion::dual_tangent(blend<S, N>(shape, b.d));
-      const DualMat<S> A = jacobian(T, y);
-      const Vec6<S> strain_rate = inverse * motion::motion_vector(times(T, y1) + times(A, d1));
-      const DualVec<S> m =
-          motion::wrench_dual(Vec6<S>((elastic_inertia * rule.weight[g]) * (beam.stiffness * strain_rate)));
-      const DualVec<S> by_slope = transpose_times(T, m), by_shape = transpose_times(A, m);
+      const auto y = blend<G, S, N>(slope, b.d), d1 = blend<G, S, N>(shape, b.rate), y1 = blend<G, S, N>(slope, b.rate);
+      const auto T = motion::eval_tangent_operator<G, S>(blend<G, S, N>(shape, b.d));
+      const auto A = jacobian(T, y);
+      const auto rate = G::scaled(inverse, G::add(times(T, y1), 1.0, G::times(A, d1)));
+      const auto m = G::scaled(elastic_inertia * rule.weight[g], G::matrix_times(beam.stiffness, rate));
+      const auto by_slope = transpose_times(T, m), by_shape = G::transpose_times(A, m);
       for (int i = 0; i < N; ++i)
-        if (i != r) by_rate[i] = add_scaled(add_scaled(by_rate[i], slope[i], by_slope), shape[i], by_shape);
+        if (i != r) by_rate[i] = G::add(G::add(by_rate[i], slope[i], by_slope), shape[i], by_shape);
       if (p == nullptr) continue;
-      const DualVec<S> from_d = transpose_times(jacobian(T, y1) + second_jacobian(T, d1, y), m),
-                       from_y = transpose_times(slope_matrix(T, d1), m);
+      const auto from_d = G::transpose_times(G::plus(jacobian(T, y1), second_jacobian(T, d1, y)), m),
+                 from_y = G::transpose_times(slope_matrix(T, d1), m);
       for (int i = 0; i < N; ++i)
-        if (i != r) p[i] = add_scaled(add_scaled(p[i], -shape[i], from_d), -slope[i], from_y);
+        if (i != r) p[i] = G::add(G::add(p[i], -shape[i], from_d), -slope[i], from_y);
     }
   }
 }
 
 /// With pi = w L m v at a mass point, v = v_r + T z:  by_z_i = sum N_i T^T pi,  by_r = sum pi,  dK/dd_i = sum N_i (d(T z)/dd)^T pi. The weight
 /// acts on the section's own virtual motions, as in the residual.
-template <class S, int N, class C>
-void eval_momentum(const Beam<N, C>& beam, const PortMotion<S>* ports, const Surroundings<S>& around,
+template <class G, class S, int N, class C>
+void eval_momentum(const BeamOn<G, N, C>& beam, const PortMotionOn<G, S>* ports, const SurroundingsOn<G, S>& around,
                    double elastic_inertia, S* momentum, S* force) {
-  constexpr int r = Beam<N>::reference;
-  BeamRates<S, N> b;
-  eval_beam_rates<S, N>(ports, around, false, true, b);
-  RateMomenta<S, N> m;
-  DualVec<S> p[N], pull[N], pulls = DualVec<S>::zero();
-  for (int i = 0; i < N; ++i) p[i] = pull[i] = DualVec<S>::zero();
-  if (force != nullptr) eval_internal_forces<S, N>(beam, b, beam.has_damping, p);
+  using Wrench = typename G::template Wrench<S>;
+  constexpr int r = beam_reference<N>;
+  BeamRates<G, S, N> b;
+  eval_beam_rates<G, S, N>(ports, around, false, true, b);
+  RateMomenta<G, S, N> m;
+  Wrench p[N], pull[N], pulls = G::wrench(G::template Vector<S>::zero());
+  for (int i = 0; i < N; ++i) p[i] = pull[i] = pulls;
+  if (force != nullptr) eval_internal_forces<G, S, N, C>(beam, b, beam.has_damping, p);
   if (elastic_inertia != 0.0)
-    add_elastic_momentum<S, N>(beam, b, elastic_inertia, m.by_rate, force != nullptr ? p : nullptr);
+    add_elastic_momentum<G, S, N, C>(beam, b, elastic_inertia, m.by_rate, force != nullptr ? p : nullptr);
   if (beam.has_mass) {
     const auto& rule = mass_rule<N>();
-    Surroundings<S> at_rest = around;
+    SurroundingsOn<G, S> at_rest = around;
     at_rest.has_inertia = false;
-    DualVec<S> z[N], weight = eval_weighed_acceleration(ports[r], at_rest);
+    typename G::template Motion<S> z[N], weight = eval_weighed_acceleration(ports[r], at_rest);
     for (int i = 0; i < N && force != nullptr; ++i)
       if (i != r) z[i] = times(b.inverse[i], eval_weighed_acceleration(ports[i], at_rest) - weight);
-    for (int g = 0; g < Beam<N>::num_mass_points; ++g) {
+    for (int g = 0; g < N; ++g) {
       const double* shape = rule.shape[g];
       const C w = rule.weight[g] * beam.length;
-      const DualSeries<S> T = motion::dual_tangent(blend<S, N>(shape, b.d));
-      const DualVec<S> z_g = blend<S, N>(shape, b.z), v = b.v + times(T, z_g);
-      const DualVec<S> pi = motion::wrench_dual(Vec6<S>(w * (beam.mass * motion::motion_vector(v))));
-      const DualVec<S> by_z = transpose_times(T, pi);
+      const auto T = motion::eval_tangent_operator<G, S>(blend<G, S, N>(shape, b.d));
+      const auto z_g = blend<G, S, N>(shape, b.z), v = b.v + times(T, z_g);
+      const Wrench pi = G::scaled(w, G::matrix_times(beam.mass, v)), by_z = transpose_times(T, pi);
       for (int i = 0; i < N; ++i)
-        if (i != r) m.by_z[i] = add_scaled(m.by_z[i], shape[i], by_z);
+        if (i != r) m.by_z[i] = G::add(m.by_z[i], shape[i], by_z);
       m.by_r = m.by_r + pi;
       if (force == nullptr) continue;
-      const DualVec<S> by_d = transpose_times(jacobian(T, z_g), pi);
-      const DualVec<S> fall = weight + times(T, blend<S, N>(shape, z));
-      const DualVec<S> f = motion::wrench_dual(Vec6<S>(w * (beam.mass * motion::motion_vector(fall))));
-      const DualVec<S> q = transpose_times(T, f);
+      const Wrench by_d = G::transpose_times(jacobian(T, z_g), pi);
+      const auto fall = weight + times(T, blend<G, S, N>(shape, z));
+      const Wrench f = G::scaled(w, G::matrix_times(beam.mass, fall)), q = transpose_times(T, f);
       for (int i = 0; i < N; ++i) {
         if (i == r) continue;
-        p[i] = add_scaled(p[i], -shape[i], by_d);
-        pull[i] = add_scaled(pull[i], shape[i], q);
+        p[i] = G::add(p[i], -shape[i], by_d);
+        pull[i] = G::add(pull[i], shape[i], q);
       }
       pulls = pulls + f;
     }
   }
-  eval_port_momenta<S, N>(b, m, momentum, force != nullptr ? p : nullptr);
+  eval_port_momenta<G, S, N>(b, m, momentum, force != nullptr ? p : nullptr);
   if (force == nullptr) return;
-  const DualVec<S> sum = pulls + sum_relative_forces<S, N>(b, p);
+  const Wrench sum = pulls + sum_relative_forces<G, S, N>(b, p);
   for (int i = 0; i < N; ++i) p[i] = p[i] + pull[i];
-  eval_nodal_wrenches<S, N>(b, p, sum, force);
+  eval_nodal_wrenches<G, S, N>(b, p, sum, force);
 }
 
 /// The step of the midpoint rule on the group, H_{n+1} = H_n exp(D), with P and F at the pose H_n exp(D/2) and the twist D/h: momenta at

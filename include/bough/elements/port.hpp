@@ -2,8 +2,8 @@
 /// Where an element meets the structure, and what it sees there.
 #include <cstdint>
 
+#include "bough/lanes/jet.hpp"
 #include "bough/motion/group.hpp"
-#include "bough/motion/se3.hpp"
 
 namespace bough::elements {
 
@@ -20,14 +20,16 @@ constexpr int ground = -1;  ///< node index of what is fixed in space
 /// A frame fixed to a node, at `offset` in the node's axes; node == ground: `offset` is the pose in the ground, or in the frame of prescribed
 /// motion that stands for it there.
 /// Constants of elements are numbers C: double, or a pack that holds those of several elements, one to a lane.
-template <class C>
-struct PortOf {
+template <class G, class C>
+struct PortOn {
   int node = ground;
   bool has_offset = false;  ///< false: the offset is the identity and is not applied
-  Frame<C> offset = Frame<C>::identity();
+  typename G::template Pose<C> offset = G::template Pose<C>::identity();
   int carrier =
       -1;  ///< node == ground: index of a frame in Field::carriers, the same in all lanes; -1: the ground itself
 };
+template <class C>
+using PortOf = PortOn<motion::Se3, C>;
 using Port = PortOf<double>;
 
 /// Whether a constant is worth its terms: in packs if it is to one lane, to the others a zero times something finite adds nothing.
@@ -47,15 +49,16 @@ struct CarrierMotionOf {
 };
 using CarrierMotion = CarrierMotionOf<double>;
 
-/// Motion of a port's frame as a kernel sees it.
+/// Motion of a port's frame as a kernel sees it, on the group G.
 ///   H: pose, its position relative to the element's anchor (differences keep their digits far from the origin) [m]
 ///   v: twist (linear; angular) in the port's own axes [m/s, rad/s];  a: its time derivative, component by component.
-template <class S>
-struct PortMotion {
-  Frame<S> H;
-  Vec6<S> v;
-  Vec6<S> a;
+template <class G, class S>
+struct PortMotionOn {
+  typename G::template Pose<S> H;
+  typename G::template Vector<S> v, a;
 };
+template <class S>
+using PortMotion = PortMotionOn<motion::Se3, S>;
 
 /// Motion seen from the inertial frame, of a port whose motion p is known in a frame that moves with twist V (own axes) itself:
 ///   v + c,  a + Ad(H^-1) V' - ad(v) c,  c = Ad(H^-1) V                    (the middle of ad(v) c is the Coriolis term)
@@ -69,14 +72,36 @@ void add_observer_motion(PortMotion<S>& p, const Vec3<S>& anchor, const Vec6<S>&
   p.v += carried;
 }
 
-/// What all elements share at one instant.
+/// Scalar of what an element's forces are not differentiated by: its constants, the laws, multipliers.
 template <class S>
-struct Surroundings {
-  Vec3<S> gravity;   ///< acceleration in inertial axes [m/s^2]
-  const S* laws;     ///< value of each time function
-  bool has_inertia;  ///< false in statics: velocities and accelerations are not looked at
+struct ConstantOf {
+  using Type = S;
+};
+template <class S, int N>
+struct ConstantOf<lanes::Jet<S, N>> {
+  using Type = S;
+};
+template <class S>
+using Constant = typename ConstantOf<S>::Type;
+
+/// What all elements share at one instant.
+template <class G, class S>
+struct SurroundingsOn {
+  typename G::template Translation<S> gravity;  ///< acceleration in inertial axes [m/s^2]
+  const Constant<S>* laws = nullptr;            ///< value of each time function
+  bool has_inertia = true;                      ///< false in statics: velocities and accelerations are not looked at
   bool nodes_turn =
       true;  ///< false: only origins of nodes move and only they feel forces, so bodies are points without gyroscopic forces
+};
+template <class S>
+using Surroundings = SurroundingsOn<motion::Se3, S>;
+
+/// How a port's motion follows its increment eta: H <- H exp(eta) if `moves`, dv = velocity eta, da = acceleration eta.
+/// `moves` is the same for all ports of an element; the columns of ports on the ground are dropped afterwards.
+template <class G, class S>
+struct PortSlopesOn {
+  bool moves = true;
+  typename G::template Map<S> velocity, acceleration;
 };
 
 /// Energies [J], power [W] and momentum of one element, for the balances of a run.

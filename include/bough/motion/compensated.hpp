@@ -15,15 +15,16 @@ void two_sum(const S& a, const S& b, S& s, S& e) {
 }
 
 /// A position hi + lo [m], |lo| at most half an ulp of hi.
-template <class S>
+template <class S, int N = 3>
 struct PositionPair {
-  Vec3<S> hi, lo;
+  using Vector = lanes::Vec<S, N>;
+  Vector hi, lo;
 
-  static PositionPair from(const Vec3<S>& x) { return {x, Vec3<S>::zero()}; }
-  Vec3<S> rounded() const { return hi; }
+  static PositionPair from(const Vector& x) { return {x, Vector::zero()}; }
+  Vector rounded() const { return hi; }
   /// Adds a displacement, in the same axes.
-  void add(const Vec3<S>& step) {
-    for (int i = 0; i < 3; ++i) {
+  void add(const Vector& step) {
+    for (int i = 0; i < N; ++i) {
       S s, e;
       two_sum(hi[i], step[i], s, e);
       two_sum(s, S(lo[i] + e), hi[i], lo[i]);
@@ -33,10 +34,10 @@ struct PositionPair {
 using Vec3Pair = PositionPair<double>;
 
 /// a - b rounded once.
-template <class S>
-Vec3<S> difference(const PositionPair<S>& a, const PositionPair<S>& b) {
-  Vec3<S> r;
-  for (int i = 0; i < 3; ++i) {
+template <class S, int N>
+lanes::Vec<S, N> difference(const PositionPair<S, N>& a, const PositionPair<S, N>& b) {
+  lanes::Vec<S, N> r;
+  for (int i = 0; i < N; ++i) {
     S s, e;
     two_sum(a.hi[i], S(-b.hi[i]), s, e);
     r[i] = s + (e + (a.lo[i] - b.lo[i]));

@@ -20,6 +20,7 @@ template <class S>
 struct DualMat {
   Mat3<S> a, b;
   static DualMat zero() { return {Mat3<S>::zero(), Mat3<S>::zero()}; }
+  static DualMat identity() { return {Mat3<S>::identity(), Mat3<S>::zero()}; }
 };
 
 /// Motion vectors (linear; angular), wrenches (force; moment), and back.

@@ -132,8 +132,7 @@ BOUGH_INLINE typename G::template Motion<S> times(const F<G, S>& f, const typena
 }
 /// f^T n
 template <template <class, class> class F, class G, class S>
-BOUGH_INLINE typename G::template Wrench<S> transpose_times(const F<G, S>& f,
-                                                            const typename G::template Wrench<S>& n) {
+BOUGH_INLINE typename G::template Wrench<S> transpose_times(const F<G, S>& f, const typename G::template Wrench<S>& n) {
   const auto w = G::dual_bracket(f.d, n);
   return G::add_dual_bracket(detail::add_odd_part(n, f, w), f.d, G::times(f.q, w));
 }
@@ -176,9 +175,8 @@ BOUGH_INLINE typename G::template BracketMap<S> jacobian(const F<G, S>& f, const
 }
 /// d(f'[e] y)/dd.
 template <template <class, class> class F, class G, class S>
-BOUGH_INLINE typename G::template BracketMap<S> second_jacobian(const F<G, S>& f,
-                                                                const typename G::template Motion<S>& e,
-                                                                const typename G::template Motion<S>& y) {
+typename G::template BracketMap<S> second_jacobian(const F<G, S>& f, const typename G::template Motion<S>& e,
+                                                   const typename G::template Motion<S>& y) {
   const auto s = G::twice(G::pairing(f.d, e));
   const auto s_dq = s * f.dq;
   const auto w1 = G::bracket(f.d, y), w2 = G::bracket(f.d, w1), ey = G::bracket(e, y);
@@ -193,8 +191,7 @@ BOUGH_INLINE typename G::template BracketMap<S> second_jacobian(const F<G, S>& f
 }
 /// d(f^T n)/dd.
 template <template <class, class> class F, class G, class S>
-BOUGH_INLINE typename G::template WrenchMap<S> transpose_jacobian(const F<G, S>& f,
-                                                                  const typename G::template Wrench<S>& n) {
+typename G::template WrenchMap<S> transpose_jacobian(const F<G, S>& f, const typename G::template Wrench<S>& n) {
   const auto n1 = G::dual_bracket(f.d, n), n2 = G::dual_bracket(f.d, n1);
   auto m = G::hat(G::add(detail::odd_part(f, n), f.q, n1));
   G::add_dual_second(m, detail::doubled(detail::slopes_of(f, n1, n2)), f.d, G::times(f.q, n));
@@ -202,8 +199,8 @@ BOUGH_INLINE typename G::template WrenchMap<S> transpose_jacobian(const F<G, S>&
 }
 /// d^2(n . T y)/dd^2, symmetric. With k = -ad(y)^T n and g = -ad(D y)^T n - ad(y)^T D^T n, the derivatives of n . D y and n . D^2 y.
 template <class G, class S>
-BOUGH_INLINE typename G::template WrenchMap<S> hessian(const Tangent<G, S>& f, const typename G::template Wrench<S>& n,
-                                                       const typename G::template Motion<S>& y) {
+typename G::template WrenchMap<S> hessian(const Tangent<G, S>& f, const typename G::template Wrench<S>& n,
+                                          const typename G::template Motion<S>& y) {
   const auto w = G::bracket(f.d, y);
   const auto n1 = G::dual_bracket(f.d, n), k = -G::dual_bracket(y, n);
   const auto g = G::subtract_dual_bracket(-G::dual_bracket(w, n), y, n1);
@@ -217,3 +214,5 @@ BOUGH_INLINE typename G::template WrenchMap<S> hessian(const Tangent<G, S>& f, c
 }
 
 }  // namespace bough::motion
+
+#include "bough/motion/operators_se2.hpp"  // their form on SE(2), which takes the place of the above there

@@ -1,25 +1,12 @@
-#include "lanes_impl.hpp"
+#include "../lanes_impl.hpp"
+#include "bough/elements/planar/evaluate.hpp"
 
-namespace bough::elements::planar {
+namespace bough::elements {
 
-int list_laws(const Joint& e, int* laws) {
-  int n = 0;
-  for (int k = 0; k < e.num_rows; ++k)
-    if (e.rows[k].law >= 0) laws[n++] = e.rows[k].law;
-  for (int k = 0; k < e.num_efforts; ++k)
-    if (e.efforts[k].effort.law >= 0) laws[n++] = e.efforts[k].effort.law;
-  return n;
-}
+BOUGH_INSTANTIATE_PLANAR(planar::RigidBody)
+BOUGH_INSTANTIATE_PLANAR(planar::PointLoad)
+BOUGH_INSTANTIATE_PLANAR(planar::Spring)
+BOUGH_INSTANTIATE_PLANAR(planar::Bushing)
+BOUGH_INSTANTIATE_PLANAR(planar::Joint)
 
-int list_laws(const PointLoad& e, int* laws) {
-  laws[0] = e.law;
-  return 1;
-}
-
-BOUGH_INSTANTIATE_PLANAR(RigidBody)
-BOUGH_INSTANTIATE_PLANAR(PointLoad)
-BOUGH_INSTANTIATE_PLANAR(Spring)
-BOUGH_INSTANTIATE_PLANAR(Bushing)
-BOUGH_INSTANTIATE_PLANAR(Joint)
-
-}  // namespace bough::elements::planar
+}  // namespace bough::elements

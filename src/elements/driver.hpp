@@ -1,0 +1,187 @@
+#pragma once
+/// From nodes to ports, and from what elements say at their ports to the unknowns of nodes: once for all groups and elements. Internal.
+#include "beam_tangent.hpp"
+#include "body_tangent.hpp"
+#include "bough/elements/evaluate.hpp"
+#include "joint_tangent.hpp"
+
+namespace bough::elements {
+
+/// How the ports of an element follow the unknowns of their nodes.
+template <class E, class G, class S>
+void eval_port_slopes(const E& e, const FieldOn<G, S>& field, PortSlopesOn<G, S>* ports) {
+  using Map = typename G::template Map<S>;
+  const bool has_rates = field.around.has_inertia && looks_at_rates(e);
+  for (int k = 0; k < E::num_ports; ++k) {
+    const PortOn<G, S>& port = e.ports[k];
+    ports[k].moves = !field.slopes.mass_only;
+    if (port.node == ground || !has_rates || field.slopes.mass_only) {
+      ports[k].velocity = ports[k].acceleration = Map::zero();
+      if (port.node != ground && has_rates) ports[k].acceleration = Map::identity();
+      continue;
+    }
+    typename G::template Vector<S> dq = field.nodes[port.node].dq;
+    if (port.has_offset) dq = G::inverse_adjoint_times(port.offset, dq);
+    const Map inverse = matrix(motion::eval_inverse_tangent_operator<G, S>(G::motion(dq)));
+    ports[k].velocity = G::scaled(field.slopes.velocity, inverse);
+    ports[k].acceleration = G::scaled(field.slopes.acceleration, inverse);
+  }
+}
+
+/// Motions of an element with mass as seen from the inertial frame, where nodes are described in a frame that moves; and with
+/// slopes how they follow the port's increment eta, since Ad((H exp(eta))^-1) V = c + ad(c) eta:
+///   dv_s = dv + ad(c) eta,   da_s = da + ad(c) dv + (ad(Ad(H^-1) V') - ad(v) ad(c)) eta
+/// All of these are operators on motions, as the kernels take them.
+template <class E, class S>
+BOUGH_INLINE void see_from_inertial(const E&, const FieldOf<S>& field, const motion::PositionPair<S>& anchor,
+                                    PortMotion<S>* p, PortSlopesOn<motion::Se3, S>* slopes) {
+  if constexpr (has_mass_matrix<E>) {
+    if (field.observer == nullptr || !field.around.has_inertia) return;
+    const CarrierMotionOf<S>& o = *field.observer;
+    const Vec3<S> from = anchor.hi + anchor.lo;
+    for (int k = 0; k < E::num_ports; ++k) {
+      if (slopes != nullptr && slopes[k].moves) {
+        const Frame<S> H{p[k].H.R, p[k].H.x + from};
+        const auto carried = motion::motion_dual(motion::inverse_adjoint_times(H, o.twist));
+        const auto rate = motion::motion_dual(motion::inverse_adjoint_times(H, o.twist_rate));
+        const auto by_twist = motion::skew(carried);
+        motion::DualMat<S>& acceleration = slopes[k].acceleration;
+        add_product(acceleration, by_twist, slopes[k].velocity);
+        acceleration = acceleration + motion::skew(rate) -
+                       motion::skew_product(motion::skew(motion::motion_dual(p[k].v)), carried);
+        slopes[k].velocity = slopes[k].velocity + by_twist;
+      }
+      add_observer_motion(p[k], from, o.twist, o.twist_rate);
+    }
+  }
+}
+/// Scenes in a plane have no frame that moves.
+template <class E, class S>
+BOUGH_INLINE void see_from_inertial(const E&, const FieldOn<motion::Se2, S>&, const motion::PositionPair<S, 2>&,
+                                    PortMotionOn<motion::Se2, S>*, PortSlopesOn<motion::Se2, S>*) {}
+
+// ---- nodes
+
+/// Where an element's ports stand among its unknowns: dof for each port off the ground, then its multipliers.
+template <class E>
+struct Places {
+  static constexpr int dof = E::Group::dof;
+  int of[E::num_ports];  ///< first unknown of the port's node; -1: on the ground
+  int forces = 0;        ///< unknowns of nodes
+  explicit Places(const E& e) {
+    for (int k = 0; k < E::num_ports; ++k) {
+      of[k] = e.ports[k].node == ground ? -1 : forces;
+      if (of[k] >= 0) forces += dof;
+    }
+  }
+};
+
+/// Wrenches at the ports, `out`, as those at the nodes:  F_node = Ad(offset)^-T F.
+template <class E, class S>
+BOUGH_INLINE void carry_wrenches(const E& e, const Places<E>& places, const S* out, S* residual) {
+  using G = typename E::Group;
+  for (int k = 0; k < E::num_ports; ++k) {
+    if (places.of[k] < 0) continue;
+    typename G::template Vector<S> f;
+    for (int i = 0; i < G::dof; ++i) f[i] = out[G::dof * k + i];
+    if (e.ports[k].has_offset) f = G::inverse_adjoint_transpose_times(e.ports[k].offset, f);
+    for (int i = 0; i < G::dof; ++i) residual[places.of[k] + i] = f[i];
+  }
+}
+
+/// Takes the blocks of a tangent by the ports' increments to the rows and columns of nodes:  K_node = J_i^T K J_j, J = Ad(offset^-1).
+template <class E, class S>
+class BlockWriter {
+  using G = typename E::Group;
+
+ public:
+  BlockWriter(const E& e, const Places<E>& places, int size, S* tangent)
+      : e_(e), places_(places), size_(size), tangent_(tangent) {}
+  template <class Block>
+  BOUGH_INLINE void operator()(int i, int j, const Block& block) const {
+    if (places_.of[i] < 0 || places_.of[j] < 0) return;
+    const bool left = e_.ports[i].has_offset, right = e_.ports[j].has_offset;
+    if (!left && !right) return write(places_.of[i], places_.of[j], block);
+    Block moved = block;
+    if (right) moved = G::block_product(moved, G::inverse_adjoint_map(e_.ports[j].offset));
+    if (left) moved = G::transposed_product(G::inverse_adjoint_map(e_.ports[i].offset), moved);
+    write(places_.of[i], places_.of[j], moved);
+  }
+
+ private:
+  template <class Block>
+  BOUGH_INLINE void write(int row, int column, const Block& block) const {
+    for (int k = 0; k < G::dof; ++k)
+      for (int l = 0; l < G::dof; ++l) tangent_[(row + k) * size_ + column + l] = block(k, l);
+  }
+  const E& e_;
+  const Places<E>& places_;
+  int size_;
+  S* tangent_;
+};
+
+/// Gradients of a joint's rows by the ports' increments, as rows and, since forces are G^T lambda, columns of the tangent.
+template <class E, class S>
+class RowWriter {
+  using G = typename E::Group;
+
+ public:
+  RowWriter(const E& e, const Places<E>& places, int size, S* tangent)
+      : e_(e), places_(places), size_(size), tangent_(tangent) {}
+  BOUGH_INLINE void operator()(int row, int port, typename G::template Vector<S> gradient) const {
+    if (places_.of[port] < 0) return;
+    if (e_.ports[port].has_offset) gradient = G::inverse_adjoint_transpose_times(e_.ports[port].offset, gradient);
+    const int at = places_.forces + row, to = places_.of[port];
+    for (int j = 0; j < G::dof; ++j) tangent_[at * size_ + to + j] = tangent_[(to + j) * size_ + at] = gradient[j];
+  }
+
+ private:
+  const E& e_;
+  const Places<E>& places_;
+  int size_;
+  S* tangent_;
+};
+
+/// The kernel of an element, with the values of its constraints where it has any.
+template <class E, class G, class S, class M, class C>
+BOUGH_INLINE void eval_kernel(const E& e, const PortMotionOn<G, S>* p, const M* multipliers,
+                              const SurroundingsOn<G, S>& around, const C& turns, S* out, S* rows) {
+  if constexpr (E::num_multipliers > 0)
+    eval_residual(e, p, multipliers, around, turns, out, rows);
+  else
+    eval_residual(e, p, around, out);
+}
+
+/// The driver of all elements, for doubles and for packs. S: scalar of the element's constants too.
+template <class E, class G, class S>
+void evaluate_element(const E& e, const FieldOn<G, S>& field, const S* multipliers, const S& turns, S* residual,
+                      S* tangent) {
+  constexpr int P = E::num_ports;
+  const auto anchor = anchor_of(e, field.nodes);
+  PortMotionOn<G, S> p[P];
+  for (int k = 0; k < P; ++k) p[k] = eval_port(e.ports[k], field.nodes, anchor, field.carriers);
+  const Places<E> places(e);
+  const int m = num_multipliers(e), size = places.forces + m;
+  S out[G::dof * P], rows[E::num_multipliers + 1];
+  if (tangent == nullptr) {
+    see_from_inertial(e, field, anchor, p, static_cast<PortSlopesOn<G, S>*>(nullptr));
+    eval_kernel(e, p, multipliers, field.around, turns, out, rows);
+  } else {
+    PortSlopesOn<G, S> slopes[P];
+    eval_port_slopes(e, field, slopes);
+    see_from_inertial(e, field, anchor, p, slopes);
+    const BlockWriter<E, S> put(e, places, size, tangent);
+    if constexpr (E::num_multipliers > 0) {
+      eval_tangent(e, p, slopes, multipliers, field.around, turns, out, rows, put,
+                   RowWriter<E, S>(e, places, size, tangent));
+      for (int i = places.forces; i < size; ++i)
+        for (int j = places.forces; j < size; ++j) tangent[i * size + j] = S(0.0);
+    } else {
+      eval_tangent(e, p, slopes, field.around, out, put);
+    }
+  }
+  carry_wrenches(e, places, out, residual);
+  for (int k = 0; k < m; ++k) residual[places.forces + k] = rows[k];
+}
+
+}  // namespace bough::elements

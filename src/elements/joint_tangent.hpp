@@ -1,0 +1,87 @@
+#pragma once
+/// Tangent of joints.
+#include "bough/elements/joint.hpp"
+#include "relative_force.hpp"
+
+namespace bough::elements {
+
+/// How the gradient of a coordinate follows the rotation: its force and its moment.
+template <class G, class S>
+struct GradientSlope {
+  bool has_force = false, has_moment = false;
+  typename G::template TurnSlope<S> force, moment;
+};
+template <class G, class S, class C>
+GradientSlope<G, S> eval_gradient_slope(RowKind kind, const typename G::template Direction<C>& direction,
+                                        const C& pitch, const typename G::template Pose<S>& H) {
+  GradientSlope<G, S> r;
+  if (kind == RowKind::along || kind == RowKind::screw) {
+    r.has_force = true;
+    r.force = G::seen_slope(G::seen(H, kind == RowKind::along ? direction : G::template Direction<C>::axial()));
+  }
+  if (kind == RowKind::across) {
+    r.has_moment = true;
+    r.moment = G::cosine_slope(direction, G::seen(H, direction));
+  }
+  if (kind == RowKind::angle || kind == RowKind::screw) {
+    r.has_moment = true;
+    r.moment = G::axial_slope(H, direction);
+    if (kind == RowKind::screw) r.moment = S(-pitch) * r.moment;
+  }
+  return r;
+}
+template <class G, class S>
+void add_gradient_slope(const S& factor, const GradientSlope<G, S>& r, RelativeForce<G, S>& e) {
+  if (r.has_force) G::add_force_slope(e.by_pose, factor, r.force);
+  if (r.has_moment) G::add_moment_slope(e.by_pose, factor, r.moment);
+}
+
+/// Of an effort along a coordinate with gradient g: stiffness k g g^T, damping c (g . xi) g, and the gradient's own change.
+template <class G, class S, class C>
+void add_effort_slopes(const EffortOn<G, C>& effort, const typename G::template Pose<S>& H,
+                       const typename G::template Motion<S>& xi, const SurroundingsOn<G, S>& around, const C& turns,
+                       RelativeForce<G, S>& e) {
+  typename G::template Wrench<S> g;
+  const S value = eval_coordinate<G, S, C>(effort, H, turns, g);
+  const RowKind kind = effort.coordinate == Coordinate::angle ? RowKind::angle : RowKind::along;
+  const auto slope = eval_gradient_slope<G, S, C>(kind, effort.direction, C(0.0), H);
+  const bool damps = e.has_twist && is_present(effort.damping);
+  S rate(0.0);
+  if (damps) rate = G::real_power(g, xi);
+  add_gradient_slope<G, S>(eval_effort<G, S, C>(effort, value, damps ? &rate : nullptr, around.laws), slope, e);
+  G::add_outer(e.by_pose, G::scaled(effort.stiffness, g), g);
+  if (!damps) return;
+  const auto damped = G::scaled(effort.damping, g);
+  if (slope.has_force) G::add_outer(e.by_pose, damped, G::moment(G::force_slope_transpose_times(slope.force, xi)));
+  if (slope.has_moment) G::add_outer(e.by_pose, damped, G::moment(G::moment_slope_transpose_times(slope.moment, xi)));
+  G::add_outer(e.by_twist, damped, g);
+}
+
+/// Blocks as put(i, j, block), gradients of the rows as put_row(row, port, gradient). With poses held (a consistent start) the forces do not
+/// change and the rows keep their gradient.
+template <class G, class S, class C, class Put, class PutRow>
+void eval_tangent(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const PortSlopesOn<G, S>* ports,
+                  const Constant<S>* multipliers, const SurroundingsOn<G, S>& around, const C& turns, S* residual,
+                  S* rows, const Put& put, const PutRow& put_row) {
+  eval_residual<G, S, C>(joint, p, multipliers, around, turns, residual, rows);
+  const typename G::template Pose<S> H = G::relative(p[0].H, p[1].H);
+  RelativeForce<G, S> e;
+  e.Q = G::inverse_adjoint_map(H);
+  e.f = wrench_at<G>(residual + G::dof);
+  for (int k = 0; k < joint.num_rows; ++k) {
+    const ConstraintRowOn<G, C>& row = joint.rows[k];
+    typename G::template Wrench<S> gradient;
+    eval_coordinate<G, S, C>(row.kind, row, row.pitch, H, turns, gradient);
+    put_row(k, 1, G::vector_of_wrench(gradient));
+    put_row(k, 0, -G::inverse_adjoint_transpose_times(H, G::vector_of_wrench(gradient)));
+    if (ports[0].moves)
+      add_gradient_slope<G, S>(multipliers[k], eval_gradient_slope<G, S, C>(row.kind, row, row.pitch, H), e);
+  }
+  e.has_twist = around.has_inertia && is_damped(joint);
+  typename G::template Motion<S> xi;
+  if (e.has_twist) xi = relative_twist<G, S>(H, p);
+  for (int k = 0; k < joint.num_efforts; ++k) add_effort_slopes<G, S, C>(joint.efforts[k], H, xi, around, turns, e);
+  carry_to_ports<G, S>(e, p, ports, put);
+}
+
+}  // namespace bough::elements
