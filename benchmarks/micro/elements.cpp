@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "bough/elements/evaluate_lanes.hpp"
-#include "bough/elements/planar/evaluate.hpp"
 
 namespace {
 
 using namespace bough::elements;
 using bough::motion::Vec3Pair;
+using Plane = bough::motion::Se2;
 
 /// An element between nodes 0 .. P - 1 in motion, bent and twisted.
 template <class E>
@@ -140,8 +140,8 @@ void lanes(benchmark::State& state, const E& element) {
 /// A planar beam between nodes in motion, bent.
 template <int N>
 struct PlanarCase {
-  planar::Beam<N> beam;
-  planar::Node nodes[N];
+  BeamOn<Plane, N> beam;
+  NodeMotionOn<Plane, double> nodes[N];
   explicit PlanarCase(bool is_damped) {
     beam.length = 0.25;
     beam.stiffness = plane_diagonal({{8.4e7, 2.7e7, 2.8e3}});
@@ -166,7 +166,7 @@ struct PlanarCase {
 template <int N>
 void planar_alone(benchmark::State& state, const PlanarCase<N>& c) {
   const bool with_tangent = state.range(1) != 0;
-  const planar::Field field{c.nodes, {{{0, -9.81}}, nullptr, state.range(0) != 0}, slopes};
+  const FieldOn<Plane, double> field{c.nodes, {{{0, -9.81}}, nullptr, state.range(0) != 0}, slopes};
   constexpr int n = 3 * N;
   double residual[n], magnitude[n], tangent[n * n];
   for (auto _ : state) {
@@ -181,17 +181,17 @@ void planar_alone(benchmark::State& state, const PlanarCase<N>& c) {
 template <int N>
 void planar_lanes(benchmark::State& state, const PlanarCase<N>& c) {
   const bool with_tangent = state.range(1) != 0;
-  const planar::Beam<N>* elements[1] = {&c.beam};
+  const BeamOn<Plane, N>* elements[1] = {&c.beam};
   int ports[N];
-  planar::NodeLanes nodes[N];
+  NodeMotionOn<Plane, LanePack> nodes[N];
   for (int k = 0; k < N; ++k) {
     ports[k] = k;
     const auto* from = reinterpret_cast<const double*>(&c.nodes[k]);
     auto* to = reinterpret_cast<LanePack*>(&nodes[k]);
-    for (int i = 0; i < planar::numbers_of_node; ++i) to[i] = LanePack(from[i]);
+    for (int i = 0; i < numbers_of_node<Plane>; ++i) to[i] = LanePack(from[i]);
   }
   const auto e = make_lane_element(elements, 1, ports, 0);
-  const planar::FieldLanes field{nodes, {{{0.0, -9.81}}, nullptr, state.range(0) != 0}, slopes};
+  const FieldOn<Plane, LanePack> field{nodes, {{{0.0, -9.81}}, nullptr, state.range(0) != 0}, slopes};
   constexpr int n = 3 * N;
   const LanePack turns(0.0);
   LanePack residual[n], magnitude[n], tangent[n * n];

@@ -13,8 +13,9 @@ using motion::Vec6;
 
 namespace {
 
-namespace flat = elements::planar;
 using elements::RowKind;
+using PlanarPort = elements::PortOn<motion::Se2, double>;
+using PlanarJoint = elements::JointOn<motion::Se2>;
 
 constexpr int kept[3] = {0, 1, 5};
 
@@ -40,77 +41,43 @@ Vec2<double> in_plane(const Vec3<double>& v, const Mat3<double>& B) {
   return motion::plane_part(lanes::transpose_times(B, v));
 }
 
+/// Data of an element in space as those of the same in the plane with axes B (those of dead loads: `inertial`).
+class Restriction {
+ public:
+  Restriction(const Mat3<double>& B, const Mat3<double>& inertial) : B_(B), inertial_(inertial) {}
+  void number(double x, double& y) const { y = x; }
+  void matrix(const Mat6<double>& x, Mat3<double>& y) const { y = in_plane(x, B_); }
+  void vector(const Vec6<double>& x, Vec3<double>& y) const { y = in_plane(x, B_); }
+  void wrench(const Vec6<double>& x, Vec3<double>& y, bool follows) const { y = in_plane(x, follows ? B_ : inertial_); }
+  void flag(bool x, bool& y) const { y = x; }
+  void law(int x, int& y) const { y = x; }
+
+ private:
+  const Mat3<double>&B_, &inertial_;
+};
+
 class Flattener {
  public:
   Flattener(const Builder& builder, const PlanarModel& model) : b_(builder), model_(model) {}
 
-  template <int N>
-  flat::Beam<N> operator()(const elements::Beam<N>& e) const {
-    const Mat3<double> B = section_axes(e.ports[0]);
-    flat::Beam<N> r;
-    set_ports(e.ports, B, r.ports);
-    r.length = e.length;
-    r.stiffness = in_plane(e.stiffness, B);
-    r.damping = in_plane(e.damping, B);
-    r.mass = in_plane(e.mass, B);
-    r.has_damping = e.has_damping;
-    r.has_mass = e.has_mass;
-    for (int g = 0; g < N - 1; ++g) r.reference_strain[g] = in_plane(e.reference_strain[g], B);
-    return r;
-  }
-  template <int N>
-  flat::LineLoad<N> operator()(const elements::LineLoad<N>& e) const {
-    const Mat3<double> B = section_axes(e.ports[0]);
-    flat::LineLoad<N> r;
-    set_ports(e.ports, B, r.ports);
-    r.length = e.length;
-    r.wrench = in_plane(e.wrench, e.follows ? B : model_.axes);
-    r.follows = e.follows;
-    r.law = e.law;
-    return r;
-  }
-  flat::RigidBody operator()(const elements::RigidBody& e) const {
-    const Mat3<double> B = axes_at(e.ports[0]);
-    flat::RigidBody r;
-    set_ports(e.ports, B, r.ports);
-    r.mass = in_plane(e.mass, B);
-    r.is_point = e.is_point;
-    return r;
-  }
-  flat::PointLoad operator()(const elements::PointLoad& e) const {
-    const Mat3<double> B = axes_at(e.ports[0]);
-    flat::PointLoad r;
-    set_ports(e.ports, B, r.ports);
-    r.wrench = in_plane(e.wrench, e.follows ? B : model_.axes);
-    r.follows = e.follows;
-    r.law = e.law;
-    return r;
-  }
-  flat::Spring operator()(const elements::Spring& e) const {
-    flat::Spring r;
-    for (int k = 0; k < 2; ++k) r.ports[k] = port(e.ports[k], axes_at(e.ports[k]));
-    r.stiffness = e.stiffness;
-    r.rest_length = e.rest_length;
-    r.damping = e.damping;
-    return r;
-  }
-  flat::Bushing operator()(const elements::Bushing& e) const {
-    const Mat3<double> B = axes_at(e.ports[0]);
-    flat::Bushing r;
-    set_ports(e.ports, B, r.ports);
-    r.stiffness = in_plane(e.stiffness, B);
-    r.damping = in_plane(e.damping, B);
-    r.rest = in_plane(e.rest, B);
-    r.has_damping = e.has_damping;
+  template <class R, class E>
+  R flattened(const E& e) const {
+    using elements::DataAxes;
+    const Mat3<double> B = E::data_axes == DataAxes::section ? section_axes(e.ports[0]) : axes_at(e.ports[0]);
+    R r;
+    for (int k = 0; k < E::num_ports; ++k)
+      r.ports[k] = port(e.ports[k], E::data_axes == DataAxes::none ? axes_at(e.ports[k]) : B);
+    const Restriction restriction(B, model_.axes);
+    E::visit_data(e, r, restriction);
     return r;
   }
   /// Both frames keep their own axis 1 where axis 3 is the normal: angles are those of the joint.
-  flat::Joint operator()(const elements::Joint& e, const std::vector<int>& rows) const {
+  PlanarJoint flattened(const elements::Joint& e, const std::vector<int>& rows) const {
     const Mat3<double> Ba = joint_axes(e.ports[0]), Bb = joint_axes(e.ports[1]);
     const Vec3<double> normal_a = lanes::column(Ba, 2);
     const auto unit = [](const Mat3<double>& B, int i) { return Vec2<double>{{B(i, 0), B(i, 1)}}; };
     const Vec2<double> sign{{normal_a[2] > 0.0 ? 1.0 : -1.0, 0.0}};
-    flat::Joint r;
+    PlanarJoint r;
     r.ports[0] = port(e.ports[0], Ba);
     r.ports[1] = port(e.ports[1], Bb);
     for (int row : rows) {
@@ -159,9 +126,9 @@ class Flattener {
     return std::abs(normal[2]) > 0.5 ? with_first(Vec3<double>::unit(0), normal) : B;
   }
   /// Frame of a port with axes B (in the port's own), as seen from its node's planar frame.
-  flat::Port port(const elements::Port& p, const Mat3<double>& B) const {
+  PlanarPort port(const elements::Port& p, const Mat3<double>& B) const {
     constexpr double round_off = 4e-16;
-    flat::Port r;
+    PlanarPort r;
     r.node = p.node;
     const bool on_ground = p.node == elements::ground;
     const Mat3<double> turned = (on_ground || p.has_offset ? p.offset.R : Mat3<double>::identity()) * B;
@@ -179,10 +146,6 @@ class Flattener {
     if (std::abs(at.R[1]) <= round_off && at.R[0] > 0.0) at.R = {{1.0, 0.0}};
     r.has_offset = at.R[1] != 0.0 || at.R[0] != 1.0 || at.x[0] != 0.0 || at.x[1] != 0.0;
     return r;
-  }
-  template <std::size_t P>
-  void set_ports(const elements::Port (&from)[P], const Mat3<double>& B, flat::Port (&to)[P]) const {
-    for (std::size_t k = 0; k < P; ++k) to[k] = port(from[k], B);
   }
 
   const Builder& b_;
@@ -202,9 +165,9 @@ void Builder::add_planar_elements(const Mat3<double>& axes) {
     const auto one = [&](const auto& from, auto& to) {
       for (std::size_t i = 0; i < from.size(); ++i) {
         if constexpr (std::is_same_v<std::decay_t<decltype(from[i])>, elements::Joint>)
-          to.push_back(flatten(from[i], joint_of.at(static_cast<int>(i))->rows));
+          to.push_back(flatten.flattened(from[i], joint_of.at(static_cast<int>(i))->rows));
         else
-          to.push_back(flatten(from[i]));
+          to.push_back(flatten.flattened<std::decay_t<decltype(to[0])>>(from[i]));
       }
     };
     (one(std::get<I>(plan.elements), std::get<I>(model.elements)), ...);

@@ -32,17 +32,17 @@ struct SpatialKernels {
   using Field = elements::Field;
   using NodeLanes = elements::NodeLanes;
   using FieldLanes = elements::FieldLanes;
-  static constexpr int node_unknowns = 6, node_numbers = elements::numbers_of_node;
+  static constexpr int node_unknowns = 6, node_numbers = elements::numbers_of_node<motion::Se3>;
   template <class E>
   static constexpr int most_rows = E::num_multipliers;
   static const Arrays& arrays(const plan::Plan& plan) { return plan.elements; }
 };
 struct PlanarKernels {
   using Arrays = plan::PlanarArrays;
-  using Field = elements::planar::Field;
-  using NodeLanes = elements::planar::NodeLanes;
-  using FieldLanes = elements::planar::FieldLanes;
-  static constexpr int node_unknowns = 3, node_numbers = elements::planar::numbers_of_node;
+  using Field = elements::FieldOn<motion::Se2, double>;
+  using NodeLanes = elements::NodeMotionOn<motion::Se2, elements::LanePack>;
+  using FieldLanes = elements::FieldOn<motion::Se2, elements::LanePack>;
+  static constexpr int node_unknowns = 3, node_numbers = elements::numbers_of_node<motion::Se2>;
   template <class E>
   static constexpr int most_rows = E::num_multipliers;
   static const Arrays& arrays(const plan::Plan& plan) { return plan.planar->elements; }

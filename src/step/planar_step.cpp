@@ -18,7 +18,7 @@ using motion::Vec3;
 namespace {
 
 using Pack = elements::LanePack;
-using PlanarNodeLanes = elements::planar::NodeLanes;
+using PlanarNodeLanes = elements::NodeMotionOn<motion::Se2, elements::LanePack>;
 static_assert(elements::num_lanes == static_cast<int>(nodes_in_lanes));
 constexpr std::int64_t pair_group_grain = pair_grain / static_cast<std::int64_t>(nodes_in_lanes);
 constexpr double nothing[4] = {};  ///< increment of a node without unknowns; what is read of a node where there is none
@@ -33,7 +33,7 @@ Vec3<Pack> gather_increments(const double* x, const std::int64_t* unknown) {
 }
 
 /// Of a port in its node's axes, or on the ground.
-Vec2<double> own_turn(const elements::planar::Port& p) {
+Vec2<double> own_turn(const elements::PortOn<motion::Se2, double>& p) {
   return p.node == elements::ground || p.has_offset ? p.offset.R : Vec2<double>{{1.0, 0.0}};
 }
 
@@ -64,7 +64,7 @@ PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.planar->elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
-      if constexpr (std::is_same_v<E, elements::planar::Joint>)
+      if constexpr (std::is_same_v<E, elements::JointOn<motion::Se2>>)
         if (std::any_of(e.ports, e.ports + E::num_ports, [this](const auto& p) { return moves(p.node); }) &&
             std::any_of(e.rows, e.rows + e.num_rows,
                         [](const auto& row) { return row.kind != elements::RowKind::along; }))
@@ -245,15 +245,17 @@ void PlanarStep::show_nodes(std::size_t group, Pack& turned) {
   const MoverLanes& mover = movers_[group];
   const AlphaRule::Rates<Vec3<Pack>> rates = rule_.follow(mover.dq, start.v, start.a, start.algorithmic);
   const PlanarNodeLanes n{mover.turn, mover.x, rates.v, rates.a, mover.dq};
-  scatter<elements::planar::numbers_of_node>(&n.R[0], system_.nodes().data(), group * nodes_in_lanes, count_of(group));
+  scatter<elements::numbers_of_node<motion::Se2>>(&n.R[0], system_.nodes().data(), group * nodes_in_lanes,
+                                                  count_of(group));
   turned = larger(turned, lanes::abs(mover.dq[2]));
 }
 
 int PlanarStep::turned_beyond(double angle) const {
   if (std::all_of(turn_max_.begin(), turn_max_.end(), [angle](double turn) { return turn <= angle; })) return -1;
-  const std::vector<elements::planar::Node>& nodes = system_.nodes();
-  const auto far = std::find_if(nodes.begin(), nodes.end(),
-                                [angle](const elements::planar::Node& n) { return std::abs(n.dq[2]) > angle; });
+  const std::vector<elements::NodeMotionOn<motion::Se2, double>>& nodes = system_.nodes();
+  const auto far =
+      std::find_if(nodes.begin(), nodes.end(),
+                   [angle](const elements::NodeMotionOn<motion::Se2, double>& n) { return std::abs(n.dq[2]) > angle; });
   return far == nodes.end() ? -1 : static_cast<int>(far - nodes.begin());
 }
 

@@ -19,7 +19,7 @@ void PlanarSystem::set_nodes(const State& state, std::int64_t begin, std::int64_
   const auto own = [](const Vec6<double>& v) { return Vec3<double>{{v[0], v[1], v[5]}}; };
   for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) {
     const elements::NodeMotion& from = state.nodes[n];
-    elements::planar::Node& to = nodes_[n];
+    elements::NodeMotionOn<motion::Se2, double>& to = nodes_[n];
     Vec3<double> first = lanes::column(from.R, 0);  // of the planar frame
     if (u.basis.empty()) {
       to.v = own(from.v);

@@ -25,8 +25,8 @@ class PlanarSystem {
   /// Nodes [begin, end) as seen in the plane.
   void set_nodes(const State& state, std::int64_t begin, std::int64_t end);
   /// What elements are evaluated at, and what a step in the plane moves.
-  std::vector<elements::planar::Node>& nodes() { return nodes_; }
-  const std::vector<elements::planar::Node>& nodes() const { return nodes_; }
+  std::vector<elements::NodeMotionOn<motion::Se2, double>>& nodes() { return nodes_; }
+  const std::vector<elements::NodeMotionOn<motion::Se2, double>>& nodes() const { return nodes_; }
   /// Gravity, laws and slopes.
   void set_field(const elements::Field& field);
 
@@ -41,7 +41,7 @@ class PlanarSystem {
   struct Counts {
     int unknowns, rows;
   };
-  /// Its residual, magnitude and tangent (null: not wanted), as elements::planar::evaluate.
+  /// Its residual, magnitude and tangent (null: not wanted), as elements::evaluate.
   Counts evaluate_alone(std::size_t id, const State& state, double* residual, double* magnitude, double* tangent) const;
 
  private:
@@ -50,8 +50,8 @@ class PlanarSystem {
   const plan::Plan& plan_;
   const HeldNodes* held_;
   const std::vector<int>& joint_of_element_;
-  std::vector<elements::planar::Node> nodes_;
-  elements::planar::Field field_;
+  std::vector<elements::NodeMotionOn<motion::Se2, double>> nodes_;
+  elements::FieldOn<motion::Se2, double> field_;
   LaneBatches<PlanarKernels> lanes_;
 };
 

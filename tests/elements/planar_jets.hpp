@@ -3,7 +3,27 @@
 /// which the library's closed forms and its driver are checked.
 #include <vector>
 
-#include "bough/elements/planar/evaluate.hpp"
+#include "bough/elements/evaluate_lanes.hpp"
+
+namespace bough::elements::planar {
+
+using motion::Se2;
+using Port = PortOn<Se2, double>;
+using Node = NodeMotionOn<Se2, double>;
+using NodeLanes = NodeMotionOn<Se2, LanePack>;
+using Field = FieldOn<Se2, double>;
+using FieldLanes = FieldOn<Se2, LanePack>;
+template <int N>
+using Beam = BeamOn<Se2, N>;
+template <int N>
+using LineLoad = LineLoadOn<Se2, N>;
+using RigidBody = RigidBodyOn<Se2>;
+using PointLoad = PointLoadOn<Se2>;
+using Spring = SpringOn<Se2>;
+using Bushing = BushingOn<Se2>;
+using Joint = JointOn<Se2>;
+
+}  // namespace bough::elements::planar
 
 namespace bough::elements::check {
 

@@ -206,7 +206,7 @@ void compare_lanes(const char* name) {
       const Sample<E>& s = samples[static_cast<std::size_t>(l)];
       elements[l] = &s.element;
       for (int k = 0; k < P; ++k)
-        for (int i = 0; i < numbers_of_node; ++i)
+        for (int i = 0; i < numbers_of_node<Se2>; ++i)
           reinterpret_cast<LanePack*>(&nodes[k])[i].set(l, reinterpret_cast<const double*>(&s.nodes[k])[i]);
     }
     ASSERT_TRUE(may_share_lanes(*elements[0], *elements[1]));

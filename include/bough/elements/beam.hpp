@@ -28,6 +28,18 @@ struct BeamOn {
   bool has_damping = false, has_mass = false;
   typename G::template Vector<C>
       reference_strain[N - 1];  ///< (1 + axial, shear; curvature) of the stress-free shape at the strain points
+
+  static constexpr DataAxes data_axes = DataAxes::section;
+  template <class A, class B, class Visit>
+  static void visit_data(A& a, B& b, Visit& visit) {
+    visit.flag(a.has_damping, b.has_damping);
+    visit.flag(a.has_mass, b.has_mass);
+    visit.number(a.length, b.length);
+    visit.matrix(a.stiffness, b.stiffness);
+    visit.matrix(a.damping, b.damping);
+    visit.matrix(a.mass, b.mass);
+    for (int g = 0; g < N - 1; ++g) visit.vector(a.reference_strain[g], b.reference_strain[g]);
+  }
 };
 template <int N, class C = double>
 using Beam = BeamOn<motion::Se3, N, C>;

@@ -152,6 +152,15 @@ struct LineLoadOn {
   typename G::template Vector<C> wrench;  ///< (force [N/m]; moment [N]) per reference length, times the law
   bool follows = false;                   ///< true: in section axes; false: in inertial axes
   int law = 0;
+
+  static constexpr DataAxes data_axes = DataAxes::section;
+  template <class A, class B, class Visit>
+  static void visit_data(A& a, B& b, Visit& visit) {
+    visit.flag(a.follows, b.follows);
+    visit.number(a.length, b.length);
+    visit.wrench(a.wrench, b.wrench, a.follows);
+    visit.law(a.law, b.law);
+  }
 };
 template <int N, class C = double>
 using LineLoad = LineLoadOn<motion::Se3, N, C>;

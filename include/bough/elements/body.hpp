@@ -6,7 +6,7 @@ namespace bough::elements {
 
 /// Rigid body about its node's frame.  F = M (a - (R^T g; 0)) - ad(v)^T M v,  M the mass matrix about the node [kg, kg m, kg m^2].
 /// A point at the node's origin, M = m (1, 0; 0, 0), v = (u; w), bears no moment:  f = m (u' - R^T g) + w x m u.
-template <class G, class C>
+template <class G, class C = double>
 struct RigidBodyOn {
   using Group = G;
   static constexpr int num_ports = 1;
@@ -14,6 +14,13 @@ struct RigidBodyOn {
   PortOn<G, C> ports[1];
   typename G::template Matrix<C> mass;
   bool is_point = false;  ///< mass holds m alone: products with its zeros are left out
+
+  static constexpr DataAxes data_axes = DataAxes::port;
+  template <class A, class B, class Visit>
+  static void visit_data(A& a, B& b, Visit& visit) {
+    visit.flag(a.is_point, b.is_point);
+    visit.matrix(a.mass, b.mass);
+  }
 };
 template <class C>
 using RigidBodyOf = RigidBodyOn<motion::Se3, C>;
@@ -57,7 +64,7 @@ S eval_kinetic_energy(const RigidBodyOn<G, C>& body, const PortMotionOn<G, S>* p
 }
 
 /// Force and moment at a port, dead (inertial axes) or following the port; times a law.
-template <class G, class C>
+template <class G, class C = double>
 struct PointLoadOn {
   using Group = G;
   static constexpr int num_ports = 1;
@@ -66,6 +73,14 @@ struct PointLoadOn {
   typename G::template Vector<C> wrench;  ///< (force [N]; moment [N m])
   bool follows = false;
   int law = 0;
+
+  static constexpr DataAxes data_axes = DataAxes::port;
+  template <class A, class B, class Visit>
+  static void visit_data(A& a, B& b, Visit& visit) {
+    visit.flag(a.follows, b.follows);
+    visit.wrench(a.wrench, b.wrench, a.follows);
+    visit.law(a.law, b.law);
+  }
 };
 template <class C>
 using PointLoadOf = PointLoadOn<motion::Se3, C>;
@@ -89,13 +104,21 @@ BOUGH_INLINE void eval_residual(const PointLoadOn<G, C>& load, const PortMotionO
 }
 
 /// Spring and damper along the line between two points:  tension = k (l - l0) + c l'.
-template <class G, class C>
+template <class G, class C = double>
 struct SpringOn {
   using Group = G;
   static constexpr int num_ports = 2;
   static constexpr int num_multipliers = 0;
   PortOn<G, C> ports[2];
   C stiffness = 0.0, rest_length = 0.0, damping = 0.0;
+
+  static constexpr DataAxes data_axes = DataAxes::none;
+  template <class A, class B, class Visit>
+  static void visit_data(A& a, B& b, Visit& visit) {
+    visit.number(a.stiffness, b.stiffness);
+    visit.number(a.rest_length, b.rest_length);
+    visit.number(a.damping, b.damping);
+  }
 };
 template <class C>
 using SpringOf = SpringOn<motion::Se3, C>;
@@ -152,7 +175,7 @@ S eval_strain_energy(const SpringOn<G, C>& spring, const PortMotionOn<G, S>* p) 
 /// Elastic and viscous coupling of all relative motions of two frames:  d = log(H_a^-1 H_b),
 ///   F_b = T(d)^-T (K (d - d0) + D d'),  F_a = -Ad(H_ab^-1)^T F_b.
 /// The same as a two-node beam of length 1 without mass.
-template <class G, class C>
+template <class G, class C = double>
 struct BushingOn {
   using Group = G;
   static constexpr int num_ports = 2;
@@ -161,6 +184,15 @@ struct BushingOn {
   typename G::template Matrix<C> stiffness, damping;
   typename G::template Vector<C> rest = G::template Vector<C>::zero();
   bool has_damping = false;
+
+  static constexpr DataAxes data_axes = DataAxes::port;
+  template <class A, class B, class Visit>
+  static void visit_data(A& a, B& b, Visit& visit) {
+    visit.flag(a.has_damping, b.has_damping);
+    visit.matrix(a.stiffness, b.stiffness);
+    visit.matrix(a.damping, b.damping);
+    visit.vector(a.rest, b.rest);
+  }
 };
 template <class C>
 using BushingOf = BushingOn<motion::Se3, C>;

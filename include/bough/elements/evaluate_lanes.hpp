@@ -10,6 +10,7 @@
 ///   3. calls `evaluate_lanes` for each element; entry k of lane l of a result is out[k * num_lanes + l], k as in `evaluate`.
 /// Lanes that are not needed repeat a valid element and its nodes; what they yield is ignored. Nothing allocates. All arrays of packs are
 /// aligned to 64 bytes.
+#include "bough/elements/element_data.hpp"
 #include "bough/elements/evaluate.hpp"
 #include "bough/lanes/transpose.hpp"
 
@@ -41,28 +42,12 @@ using LaneElement = typename detail::OverLanes<E>::Type;
 
 /// Laws an element looks at, in the order of its rows, then efforts; returns their number.
 constexpr int max_laws = max_rows + max_efforts;
-template <class G>
-int list_laws(const JointOn<G, double>& e, int* laws) {
-  int n = 0;
-  for (int k = 0; k < e.num_rows; ++k)
-    if (e.rows[k].law >= 0) laws[n++] = e.rows[k].law;
-  for (int k = 0; k < e.num_efforts; ++k)
-    if (e.efforts[k].law >= 0) laws[n++] = e.efforts[k].law;
-  return n;
-}
-template <class G>
-int list_laws(const PointLoadOn<G, double>& e, int* laws) {
-  laws[0] = e.law;
-  return 1;
-}
-template <class G, int N>
-int list_laws(const LineLoadOn<G, N>& e, int* laws) {
-  laws[0] = e.law;
-  return 1;
-}
 template <class E>
-int list_laws(const E&, int*) {
-  return 0;
+int list_laws(const E& e, int* laws) {
+  LawLister lister{laws};
+  const KindOf visit(lister);
+  E::visit_data(e, e, visit);
+  return lister.count;
 }
 
 /// Whether two elements differ in numbers only: ports on the ground and ports with offsets are the same ones, so are the frames of
@@ -80,14 +65,16 @@ template <class E>
 LaneElement<E> make_lane_element(const E* const* elements, int count, const int* nodes, int first_law);
 
 /// A node's motion as plain numbers, in the order of its members.
-inline constexpr int numbers_of_node = 33;
-static_assert(sizeof(NodeMotion) == numbers_of_node * sizeof(double));
-static_assert(sizeof(NodeLanes) == numbers_of_node * sizeof(LanePack));
+template <class G>
+inline constexpr int numbers_of_node = sizeof(NodeMotionOn<G, double>) / sizeof(double);
+static_assert(numbers_of_node<motion::Se3> == 33 && sizeof(NodeLanes) == 33 * sizeof(LanePack));
+static_assert(numbers_of_node<motion::Se2> == 15 &&
+              sizeof(NodeMotionOn<motion::Se2, LanePack>) == 15 * sizeof(LanePack));
 inline const double* numbers_of(const NodeMotion& node) { return reinterpret_cast<const double*>(&node); }
 
 /// The motions of eight nodes, one to a lane.
 inline void set_lanes(NodeLanes& to, const double* const (&from)[num_lanes]) {
-  lanes::gather_lanes(from, numbers_of_node, reinterpret_cast<LanePack*>(&to));
+  lanes::gather_lanes(from, numbers_of_node<motion::Se3>, reinterpret_cast<LanePack*>(&to));
 }
 
 /// A frame of prescribed motion as all lanes see it.

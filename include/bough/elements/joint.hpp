@@ -44,7 +44,7 @@ constexpr int max_efforts = 4;
 
 /// A joint of `num_rows` rows, the first of the array. The angle at the last accepted step, from which the present one is unwrapped, belongs to
 /// the state of a run and is handed to the kernel as `turns`.
-template <class G, class C>
+template <class G, class C = double>
 struct JointOn {
   using Group = G;
   static constexpr int num_ports = 2;
@@ -54,6 +54,29 @@ struct JointOn {
   int num_rows = 0;
   EffortOn<G, C> efforts[max_efforts];
   int num_efforts = 0;
+
+  static constexpr DataAxes data_axes = DataAxes::none;
+  template <class A, class B, class Visit>
+  static void visit_data(A& a, B& b, Visit& visit) {
+    visit.flag(a.num_rows, b.num_rows);
+    for (int k = 0; k < a.num_rows; ++k) {
+      visit.flag(a.rows[k].kind, b.rows[k].kind);
+      visit.direction(a.rows[k], b.rows[k]);
+      visit.number(a.rows[k].pitch, b.rows[k].pitch);
+      visit.law(a.rows[k].law, b.rows[k].law);
+    }
+    visit.flag(a.num_efforts, b.num_efforts);
+    for (int k = 0; k < a.num_efforts; ++k) {
+      auto& x = a.efforts[k];
+      auto& y = b.efforts[k];
+      visit.flag(x.coordinate, y.coordinate);
+      visit.direction(x.direction, y.direction);
+      visit.number(x.stiffness, y.stiffness);
+      visit.number(x.rest, y.rest);
+      visit.number(x.damping, y.damping);
+      visit.law(x.law, y.law);
+    }
+  }
 };
 template <class C>
 using JointOf = JointOn<motion::Se3, C>;

@@ -32,6 +32,13 @@ template <class C>
 using PortOf = PortOn<motion::Se3, C>;
 using Port = PortOf<double>;
 
+/// Axes in which the data of an element are given.
+enum class DataAxes : std::uint8_t {
+  none,     ///< there are none: every port may be turned by itself
+  port,     ///< those of the first port
+  section,  ///< the same, and axis 1 is the reference axis
+};
+
 /// Whether a constant is worth its terms: in packs if it is to one lane, to the others a zero times something finite adds nothing.
 inline bool is_present(double x) { return x != 0.0; }
 template <class C>

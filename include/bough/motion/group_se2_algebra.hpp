@@ -63,6 +63,7 @@ struct Se2Algebra {
   using Rotation = Vec2<S>;  ///< (cos, sin)
   template <class C>
   struct Direction {
+    static constexpr bool has_numbers = true;
     Vec2<C> d{{C(1.0), C(0.0)}};
     static Direction axial() { return {}; }
   };

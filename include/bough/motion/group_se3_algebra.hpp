@@ -38,6 +38,7 @@ struct Se3Algebra {
   using Rotation = Mat3<S>;
   template <class C>
   struct Direction {
+    static constexpr bool has_numbers = false;
     int i = 0, j = 0;  ///< axes of the first and the second frame
     static Direction axial() { return {2, 2}; }
   };

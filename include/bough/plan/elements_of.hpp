@@ -4,24 +4,19 @@
 #include <utility>
 #include <vector>
 
-#include "bough/elements/planar/evaluate.hpp"
+#include "bough/elements/evaluate_lanes.hpp"
 
 namespace bough::plan {
 
-using ElementArrays =
-    std::tuple<std::vector<elements::Beam<2>>, std::vector<elements::Beam<3>>, std::vector<elements::Beam<4>>,
-               std::vector<elements::RigidBody>, std::vector<elements::Joint>, std::vector<elements::Spring>,
-               std::vector<elements::Bushing>, std::vector<elements::PointLoad>, std::vector<elements::LineLoad<2>>,
-               std::vector<elements::LineLoad<3>>, std::vector<elements::LineLoad<4>>>;
-
-/// The same types in the same order for motions in a plane.
-using PlanarArrays = std::tuple<std::vector<elements::planar::Beam<2>>, std::vector<elements::planar::Beam<3>>,
-                                std::vector<elements::planar::Beam<4>>, std::vector<elements::planar::RigidBody>,
-                                std::vector<elements::planar::Joint>, std::vector<elements::planar::Spring>,
-                                std::vector<elements::planar::Bushing>, std::vector<elements::planar::PointLoad>,
-                                std::vector<elements::planar::LineLoad<2>>, std::vector<elements::planar::LineLoad<3>>,
-                                std::vector<elements::planar::LineLoad<4>>>;
-static_assert(std::tuple_size_v<PlanarArrays> == std::tuple_size_v<ElementArrays>);
+/// Of the elements that move on the group G.
+template <class G>
+using ArraysOn = std::tuple<
+    std::vector<elements::BeamOn<G, 2>>, std::vector<elements::BeamOn<G, 3>>, std::vector<elements::BeamOn<G, 4>>,
+    std::vector<elements::RigidBodyOn<G>>, std::vector<elements::JointOn<G>>, std::vector<elements::SpringOn<G>>,
+    std::vector<elements::BushingOn<G>>, std::vector<elements::PointLoadOn<G>>, std::vector<elements::LineLoadOn<G, 2>>,
+    std::vector<elements::LineLoadOn<G, 3>>, std::vector<elements::LineLoadOn<G, 4>>>;
+using ElementArrays = ArraysOn<motion::Se3>;
+using PlanarArrays = ArraysOn<motion::Se2>;
 
 template <class E>
 std::vector<E>& array_of(ElementArrays& all) {

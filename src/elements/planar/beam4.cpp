@@ -1,9 +1,0 @@
-#include "../lanes_impl.hpp"
-#include "bough/elements/planar/evaluate.hpp"
-
-namespace bough::elements {
-
-BOUGH_INSTANTIATE_PLANAR(planar::Beam<4>)
-BOUGH_INSTANTIATE_PLANAR(planar::LineLoad<4>)
-
-}  // namespace bough::elements
