@@ -49,26 +49,25 @@ std::string count_of(std::size_t n, const std::string& one, const std::string& m
 std::string obstacle_to_definite(const Plan& plan, std::size_t rows) {
   if (rows > 0) return "joints have multipliers: " + count_of(rows, "constraint row", "constraint rows");
   bool is_supported = !plan.held.empty() || !plan.driven.empty();
-  std::vector<bool> has_mass(plan.nodes.size(), false);
+  std::vector<bool> bears_mass(plan.nodes.size(), false);
   for_each_array(plan.elements, [&](const auto& array) {
     using E = typename std::decay_t<decltype(array)>::value_type;
     for (const E& e : array) {
-      bool is_mass = std::is_same_v<E, elements::RigidBody>;
-      if constexpr (requires { e.has_mass; }) is_mass = e.has_mass;
+      const bool is_mass = has_mass(e);
       for (const Port& p : e.ports) {
         if (p.node != elements::ground) {
-          if (is_mass) has_mass[static_cast<std::size_t>(p.node)] = true;
-        } else if (std::is_same_v<E, elements::Spring> || std::is_same_v<E, elements::Bushing>) {
+          if (is_mass) bears_mass[static_cast<std::size_t>(p.node)] = true;
+        } else if (E::role == elements::Role::coupling) {
           is_supported = true;
         }
       }
     }
   });
   if (!plan.is_dynamic) return is_supported ? "" : "no node is held and no spring leads to the ground";
-  for (const HeldNode& h : plan.held) has_mass[static_cast<std::size_t>(h.node)] = true;  // not in the matrix
-  for (const DrivenNode& d : plan.driven) has_mass[static_cast<std::size_t>(d.node)] = true;
+  for (const HeldNode& h : plan.held) bears_mass[static_cast<std::size_t>(h.node)] = true;  // not in the matrix
+  for (const DrivenNode& d : plan.driven) bears_mass[static_cast<std::size_t>(d.node)] = true;
   for (std::size_t n = 0; n < plan.nodes.size(); ++n)
-    if (!has_mass[n]) return "'" + plan.nodes[n].name + "' has no mass";
+    if (!bears_mass[n]) return "'" + plan.nodes[n].name + "' has no mass";
   return "";
 }
 
@@ -78,7 +77,7 @@ std::string obstacle_to_potential(const Plan& plan, bool in_plane) {
   for (std::size_t id = 0; id < plan.directory.size(); ++id) {
     std::string obstacle;
     with_element(plan.elements, plan.directory[id], [&](const auto& e) {
-      if constexpr (requires { e.follows; }) {
+      if constexpr (std::decay_t<decltype(e)>::role == elements::Role::load) {
         const auto force = lanes::linear_part(e.wrench), moment = lanes::angular_part(e.wrench);
         const bool follows = e.follows && (!in_plane || lanes::dot(force, force) > 0.0);
         if (follows || (!in_plane && lanes::dot(moment, moment) > 0.0))
@@ -101,11 +100,7 @@ void Builder::settle() {
     using E = typename std::decay_t<decltype(array)>::value_type;
     work += 1e9 * cost<E>.alone * static_cast<double>(array.size());
     for (const E& e : array) {
-      if constexpr (requires { e.has_damping; }) damped += e.has_damping ? 1 : 0;
-      if constexpr (requires { e.rest_length; }) damped += e.damping != 0.0 ? 1 : 0;
-      if constexpr (std::is_same_v<E, elements::Joint>)
-        damped +=
-            std::any_of(e.efforts, e.efforts + e.num_efforts, [](const auto& f) { return f.damping != 0.0; }) ? 1 : 0;
+      damped += dissipates(e) ? 1 : 0;
     }
   });
   for (const JointPlan& j : plan.joints) rows += j.rows.size();

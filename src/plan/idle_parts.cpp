@@ -39,12 +39,12 @@ void Builder::say_idle_parts() {
       std::size_t first = parts.ground();
       bool moves = false;
       if constexpr (elements::has_mass_matrix<E>) moves = has_gravity;
-      if constexpr (requires { e.wrench; }) moves = !is_zero(e.wrench);
-      if constexpr (std::is_same_v<E, elements::Spring>) {
+      if constexpr (E::role == elements::Role::load) moves = !is_zero(e.wrench);
+      if constexpr (E::acts_along_line) {
         const motion::Vec3<double> r = initial_pose(e.ports[1]).x - initial_pose(e.ports[0]).x;
         moves = std::abs(std::sqrt(lanes::dot(r, r)) - e.rest_length) > 1e-12 * plan.length_scale;
       }
-      if constexpr (std::is_same_v<E, elements::Joint>) {
+      if constexpr (E::role == elements::Role::joint) {
         for (int k = 0; k < e.num_rows; ++k) moves |= e.rows[k].law >= 0;
         for (int k = 0; k < e.num_efforts; ++k) moves |= e.efforts[k].stiffness != 0.0 || e.efforts[k].law >= 0;
         if (is_rigid(e) && e.ports[0].carrier < 0 && e.ports[1].carrier < 0)

@@ -270,7 +270,7 @@ void Builder::number_elements() {
     ++array_id;
   });
   constexpr std::size_t joint_array = 4;
-  static_assert(std::is_same_v<std::tuple_element_t<joint_array, ElementArrays>, std::vector<elements::Joint>>);
+  static_assert(std::tuple_element_t<joint_array, ElementArrays>::value_type::role == elements::Role::joint);
   for (JointPlan& j : plan.joints) j.element += first_of_array[joint_array];
   for (BeamPlan& b : plan.beams) {
     const std::size_t array = static_cast<std::size_t>(b.order) - 1;
@@ -291,8 +291,7 @@ void Builder::list_attachments() {
   };
   for_each_array(plan.elements, [&](const auto& array) {
     using E = typename std::decay_t<decltype(array)>::value_type;
-    if constexpr (std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> ||
-                  std::is_same_v<E, elements::Bushing>)
+    if constexpr (elements::joins_two_frames(E::role))
       for (const E& e : array)
         for (const Port& p : e.ports) attach(p);
   });
@@ -300,7 +299,7 @@ void Builder::list_attachments() {
     if (beam.elements.empty()) continue;
     for_each_array(plan.elements, [&](const auto& array) {
       using E = typename std::decay_t<decltype(array)>::value_type;
-      if constexpr (requires(const E& e) { e.reference_strain; })
+      if constexpr (E::role == elements::Role::beam)
         if (E::num_ports == beam.order + 1) {
           attach(*std::begin(array[static_cast<std::size_t>(beam.elements.front())].ports));
           attach(*std::prev(std::end(array[static_cast<std::size_t>(beam.elements.back())].ports)));

@@ -164,7 +164,7 @@ void Builder::add_planar_elements(const Mat3<double>& axes) {
   const auto fill = [&]<std::size_t... I>(std::index_sequence<I...>) {
     const auto one = [&](const auto& from, auto& to) {
       for (std::size_t i = 0; i < from.size(); ++i) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(from[i])>, elements::Joint>)
+        if constexpr (std::decay_t<decltype(from[i])>::role == elements::Role::joint)
           to.push_back(flatten.flattened(from[i], joint_of.at(static_cast<int>(i))->rows));
         else
           to.push_back(flatten.flattened<std::decay_t<decltype(to[0])>>(from[i]));

@@ -26,14 +26,14 @@ void Builder::hold_point_masses() {
   for_each_array(plan.elements, [&](const auto& array) {
     using E = typename std::decay_t<decltype(array)>::value_type;
     for (const E& e : array) {
-      if constexpr (std::is_same_v<E, elements::RigidBody>)
+      if constexpr (E::role == elements::Role::body)
         continue;
-      else if constexpr (std::is_same_v<E, elements::Spring>)
+      else if constexpr (E::acts_along_line)
         mark(e, false);
-      else if constexpr (std::is_same_v<E, elements::PointLoad>)
+      else if constexpr (E::role == elements::Role::load && E::num_ports == 1)
         mark(e, e.follows || lanes::dot(e.wrench, e.wrench) !=
                                  lanes::dot(lanes::linear_part(e.wrench), lanes::linear_part(e.wrench)));
-      else if constexpr (std::is_same_v<E, elements::Joint>) {
+      else if constexpr (E::role == elements::Role::joint) {
         // A row along an axis of the first frame turns with the first body; three of them meet in a point and do not.
         bool turns = e.num_efforts > 0;
         int along = 0;

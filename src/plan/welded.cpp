@@ -180,7 +180,7 @@ class Welder {
     const auto each = [&](auto& array) {
       using E = typename std::decay_t<decltype(array)>::value_type;
       for (std::size_t i = 0; i < array.size(); ++i) {
-        if constexpr (std::is_same_v<E, elements::Joint>)
+        if constexpr (E::role == elements::Role::joint)
           if (goes_[i]) continue;
         visit(array[i], b_.owners<E>()[i]);
       }
@@ -213,7 +213,7 @@ class Welder {
   void choose_roots() {
     std::vector<std::size_t> meets(plan_.nodes.size(), 0), best(plan_.nodes.size(), none);
     for_each_other([&](const auto& e, const std::string&) {
-      if constexpr (!std::is_same_v<std::decay_t<decltype(e)>, elements::RigidBody>)
+      if constexpr (std::decay_t<decltype(e)>::role != elements::Role::body)
         for (const Port& p : e.ports)
           if (p.node != elements::ground) ++meets[static_cast<std::size_t>(p.node)];
     });
@@ -263,7 +263,7 @@ class Welder {
       for (Port* p : {&plan_.welds.back().first, &plan_.welds.back().second}) move(*p);
     }
     for_each_other([&](auto& e, const std::string&) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::RigidBody>) {
+      if constexpr (std::decay_t<decltype(e)>::role == elements::Role::body) {
         const auto n = static_cast<std::size_t>(e.ports[0].node);
         if (!is_identity(offset_[n])) e.mass = seen_from_node(offset_[n], e.mass);
         e.ports[0].node = number_[n];

@@ -20,45 +20,16 @@ bool holds_on_to_ground(const E& e) {
                      [](const elements::Port& p) { return p.node == elements::ground; });
 }
 
-template <class E>
-double mass_of(const E& e) {
-  if constexpr (std::is_same_v<E, elements::RigidBody>)
-    return e.mass(0, 0);
-  else if constexpr (requires { e.reference_strain; })
-    return e.has_mass ? e.length * e.mass(0, 0) : 0.0;
-  else
-    return 0.0;
-}
-
 /// Whether an element does work, takes energy or pulls at the ground in every step.
 template <class E>
 bool is_watched(const E& e) {
-  if (holds_on_to_ground(e)) return true;
-  if constexpr (std::is_same_v<E, elements::Joint>) {
-    for (int k = 0; k < e.num_rows; ++k)
-      if (e.rows[k].law >= 0) return true;
-    return e.num_efforts > 0;
-  } else if constexpr (std::is_same_v<E, elements::Spring>) {
-    return e.damping != 0.0;
-  } else if constexpr (requires { e.has_damping; }) {
-    return e.has_damping;
-  } else {
-    return !std::is_same_v<E, elements::RigidBody>;  // loads
-  }
+  return holds_on_to_ground(e) || exchanges_energy(e);
 }
 
 /// Whether a port is fixed to something that moves as prescribed, which does work through it.
 bool is_moved(const plan::Plan& plan, const elements::Port& port) {
   return port.node == elements::ground && (port.carrier >= 0 || plan.observer >= 0);
 }
-
-template <class E>
-constexpr bool is_load = std::is_same_v<E, elements::PointLoad> || std::is_same_v<E, elements::LineLoad<2>> ||
-                         std::is_same_v<E, elements::LineLoad<3>> || std::is_same_v<E, elements::LineLoad<4>>;
-
-template <class E>
-constexpr bool is_coupling =
-    std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> || std::is_same_v<E, elements::Bushing>;
 
 /// Ports as described, in the ground.
 template <class E>
@@ -135,14 +106,14 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
-      mass_ += mass_of(e);
+      mass_ += total_mass(e);
       if (!is_watched(e)) return;
-      watched_.push_back({id, joint_of[id], mass_of(e), ports_.size(), drives_.size()});
-      if constexpr (is_load<E>)
+      watched_.push_back({id, joint_of[id], total_mass(e), ports_.size(), drives_.size()});
+      if constexpr (E::role == elements::Role::load)
         ports_.resize(ports_.size() + E::num_ports);
-      else if constexpr (std::is_same_v<E, elements::Joint>)
+      else if constexpr (E::role == elements::Role::joint)
         drives_.resize(drives_.size() + static_cast<std::size_t>(e.num_rows + e.num_efforts));
-      if constexpr (is_coupling<E>)
+      if constexpr (elements::joins_two_frames(E::role))
         for (const elements::Port& p : e.ports)
           if (is_moved(plan, p)) ports_.emplace_back();
     });
@@ -164,7 +135,7 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
       using E = std::decay_t<decltype(e)>;
       const double* multipliers = nullptr;
       double turns = 0.0;
-      if constexpr (std::is_same_v<E, elements::Joint>) {
+      if constexpr (E::role == elements::Role::joint) {
         const auto j = static_cast<std::size_t>(w.joint);
         multipliers = state.multipliers.data() + plan.joints[j].multiplier_begin;
         turns = state.turns[j];
@@ -179,10 +150,10 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
               advance_drive(*drive, e.efforts[k].coordinate == elements::Coordinate::angle ? m.angle : m.relative.x[2],
                             system.law_values()[static_cast<std::size_t>(e.efforts[k].law)]);
         }
-      } else if constexpr (is_load<E>) {
+      } else if constexpr (E::role == elements::Role::load) {
         work += advance_load(e, f, ports_.data() + w.first_port);
       }
-      if constexpr (is_coupling<E>)
+      if constexpr (elements::joins_two_frames(E::role))
         if (f.carriers != nullptr)
           work += advance_grounds(plan, e, f, multipliers, turns, ports_.data() + w.first_port);
       const Measures m = elements::measure(e, f, multipliers, turns, false);

@@ -78,7 +78,7 @@ void EnergyMeter::add_group(const std::vector<E>& array, const Kind<E>& kind, co
                             const step::State& state, const elements::Field& field, elements::Energies& sum) const {
   const auto turns_of = [&turns_of_joints = state.turns](int i) {
     // Joints of a plan stand in the order of their elements.
-    return std::is_same_v<E, elements::Joint> ? turns_of_joints[static_cast<std::size_t>(i)] : 0.0;
+    return E::role == elements::Role::joint ? turns_of_joints[static_cast<std::size_t>(i)] : 0.0;
   };
   if (group.lanes < 0) {
     for (int i = group.first; i < group.first + group.count; ++i)

@@ -61,7 +61,7 @@ void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& 
   Series law(0.0);
   elements::Surroundings<Series> around{lanes::cast<Series>(f.around.gravity), &law, f.around.has_inertia};
   E own = e;
-  if constexpr (requires { own.law; }) {
+  if constexpr (E::role == elements::Role::load) {
     law = Series(f.around.laws[own.law]);
     own.law = 0;
   }
@@ -89,7 +89,8 @@ void eval_end_wrenches(const step::System& system, const E& e, const std::vector
   for (int id : loads)
     plan::with_element(system.plan().elements, system.plan().directory[static_cast<std::size_t>(id)],
                        [&](const auto& load) {
-                         if constexpr (std::is_same_v<std::decay_t<decltype(load)>, elements::LineLoad<N>>)
+                         using L = std::decay_t<decltype(load)>;
+                         if constexpr (L::role == elements::Role::load && L::num_ports == N)
                            add_settled_residual(load, p, f, state, out);
                        });
   for (int k = 0; k < 6; ++k) {
@@ -127,7 +128,7 @@ BeamPoint eval_point(const E& e, const Field& f, double s) {
 template <class F>
 void with_beam_element(const plan::Plan& plan, int id, F&& f) {
   plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
-    if constexpr (requires { e.reference_strain; }) f(e);
+    if constexpr (std::decay_t<decltype(e)>::role == elements::Role::beam) f(e);
   });
 }
 
@@ -200,7 +201,7 @@ void eval_joint_sensor(const step::System& system, const step::State& state, con
   const Field f = system.field(state);
   plan::with_element(
       system.plan().elements, system.plan().directory[static_cast<std::size_t>(joint.element)], [&](const auto& e) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>) {
+        if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint) {
           const double turns = state.turns[static_cast<std::size_t>(s.joint)];
           const elements::JointMotion m = elements::eval_joint_motion(e, f, turns);
           if (s.sensor.kind == scene::SensorKind::joint_angle) {
@@ -361,9 +362,7 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
-      if constexpr (std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> ||
-                    std::is_same_v<E, elements::Bushing>)
-        add_link(plan.element_owner[id], e.ports[0], e.ports[1]);
+      if constexpr (elements::joins_two_frames(E::role)) add_link(plan.element_owner[id], e.ports[0], e.ports[1]);
     });
   for (const plan::WeldPlan& weld : plan.welds) add_link(weld.name, weld.first, weld.second);
   return frame;

@@ -25,7 +25,7 @@ SpringWatch::SpringWatch(const plan::Plan& plan) {
   const auto& springs = plan::array_of<elements::Spring>(plan.elements);
   for (std::size_t id = 0; plan.is_dynamic && id < plan.directory.size(); ++id)
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Spring>)
+      if constexpr (std::decay_t<decltype(e)>::acts_along_line)
         if (e.rest_length > 0.0 && e.stiffness > 0.0)
           seen_.push_back({static_cast<int>(&e - springs.data()), plan.element_owner[id]});
     });

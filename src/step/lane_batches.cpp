@@ -193,10 +193,8 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, const S
   typename Kernels::FieldLanes around;
   around.nodes = nodes;
   around.slopes = field.slopes;
-  if constexpr (requires { field.carriers; }) {
-    if (field.carriers != nullptr) around.carriers = carriers_.data();
-    if (field.observer != nullptr) around.observer = &observer_;
-  }
+  if (field.carriers != nullptr) around.carriers = carriers_.data();
+  if (field.observer != nullptr) around.observer = &observer_;
   for (int i = 0; i < field.around.gravity.size(); ++i) around.around.gravity[i] = Pack(field.around.gravity[i]);
   around.around.laws = laws;
   around.around.has_inertia = field.around.has_inertia;

@@ -11,11 +11,6 @@ namespace bough::step {
 
 namespace {
 
-template <class E>
-constexpr bool is_beam = requires(const E& e) {
-  e.reference_strain;
-};
-
 struct Edge {
   int rank;          ///< lower ones are taken up first
   int a, b;          ///< nodes, or -1: the inertial frame; of a beam: a is the one that it measures from
@@ -29,12 +24,12 @@ std::vector<Edge> edges_of(const plan::Plan& plan) {
   for (const plan::ElementPlace& place : plan.directory)
     plan::with_element(plan.elements, place, [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
-      if constexpr (is_beam<E>) {
+      if constexpr (E::role == elements::Role::beam) {
         for (int i = 0; i < E::num_ports; ++i)
           if (i != E::reference) edges.push_back({0, e.ports[E::reference].node, e.ports[i].node, section++});
-      } else if constexpr (std::is_same_v<E, elements::Joint>) {
+      } else if constexpr (E::role == elements::Role::joint) {
         edges.push_back({10 - e.num_rows, e.ports[0].node, e.ports[1].node});
-      } else if constexpr (std::is_same_v<E, elements::Spring> || std::is_same_v<E, elements::Bushing>) {
+      } else if constexpr (E::role == elements::Role::coupling) {
         edges.push_back({20, e.ports[0].node, e.ports[1].node});
       }
     });

@@ -174,9 +174,9 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t id = begin; id < end; ++id)
       plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>) {
+        if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint) {
           if (is_flipped(e, f)) first_bad.note(id);
-        } else if constexpr (requires { e.reference_strain; }) {
+        } else if constexpr (std::decay_t<decltype(e)>::role == elements::Role::beam) {
           if (is_folded(e, f)) first_bad.note(id);
         }
       });
@@ -197,7 +197,7 @@ std::optional<Trouble> check_flips_in_plane(const System& system, const State& s
   FirstBad first_bad(static_cast<std::int64_t>(plan.directory.size()));
   for (const int id : joints)
     plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
+      if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
         if (is_flipped(e, f)) first_bad.note(id);
     });
   return describe_shape(system, first_bad.get());
@@ -212,7 +212,7 @@ void accept_turns(const System& system, State& state) {
       if (!plan.joints[j].counts_turns) continue;
       plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(plan.joints[j].element)],
                          [&](const auto& e) {
-                           if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
+                           if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
                              state.turns[j] = elements::eval_joint_angle(e, f, state.turns[j]);
                          });
     }

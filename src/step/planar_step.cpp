@@ -64,12 +64,12 @@ PlanarStep::PlanarStep(const plan::Plan& plan, PlanarSystem& system, const std::
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.planar->elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
-      if constexpr (std::is_same_v<E, elements::JointOn<motion::Se2>>)
+      if constexpr (E::role == elements::Role::joint)
         if (std::any_of(e.ports, e.ports + E::num_ports, [this](const auto& p) { return moves(p.node); }) &&
             std::any_of(e.rows, e.rows + e.num_rows,
                         [](const auto& row) { return row.kind != elements::RowKind::along; }))
           joints_with_angles_.push_back(static_cast<int>(id));
-      if constexpr (requires { e.reference_strain; })
+      if constexpr (E::role == elements::Role::beam)
         for (int i = 1; i < E::num_ports; ++i) beam_ends_.push_back(ends_of(e, static_cast<std::int64_t>(id), i));
     });
   for (std::size_t j = 0; j < plan.joints.size(); ++j)
@@ -98,7 +98,7 @@ void PlanarStep::watch_turns(std::size_t joint) {
     if (std::abs(along) > 0.5) sign = along > 0.0 ? 1.0 : -1.0;
   });
   plan::with_element(plan.planar->elements, at, [&](const auto& e) {
-    if constexpr (requires { e.num_rows; })
+    if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
       if (sign != 0.0) turn_counters_.push_back({ends_of(e, static_cast<std::int64_t>(joint), 1), sign});
   });
 }

@@ -31,7 +31,7 @@ State make_initial_state(const plan::Plan& plan) {
   field.carriers = frames.in_ground.data();
   for (const plan::JointPlan& j : plan.joints)
     plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(j.element)], [&](const auto& e) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
+      if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
         s.turns.push_back(j.counts_turns ? elements::eval_joint_angle(e, field, 0.0) : 0.0);
     });
   return s;

@@ -20,11 +20,10 @@ using motion::Vec6;
 
 namespace {
 
+/// Of the reference axis, where an element has one.
 template <class E>
-requires requires(const E& e) { e.length; }
-double length_of(const E& e, const std::vector<plan::NodePlan>&, double) { return e.length; }
-template <class E>
-double length_of(const E&, const std::vector<plan::NodePlan>&, double fallback) {
+double length_of(const E& e, double fallback) {
+  if constexpr (E::data_axes == elements::DataAxes::section) return e.length;
   return fallback;
 }
 
@@ -47,8 +46,9 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   element_length_.resize(num_elements);
   for (std::size_t e = 0; e < num_elements; ++e)
     plan::with_element(plan.elements, plan.directory[e], [&](const auto& element) {
-      element_length_[e] = length_of(element, plan.nodes, plan.length_scale);
-      if constexpr (requires { element.length; }) moment_arm_ = std::max(moment_arm_, element.length);
+      element_length_[e] = length_of(element, plan.length_scale);
+      if constexpr (std::decay_t<decltype(element)>::data_axes == elements::DataAxes::section)
+        moment_arm_ = std::max(moment_arm_, element.length);
     });
   if (!plan.is_dynamic) motion_tree_ = make_motion_tree(plan);
   if (moment_arm_ == 0.0) moment_arm_ = plan.length_scale;

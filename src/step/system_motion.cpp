@@ -258,7 +258,7 @@ void System::constraint_series(const State& state, const Vec6<double>* jerk, dou
   for (std::size_t j = 0; j < plan_.joints.size(); ++j)
     plan::with_element(plan_.elements, plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)],
                        [&](const auto& e) {
-                         if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
+                         if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
                            elements::evaluate_constraint_series(e, f, jerk, laws.data(), state.turns[j],
                                                                 out.data() + plan_.joints[j].multiplier_begin);
                        });

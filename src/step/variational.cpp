@@ -167,7 +167,7 @@ ResidualSize Variational::round_off_floor(double h) const {
 /// nodes, which h omega times it would spoil if it were left out.
 template <class E>
 void Variational::add_elastic_tangent(const E& e, const elements::Field& field, double h, double* matrix) const {
-  if constexpr (std::is_same_v<E, elements::Bushing> || requires { e.reference_strain; }) {
+  if constexpr (E::has_stiffness_matrix) {
     constexpr int most = 6 * E::num_ports;
     const int size = elements::num_unknowns(e);
     double elastic[most * most] = {};
@@ -209,7 +209,7 @@ void Variational::evaluate_tangent(const elements::Slopes& slopes, double h) {
                            residual, matrix.data());
         elements::add_gyroscopic(e, field, 1.0 / h, matrix.data());
         add_elastic_tangent(e, field, h, matrix.data());
-        if constexpr (std::is_same_v<E, elements::Joint>) set_rows_of(id, matrix.data());
+        if constexpr (E::role == elements::Role::joint) set_rows_of(id, matrix.data());
         system_.set_matrix(id, elements::num_unknowns(e), matrix.data());
       });
     }

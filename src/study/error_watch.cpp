@@ -37,8 +37,7 @@ bool is_driven(const plan::Plan& plan) {
   return std::any_of(plan.joints.begin(), plan.joints.end(), [&](const plan::JointPlan& joint) {
     bool driven = false;
     plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(joint.element)], [&](const auto& e) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, elements::Joint>)
-        for (int k = 0; k < e.num_rows; ++k) driven |= e.rows[k].law >= 0;
+      if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint) driven = elements::is_driven(e);
     });
     return driven;
   });

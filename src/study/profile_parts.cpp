@@ -24,25 +24,19 @@ void add_port(const plan::Plan& plan, const elements::Port& port, bool node_last
 }
 
 template <class E>
-constexpr bool is_beam = requires(const E& e) {
-  e.reference_strain;
-};
-
-template <class E>
 void add_part(const plan::Plan& plan, const E& e, int leaf, results::Profile& out) {
   results::ProfilePart part{.kind = results::ProfilePart::Kind::joint, .leaf = leaf, .points = {}};
-  if constexpr (is_beam<E>) {
+  if constexpr (E::role == elements::Role::beam) {
     part.kind = results::ProfilePart::Kind::beam;
     for (const elements::Port& port : e.ports) {
       std::vector<std::array<double, 3>> ends;
       add_port(plan, port, false, ends);
       part.points.push_back(ends.back());
     }
-  } else if constexpr (std::is_same_v<E, elements::RigidBody>) {
+  } else if constexpr (E::role == elements::Role::body) {
     part.kind = results::ProfilePart::Kind::body;
     add_port(plan, e.ports[0], false, part.points);
-  } else if constexpr (std::is_same_v<E, elements::Joint> || std::is_same_v<E, elements::Spring> ||
-                       std::is_same_v<E, elements::Bushing>) {
+  } else if constexpr (elements::joins_two_frames(E::role)) {
     add_port(plan, e.ports[0], false, part.points);
     add_port(plan, e.ports[1], true, part.points);
   } else {

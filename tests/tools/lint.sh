@@ -1,5 +1,5 @@
 #!/bin/sh
-# Format, include arrows and file lengths. Every check runs; the exit status tells whether all passed.
+# Format, include arrows, file lengths, and that no element is known by its type. Every check runs; the exit status tells whether all passed.
 set -u
 cd "$(dirname "$0")/../.."
 format=clang-format-14
@@ -14,5 +14,13 @@ else
   failed=1
 fi
 python3 tests/tools/check_includes.py || failed=1
+# Elements tell what they are (elements::Role and its like); nothing outside guesses it from their type or their members.
+guesses=$(grep -rnE 'is_same_v<.*elements::|requires( ?\(.*\))? ?\{ *(e|element|own|load)\.' src apps include \
+  --include='*.cpp' --include='*.hpp' | grep -v '^\(src\|include/bough\)/elements/')
+if [ -n "$guesses" ]; then
+  echo "types of elements are guessed:"
+  echo "$guesses"
+  failed=1
+fi
 sh tests/tools/check_length.sh || failed=1
 exit $failed

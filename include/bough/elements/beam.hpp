@@ -29,6 +29,8 @@ struct BeamOn {
   typename G::template Vector<C>
       reference_strain[N - 1];  ///< (1 + axial, shear; curvature) of the stress-free shape at the strain points
 
+  static constexpr Role role = Role::beam;
+  static constexpr bool has_stiffness_matrix = true, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::section;
   template <class A, class B, class Visit>
   static void visit_data(A& a, B& b, Visit& visit) {
@@ -48,6 +50,24 @@ using Beam = BeamOn<motion::Se3, N, C>;
 template <class G, int N, class C>
 bool looks_at_rates(const BeamOn<G, N, C>& e) {
   return e.has_mass || e.has_damping;
+}
+
+/// Whether it has mass, how much, whether it takes energy, and whether it takes or gives any.
+template <class G, int N, class C>
+bool has_mass(const BeamOn<G, N, C>& e) {
+  return e.has_mass;
+}
+template <class G, int N, class C>
+C total_mass(const BeamOn<G, N, C>& e) {
+  return e.has_mass ? e.length * e.mass(0, 0) : C(0.0);
+}
+template <class G, int N, class C>
+bool dissipates(const BeamOn<G, N, C>& e) {
+  return e.has_damping;
+}
+template <class G, int N, class C>
+bool exchanges_energy(const BeamOn<G, N, C>& e) {
+  return dissipates(e);
 }
 
 /// Motions of the nodes relative to the reference node: the only positions that a beam looks at.

@@ -153,6 +153,8 @@ struct LineLoadOn {
   bool follows = false;                   ///< true: in section axes; false: in inertial axes
   int law = 0;
 
+  static constexpr Role role = Role::load;
+  static constexpr bool has_stiffness_matrix = false, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::section;
   template <class A, class B, class Visit>
   static void visit_data(A& a, B& b, Visit& visit) {

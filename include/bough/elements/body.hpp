@@ -15,6 +15,8 @@ struct RigidBodyOn {
   typename G::template Matrix<C> mass;
   bool is_point = false;  ///< mass holds m alone: products with its zeros are left out
 
+  static constexpr Role role = Role::body;
+  static constexpr bool has_stiffness_matrix = false, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::port;
   template <class A, class B, class Visit>
   static void visit_data(A& a, B& b, Visit& visit) {
@@ -29,6 +31,14 @@ using RigidBody = RigidBodyOf<double>;
 template <class G, class C>
 bool looks_at_rates(const RigidBodyOn<G, C>&) {
   return true;
+}
+template <class G, class C>
+bool has_mass(const RigidBodyOn<G, C>&) {
+  return true;
+}
+template <class G, class C>
+C total_mass(const RigidBodyOn<G, C>& e) {
+  return e.mass(0, 0);
 }
 template <class G, class S, class C>
 bool is_seen_as_point(const RigidBodyOn<G, C>& body, const SurroundingsOn<G, S>& around) {
@@ -74,6 +84,8 @@ struct PointLoadOn {
   bool follows = false;
   int law = 0;
 
+  static constexpr Role role = Role::load;
+  static constexpr bool has_stiffness_matrix = false, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::port;
   template <class A, class B, class Visit>
   static void visit_data(A& a, B& b, Visit& visit) {
@@ -112,6 +124,8 @@ struct SpringOn {
   PortOn<G, C> ports[2];
   C stiffness = 0.0, rest_length = 0.0, damping = 0.0;
 
+  static constexpr Role role = Role::coupling;
+  static constexpr bool has_stiffness_matrix = false, acts_along_line = true;
   static constexpr DataAxes data_axes = DataAxes::none;
   template <class A, class B, class Visit>
   static void visit_data(A& a, B& b, Visit& visit) {
@@ -185,6 +199,8 @@ struct BushingOn {
   typename G::template Vector<C> rest = G::template Vector<C>::zero();
   bool has_damping = false;
 
+  static constexpr Role role = Role::coupling;
+  static constexpr bool has_stiffness_matrix = true, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::port;
   template <class A, class B, class Visit>
   static void visit_data(A& a, B& b, Visit& visit) {

@@ -55,6 +55,8 @@ struct JointOn {
   EffortOn<G, C> efforts[max_efforts];
   int num_efforts = 0;
 
+  static constexpr Role role = Role::joint;
+  static constexpr bool has_stiffness_matrix = false, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::none;
   template <class A, class B, class Visit>
   static void visit_data(A& a, B& b, Visit& visit) {
@@ -92,6 +94,17 @@ bool is_damped(const JointOn<G, C>& joint) {
 template <class G, class C>
 bool looks_at_rates(const JointOn<G, C>& joint) {
   return is_damped(joint);
+}
+/// Whether a row is driven by a law.
+template <class G, class C>
+bool is_driven(const JointOn<G, C>& joint) {
+  bool driven = false;
+  for (int k = 0; k < joint.num_rows; ++k) driven = driven || joint.rows[k].law >= 0;
+  return driven;
+}
+template <class G, class C>
+bool exchanges_energy(const JointOn<G, C>& joint) {
+  return is_driven(joint) || joint.num_efforts > 0;
 }
 
 /// theta = turns + atan2(s', c'), (c', s') the rotation about axis 3 seen from the last accepted angle: smooth over any number of turns.

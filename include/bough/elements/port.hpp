@@ -32,6 +32,17 @@ template <class C>
 using PortOf = PortOn<motion::Se3, C>;
 using Port = PortOf<double>;
 
+/// What an element is to the rest of the library, which asks for this and never for its type.
+enum class Role : std::uint8_t {
+  body,      ///< mass at one frame
+  beam,      ///< material along a reference axis between nodes
+  coupling,  ///< acts between two frames without constraints
+  joint,     ///< rows of constraints between two frames, and efforts along what they leave free
+  load,      ///< given forces
+};
+/// Whether an element goes from one frame to another.
+constexpr bool joins_two_frames(Role role) { return role == Role::coupling || role == Role::joint; }
+
 /// Axes in which the data of an element are given.
 enum class DataAxes : std::uint8_t {
   none,     ///< there are none: every port may be turned by itself
@@ -110,6 +121,25 @@ struct PortSlopesOn {
   bool moves = true;
   typename G::template Map<S> velocity, acceleration;
 };
+
+/// Of elements that say nothing else: whether they have mass, and how much [kg]; whether they take energy, what looks at velocities being a
+/// damper where there is no mass; whether they take or give any, as loads do.
+template <class E>
+bool has_mass(const E&) {
+  return false;
+}
+template <class E>
+double total_mass(const E&) {
+  return 0.0;
+}
+template <class E>
+bool dissipates(const E& e) {
+  return E::role != Role::body && looks_at_rates(e);
+}
+template <class E>
+bool exchanges_energy(const E& e) {
+  return E::role == Role::load || dissipates(e);
+}
 
 /// Energies [J], power [W] and momentum of one element, for the balances of a run.
 struct Measures {
