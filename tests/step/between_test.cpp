@@ -80,7 +80,7 @@ TEST(Between, both_ends_are_met) {
 
 TEST(Between, a_steady_twist_is_met_exactly_up_to_nearly_half_a_turn_a_step) {
   const Vec6<double> twist{1.0, -2.0, 0.5, 0.6, -1.1, 2.5};  // 2.8 rad/s
-  NodeMotion first = turning(0.4), last{}, found{}, exact{};
+  NodeMotion first = turning(0.4), last{}, found{};
   first.v = last.v = twist;
   const auto moved = [&](double t) {
     const Frame<double> H = Se3::compose(Frame<double>{first.R, first.x.hi}, Se3::exp(Vec6<double>(t * twist)));
