@@ -38,6 +38,7 @@ struct BatchArguments {
   bool quiet = false;
   bool check_expected = false;
   double stop_after = 0.0;  ///< of the whole batch [s]; 0: never
+  int retries = 0;          ///< of a case that fails
   bool resume = false;
 };
 struct SweepArguments {
@@ -46,6 +47,7 @@ struct SweepArguments {
   double time_limit = 0.0;
   std::vector<std::string> overrides, only;  ///< only: names of cases; empty: all
   double stop_after = 0.0;                   ///< of the whole batch [s]; 0: never
+  int retries = 0;                           ///< of a case that fails
   bool resume = false;
   std::string keep = "few";   ///< folders of cases: all, none, or of no more than 200
   double memory_limit = 0.0;  ///< of all cases at a time [bytes]; 0: what is available

@@ -95,11 +95,35 @@ int run_case_within(const study::BatchCase& which, const CaseSettings& settings,
   return summary.status == results::RunStatus::ok ? exit_done : exit_failed;
 }
 
+/// What a case that failed changes to be tried again: half the step, or twice the load steps; `which` names what it did.
+std::string smaller_steps(const study::BatchCase& which, const CaseSource& source) {
+  const io::SceneFile file = source.read(which);
+  if (!file.ok()) return {};
+  const scene::Analysis& analysis = file.scene.analysis;
+  std::string change = "/analysis/";
+  if (analysis.kind == scene::AnalysisKind::statics)
+    return change + "load_steps=" + std::to_string(2 * analysis.load_steps);
+  change += "step_size=";
+  io::append_number(change, 0.5 * analysis.step_size);
+  return change;
+}
+
 int run_case(const study::BatchCase& which, const CaseSettings& settings, const CaseSource& source,
              study::CaseReport& report) {
   limit_memory(settings.memory_limit);
   try {
-    return run_case_within(which, settings, source, report);
+    int code = run_case_within(which, settings, source, report);
+    study::BatchCase again = which;
+    for (int k = 0; k < settings.retries && code == exit_failed && !interrupted(); ++k) {
+      const std::string change = smaller_steps(again, source);
+      const std::string why = report.cause;
+      again.overrides.push_back(change);
+      report = {};
+      code = run_case_within(again, settings, source, report);
+      const std::string retried = "tried again with " + change;
+      report.cause = code == exit_done ? retried + ", for it had failed: " + why : retried + ": " + report.cause;
+    }
+    return code;
   } catch (const std::exception& error) {
     report.cause = cause_of(error);
     return exit_failed;
@@ -224,7 +248,10 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
   collection.list("journal.jsonl");
   study::Journal journal(settings.out / "journal.jsonl", settings.resumes);
   std::vector<std::string> keys;
-  for (const study::BatchCase& c : cases) keys.push_back(study::key_of(c, source.text(c)));
+  for (const study::BatchCase& c : cases) {
+    const std::string policy = settings.retries > 0 ? "retries " + std::to_string(settings.retries) : std::string();
+    keys.push_back(study::key_of(c, source.text(c) + policy));
+  }
   std::vector<study::CaseResult> results(cases.size());
   const std::vector<std::size_t> left = take_over(cases, keys, journal, settings.keeps_results, results);
   if (settings.resumes && !settings.quiet)

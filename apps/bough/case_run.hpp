@@ -18,6 +18,7 @@ struct CaseSettings {
   bool keeps_results = true;  ///< every case gets a folder; else its row is all that is left of it
   bool quiet = false, check_expected = false;
   double stop_after = 0.0;  ///< [s] from the start, stops as a user would; 0: never
+  int retries = 0;          ///< of a case that fails, each with steps half as long
   bool resumes = false;     ///< takes over what a batch into the same folder has done
 };
 

@@ -19,9 +19,10 @@ int batch(const BatchArguments& arguments) {
   }
   for (study::BatchCase& c : cases) c.overrides = arguments.overrides;
   const io::OutputCollection collection(arguments.out, "batch", {arguments.folder});
-  const CaseSettings settings{
-      arguments.out, arguments.folder.string(), arguments.threads,        arguments.time_limit, arguments.memory_limit,
-      true,          arguments.quiet,           arguments.check_expected, arguments.stop_after, arguments.resume};
+  const CaseSettings settings{arguments.out,        arguments.folder.string(), arguments.threads,
+                              arguments.time_limit, arguments.memory_limit,    true,
+                              arguments.quiet,      arguments.check_expected,  arguments.stop_after,
+                              arguments.retries,    arguments.resume};
   const CaseSource source{[](const study::BatchCase& which) { return io::read_scene(which.scene, which.overrides); },
                           [](const study::BatchCase& which) {
                             std::ifstream in(which.scene,

@@ -144,9 +144,10 @@ int sweep(const SweepArguments& arguments) {
   collection.write("cases.csv", cases_csv(made));
   const bool keeps = arguments.keep == "all" || (arguments.keep == "few" && cases.size() <= most_folders);
   const std::string title = file.spec.title.empty() ? file.spec.name : file.spec.title;
-  const CaseSettings settings{arguments.out,          title,           arguments.threads, arguments.time_limit,
-                              arguments.memory_limit, keeps,           arguments.quiet,   arguments.check_expected,
-                              arguments.stop_after,   arguments.resume};
+  const CaseSettings settings{
+      arguments.out,   title,           arguments.threads,        arguments.time_limit, arguments.memory_limit,
+      keeps,           arguments.quiet, arguments.check_expected, arguments.stop_after, arguments.retries,
+      arguments.resume};
   const std::vector<study::CaseResult> results = run_cases(cases, settings, source, collection);
   const std::vector<study::MeasureSensitivity> sensitivities = study::sensitivities_of(file.spec, results);
   if (!arguments.quiet) print_sensitivities(sensitivities);

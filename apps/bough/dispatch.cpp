@@ -69,7 +69,10 @@ void add_threads(CLI::App& verb, int& threads, const std::string& what) {
       ->check(CLI::Range(1, 1024));
 }
 
-void add_resume(CLI::App& verb, bool& resume, double& stop_after) {
+void add_resume(CLI::App& verb, bool& resume, double& stop_after, int& retries) {
+  verb.add_option("--retries", retries, "Try a case that fails so many times again, each time with steps half as long")
+      ->type_name("N")
+      ->check(CLI::Range(0, 10));
   verb.add_flag("--resume", resume,
                 "Go on where a batch into this directory was stopped or killed: what is done stays");
   verb.add_option("--stop-after", stop_after, "Stop the whole after so many seconds, so that --resume goes on")
@@ -133,7 +136,7 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
   add_memory_limit(verb, a.memory_limit, "all cases at a time");
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
-  add_resume(verb, a.resume, a.stop_after);
+  add_resume(verb, a.resume, a.stop_after, a.retries);
   verb.callback([&] { code = batch(a); });
 }
 
@@ -163,7 +166,7 @@ void add_sweep(CLI::App& app, SweepArguments& a, int& code) {
   add_memory_limit(verb, a.memory_limit, "all cases at a time");
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
-  add_resume(verb, a.resume, a.stop_after);
+  add_resume(verb, a.resume, a.stop_after, a.retries);
   verb.callback([&] { code = sweep(a); });
 }
 

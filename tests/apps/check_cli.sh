@@ -91,6 +91,12 @@ holds cmp sweep.one/07/history.csv sweep.case/07/history.csv
 expect 3 'are left' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --threads 1 --stop-after 0.02 --quiet
 expect 0 'cases are done' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --resume
 holds cmp sweep.one/batch.csv sweep.stopped/batch.csv
+mkdir stiff
+cp "$gallery/elastica.json" stiff
+hard='--set /analysis/max_cuts=0 --set /analysis/max_iterations=5 --set /analysis/load_steps=1 --set /expected=[]'
+expect 1 'elastica: failed' batch stiff --out stiff.out $hard
+expect 0 'tried again with /analysis/load_steps=2, for it had failed' batch stiff --out stiff.out $hard --retries 3 --resume
+expect 0 '1 of 1 cases are done' batch stiff --out stiff.out $hard --retries 3 --resume
 mkdir large
 cp good.json large/small.json
 awk 'BEGIN { n = 700000; printf "{\"schema_version\": 1, \"bodies\": [{\"name\": \"a\", \"kind\": \"point_mass\", \"mass\": 1}], \"loads\": [{\"at\": \"a\", \"force\": [1, 0, 0], \"law\": {\"kind\": \"table\", \"times\": [0"
