@@ -247,6 +247,7 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
   settings.memory_limit /= static_cast<double>(side_by_side);
   collection.list("journal.jsonl");
   study::Journal journal(settings.out / "journal.jsonl", settings.resumes);
+  if (!source.cases_table.empty()) collection.write("cases.csv", source.cases_table);  // the folder is this batch's now
   std::vector<std::string> keys;
   for (const study::BatchCase& c : cases) {
     const std::string policy = settings.retries > 0 ? "retries " + std::to_string(settings.retries) : std::string();

@@ -26,6 +26,7 @@ struct CaseSettings {
 struct CaseSource {
   std::function<io::SceneFile(const study::BatchCase&)> read;
   std::function<std::string(const study::BatchCase&)> text;  ///< what it is read from, without what the case changes
+  std::string cases_table = {};                              ///< written as cases.csv; empty: it is not
 };
 
 /// Runs the cases, large ones first where they are few enough to be looked at before.

@@ -47,17 +47,20 @@ std::string cases_csv(const study::SweepCases& made) {
   return text;
 }
 
-/// Lists the cases and what they will take, and runs none.
+/// Lists the cases and what they will take, and runs none. Of many it looks at a thousand.
 int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out, int threads,
                const CaseSource& source) {
-  constexpr std::size_t most_rows = 50;
+  constexpr std::size_t most_rows = 50, most_looks = 1000;
+  const std::size_t every = std::max<std::size_t>(1, cases.size() / most_looks);
   std::vector<std::vector<std::string>> rows = {{"case"}};
   for (std::size_t k = 0; !cases.empty() && k < cases.front().inputs.size(); ++k)
     rows[0].push_back(cases.front().inputs[k].first);
   for (const char* name : {"unknowns", "steps", "time", "memory"}) rows[0].emplace_back(name);
   double seconds = 0.0, most_bytes = 0.0;
-  std::size_t bad = 0;
+  std::size_t bad = 0, looked_at = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (i >= most_rows && i % every != 0) continue;
+    ++looked_at;
     std::vector<std::string> row = {cases[i].name};
     for (const auto& [name, value] : cases[i].inputs) row.push_back(value);
     const io::SceneFile file = source.read(cases[i]);
@@ -75,7 +78,9 @@ int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out,
   }
   std::cout << table_text(rows);
   if (cases.size() > most_rows) std::cout << "and " << cases.size() - most_rows << " more\n";
-  std::cout << cases.size() << " cases, " << left_out << " left out by conditions, " << bad << " refused: about "
+  seconds *= static_cast<double>(cases.size()) / static_cast<double>(std::max<std::size_t>(1, looked_at));
+  std::cout << cases.size() << " cases, " << left_out << " left out by conditions, " << bad << " refused"
+            << (looked_at < cases.size() ? " of " + std::to_string(looked_at) + " looked at" : "") << ": about "
             << io::seconds_text(seconds / threads) << " on " << threads << (threads == 1 ? " thread" : " threads")
             << ", up to " << io::bytes_text(most_bytes) << " a case\n";
   return bad > 0 ? exit_bad_input : exit_done;
@@ -130,18 +135,18 @@ int sweep(const SweepArguments& arguments) {
     std::cerr << "bough: the conditions of the sweep leave no case\n";
     return exit_bad_input;
   }
-  const CaseSource source{[&](const study::BatchCase& which) {
-                            return io::read_scene_text(file.spec.scene_text, file.spec.scene_name, which.overrides);
-                          },
-                          [&](const study::BatchCase&) { return file.spec.scene_text; }};
+  CaseSource source{[&](const study::BatchCase& which) {
+                      return io::read_scene_text(file.spec.scene_text, file.spec.scene_name, which.overrides);
+                    },
+                    [&](const study::BatchCase&) { return file.spec.scene_text; }};
   if (arguments.dry_run)
     return print_plan(cases, made.left_out, arguments.threads > 0 ? arguments.threads : default_threads(), source);
   if (arguments.out.empty()) {
     std::cerr << "bough: --out DIR is needed, but with --dry-run\n";
     return exit_bad_input;
   }
+  source.cases_table = cases_csv(made);
   const io::OutputCollection collection(arguments.out, "sweep", {arguments.file, file.spec.scene_file});
-  collection.write("cases.csv", cases_csv(made));
   const bool keeps = arguments.keep == "all" || (arguments.keep == "few" && cases.size() <= most_folders);
   const std::string title = file.spec.title.empty() ? file.spec.name : file.spec.title;
   const CaseSettings settings{

@@ -91,6 +91,13 @@ holds cmp sweep.one/07/history.csv sweep.case/07/history.csv
 expect 3 'are left' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --threads 1 --stop-after 0.02 --quiet
 expect 0 'cases are done' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --resume
 holds cmp sweep.one/batch.csv sweep.stopped/batch.csv
+# two batches do not write into one folder
+"$program" sweep "$sweeps/rod_chain_lengths.json" --out sweep.busy --threads 1 --set /analysis/step_size=1e-6 > /dev/null 2>&1 &
+busy=$!
+for k in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do test -e sweep.busy/journal.jsonl && break; sleep 0.1; done
+expect 2 'another batch writes' sweep "$sweeps/rod_chain_lengths.json" --out sweep.busy --quiet
+kill $busy
+wait $busy
 mkdir stiff
 cp "$gallery/elastica.json" stiff
 hard='--set /analysis/max_cuts=0 --set /analysis/max_iterations=5 --set /analysis/load_steps=1 --set /expected=[]'
