@@ -163,7 +163,10 @@ Journal::Journal(std::filesystem::path file, bool resumes) : file_(std::move(fil
   ::close(former);
 }
 
-Journal::~Journal() { release(); }
+Journal::~Journal() {
+  if (descriptor_ >= 0) (void)::fdatasync(descriptor_);
+  release();
+}
 
 void Journal::release() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -183,7 +186,10 @@ void Journal::add(const std::string& key, const CaseResult& result) {
     if (count < 0) fail(file_, errno);
     left.remove_prefix(static_cast<std::size_t>(count));
   }
+  const auto now = std::chrono::steady_clock::now();
+  if (now - synced_at_ < std::chrono::milliseconds(200)) return;
   if (::fdatasync(descriptor_) != 0) fail(file_, errno);
+  synced_at_ = std::chrono::steady_clock::now();
 }
 
 }  // namespace bough::study
