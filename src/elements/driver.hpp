@@ -89,14 +89,15 @@ BOUGH_INLINE void carry_wrenches(const E& e, const Places<E>& places, const S* o
   }
 }
 
-/// Takes the blocks of a tangent by the ports' increments to the rows and columns of nodes:  K_node = J_i^T K J_j, J = Ad(offset^-1).
+/// Takes what elements say of their ports' increments to the rows and columns of nodes.
 template <class E, class S>
-class BlockWriter {
+class TangentWriter {
   using G = typename E::Group;
 
  public:
-  BlockWriter(const E& e, const Places<E>& places, int size, S* tangent)
+  TangentWriter(const E& e, const Places<E>& places, int size, S* tangent)
       : e_(e), places_(places), size_(size), tangent_(tangent) {}
+  /// A block of forces:  K_node = J_i^T K J_j, J = Ad(offset^-1).
   template <class Block>
   BOUGH_INLINE void operator()(int i, int j, const Block& block) const {
     if (places_.of[i] < 0 || places_.of[j] < 0) return;
@@ -107,6 +108,18 @@ class BlockWriter {
     if (left) moved = G::transposed_product(G::inverse_adjoint_map(e_.ports[i].offset), moved);
     write(places_.of[i], places_.of[j], moved);
   }
+  /// The gradient of a joint's row: a row and, since forces are G^T lambda, a column.
+  BOUGH_INLINE void row(int k, int port, typename G::template Vector<S> gradient) const {
+    if (places_.of[port] < 0) return;
+    if (e_.ports[port].has_offset) gradient = G::inverse_adjoint_transpose_times(e_.ports[port].offset, gradient);
+    const int at = places_.forces + k, to = places_.of[port];
+    for (int j = 0; j < G::dof; ++j) tangent_[at * size_ + to + j] = tangent_[(to + j) * size_ + at] = gradient[j];
+  }
+  /// Rows do not follow multipliers.
+  void clear_rows() const {
+    for (int i = places_.forces; i < size_; ++i)
+      for (int j = places_.forces; j < size_; ++j) tangent_[i * size_ + j] = S(0.0);
+  }
 
  private:
   template <class Block>
@@ -114,28 +127,6 @@ class BlockWriter {
     for (int k = 0; k < G::dof; ++k)
       for (int l = 0; l < G::dof; ++l) tangent_[(row + k) * size_ + column + l] = block(k, l);
   }
-  const E& e_;
-  const Places<E>& places_;
-  int size_;
-  S* tangent_;
-};
-
-/// Gradients of a joint's rows by the ports' increments, as rows and, since forces are G^T lambda, columns of the tangent.
-template <class E, class S>
-class RowWriter {
-  using G = typename E::Group;
-
- public:
-  RowWriter(const E& e, const Places<E>& places, int size, S* tangent)
-      : e_(e), places_(places), size_(size), tangent_(tangent) {}
-  BOUGH_INLINE void operator()(int row, int port, typename G::template Vector<S> gradient) const {
-    if (places_.of[port] < 0) return;
-    if (e_.ports[port].has_offset) gradient = G::inverse_adjoint_transpose_times(e_.ports[port].offset, gradient);
-    const int at = places_.forces + row, to = places_.of[port];
-    for (int j = 0; j < G::dof; ++j) tangent_[at * size_ + to + j] = tangent_[(to + j) * size_ + at] = gradient[j];
-  }
-
- private:
   const E& e_;
   const Places<E>& places_;
   int size_;
@@ -170,12 +161,10 @@ void evaluate_element(const E& e, const FieldOn<G, S>& field, const S* multiplie
     PortSlopesOn<G, S> slopes[P];
     eval_port_slopes(e, field, slopes);
     see_from_inertial(e, field, anchor, p, slopes);
-    const BlockWriter<E, S> put(e, places, size, tangent);
+    const TangentWriter<E, S> put(e, places, size, tangent);
     if constexpr (E::num_multipliers > 0) {
-      eval_tangent(e, p, slopes, multipliers, field.around, turns, out, rows, put,
-                   RowWriter<E, S>(e, places, size, tangent));
-      for (int i = places.forces; i < size; ++i)
-        for (int j = places.forces; j < size; ++j) tangent[i * size + j] = S(0.0);
+      eval_tangent(e, p, slopes, multipliers, field.around, turns, out, rows, put);
+      put.clear_rows();
     } else {
       eval_tangent(e, p, slopes, field.around, out, put);
     }

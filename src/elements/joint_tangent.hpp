@@ -57,12 +57,12 @@ void add_effort_slopes(const EffortOn<G, C>& effort, const typename G::template 
   G::add_outer(e.by_twist, damped, g);
 }
 
-/// Blocks as put(i, j, block), gradients of the rows as put_row(row, port, gradient). With poses held (a consistent start) the forces do not
+/// Blocks as put(i, j, block), gradients of the rows as put.row(row, port, gradient). With poses held (a consistent start) the forces do not
 /// change and the rows keep their gradient.
-template <class G, class S, class C, class Put, class PutRow>
+template <class G, class S, class C, class Put>
 void eval_tangent(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const PortSlopesOn<G, S>* ports,
                   const Constant<S>* multipliers, const SurroundingsOn<G, S>& around, const C& turns, S* residual,
-                  S* rows, const Put& put, const PutRow& put_row) {
+                  S* rows, const Put& put) {
   eval_residual<G, S, C>(joint, p, multipliers, around, turns, residual, rows);
   const typename G::template Pose<S> H = G::relative(p[0].H, p[1].H);
   RelativeForce<G, S> e;
@@ -72,8 +72,8 @@ void eval_tangent(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const
     const ConstraintRowOn<G, C>& row = joint.rows[k];
     typename G::template Wrench<S> gradient;
     eval_coordinate<G, S, C>(row.kind, row, row.pitch, H, turns, gradient);
-    put_row(k, 1, G::vector_of_wrench(gradient));
-    put_row(k, 0, -G::inverse_adjoint_transpose_times(H, G::vector_of_wrench(gradient)));
+    put.row(k, 1, G::vector_of_wrench(gradient));
+    put.row(k, 0, -G::inverse_adjoint_transpose_times(H, G::vector_of_wrench(gradient)));
     if (ports[0].moves)
       add_gradient_slope<G, S>(multipliers[k], eval_gradient_slope<G, S, C>(row.kind, row, row.pitch, H), e);
   }

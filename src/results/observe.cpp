@@ -119,7 +119,7 @@ BeamPoint eval_point(const E& e, const Field& f, double s) {
   point.v = m.v;
   point.a = m.a;
   const Vec6<double> d1 = elements::blend<double, N>(slope, b.d);
-  point.strain = (1.0 / e.length) * motion::Se3::tangent_times(m.d, d1);
+  point.strain = (1.0 / e.length) * motion::tangent_times(m.d, d1);
   // Stress-free strain: constant over an element made of one helicoid.
   point.strain -= e.reference_strain[0];
   return point;

@@ -192,7 +192,7 @@ std::optional<double> ArcLengthPath::keep_length(double length) {
   double by_load = 0.0, by_spring = 0.0, left = 0.5 * (length * length - square(moved_));
   for (std::size_t n = 0; n < moved_.size(); ++n) {
     const auto along = [&](const std::vector<double>& x) {
-      return inner(moved_[n], motion::Se3::inverse_tangent_times(moved_[n], node_part(x, n)));
+      return inner(moved_[n], motion::inverse_tangent_times(moved_[n], node_part(x, n)));
     };
     by_load += along(tangent_);
     left -= along(correction_);

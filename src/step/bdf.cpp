@@ -152,7 +152,7 @@ std::optional<Trouble> Bdf::follow(State& state) const {
     const motion::Vec3<double> turn = lanes::angular_part(D);
     if (!(lanes::dot(turn, turn) <= largest_turn * largest_turn))
       return Trouble{"'" + system_.plan().nodes[n].name + "' turns by nearly a quarter of a turn in one step"};
-    node.v = motion::Se3::tangent_times(D, (1.0 / h_) * (c_.c0 * D + y_[n]));
+    node.v = motion::tangent_times(D, (1.0 / h_) * (c_.c0 * D + y_[n]));
     node.a = (1.0 / h_) * (c_.c0 * node.v + rates_[n]);
     node.dq = (1.0 / c_.c0) * D;
   }

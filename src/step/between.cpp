@@ -12,7 +12,7 @@ void eval_between(const elements::NodeMotion& first, const elements::NodeMotion&
   const motion::Frame<double> way{lanes::transpose_times(first.R, last.R),
                                   lanes::transpose_times(first.R, motion::difference(last.x, first.x))};
   const Vec6<double> d = Se3::log(way);
-  const Vec6<double> begin = h * first.v, end = h * Se3::inverse_tangent_times(d, last.v);
+  const Vec6<double> begin = h * first.v, end = h * motion::inverse_tangent_times(d, last.v);
   const double s = part, rest = 1.0 - part;
   const Vec6<double> p = (s * s * (3.0 - 2.0 * s)) * d + (s * rest * rest) * begin - (s * s * rest) * end;
   const Vec6<double> rate = (6.0 * s * rest) * d + (rest * (1.0 - 3.0 * s)) * begin + (s * (3.0 * s - 2.0)) * end;
@@ -20,7 +20,7 @@ void eval_between(const elements::NodeMotion& first, const elements::NodeMotion&
   out.R = first.R * step.R;
   out.x = first.x;
   out.x.add(first.R * step.x);
-  out.v = (1.0 / h) * Se3::tangent_times(p, rate);
+  out.v = (1.0 / h) * motion::tangent_times(p, rate);
 }
 
 }  // namespace bough::step

@@ -119,7 +119,7 @@ std::optional<Trouble> Variational::evaluate_step(const State& next, double h, R
     add_sizes(motion::cross6_transpose_times(mid_.nodes[n].v, P), terms);
     residual_[n] -= (2.0 / h) * p;
     residual_[n] = 0.5 * (residual_[n] + motion::adjoint_transpose_times(motion::Se3::exp(half), residual_[n])) +
-                   (2.0 / h) * motion::Se3::inverse_tangent_transpose_times(-half, P) + sums_.force(n);
+                   (2.0 / h) * motion::inverse_tangent_transpose_times(-half, P) + sums_.force(n);
     const Vec6<double> left = residual_[n];
     if (is_held(n)) {  // balanced by the joints that hold it
       add_sizes(left, terms);
@@ -179,7 +179,7 @@ void Variational::add_elastic_tangent(const E& e, const elements::Field& field, 
       for (int j = 0; j < size; ++j) {
         Vec6<double> P;
         for (int i = 0; i < 6; ++i) P[i] = elastic[(row + i) * size + j];
-        P = motion::Se3::inverse_tangent_transpose_times(-node.dq, P) +
+        P = motion::inverse_tangent_transpose_times(-node.dq, P) +
             (0.5 * h) * motion::cross6_transpose_times(node.v, P);
         for (int i = 0; i < 6; ++i) matrix[(row + i) * size + j] += P[i];
       }
@@ -284,8 +284,7 @@ StepReport Variational::iterate(State& next, const StepOptions& options, double 
       system_.set_node_part(rhs_.data(), static_cast<int>(n), -1.0 * residual_[n]);
     set_rows([&](std::size_t m) { return -after_.value(m); });
     if (const auto t = system_.solve(rhs_.data(), x_.data())) return fail(*t);
-    for (std::size_t n = 0; n < D_.size(); ++n)
-      D_[n] += 2.0 * motion::Se3::inverse_tangent_times(0.5 * D_[n], node_part(n));
+    for (std::size_t n = 0; n < D_.size(); ++n) D_[n] += 2.0 * motion::inverse_tangent_times(0.5 * D_[n], node_part(n));
     previous = report.change;
     report.change = 2.0 * system_.apply(mid_, x_.data());
     if (report.iterations < StepReport::remembered_changes)
@@ -324,8 +323,8 @@ StepReport Variational::try_step(State& state, const StepOptions& options, doubl
   if (!report.converged) return report;
   // What the iteration left open, r, is carried along as it is: momenta add up to round-off, whatever the tolerance.
   for (std::size_t n = 0; n < D_.size(); ++n) {
-    const Vec6<double> open = motion::Se3::inverse_tangent_transpose_times(
-        -D_[n], motion::Se3::tangent_transpose_times(-0.5 * D_[n], residual_[n]));
+    const Vec6<double> open =
+        motion::inverse_tangent_transpose_times(-D_[n], motion::tangent_transpose_times(-0.5 * D_[n], residual_[n]));
     state.momentum[n] = elements::eval_momentum_after(D_[n], h, sums_.momentum(n), sums_.force(n)) -
                         (0.5 * h) * motion::adjoint_transpose_times(motion::Se3::exp(D_[n]), open);
   }

@@ -111,7 +111,7 @@ NodeState<S> stepped(const NodeState<S>& n, const Vec6<double>& dq, const Slopes
                      const Vec6<S>& eta) {
   NodeState<S> r = n;
   if (moves) r.H = motion::compose(n.H, motion::exp_se3(eta));
-  const Vec6<S> of_coordinates = motion::Se3::inverse_tangent(lanes::cast<S>(dq)) * eta;
+  const Vec6<S> of_coordinates = motion::inverse_tangent(lanes::cast<S>(dq)) * eta;
   r.v += slopes.velocity * of_coordinates;
   r.a += slopes.mass_only ? eta : slopes.acceleration * of_coordinates;
   return r;

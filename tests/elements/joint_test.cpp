@@ -110,7 +110,7 @@ Curves make_curves(const std::vector<NodeMotion>& start, const motion::Vec3Pair&
         slope[i].c[k - 1] = k * q[i].c[k];
       }
     }
-    const Vec6<Taylor3> twist = motion::Se3::tangent_times(q, slope);
+    const Vec6<Taylor3> twist = motion::tangent_times(q, slope);
     Vec6<double> jerk;
     for (int i = 0; i < 6; ++i) {
       n.v[i] = twist[i].c[0];

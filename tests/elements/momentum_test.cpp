@@ -46,8 +46,8 @@ S lagrangian_of(const Beam<N>& e, const PortMotion<S>* p, const Surroundings<S>&
 template <class S>
 S lagrangian_of(const Bushing& e, const PortMotion<S>* p, const Surroundings<S>&) {
   const Frame<S> relative = motion::relative(p[0].H, p[1].H);
-  const Vec6<S> rate = motion::Se3::inverse_tangent_times(
-      motion::Se3::log(relative), Vec6<S>(p[1].v - motion::inverse_adjoint_times(relative, p[0].v)));
+  const Vec6<S> rate = motion::inverse_tangent_times(motion::Se3::log(relative),
+                                                     Vec6<S>(p[1].v - motion::inverse_adjoint_times(relative, p[0].v)));
   return 0.5 * elastic * lanes::dot(rate, Vec6<S>(e.stiffness * rate)) - eval_strain_energy(e, p);
 }
 template <class S>

@@ -149,7 +149,7 @@ void expect_true_twists(const Bent<N>& beam, double tolerance) {
   const Path<N> before = path_of<N>({beam}, s - h), at = path_of<N>({beam}, s), after = path_of<N>({beam}, s + h);
   for (int k = 0; k < N - 1; ++k) {
     const Vec6<double> twist =
-        motion::Se3::tangent_times(at.end[k], Vec6<double>((0.5 / h) * (after.end[k] - before.end[k])));
+        motion::tangent_times(at.end[k], Vec6<double>((0.5 / h) * (after.end[k] - before.end[k])));
     for (int c = 0; c < 6; ++c) EXPECT_NEAR(at.twist[k][c], twist[c], tolerance) << N << ", " << k;
   }
 }

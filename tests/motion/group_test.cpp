@@ -105,38 +105,6 @@ TEST(Group, the_tangent_operators_of_both_ends_differ_by_the_motion_tensor) {
   }
 }
 
-TEST(Group, the_tag_forwards_to_the_free_functions) {
-  test::Random random(28);
-  const Vec6<double> d = random.motion(1.2), n = random.vector<6>();
-  const Frame<double> H = Se3::exp(d), G = random.frame();
-  EXPECT_EQ(Se3::dof, 6);
-  EXPECT_EQ(distance(H, exp_se3(d)), 0.0);
-  EXPECT_EQ(largest(Se3::log(H) - log_se3(H)), 0.0);
-  EXPECT_EQ(distance(Se3::compose(H, G), compose(H, G)), 0.0);
-  EXPECT_EQ(distance(Se3::relative(H, G), relative(H, G)), 0.0);
-  EXPECT_EQ(distance(Se3::inverse(H), inverse(H)), 0.0);
-  EXPECT_EQ(distance(Se3::identity<double>(), Frame<double>::identity()), 0.0);
-  EXPECT_EQ(largest(Se3::adjoint(H) - adjoint(H)), 0.0);
-  EXPECT_EQ(largest(Se3::inverse_adjoint(H) - inverse_adjoint(H)), 0.0);
-  EXPECT_EQ(largest(Se3::adjoint_times(H, n) - adjoint_times(H, n)), 0.0);
-  EXPECT_EQ(largest(Se3::inverse_adjoint_times(H, n) - inverse_adjoint_times(H, n)), 0.0);
-  EXPECT_EQ(largest(Se3::adjoint_transpose_times(H, n) - adjoint_transpose_times(H, n)), 0.0);
-  EXPECT_EQ(largest(Se3::inverse_adjoint_transpose_times(H, n) - inverse_adjoint_transpose_times(H, n)), 0.0);
-  EXPECT_EQ(largest(Se3::cross(n) - cross6(n)), 0.0);
-  EXPECT_EQ(largest(Se3::cross_times(d, n) - cross6_times(d, n)), 0.0);
-  EXPECT_EQ(largest(Se3::cross_transpose_times(d, n) - cross6_transpose_times(d, n)), 0.0);
-  EXPECT_EQ(largest(Se3::hat(n) - hat6(n)), 0.0);
-  EXPECT_EQ(largest(Se3::tangent(d) - tangent(d)), 0.0);
-  EXPECT_EQ(largest(Se3::inverse_tangent(d) - inverse_tangent(d)), 0.0);
-  EXPECT_EQ(largest(Se3::tangent_times(d, n) - tangent_times(d, n)), 0.0);
-  EXPECT_EQ(largest(Se3::inverse_tangent_times(d, n) - inverse_tangent_times(d, n)), 0.0);
-  EXPECT_EQ(largest(Se3::tangent_transpose_times(d, n) - tangent_transpose_times(d, n)), 0.0);
-  EXPECT_EQ(largest(Se3::inverse_tangent_transpose_times(d, n) - inverse_tangent_transpose_times(d, n)), 0.0);
-  EXPECT_EQ(largest(Se3::tangent_derivative(d, n) - tangent_derivative(d, n)), 0.0);
-  EXPECT_EQ(largest(Se3::tangent_transpose_derivative(d, n) - tangent_transpose_derivative(d, n)), 0.0);
-  EXPECT_EQ(largest(Se3::inverse_tangent_transpose_derivative(d, n) - inverse_tangent_transpose_derivative(d, n)), 0.0);
-}
-
 TEST(Quaternions, compose_as_rotations_do) {
   test::Random random(31);
   for (int i = 0; i < 50; ++i) {

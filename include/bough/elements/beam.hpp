@@ -112,7 +112,7 @@ Vec6<S> eval_strain(const BeamShape<S, N>& b, const C& length, int point) {
   } else {
     const auto& rule = strain_rule<N>();
     return (1.0 / length) *
-           motion::Se3::tangent_times(blend<S, N>(rule.shape[point], b.d), blend<S, N>(rule.slope[point], b.d));
+           motion::tangent_times(blend<S, N>(rule.shape[point], b.d), blend<S, N>(rule.slope[point], b.d));
   }
 }
 
