@@ -88,7 +88,7 @@ BOUGH_INLINE void eval_tangent(const BushingOn<G, C>& bushing, const PortMotionO
   const bool viscous = around.has_inertia && bushing.has_damping;
   ScrewRates<G, S> r;
   eval_screw_rates<G, S>(p, around, false, viscous, r);
-  const auto n = eval_screw_resultant<G, S, C>(elasticity_of(bushing), r, viscous);
+  const auto n = eval_screw_resultant<G, S>(bushing, r, viscous);
   RelativeForce<G, S> e;
   e.Q = G::inverse_adjoint_map(G::relative(p[0].H, p[1].H));
   e.f = put_screw_wrenches<G, S>(r, n, residual);

@@ -31,12 +31,12 @@ void eval_port_slopes(const E& e, const FieldOn<G, S>& field, PortSlopesOn<G, S>
 /// Motions of an element with mass as seen from the inertial frame, where nodes are described in a frame that moves; and with
 /// slopes how they follow the port's increment eta, since Ad((H exp(eta))^-1) V = c + ad(c) eta:
 ///   dv_s = dv + ad(c) eta,   da_s = da + ad(c) dv + (ad(Ad(H^-1) V') - ad(v) ad(c)) eta
-/// All of these are operators on motions, as the kernels take them.
+/// All of these are operators on motions, as the kernels take them. Precondition: there is an observer.
 template <class E, class S>
 BOUGH_INLINE void see_from_inertial(const E&, const FieldOf<S>& field, const motion::PositionPair<S>& anchor,
                                     PortMotion<S>* p, PortSlopesOn<motion::Se3, S>* slopes) {
   if constexpr (has_mass_matrix<E>) {
-    if (field.observer == nullptr || !field.around.has_inertia) return;
+    if (!field.around.has_inertia) return;
     const CarrierMotionOf<S>& o = *field.observer;
     const Vec3<S> from = anchor.hi + anchor.lo;
     for (int k = 0; k < E::num_ports; ++k) {
@@ -55,11 +55,6 @@ BOUGH_INLINE void see_from_inertial(const E&, const FieldOf<S>& field, const mot
     }
   }
 }
-/// Scenes in a plane have no frame that moves.
-template <class E, class S>
-BOUGH_INLINE void see_from_inertial(const E&, const FieldOn<motion::Se2, S>&, const motion::PositionPair<S, 2>&,
-                                    PortMotionOn<motion::Se2, S>*, PortSlopesOn<motion::Se2, S>*) {}
-
 // ---- nodes
 
 /// Where an element's ports stand among its unknowns: dof for each port off the ground, then its multipliers.
@@ -155,12 +150,14 @@ void evaluate_element(const E& e, const FieldOn<G, S>& field, const S* multiplie
   const int m = num_multipliers(e), size = places.forces + m;
   S out[G::dof * P], rows[E::num_multipliers + 1];
   if (tangent == nullptr) {
-    see_from_inertial(e, field, anchor, p, static_cast<PortSlopesOn<G, S>*>(nullptr));
+    if constexpr (G::has_moving_frames)
+      if (field.observer != nullptr) see_from_inertial(e, field, anchor, p, static_cast<PortSlopesOn<G, S>*>(nullptr));
     eval_kernel(e, p, multipliers, field.around, turns, out, rows);
   } else {
     PortSlopesOn<G, S> slopes[P];
     eval_port_slopes(e, field, slopes);
-    see_from_inertial(e, field, anchor, p, slopes);
+    if constexpr (G::has_moving_frames)
+      if (field.observer != nullptr) see_from_inertial(e, field, anchor, p, slopes);
     const TangentWriter<E, S> put(e, places, size, tangent);
     if constexpr (E::num_multipliers > 0) {
       eval_tangent(e, p, slopes, multipliers, field.around, turns, out, rows, put);

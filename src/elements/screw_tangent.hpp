@@ -133,18 +133,19 @@ BOUGH_INLINE void add_gauss_blocks(const typename G::template Matrix<C>& mass,
 
 /// Those of elasticity and damping, n held where it turns with the nodes: U^T dn and ad(d)^T dn + hat(n) dd.
 template <class G, class S, class C>
-BOUGH_INLINE void eval_elastic_blocks(const ScrewElasticity<G, C>& e, const ScrewRates<G, S>& r,
+BOUGH_INLINE void eval_elastic_blocks(const BeamOn<G, 2, C>& e, const ScrewRates<G, S>& r,
                                       const typename G::template Wrench<S>& n, const ScrewColumns<G, S>& columns,
                                       const PortSlopesOn<G, S>* ports, const BeamTerms& terms,
                                       ScrewBlocks<G, S>& blocks) {
-  const typename G::template Matrix<C> K = e.inverse * e.stiffness;
+  const C inverse = inverse_length(e);
+  const typename G::template Matrix<C> K = inverse * e.stiffness;
   const auto n_hat = G::hat(n);
   for (int j = 0; j < 2; ++j) {
     auto by = G::block_product(K, columns.by_node[j]);
     if (terms.viscous) {
       auto rate = G::product(columns.by_node[j], ports[j].velocity);
       G::add_product(rate, columns.rate_by_d, columns.by_node[j]);
-      G::add_block_product(by, typename G::template Matrix<C>(e.inverse * e.damping), rate);
+      G::add_block_product(by, typename G::template Matrix<C>(inverse * e.damping), rate);
     }
     blocks.first[j] = G::transposed_product(columns.by_node[1], by);
     blocks.sum[j] = G::template Matrix<S>::zero();
@@ -183,7 +184,7 @@ BOUGH_INLINE void add_gauss_forces(const ScrewBlend<G, S>& b, const ScrewRates<G
 
 /// Columns of d, and blocks of elasticity and damping.
 template <class G, class S, class C>
-BOUGH_INLINE void begin_screw_blocks(const ScrewElasticity<G, C>& e, const ScrewRates<G, S>& r,
+BOUGH_INLINE void begin_screw_blocks(const BeamOn<G, 2, C>& e, const ScrewRates<G, S>& r,
                                      const typename G::template Wrench<S>& n, const PortSlopesOn<G, S>* ports,
                                      const BeamTerms& terms, ScrewColumns<G, S>& columns, ScrewBlocks<G, S>& blocks) {
   if (terms.moves) {
@@ -220,12 +221,12 @@ BOUGH_INLINE void eval_tangent(const BeamOn<G, 2, C>& beam, const PortMotionOn<G
   const BeamTerms terms(beam, ports[0].moves, around.has_inertia);
   ScrewRates<G, S> r;
   eval_screw_rates<G, S>(p, around, beam.has_mass, around.has_inertia && (beam.has_mass || beam.has_damping), r);
-  const auto n = eval_screw_resultant<G, S, C>(elasticity_of(beam), r, around.has_inertia && beam.has_damping);
+  const auto n = eval_screw_resultant<G, S>(beam, r, around.has_inertia && beam.has_damping);
   ScrewForces<G, S> forces;
   begin_screw_forces<G, S>(r, n, forces);
   ScrewColumns<G, S> columns;
   ScrewBlocks<G, S> blocks;
-  begin_screw_blocks<G, S, C>(elasticity_of(beam), r, n, ports, terms, columns, blocks);
+  begin_screw_blocks<G, S, C>(beam, r, n, ports, terms, columns, blocks);
   if (beam.has_mass) {
     const typename G::template Matrix<C> mass = C(0.5 * beam.length) * beam.mass;
     const ScrewBlend<G, S> f = motion::eval_screw_blend<G, S>(r.inverse.d);

@@ -36,8 +36,8 @@ JOINTS = Feature(
         accept_turns""",
     types=r"\bJointOn<[^<>]*(?:Pack<8> ?)?> const&")
 DAMPING = Feature(functions="relative_twist", terms=r"\bdamping\b|\bby_twist\b|\bby_rate\b|\brate = lanes::dot", asks=r"is_present|is_damped|viscous,")
-GYROSCOPIC = Feature(functions="gyroscopic spin add_spin_rows subtract_dual_bracket", terms=r"\bmomentum\b")
-POINTS = Feature(functions="subtract_dual_bracket", terms=r"\(body\.mass,|\(e\.mass,")
+GYROSCOPIC = Feature(functions="gyroscopic spin add_spin_rows", terms=r"subtract_dual_bracket\(f, v|body\.mass, v\)")
+POINTS = Feature(terms=r"\(body\.mass,|\(e\.mass,")
 # What is left out, what belongs to it, the scene that is without it and the one that has it.
 FEATURES = [
     ("joints", JOINTS, "bushings", "links"),

@@ -219,8 +219,12 @@ bool looks_at_rates(const BushingOn<G, C>& e) {
   return e.has_damping;
 }
 template <class G, class C>
-ScrewElasticity<G, C> elasticity_of(const BushingOn<G, C>& e) {
-  return {e.stiffness, e.damping, e.rest, C(1.0)};
+BOUGH_INLINE const typename G::template Vector<C>& rest_of(const BushingOn<G, C>& e) {
+  return e.rest;
+}
+template <class G, class C>
+BOUGH_INLINE C inverse_length(const BushingOn<G, C>&) {
+  return C(1.0);
 }
 
 /// Wrenches F_b = T(d)^-T n and F_a = ad(d)^T n - F_b of what resists d; returns F_b.
@@ -240,7 +244,7 @@ BOUGH_INLINE void eval_residual(const BushingOn<G, C>& bushing, const PortMotion
   const bool viscous = around.has_inertia && bushing.has_damping;
   ScrewRates<G, S> r;
   eval_screw_rates<G, S>(p, around, false, viscous, r);
-  const auto n = eval_screw_resultant<G, S, C>(elasticity_of(bushing), r, viscous);
+  const auto n = eval_screw_resultant<G, S>(bushing, r, viscous);
   put_screw_wrenches<G, S>(r, n, out);
 }
 

@@ -73,22 +73,21 @@ BOUGH_INLINE void eval_gauss_forces(const typename G::template Matrix<C>& mass, 
   g.difference = second - first;
 }
 
-/// What resists the relative motion d: K (d/L - e0) + D d'/L.
+/// Rest e0 and 1/L of what resists the relative motion d by  n = K (d/L - e0) + D d'/L.
 template <class G, class C>
-struct ScrewElasticity {
-  const typename G::template Matrix<C>&stiffness, &damping;
-  const typename G::template Vector<C>& rest;  ///< e0
-  C inverse;                                   ///< 1/L
-};
-template <class G, class C>
-BOUGH_INLINE ScrewElasticity<G, C> elasticity_of(const BeamOn<G, 2, C>& beam) {
-  return {beam.stiffness, beam.damping, beam.reference_strain[0], 1.0 / beam.length};
+BOUGH_INLINE const typename G::template Vector<C>& rest_of(const BeamOn<G, 2, C>& beam) {
+  return beam.reference_strain[0];
 }
-template <class G, class S, class C>
-BOUGH_INLINE typename G::template Wrench<S> eval_screw_resultant(const ScrewElasticity<G, C>& e,
-                                                                 const ScrewRates<G, S>& r, bool viscous) {
-  auto n = G::matrix_times(e.stiffness, G::strain(e.inverse, r.inverse.d, e.rest));
-  if (viscous) n = G::add(n, e.inverse, G::matrix_times(e.damping, r.rate));
+template <class G, class C>
+BOUGH_INLINE C inverse_length(const BeamOn<G, 2, C>& beam) {
+  return 1.0 / beam.length;
+}
+/// n of a two-node beam or a bushing.
+template <class G, class S, class E>
+BOUGH_INLINE typename G::template Wrench<S> eval_screw_resultant(const E& e, const ScrewRates<G, S>& r, bool viscous) {
+  const auto inverse = inverse_length(e);
+  auto n = G::matrix_times(e.stiffness, G::strain(inverse, r.inverse.d, rest_of(e)));
+  if (viscous) n = G::add(n, inverse, G::matrix_times(e.damping, r.rate));
   return n;
 }
 
@@ -100,7 +99,7 @@ BOUGH_INLINE void eval_residual(const BeamOn<G, 2, C>& beam, const PortMotionOn<
   ScrewRates<G, S> r;
   eval_screw_rates<G, S>(p, around, beam.has_mass, moves, r);
   const auto& d = r.inverse.d;
-  const auto n = eval_screw_resultant<G, S, C>(elasticity_of(beam), r, viscous);
+  const auto n = eval_screw_resultant<G, S>(beam, r, viscous);
   auto sum = G::dual_bracket(d, n);
   auto inner = G::times(r.inverse.q, sum), first = G::add(n, 0.5, sum);
   if (beam.has_mass) {
