@@ -194,8 +194,8 @@ TEST(PlanarElements, have_the_tangent_of_their_residual) {
 template <class E>
 void compare_lanes(const char* name) {
   SCOPED_TRACE(name);
-  constexpr int P = E::num_ports;
   visit_cases([](const Kind& kind, bool has_inertia, const Slopes& slopes) {
+    constexpr int P = E::num_ports;
     std::vector<Sample<E>> samples;
     for (unsigned seed = 0; seed < num_lanes; ++seed) samples.push_back(sample<E>(kind, seed));
     const E* elements[num_lanes];
