@@ -2,6 +2,7 @@
 /// What is wrong with a document, gathered from all checks and placed in its text. Scenes and chains of frames share it.
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,5 +72,38 @@ class Report {
 
 /// The bytes of a file, "-": of standard input; where they can not be had, `problem.rule` says why.
 std::string read_whole_file(const std::filesystem::path& file, Problem& problem);
+
+/// A document of given rules: parsed, checked, and converted where it is an object. converter: has `convert(root)`, `faults` and
+/// `warnings`. What is wrong goes to the members `problems` and `warnings` of `file`.
+template <class File, class Converter>
+void read_document(std::string_view text, const RuleTable& rules, Converter& converter, File& file) {
+  std::vector<JsonFault> text_faults;
+  std::optional<JsonValue> root = parse_json(text, source_file, text_faults);
+  std::vector<CheckFault> check_faults;
+  const std::size_t more_faults = root ? check_rules(rules, *root, check_faults) : 0;
+  const std::vector<std::string> no_overrides;
+  Report report(text, root ? &*root : nullptr, no_overrides);
+  for (const JsonFault& f : text_faults) report.add(f);
+  for (const CheckFault& f : check_faults) report.add(f);
+  report.count_others(more_faults);
+  if (root && root->is(JsonKind::object)) {
+    converter.convert(*root);
+    report.add(converter.faults, false);
+    report.add(converter.warnings, true);
+  }
+  report.write(file.problems, file.warnings);
+}
+
+/// read_text(text) of a file that can be read; else what keeps it from being read.
+template <class File, class ReadText>
+File read_document_file(const std::filesystem::path& file, const ReadText& read_text) {
+  Problem problem;
+  const std::string text = read_whole_file(file, problem);
+  if (problem.rule.empty()) return read_text(text);
+  File r;
+  problem.value = shown(file.string(), 200);
+  r.problems.push_back(std::move(problem));
+  return r;
+}
 
 }  // namespace bough::io

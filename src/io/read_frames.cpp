@@ -170,35 +170,16 @@ class FrameConverter : private ValueConverter {
 
 FrameFile read_frames_text(std::string_view text, std::string name) {
   FrameFile file;
-  std::vector<JsonFault> text_faults;
-  std::optional<JsonValue> root = parse_json(text, source_file, text_faults);
-  std::vector<CheckFault> check_faults;
-  const std::size_t more_faults = root ? check_rules(frame_rules(), *root, check_faults) : 0;
-  const std::vector<std::string> no_overrides;
-  Report report(text, root ? &*root : nullptr, no_overrides);
-  for (const JsonFault& f : text_faults) report.add(f);
-  for (const CheckFault& f : check_faults) report.add(f);
-  report.count_others(more_faults);
-  if (root && root->is(JsonKind::object)) {
-    FrameConverter converter;
-    converter.convert(*root);
-    report.add(converter.faults, false);
-    report.add(converter.warnings, true);
-    file.study = std::move(converter.study);
-  }
+  FrameConverter converter;
+  read_document(text, frame_rules(), converter, file);
+  file.study = std::move(converter.study);
   file.study.name = std::move(name);
-  report.write(file.problems, file.warnings);
   return file;
 }
 
 FrameFile read_frames(const std::filesystem::path& file) {
-  Problem problem;
-  const std::string text = read_whole_file(file, problem);
-  if (problem.rule.empty()) return read_frames_text(text, file.stem().string());
-  FrameFile r;
-  problem.value = shown(file.string(), 200);
-  r.problems.push_back(std::move(problem));
-  return r;
+  return read_document_file<FrameFile>(
+      file, [&](const std::string& text) { return read_frames_text(text, file.stem().string()); });
 }
 
 std::string frames_schema_text() { return schema_text_of(frame_rules(), "bough frames"); }

@@ -77,34 +77,14 @@ motion::MotionReport describe(const MotionInput& input) {
 
 MotionFile read_motion_text(std::string_view text) {
   MotionFile file;
-  std::vector<JsonFault> text_faults;
-  std::optional<JsonValue> root = parse_json(text, source_file, text_faults);
-  std::vector<CheckFault> check_faults;
-  const std::size_t more_faults = root ? check_rules(motion_rules(), *root, check_faults) : 0;
-  const std::vector<std::string> no_overrides;
-  Report report(text, root ? &*root : nullptr, no_overrides);
-  for (const JsonFault& f : text_faults) report.add(f);
-  for (const CheckFault& f : check_faults) report.add(f);
-  report.count_others(more_faults);
-  if (root && root->is(JsonKind::object)) {
-    MotionConverter converter;
-    converter.convert(*root);
-    report.add(converter.faults, false);
-    report.add(converter.warnings, true);
-    file.input = converter.input;
-  }
-  report.write(file.problems, file.warnings);
+  MotionConverter converter;
+  read_document(text, motion_rules(), converter, file);
+  file.input = converter.input;
   return file;
 }
 
 MotionFile read_motion(const std::filesystem::path& file) {
-  Problem problem;
-  const std::string text = read_whole_file(file, problem);
-  if (problem.rule.empty()) return read_motion_text(text);
-  MotionFile r;
-  problem.value = shown(file.string(), 200);
-  r.problems.push_back(std::move(problem));
-  return r;
+  return read_document_file<MotionFile>(file, [](const std::string& text) { return read_motion_text(text); });
 }
 
 std::string read_pose(std::span<const double> numbers, motion::Frame<double>& pose) {

@@ -120,35 +120,16 @@ std::vector<std::string> StudyConverter::read_settings(const Value& list, const 
 
 StudyFile read_study_text(std::string_view text, std::string name, const std::filesystem::path& folder) {
   StudyFile file;
-  std::vector<JsonFault> text_faults;
-  std::optional<JsonValue> root = parse_json(text, source_file, text_faults);
-  std::vector<CheckFault> check_faults;
-  const std::size_t more_faults = root ? check_rules(study_rules(), *root, check_faults) : 0;
-  const std::vector<std::string> no_overrides;
-  Report report(text, root ? &*root : nullptr, no_overrides);
-  for (const JsonFault& f : text_faults) report.add(f);
-  for (const CheckFault& f : check_faults) report.add(f);
-  report.count_others(more_faults);
-  if (root && root->is(JsonKind::object)) {
-    StudyConverter converter(text, folder);
-    converter.convert(*root);
-    report.add(converter.faults, false);
-    report.add(converter.warnings, true);
-    file.spec = std::move(converter.spec);
-  }
+  StudyConverter converter(text, folder);
+  read_document(text, study_rules(), converter, file);
+  file.spec = std::move(converter.spec);
   file.spec.name = std::move(name);
-  report.write(file.problems, file.warnings);
   return file;
 }
 
 StudyFile read_study(const std::filesystem::path& file) {
-  Problem problem;
-  const std::string text = read_whole_file(file, problem);
-  if (problem.rule.empty()) return read_study_text(text, name_of_file(file), file.parent_path());
-  StudyFile r;
-  problem.value = shown(file.string(), 200);
-  r.problems.push_back(std::move(problem));
-  return r;
+  return read_document_file<StudyFile>(
+      file, [&](const std::string& text) { return read_study_text(text, name_of_file(file), file.parent_path()); });
 }
 
 std::vector<double> sample_times(const StudySpec& spec) {

@@ -261,35 +261,16 @@ class SweepConverter : private ValueConverter {
 
 SweepFile read_sweep_text(std::string_view text, std::string name, const std::filesystem::path& folder) {
   SweepFile file;
-  std::vector<JsonFault> text_faults;
-  std::optional<JsonValue> root = parse_json(text, source_file, text_faults);
-  std::vector<CheckFault> check_faults;
-  const std::size_t more_faults = root ? check_rules(sweep_rules(), *root, check_faults) : 0;
-  const std::vector<std::string> no_overrides;
-  Report report(text, root ? &*root : nullptr, no_overrides);
-  for (const JsonFault& f : text_faults) report.add(f);
-  for (const CheckFault& f : check_faults) report.add(f);
-  report.count_others(more_faults);
-  if (root && root->is(JsonKind::object)) {
-    SweepConverter converter(text, folder);
-    converter.convert(*root);
-    report.add(converter.faults, false);
-    report.add(converter.warnings, true);
-    file.spec = std::move(converter.spec);
-  }
+  SweepConverter converter(text, folder);
+  read_document(text, sweep_rules(), converter, file);
+  file.spec = std::move(converter.spec);
   file.spec.name = std::move(name);
-  report.write(file.problems, file.warnings);
   return file;
 }
 
 SweepFile read_sweep(const std::filesystem::path& file) {
-  Problem problem;
-  const std::string text = read_whole_file(file, problem);
-  if (problem.rule.empty()) return read_sweep_text(text, name_of_file(file), file.parent_path());
-  SweepFile r;
-  problem.value = shown(file.string(), 200);
-  r.problems.push_back(std::move(problem));
-  return r;
+  return read_document_file<SweepFile>(
+      file, [&](const std::string& text) { return read_sweep_text(text, name_of_file(file), file.parent_path()); });
 }
 
 }  // namespace bough::io

@@ -1,7 +1,6 @@
 // The law of a formula: derivatives by Taylor arithmetic, changes of branch by interval arithmetic.
 
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -14,24 +13,13 @@
 #include "polynomial_pieces.hpp"
 #include "program.hpp"
 #include "quadrature.hpp"
+#include "traps_masked.hpp"
 
 namespace bough::laws {
 
 namespace {
 
 int sign_of(double x) { return x > 0.0 ? 1 : (x < 0.0 ? -1 : 0); }
-
-/// Masks floating-point traps while it lives: ranges may well be infinite.
-class TrapsMasked {
- public:
-  TrapsMasked() { std::feholdexcept(&environment_); }
-  TrapsMasked(const TrapsMasked&) = delete;
-  TrapsMasked& operator=(const TrapsMasked&) = delete;
-  ~TrapsMasked() { std::fesetenv(&environment_); }
-
- private:
-  std::fenv_t environment_{};
-};
 
 /// Finds the times at which one switch of a formula changes branch: the roots of its argument g.
 ///   0 not in g([a, b])                     no root: drop

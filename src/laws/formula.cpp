@@ -1,12 +1,12 @@
 #include "bough/laws/formula.hpp"
 
 #include <algorithm>
-#include <cfenv>
 #include <charconv>
 
 #include "bough/laws/law_error.hpp"
 #include "eval_program.hpp"
 #include "program.hpp"
+#include "traps_masked.hpp"
 
 namespace bough::laws {
 namespace {
@@ -20,18 +20,6 @@ std::size_t end_of_number(std::string_view text, std::size_t at) {
   const auto [end, status] = std::from_chars(begin, text.data() + text.size(), number);
   return at + std::max<std::size_t>(1, static_cast<std::size_t>(end - begin));
 }
-
-/// Masks floating-point traps while it lives: what 1/0 gives is for the caller to judge.
-class TrapsMasked {
- public:
-  TrapsMasked() { std::feholdexcept(&environment_); }
-  TrapsMasked(const TrapsMasked&) = delete;
-  TrapsMasked& operator=(const TrapsMasked&) = delete;
-  ~TrapsMasked() { std::fesetenv(&environment_); }
-
- private:
-  std::fenv_t environment_{};
-};
 
 }  // namespace
 

@@ -1,0 +1,18 @@
+#pragma once
+#include <cfenv>
+
+namespace bough::laws {
+
+/// Masks floating-point traps while it lives: infinities and NaN are for the caller to judge.
+class TrapsMasked {
+ public:
+  TrapsMasked() { std::feholdexcept(&environment_); }
+  TrapsMasked(const TrapsMasked&) = delete;
+  TrapsMasked& operator=(const TrapsMasked&) = delete;
+  ~TrapsMasked() { std::fesetenv(&environment_); }
+
+ private:
+  std::fenv_t environment_{};
+};
+
+}  // namespace bough::laws
