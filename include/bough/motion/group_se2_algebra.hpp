@@ -145,10 +145,6 @@ struct Se2Algebra {
     return {{x[2] * n[1], -(x[2] * n[0]), negative_multiply_add(x[0], n[1], S(x[1] * n[0]))}};
   }
   template <class S>
-  static BOUGH_INLINE Vec3<S> dual_bracket(const Vec2<S>& x, const Vec3<S>& n) {
-    return {{S(0.0), S(0.0), negative_multiply_add(x[0], n[1], S(x[1] * n[0]))}};
-  }
-  template <class S>
   static BOUGH_INLINE Vec3<S> add_dual_bracket(const Vec3<S>& r, const Vec3<S>& x, const Vec3<S>& n) {
     return {{multiply_add(x[2], n[1], r[0]), negative_multiply_add(x[2], n[0], r[1]),
              negative_multiply_add(x[0], n[1], multiply_add(x[1], n[0], r[2]))}};
@@ -157,10 +153,6 @@ struct Se2Algebra {
   static BOUGH_INLINE Vec3<S> subtract_dual_bracket(const Vec3<S>& r, const Vec3<S>& x, const Vec3<S>& n) {
     return {{negative_multiply_add(x[2], n[1], r[0]), multiply_add(x[2], n[0], r[1]),
              multiply_add(x[0], n[1], negative_multiply_add(x[1], n[0], r[2]))}};
-  }
-  template <class S>
-  static BOUGH_INLINE Vec3<S> subtract_dual_bracket(const Vec3<S>& r, const Vec2<S>& x, const Vec3<S>& n) {
-    return {{r[0], r[1], multiply_add(x[0], n[1], negative_multiply_add(x[1], n[0], r[2]))}};
   }
   /// A bracket as a motion.
   template <class S>
@@ -172,20 +164,8 @@ struct Se2Algebra {
     return x[2] * y[2];
   }
   template <class S>
-  static BOUGH_INLINE S power(const Vec3<S>& n, const Vec3<S>& y) {
-    return lanes::dot(n, y);
-  }
-  template <class S>
-  static BOUGH_INLINE S power(const Vec3<S>& n, const Vec2<S>& y) {
-    return multiply_add(n[1], y[1], S(n[0] * y[0]));
-  }
-  template <class S>
   static BOUGH_INLINE S real_power(const Vec3<S>& n, const Vec3<S>& y) {
     return lanes::dot(n, y);
-  }
-  template <class S>
-  static BOUGH_INLINE Vec3<S> add_covector(const Vec3<S>& r, const S& f, const Vec3<S>& x) {
-    return {{r[0], r[1], multiply_add(f, x[2], r[2])}};
   }
   template <class S, int N>
   static BOUGH_INLINE lanes::Vec<S, N> times(const S& f, const lanes::Vec<S, N>& x) {

@@ -146,29 +146,6 @@ struct Se2Maps : Se2Algebra {
     m.corner = multiply_add(x[2], a[2], multiply_add(x[1], n[1], multiply_add(x[0], n[0], m.corner)));
   }
   template <class S>
-  static BOUGH_INLINE void add_symmetric_polar(PlaneWrenchMap<S>& m, const Vec3<S>& a, const Vec3<S>& x) {
-    const Vec2<S> side = x[2] * plane_part(a);
-    m.column = m.column + side;
-    m.row = m.row + side;
-    m.corner = multiply_add(x[2], S(a[2] + a[2]), m.corner);
-  }
-  template <class S>
-  static BOUGH_INLINE void subtract_symmetric_pair(PlaneWrenchMap<S>& m, const Vec3<S>& y, const Vec3<S>& n) {
-    const Vec2<S> side = y[2] * plane_part(n);
-    const S half = multiply_add(y[1], n[1], S(y[0] * n[0]));
-    m.column = m.column + side;
-    m.row = m.row + side;
-    m.corner = m.corner - (half + half);
-  }
-  template <class S>
-  static BOUGH_INLINE void add_pairing(PlaneWrenchMap<S>& m, const S& f) {
-    m.corner = m.corner + f;
-  }
-  template <class S>
-  static BOUGH_INLINE PlaneWrenchMap<S> plus(const PlaneWrenchMap<S>& x, const PlaneWrenchMap<S>& y) {
-    return {x.column + y.column, x.row + y.row, x.corner + y.corner};
-  }
-  template <class S>
   static BOUGH_INLINE PlaneWrenchMap<S> transposed(const PlaneWrenchMap<S>& m) {
     return {m.row, m.column, m.corner};
   }
