@@ -29,29 +29,31 @@ struct ViewArguments {
   std::string view = "auto";
   int positions = 9;
 };
-struct BatchArguments {
-  std::filesystem::path folder, out;
-  int threads = 0;
+/// What `bough batch` and `bough sweep` share.
+struct CaseArguments {
+  std::filesystem::path out;
+  int threads = 0;  ///< cases at a time; 0: as many as the machine has
   double time_limit = 0.0;
   std::vector<std::string> overrides;
-  double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
-  bool quiet = false;
-  bool check_expected = false;
+  double memory_limit = 0.0;  ///< of all cases at a time [bytes]; 0: what is available
+  bool quiet = false, check_expected = false;
   double stop_after = 0.0;  ///< of the whole batch [s]; 0: never
   int retries = 0;          ///< of a case that fails
   bool resume = false;
+  std::string shard;       ///< "I/N", "auto", "auto/N"; empty: all cases
+  std::string job_engine;  ///< whose job files are written, and nothing is run; else empty
+  int tasks = 0;           ///< of these; 0: some hundred cases each
 };
-struct SweepArguments {
-  std::filesystem::path file, out;
-  int threads = 0;
-  double time_limit = 0.0;
-  std::vector<std::string> overrides, only;  ///< only: names of cases; empty: all
-  double stop_after = 0.0;                   ///< of the whole batch [s]; 0: never
-  int retries = 0;                           ///< of a case that fails
-  bool resume = false;
-  std::string keep = "few";   ///< folders of cases: all, none, or of no more than 200
-  double memory_limit = 0.0;  ///< of all cases at a time [bytes]; 0: what is available
-  bool quiet = false, check_expected = false, dry_run = false;
+struct BatchArguments : CaseArguments {
+  std::filesystem::path folder;
+  std::vector<std::filesystem::path>
+      shards;  ///< put together, and nothing is run; folder: where the scenes or the sweep lie now
+};
+struct SweepArguments : CaseArguments {
+  std::filesystem::path file;
+  std::vector<std::string> only;  ///< names of cases; empty: all
+  std::string keep = "few";       ///< folders of cases: all, none, or of no more than 200
+  bool dry_run = false;
 };
 struct ExportMatrixArguments {
   std::filesystem::path scene, out, rhs;  ///< out empty: ./<scene>.mtx; rhs empty: not written

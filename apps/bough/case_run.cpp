@@ -237,6 +237,10 @@ std::vector<std::size_t> take_over(const std::vector<study::BatchCase>& cases, c
 
 }  // namespace
 
+std::string policy_of(const CaseArguments& arguments) {
+  return arguments.retries > 0 ? "retries " + std::to_string(arguments.retries) : std::string();
+}
+
 std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& given,
                                          const CaseSource& source, const io::OutputCollection& collection) {
   const auto start = std::chrono::steady_clock::now();
@@ -245,17 +249,19 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
   const std::size_t side_by_side = std::clamp<std::size_t>(cases.size(), 1, static_cast<std::size_t>(settings.threads));
   if (settings.memory_limit <= 0.0) settings.memory_limit = available_memory();
   settings.memory_limit /= static_cast<double>(side_by_side);
-  collection.list("journal.jsonl");
-  study::Journal journal(settings.out / "journal.jsonl", settings.resumes);
-  if (!source.cases_table.empty()) collection.write("cases.csv", source.cases_table);  // the folder is this batch's now
+  collection.list(study::journal_file);
+  study::Journal journal(settings.out / study::journal_file, settings.resume);
+  if (!source.cases_table.empty())
+    collection.write(study::cases_file, source.cases_table);  // the folder is this batch's now
   std::vector<std::string> keys;
-  for (const study::BatchCase& c : cases) {
-    const std::string policy = settings.retries > 0 ? "retries " + std::to_string(settings.retries) : std::string();
-    keys.push_back(study::key_of(c, source.text(c) + policy));
+  for (const study::BatchCase& c : cases) keys.push_back(study::key_of(c, source.text(c) + policy_of(settings)));
+  if (settings.shard_record) {
+    collection.write(study::keys_file, study::keys_csv(cases, keys));
+    collection.write(study::shard_file, study::shard_text(*settings.shard_record));
   }
   std::vector<study::CaseResult> results(cases.size());
   const std::vector<std::size_t> left = take_over(cases, keys, journal, settings.keeps_results, results);
-  if (settings.resumes && !settings.quiet)
+  if (settings.resume && !settings.quiet)
     std::cout << cases.size() - left.size() << " of " << cases.size() << " cases are done" << std::endl;
 
   std::vector<study::BatchCase> to_run;
@@ -287,8 +293,8 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
 
 int finish_cases(const std::vector<study::CaseResult>& results,
                  const std::vector<study::MeasureSensitivity>& sensitivities, const CaseSettings& settings,
-                 const io::OutputCollection& collection) {
-  collection.write("batch.csv", study::batch_csv(results));
+                 const io::OutputCollection& collection, const std::string& table) {
+  collection.write("batch.csv", table.empty() ? study::batch_csv(results) : table);
   collection.write("batch.json", study::batch_json(results, settings.title, sensitivities));
   collection.write("cost.csv", study::cost_csv(results));
   write_batch_page(collection, results, settings.title, sensitivities, results.size());
@@ -305,7 +311,8 @@ int finish_cases(const std::vector<study::CaseResult>& results,
   }
   const auto num_stopped = count([](const study::CaseResult& r) { return r.status == study::CaseStatus::interrupted; });
   if (num_stopped > 0) {
-    std::cerr << "stopped: " << num_stopped << " cases are left; the same command with --resume goes on\n";
+    std::cerr << (table.empty() ? "stopped: " : "not whole: ") << num_stopped
+              << " cases are left; the same command with --resume goes on\n";
     return exit_stopped;
   }
   return num_failed > 0 || (settings.check_expected && num_not_as_expected > 0) ? exit_failed : exit_done;

@@ -1,25 +1,22 @@
 #pragma once
 /// What `bough batch` and `bough sweep` share: how a case is run, told and summed up.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "arguments.hpp"
 #include "bough/io/output_folder.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/study/batch.hpp"
+#include "bough/study/collect.hpp"
 
 namespace bough::app {
 
-struct CaseSettings {
-  std::filesystem::path out;
+struct CaseSettings : CaseArguments {
   std::string title;
-  int threads = 0;
-  double time_limit = 0.0, memory_limit = 0.0;
   bool keeps_results = true;  ///< every case gets a folder; else its row is all that is left of it
-  bool quiet = false, check_expected = false;
-  double stop_after = 0.0;  ///< [s] from the start, stops as a user would; 0: never
-  int retries = 0;          ///< of a case that fails, each with steps half as long
-  bool resumes = false;     ///< takes over what a batch into the same folder has done
+  std::optional<study::ShardRecord> shard_record = {};  ///< of the shard that the cases are; `out` is its own folder
 };
 
 /// The scene of a case.
@@ -35,10 +32,16 @@ struct CaseSource {
 std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& settings,
                                          const CaseSource& source, const io::OutputCollection& collection);
 
-/// Writes batch.csv, batch.json, batch.html, cost.csv and, where there are sensitivities, sensitivities.csv; tells what came of the
+/// What a retried case depends on besides its scene and what it changes there: of its key.
+std::string policy_of(const CaseArguments& arguments);
+
+/// table: batch.csv, where it is another one than that of the results. Writes batch.csv, batch.json, batch.html, cost.csv and, where there are sensitivities, sensitivities.csv; tells what came of the
 /// cases and returns the exit status.
 int finish_cases(const std::vector<study::CaseResult>& results,
                  const std::vector<study::MeasureSensitivity>& sensitivities, const CaseSettings& settings,
-                 const io::OutputCollection& collection);
+                 const io::OutputCollection& collection, const std::string& table = {});
+
+/// Indices of sensitivity as tables, on standard output.
+void print_sensitivities(const std::vector<study::MeasureSensitivity>& sensitivities);
 
 }  // namespace bough::app

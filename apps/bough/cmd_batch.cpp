@@ -1,35 +1,54 @@
 /// bough batch FOLDER: every scene of a folder, one thread a case.
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 
 #include "arguments.hpp"
+#include "bough/io/history.hpp"
+#include "bough/study/estimate.hpp"
 #include "case_run.hpp"
+#include "collect_run.hpp"
+#include "shard_run.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
 
 int batch(const BatchArguments& arguments) {
-  std::vector<study::BatchCase> cases;
+  if (!arguments.shards.empty()) return collect(arguments);
+  WholeBatch whole{.verb = "batch", .source = arguments.folder, .inputs = {arguments.folder}};
+  CaseSettings settings{arguments, arguments.folder.string()};
+  std::optional<study::Shard> shard;
+  if (!arguments.shard.empty()) shard = shard_asked_for(arguments.shard);
   try {
-    cases = study::cases_in(arguments.folder, arguments.out);
+    whole.cases = study::cases_in(arguments.folder, shard ? folder_of(arguments, *shard) : arguments.out);
   } catch (const std::exception& error) {
     std::cerr << "bough: " << cause_of(error) << "\n";
     return exit_bad_input;
   }
-  for (study::BatchCase& c : cases) c.overrides = arguments.overrides;
-  const io::OutputCollection collection(arguments.out, "batch", {arguments.folder});
-  const CaseSettings settings{arguments.out,        arguments.folder.string(), arguments.threads,
-                              arguments.time_limit, arguments.memory_limit,    true,
-                              arguments.quiet,      arguments.check_expected,  arguments.stop_after,
-                              arguments.retries,    arguments.resume};
+  whole.list = "case\n";
+  for (study::BatchCase& c : whole.cases) {
+    c.overrides = arguments.overrides;
+    whole.list += io::csv_field(c.name) + '\n';
+  }
   const CaseSource source{[](const study::BatchCase& which) { return io::read_scene(which.scene, which.overrides); },
                           [](const study::BatchCase& which) {
                             std::ifstream in(which.scene,
                                              std::ios::binary);  // of one that cannot be read its case tells
                             return std::string(std::istreambuf_iterator<char>(in), {});
                           }};
-  return finish_cases(run_cases(cases, settings, source, collection), {}, settings, collection);
+  whole.work = [&] {
+    std::vector<double> work;
+    for (const study::BatchCase& c : whole.cases) work.push_back(work_of(source.read(c)));
+    return work;
+  };
+  if (shard || !arguments.job_engine.empty())
+    if (list_for_shards(whole, arguments) != whole.list)
+      refuse_other_list(arguments, "the scenes of " + arguments.folder.string() + " have other names");
+  if (!arguments.job_engine.empty()) return export_jobs(whole, arguments, source);
+  if (shard) take_shard(*shard, source, whole, settings);
+  const io::OutputCollection collection(settings.out, "batch", whole.inputs);
+  return finish_cases(run_cases(whole.cases, settings, source, collection), {}, settings, collection);
 }
 
 }  // namespace bough::app

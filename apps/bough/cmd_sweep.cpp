@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "arguments.hpp"
-#include "bough/io/history.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/read_sweep.hpp"
@@ -11,6 +10,7 @@
 #include "bough/study/estimate.hpp"
 #include "case_run.hpp"
 #include "result_text.hpp"
+#include "shard_run.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
@@ -19,32 +19,19 @@ namespace {
 constexpr std::size_t most_folders = 200;  // of cases, unless more are asked for
 
 std::vector<study::BatchCase> batch_cases(const io::SweepSpec& spec, const study::SweepCases& made,
-                                          const SweepArguments& arguments) {
+                                          const SweepArguments& arguments, const std::filesystem::path& out) {
   std::vector<study::BatchCase> cases;
   for (const study::SweepCase& c : made.cases) {
     if (!arguments.only.empty() &&
         std::find(arguments.only.begin(), arguments.only.end(), c.name) == arguments.only.end())
       continue;
-    study::BatchCase one{c.name, spec.scene_file, arguments.out / c.name, study::overrides_of(spec, c), {}};
+    study::BatchCase one{c.name, spec.scene_file, out / c.name, study::overrides_of(spec, c), {}};
     one.overrides.insert(one.overrides.end(), arguments.overrides.begin(), arguments.overrides.end());
     for (std::size_t k = 0; k < made.variables.size(); ++k)
       one.inputs.emplace_back(made.variables[k], c.inputs[k].text);
     cases.push_back(std::move(one));
   }
   return cases;
-}
-
-/// All cases with what they change, for whoever runs them again.
-std::string cases_csv(const study::SweepCases& made) {
-  std::string text = "case";
-  for (const std::string& name : made.variables) text += ',' + io::csv_field(name);
-  text += '\n';
-  for (const study::SweepCase& c : made.cases) {
-    text += c.name;
-    for (const io::SweepValue& v : c.inputs) text += ',' + io::csv_field(v.text);
-    text += '\n';
-  }
-  return text;
 }
 
 /// Lists the cases and what they will take, and runs none. Of many it looks at a thousand.
@@ -86,30 +73,15 @@ int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out,
   return bad > 0 ? exit_bad_input : exit_done;
 }
 
-/// "0.31 (0.28 to 0.34)"
-std::string index_text(const study::Index& index) {
-  std::string text = io::rounded_text(index.value, 3);
-  if (index.low && index.high)
-    text += " (" + io::rounded_text(*index.low, 3) + " to " + io::rounded_text(*index.high, 3) + ")";
-  return text;
-}
-
-void print_sensitivities(const std::vector<study::MeasureSensitivity>& sensitivities) {
-  for (const study::MeasureSensitivity& s : sensitivities) {
-    std::cout << s.measure << ": " << s.of.method << " over " << s.of.rows << " cases";
-    if (s.of.explained)
-      std::cout << ", a linear function explains " << io::rounded_text(100.0 * *s.of.explained, 3)
-                << " % of the variance, " << io::rounded_text(100.0 * *s.of.explained_ranks, 3)
-                << " % of that of ranks";
-    std::cout << "\n";
-    std::vector<std::vector<std::string>> rows = {{"  "}};
-    rows[0].insert(rows[0].end(), s.of.indices.begin(), s.of.indices.end());
-    for (std::size_t k = 0; k < s.variables.size(); ++k) {
-      rows.push_back({"  " + s.variables[k]});
-      for (const std::vector<study::Index>& of : s.of.values) rows.back().push_back(index_text(of[k]));
-    }
-    std::cout << table_text(rows);
-  }
+std::vector<double> work_of_cases(const io::SweepSpec& spec, const study::SweepCases& made,
+                                  const std::vector<std::string>& overrides) {
+  std::vector<std::vector<io::SweepValue>> rows;
+  for (const study::SweepCase& c : made.cases) rows.push_back(c.inputs);
+  return study::predicted_work(rows, [&](const std::vector<io::SweepValue>& inputs) {
+    std::vector<std::string> changes = study::overrides_of(spec, {"", inputs});
+    changes.insert(changes.end(), overrides.begin(), overrides.end());
+    return work_of(io::read_scene_text(spec.scene_text, spec.scene_name, changes));
+  });
 }
 
 }  // namespace
@@ -118,6 +90,11 @@ int sweep(const SweepArguments& arguments) {
   const io::SweepFile file = io::read_sweep(arguments.file);
   print_problems(arguments.file, file.problems, file.warnings);
   if (!file.ok()) return exit_bad_input;
+  const bool runs_here = arguments.job_engine.empty();
+  if (arguments.out.empty() && !arguments.dry_run) {
+    std::cerr << "bough: --out DIR is needed, but with --dry-run\n";
+    return exit_bad_input;
+  }
   study::SweepCases made;
   try {
     made = study::make_cases(file.spec);
@@ -125,13 +102,25 @@ int sweep(const SweepArguments& arguments) {
     std::cerr << "bough: " << cause_of(error) << "\n";
     return exit_bad_input;
   }
-  const std::vector<study::BatchCase> cases = batch_cases(file.spec, made, arguments);
+  WholeBatch whole{.verb = "sweep",
+                   .source = arguments.file,
+                   .inputs = {arguments.file, file.spec.scene_file},
+                   .list = study::cases_csv(made),
+                   .words = {"--keep", arguments.keep}};
+  std::optional<study::Shard> shard;
+  if (!arguments.shard.empty() && !arguments.dry_run) shard = shard_asked_for(arguments.shard);
+  if (shard || (!runs_here && !arguments.dry_run)) {
+    whole.list = list_for_shards(whole, arguments);
+    if (const std::string why = study::adopt_cases(whole.list, made); !why.empty()) refuse_other_list(arguments, why);
+  }
+  whole.cases = batch_cases(file.spec, made, arguments, shard ? folder_of(arguments, *shard) : arguments.out);
   for (const std::string& name : arguments.only)
-    if (std::none_of(cases.begin(), cases.end(), [&](const study::BatchCase& c) { return c.name == name; })) {
+    if (std::none_of(whole.cases.begin(), whole.cases.end(),
+                     [&](const study::BatchCase& c) { return c.name == name; })) {
       std::cerr << "bough: the sweep has no case " << name << "\n";
       return exit_bad_input;
     }
-  if (cases.empty()) {
+  if (whole.cases.empty()) {
     std::cerr << "bough: the conditions of the sweep leave no case\n";
     return exit_bad_input;
   }
@@ -140,21 +129,22 @@ int sweep(const SweepArguments& arguments) {
                     },
                     [&](const study::BatchCase&) { return file.spec.scene_text; }};
   if (arguments.dry_run)
-    return print_plan(cases, made.left_out, arguments.threads > 0 ? arguments.threads : default_threads(), source);
-  if (arguments.out.empty()) {
-    std::cerr << "bough: --out DIR is needed, but with --dry-run\n";
-    return exit_bad_input;
+    return print_plan(whole.cases, made.left_out, arguments.threads > 0 ? arguments.threads : default_threads(),
+                      source);
+  if (!runs_here) return export_jobs(whole, arguments, source);
+
+  const bool keeps = arguments.keep == "all" || (arguments.keep == "few" && whole.cases.size() <= most_folders);
+  CaseSettings settings{arguments, file.spec.title.empty() ? file.spec.name : file.spec.title, keeps};
+  if (shard) {
+    whole.work = [&] { return work_of_cases(file.spec, made, arguments.overrides); };
+    take_shard(*shard, source, whole, settings);
+  } else {
+    source.cases_table = whole.list;
   }
-  source.cases_table = cases_csv(made);
-  const io::OutputCollection collection(arguments.out, "sweep", {arguments.file, file.spec.scene_file});
-  const bool keeps = arguments.keep == "all" || (arguments.keep == "few" && cases.size() <= most_folders);
-  const std::string title = file.spec.title.empty() ? file.spec.name : file.spec.title;
-  const CaseSettings settings{
-      arguments.out,   title,           arguments.threads,        arguments.time_limit, arguments.memory_limit,
-      keeps,           arguments.quiet, arguments.check_expected, arguments.stop_after, arguments.retries,
-      arguments.resume};
-  const std::vector<study::CaseResult> results = run_cases(cases, settings, source, collection);
-  const std::vector<study::MeasureSensitivity> sensitivities = study::sensitivities_of(file.spec, results);
+  const io::OutputCollection collection(settings.out, "sweep", whole.inputs);
+  const std::vector<study::CaseResult> results = run_cases(whole.cases, settings, source, collection);
+  std::vector<study::MeasureSensitivity> sensitivities;  // of a shard they would be those of some rows
+  if (!shard) sensitivities = study::sensitivities_of(file.spec, results);
   if (!arguments.quiet) print_sensitivities(sensitivities);
   return finish_cases(results, sensitivities, settings, collection);
 }

@@ -69,17 +69,6 @@ void add_threads(CLI::App& verb, int& threads, const std::string& what) {
       ->check(CLI::Range(1, 1024));
 }
 
-void add_resume(CLI::App& verb, bool& resume, double& stop_after, int& retries) {
-  verb.add_option("--retries", retries, "Try a case that fails so many times again, each time with steps half as long")
-      ->type_name("N")
-      ->check(CLI::Range(0, 10));
-  verb.add_flag("--resume", resume,
-                "Go on where a batch into this directory was stopped or killed: what is done stays");
-  verb.add_option("--stop-after", stop_after, "Stop the whole after so many seconds, so that --resume goes on")
-      ->type_name("S")
-      ->check(between(0.001, 1e9));
-}
-
 CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples) {
   CLI::App* verb = app.add_subcommand(name, what);
   verb->footer("Examples:\n" + examples);
@@ -120,14 +109,9 @@ void add_view(CLI::App& app, ViewArguments& a, int& code) {
   verb.callback([&] { code = view(a); });
 }
 
-void add_batch(CLI::App& app, BatchArguments& a, int& code) {
-  CLI::App& verb =
-      add_verb(app, "batch", "Run every scene of a folder, one thread a case",
-               "  bough batch scenes --out results --threads 8\n"
-               "Writes results/NAME for every NAME.json, the tables batch.csv and batch.json, and cost.csv.\n"
-               "Exit status: 0 all done, 1 a case failed, 2 nothing could be run, 3 stopped: --resume goes on.");
-  verb.add_option("FOLDER", a.folder, "Folder of scene files")->required();
-  verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR")->required();
+/// What batches and sweeps share.
+void add_case_options(CLI::App& verb, CaseArguments& a) {
+  verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR");
   add_threads(verb, a.threads, "Cases at a time");
   verb.add_option("--time-limit", a.time_limit, "Stop a case after so many seconds (default: none)")
       ->type_name("S")
@@ -136,8 +120,51 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
   add_memory_limit(verb, a.memory_limit, "all cases at a time");
   verb.add_flag("--quiet", a.quiet, "Print failed cases only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
-  add_resume(verb, a.resume, a.stop_after, a.retries);
-  verb.callback([&] { code = batch(a); });
+  verb.add_option("--retries", a.retries,
+                  "Try a case that fails so many times again, each time with steps half as long")
+      ->type_name("N")
+      ->check(CLI::Range(0, 10));
+  verb.add_flag("--resume", a.resume,
+                "Go on where a batch into this directory was stopped or killed: what is done stays");
+  verb.add_option("--stop-after", a.stop_after, "Stop the whole after so many seconds, so that --resume goes on")
+      ->type_name("S")
+      ->check(between(0.001, 1e9));
+  CLI::Option* shard =
+      verb.add_option("--shard", a.shard,
+                      "Run part I of N, into DIR/shard_I_of_N; auto: as a Slurm array or Open MPI tells, auto/N: or "
+                      "an indexed job of Kubernetes");
+  shard->type_name("I/N");
+  CLI::Option* job = verb.add_option("--export", a.job_engine,
+                                     "Write a job file that runs all shards, and run nothing: slurm, parallel, "
+                                     "snakemake or kubernetes");
+  job->check(CLI::IsMember({"slurm", "parallel", "snakemake", "kubernetes"}))->excludes(shard);
+  verb.add_option("--tasks", a.tasks, "Number of shards of a job file (default: some 300 cases each, up to an hour)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000))
+      ->needs(job);
+}
+
+void add_batch(CLI::App& app, BatchArguments& a, int& code) {
+  CLI::App& verb =
+      add_verb(app, "batch", "Run every scene of a folder, one thread a case; put shards together",
+               "  bough batch scenes --out results --threads 8\n"
+               "  bough batch scenes --out results --shard 3/20\n"
+               "  bough batch --collect results --out results\n"
+               "Writes results/NAME for every NAME.json, the tables batch.csv and batch.json, and cost.csv.\n"
+               "Exit status: 0 all done, 1 a case failed, 2 nothing could be run, 3 stopped, or shards are missing:\n"
+               "--resume goes on.");
+  CLI::Option* folder = verb.add_option("FOLDER", a.folder, "Folder of scene files");
+  add_case_options(verb, a);
+  verb.get_option("--out")->required();
+  CLI::Option* collect =
+      verb.add_option("--collect", a.shards,
+                      "Make the tables of these shards, of batches and sweeps alike: folders of shards, or of many; "
+                      "FOLDER: where the sweep lies now, if it was moved");
+  collect->type_name("DIR")->excludes("--shard")->excludes("--export")->excludes("--resume");
+  verb.callback([&a, &code, folder, collect] {
+    if (folder->count() == 0 && collect->count() == 0) throw CLI::RequiredError("FOLDER or --collect");
+    code = batch(a);
+  });
 }
 
 void add_sweep(CLI::App& app, SweepArguments& a, int& code) {
@@ -146,27 +173,21 @@ void add_sweep(CLI::App& app, SweepArguments& a, int& code) {
       "  bough sweep data/sweeps/beam.json --dry-run\n"
       "  bough sweep data/sweeps/beam.json --out results --threads 8\n"
       "  bough sweep data/sweeps/beam.json --out one --case 0042\n"
+      "  bough sweep data/sweeps/beam.json --out results --export slurm\n"
       "Writes cases.csv (what varies), batch.csv and batch.json (what came of it), cost.csv (times and memory), and a\n"
       "folder a case where there are no more than 200. `bough schema --sweep` prints the format.\n"
       "Exit status: 0 all done, 1 a case failed, 2 bad input, 3 stopped: --resume goes on.");
   verb.add_option("FILE", a.file, "Sweep (JSON)")->required();
-  verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR");
+  add_case_options(verb, a);
   verb.add_flag("--dry-run", a.dry_run, "List the cases and what they will take, and run none");
   verb.add_option("--case", a.only, "Only this case; may be given several times")
       ->type_name("NAME")
       ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->excludes("--shard")
+      ->excludes("--export");
   verb.add_option("--keep", a.keep, "Folders of cases: all, none, or few, which is up to 200 (default: few)")
       ->check(CLI::IsMember({"all", "none", "few"}));
-  add_threads(verb, a.threads, "Cases at a time");
-  verb.add_option("--time-limit", a.time_limit, "Stop a case after so many seconds (default: none)")
-      ->type_name("S")
-      ->check(between(0.001, 1e9));
-  add_overrides(verb, a.overrides);
-  add_memory_limit(verb, a.memory_limit, "all cases at a time");
-  verb.add_flag("--quiet", a.quiet, "Print failed cases only");
-  verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
-  add_resume(verb, a.resume, a.stop_after, a.retries);
   verb.callback([&] { code = sweep(a); });
 }
 

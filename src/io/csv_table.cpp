@@ -1,4 +1,4 @@
-#include "csv_table.hpp"
+#include "bough/io/csv_table.hpp"
 
 namespace bough::io {
 

@@ -150,8 +150,7 @@ bool are_one(const fs::path& a, const fs::path& b) {
 }
 
 /// Others hold a folder for as long as they add a line to its manifest, or for a whole run.
-void wait_for(FolderLock& lock, const fs::path& folder) {
-  constexpr int most_tries = 200;
+void wait_for(FolderLock& lock, const fs::path& folder, int most_tries = 200) {
   for (int k = 0; !lock.take(fs::canonical(folder)); ++k) {
     if (k == most_tries)
       throw std::runtime_error("cannot write into " + folder.string() + ": another run is writing it");
@@ -264,9 +263,10 @@ void refuse_inputs_within(const std::vector<fs::path>& inputs, const fs::path& f
   }
 }
 
-void list_file(const fs::path& folder, const std::string& made_by, const std::string& name) {
-  FolderLock lock;
-  wait_for(lock, folder);
+namespace {
+
+/// list_file of whoever holds the folder.
+void list_in_locked(const fs::path& folder, const std::string& made_by, const std::string& name) {
   std::optional<Manifest> present = read_manifest(folder);
   if (!present && fs::exists(fs::symlink_status(folder / manifest_name)))
     throw OutputRefused((folder / manifest_name).string() + " was not written by bough and would be replaced");
@@ -279,6 +279,25 @@ void list_file(const fs::path& folder, const std::string& made_by, const std::st
   else
     manifest.files.push_back({name});
   write_file(folder / manifest_name, manifest_text(manifest), Durability::later);
+}
+
+}  // namespace
+
+void list_file(const fs::path& folder, const std::string& made_by, const std::string& name) {
+  FolderLock lock;
+  wait_for(lock, folder);
+  list_in_locked(folder, made_by, name);
+}
+
+void write_listed_file_once(const fs::path& folder, const std::string& made_by, const std::string& name,
+                            std::string_view text) {
+  if (fs::exists(folder / name)) return;
+  constexpr int most_tries = 15000;  // the first writer may have tens of megabytes to make durable
+  FolderLock lock;
+  wait_for(lock, folder, most_tries);
+  if (fs::exists(folder / name)) return;
+  list_in_locked(folder, made_by, name);
+  write_file(folder / name, text);
 }
 
 void write_listed_file(const fs::path& folder, const std::string& made_by, const std::string& name,

@@ -356,6 +356,10 @@ void OutputCollection::write(const std::string& name, std::string_view text) con
   write_listed_file(folder_, made_by_, name, text);
 }
 
+void OutputCollection::write_once(const std::string& name, std::string_view text) const {
+  write_listed_file_once(folder_, made_by_, name, text);
+}
+
 void OutputCollection::list(const std::string& name) const { list_file(folder_, made_by_, name); }
 
 }  // namespace bough::io

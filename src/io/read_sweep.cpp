@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
+#include "bough/io/csv_table.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/laws/law_error.hpp"
-#include "csv_table.hpp"
 #include "document_report.hpp"
 #include "named_numbers.hpp"
 #include "study_scene.hpp"
@@ -95,6 +95,8 @@ class SweepConverter : private ValueConverter {
 
   SweepValue value_of(const Value& v) const {
     SweepValue value{v.is(JsonKind::string) ? json_string(v.text.str()) : slice(v), {}};
+    for (char& c : value.text)
+      if (c == '\n' || c == '\r') c = ' ';  // between values of a list: tables have one line a case
     if (v.is(JsonKind::number)) value.number = v.number;
     return value;
   }

@@ -91,6 +91,17 @@ holds cmp sweep.one/07/history.csv sweep.case/07/history.csv
 expect 3 'are left' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --threads 1 --stop-after 0.02 --quiet
 expect 0 'cases are done' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --resume
 holds cmp sweep.one/batch.csv sweep.stopped/batch.csv
+# shards: the collected table is that of one machine, and what is missing is named
+for shard in 1/2 2/3 3/3; do expect 0 'from the command line' sweep "$sweeps/rod_chain_lengths.json" --out sweep.shards --shard $shard --keep none; done
+expect 3 'cases are missing: ' batch --collect sweep.shards --out sweep.part
+expect 0 'shard 1 of 3' sweep "$sweeps/rod_chain_lengths.json" --out sweep.shards --shard 1/3 --keep none
+expect 0 '4 shards with 25 of 25' batch --collect sweep.shards --out sweep.shards
+for file in batch.csv batch.json; do holds cmp sweep.one/$file sweep.shards/$file; done
+expect 2 'I from 1 to N' sweep "$sweeps/rod_chain_lengths.json" --out sweep.none --shard 4/3
+expect 2 'FOLDER or --collect' batch --out sweep.none
+expect 2 'no shard' batch --collect "$gallery" --out sweep.none
+expect 0 'sbatch' sweep "$sweeps/rod_chain_lengths.json" --out sweep.jobs --export slurm
+holds grep -q -- '--shard "${SLURM_ARRAY_TASK_ID}/1"$' sweep.jobs/job.slurm
 # two batches do not write into one folder
 "$program" sweep "$sweeps/rod_chain_lengths.json" --out sweep.busy --threads 1 --set /analysis/step_size=1e-6 > /dev/null 2>&1 &
 busy=$!

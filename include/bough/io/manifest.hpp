@@ -63,6 +63,9 @@ void refuse_inputs_within(const std::vector<std::filesystem::path>& inputs, cons
 /// folder's manifest, which is made (by `made_by`) where there is none, and then written as `write_file` does.
 void write_listed_file(const std::filesystem::path& folder, const std::string& made_by, const std::string& name,
                        std::string_view text);
+/// The same of a file that many processes write alike: the first one does, and the others leave it.
+void write_listed_file_once(const std::filesystem::path& folder, const std::string& made_by, const std::string& name,
+                            std::string_view text);
 /// Lists a file without writing it.
 void list_file(const std::filesystem::path& folder, const std::string& made_by, const std::string& name);
 

@@ -81,6 +81,8 @@ class OutputCollection {
   OutputCollection(std::filesystem::path folder, std::string made_by,
                    const std::vector<std::filesystem::path>& inputs = {});
   void write(const std::string& name, std::string_view text) const;
+  /// The same, where the file is not there yet: of what many processes write alike.
+  void write_once(const std::string& name, std::string_view text) const;
   /// Lists a file that somebody else writes there.
   void list(const std::string& name) const;
 

@@ -10,13 +10,26 @@
 
 namespace bough::study {
 
-/// What a case is: a hash of the text of its scene, of what it changes there, and of the program, its instruction set and
-/// the bits of its mathematical library. Equal keys give equal results.
+/// What results depend on besides the scene.
+struct Machine {
+  std::string program;          ///< hash of its build IDs (io::program_hash)
+  std::string instruction_set;  ///< that the library was compiled for
+  std::string library;          ///< hash of the bits of functions of the mathematical library
+};
+const Machine& this_machine();
+
+/// What a case is: a hash of the text of its scene, of what it changes there, and of the machine. Equal keys give equal
+/// results.
 std::string key_of(const BatchCase& which, const std::string& scene_text);
 
 /// Whether a case that ended so is done for good: it would end so again. Cases that were stopped, by a user or by a
 /// limit of time, are not.
 bool is_final(CaseStatus status);
+
+using Records = std::unordered_map<std::string, CaseResult>;  ///< by key
+
+/// The whole records of a journal that this process does not write: none where there is no file. whole: their text.
+Records read_records(const std::filesystem::path& file, std::string& whole);
 
 /// One line a case: a hash, a blank, the record as JSON. A record counts when its line is whole and its hash fits, so that
 /// what a kill or a full disk cut off is as if it had not been written.
@@ -43,7 +56,7 @@ class Journal {
 
  private:
   std::filesystem::path file_;
-  std::unordered_map<std::string, CaseResult> records_;
+  Records records_;
   int descriptor_ = -1;
   std::chrono::steady_clock::time_point synced_at_{};
 };

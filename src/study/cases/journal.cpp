@@ -45,12 +45,6 @@ std::string library_bits() {
   return digest.text();
 }
 
-const std::string& machine_key() {
-  static const std::string key =
-      io::program_hash() + " " + std::string(step::instruction_set().name) + " " + library_bits();
-  return key;
-}
-
 /// JSON on one line: line ends stand between values only, since strings escape theirs.
 std::string one_line(const std::string& json) {
   std::string line;
@@ -107,9 +101,16 @@ bool read_record(std::string_view line, std::string& key, CaseResult& r) {
 
 }  // namespace
 
+const Machine& this_machine() {
+  static const Machine machine{io::program_hash(), std::string(step::instruction_set().name), library_bits()};
+  return machine;
+}
+
 std::string key_of(const BatchCase& which, const std::string& scene_text) {
+  static const std::string machine =
+      this_machine().program + " " + this_machine().instruction_set + " " + this_machine().library;
   io::Digest digest;
-  digest.add(machine_key());
+  digest.add(machine);
   digest.add(scene_text);
   for (const std::string& o : which.overrides) {
     digest.add(std::string_view("\0", 1));
@@ -145,19 +146,24 @@ int open_mine(const std::filesystem::path& file, int flags) {
 
 }  // namespace
 
+Records read_records(const std::filesystem::path& file, std::string& whole) {
+  Records records;
+  std::ifstream in(file, std::ios::binary);
+  for (std::string line; in && std::getline(in, line);) {
+    if (in.eof()) break;  // its end was cut off
+    std::string key;
+    CaseResult result;
+    if (!read_record(line, key, result)) continue;
+    records[key] = std::move(result);
+    whole += line + "\n";
+  }
+  return records;
+}
+
 Journal::Journal(std::filesystem::path file, bool resumes) : file_(std::move(file)) {
   const int former = open_mine(file_, O_RDWR | O_CREAT);  // held until the new one is
   std::string kept;
-  if (std::ifstream in(file_, std::ios::binary); resumes && in) {
-    for (std::string line; std::getline(in, line);) {
-      if (in.eof()) break;  // its end was cut off
-      std::string key;
-      CaseResult result;
-      if (!read_record(line, key, result)) continue;
-      records_[key] = std::move(result);
-      kept += line + "\n";
-    }
-  }
+  if (resumes) records_ = read_records(file_, kept);
   io::write_file(file_, kept);  // whole records, durable, before any is added
   descriptor_ = open_mine(file_, O_WRONLY | O_APPEND);
   ::close(former);

@@ -1,4 +1,5 @@
 #pragma once
+/// Tables of text with commas.
 #include <string>
 #include <string_view>
 #include <vector>
