@@ -1,6 +1,9 @@
 /// The command line: verbs, options, examples. The only file that knows CLI11.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <iterator>
+#include <string_view>
 
 #include "arguments.hpp"
 #include "bough/io/number_text.hpp"
@@ -11,10 +14,6 @@
 
 namespace bough::app {
 namespace {
-
-const std::vector<std::string> verbs = {"run",     "view",    "batch",      "sweep",         "check", "expand",
-                                        "schema",  "compare", "kinematics", "export-matrix", "study", "stress",
-                                        "profile", "tune",    "plan",       "doctor"};
 
 /// A finite number from low to high. (CLI::Range lets NaN pass.)
 CLI::Validator between(double low, double high) {
@@ -287,56 +286,57 @@ void add_plan(CLI::App& app, PlanArguments& a, int& code) {
   verb.callback([&] { code = plan(a); });
 }
 
-void add_small_verbs(CLI::App& app, CheckArguments& check_arguments, ExpandArguments& expand_arguments,
-                     CompareArguments& compare_arguments, SchemaArguments& schema_arguments, int& code) {
-  CLI::App& check_verb =
-      add_verb(app, "check", "Say what is wrong with a scene, without running it",
-               "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0");
-  check_verb.add_option("SCENE", check_arguments.scene, "Scene file (JSON); -: standard input")->required();
-  add_overrides(check_verb, check_arguments.overrides);
-  add_memory_limit(check_verb, check_arguments.memory_limit);
-  check_verb.callback([&] { code = check(check_arguments); });
+void add_check(CLI::App& app, CheckArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, "check", "Say what is wrong with a scene, without running it",
+                            "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0");
+  verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
+  add_overrides(verb, a.overrides);
+  add_memory_limit(verb, a.memory_limit);
+  verb.callback([&] { code = check(a); });
+}
 
-  CLI::App& expand_verb =
+void add_expand(CLI::App& app, ExpandArguments& a, int& code) {
+  CLI::App& verb =
       add_verb(app, "expand", "Print a scene with numbers for its parameters and formulas, and all copies",
                "  bough expand data/scenarios/rod_chain.json --set /parameters/N=3\n"
                "What is printed is a scene that gives the same results. Exit status: 0 done, 2 bad input.");
-  expand_verb.add_option("SCENE", expand_arguments.scene, "Scene file (JSON); -: standard input")->required();
-  add_overrides(expand_verb, expand_arguments.overrides);
-  expand_verb.callback([&] { code = expand(expand_arguments); });
+  verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
+  add_overrides(verb, a.overrides);
+  verb.callback([&] { code = expand(a); });
+}
 
-  CLI::App& compare_verb =
-      add_verb(app, "compare", "Compare two runs, column by column",
-               "  bough compare four_bar.out reference.out --rel 1e-6\n"
-               "  bough compare a/history.csv b/history.csv\n"
-               "Exit status: 0 equal within the tolerance, 1 not, 2 bad input. NaN is never equal.");
-  compare_verb.add_option("A", compare_arguments.a, "Directory or history.csv; differences are measured by its ranges")
-      ->required();
-  compare_verb.add_option("B", compare_arguments.b, "Directory or history.csv")->required();
-  compare_verb
-      .add_option("--rel", compare_arguments.relative, "Largest difference over the sensor's range (default: 1e-9)")
+void add_compare(CLI::App& app, CompareArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, "compare", "Compare two runs, column by column",
+                            "  bough compare four_bar.out reference.out --rel 1e-6\n"
+                            "  bough compare a/history.csv b/history.csv\n"
+                            "Exit status: 0 equal within the tolerance, 1 not, 2 bad input. NaN is never equal.");
+  verb.add_option("A", a.a, "Directory or history.csv; differences are measured by its ranges")->required();
+  verb.add_option("B", a.b, "Directory or history.csv")->required();
+  verb.add_option("--rel", a.relative, "Largest difference over the sensor's range (default: 1e-9)")
       ->type_name("TOL")
       ->check(between(0.0, 1e300));
-  compare_verb.add_option("--abs", compare_arguments.absolute, "Differences up to this are equal (default: 0)")
+  verb.add_option("--abs", a.absolute, "Differences up to this are equal (default: 0)")
       ->type_name("TOL")
       ->check(between(0.0, 1e300));
-  compare_verb.callback([&] { code = compare(compare_arguments); });
+  verb.callback([&] { code = compare(a); });
+}
 
-  CLI::App& schema_verb = add_verb(app, "schema", "Print the JSON Schema of scenes",
-                                   "  bough schema > scene.schema.json\n  bough schema --chain > chain.schema.json");
-  schema_verb.add_flag("--chain", schema_arguments.chain, "Of the chains of frames of bough kinematics razi");
-  schema_verb.add_flag("--motion", schema_arguments.motion, "Of the poses of bough kinematics motion")
-      ->excludes("--chain");
-  schema_verb.callback([&] { code = schema(schema_arguments); });
-  schema_verb.add_flag("--study", schema_arguments.study, "Of the studies of bough study")
-      ->excludes("--chain")
-      ->excludes("--motion");
-  schema_verb.add_flag("--sweep", schema_arguments.sweep, "Of the sweeps of bough sweep")
+void add_schema(CLI::App& app, SchemaArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, "schema", "Print the JSON Schema of scenes",
+                            "  bough schema > scene.schema.json\n  bough schema --chain > chain.schema.json");
+  verb.add_flag("--chain", a.chain, "Of the chains of frames of bough kinematics razi");
+  verb.add_flag("--motion", a.motion, "Of the poses of bough kinematics motion")->excludes("--chain");
+  verb.add_flag("--study", a.study, "Of the studies of bough study")->excludes("--chain")->excludes("--motion");
+  verb.add_flag("--sweep", a.sweep, "Of the sweeps of bough sweep")
       ->excludes("--chain")
       ->excludes("--motion")
       ->excludes("--study");
+  verb.callback([&] { code = schema(a); });
+}
+
+void add_doctor(CLI::App& app, DoctorArguments& a, int& code) {
   add_verb(app, "doctor", "Say what this program was built with and test itself", "  bough doctor").callback([&] {
-    code = doctor({});
+    code = doctor(a);
   });
 }
 
@@ -417,17 +417,80 @@ void add_motion(CLI::App& kinematics, MotionArguments& a, int& code) {
   });
 }
 
-/// The first word, where it is neither an option nor a verb.
-bool is_misspelt(const std::string& word) {
-  return !word.empty() && word.front() != '-' && std::find(verbs.begin(), verbs.end(), word) == verbs.end();
+struct KinematicsArguments {
+  RaziArguments razi;
+  MotionArguments motion;
+};
+
+void add_kinematics(CLI::App& app, KinematicsArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, "kinematics", "Kinematics without a simulation: razi, motion",
+                            "  bough kinematics razi --help\n  bough kinematics motion --help");
+  verb.require_subcommand(1);
+  add_razi(verb, a.razi, code);
+  add_motion(verb, a.motion, code);
+}
+
+struct Arguments {
+  RunArguments run;
+  ViewArguments view;
+  BatchArguments batch;
+  SweepArguments sweep;
+  ExportMatrixArguments export_matrix;
+  ProfileArguments profile;
+  TuneArguments tune;
+  PlanArguments plan;
+  CheckArguments check;
+  ExpandArguments expand;
+  CompareArguments compare;
+  SchemaArguments schema;
+  DoctorArguments doctor;
+  StudyArguments study;
+  StressArguments stress;
+  KinematicsArguments kinematics;
+};
+
+struct Verb {
+  std::string_view name;
+  void (*add)(CLI::App& app, Arguments& a, int& code);
+};
+
+template <auto part, auto add>
+void add_verb_of(CLI::App& app, Arguments& a, int& code) {
+  add(app, a.*part, code);
+}
+
+/// In the order in which they are listed.
+constexpr Verb verbs[] = {
+    {"run", add_verb_of<&Arguments::run, add_run>},
+    {"view", add_verb_of<&Arguments::view, add_view>},
+    {"batch", add_verb_of<&Arguments::batch, add_batch>},
+    {"sweep", add_verb_of<&Arguments::sweep, add_sweep>},
+    {"export-matrix", add_verb_of<&Arguments::export_matrix, add_export_matrix>},
+    {"profile", add_verb_of<&Arguments::profile, add_profile>},
+    {"tune", add_verb_of<&Arguments::tune, add_tune>},
+    {"plan", add_verb_of<&Arguments::plan, add_plan>},
+    {"check", add_verb_of<&Arguments::check, add_check>},
+    {"expand", add_verb_of<&Arguments::expand, add_expand>},
+    {"compare", add_verb_of<&Arguments::compare, add_compare>},
+    {"schema", add_verb_of<&Arguments::schema, add_schema>},
+    {"doctor", add_verb_of<&Arguments::doctor, add_doctor>},
+    {"study", add_verb_of<&Arguments::study, add_study>},
+    {"stress", add_verb_of<&Arguments::stress, add_stress>},
+    {"kinematics", add_verb_of<&Arguments::kinematics, add_kinematics>},
+};
+
+bool is_verb(std::string_view word) {
+  return std::any_of(std::begin(verbs), std::end(verbs), [&](const Verb& verb) { return verb.name == word; });
 }
 
 int explain_verb(const std::string& word) {
   std::cerr << "bough: '" << word << "' is not a verb";
-  const std::string nearest = scene::nearest_name(word, verbs);
+  std::vector<std::string> names;
+  for (const Verb& verb : verbs) names.emplace_back(verb.name);
+  const std::string nearest = scene::nearest_name(word, names);
   if (!nearest.empty()) std::cerr << "; did you mean '" << nearest << "'?";
   std::cerr << "\nVerbs:";
-  for (const std::string& verb : verbs) std::cerr << ' ' << verb;
+  for (const std::string& name : names) std::cerr << ' ' << name;
   std::cerr << "\n";
   return exit_bad_input;
 }
@@ -435,45 +498,19 @@ int explain_verb(const std::string& word) {
 }  // namespace
 
 int dispatch(int count, char** values) {
-  if (count > 1 && is_misspelt(values[1])) return explain_verb(values[1]);
+  const std::string first = count > 1 ? values[1] : "";
+  const bool names_verb = is_verb(first);
+  if (!names_verb && !first.empty() && first.front() != '-') return explain_verb(first);
   CLI::App app{"Flexible multibody dynamics: beams, rigid bodies and joints on a tree of sub-domains.", "bough"};
   app.set_version_flag("--version", "bough " + std::string(version));
   app.require_subcommand(1);
   app.footer("Examples:\n  bough run four_bar.json\n  bough view four_bar.out\n  bough VERB --help");
 
   int code = exit_done;
-  RunArguments run_arguments;
-  ViewArguments view_arguments;
-  BatchArguments batch_arguments;
-  CheckArguments check_arguments;
-  CompareArguments compare_arguments;
-  add_run(app, run_arguments, code);
-  add_view(app, view_arguments, code);
-  add_batch(app, batch_arguments, code);
-  SweepArguments sweep_arguments;
-  add_sweep(app, sweep_arguments, code);
-  SchemaArguments schema_arguments;
-  ExportMatrixArguments export_arguments;
-  add_export_matrix(app, export_arguments, code);
-  ProfileArguments profile_arguments;
-  TuneArguments tune_arguments;
-  add_profile(app, profile_arguments, code);
-  add_tune(app, tune_arguments, code);
-  PlanArguments plan_arguments;
-  add_plan(app, plan_arguments, code);
-  ExpandArguments expand_arguments;
-  add_small_verbs(app, check_arguments, expand_arguments, compare_arguments, schema_arguments, code);
-  StudyArguments study_arguments;
-  add_study(app, study_arguments, code);
-  StressArguments stress_arguments;
-  add_stress(app, stress_arguments, code);
-  RaziArguments razi_arguments;
-  CLI::App& kinematics = add_verb(app, "kinematics", "Kinematics without a simulation: razi, motion",
-                                  "  bough kinematics razi --help\n  bough kinematics motion --help");
-  kinematics.require_subcommand(1);
-  add_razi(kinematics, razi_arguments, code);
-  MotionArguments motion_arguments;
-  add_motion(kinematics, motion_arguments, code);
+  Arguments arguments;
+  // Options of all verbs take longer to make than many a scene to run: they are made where all verbs are listed.
+  for (const Verb& verb : verbs)
+    if (!names_verb || verb.name == first) verb.add(app, arguments, code);
   try {
     app.parse(count, values);
   } catch (const CLI::ParseError& error) {
