@@ -190,7 +190,7 @@ class Checker {
       case Form::object:
         return !rule.kinds.empty()   ? "an object of kind " + quoted_list(rule.kinds)
                : rule.marker.empty() ? "an object"
-                                     : "an object with \"" + rule.marker + "\"";
+                                     : "an object with \"" + std::string(rule.marker) + "\"";
       case Form::choice: {
         std::string r;
         for (std::size_t i = 0; i < rule.options.size(); ++i)
@@ -237,7 +237,7 @@ class Checker {
     bool sound = true;
     std::vector<std::string> missing, meant;
     for (const Field& field : rule.fields)
-      if (field.presence == Presence::required && value.find(field.key) == nullptr) missing.push_back(field.key);
+      if (field.presence == Presence::required && value.find(field.key) == nullptr) missing.emplace_back(field.key);
     for (std::size_t i = 0; i < value.items.size(); ++i) {
       const std::string& key = value.items.key(i);
       const auto field =
@@ -270,7 +270,7 @@ class Checker {
       return {};
     }
     std::vector<std::string> known;
-    for (const Field& field : rule.fields) known.push_back(field.key);
+    for (const Field& field : rule.fields) known.emplace_back(field.key);
     std::vector<std::string> free_keys;
     for (const std::string& k : known)
       if (value.find(k) == nullptr) free_keys.push_back(k);
@@ -283,7 +283,7 @@ class Checker {
 
   static std::string about(const Rule& rule, const std::string& key) {
     for (const Field& f : rule.fields)
-      if (f.key == key) return f.about;
+      if (f.key == key) return std::string(f.about);
     return "";
   }
 
@@ -343,8 +343,8 @@ class Checker {
     std::vector<std::string> kinds, markers, keys;
     for (const Rule* option : options) {
       kinds.insert(kinds.end(), option->kinds.begin(), option->kinds.end());
-      if (!option->marker.empty()) markers.push_back(option->marker);
-      for (const Field& f : option->fields) keys.push_back(f.key);
+      if (!option->marker.empty()) markers.emplace_back(option->marker);
+      for (const Field& f : option->fields) keys.emplace_back(f.key);
     }
     if (JsonValue* kind = value.find_given("kind"); kind != nullptr && !kinds.empty())
       return fail(*kind, path.member("kind"), "has to be " + quoted_list(kinds),
@@ -384,7 +384,8 @@ const JsonValue& RuleTable::defaults_of(const Rule& rule) const {
   for (const Field& field : rule.fields) {
     if (field.default_json.empty()) continue;
     std::vector<JsonFault> no_faults;
-    JsonValue& made = defaults.items.add(field.key) = *parse_json(field.default_json, source_default, no_faults);
+    JsonValue& made = defaults.items.add(std::string(field.key)) =
+        *parse_json(field.default_json, source_default, no_faults);
     Checker(*this, none).check(*field.rule, made, {});  // gives it the defaults inside the default
   }
   return defaults;

@@ -39,7 +39,7 @@ void add_expansion_rules(RuleTable& t, const std::vector<Field>& lists) {
        may("first", deferred(copy_first_rule()), "Index of the first copy.", "0")});
   for (Field list : lists) {
     list.rule = deferred(list.rule);
-    list.default_json.clear();
+    list.default_json = {};
     group.fields.push_back(std::move(list));
   }
   group.fields.push_back(may("repeat", named_rule("repeat"), "Copies within each copy, as for a lattice."));

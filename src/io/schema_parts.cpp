@@ -4,18 +4,18 @@ namespace bough::io {
 
 RuleRef made(Rule rule) { return std::make_shared<const Rule>(std::move(rule)); }
 
-Rule object_of(std::string about, std::vector<Field> fields, std::string marker) {
+Rule object_of(Literal about, std::vector<Field> fields, Literal marker) {
   Rule r;
   r.form = Form::object;
-  r.about = std::move(about);
+  r.about = about;
   r.fields = std::move(fields);
-  r.marker = std::move(marker);
+  r.marker = marker;
   return r;
 }
 
-Rule object_of_kind(std::vector<std::string> kinds, std::string about, std::vector<Field> fields) {
+Rule object_of_kind(std::vector<std::string> kinds, Literal about, std::vector<Field> fields) {
   fields.insert(fields.begin(), need("kind", word_rule("", kinds), "Which of the forms this is."));
-  Rule r = object_of(std::move(about), std::move(fields));
+  Rule r = object_of(about, std::move(fields));
   r.kinds = std::move(kinds);
   return r;
 }

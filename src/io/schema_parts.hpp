@@ -18,9 +18,9 @@ RuleRef copy_count_rule();
 RuleRef copy_first_rule();
 
 /// An object rule: all its fields, told by a marker key where the choice around it needs one.
-Rule object_of(std::string about, std::vector<Field> fields, std::string marker = {});
+Rule object_of(Literal about, std::vector<Field> fields, Literal marker = {});
 /// An object rule told by "kind".
-Rule object_of_kind(std::vector<std::string> kinds, std::string about, std::vector<Field> fields);
+Rule object_of_kind(std::vector<std::string> kinds, Literal about, std::vector<Field> fields);
 RuleRef made(Rule rule);
 
 }  // namespace bough::io

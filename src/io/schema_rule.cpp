@@ -27,62 +27,57 @@ std::string name_fault(const std::string& name) {
 
 namespace {
 
-Rule plain(Form form, std::string about) {
-  Rule r;
-  r.form = form;
-  r.about = std::move(about);
+std::shared_ptr<Rule> plain(Form form, Literal about) {
+  auto r = std::make_shared<Rule>();
+  r->form = form;
+  r->about = about;
   return r;
 }
 
-RuleRef share(Rule rule) { return std::make_shared<const Rule>(std::move(rule)); }
+std::shared_ptr<Rule> between(Form form, Literal about, double low, bool low_open, double high) {
+  auto r = plain(form, about);
+  r->low = low;
+  r->low_open = low_open;
+  r->high = high;
+  return r;
+}
 
 }  // namespace
 
-RuleRef number_rule(std::string about, double low, bool low_open, double high) {
-  Rule r = plain(Form::number, std::move(about));
-  r.low = low;
-  r.low_open = low_open;
-  r.high = high;
-  return share(std::move(r));
+RuleRef number_rule(Literal about, double low, bool low_open, double high) {
+  return between(Form::number, about, low, low_open, high);
 }
-RuleRef positive(std::string about) { return number_rule(std::move(about), 0.0, true); }
-RuleRef not_negative(std::string about) { return number_rule(std::move(about), 0.0); }
-RuleRef integer_rule(std::string about, double low, double high) {
-  Rule r = plain(Form::integer, std::move(about));
-  r.low = low;
-  r.high = high;
-  return share(std::move(r));
+RuleRef positive(Literal about) { return number_rule(about, 0.0, true); }
+RuleRef not_negative(Literal about) { return number_rule(about, 0.0); }
+RuleRef integer_rule(Literal about, double low, double high) { return between(Form::integer, about, low, false, high); }
+RuleRef boolean_rule(Literal about) { return plain(Form::boolean, about); }
+RuleRef text_rule(Literal about) { return plain(Form::text, about); }
+RuleRef name_rule(Literal about) { return plain(Form::name, about); }
+RuleRef word_rule(Literal about, std::vector<std::string> words) {
+  auto r = plain(Form::word, about);
+  r->words = std::move(words);
+  return r;
 }
-RuleRef boolean_rule(std::string about) { return share(plain(Form::boolean, std::move(about))); }
-RuleRef text_rule(std::string about) { return share(plain(Form::text, std::move(about))); }
-RuleRef name_rule(std::string about) { return share(plain(Form::name, std::move(about))); }
-RuleRef word_rule(std::string about, std::vector<std::string> words) {
-  Rule r = plain(Form::word, std::move(about));
-  r.words = std::move(words);
-  return share(std::move(r));
+RuleRef array_rule(Literal about, RuleRef item, std::size_t min_items, std::size_t max_items) {
+  auto r = plain(Form::array, about);
+  r->item = std::move(item);
+  r->min_items = min_items;
+  r->max_items = max_items;
+  return r;
 }
-RuleRef array_rule(std::string about, RuleRef item, std::size_t min_items, std::size_t max_items) {
-  Rule r = plain(Form::array, std::move(about));
-  r.item = std::move(item);
-  r.min_items = min_items;
-  r.max_items = max_items;
-  return share(std::move(r));
+RuleRef choice_rule(Literal about, std::vector<RuleRef> options) {
+  auto r = plain(Form::choice, about);
+  r->options = std::move(options);
+  return r;
 }
-RuleRef choice_rule(std::string about, std::vector<RuleRef> options) {
-  Rule r = plain(Form::choice, std::move(about));
-  r.options = std::move(options);
-  return share(std::move(r));
+RuleRef named_rule(Literal target) {
+  auto r = plain(Form::named, {});
+  r->target = target;
+  return r;
 }
-RuleRef named_rule(std::string target) {
-  Rule r = plain(Form::named, "");
-  r.target = std::move(target);
-  return share(std::move(r));
-}
-Field need(std::string key, RuleRef rule, std::string about) {
-  return {std::move(key), std::move(rule), std::move(about), Presence::required, {}};
-}
-Field may(std::string key, RuleRef rule, std::string about, std::string default_json) {
-  return {std::move(key), std::move(rule), std::move(about), Presence::optional, std::move(default_json)};
+Field need(Literal key, RuleRef rule, Literal about) { return {key, std::move(rule), about, Presence::required, {}}; }
+Field may(Literal key, RuleRef rule, Literal about, Literal default_json) {
+  return {key, std::move(rule), about, Presence::optional, default_json};
 }
 
 }  // namespace bough::io

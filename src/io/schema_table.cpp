@@ -16,12 +16,12 @@ std::vector<std::string> joint_kind_names() {
   for (const scene::JointKind kind : scene::joint_kinds) names.push_back(scene::to_string(kind));
   return names;
 }
-Field law_field(std::string about) { return may("law", named_rule("law"), std::move(about), "1"); }
-Field frame_field(std::string about) { return may("frame", reference, std::move(about)); }
+Field law_field(Literal about) { return may("law", named_rule("law"), about, "1"); }
+Field frame_field(Literal about) { return may("frame", reference, about); }
 
-void add_placement(std::vector<Field>& fields, const std::string& what) {
-  fields.push_back(may("position", named_rule("vector"), "Origin of the " + what + " in `frame` [m].", "[0, 0, 0]"));
-  fields.push_back(may("rotation", named_rule("rotation"), "Rotation of the " + what + " in `frame`. Default: none."));
+void add_placement(std::vector<Field>& fields, Literal origin, Literal rotation) {
+  fields.push_back(may("position", named_rule("vector"), origin, "[0, 0, 0]"));
+  fields.push_back(may("rotation", named_rule("rotation"), rotation));
   fields.push_back(frame_field("Frame in which position and rotation are given, at the start. Default: the ground."));
 }
 
@@ -64,7 +64,7 @@ void add_properties(RuleTable& t) {
 
 void add_parts(RuleTable& t) {
   Rule node = object_of("A node: a frame that moves.", {name_field()});
-  add_placement(node.fields, "node");
+  add_placement(node.fields, "Origin of the node in `frame` [m].", "Rotation of the node in `frame`. Default: none.");
   t.named["node"] = made(std::move(node));
 
   Rule body = object_of(
@@ -77,7 +77,8 @@ void add_parts(RuleTable& t) {
        may("density", positive(""), "With a shape [kg/m^3]."),
        may("material", reference, "Material whose density a shape takes."),
        may("center_of_mass", named_rule("vector"), "In the body's frame [m].", "[0, 0, 0]")});
-  add_placement(body.fields, "body's frame");
+  add_placement(body.fields, "Origin of the body's frame in `frame` [m].",
+                "Rotation of the body's frame in `frame`. Default: none.");
   body.at_most_one = {{"inertia", "shape"}, {"mass", "density", "material"}};
   t.named["body"] = made(std::move(body));
 
@@ -104,7 +105,7 @@ void add_parts(RuleTable& t) {
 
 void add_joints(RuleTable& t) {
   const RuleRef coordinate = word_rule("", {"angle", "displacement"});
-  const std::string which = "Which coordinate; may be left out where the joint has only one.";
+  const Literal which = "Which coordinate; may be left out where the joint has only one.";
   const RuleRef force = made(object_of(
       "A spring, damper or effort along a free coordinate of the joint.",
       {may("coordinate", coordinate, which), may("stiffness", not_negative(""), "[N m/rad] or [N/m].", "0"),
@@ -168,7 +169,7 @@ void add_loads(RuleTable& t) {
   point.push_back(may("moment", named_rule("vector"), "[N m]. A dead moment is a vector fixed in space.", "[0, 0, 0]"));
   point.push_back(
       law_field("Factor over time (statics: over the load factor; default there: the load factor itself)."));
-  point.back().default_json.clear();
+  point.back().default_json = {};
   line.push_back(need("beam", reference, "The beam it acts on."));
   line.push_back(may("force", named_rule("vector"), "Per reference length [N/m].", "[0, 0, 0]"));
   line.push_back(may("moment", named_rule("vector"), "Per reference length [N].", "[0, 0, 0]"));
@@ -321,8 +322,8 @@ RuleTable make_table() {
   add_sensors(t);
   add_measure_rules(t);
   add_settings(t);
-  const auto list = [](std::string key, std::string item, std::string about) {
-    return may(std::move(key), array_rule("", named_rule(std::move(item))), std::move(about), "[]");
+  const auto list = [](Literal key, Literal item, Literal about) {
+    return may(key, array_rule("", named_rule(item)), about, "[]");
   };
   const std::vector<Field> lists = {list("frames", "frame", "Frames, fixed or moving."),
                                     list("materials", "material", "Materials."),
@@ -376,7 +377,7 @@ RuleTable make_table() {
 }  // namespace
 
 const RuleTable& scene_rules() {
-  static const RuleTable table = make_table();
+  static const RuleTable& table = *new RuleTable(make_table());  // not taken apart at the end, which takes long
   return table;
 }
 

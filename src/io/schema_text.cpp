@@ -44,9 +44,9 @@ void add_object(const Rule& rule, Json& out, bool formulas) {
     // draft-07 ignores what stands beside a $ref, so a described reference is wrapped
     if (p.contains("$ref")) p = Json{{"allOf", Json::array({p})}};
     const std::string own = p.value("description", "");
-    p["description"] = own.empty() || own == f.about ? f.about : f.about + " " + own;
+    p["description"] = std::string(f.about) + (own.empty() || own == f.about ? "" : " " + own);
     if (!f.default_json.empty()) p["default"] = Json::parse(f.default_json);
-    properties[f.key] = std::move(p);
+    properties[std::string(f.key)] = std::move(p);
     if (f.presence == Presence::required) required.push_back(f.key);
   }
   if (!properties.contains("comment")) properties["comment"] = Json{{"type", "string"}, {"description", "Free text."}};
@@ -68,7 +68,7 @@ void add_object(const Rule& rule, Json& out, bool formulas) {
 }
 
 Json to_schema(const Rule& rule, bool formulas) {
-  if (rule.form == Form::named) return Json{{"$ref", "#/definitions/" + rule.target}};
+  if (rule.form == Form::named) return Json{{"$ref", "#/definitions/" + std::string(rule.target)}};
   Json out = Json::object();
   if (!rule.about.empty()) out["description"] = rule.about;
   switch (rule.form) {
@@ -134,7 +134,7 @@ std::string schema_text_of(const RuleTable& table, const std::string& title) {
   const Json root = to_schema(*table.root, table.has_formulas);
   for (const auto& [key, value] : root.items()) out[key] = value;
   Json definitions = Json::object();
-  for (const auto& [name, rule] : table.named) definitions[name] = to_schema(*rule, table.has_formulas);
+  for (const auto& [name, rule] : table.named) definitions[std::string(name)] = to_schema(*rule, table.has_formulas);
   out["definitions"] = std::move(definitions);
   return out.dump(2) + "\n";
 }

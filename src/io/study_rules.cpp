@@ -6,7 +6,7 @@
 namespace bough::io {
 namespace {
 
-RuleRef settings_rule(const std::string& about) { return array_rule(about, named_rule("setting"), 0, 1000); }
+RuleRef settings_rule(Literal about) { return array_rule(about, named_rule("setting"), 0, 1000); }
 
 void add_reference(RuleTable& t) {
   t.named["study_reference"] = made(object_of(

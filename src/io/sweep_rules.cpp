@@ -6,7 +6,7 @@
 namespace bough::io {
 namespace {
 
-Field variables_field(const std::string& rule, const std::string& about) {
+Field variables_field(Literal rule, Literal about) {
   return need("variables", array_rule("", named_rule(rule), 1, 100), about);
 }
 
@@ -27,7 +27,7 @@ void add_variables(RuleTable& t) {
                            {need("values", array_rule("", any, 1, 100000), "The values."),
                             may("weights", array_rule("", not_negative(""), 1, 100000),
                                 "How often each comes, in any unit. Default: equally often.")}))});
-  const auto variable = [](std::vector<Field> more, const std::string& about) {
+  const auto variable = [](std::vector<Field> more, Literal about) {
     std::vector<Field> fields = {
         need("name", name_rule(""), "Its name, of the column."),
         may("pointer", text_rule(""),

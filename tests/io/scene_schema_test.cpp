@@ -63,7 +63,7 @@ TEST(SceneSchema, every_default_keeps_its_own_rule) {
 
 TEST(SceneSchema, every_named_rule_is_used) {
   std::set<const Rule*> seen;
-  std::set<std::string> used = {"formula"};  // what may stand for any number
+  std::set<std::string_view> used = {"formula"};  // what may stand for any number
   visit_rules(*scene_rules().root, seen, [&](const Rule& rule) {
     if (rule.form == Form::named) used.insert(rule.target);
   });

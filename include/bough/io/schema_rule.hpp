@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -26,22 +27,27 @@ enum class Form {
   named    ///< the rule of that name in the table
 };
 
+/// A text of the program itself. Rules hold hundreds, which would take longer to copy than a small scene to check.
+struct Literal : std::string_view {
+  consteval Literal(const char* text = "") : std::string_view(text) {}
+};
+
 struct Rule;
 using RuleRef = std::shared_ptr<const Rule>;
 
 enum class Presence { optional, required };
 
 struct Field {
-  std::string key;
+  Literal key;
   RuleRef rule;
-  std::string about;  ///< one sentence with the unit
+  Literal about;  ///< one sentence with the unit
   Presence presence = Presence::optional;
-  std::string default_json = {};  ///< filled in where the key is missing; empty: nothing is
+  Literal default_json = {};  ///< filled in where the key is missing; empty: nothing is
 };
 
 struct Rule {
   Form form = Form::text;
-  std::string about = {};
+  Literal about = {};
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool low_open = false;  ///< low itself is not allowed
   std::vector<std::string> words = {};
@@ -50,17 +56,17 @@ struct Rule {
   std::vector<Field> fields = {};
   RuleRef others = nullptr;  ///< of an object: rule of all members that are no field; nullptr: there are none
   std::vector<std::string> kinds =
-      {};                   ///< of an object told by "kind": the values that mean this one (they become the key's enum)
-  std::string marker = {};  ///< of an object in a choice: the key whose presence tells it
+      {};               ///< of an object told by "kind": the values that mean this one (they become the key's enum)
+  Literal marker = {};  ///< of an object in a choice: the key whose presence tells it
   std::vector<std::vector<std::string>> exactly_one = {};  ///< sets of keys of which exactly one is given
   std::vector<std::vector<std::string>> at_most_one = {};
   std::vector<RuleRef> options = {};
-  std::string target = {};   ///< of a named rule
+  Literal target = {};       ///< of a named rule
   bool is_deferred = false;  ///< taken as it is for now: it is checked when its copies are made (`repeat`)
 };
 
 struct RuleTable {
-  std::map<std::string, RuleRef> named;
+  std::map<std::string_view, RuleRef> named;
   RuleRef root;
   bool has_formulas = false;  ///< {"expression": ...} may stand for any number
   const Rule& resolve(const Rule& rule) const;
@@ -102,20 +108,20 @@ std::size_t check_rules(const RuleTable& table, const Rule& rule, JsonValue& val
 std::string schema_text_of(const RuleTable& table, const std::string& title);
 
 // Makers of rules, for the table.
-RuleRef number_rule(std::string about, double low = -std::numeric_limits<double>::infinity(), bool low_open = false,
+RuleRef number_rule(Literal about, double low = -std::numeric_limits<double>::infinity(), bool low_open = false,
                     double high = std::numeric_limits<double>::infinity());
-RuleRef positive(std::string about);
-RuleRef not_negative(std::string about);
-RuleRef integer_rule(std::string about, double low, double high);
-RuleRef boolean_rule(std::string about);
-RuleRef text_rule(std::string about);
-RuleRef name_rule(std::string about);
-RuleRef word_rule(std::string about, std::vector<std::string> words);
-RuleRef array_rule(std::string about, RuleRef item, std::size_t min_items = 0,
+RuleRef positive(Literal about);
+RuleRef not_negative(Literal about);
+RuleRef integer_rule(Literal about, double low, double high);
+RuleRef boolean_rule(Literal about);
+RuleRef text_rule(Literal about);
+RuleRef name_rule(Literal about);
+RuleRef word_rule(Literal about, std::vector<std::string> words);
+RuleRef array_rule(Literal about, RuleRef item, std::size_t min_items = 0,
                    std::size_t max_items = std::numeric_limits<std::size_t>::max());
-RuleRef choice_rule(std::string about, std::vector<RuleRef> options);
-RuleRef named_rule(std::string target);
-Field need(std::string key, RuleRef rule, std::string about);
-Field may(std::string key, RuleRef rule, std::string about, std::string default_json = {});
+RuleRef choice_rule(Literal about, std::vector<RuleRef> options);
+RuleRef named_rule(Literal target);
+Field need(Literal key, RuleRef rule, Literal about);
+Field may(Literal key, RuleRef rule, Literal about, Literal default_json = {});
 
 }  // namespace bough::io
