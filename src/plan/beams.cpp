@@ -33,6 +33,15 @@ Port section_port(int node, const Frame<double>& node_pose, const Frame<double>&
   return port;
 }
 
+/// An element has some kB: a list that grew with them would be copied several times.
+template <int N>
+void reserve_elements(Builder& b, int order) {
+  std::size_t count = 0;
+  for (const scene::Beam& beam : b.scene.beams)
+    if (beam.order == order) count += static_cast<std::size_t>(beam.elements);
+  array_of<elements::Beam<N>>(b.plan.elements).reserve(count);
+}
+
 template <int N>
 void add_elements(Builder& b, const scene::Beam& beam, BeamPlan& plan, const std::vector<Port>& ports) {
   const scene::Section& section = *b.section_of.at(beam.section);
@@ -87,6 +96,9 @@ const std::vector<SpaceLoad>& Builder::line_load(const scene::LineLoad& load) {
 void Builder::add_beams() {
   for (const scene::Section& s : scene.sections) section_of.emplace(s.name, &s);
   for (const scene::LineLoad& l : scene.line_loads) loads_of_beam[l.beam].push_back(&l);
+  reserve_elements<2>(*this, 1);
+  reserve_elements<3>(*this, 2);
+  reserve_elements<4>(*this, 3);
   for (const scene::Beam& beam : scene.beams) {
     const int start = node_of.at(beam.start), end = node_of.at(beam.end);
     BeamPlan p;

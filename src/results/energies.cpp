@@ -60,16 +60,20 @@ void EnergyMeter::sort(const plan::Plan& plan, Kind<E>& kind) {
     while (group.count < elements::num_lanes && first + group.count < size && plan.frames.empty() &&
            stores_energy(element(first + group.count)) && may_share_lanes(element(first), element(first + group.count)))
       ++group.count;
-    if (group.count >= least_lanes) {
-      const E* list[elements::num_lanes];
-      int nodes[E::num_ports];
-      for (int i = 0; i < group.count; ++i) list[i] = &element(first + i);
-      for (int p = 0; p < E::num_ports; ++p) nodes[p] = p;
-      group.lanes = static_cast<int>(kind.lanes.size());
-      kind.lanes.push_back(elements::make_lane_element<E>(list, group.count, nodes, 0));
-    }
     kind.groups.push_back(group);
     first += group.count;
+  }
+  const auto takes_lanes = [](const Group<E>& group) { return group.count >= least_lanes; };
+  // Lanes have some ten kB each: a list that grew with them would be copied several times.
+  kind.lanes.reserve(static_cast<std::size_t>(std::count_if(kind.groups.begin(), kind.groups.end(), takes_lanes)));
+  int nodes[E::num_ports];
+  for (int p = 0; p < E::num_ports; ++p) nodes[p] = p;
+  for (Group<E>& group : kind.groups) {
+    if (!takes_lanes(group)) continue;
+    const E* list[elements::num_lanes];
+    for (int i = 0; i < group.count; ++i) list[i] = &element(group.first + i);
+    group.lanes = static_cast<int>(kind.lanes.size());
+    kind.lanes.push_back(elements::make_lane_element<E>(list, group.count, nodes, 0));
   }
 }
 
