@@ -203,9 +203,9 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
 
 std::vector<std::string> foreign_entries(const fs::path& folder, std::size_t limit) {
   std::vector<std::string> foreign;
-  const Listed listed(read_manifest(folder).value_or(Manifest{}));
-  if (!read_manifest(folder) && fs::exists(fs::symlink_status(folder / manifest_name)))
-    foreign.emplace_back(manifest_name);
+  const std::optional<Manifest> manifest = read_manifest(folder);
+  const Listed listed(manifest.value_or(Manifest{}));
+  if (!manifest && fs::exists(fs::symlink_status(folder / manifest_name))) foreign.emplace_back(manifest_name);
   look_below(folder, "", listed, limit, foreign);
   std::sort(foreign.begin(), foreign.end());
   return foreign;
