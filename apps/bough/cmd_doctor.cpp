@@ -11,6 +11,12 @@
 #include "bough/version.hpp"
 #include "terminal.hpp"
 
+// Not __builtin_cpu_supports: a program that has it asks the processor whenever it starts, and virtual machines take
+// long to answer.
+#if defined(__x86_64__) && __has_include(<sys/platform/x86.h>)
+#include <sys/platform/x86.h>
+#endif
+
 namespace bough::app {
 namespace {
 
@@ -34,11 +40,11 @@ std::string instruction_sets() {
   const step::InstructionSet used = step::instruction_set();
   const std::string text =
       std::string(used.name) + ", " + std::to_string(used.register_doubles) + " doubles to a register";
-#if defined(__x86_64__)
+#if defined(CPU_FEATURE_ACTIVE)
   std::string offered;
-  if (__builtin_cpu_supports("avx2")) offered += " AVX2";
-  if (__builtin_cpu_supports("fma")) offered += " FMA";
-  if (__builtin_cpu_supports("avx512f")) offered += " AVX-512";
+  if (CPU_FEATURE_ACTIVE(AVX2)) offered += " AVX2";
+  if (CPU_FEATURE_ACTIVE(FMA)) offered += " FMA";
+  if (CPU_FEATURE_ACTIVE(AVX512F)) offered += " AVX-512";
   return text + "; the processor offers" + (offered.empty() ? " SSE2" : offered);
 #else
   return text;

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iostream>
 #include <limits>
-#include <sstream>
 
 #include "bough/io/number_text.hpp"
 #include "bough/study/estimate.hpp"
@@ -28,12 +27,9 @@ double number_in(const std::string& file, double otherwise) {
 /// MemAvailable: what new programs get without swapping, caches that can be dropped included.
 double machine_memory() {
   std::ifstream in("/proc/meminfo");
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    std::string key;
-    double kilobytes = 0.0;
-    if (words >> key >> kilobytes && key == "MemAvailable:") return 1024.0 * kilobytes;
-  }
+  std::string key, unit;
+  for (double kilobytes = 0.0; in >> key >> kilobytes >> unit;)
+    if (key == "MemAvailable:") return 1024.0 * kilobytes;
   return unlimited;
 }
 
