@@ -2,13 +2,14 @@
 """Runs two programs of bough on the same scenes, in interleaved pairs, and says whether they compute the same, and how
 long each takes.
 
-    python3 tests/tools/pairs.py OLD NEW [SCENE ...] [--rounds 15] [--twins 10] [--at-most 1.03]
+    python3 tests/tools/pairs.py OLD NEW [SCENE ...] [--rounds 15] [--twins 10] [--at-most 1.03] [--process-at-most 1.02]
 
 Results: 'bits' where both histories are equal to the last bit. Otherwise the largest difference of a column, relative to
 the range of what its sensor shows, against that of twins: runs of OLD whose masses, stiffnesses and forces differ by a
 rounding each. A difference above that of the worst twin is told as BEYOND, and the exit status is 1.
-Times: medians over the rounds of NEW over OLD, of the whole process (user and system) and of the phases of its steps
-(assemble, factor, solve, update). With --at-most a median of the phases above it is told as SLOWER, exit status 1.
+Times: medians over the rounds of NEW over OLD, of the whole process (user and system; also in ms) and of the phases of
+its steps (assemble, factor, solve, update). A median of the phases above --at-most, or of the process above
+--process-at-most, is told as SLOWER, exit status 1. Processes of few ms need some hundred rounds.
 Without scenes: those of data/scenarios. One thread, nothing but standard Python.
 """
 import argparse
@@ -85,7 +86,7 @@ def phases(summary):
 def compare(scene, args, scratch):
     """One scene: a line of text, and whether it is as it must be."""
     title = os.path.splitext(os.path.basename(scene))[0]
-    process, steps = [], []
+    process, steps, spent = [], [], []
     first = None
     for _ in range(args.rounds):
         old = run(args.old, scene, os.path.join(scratch, "old"))
@@ -93,14 +94,16 @@ def compare(scene, args, scratch):
         for result in (old, new):
             if result[1] is None:
                 return f"{title}: FAILED {result[2]}", False
+        spent.append((1e3 * old[0], 1e3 * new[0]))
         if old[0] > 0.0:
             process.append(new[0] / old[0])
         if phases(old[1]) > 0.0:
             steps.append(phases(new[1]) / phases(old[1]))
         first = first or (old, new)
     (_, old_summary, old_history), (_, new_summary, new_history) = first
-    median = statistics.median(steps) if steps else float("nan")
-    line = f"{title:26} phases {median:6.3f}  process {statistics.median(process) if process else float('nan'):6.3f}"
+    of_steps, of_process = (statistics.median(x) if x else float("nan") for x in (steps, process))
+    old_ms, new_ms = (statistics.median(x) for x in zip(*spent))
+    line = f"{title:26} phases {of_steps:6.3f}  process {of_process:6.3f} ({old_ms:.2f} -> {new_ms:.2f} ms)"
     counts = [s["steps"].get("newton_iterations", 0) for s in (old_summary, new_summary)]
     line += f"  iterations {counts[0]} -> {counts[1]}  "
     ok = True
@@ -120,9 +123,10 @@ def compare(scene, args, scratch):
                 bar = max(bar, difference(old_history, result[2])[0])
         ok = worst <= bar
         line += f"{'within twins' if ok else 'BEYOND twins'}: {worst:.1e} at {where} of {bar:.1e}"
-    if args.at_most and median > args.at_most:
-        ok = False
-        line += f"  SLOWER than {args.at_most}"
+    for median, most in ((of_steps, args.at_most), (of_process, args.process_at_most)):
+        if most and median > most:
+            ok = False
+            line += f"  SLOWER than {most}"
     return line, ok
 
 
@@ -134,6 +138,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=15)
     parser.add_argument("--twins", type=int, default=10)
     parser.add_argument("--at-most", type=float, default=0.0)
+    parser.add_argument("--process-at-most", type=float, default=0.0)
     args = parser.parse_args()
     root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     scenes = args.scenes or sorted(glob.glob(os.path.join(root, "data", "scenarios", "*.json")))
