@@ -40,9 +40,11 @@ struct CaseArguments {
   double stop_after = 0.0;  ///< of the whole batch [s]; 0: never
   int retries = 0;          ///< of a case that fails
   bool resume = false;
-  std::string shard;       ///< "I/N", "auto", "auto/N"; empty: all cases
-  std::string job_engine;  ///< whose job files are written, and nothing is run; else empty
-  int tasks = 0;           ///< of these; 0: some hundred cases each
+  std::string keep = "few";             ///< folders of cases: all; few: up to 200, of more a store; none: neither
+  std::vector<std::string> keep_cases;  ///< that have folders in any case
+  std::string shard;                    ///< "I/N", "auto", "auto/N"; empty: all cases
+  std::string job_engine;               ///< whose job files are written, and nothing is run; else empty
+  int tasks = 0;                        ///< of these; 0: some hundred cases each
 };
 struct BatchArguments : CaseArguments {
   std::filesystem::path folder;
@@ -52,7 +54,6 @@ struct BatchArguments : CaseArguments {
 struct SweepArguments : CaseArguments {
   std::filesystem::path file;
   std::vector<std::string> only;  ///< names of cases; empty: all
-  std::string keep = "few";       ///< folders of cases: all, none, or of no more than 200
   bool dry_run = false;
 };
 struct ExportMatrixArguments {

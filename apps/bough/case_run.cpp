@@ -1,7 +1,5 @@
 #include "case_run.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -11,124 +9,17 @@
 #include "arguments.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
-#include "bough/io/run_directory.hpp"
+#include "bough/io/read_study.hpp"
+#include "bough/io/run_store.hpp"
 #include "bough/study/estimate.hpp"
 #include "bough/study/journal.hpp"
-#include "bough/study/simulate.hpp"
-#include "bough/version.hpp"
+#include "case_process.hpp"
 #include "memory_limit.hpp"
 #include "pages.hpp"
 #include "terminal.hpp"
 
 namespace bough::app {
 namespace {
-
-/// Enough to know what is meant; `bough check` tells all.
-std::string first_problems(const io::SceneFile& file) {
-  constexpr std::size_t shown = 3;
-  std::string text;
-  for (std::size_t k = 0; k < std::min(shown, file.problems.size()); ++k) text += file.problems[k].text() + "\n";
-  if (file.problems.size() > shown) text += "and " + std::to_string(file.problems.size() - shown) + " more problems";
-  return text;
-}
-
-/// Takes a run whose results nobody keeps.
-struct NoRecorder final : results::Recorder {
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
-};
-
-results::Summary simulate(const scene::Scene& scene, const CaseSettings& settings,
-                          std::chrono::steady_clock::time_point start, results::Recorder& recorder) {
-  study::SimulateOptions options{.threads = 1};
-  options.stopped_by = [&]() -> std::string {
-    const std::chrono::duration<double> age = std::chrono::steady_clock::now() - start;
-    const bool is_late = settings.time_limit > 0.0 && age.count() >= 0.99 * settings.time_limit;
-    return is_late ? "the time limit of " + io::rounded_text(settings.time_limit, 6) + " s" : "the user";
-  };
-  return study::simulate(scene, options, recorder, [](const results::Progress&) { return !interrupted(); });
-}
-
-/// What was not foreseen for a case by its estimate ends as a lack of memory in this case, not as one of the machine.
-void limit_memory(double bytes) {
-  constexpr double program = 128e6;  // what the program itself and its reader take
-  rlimit limit{};
-  if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  limit.rlim_cur = std::min(limit.rlim_cur, static_cast<rlim_t>(std::min(bytes + program, 1e18)));
-  (void)::setrlimit(RLIMIT_DATA, &limit);
-}
-
-/// Runs in the case's own process.
-int run_case_within(const study::BatchCase& which, const CaseSettings& settings, const CaseSource& source,
-                    study::CaseReport& report) {
-  catch_interrupts(Repeated::ignored);
-  const auto start = std::chrono::steady_clock::now();
-  const io::SceneFile file = source.read(which);
-  if (!file.ok()) {
-    report.cause = first_problems(file);
-    return exit_bad_input;
-  }
-  report.cause = study::refusal(file.scene, settings.memory_limit);
-  if (!report.cause.empty()) return exit_bad_input;
-  results::Summary summary;
-  if (!settings.keeps_results) {
-    NoRecorder nothing;
-    summary = simulate(file.scene, settings, start, nothing);
-    report.take(summary);
-    return summary.status == results::RunStatus::ok ? exit_done : exit_failed;
-  }
-  io::RunDirectory directory(which.directory, std::string(version), origin_of(which.scene, file, which.overrides));
-  try {
-    directory.open();
-    summary = simulate(file.scene, settings, start, directory);
-  } catch (const std::exception& error) {
-    report.cause = cause_of(error);
-    summary.scene = file.scene.name;
-    directory.end_as_failed(summary, cause_of(error));
-    if (directory.has_ended()) report.directory = directory.directory();
-    return exit_failed;
-  }
-  report.take(summary);
-  report.directory = directory.directory();
-  return summary.status == results::RunStatus::ok ? exit_done : exit_failed;
-}
-
-/// What a case that failed changes to be tried again: half the step, or twice the load steps; `which` names what it did.
-std::string smaller_steps(const study::BatchCase& which, const CaseSource& source) {
-  const io::SceneFile file = source.read(which);
-  if (!file.ok()) return {};
-  const scene::Analysis& analysis = file.scene.analysis;
-  std::string change = "/analysis/";
-  if (analysis.kind == scene::AnalysisKind::statics)
-    return change + "load_steps=" + std::to_string(2 * analysis.load_steps);
-  change += "step_size=";
-  io::append_number(change, 0.5 * analysis.step_size);
-  return change;
-}
-
-int run_case(const study::BatchCase& which, const CaseSettings& settings, const CaseSource& source,
-             study::CaseReport& report) {
-  limit_memory(settings.memory_limit);
-  try {
-    int code = run_case_within(which, settings, source, report);
-    study::BatchCase again = which;
-    for (int k = 0; k < settings.retries && code == exit_failed && !interrupted(); ++k) {
-      const std::string change = smaller_steps(again, source);
-      const std::string why = report.cause;
-      again.overrides.push_back(change);
-      report = {};
-      code = run_case_within(again, settings, source, report);
-      const std::string retried = "tried again with " + change;
-      report.cause = code == exit_done ? retried + ", for it had failed: " + why : retried + ": " + report.cause;
-    }
-    return code;
-  } catch (const std::exception& error) {
-    report.cause = cause_of(error);
-    return exit_failed;
-  }
-}
 
 /// Tells of cases as they end: each of a few; of many those that did not end well, and about once a second how far it is.
 class CaseProgress {
@@ -216,16 +107,22 @@ std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, in
 
 namespace {
 
+/// Whether what is to be kept of a case that is done is there.
+bool has_results(const study::BatchCase& which, const study::CaseReport& report, const CaseSettings& settings) {
+  const Kept kept = settings.kept_as(which);
+  const bool left_none = report.directory.empty() && !report.stored;  // bad input, say
+  if (kept == Kept::nothing || left_none || std::filesystem::exists(which.directory / "summary.json")) return true;
+  return kept == Kept::store && report.stored && io::read_stored(settings.out, *report.stored);
+}
+
 /// Takes from the journal what is done, with its results where these are to be kept; returns which cases are left.
 std::vector<std::size_t> take_over(const std::vector<study::BatchCase>& cases, const std::vector<std::string>& keys,
-                                   const study::Journal& journal, bool keeps_results,
+                                   const study::Journal& journal, const CaseSettings& settings,
                                    std::vector<study::CaseResult>& results) {
   std::vector<std::size_t> left;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const study::CaseResult* done = journal.find(keys[i]);
-    const bool has_results = !keeps_results || done == nullptr || done->report.directory.empty() ||
-                             std::filesystem::exists(cases[i].directory / "summary.json");
-    if (done == nullptr || !study::is_final(done->status) || !has_results) {
+    if (done == nullptr || !study::is_final(*done) || !has_results(cases[i], done->report, settings)) {
       left.push_back(i);
       continue;
     }
@@ -235,7 +132,50 @@ std::vector<std::size_t> take_over(const std::vector<study::BatchCase>& cases, c
   return left;
 }
 
+/// Few scenes ask for threads: only those are read here that may.
+int threads_asked_for(const study::BatchCase& which, const CaseSource& source) {
+  constexpr std::string_view key = "threads";
+  const bool may_ask = std::any_of(which.overrides.begin(), which.overrides.end(),
+                                   [&](const std::string& o) { return o.find(key) != std::string::npos; }) ||
+                       source.text(which).find(key) != std::string::npos;
+  if (!may_ask) return 1;
+  const io::SceneFile file = source.read(which);
+  return file.ok() ? file.scene.solver.threads : 1;
+}
+
+/// What each case is: the content of its scene, without comments and spaces, what it changes there, the policy.
+std::vector<std::string> keys_of(const std::vector<study::BatchCase>& cases, const CaseSettings& settings,
+                                 const CaseSource& source) {
+  std::vector<std::string> keys;
+  std::string text, content;
+  for (const study::BatchCase& c : cases) {
+    std::string next = source.text(c);
+    if (next != text || keys.empty()) {
+      text = std::move(next);
+      content = io::canonical_text(text) + policy_of(settings);
+    }
+    keys.push_back(study::key_of(c, content));
+  }
+  return keys;
+}
+
 }  // namespace
+
+Kept CaseSettings::kept_as(const study::BatchCase& which) const {
+  const bool is_chosen = std::find(keep_cases.begin(), keep_cases.end(), which.name) != keep_cases.end();
+  return is_chosen ? Kept::folder : kept;
+}
+
+Kept kept_of(const CaseArguments& arguments, std::size_t num_cases) {
+  constexpr std::size_t most_folders = 200, most_if_asked = 9000;
+  if (arguments.keep == "none") return Kept::nothing;
+  if (arguments.keep == "few") return num_cases <= most_folders ? Kept::folder : Kept::store;
+  if (num_cases > most_if_asked)
+    throw io::OutputRefused("--keep all makes a folder a case, and " + std::to_string(num_cases) +
+                            " are too many for one folder: leave it out, and `bough view DIR --case NAME` takes single "
+                            "ones out of the store");
+  return Kept::folder;
+}
 
 std::string policy_of(const CaseArguments& arguments) {
   return arguments.retries > 0 ? "retries " + std::to_string(arguments.retries) : std::string();
@@ -251,23 +191,34 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
   settings.memory_limit /= static_cast<double>(side_by_side);
   collection.list(study::journal_file);
   study::Journal journal(settings.out / study::journal_file, settings.resume);
+  if (!settings.resume) io::remove_stores(settings.out);
+  if (settings.kept == Kept::store) collection.list(io::store_names);
   if (!source.cases_table.empty())
     collection.write(study::cases_file, source.cases_table);  // the folder is this batch's now
-  std::vector<std::string> keys;
-  for (const study::BatchCase& c : cases) keys.push_back(study::key_of(c, source.text(c) + policy_of(settings)));
+  const std::vector<std::string> keys = keys_of(cases, settings, source);
   if (settings.shard_record) {
     collection.write(study::keys_file, study::keys_csv(cases, keys));
     collection.write(study::shard_file, study::shard_text(*settings.shard_record));
   }
   std::vector<study::CaseResult> results(cases.size());
-  const std::vector<std::size_t> left = take_over(cases, keys, journal, settings.keeps_results, results);
+  const std::vector<std::size_t> left = take_over(cases, keys, journal, settings, results);
   if (settings.resume && !settings.quiet)
     std::cout << cases.size() - left.size() << " of " << cases.size() << " cases are done" << std::endl;
 
   std::vector<study::BatchCase> to_run;
-  for (const std::size_t i : left) to_run.push_back(cases[i]);
+  for (const std::size_t i : left) {
+    to_run.push_back(cases[i]);
+    to_run.back().threads = threads_asked_for(cases[i], source);
+  }
   catch_interrupts();
-  const study::BatchOptions options{settings.threads, settings.time_limit, order_of(to_run, settings.threads, source)};
+  constexpr double program_bytes = 128e6;  // what the program itself and its reader take
+  study::BatchOptions options;
+  options.threads = settings.threads;
+  options.time_limit = settings.time_limit;
+  options.resident_limit = settings.memory_limit + program_bytes;
+  options.order = order_of(to_run, settings.threads, source);
+  constexpr std::size_t most_failed_folders = 1000;
+  FolderAllowance failed_folders(most_failed_folders);
   CaseProgress progress(settings.quiet);
   LivePage page(settings.title, collection, results, left);
   std::unordered_map<std::string, std::string> key_of_name;
@@ -276,10 +227,10 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
       to_run, options,
       [&](const study::BatchCase& which, study::CaseReport& report) {
         journal.release();
-        return run_case(which, settings, source, report);
+        return run_case(which, settings, source, failed_folders, report);
       },
       [&](const study::CaseResult& result, std::size_t done, std::size_t all) {
-        if (study::is_final(result.status)) journal.add(key_of_name.at(result.which.name), result);
+        if (study::is_final(result)) journal.add(key_of_name.at(result.which.name), result);
         progress.tell(result, done, all);
         page.take(result, all);
       },
@@ -288,6 +239,7 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
         return interrupted() || (settings.stop_after > 0.0 && age.count() >= settings.stop_after);
       });
   for (std::size_t k = 0; k < left.size(); ++k) results[left[k]] = std::move(run[k]);
+  io::sync_stores(settings.out);
   return results;
 }
 

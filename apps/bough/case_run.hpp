@@ -13,10 +13,16 @@
 
 namespace bough::app {
 
+/// What is left of a case besides its row.
+enum class Kept { nothing, store, folder };
+/// As asked for, of so many cases. Throws io::OutputRefused where they would be too many folders.
+Kept kept_of(const CaseArguments& arguments, std::size_t num_cases);
+
 struct CaseSettings : CaseArguments {
   std::string title;
-  bool keeps_results = true;  ///< every case gets a folder; else its row is all that is left of it
+  Kept kept = Kept::folder;  ///< of all cases but those that `keep_cases` names: these keep folders
   std::optional<study::ShardRecord> shard_record = {};  ///< of the shard that the cases are; `out` is its own folder
+  Kept kept_as(const study::BatchCase& which) const;
 };
 
 /// The scene of a case.

@@ -17,7 +17,6 @@ namespace bough::app {
 int batch(const BatchArguments& arguments) {
   if (!arguments.shards.empty()) return collect(arguments);
   WholeBatch whole{.verb = "batch", .source = arguments.folder, .inputs = {arguments.folder}};
-  CaseSettings settings{arguments, arguments.folder.string()};
   std::optional<study::Shard> shard;
   if (!arguments.shard.empty()) shard = shard_asked_for(arguments.shard);
   try {
@@ -31,6 +30,7 @@ int batch(const BatchArguments& arguments) {
     c.overrides = arguments.overrides;
     whole.list += io::csv_field(c.name) + '\n';
   }
+  CaseSettings settings{arguments, arguments.folder.string(), kept_of(arguments, whole.cases.size())};
   const CaseSource source{[](const study::BatchCase& which) { return io::read_scene(which.scene, which.overrides); },
                           [](const study::BatchCase& which) {
                             std::ifstream in(which.scene,

@@ -16,8 +16,6 @@
 namespace bough::app {
 namespace {
 
-constexpr std::size_t most_folders = 200;  // of cases, unless more are asked for
-
 std::vector<study::BatchCase> batch_cases(const io::SweepSpec& spec, const study::SweepCases& made,
                                           const SweepArguments& arguments, const std::filesystem::path& out) {
   std::vector<study::BatchCase> cases;
@@ -105,8 +103,7 @@ int sweep(const SweepArguments& arguments) {
   WholeBatch whole{.verb = "sweep",
                    .source = arguments.file,
                    .inputs = {arguments.file, file.spec.scene_file},
-                   .list = study::cases_csv(made),
-                   .words = {"--keep", arguments.keep}};
+                   .list = study::cases_csv(made)};
   std::optional<study::Shard> shard;
   if (!arguments.shard.empty() && !arguments.dry_run) shard = shard_asked_for(arguments.shard);
   if (shard || (!runs_here && !arguments.dry_run)) {
@@ -133,8 +130,8 @@ int sweep(const SweepArguments& arguments) {
                       source);
   if (!runs_here) return export_jobs(whole, arguments, source);
 
-  const bool keeps = arguments.keep == "all" || (arguments.keep == "few" && whole.cases.size() <= most_folders);
-  CaseSettings settings{arguments, file.spec.title.empty() ? file.spec.name : file.spec.title, keeps};
+  CaseSettings settings{arguments, file.spec.title.empty() ? file.spec.name : file.spec.title,
+                        kept_of(arguments, whole.cases.size())};
   if (shard) {
     whole.work = [&] { return work_of_cases(file.spec, made, arguments.overrides); };
     take_shard(*shard, source, whole, settings);

@@ -4,7 +4,9 @@
 #include "arguments.hpp"
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/manifest.hpp"
+#include "bough/io/run_store.hpp"
 #include "bough/report/page.hpp"
+#include "bough/study/collect.hpp"
 
 namespace bough::app {
 
@@ -19,13 +21,34 @@ void write_page(const std::filesystem::path& path, const std::string& text) {
     io::write_file(path, text);
 }
 
+/// Makes the folder of a case that is stored; false where it is not. Of shards that lie in the folder all are looked at.
+bool unpack_case(const std::filesystem::path& batch, const std::string& which) {
+  std::vector<std::filesystem::path> places = {batch};
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(batch, ignored))
+    if (std::filesystem::exists(entry.path() / study::shard_file, ignored)) places.push_back(entry.path());
+  for (const std::filesystem::path& place : places) {
+    std::string whole;
+    for (const auto& [key, result] : study::read_records(place / study::journal_file, whole)) {
+      if (result.which.name != which || !result.report.stored) continue;
+      const auto files = io::read_stored(place, *result.report.stored);
+      if (!files) continue;
+      const bool is_good = result.status == study::CaseStatus::ok || result.status == study::CaseStatus::figures_fail;
+      (void)io::unpack_run(*files, is_good ? io::FolderState::good : io::FolderState::failed, batch / which);
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 int view(const ViewArguments& given) {
   ViewArguments arguments = given;
   if (!given.which.empty()) {
+    const std::filesystem::path batch = arguments.directory;
     arguments.directory /= std::filesystem::path(given.which).filename();
-    if (!std::filesystem::exists(arguments.directory)) {
+    if (!std::filesystem::exists(arguments.directory) && !unpack_case(batch, given.which)) {
       std::cerr << "bough: the results of case " << given.which << " were not kept: bough sweep FILE --case "
                 << given.which << " --out DIR runs it again\n";
       return exit_bad_input;

@@ -60,7 +60,7 @@ int collect(const BatchArguments& arguments) {
     sensitivities =
         sensitivities_of(all, arguments.folder.empty() ? std::filesystem::path(all.record.source) : arguments.folder);
   if (!arguments.quiet) print_sensitivities(sensitivities);
-  CaseSettings settings{arguments, all.record.title};
+  const CaseSettings settings{arguments, all.record.title};
   const io::OutputCollection collection(arguments.out, all.record.verb, {});
   collection.write_once(study::cases_file, all.list);
   return finish_cases(all.results, sensitivities, settings, collection, study::collected_csv(all));

@@ -128,6 +128,15 @@ void add_case_options(CLI::App& verb, CaseArguments& a) {
   verb.add_option("--stop-after", a.stop_after, "Stop the whole after so many seconds, so that --resume goes on")
       ->type_name("S")
       ->check(between(0.001, 1e9));
+  verb.add_option("--keep", a.keep,
+                  "Results of cases: all, in a folder each; few, folders of up to 200 cases, of more those of failed "
+                  "ones, and the others in a store that view reads; none (default: few)")
+      ->check(CLI::IsMember({"all", "none", "few"}));
+  verb.add_option("--keep-case", a.keep_cases,
+                  "A case that has a folder whatever --keep says; may be given several times")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   CLI::Option* shard =
       verb.add_option("--shard", a.shard,
                       "Run part I of N, into DIR/shard_I_of_N; auto: as a Slurm array or Open MPI tells, auto/N: or "
@@ -185,8 +194,6 @@ void add_sweep(CLI::App& app, SweepArguments& a, int& code) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->excludes("--shard")
       ->excludes("--export");
-  verb.add_option("--keep", a.keep, "Folders of cases: all, none, or few, which is up to 200 (default: few)")
-      ->check(CLI::IsMember({"all", "none", "few"}));
   verb.callback([&] { code = sweep(a); });
 }
 

@@ -137,7 +137,8 @@ std::vector<std::string> words_of(const WholeBatch& batch, const CaseArguments& 
   add("--retries", a.retries);
   for (const std::string& o : a.overrides) words.insert(words.end(), {"--set", o});
   if (a.check_expected) words.emplace_back("--check-expected");
-  words.insert(words.end(), batch.words.begin(), batch.words.end());
+  words.insert(words.end(), {"--keep", a.keep});
+  for (const std::string& name : a.keep_cases) words.insert(words.end(), {"--keep-case", name});
   words.insert(words.end(), {"--resume", "--quiet"});
   return words;
 }

@@ -16,7 +16,6 @@ struct WholeBatch {
   std::vector<study::BatchCase> cases = {};
   std::string list = {};                           ///< cases.csv
   std::function<std::vector<double>()> work = {};  ///< predicted, by case
-  std::vector<std::string> words = {};             ///< options that only this verb has, for job files
 };
 
 /// Prints which shard it is and where that was found. Throws io::OutputRefused in words where it is not known.

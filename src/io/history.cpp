@@ -83,28 +83,35 @@ bool split_csv_line(std::string_view line, std::vector<std::string>& fields) {
   return !quoted;
 }
 
+std::string history_head(const results::HistoryHeader& header) {
+  std::string line = "time,step_size,iterations";
+  for (const std::string& column : header.columns) line += ',' + csv_field(column);
+  return line + '\n';
+}
+
+void append_history_row(std::string& text, const results::HistoryRow& row) {
+  append_number(text, row.time);
+  text += ',';
+  append_number(text, row.step_size);
+  text += ',';
+  append_number(text, static_cast<long long>(row.iterations));
+  for (const double value : row.values) {
+    text += ',';
+    append_number(text, value);
+  }
+  text += '\n';
+}
+
 HistoryWriter::HistoryWriter(const std::filesystem::path& path, const results::HistoryHeader& header)
     : file_(path), num_columns_(header.columns.size()), flushed_at_(std::chrono::steady_clock::now()) {
-  line_ = "time,step_size,iterations";
-  for (const std::string& column : header.columns) line_ += ',' + csv_field(column);
-  line_ += '\n';
-  file_.write(line_);
+  file_.write(history_head(header));
   file_.flush();
 }
 
 void HistoryWriter::row(const results::HistoryRow& row) {
   if (row.values.size() != num_columns_) throw std::logic_error("HistoryWriter: a row must have one value per column");
   line_.clear();
-  append_number(line_, row.time);
-  line_ += ',';
-  append_number(line_, row.step_size);
-  line_ += ',';
-  append_number(line_, static_cast<long long>(row.iterations));
-  for (const double value : row.values) {
-    line_ += ',';
-    append_number(line_, value);
-  }
-  line_ += '\n';
+  append_history_row(line_, row);
   file_.write(line_);
   ++rows_;
   const auto now = std::chrono::steady_clock::now();

@@ -142,32 +142,36 @@ Names read_header(const std::filesystem::path& path, const std::string& line) {
 
 }  // namespace
 
-void MotionLinesWriter::frame(const results::MotionFrame& frame) {
-  line_.clear();
+void MotionLines::append(std::string& text, const results::MotionFrame& frame) {
   if (!has_header_) {
-    line_ = std::string("{\"format\":\"") + format_name + '"';
-    append_names(line_, "curves", frame.curves);
-    append_names(line_, "bodies", frame.bodies);
-    append_names(line_, "links", frame.links);
-    line_ += "}\n";
+    text += std::string("{\"format\":\"") + format_name + '"';
+    append_names(text, "curves", frame.curves);
+    append_names(text, "bodies", frame.bodies);
+    append_names(text, "links", frame.links);
+    text += "}\n";
     has_header_ = true;
   }
-  line_ += "{\"t\":";
-  append_number(line_, frame.time);
-  append_parts(line_, "c", frame.curves, [this](const results::Curve& curve) {
-    for (const results::CurvePoint& point : curve.points) append_values(line_, point.position);
+  text += "{\"t\":";
+  append_number(text, frame.time);
+  append_parts(text, "c", frame.curves, [&text](const results::Curve& curve) {
+    for (const results::CurvePoint& point : curve.points) append_values(text, point.position);
   });
-  append_parts(line_, "b", frame.bodies, [this](const results::BodyPose& body) {
-    append_values(line_, body.position);
-    append_values(line_, body.axes);
-    append_values(line_, body.center);
-    for (const std::array<double, 3>& point : body.attachments) append_values(line_, point);
+  append_parts(text, "b", frame.bodies, [&text](const results::BodyPose& body) {
+    append_values(text, body.position);
+    append_values(text, body.axes);
+    append_values(text, body.center);
+    for (const std::array<double, 3>& point : body.attachments) append_values(text, point);
   });
-  append_parts(line_, "l", frame.links, [this](const results::Link& link) {
-    append_values(line_, link.first);
-    append_values(line_, link.second);
+  append_parts(text, "l", frame.links, [&text](const results::Link& link) {
+    append_values(text, link.first);
+    append_values(text, link.second);
   });
-  line_ += "}\n";
+  text += "}\n";
+}
+
+void MotionLinesWriter::frame(const results::MotionFrame& frame) {
+  line_.clear();
+  lines_.append(line_, frame);
   file_.write(line_);
 }
 

@@ -255,6 +255,7 @@ void Converter::settings() {
     scene.solver.depth = static_cast<int>(number_or(*s, "depth", -1.0));
     scene.solver.penalty_factor = s->find("penalty_factor")->number;
     scene.solver.tasks = s->find("tasks")->truth;
+    scene.solver.threads = static_cast<int>(s->find("threads")->number);
   }
   if (const Value* o = sound("output")) {
     scene.output.stride = static_cast<int>(o->find("stride")->number);

@@ -27,7 +27,7 @@ void StudyConverter::convert(const JsonValue& root) {
   spec.sample_interval = number_or(root, "sample_interval", 0.0);
   if (const Value* wanted = sound(root, "wanted"))
     for (const Value& w : wanted->items) spec.wanted.push_back(w.number);
-  if (!read_scene_file(root)) return;
+  if (!read_scene_file(root, spec.scene_text, spec.scene_name)) return;
   read_base(root);
   const Value* quantities = root.find("quantities");
   if (!base_ || quantities == nullptr || !quantities->is(JsonKind::array)) return;
@@ -53,25 +53,6 @@ void StudyConverter::convert(const JsonValue& root) {
     fault("/grids", "a study has at most " + std::to_string(most_runs) + " runs", "take fewer values");
   if (!faults.empty() || !grids->sound) return;
   for (std::size_t i = 0; i < spec.grids.size(); ++i) check_runs(spec.grids[i], "/grids/" + std::to_string(i));
-}
-
-std::string StudyConverter::slice(const Value& v) const {
-  return v.source == source_file ? std::string(text_.substr(v.offset, v.length)) : std::string();
-}
-
-bool StudyConverter::read_scene_file(const Value& root) {
-  const Value* path = sound(root, "scene");
-  if (path == nullptr) return false;
-  Problem problem;
-  const std::filesystem::path file = (folder_.empty() ? "." : folder_) / path->text.str();
-  spec.scene_text = read_whole_file(file, problem);
-  spec.scene_name = name_of_file(file);
-  if (!problem.rule.empty()) {
-    fault("/scene", problem.rule, "names are relative to the study's folder: " + shown(file.string(), 200));
-    return false;
-  }
-  scene_.emplace(spec.scene_text, spec.scene_name);
-  return true;
 }
 
 /// The scene with what all runs change. Its own sensors may be replaced; figures that it expects are of no use here.
@@ -101,18 +82,10 @@ void StudyConverter::read_base(const Value& root) {
   }
 }
 
-std::vector<std::string> StudyConverter::read_setting(const std::string& pointer, const Value& value,
-                                                      const std::string& pointer_at) {
-  std::vector<std::string> list = scene_->expand(pointer, slice(value));
-  if (list.empty())
-    fault(pointer_at, "nothing in the scene is meant by this pointer", "* stands for every item of a list");
-  return list;
-}
-
 std::vector<std::string> StudyConverter::read_settings(const Value& list, const std::string& at) {
   std::vector<std::string> overrides;
   for (std::size_t i = 0; i < list.items.size(); ++i)
-    append(read_setting(list.items[i].find("pointer")->text, *list.items[i].find("value"),
+    append(read_setting(list.items[i].find("pointer")->text, slice(*list.items[i].find("value")),
                         at + "/" + std::to_string(i) + "/pointer"),
            overrides);
   return overrides;

@@ -89,7 +89,7 @@ std::optional<StudyChoice> StudyConverter::read_value(const std::string& name, c
     return choice;
   }
   const std::size_t before = faults.size();
-  choice.overrides = read_setting(pointer, v, pointer_at);
+  choice.overrides = read_setting(pointer, slice(v), pointer_at);
   if (faults.size() != before) return std::nullopt;
   return choice;
 }

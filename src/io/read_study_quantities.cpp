@@ -128,7 +128,7 @@ void StudyConverter::read_formula(const Value& v, const std::string& at, StudyQu
 }
 
 void StudyConverter::read_table(const Value& v, const std::string& at, StudyQuantity& q) {
-  const std::filesystem::path file = folder_ / v.find("file")->text.str();
+  const std::filesystem::path file = path_of(v.find("file")->text.str());
   const NumberTable table = read_number_table(file);
   if (!table.trouble.empty()) {
     fault(at + "/file", table.trouble, "names are relative to the study's folder: " + shown(file.string(), 200));

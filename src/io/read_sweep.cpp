@@ -10,23 +10,23 @@
 #include "bough/laws/law_error.hpp"
 #include "document_report.hpp"
 #include "named_numbers.hpp"
-#include "study_scene.hpp"
+#include "scene_converter.hpp"
 #include "sweep_rules.hpp"
 
 namespace bough::io {
 namespace {
 
-class SweepConverter : private ValueConverter {
+class SweepConverter : public SceneConverter {
  public:
-  using ValueConverter::faults;
-  using ValueConverter::warnings;
   SweepSpec spec;
 
-  SweepConverter(std::string_view text, std::filesystem::path folder) : text_(text), folder_(std::move(folder)) {}
+  SweepConverter(std::string_view text, std::filesystem::path folder) : SceneConverter(text, std::move(folder)) {}
 
   void convert(const JsonValue& root) {
     spec.title = text_or(root, "title");
-    if (!read_scene_file(root)) return;
+    const std::optional<std::filesystem::path> scene_file = read_scene_file(root, spec.scene_text, spec.scene_name);
+    if (!scene_file) return;
+    spec.scene_file = scene_file->string();
     read_settings(root);
     read_measures(root);
     const Value* designs = root.find("designs");
@@ -40,26 +40,6 @@ class SweepConverter : private ValueConverter {
   }
 
  private:
-  std::string slice(const Value& v) const {
-    return v.source == source_file ? std::string(text_.substr(v.offset, v.length)) : std::string();
-  }
-
-  bool read_scene_file(const Value& root) {
-    const Value* path = root.find("scene");
-    if (path == nullptr || !path->sound) return false;
-    Problem problem;
-    const std::filesystem::path file = (folder_.empty() ? "." : folder_) / path->text.str();
-    spec.scene_text = read_whole_file(file, problem);
-    spec.scene_name = name_of_file(file);
-    spec.scene_file = file.string();
-    if (!problem.rule.empty()) {
-      fault("/scene", problem.rule, "names are relative to the sweep's folder: " + shown(file.string(), 200));
-      return false;
-    }
-    scene_.emplace(spec.scene_text, spec.scene_name);
-    return true;
-  }
-
   void read_settings(const Value& root) {
     const Value* set = root.find("set");
     if (set == nullptr || !set->sound) return;
@@ -72,9 +52,7 @@ class SweepConverter : private ValueConverter {
 
   /// "/pointer=value" for all that a pointer names.
   std::vector<std::string> pointers_of(const std::string& pointer, const std::string& value, const std::string& at) {
-    std::vector<std::string> list = scene_->expand(pointer, value);
-    if (list.empty())
-      fault(at + "/pointer", "nothing in the scene is meant by this pointer", "* stands for every item of a list");
+    std::vector<std::string> list = read_setting(pointer, value, at + "/pointer");
     for (const std::string& o : list) origins_.push_back({o.substr(0, o.find('=')), at});
     return list;
   }
@@ -181,7 +159,7 @@ class SweepConverter : private ValueConverter {
 
   void read_table(const Value& v, const std::string& at, SweepDesign& design) {
     Problem problem;
-    const std::string text = read_whole_file((folder_.empty() ? "." : folder_) / v.find("file")->text.str(), problem);
+    const std::string text = read_whole_file(path_of(v.find("file")->text.str()), problem);
     CsvTable table;
     const std::string rule = problem.rule.empty() ? table.read(text) : problem.rule;
     if (!rule.empty()) return fault(at + "/file", rule, "names are relative to the sweep's folder");
@@ -252,10 +230,6 @@ class SweepConverter : private ValueConverter {
     return d.values.front();
   }
 
-  std::string_view text_;
-  std::filesystem::path folder_;
-  std::optional<StudyScene> scene_;
-  std::vector<SettingOrigin> origins_;
   std::set<std::string> names_;
 };
 

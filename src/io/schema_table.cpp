@@ -280,7 +280,9 @@ void add_settings(RuleTable& t) {
        may("leaf_size", integer_rule("", 1, 1e6), "Elements in a sub-domain at the bottom. Default: chosen."),
        may("depth", integer_rule("", 0, 40), "Levels of the hierarchy. Default: chosen."),
        may("penalty_factor", positive(""), "Times the interface's own stiffness [-].", "1"),
-       may("tasks", boolean_rule(""), "Run as tasks on several threads.", "true")}));
+       may("tasks", boolean_rule(""), "Run as tasks on several threads.", "true"),
+       may("threads", integer_rule("", 1, 1024),
+           "That a case of a batch or sweep asks for; it gets no more than these have in all.", "1")}));
   t.named["output"] = made(
       object_of("What is written.",
                 {may("stride", integer_rule("", 1, 1e9), "History rows: every n-th step.", "1"),

@@ -8,8 +8,7 @@
 
 #include "bough/io/read_study.hpp"
 #include "bough/scene/nearest_name.hpp"
-#include "read_values.hpp"
-#include "study_scene.hpp"
+#include "scene_converter.hpp"
 
 namespace bough::io {
 
@@ -18,14 +17,11 @@ inline std::string did_you_mean(const std::string& word, const std::vector<std::
   return near.empty() ? "" : "did you mean \"" + near + "\"?";
 }
 
-class StudyConverter : private ValueConverter {
+class StudyConverter : public SceneConverter {
  public:
-  using ValueConverter::faults;
-  using ValueConverter::warnings;
   StudySpec spec;
 
-  /// text: of the study, from which values are copied as they are written. folder: names of files are relative to it.
-  StudyConverter(std::string_view text, std::filesystem::path folder) : text_(text), folder_(std::move(folder)) {}
+  StudyConverter(std::string_view text, std::filesystem::path folder) : SceneConverter(text, std::move(folder)) {}
 
   void convert(const JsonValue& root);
 
@@ -36,10 +32,7 @@ class StudyConverter : private ValueConverter {
   }
 
   // The scene (read_study.cpp).
-  std::string slice(const Value& v) const;
-  bool read_scene_file(const Value& root);
   void read_base(const Value& root);
-  std::vector<std::string> read_setting(const std::string& pointer, const Value& value, const std::string& pointer_at);
   std::vector<std::string> read_settings(const Value& list, const std::string& at);
   static void add_origins(const std::vector<std::string>& overrides, const std::string& at,
                           std::vector<SettingOrigin>& origins);
@@ -60,12 +53,8 @@ class StudyConverter : private ValueConverter {
   void check_runs(const StudyGrid& grid, const std::string& at);
   bool check_samples(const scene::Scene& scene, const std::string& at);
 
-  std::string_view text_;
-  std::filesystem::path folder_;
-  std::optional<StudyScene> scene_;
-  std::optional<scene::Scene> base_;    ///< the scene with what all runs change
-  std::vector<SettingOrigin> origins_;  ///< of what all runs change
-  std::vector<std::string> columns_;    ///< of its history
+  std::optional<scene::Scene> base_;  ///< the scene with what all runs change
+  std::vector<std::string> columns_;  ///< of its history
 };
 
 }  // namespace bough::io

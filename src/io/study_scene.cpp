@@ -114,6 +114,15 @@ std::optional<scene::Scene> StudyScene::read(const std::vector<std::string>& ove
   return std::nullopt;
 }
 
+std::string canonical_text(std::string_view text) {
+  std::vector<JsonFault> faults;
+  const std::optional<JsonValue> root = parse_json(text, source_file, faults);
+  if (!root || !faults.empty()) return std::string(text);
+  std::string out;
+  append_canonical(out, *root);
+  return out;
+}
+
 std::string canonical_scene(std::string_view text, std::span<const std::string> overrides) {
   std::vector<JsonFault> text_faults;
   std::optional<JsonValue> root = parse_json(text, source_file, text_faults);

@@ -247,13 +247,15 @@ void add_sensitivities(Document& page, const std::vector<study::MeasureSensitivi
             "interactions (total). Lines are intervals of confidence of 95 %."
           : "Coefficients of a linear fit of standardised values (src) and of ranks (srrc); bars show magnitudes.",
       Tone::soft);
-  for (const study::MeasureSensitivity& s : sensitivities) {
-    page.figure(index_bars(s), s.of.explained
-                                   ? "A linear function explains " + io::rounded_text(100.0 * *s.of.explained, 3) +
-                                         " % of the variance, and " +
-                                         io::rounded_text(100.0 * *s.of.explained_ranks, 3) + " % of that of ranks."
-                                   : std::string());
-  }
+  std::vector<std::string> drawings;
+  for (const study::MeasureSensitivity& s : sensitivities) drawings.push_back(index_bars(s));
+  page.figures(drawings);
+  for (const study::MeasureSensitivity& s : sensitivities)
+    if (s.of.explained)
+      page.paragraph(s.measure + ": a linear function explains " + io::rounded_text(100.0 * *s.of.explained, 3) +
+                         " % of the variance, and " + io::rounded_text(100.0 * *s.of.explained_ranks, 3) +
+                         " % of that of ranks.",
+                     Tone::soft);
 }
 
 /// A value of an input: a number, or a text.
@@ -372,10 +374,12 @@ std::string batch_page(const std::vector<CaseResult>& results, const std::string
   add_sensitivities(page, sensitivities);
   page.section("Cases");
   const std::size_t shown = cases_shown(results).size();
-  page.paragraph(shown < results.size() ? "The extreme cases of every measure, failures and a sample, " +
-                                              std::to_string(shown) + " in all; batch.csv holds every case."
-                                        : "A click on a heading sorts, one on a row or point selects.",
-                 Tone::soft);
+  page.paragraph(
+      shown < results.size()
+          ? "The extreme cases of every measure, failures and a sample, " + std::to_string(shown) +
+                " in all; batch.csv holds every case."
+          : "A click on a heading sorts, one on a row or point selects; selected cases have links to their views.",
+      Tone::soft);
   page.figure(
       "<div id=\"scatter\"></div><div id=\"cases\"></div><noscript>The table and its chart need scripts; batch.csv "
       "holds the same.</noscript>");

@@ -27,6 +27,7 @@ inline constexpr std::string_view batch_script = R"js(
   var count = el(bar, "span");
   var wide = el(root, "div"), table = el(wide, "table"), head = el(el(table, "thead"), "tr"), body = el(table, "tbody");
   wide.className = "wide";
+  var views = el(root, "div");
   columns.forEach(function (name, c) {
     var th = el(head, "th"), button = el(th, "button", name);
     if (numeric[c]) th.className = "number";
@@ -70,6 +71,12 @@ inline constexpr std::string_view batch_script = R"js(
         if (numeric[c]) td.className = "number";
       });
       tr.addEventListener("click", function () { selected[i] = !selected[i]; draw(); });
+    });
+    views.textContent = "";
+    order.filter(function (i) { return selected[i]; }).slice(0, 20).forEach(function (i) {
+      var p = el(views, "p"), name = String(rows[i][0]), link = el(p, "a", "View of " + name);
+      link.href = encodeURIComponent(name) + "/view.html";
+      el(p, "span", ", which `bough view DIR --case " + name + "` draws, with the folder of this page as DIR");
     });
     count.textContent = " " + left.length + " of " + rows.length + " rows" + (left.length > 300 ? ", the first 300 shown" : "");
     chart(left);

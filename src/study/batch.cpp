@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
@@ -63,12 +64,19 @@ CaseResult result_of(const BatchCase& which, const WorkerAnswer& answer, double 
   return result;
 }
 
-/// Of a case whose worker has ended without a word.
-CaseResult result_of_ended(const BatchCase& which, int wait_status, double seconds, bool is_late) {
+/// Of a case whose worker has ended without a word. resident: memory that it was killed for; 0: it was not.
+CaseResult result_of_ended(const BatchCase& which, int wait_status, double seconds, bool is_late, double resident) {
   CaseResult result;
   result.which = which;
-  result.status = is_late ? CaseStatus::timed_out : CaseStatus::crashed;
+  result.status = resident > 0.0 ? CaseStatus::failed : is_late ? CaseStatus::timed_out : CaseStatus::crashed;
   result.cost.wall_seconds = seconds;
+  result.cost.peak_bytes = resident;
+  if (resident > 0.0) {
+    result.cause = "killed, since it held " + std::to_string(std::lround(1e-6 * resident)) +
+                   " MB of memory, which is more than it may; " + kept_rows(which);
+    return result;
+  }
+  result.report.is_unwritten = !WIFSIGNALED(wait_status) && !is_late;  // it could not tell of its end
   const std::string how = WIFSIGNALED(wait_status) ? "signal " + std::to_string(WTERMSIG(wait_status))
                                                    : "status " + std::to_string(WEXITSTATUS(wait_status));
   result.cause = (is_late ? "killed at the time limit, since it did not stop by itself; " : "ended by " + how + "; ") +
@@ -152,8 +160,13 @@ class Batch {
   }
 
  private:
-  /// Gives the next case to a worker; false where all are busy.
+  /// Threads that a case gets: as many as it asks for, but never more than there are.
+  int threads_of(std::size_t which) const { return std::clamp(cases_[which].threads, 1, options_.threads); }
+
+  /// Gives the next case to a worker; false where all threads are busy, or as many as it asks for. Cases do not
+  /// overtake it, for it would wait for ever.
   bool hand_out() {
+    if (num_busy_threads_ + threads_of(order_[next_]) > options_.threads) return false;
     auto idle = std::find_if(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.is_busy(); });
     if (idle == workers_.end()) {
       if (workers_.size() >= static_cast<std::size_t>(options_.threads)) return false;
@@ -171,6 +184,7 @@ class Batch {
       workers_.erase(idle);
       return true;  // to another one
     }
+    num_busy_threads_ += threads_of(order_[next_]);
     ++next_;
     ++num_busy_;
     return true;
@@ -194,24 +208,26 @@ class Batch {
       const bool has_ended = w.has_ended();
       if (answer || (is_busy && has_ended)) {
         --num_busy_;
+        num_busy_threads_ -= threads_of(which);
         any_ended = true;
         finish(which, answer ? result_of(cases_[which], *answer, seconds, is_late)
-                             : result_of_ended(cases_[which], w.reap(), seconds, is_late));
+                             : result_of_ended(cases_[which], w.reap(), seconds, is_late, w.killed_for_memory()));
       }
       // One that was told to stop would stop what it runs next, too.
       if (has_ended || (w.was_asked_to_stop() && !w.is_busy())) {
         workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(k));
         continue;
       }
-      keep_to_limit(w);
+      keep_to_limits(w);
       ++k;
     }
     return any_ended;
   }
 
-  /// A case past its limit is asked to stop, and its worker killed when it has had time to.
-  void keep_to_limit(Worker& w) const {
+  /// A case past its limit of time is asked to stop, and its worker killed when it has had time to.
+  void keep_to_limits(Worker& w) const {
     const double limit = options_.time_limit;
+    if (w.is_busy() && options_.resident_limit > 0.0) w.kill_above(options_.resident_limit);
     if (!w.is_busy() || limit <= 0.0 || w.seconds() <= limit) return;
     if (!w.was_asked_to_stop()) w.ask_to_stop();
     if (!w.was_killed() && w.seconds() > limit + std::max(least_grace, part_of_limit * limit)) w.kill();
@@ -232,6 +248,7 @@ class Batch {
   std::vector<std::size_t> order_;
   std::vector<Worker> workers_;
   std::size_t next_ = 0, num_busy_ = 0, num_done_ = 0;
+  int num_busy_threads_ = 0;
   bool stopping_ = false;
 };
 

@@ -84,6 +84,28 @@ for file in batch.csv batch.json batch.html cases.csv; do holds cmp sweep.one/$f
 holds grep -q ',N,l,g,lowest,reach$' sweep.one/batch.csv
 expect 0 'view.html' view sweep.one --case 07
 expect 2 'were not kept' view sweep.two --case 07
+# of many cases results are stored: failed and chosen ones have folders, and view takes others out of the store
+cat > many.json <<EOF
+{"schema_version": 1, "scene": "good.json", "set": [{"pointer": "/analysis/end_time", "value": 0.02}],
+ "designs": [{"kind": "random", "samples": 210, "variables": [
+  {"name": "mass", "pointer": "/bodies/bob/mass", "distribution": {"kind": "uniform", "low": 1, "high": 2}}]}]}
+EOF
+expect 0 silence sweep many.json --out sweep.many --threads 2 --keep-case 007 --quiet
+holds test -s sweep.many/007/history.csv
+holds test ! -e sweep.many/008
+holds test "$(ls sweep.many | wc -l)" -le 12
+expect 0 'view.html' view sweep.many --case 008
+"$program" run good.json --out many.one --set /analysis/end_time=0.02 --set "/bodies/bob/mass=$(sed -n 's/^008,//p' sweep.many/cases.csv)" > /dev/null
+holds cmp many.one/history.csv sweep.many/008/history.csv
+holds cmp many.one/motion.jsonl sweep.many/008/motion.jsonl
+expect 0 '210 of 210 cases are done' sweep many.json --out sweep.many --resume
+rm sweep.many/store_000.pack
+expect 0 'of 210 cases are done' sweep many.json --out sweep.many --resume
+holds test -s sweep.many/store_000.pack
+# comments and spaces do not make another scene
+sed 's/"title": "pendulum",/"title":   "pendulum", "comment": "other",/' good.json > other.json && mv good.json first.json && mv other.json good.json
+expect 0 '210 of 210 cases are done' sweep many.json --out sweep.many --resume
+mv first.json good.json
 holds test -s sweep.one/07/history.csv
 holds test ! -e sweep.two/07
 expect 0 '1 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07

@@ -1,11 +1,15 @@
 #include "bough/study/batch.hpp"
 
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <map>
 #include <thread>
 
@@ -22,7 +26,12 @@ class Batch : public testing::Test {
  protected:
   Batch() { std::filesystem::create_directory(scratch_ / "in"); }
   void add(const std::string& name) { io::write_file(scratch_ / "in" / (name + ".json"), "{}"); }
-  static BatchOptions options(int threads, double time_limit = 0.0) { return {threads, time_limit, {}}; }
+  static BatchOptions options(int threads, double time_limit = 0.0) {
+    BatchOptions o;
+    o.threads = threads;
+    o.time_limit = time_limit;
+    return o;
+  }
   std::vector<BatchCase> cases() const { return cases_in(scratch_ / "in", scratch_ / "out"); }
 
   static int run_case(const BatchCase& which, CaseReport& report) {
@@ -135,6 +144,7 @@ TEST(CaseReports, go_through_a_pipe_with_all_their_bits) {
   CaseReport r;
   r.cause = "line 1\n\"quoted\" \xC3\xA9";
   r.directory = "out/a";
+  r.stored = io::StoredPlace{"store_000.pack", 1234567890123};
   r.accepted = 1L << 40u;
   r.expected_fails = 3;
   r.doubts = {"energy", ""};
@@ -211,6 +221,57 @@ TEST_F(Batch, a_case_that_crashes_keeps_the_rows_it_had_written) {
   EXPECT_EQ(result.status, CaseStatus::crashed);
   EXPECT_NE(result.cause.find("signal 9; its rows to the last flush"), std::string::npos) << result.cause;
   EXPECT_EQ(io::read_history(scratch_ / "out/late crash/history.csv").header.columns.size(), 3u);
+}
+
+/// Memory that all processes of a test share; it counts as resident, but not as data.
+template <class T>
+T* shared(std::size_t count) {
+  void* memory = mmap(nullptr, count * sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::runtime_error("no memory is there to share");
+  return static_cast<T*>(memory);
+}
+
+TEST_F(Batch, a_case_that_holds_more_memory_than_it_may_is_killed_alone) {
+  for (const char* name : {"good_1", "greedy", "good_2"}) add(name);
+  std::filesystem::create_directories(scratch_ / "out");
+  double pages = 0.0, resident = 0.0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  BatchOptions limited = options(1);
+  limited.resident_limit = resident * static_cast<double>(sysconf(_SC_PAGESIZE)) + 100e6;
+  const auto results = run_batch(
+      cases(), limited,
+      [](const BatchCase& which, CaseReport& report) {
+        if (which.name != "greedy") return run_case(which, report);
+        std::memset(shared<char>(200'000'000), 1, 200'000'000);
+        std::this_thread::sleep_for(std::chrono::seconds(60));
+        return 0;
+      },
+      [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+  EXPECT_EQ(results.at(0).status, CaseStatus::ok);
+  EXPECT_EQ(results.at(1).status, CaseStatus::ok);
+  EXPECT_EQ(results.at(2).status, CaseStatus::failed);
+  EXPECT_NE(results.at(2).cause.find("MB of memory"), std::string::npos) << results.at(2).cause;
+}
+
+TEST_F(Batch, cases_that_ask_for_threads_never_have_more_than_there_are) {
+  const std::vector<int> wanted = {1, 2, 3, 1, 9, 2, 1, 1, 0};
+  for (std::size_t k = 0; k < wanted.size(); ++k) add("case_" + std::to_string(k));
+  std::vector<BatchCase> asking = cases();
+  for (std::size_t k = 0; k < wanted.size(); ++k) asking[k].threads = wanted[k];
+  auto* counts = shared<std::atomic<int>>(2);  // threads in use, and the most of them
+  const auto results = run_batch(
+      asking, options(3),
+      [counts](const BatchCase& which, CaseReport&) {
+        const int own = std::clamp(which.threads, 1, 3), now = counts[0] += own;
+        for (int most = counts[1]; most < now && !counts[1].compare_exchange_weak(most, now);) {
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        counts[0] -= own;
+        return 0;
+      },
+      [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+  for (const CaseResult& r : results) EXPECT_EQ(r.status, CaseStatus::ok) << r.which.name;
+  EXPECT_EQ(counts[1], 3);
 }
 
 TEST_F(Batch, its_cases_end_with_it) {

@@ -11,6 +11,10 @@
 
 namespace bough::io {
 
+/// The first line of a history, and a line of it.
+std::string history_head(const results::HistoryHeader& header);
+void append_history_row(std::string& text, const results::HistoryRow& row);
+
 /// Writes rows as they come. The rows that were handed to the system can be kept after a failure: a failed write loses the rows since the
 /// last flush (at most half a second or 64 KiB) and nothing else.
 class HistoryWriter {

@@ -16,6 +16,16 @@
 
 namespace bough::io {
 
+/// The lines of such a file.
+class MotionLines {
+ public:
+  /// All frames must have the parts of the first one, before whose line the header stands.
+  void append(std::string& text, const results::MotionFrame& frame);
+
+ private:
+  bool has_header_ = false;
+};
+
 class MotionLinesWriter {
  public:
   explicit MotionLinesWriter(const std::filesystem::path& path) : file_(path) {}
@@ -31,7 +41,7 @@ class MotionLinesWriter {
  private:
   AtomicFile file_;
   std::string line_;
-  bool has_header_ = false;
+  MotionLines lines_;
 };
 
 /// Reads at most `max_frames` frames (>= 2), evenly chosen, always the first and the last. Section forces and axes of curves are not in this

@@ -25,4 +25,8 @@ std::string study_schema_text();
 /// Empty where it has problems.
 std::string canonical_scene(std::string_view text, std::span<const std::string> overrides);
 
+/// A JSON text without spaces and comments, keys sorted, numbers in full: equal for texts that say the same. A text that is
+/// no JSON stays as it is.
+std::string canonical_text(std::string_view text);
+
 }  // namespace bough::io

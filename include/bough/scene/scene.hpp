@@ -279,6 +279,7 @@ struct Solver {
   int depth = -1;                              ///< -1 = chosen
   double penalty_factor = 1.0;                 ///< times the interface's own stiffness
   bool tasks = true;
+  int threads = 1;  ///< that it asks for where several scenes share them; results do not depend on it
 };
 
 struct Output {

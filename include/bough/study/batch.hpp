@@ -8,14 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "bough/io/run_store.hpp"
 #include "bough/results/records.hpp"
 #include "bough/study/sensitivity.hpp"
 
 namespace bough::study {
 
 struct BatchOptions {
-  int threads = 1;                 ///< cases at a time, >= 1
+  int threads = 1;                 ///< of all cases that run at a time, >= 1
   double time_limit = 0.0;         ///< wall time of one case [s]; 0: none
+  double resident_limit = 0.0;     ///< memory that one worker may hold in the machine [bytes]; 0: any
   std::vector<std::size_t> order;  ///< in which cases are started; empty: as they come. Rows do not depend on it
 };
 
@@ -24,6 +26,7 @@ struct BatchCase {
   std::filesystem::path scene, directory;  ///< directory: of its results
   std::vector<std::string> overrides = {};
   std::vector<std::pair<std::string, std::string>> inputs = {};  ///< what varies and its value as JSON, for tables
+  int threads = 1;                                               ///< that it asks for; it gets no more than there are
 };
 
 /// figures_fail: the run is complete, and an expected figure of its scene does not hold.
@@ -32,8 +35,10 @@ enum class CaseStatus { ok, figures_fail, failed, interrupted, bad_input, crashe
 /// What a case tells of itself when it ends; it is handed from its process to the one that collects.
 struct CaseReport {
   std::string cause;                ///< what to report
-  std::filesystem::path directory;  ///< where its results stand; empty: it left none
+  std::filesystem::path directory;  ///< where its results stand; empty: it left none, or it is stored
+  std::optional<io::StoredPlace> stored;
   bool was_interrupted = false;
+  bool is_unwritten = false;  ///< its results could not be written: it may end otherwise when there is room
   long accepted = 0, rejected = 0, newton_iterations = 0;
   int expected_holds = 0, expected_fails = 0;
   std::string failing;              ///< the first expected figures that do not hold, in words
@@ -73,7 +78,8 @@ std::vector<BatchCase> cases_in(const std::filesystem::path& folder, const std::
 /// time in each and many one after the other, so that one that crashes, hangs or takes all memory harms no other: its worker
 /// is replaced. All workers end with this process, however it ends. Where no process can be started a case has failed.
 /// `stop` is asked between cases; once true no further case starts and those running are told to stop (SIGTERM). A case
-/// past its time limit is told so, too, and is killed where it does not end by itself. Call it while the process has one
+/// past its time limit is told so, too, and is killed where it does not end by itself; one whose worker holds more memory
+/// than its limit is killed, by a look every fiftieth of a second. Call it while the process has one
 /// thread.
 std::vector<CaseResult> run_batch(const std::vector<BatchCase>& cases, const BatchOptions& options,
                                   const RunCase& run_case, const CaseDone& done, const std::function<bool()>& stop);

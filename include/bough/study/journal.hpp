@@ -23,8 +23,8 @@ const Machine& this_machine();
 std::string key_of(const BatchCase& which, const std::string& scene_text);
 
 /// Whether a case that ended so is done for good: it would end so again. Cases that were stopped, by a user or by a
-/// limit of time, are not.
-bool is_final(CaseStatus status);
+/// limit of time, are not, nor are those whose results could not be written.
+bool is_final(const CaseResult& result);
 
 using Records = std::unordered_map<std::string, CaseResult>;  ///< by key
 

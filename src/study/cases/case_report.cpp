@@ -52,7 +52,15 @@ std::string text_of(const CaseReport& r) {
   json.begin_object();
   json.member("cause", std::string_view(r.cause));
   json.member("directory", std::string_view(r.directory.string()));
+  if (r.stored) {
+    json.key("stored");
+    json.begin_array();
+    json.value(std::string_view(r.stored->store));
+    json.value(static_cast<long long>(r.stored->offset));
+    json.end_array();
+  }
   json.member("interrupted", r.was_interrupted);
+  if (r.is_unwritten) json.member("unwritten", true);
   json.key("counts");
   json.begin_array();
   for (const long n : {r.accepted, r.rejected, r.newton_iterations, static_cast<long>(r.expected_holds),
@@ -91,6 +99,9 @@ bool report_of(std::string_view text, CaseReport& r) {
   std::vector<io::JsonFault> faults;
   const std::optional<io::JsonValue> root = io::parse_json(text, io::source_file, faults);
   if (!root || !faults.empty()) return false;
+  if (!root->is(io::JsonKind::object)) return false;
+  for (const char* name : {"cause", "directory", "interrupted", "failing"})
+    if (root->find(name) == nullptr) return false;
   const auto* counts = root->find("counts");
   const auto* measures = root->find("measures");
   const auto* doubts = root->find("doubts");
@@ -98,10 +109,16 @@ bool report_of(std::string_view text, CaseReport& r) {
   if (counts == nullptr || counts->items.size() != 5 || measures == nullptr || doubts == nullptr || checks == nullptr ||
       checks->items.size() != 2)
     return false;
-  const auto count = [counts](std::size_t k) { return static_cast<long>(counts->items[k].number); };
+  const auto count = [counts](std::size_t k) {
+    return static_cast<long>(std::clamp(counts->items[k].number, 0.0, 1e18));
+  };
   r.cause = root->find("cause")->text;
   r.directory = root->find("directory")->text.str();
+  if (const io::JsonValue* stored = root->find("stored");
+      stored != nullptr && stored->items.size() == 2 && stored->items[1].number >= 0.0)
+    r.stored = io::StoredPlace{stored->items[0].text.str(), static_cast<std::uint64_t>(stored->items[1].number)};
   r.was_interrupted = root->find("interrupted")->truth;
+  r.is_unwritten = root->find("unwritten") != nullptr;
   r.accepted = count(0);
   r.rejected = count(1);
   r.newton_iterations = count(2);

@@ -122,6 +122,7 @@ void require_same(const fs::path& first, const ShardRecord& a, const fs::path& o
 std::string content_of(const CaseResult& result) {
   CaseReport report = result.report;
   report.directory.clear();
+  report.stored.reset();
   return std::string(text_of(result.status)) + '\n' + text_of(report);
 }
 

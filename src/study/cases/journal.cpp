@@ -81,7 +81,7 @@ bool read_record(std::string_view line, std::string& key, CaseResult& r) {
   if (blank == std::string_view::npos || io::digest_of(line.substr(blank + 1)) != line.substr(0, blank)) return false;
   std::vector<io::JsonFault> faults;
   const std::optional<io::JsonValue> root = io::parse_json(line.substr(blank + 1), io::source_file, faults);
-  if (!root || !faults.empty()) return false;
+  if (!root || !faults.empty() || !root->is(io::JsonKind::object)) return false;
   for (const char* name : {"key", "case", "status", "cause", "cost", "report"})
     if (root->find(name) == nullptr) return false;
   const io::JsonValue& cost = *root->find("cost");
@@ -119,7 +119,9 @@ std::string key_of(const BatchCase& which, const std::string& scene_text) {
   return digest.text();
 }
 
-bool is_final(CaseStatus status) {
+bool is_final(const CaseResult& result) {
+  const CaseStatus status = result.status;
+  if (result.report.is_unwritten) return false;
   return status == CaseStatus::ok || status == CaseStatus::figures_fail || status == CaseStatus::failed ||
          status == CaseStatus::bad_input || status == CaseStatus::crashed;
 }

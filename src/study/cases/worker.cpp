@@ -137,6 +137,7 @@ Worker& Worker::operator=(Worker&& other) noexcept {
   std::swap(case_, other.case_);
   std::swap(given_at_, other.given_at_);
   std::swap(told_, other.told_);
+  std::swap(resident_, other.resident_);
   std::swap(has_ended_, other.has_ended_);
   std::swap(asked_, other.asked_);
   std::swap(killed_, other.killed_);
@@ -194,6 +195,16 @@ void Worker::ask_to_stop() {
 void Worker::kill() {
   killed_ = true;
   ::kill(process_, SIGKILL);
+}
+
+void Worker::kill_above(double bytes) {
+  std::ifstream file("/proc/" + std::to_string(process_) + "/statm");
+  double size = 0.0, resident = 0.0;  // in pages
+  if (!(file >> size >> resident)) return;
+  resident *= static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (resident <= bytes) return;
+  resident_ = resident;
+  kill();
 }
 
 void Worker::end() {

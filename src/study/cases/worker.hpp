@@ -42,6 +42,9 @@ class Worker {
 
   void ask_to_stop();
   void kill();
+  /// Kills it where it holds more memory in the machine than this [bytes]. killed_for_memory: how much it held; 0: it was not killed for that.
+  void kill_above(double bytes);
+  double killed_for_memory() const { return resident_; }
   /// Whether it was asked to: what it runs is cut off, and what it would run after that may be, too.
   bool was_asked_to_stop() const { return asked_; }
   bool was_killed() const { return killed_; }
@@ -56,6 +59,7 @@ class Worker {
   std::optional<std::size_t> case_;
   std::chrono::steady_clock::time_point given_at_;
   std::string told_;
+  double resident_ = 0.0;
   bool has_ended_ = false, asked_ = false, killed_ = false;
 };
 

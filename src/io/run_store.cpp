@@ -1,0 +1,175 @@
+#include "bough/io/run_store.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "bough/io/digest.hpp"
+#include "bough/io/history.hpp"
+#include "bough/io/json_text.hpp"
+#include "bough/io/json_value.hpp"
+#include "bough/io/output_folder.hpp"
+
+namespace bough::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view record_begin = "bough run ";
+constexpr std::size_t max_head = 4096;  // [bytes] of the line before the files
+
+[[noreturn]] void fail(const fs::path& file, int error) {
+  throw std::runtime_error("cannot write " + file.string() + ": " + std::generic_category().message(error));
+}
+
+std::string store_name(int number) {
+  std::string digits = std::to_string(number);
+  return "store_" + digits.insert(0, digits.size() < 3 ? 3 - digits.size() : 0, '0') + ".pack";
+}
+
+bool is_store(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with("store_") && name.ends_with(".pack");
+}
+
+std::string head_of(const std::vector<StoredFile>& files) {
+  std::string head = std::string(record_begin) + "[";
+  for (const StoredFile& file : files) {
+    if (head.back() != '[') head += ',';
+    head +=
+        "[" + json_string(file.name) + "," + std::to_string(file.text.size()) + ",\"" + digest_of(file.text) + "\"]";
+  }
+  return head + "]\n";
+}
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(descriptor, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+}  // namespace
+
+RunStore::RunStore(const fs::path& folder) {
+  constexpr int most = 10000;
+  for (int number = 0; number < most; ++number) {
+    file_ = folder / store_name(number);
+    descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(file_, errno);
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    ::close(descriptor_);
+  }
+  descriptor_ = -1;
+  throw std::runtime_error("all stores of " + folder.string() + " are in use");
+}
+
+RunStore::~RunStore() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+StoredPlace RunStore::add(const std::vector<StoredFile>& files) {
+  const off_t offset = ::lseek(descriptor_, 0, SEEK_END);
+  if (offset < 0) fail(file_, errno);
+  std::string record = head_of(files);
+  for (const StoredFile& file : files) record += file.text;
+  record += '\n';
+  if (!write_all(descriptor_, record)) {
+    const int error = errno;
+    if (::ftruncate(descriptor_, offset) != 0) ::close(std::exchange(descriptor_, -1));
+    fail(file_, error);
+  }
+  return {file_.filename().string(), static_cast<std::uint64_t>(offset)};
+}
+
+std::optional<std::vector<StoredFile>> read_stored(const fs::path& folder, const StoredPlace& place) {
+  std::ifstream in(folder / fs::path(place.store).filename(), std::ios::binary);
+  if (!in.seekg(static_cast<std::streamoff>(place.offset))) return std::nullopt;
+  std::string head(max_head, '\0');
+  in.getline(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount() - 1)));
+  if (!in || !head.starts_with(record_begin)) return std::nullopt;
+  std::vector<JsonFault> faults;
+  const std::optional<JsonValue> list =
+      parse_json(std::string_view(head).substr(record_begin.size()), source_file, faults);
+  if (!list || !faults.empty() || !list->is(JsonKind::array)) return std::nullopt;
+  std::error_code error;
+  const auto size = static_cast<double>(fs::file_size(folder / fs::path(place.store).filename(), error));
+  std::vector<StoredFile> files;
+  for (const JsonValue& item : list->items) {
+    if (!item.is(JsonKind::array) || item.items.size() != 3 || !item.items[0].is(JsonKind::string) ||
+        !item.items[1].is(JsonKind::number) || !item.items[2].is(JsonKind::string))
+      return std::nullopt;
+    const double bytes = item.items[1].number;
+    if (error || !(bytes >= 0.0 && bytes <= size)) return std::nullopt;
+    files.push_back({item.items[0].text.str(), std::string(static_cast<std::size_t>(bytes), '\0')});
+    if (!in.read(files.back().text.data(), static_cast<std::streamsize>(files.back().text.size())) ||
+        digest_of(files.back().text) != item.items[2].text.str())
+      return std::nullopt;
+  }
+  return files;
+}
+
+void sync_stores(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (is_store(entry.path())) sync_file(entry.path());
+  sync_directory(folder);
+}
+
+void remove_stores(const fs::path& folder) {
+  std::vector<fs::path> stores;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (is_store(entry.path())) stores.push_back(entry.path());
+  for (const fs::path& store : stores) fs::remove(store);
+}
+
+fs::path unpack_run(const std::vector<StoredFile>& files, FolderState state, const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const StoredFile& file : files) {
+    names.push_back(fs::path(file.name).filename().string());
+    if (names.back() != file.name || file.name.empty() || file.name.front() == '.')
+      throw std::runtime_error("a stored file is called " + file.name);
+  }
+  OutputFolder output(folder, "run", names);
+  for (const StoredFile& file : files) {
+    if (file.name == "summary.json")
+      output.write_index(file.name, file.text);
+    else
+      output.write(file.name, file.text);
+  }
+  output.publish(state);
+  return output.folder();
+}
+
+void RunInMemory::begin(const results::HistoryHeader& header) { history_ = history_head(header); }
+
+void RunInMemory::row(const results::HistoryRow& row) { append_history_row(history_, row); }
+
+void RunInMemory::motion(const results::MotionFrame& frame) { motion_lines_.append(motion_, frame); }
+
+void RunInMemory::end(const results::Summary& summary) {
+  if (history_.empty()) begin(summary.header);
+  files_.push_back({"history.csv", std::move(history_)});
+  if (!motion_.empty()) files_.push_back({"motion.jsonl", std::move(motion_)});
+  std::vector<FileRecord> records;
+  for (const StoredFile& file : files_) records.push_back({file.name, file.text.size(), digest_of(file.text)});
+  files_.push_back({"summary.json", summary_text(summary, version_, origin_, records)});
+}
+
+void RunInMemory::end_as_failed(results::Summary summary, const std::string& cause) {
+  if (!files_.empty()) return;
+  summary.status = results::RunStatus::failed;
+  summary.cause = cause;
+  end(summary);
+}
+
+}  // namespace bough::io
