@@ -1,6 +1,7 @@
 /// bough doctor: what this program was built with, what the machine offers, and a small run of its own.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iostream>
 
 #include "arguments.hpp"
@@ -10,12 +11,6 @@
 #include "bough/study/simulate.hpp"
 #include "bough/version.hpp"
 #include "terminal.hpp"
-
-// Not __builtin_cpu_supports: a program that has it asks the processor whenever it starts, and virtual machines take
-// long to answer.
-#if defined(__x86_64__) && __has_include(<sys/platform/x86.h>)
-#include <sys/platform/x86.h>
-#endif
 
 namespace bough::app {
 namespace {
@@ -36,15 +31,27 @@ struct InMemory final : results::Recorder {
   void end(const results::Summary&) override {}
 };
 
+#if defined(__x86_64__)
+/// What the processor has, as the kernel lists it. __builtin_cpu_supports would ask the processor at every start of the
+/// program, which virtual machines take long to answer.
+std::string processor_flags() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("flags")) return line + " ";
+  return {};
+}
+#endif
+
 std::string instruction_sets() {
   const step::InstructionSet used = step::instruction_set();
   const std::string text =
       std::string(used.name) + ", " + std::to_string(used.register_doubles) + " doubles to a register";
-#if defined(CPU_FEATURE_ACTIVE)
+#if defined(__x86_64__)
+  const std::string flags = processor_flags();
   std::string offered;
-  if (CPU_FEATURE_ACTIVE(AVX2)) offered += " AVX2";
-  if (CPU_FEATURE_ACTIVE(FMA)) offered += " FMA";
-  if (CPU_FEATURE_ACTIVE(AVX512F)) offered += " AVX-512";
+  if (flags.find(" avx2 ") != std::string::npos) offered += " AVX2";
+  if (flags.find(" fma ") != std::string::npos) offered += " FMA";
+  if (flags.find(" avx512f ") != std::string::npos) offered += " AVX-512";
   return text + "; the processor offers" + (offered.empty() ? " SSE2" : offered);
 #else
   return text;
