@@ -9,7 +9,7 @@ STUDY ?= build/study
 CTEST := ctest --test-dir build/release --output-on-failure --no-tests=error -j $(JOBS)
 NEED := sh cmake/install_dependencies.sh
 
-.PHONY: help run build test bench study stress check-all dispatch install lint format clean
+.PHONY: help run build test bench study stress fuzz check-all dispatch install lint format clean
 
 help:
 	@echo "make run        install what is missing, build, simulate $(SCENARIO), write and draw $(RESULTS)"
@@ -18,6 +18,7 @@ help:
 	@echo "make bench      build and run the benchmarks"
 	@echo "make study      errors against run times of the standing set, one report with an index ($(STUDY)); a minute"
 	@echo "make stress     build and measure the stiff and extreme cases: build/stress/stress.html"
+	@echo "make fuzz       a million inputs for what batches read, with sanitizers (clang; minutes)"
 	@echo "make lint       format, include arrows, file lengths;  make format repairs the first"
 	@echo "make check-all  everything: both compilers, slow tests, sanitizers, coverage, browser (an hour or more)"
 	@echo "make dispatch   build one program for every x86-64 (build/dispatch) and test it; three times the time of build"
@@ -56,6 +57,12 @@ bench:
 
 study: build
 	build/release/bough study data/studies --out $(STUDY) --threads 2
+
+fuzz:
+	@$(NEED) build test asan
+	cmake --preset asan
+	cmake --build build/asan --parallel $(JOBS) --target fuzz_batch
+	python3 tests/study/fuzz_batch.py build/asan/tests/fuzz_batch 1000000
 
 lint:
 	@$(NEED) lint

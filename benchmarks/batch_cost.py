@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""batch_cost.py PROGRAM SCENARIOS   what a batch takes besides the steps of its cases, in processor seconds a case.
+"""batch_cost.py PROGRAM SCENARIOS [ROUNDS]   what a batch takes besides the steps of its cases, in processor seconds.
 
-Steps: the slope over the end time of cases whose results nobody keeps. Besides: what is left of a case with that end time
-when its steps are taken off, for cases of 10 and 100 ms, with results in stores, in folders, and not kept. Then two
-workers against two loops of `bough run` side by side, on the same cases with folders of results. Medians of ROUNDS
-interleaved rounds; other work on the machine makes all of them larger."""
+Besides steps: what cases of two steps take whose results nobody keeps (starting, reading, planning), and what cases with
+results take more than those without (writing), over the whole; of cases of about 10 and 100 ms, with results in stores
+and in folders. Then two workers with folders against two loops of `bough run` side by side. All that is compared runs in
+turn; medians of ROUNDS rounds, for other work on the machine makes seconds longer."""
 import json
 import os
 import pathlib
@@ -41,15 +41,19 @@ def sweep(folder, name, cases, end, keep, threads=1):
 with tempfile.TemporaryDirectory(dir=os.environ.get("BOUGH_SCRATCH")) as folder:
     folder = pathlib.Path(folder)
     cases = 201  # so many that `few` stores
-    slope = statistics.median((sweep(folder, "out", cases, 0.4, "none") - sweep(folder, "out", cases, 0.1, "none")) / 0.3
-                              for _ in range(rounds))
-    print(f"steps: {1e3 * slope:.1f} ms a simulated second")
+    slope = sweep(folder, "out", cases, 0.4, "none") / 0.4
     for wanted in [0.010, 0.100]:
-        end = round(wanted / slope, 3)
-        for keep, name in [("none", "not kept"), ("few", "stored"), ("all", "folders")]:
-            total = statistics.median(sweep(folder, "out", cases, end, keep) for _ in range(rounds if wanted < 0.05 else 1))
-            print(f"cases of {1e3 * wanted:.0f} ms of steps, {name}: {1e3 * total:.2f} ms, besides steps "
-                  f"{100.0 * (1.0 - slope * end / total):.1f} %")
+        end, rest, totals = round(wanted / slope, 3), {"few": [], "all": []}, {"few": [], "all": []}
+        for _ in range(rounds if wanted < 0.05 else max(2, rounds // 2)):
+            start = sweep(folder, "out", cases, 0.002, "none")
+            bare = sweep(folder, "out", cases, end, "none")
+            for keep in rest:
+                total = sweep(folder, "out", cases, end, keep)
+                totals[keep].append(total)
+                rest[keep].append((start + total - bare) / total)
+        for keep, name in [("few", "stores"), ("all", "folders")]:
+            print(f"cases of {1e3 * statistics.median(totals[keep]):.1f} ms with {name}: besides steps "
+                  f"{100.0 * statistics.median(rest[keep]):.1f} % ({100.0 * min(rest[keep]):.1f} to {100.0 * max(rest[keep]):.1f})")
     end, count = round(0.010 / slope, 3), 60
     loop = folder / "loop.sh"
     loop.write_text("#!/bin/sh\nfor i in $(seq %d); do %s run %s --set /analysis/end_time=%g --set '/expected=[]' "

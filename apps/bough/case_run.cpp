@@ -226,7 +226,6 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
   std::vector<study::CaseResult> run = study::run_batch(
       to_run, options,
       [&](const study::BatchCase& which, study::CaseReport& report) {
-        journal.release();
         return run_case(which, settings, source, failed_folders, report);
       },
       [&](const study::CaseResult& result, std::size_t done, std::size_t all) {

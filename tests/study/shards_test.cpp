@@ -208,6 +208,9 @@ TEST_F(Collections, what_does_not_belong_together_is_refused) {
   EXPECT_THROW((void)collect_shards({folder_.path()}), std::runtime_error) << "a case that is not in the list";
   make_shard(2, 2, {3});
   EXPECT_EQ(collect_shards({folder_.path()}).results.size(), 4u);
+  write(std::string("shard_002_of_002/") + keys_file, "case\ncase 3\n");
+  EXPECT_THROW((void)collect_shards({folder_.path()}), std::runtime_error) << "no keys";
+  make_shard(2, 2, {3});
   for (const char* text : {"", "{}", "[]", "{\"format\": \"bough shard 1\"}",
                            "{\"format\": \"bough shard 1\", \"number\": 3, \"count\": 2}"}) {
     write(std::string("shard_002_of_002/") + shard_file, text);

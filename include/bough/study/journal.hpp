@@ -32,7 +32,8 @@ using Records = std::unordered_map<std::string, CaseResult>;  ///< by key
 Records read_records(const std::filesystem::path& file, std::string& whole);
 
 /// One line a case: a hash, a blank, the record as JSON. A record counts when its line is whole and its hash fits, so that
-/// what a kill or a full disk cut off is as if it had not been written.
+/// what a kill or a full disk cut off is as if it had not been written. Children that are forked hold the file, too, and so
+/// the folder is free only when the last worker of a batch that was killed has ended.
 class Journal {
  public:
   /// resumes: takes over the records that are there, and drops what is damaged; else starts empty. Throws
@@ -41,9 +42,6 @@ class Journal {
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
-
-  /// For a child process, which is not to hold the file: it can no longer add.
-  void release();
 
   /// The result of a case of this key, with `which` as it is asked for; nothing where there is none.
   const CaseResult* find(const std::string& key) const;

@@ -114,8 +114,9 @@ bool report_of(std::string_view text, CaseReport& r) {
   };
   r.cause = root->find("cause")->text;
   r.directory = root->find("directory")->text.str();
-  if (const io::JsonValue* stored = root->find("stored");
-      stored != nullptr && stored->items.size() == 2 && stored->items[1].number >= 0.0)
+  if (const io::JsonValue* stored = root->find("stored"); stored != nullptr && stored->items.size() == 2 &&
+                                                          stored->items[1].number >= 0.0 &&
+                                                          stored->items[1].number < 0x1p63)
     r.stored = io::StoredPlace{stored->items[0].text.str(), static_cast<std::uint64_t>(stored->items[1].number)};
   r.was_interrupted = root->find("interrupted")->truth;
   r.is_unwritten = root->find("unwritten") != nullptr;

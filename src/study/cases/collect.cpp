@@ -217,9 +217,10 @@ Collected collect_shards(const std::vector<fs::path>& folders) {
     std::string whole;
     Records records = read_records(folder / journal_file, whole);
     const io::CsvTable keys = table_of_file(folder / keys_file, text_of_file(folder / keys_file));
+    if (keys.columns.size() != 2) throw std::runtime_error((folder / keys_file).string() + " has not two columns");
     for (const std::vector<std::string>& row : keys.rows) {
       const auto place = place_of.find(row[0]);
-      const auto found = records.find(row.at(1));
+      const auto found = records.find(row[1]);
       if (place == place_of.end())
         throw std::runtime_error(folder.string() + ": no case of the list is called " + row[0]);
       if (found == records.end()) continue;

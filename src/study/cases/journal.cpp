@@ -139,7 +139,7 @@ int open_locked(const std::filesystem::path& file, int flags) {
 
 /// The same; waits a moment for cases of a batch that was killed, which end with it.
 int open_mine(const std::filesystem::path& file, int flags) {
-  for (int k = 0; k < 25; ++k) {
+  for (int k = 0; k < 100; ++k) {
     if (const int descriptor = open_locked(file, flags); descriptor >= 0) return descriptor;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
@@ -172,13 +172,9 @@ Journal::Journal(std::filesystem::path file, bool resumes) : file_(std::move(fil
 }
 
 Journal::~Journal() {
-  if (descriptor_ >= 0) (void)::fdatasync(descriptor_);
-  release();
-}
-
-void Journal::release() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  descriptor_ = -1;
+  if (descriptor_ < 0) return;
+  (void)::fdatasync(descriptor_);
+  ::close(descriptor_);
 }
 
 const CaseResult* Journal::find(const std::string& key) const {
