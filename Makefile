@@ -9,7 +9,7 @@ STUDY ?= build/study
 CTEST := ctest --test-dir build/release --output-on-failure --no-tests=error -j $(JOBS)
 NEED := sh cmake/install_dependencies.sh
 
-.PHONY: help run build test bench study stress fuzz check-all dispatch install lint format clean
+.PHONY: help run build test bench study stress gallery fuzz check-all dispatch install lint format clean
 
 help:
 	@echo "make run        install what is missing, build, simulate $(SCENARIO), write and draw $(RESULTS)"
@@ -19,6 +19,7 @@ help:
 	@echo "make study      errors against run times of the standing set, one report with an index ($(STUDY)); a minute"
 	@echo "make stress     build and measure the stiff and extreme cases: build/stress/stress.html"
 	@echo "make fuzz       a million inputs for what batches read, with sanitizers (clang; minutes)"
+	@echo "make gallery    runs every scene of data/scenarios and data/gallery: build/gallery/index.html, with a view of each"
 	@echo "make lint       format, include arrows, file lengths;  make format repairs the first"
 	@echo "make check-all  everything: both compilers, slow tests, sanitizers, coverage, browser (an hour or more)"
 	@echo "make dispatch   build one program for every x86-64 (build/dispatch) and test it; three times the time of build"
@@ -48,6 +49,9 @@ test:
 
 stress: build
 	build/release/bough stress --out build/stress --threads $(JOBS)
+
+gallery: build
+	python3 tests/tools/gallery.py build/release/bough build/gallery data/scenarios/*.json data/gallery/*.json
 
 bench:
 	@$(NEED) build bench

@@ -1,5 +1,6 @@
 # Everything the layers link from outside, found once. A layer names imported targets only:
 #   Eigen3::Eigen  TBB::tbb  nlohmann_json::nlohmann_json (with BOUGH_WITH_IO)  Threads::Threads
+#   ZLIB::ZLIB (with BOUGH_WITH_VTK or BOUGH_WITH_REPORTS)
 #   SuiteSparse::KLU and METIS::METIS exist only when BOUGH_HAS_KLU / BOUGH_HAS_METIS is true here.
 # What programs and tests use besides (CLI11, GoogleTest, muParser) is found where it is used.
 find_package(Threads REQUIRED)
@@ -7,6 +8,13 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
 if(BOUGH_WITH_IO)
   find_package(nlohmann_json 3.11 REQUIRED)
+endif()
+
+# What compresses VTU files and pages.
+set(BOUGH_NEEDS_ZLIB OFF)
+if(BOUGH_WITH_IO AND (BOUGH_WITH_VTK OR BOUGH_WITH_REPORTS))
+  find_package(ZLIB REQUIRED)
+  set(BOUGH_NEEDS_ZLIB ON)
 endif()
 
 set(BOUGH_HAS_KLU OFF)

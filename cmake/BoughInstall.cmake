@@ -16,6 +16,11 @@ install(FILES
   cmake/FindMETIS.cmake
   DESTINATION "${_package_dir}")
 
+# The reader and runner for Python: put this folder into PYTHONPATH.
+if(BOUGH_BUILD_APPS)
+  install(FILES apps/python/bough.py DESTINATION "${CMAKE_INSTALL_DATADIR}/bough/python")
+endif()
+
 # Libraries of a BOUGH_DISPATCH build that lie there would be loaded instead of those installed now.
 if(BUILD_SHARED_LIBS AND NOT BOUGH_DISPATCH)
   install(CODE "

@@ -14,8 +14,8 @@ packages_of() {
   case "$1" in
     build)
       echo g++ cmake ninja-build libeigen3-dev libtbb-dev nlohmann-json3-dev libcli11-dev \
-        libsuitesparse-dev libmetis-dev ;;
-    test) echo libgtest-dev libgmock-dev libboost-dev libmuparser-dev python3 python3-jsonschema strace valgrind ;;
+        libsuitesparse-dev libmetis-dev zlib1g-dev ;;
+    test) echo libgtest-dev libgmock-dev libboost-dev libmuparser-dev python3 python3-jsonschema python3-numpy strace valgrind ;;
     bench)
       echo libbenchmark-dev python3 libsuitesparse-dev libmumps-seq-dev libsuperlu-dev libopenblas-pthread-dev ;;
     lint) echo clang-format-14 python3 ;;

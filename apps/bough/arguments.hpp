@@ -24,10 +24,11 @@ struct RunArguments {
   bool check_expected = false;
 };
 struct ViewArguments {
-  std::filesystem::path directory, out, svg;
+  std::filesystem::path directory, other, out, svg, png;
   std::string which;  ///< case of a batch; empty: the directory is that of a run
   std::string view = "auto";
-  int positions = 9;
+  int positions = 0;           ///< laid over each other; 0: three in the page, nine of --svg
+  std::optional<double> time;  ///< of --png; none: the end
 };
 /// What `bough batch` and `bough sweep` share.
 struct CaseArguments {

@@ -1,4 +1,4 @@
-/// bough view DIR: the motion and the sensors of a run as one page.
+/// bough view DIR [OTHER]: the motion and the sensors of a run, or of two over each other, as one page.
 #include <iostream>
 
 #include "arguments.hpp"
@@ -6,6 +6,7 @@
 #include "bough/io/manifest.hpp"
 #include "bough/io/run_store.hpp"
 #include "bough/report/page.hpp"
+#include "bough/report/raster.hpp"
 #include "bough/study/collect.hpp"
 
 namespace bough::app {
@@ -56,28 +57,39 @@ int view(const ViewArguments& given) {
   }
   const std::filesystem::path page = arguments.out.empty() ? arguments.directory / "view.html" : arguments.out;
   std::vector<std::filesystem::path> inputs;
-  for (const char* name : {"history.csv", "motion.jsonl", "motion.pvd", "summary.json", io::manifest_name})
+  for (const char* name :
+       {"history.csv", "columns.json", "motion.bin", "motion.pvd", "summary.json", io::manifest_name}) {
     inputs.push_back(arguments.directory / name);
-  io::refuse_to_overwrite(inputs, {page, arguments.svg});
-  report::RunFiles files;
+    if (!arguments.other.empty()) inputs.push_back(arguments.other / name);
+  }
+  io::refuse_to_overwrite(inputs, {page, arguments.svg, arguments.png});
+  report::RunFiles files, other;
   try {
     files = report::read_run(arguments.directory);
+    if (!arguments.other.empty()) other = report::read_run(arguments.other);
   } catch (const std::exception& error) {
     std::cerr << "bough: " << error.what() << "\n";
     return exit_bad_input;
   }
   if (files.motion.empty()) std::cerr << "bough: " << report::how_to_record_motion() << "\n";
-  if (files.motion.empty() && !arguments.svg.empty()) return exit_bad_input;
+  if (files.motion.empty() && !(arguments.svg.empty() && arguments.png.empty())) return exit_bad_input;
 
   report::PictureOptions options;
   options.view = report::view_named(arguments.view).value_or(report::View::automatic);
-  options.num_positions = arguments.positions;
   options.is_static = report::is_static(files);
-  write_page(page, report::page_html(files, options));
+  options.num_positions = arguments.positions > 0 ? arguments.positions : 3;
+  write_page(page, report::page_html(files, options, arguments.other.empty() ? nullptr : &other));
   std::cout << page.string() << "\n";
   if (!arguments.svg.empty()) {
+    options.num_positions = arguments.positions > 0 ? arguments.positions : 9;
     write_page(arguments.svg, report::standalone_svg(report::make_picture(files.motion, options), files.name));
     std::cout << arguments.svg.string() << "\n";
+  }
+  if (!arguments.png.empty()) {
+    report::RasterOptions raster;
+    raster.view = options.view;
+    write_page(arguments.png, report::picture_png(files, arguments.time.value_or(files.motion.back().time), raster));
+    std::cout << arguments.png.string() << "\n";
   }
   return exit_done;
 }

@@ -95,16 +95,24 @@ void add_view(CLI::App& app, ViewArguments& a, int& code) {
   CLI::App& verb = add_verb(app, "view", "Draw the motion and the sensors of a run as one page",
                             "  bough view four_bar.out\n"
                             "  bough view four_bar.out --view xz --out page.html --svg four_bar.svg\n"
+                            "  bough view coarse.out fine.out --png end.png --time 0.5\n"
                             "The page is one file: it needs no network, and can be read without scripts.");
   verb.add_option("DIR", a.directory, "Directory of the results")->required();
+  verb.add_option("OTHER", a.other, "Directory of a second run, laid over the first; their differences are plotted");
   verb.add_option("--case", a.which, "Case of the batch or sweep whose results DIR holds")->type_name("NAME");
   verb.add_option("--out", a.out, "Page to write (default: DIR/view.html)")->type_name("FILE");
   verb.add_option("--svg", a.svg, "Write the drawing of the motion alone, too")->type_name("FILE");
   verb.add_option("--view", a.view, "auto, xy, xz, yz or iso (default: auto)")
       ->check(CLI::IsMember({"auto", "xy", "xz", "yz", "iso"}));
-  verb.add_option("--positions", a.positions, "Positions laid over each other, 1 to 9 (default: 9)")
+  verb.add_option("--positions", a.positions,
+                  "Positions laid over each other in drawings, 1 to 9 (default: 3 in the page, 9 of --svg)")
       ->type_name("N")
       ->check(CLI::Range(1, 9));
+  CLI::Option* png =
+      verb.add_option("--png", a.png, "Write a picture of one instant, too, 1000 x 700 pixels")->type_name("FILE");
+  verb.add_option("--time", a.time, "Instant of --png [s], or load factor (default: the end)")
+      ->type_name("T")
+      ->needs(png);
   verb.callback([&] { code = view(a); });
 }
 

@@ -1,6 +1,12 @@
 #include "bough/io/columns.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "bough/io/json_text.hpp"
+#include "bough/io/json_value.hpp"
 
 namespace bough::io {
 
@@ -17,21 +23,82 @@ std::vector<ColumnGroup> group_columns(const std::vector<std::string>& columns) 
     const auto found =
         std::find_if(sensors.begin(), sensors.end(), [&](const ColumnGroup& g) { return g.sensor == sensor; });
     if (found == sensors.end())
-      sensors.push_back({sensor, {c}});
+      sensors.push_back({sensor, {c}, {}});
     else
       found->columns.push_back(c);
   }
   std::vector<ColumnGroup> groups;
   for (const ColumnGroup& sensor : sensors) {
+    if (sensor.columns.size() > 6) {
+      std::size_t begin = groups.size();
+      for (const std::size_t c : sensor.columns) {
+        const std::string component = split_column(columns[c]).component;
+        const std::string word = component.substr(0, component.find('_'));
+        if (groups.size() == begin || groups.back().word != word) groups.push_back({sensor.sensor, {}, word});
+        groups.back().columns.push_back(c);
+      }
+      continue;
+    }
     if (sensor.columns.size() != 6) {
       groups.push_back(sensor);
       continue;
     }
     const auto middle = sensor.columns.begin() + 3;
-    groups.push_back({sensor.sensor, {sensor.columns.begin(), middle}});
-    groups.push_back({sensor.sensor, {middle, sensor.columns.end()}});
+    groups.push_back({sensor.sensor, {sensor.columns.begin(), middle}, {}});
+    groups.push_back({sensor.sensor, {middle, sensor.columns.end()}, {}});
   }
   return groups;
+}
+
+std::string title_of(const ColumnGroup& group) {
+  return group.word.empty() ? group.sensor : group.sensor + ", " + group.word;
+}
+
+std::string columns_text(const results::HistoryHeader& header) {
+  JsonText json;
+  const auto column = [&](const std::string& name, const results::HistoryHeader::About& about) {
+    json.begin_object();
+    json.member("name", name);
+    json.member("unit", about.unit);
+    json.member("quantity", about.quantity);
+    json.member("part", about.part);
+    json.end_object();
+  };
+  json.begin_object();
+  json.key("columns");
+  json.begin_array();
+  column("time", {header.runs_over_load ? "" : "s", header.runs_over_load ? "load_factor" : "time", ""});
+  column("step_size", {header.runs_over_load ? "" : "s", "step_size", ""});
+  column("iterations", {"", "iterations", ""});
+  for (std::size_t k = 0; k < header.columns.size(); ++k)
+    column(header.columns[k], k < header.about.size() ? header.about[k] : results::HistoryHeader::About{});
+  json.end_array();
+  json.end_object();
+  return json.text();
+}
+
+void read_columns(const std::filesystem::path& path, results::HistoryHeader& header) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return;
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::vector<JsonFault> faults;
+  const std::optional<JsonValue> root = parse_json(text, source_file, faults);
+  const JsonValue* list = root && faults.empty() && root->is(JsonKind::object) ? root->find("columns") : nullptr;
+  constexpr std::size_t before = 3;  // time, step_size, iterations
+  bool good = list != nullptr && list->is(JsonKind::array) && list->items.size() == header.columns.size() + before;
+  std::vector<results::HistoryHeader::About> about;
+  for (std::size_t k = before; good && k < list->items.size(); ++k) {
+    const JsonValue& item = list->items[k];
+    const auto member = [&](const char* key) {
+      const JsonValue* v = item.is(JsonKind::object) ? item.find(key) : nullptr;
+      good = good && v != nullptr && v->is(JsonKind::string);
+      return good ? v->text.str() : std::string();
+    };
+    good = good && member("name") == header.columns[k - before];
+    about.push_back({member("unit"), member("quantity"), member("part")});
+  }
+  if (!good) throw std::runtime_error(path.string() + ": does not describe the columns of history.csv");
+  header.about = std::move(about);
 }
 
 }  // namespace bough::io

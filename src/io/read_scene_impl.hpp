@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -42,6 +43,9 @@ class Converter : private ValueConverter {
   void node(const Value& v, const std::string& at);
   void body(const Value& v, const std::string& at);
   void beam(const Value& v, const std::string& at);
+  std::vector<std::array<double, 2>> corners(const Value& list) const;
+  bool is_sound(const scene::Outline& outline, const std::string& at);
+  std::optional<scene::SectionShape> section_shape(const Value& v, const std::string& at);
   scene::Section shaped_section(const Value& v, const std::string& at);
   scene::Mat6 section_mass(const Value& v) const;
   const scene::Material* material_named(const std::string& name, const std::string& at);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "bough/scene/nearest_name.hpp"
+#include "bough/scene/outlines.hpp"
 #include "bough/scene/shapes.hpp"
 #include "read_scene_impl.hpp"
 
@@ -87,30 +88,89 @@ const scene::Material* Converter::material_named(const std::string& name, const 
   return nullptr;
 }
 
-scene::Section Converter::shaped_section(const Value& v, const std::string& at) {
-  const Value& s = *v.find("shape");
+std::vector<std::array<double, 2>> Converter::corners(const Value& list) const {
+  std::vector<std::array<double, 2>> loop;
+  for (const Value& point : list.items) loop.push_back({point.items[0].number, point.items[1].number});
+  return loop;
+}
+
+bool Converter::is_sound(const scene::Outline& outline, const std::string& at) {
+  const std::string problem = scene::problem_in(outline);
+  if (!problem.empty()) fault(at, problem);
+  return problem.empty();
+}
+
+std::optional<scene::SectionShape> Converter::section_shape(const Value& s, const std::string& at) {
   const auto get = [&](const char* key) { return s.find(key)->number; };
   const std::string& kind = s.find("kind")->text;
-  scene::SectionShape shape;
-  if (kind == "rectangle") shape = scene::Rectangle{get("width"), get("height")};
-  if (kind == "circle") shape = scene::Circle{get("radius")};
+  const auto has_room = [&](const char* key, double needed, double there, const char* words) {
+    if (needed < there) return true;
+    fault(at + "/" + key, words);
+    return false;
+  };
+  if (kind == "rectangle") return scene::Rectangle{get("width"), get("height")};
+  if (kind == "circle") return scene::Circle{get("radius")};
+  if (kind == "ellipse") return scene::Ellipse{get("width"), get("height")};
   if (kind == "tube") {
-    shape = scene::Tube{get("outer_radius"), get("inner_radius")};
-    if (get("inner_radius") >= get("outer_radius"))
-      fault(at + "/shape/inner_radius", "has to be below the outer radius");
+    if (!has_room("inner_radius", get("inner_radius"), get("outer_radius"), "has to be below the outer radius"))
+      return {};
+    return scene::Tube{get("outer_radius"), get("inner_radius")};
   }
+  if (kind == "box" || kind == "l") {
+    const double w = get("width"), h = get("height"), t = get("thickness");
+    const double walls = kind == "box" ? 2.0 * t : t;
+    if (!has_room("thickness", walls, std::min(w, h), "the walls leave nothing between them: they have to be thinner"))
+      return {};
+    if (kind == "box") return scene::HollowBox{w, h, t};
+    return scene::LProfile{w, h, t};
+  }
+  if (kind == "i" || kind == "c") {
+    if (!has_room("web", get("web"), get("width"), "has to be below the width") ||
+        !has_room("flange", 2.0 * get("flange"), get("height"), "twice this has to be below the height"))
+      return {};
+    if (kind == "i") return scene::IProfile{get("width"), get("height"), get("web"), get("flange")};
+    return scene::CProfile{get("width"), get("height"), get("web"), get("flange")};
+  }
+  scene::Outline outline;
+  outline.loops.push_back(corners(*s.find("points")));
+  for (const Value& hole : s.find("holes")->items) outline.loops.push_back(corners(hole));
+  if (!is_sound(outline, at)) return {};
+  return scene::Polygon{std::move(outline)};
+}
+
+scene::Section Converter::shaped_section(const Value& v, const std::string& at) {
+  const Value& s = *v.find("shape");
+  const std::optional<scene::SectionShape> shape = section_shape(s, at + "/shape");
   const scene::Material* m = material_named(v.find("material")->text, at + "/material");
-  if (m == nullptr) return {};
+  if (m == nullptr || !shape) return {};
   warn_of_thickness(s, *m, at);
   thickness_[v.find("name")->text] =
       std::max({number_or(s, "width", 0.0), number_or(s, "height", 0.0), 2.0 * number_or(s, "radius", 0.0),
                 2.0 * number_or(s, "outer_radius", 0.0)});
-  std::optional<double> k2, k3;
-  if (const Value* k = v.find("shear_factors")) {
-    k2 = k->items[0].number;
-    k3 = k->items[1].number;
+  scene::AreaFigures figures = scene::area_figures(*shape);
+  const Value* factors = v.find("shear_factors");
+  if (factors != nullptr) {
+    figures.shear_factor_2 = factors->items[0].number;
+    figures.shear_factor_3 = factors->items[1].number;
+    figures.shear_factor_23 = 0.0;
   }
-  return scene::make_section(v.find("name")->text, shape, *m, k2, k3);
+  if (std::holds_alternative<scene::Polygon>(*shape)) {
+    if (factors == nullptr)
+      fault(at, "needs the key \"shear_factors\"",
+            "those of a polygon are not computed; a compact one has about [0.85, 0.85]");
+    const Value* torsion = s.find("torsion_constant");
+    if (torsion == nullptr)
+      fault(at + "/shape", "needs the key \"torsion_constant\"", "that of a polygon is not computed");
+    if (torsion != nullptr) figures.torsion = torsion->number;
+    figures.shear_center_2 = s.find("shear_center")->items[0].number;
+    figures.shear_center_3 = s.find("shear_center")->items[1].number;
+  }
+  const std::string& kind = s.find("kind")->text;
+  if (kind == "i" || kind == "c" || kind == "l")
+    warnings.push_back({at + "/shape", "",
+                        "the warping of this open section is left out: it twists as easily where its ends are held",
+                        "give `stiffness` and `mass` where warping counts, and this shape as `outline`"});
+  return scene::make_section(v.find("name")->text, *shape, figures, *m);
 }
 
 scene::Mat6 Converter::section_mass(const Value& v) const {
@@ -130,6 +190,7 @@ void Converter::section(const Value& v, const std::string& at) {
     if (k.is(JsonKind::array)) s.stiffness = matrix6(k);
     for (int i = 0; k.is(JsonKind::object) && i < 6; ++i) s.stiffness(i, i) = k.find(names[i])->number;
     if (const Value* m = v.find("mass")) s.mass = section_mass(*m);
+    if (const Value* o = v.find("outline")) s.shape = section_shape(*o, at + "/outline");
   }
   s.name = v.find("name")->text;
   s.damping = scene::Mat6::zero();
@@ -169,6 +230,19 @@ void Converter::body_inertia(const Value& v, const std::string& at, scene::Body&
   if (kind == "cylinder") shape = scene::Cylinder{s.find("radius")->number, s.find("length")->number, axis};
   if (kind == "sphere") shape = scene::Sphere{s.find("radius")->number};
   if (kind == "rod") shape = scene::Rod{s.find("length")->number, axis};
+  if (kind == "capsule") shape = scene::Capsule{s.find("radius")->number, s.find("length")->number, axis};
+  if (kind == "cone")
+    shape = scene::Cone{s.find("radius")->number, s.find("end_radius")->number, s.find("length")->number, axis};
+  if (kind == "ring") {
+    const double outer = s.find("outer_radius")->number, inner = s.find("inner_radius")->number;
+    if (inner >= outer) return fault(at + "/shape/inner_radius", "has to be below the outer radius");
+    shape = scene::Ring{outer, inner, s.find("length")->number, axis};
+  }
+  if (kind == "extrusion") {
+    scene::Outline outline{{corners(*s.find("points"))}};
+    if (!is_sound(outline, at + "/shape")) return;
+    shape = scene::Extrusion{std::move(outline), s.find("length")->number, axis};
+  }
   if (mass == nullptr && !has_other)
     return fault(at, "needs one of the keys \"mass\", \"density\" or \"material\" with its shape");
   if (has_other && kind == "rod") return fault(at, "a rod has no volume: give its mass");
@@ -183,6 +257,7 @@ void Converter::body_inertia(const Value& v, const std::string& at, scene::Body&
   if (has_other) warn_of_body_size(s, at + "/shape", rho);
   if (has_other) body.mass = rho * scene::volume_of(shape);
   body.inertia = scene::inertia_of(shape, body.mass);
+  body.shape = shape;
 }
 
 void Converter::body(const Value& v, const std::string& at) {

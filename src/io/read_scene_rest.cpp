@@ -260,7 +260,7 @@ void Converter::settings() {
   if (const Value* o = sound("output")) {
     scene.output.stride = static_cast<int>(o->find("stride")->number);
     scene.output.motion = o->find("motion")->truth;
-    scene.output.motion_stride = static_cast<int>(o->find("motion_stride")->number);
+    if (const Value* n = o->find("motion_stride")) scene.output.motion_stride = static_cast<int>(n->number);
     scene.output.checks = o->find("checks")->truth;
   }
   if (const Value* w = sound("without"))

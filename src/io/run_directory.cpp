@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "bough/io/columns.hpp"
+
 namespace bough::io {
 namespace {
 
@@ -16,8 +18,8 @@ constexpr bool has_vtk = true;
 constexpr bool has_vtk = false;  // what stands under it is not compiled: vtu_text and its like are not there
 #endif
 
-const std::vector<std::string> all_names = {"history.csv", "motion.jsonl", "motion.pvd", "motion/frame_*",
-                                            "summary.json"};
+const std::vector<std::string> all_names = {"history.csv", "columns.json",   "motion.bin",
+                                            "motion.pvd",  "motion/frame_*", "summary.json"};
 
 std::string frame_name(std::size_t number) {
   std::string digits = std::to_string(number);
@@ -43,6 +45,7 @@ void RunDirectory::open() {
 void RunDirectory::begin(const results::HistoryHeader& header) {
   open();
   history_ = std::make_unique<HistoryWriter>(folder_->staging() / "history.csv", header);
+  columns_ = columns_text(header);
 }
 
 void RunDirectory::row(const results::HistoryRow& row) {
@@ -51,21 +54,18 @@ void RunDirectory::row(const results::HistoryRow& row) {
 }
 
 void RunDirectory::motion(const results::MotionFrame& frame) {
-  if (!motion_lines_) {
-    if constexpr (has_vtk) {
-      make_directory(folder_->staging() / "motion");
-      vtu_options_ = vtu_options_for(frame);
-    }
-    motion_lines_ = std::make_unique<MotionLinesWriter>(folder_->staging() / "motion.jsonl");
+  if (!motion_) {
+    if constexpr (has_vtk) make_directory(folder_->staging() / "motion");
+    motion_ = std::make_unique<MotionWriter>(folder_->staging() / "motion.bin", parts_);
   }
   if constexpr (has_vtk) {
     const std::string name = frame_name(frames_.size());
-    const std::string text = vtu_text(frame, vtu_options_);
+    const std::string text = vtu_text(frame, parts_);
     write_file(folder_->staging() / name, text, Durability::soon);
     frames_.push_back({frame.time, name});
     frame_records_.push_back({name, text.size(), digest_of(text)});
   }
-  motion_lines_->frame(frame);
+  motion_->frame(frame);
 }
 
 void RunDirectory::list(FileRecord record) {
@@ -96,9 +96,13 @@ std::exception_ptr RunDirectory::commit_files() {
     list(writer.record());
   };
   attempt("history.csv", [&] { commit(*history_); });
-  if (motion_lines_) attempt("motion.jsonl", [&] { commit(*motion_lines_); });
+  attempt("columns.json", [&] {
+    write_file(folder_->staging() / "columns.json", columns_, Durability::soon);
+    list({"columns.json", columns_.size(), digest_of(columns_)});
+  });
+  if (motion_) attempt("motion.bin", [&] { commit(*motion_); });
   if constexpr (has_vtk) {
-    if (motion_lines_) {
+    if (motion_) {
       attempt("motion", [&] {
         for (const FileRecord& frame : frame_records_) list(frame);
       });

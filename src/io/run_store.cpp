@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "bough/io/columns.hpp"
 #include "bough/io/digest.hpp"
 #include "bough/io/history.hpp"
 #include "bough/io/json_text.hpp"
@@ -150,16 +151,20 @@ fs::path unpack_run(const std::vector<StoredFile>& files, FolderState state, con
   return output.folder();
 }
 
-void RunInMemory::begin(const results::HistoryHeader& header) { history_ = history_head(header); }
+void RunInMemory::begin(const results::HistoryHeader& header) {
+  history_ = history_head(header);
+  columns_ = columns_text(header);
+}
 
 void RunInMemory::row(const results::HistoryRow& row) { append_history_row(history_, row); }
 
-void RunInMemory::motion(const results::MotionFrame& frame) { motion_lines_.append(motion_, frame); }
+void RunInMemory::motion(const results::MotionFrame& frame) { motion_bytes_.append(motion_, frame); }
 
 void RunInMemory::end(const results::Summary& summary) {
   if (history_.empty()) begin(summary.header);
   files_.push_back({"history.csv", std::move(history_)});
-  if (!motion_.empty()) files_.push_back({"motion.jsonl", std::move(motion_)});
+  files_.push_back({"columns.json", std::move(columns_)});
+  if (!motion_.empty()) files_.push_back({"motion.bin", std::move(motion_)});
   std::vector<FileRecord> records;
   for (const StoredFile& file : files_) records.push_back({file.name, file.text.size(), digest_of(file.text)});
   files_.push_back({"summary.json", summary_text(summary, version_, origin_, records)});

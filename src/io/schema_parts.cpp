@@ -76,17 +76,49 @@ void add_attachments(RuleTable& t) {
 }
 
 void add_section_parts(RuleTable& t) {
+  t.named["pair"] = array_rule("Coordinates along axes 2 and 3 [m].", number_rule(""), 2, 2);
   t.named["section_shape"] = choice_rule(
-      "Shape of a cross-section, centred on the axis. Torsion constants are those of Saint-Venant; shear factors, "
-      "unless given, Cowper's for "
-      "Poisson's ratio 0 (rectangle 5/6, circle 6/7).",
+      "Shape of a cross-section, its centroid on the axis. Torsion constants are those of Saint-Venant; shear factors, "
+      "unless given, Cowper's for Poisson's ratio 0 (rectangle 5/6, circle 6/7, tube, ellipse); of thin-walled "
+      "sections "
+      "(box, i, c, l) both, and the shear centre, follow from the shear flow in their walls, warping is left out.",
       {made(object_of_kind(
            {"rectangle"}, "Solid rectangle.",
            {need("width", positive(""), "Along axis 2 [m]."), need("height", positive(""), "Along axis 3 [m].")})),
        made(object_of_kind({"circle"}, "Solid circle.", {need("radius", positive(""), "[m].")})),
        made(object_of_kind({"tube"}, "Circular tube.",
                            {need("outer_radius", positive(""), "[m]."),
-                            need("inner_radius", positive(""), "[m], below the outer one.")}))});
+                            need("inner_radius", positive(""), "[m], below the outer one.")})),
+       made(object_of_kind({"ellipse"}, "Solid ellipse.",
+                           {need("width", positive(""), "Whole axis along axis 2 [m]."),
+                            need("height", positive(""), "Whole axis along axis 3 [m].")})),
+       made(object_of_kind({"box"}, "Hollow rectangle with walls of one thickness.",
+                           {need("width", positive(""), "Outside, along axis 2 [m]."),
+                            need("height", positive(""), "Outside, along axis 3 [m]."),
+                            need("thickness", positive(""), "Of the walls [m].")})),
+       made(object_of_kind({"i", "c"},
+                           "i: two flanges along axis 2, joined by a web along axis 3. c: the same with the web at the "
+                           "lower end of axis 2.",
+                           {need("width", positive(""), "Of the flanges, along axis 2 [m]."),
+                            need("height", positive(""), "Of the whole, along axis 3 [m]."),
+                            need("web", positive(""), "Thickness of the web [m]."),
+                            need("flange", positive(""), "Thickness of the flanges [m].")})),
+       made(object_of_kind({"l"}, "Two legs along the positive axes 2 and 3 from their corner.",
+                           {need("width", positive(""), "Of the leg along axis 2 [m]."),
+                            need("height", positive(""), "Of the leg along axis 3 [m]."),
+                            need("thickness", positive(""), "Of both legs [m].")})),
+       made(object_of_kind(
+           {"polygon"},
+           "Any outline; area and second moments are exact, torsion and shear have to be given. The section needs "
+           "shear_factors.",
+           {need("points", array_rule("", named_rule("pair"), 3, 500),
+                 "Corners along axes 2 and 3, counter-clockwise, the last one joined to the first [m]. The axis of the "
+                 "beam runs through the centroid."),
+            may("holes", array_rule("", array_rule("", named_rule("pair"), 3, 500)), "Corners of holes, clockwise.",
+                "[]"),
+            may("torsion_constant", positive(""),
+                "J of Saint-Venant [m^4]; needed where stiffness follows from the shape."),
+            may("shear_center", named_rule("pair"), "From the centroid, along axes 2 and 3 [m].", "[0, 0]")}))});
   t.named["section_stiffness"] = choice_rule(
       "Section stiffness in the order (N, Q2, Q3, T, M2, M3) [N, N m, N m^2]; symmetric, positive definite.",
       {named_rule("diagonal6"), named_rule("matrix6"),
@@ -126,7 +158,25 @@ void add_body_parts(RuleTable& t) {
                             may("axis", axis, "1, 2 or 3.", "1")})),
        made(object_of_kind({"sphere"}, "Solid sphere.", {need("radius", positive(""), "[m].")})),
        made(object_of_kind({"rod"}, "Slender rod; no inertia about its own axis.",
-                           {need("length", positive(""), "[m]."), may("axis", axis, "1, 2 or 3.", "1")}))});
+                           {need("length", positive(""), "[m]."), may("axis", axis, "1, 2 or 3.", "1")})),
+       made(object_of_kind({"capsule"}, "Cylinder closed by two half spheres.",
+                           {need("radius", positive(""), "[m]."),
+                            need("length", positive(""), "Of the cylinder, without the half spheres [m]."),
+                            may("axis", axis, "1, 2 or 3.", "1")})),
+       made(object_of_kind({"cone"}, "Cone, or a part of one.",
+                           {need("radius", positive(""), "At the lower end of the axis [m]."),
+                            may("end_radius", not_negative(""), "At the upper end [m].", "0"),
+                            need("length", positive(""), "[m]."), may("axis", axis, "1, 2 or 3.", "1")})),
+       made(object_of_kind(
+           {"ring"}, "Hollow cylinder.",
+           {need("outer_radius", positive(""), "[m]."), need("inner_radius", positive(""), "[m], below the outer one."),
+            need("length", positive(""), "[m]."), may("axis", axis, "1, 2 or 3.", "1")})),
+       made(
+           object_of_kind({"extrusion"}, "A polygon drawn along an axis.",
+                          {need("points", array_rule("", named_rule("pair"), 3, 500),
+                                "Corners in the two axes after `axis`, counter-clockwise [m]; the centroid becomes the "
+                                "centre of mass."),
+                           need("length", positive(""), "[m]."), may("axis", axis, "1, 2 or 3.", "1")}))});
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ void add_properties(RuleTable& t) {
   Rule given = object_of("A section of given stiffness and mass.",
                          {name_field(), need("stiffness", named_rule("section_stiffness"), "Section stiffness."),
                           may("mass", named_rule("section_mass"), "Mass per length. Default: none (statics)."),
+                          may("outline", named_rule("section_shape"), "For pictures; nothing is computed from it."),
                           may("damping", named_rule("section_damping"), "Viscous damping. Default: none.")},
                          "stiffness");
   t.named["section"] = choice_rule(
@@ -283,12 +284,14 @@ void add_settings(RuleTable& t) {
        may("tasks", boolean_rule(""), "Run as tasks on several threads.", "true"),
        may("threads", integer_rule("", 1, 1024),
            "That a case of a batch or sweep asks for; it gets no more than these have in all.", "1")}));
-  t.named["output"] = made(
-      object_of("What is written.",
-                {may("stride", integer_rule("", 1, 1e9), "History rows: every n-th step.", "1"),
-                 may("motion", boolean_rule(""), "Write the moving structure for pictures.", "false"),
-                 may("motion_stride", integer_rule("", 1, 1e9), "Pictures: every n-th step.", "1"),
-                 may("checks", boolean_rule(""), "Balances and constraint violations, at history rows.", "true")}));
+  t.named["output"] = made(object_of(
+      "What is written.",
+      {may("stride", integer_rule("", 1, 1e9), "History rows: every n-th step.", "1"),
+       may("motion", boolean_rule(""), "Write the moving structure for pictures.", "false"),
+       may("motion_stride", integer_rule("", 1, 1e9),
+           "Pictures: every n-th step. Default: at most 101, evenly over the run, fewer where they would take "
+           "more than 200 MB; of statics by arc length every step."),
+       may("checks", boolean_rule(""), "Balances and constraint violations, at history rows.", "true")}));
   t.named["expected"] = made(object_of(
       "A figure the run has to meet. It is taken from all accepted steps, whatever the stride of the output. A time "
       "within a "

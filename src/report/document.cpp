@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bough/report/picture.hpp"
+#include "packed.hpp"
 #include "page_style.hpp"
 #include "svg_text.hpp"
 
@@ -29,13 +30,15 @@ std::string attribute(std::string_view name, std::string_view value) {
   return value.empty() ? std::string() : " " + std::string(name) + "=\"" + escaped(value) + "\"";
 }
 
-std::string cell_html(const Cell& cell) {
+/// label: what stands before the cell where a row is shown as a card; empty: it is not.
+std::string cell_html(const Cell& cell, std::string_view label) {
   std::string classes(cell.is_number ? "number" : "");
   if (const std::string_view tone = class_of(cell.tone); !tone.empty())
     classes += (classes.empty() ? "" : " ") + std::string(tone);
   const std::string text =
       cell.link.empty() ? escaped(cell.text) : "<a" + attribute("href", cell.link) + ">" + escaped(cell.text) + "</a>";
-  return "<td" + attribute("class", classes) + attribute("data-source", cell.source) + ">" + text + "</td>";
+  return "<td" + attribute("class", classes) + attribute("data-source", cell.source) + attribute("data-label", label) +
+         ">" + text + "</td>";
 }
 
 /// Length of the longest word.
@@ -110,7 +113,11 @@ void Document::table(const Table& table) {
     if (row.size() != table.head.size()) throw std::logic_error("a row is as long as the head of its table");
   const std::vector<std::vector<std::size_t>> parts = parts_of(table);
   for (const std::vector<std::size_t>& columns : parts) {
-    body_ += "<div class=\"wide\"><table>\n";
+    // On a narrow screen the rows of such a table are cards, a line for each column: nothing is cut or pushed aside.
+    double width = 0.0;
+    for (const std::size_t c : columns) width += least_width(table, c);
+    const bool has_cards = width > 340.0;
+    body_ += has_cards ? "<div class=\"wide\"><table class=\"cards\">\n" : "<div class=\"wide\"><table>\n";
     if (!table.caption.empty() && &columns == &parts.front())
       body_ += "<caption>" + escaped(table.caption) + "</caption>\n";
     body_ += "<thead><tr>";
@@ -121,11 +128,17 @@ void Document::table(const Table& table) {
     body_ += "</tr></thead>\n<tbody>\n";
     for (const std::vector<Cell>& row : table.rows) {
       body_ += "<tr>";
-      for (const std::size_t c : columns) body_ += cell_html(row[c]);
+      for (const std::size_t c : columns) body_ += cell_html(row[c], has_cards ? table.head[c] : std::string());
       body_ += "</tr>\n";
     }
     body_ += "</tbody></table></div>\n";
   }
+}
+
+void Document::folded(std::string_view line, const Table& table, bool is_open) {
+  body_ += std::string("<details") + (is_open ? " open" : "") + "><summary>" + escaped(line) + "</summary>\n";
+  this->table(table);
+  body_ += "</details>\n";
 }
 
 void Document::charts(const std::vector<Chart>& charts) {
@@ -140,6 +153,8 @@ void Document::figure(std::string_view svg, std::string_view caption) {
   body_ += "</figure>\n";
 }
 
+void Document::markup(std::string_view html) { body_ += html; }
+
 void Document::figures(const std::vector<std::string>& svgs) {
   body_ += "<div class=\"charts\">\n";
   for (const std::string& svg : svgs) figure(svg);
@@ -149,13 +164,14 @@ void Document::figures(const std::vector<std::string>& svgs) {
 void Document::program(std::string_view id, std::string_view json, std::string_view script) {
   program_ = "<script type=\"application/json\" id=\"" + escaped(id) + "\">" + inside_script(json) +
              "</script>\n<script>" + std::string(script) + "</script>\n";
+  program_hash_ = base64(sha256(script));
 }
 
 std::string Document::html() const {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'" +
-         std::string(program_.empty() ? "" : "; script-src 'unsafe-inline'") +
+         (program_.empty() ? std::string() : "; script-src 'sha256-" + program_hash_ + "'") +
          "\">\n"
          "<title>" +
          escaped(title_) + "</title>\n<style>" + std::string(page_style) + std::string(style_text()) +

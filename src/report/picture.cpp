@@ -248,7 +248,6 @@ Picture make_picture(const std::vector<results::MotionFrame>& frames, const Pict
   Picture picture;
   picture.view = resolve_view(options.view, box_of(frames));
   const Sheet sheet = make_sheet(frames, projection_of(picture.view));
-  for (const results::MotionFrame& frame : frames) picture.frames.push_back(paths_of(frame, sheet));
 
   const std::size_t wanted = static_cast<std::size_t>(std::clamp(options.num_positions, 1, num_colors));
   const std::size_t num_shown = std::min(wanted, frames.size());
@@ -259,7 +258,8 @@ Picture make_picture(const std::vector<results::MotionFrame>& frames, const Pict
     const std::size_t f = num_shown == 1 ? frames.size() - 1 : k * (frames.size() - 1) / (num_shown - 1);
     const int color = num_shown == 1 ? num_colors - 1 : static_cast<int>(k * (num_colors - 1) / (num_shown - 1));
     const std::string shade = " t" + std::to_string(color);
-    const Picture::Paths& paths = picture.frames[f];
+    picture.positions.push_back(paths_of(frames[f], sheet));
+    const Picture::Paths& paths = picture.positions.back();
     positions += path_element("bodies" + shade, paths.bodies) + path_element("springs" + shade, paths.springs) +
                  path_element("beams" + shade, paths.beams) + path_element("joints" + shade, paths.joints);
     times.push_back(paths.time);

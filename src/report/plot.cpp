@@ -41,10 +41,47 @@ struct Scale {
   double to_y(double v) const { return bottom - (bottom - top) * (v - y.low) / (y.high - y.low); }
 };
 
-std::string column_path(const io::History& history, std::size_t column, const Scale& scale) {
+/// A curve and what is taken off its values.
+struct Line {
+  std::size_t column = 0;
+  double offset = 0.0;
+};
+
+std::string column_path(const io::History& history, const Line& line, const Scale& scale) {
   return curve_path(
       history.rows.size(), [&](std::size_t k) { return scale.to_x(history.rows[k].time); },
-      [&](std::size_t k) { return history.rows[k].values[column]; }, [&](double value) { return scale.to_y(value); });
+      [&](std::size_t k) { return history.rows[k].values[line.column] - line.offset; },
+      [&](double value) { return scale.to_y(value); });
+}
+
+/// Where curves lie so far apart that none of them would show its course, each is drawn less its value at the start.
+std::vector<Line> lines_of(const io::History& history, const std::vector<std::size_t>& columns) {
+  constexpr double far_apart = 20.0;  // times the largest range of one
+  Range all;
+  double largest = 0.0;
+  for (const std::size_t c : columns) {
+    Range own;
+    for (const results::HistoryRow& row : history.rows) own.include(row.values[c]);
+    if (own.empty()) continue;
+    all.include(own.low);
+    all.include(own.high);
+    largest = std::max(largest, own.high - own.low);
+  }
+  const bool is_apart = columns.size() > 1 && !all.empty() && all.high - all.low > far_apart * largest &&
+                        largest > constant_below * std::max(std::abs(all.low), std::abs(all.high));
+  std::vector<Line> lines;
+  for (const std::size_t c : columns) {
+    const double start = is_apart ? history.rows.front().values[c] : 0.0;
+    lines.push_back({c, std::isfinite(start) ? start : 0.0});
+  }
+  return lines;
+}
+
+/// The component, with what is taken off it.
+std::string legend_text(const io::History& history, const Line& line) {
+  const std::string component = io::split_column(history.header.columns[line.column]).component;
+  if (line.offset == 0.0) return component;
+  return component + (line.offset > 0.0 ? " - " : " + ") + io::rounded_text(std::abs(line.offset), 6);
 }
 
 std::string axes(const Scale& scale, std::string_view time_label) {
@@ -95,15 +132,15 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
 Plot make_plot(const io::History& history, const std::string& title, const std::vector<std::size_t>& columns,
                std::string_view time_label) {
   Range times, values;
+  const std::vector<Line> lines = lines_of(history, columns);
   for (const results::HistoryRow& row : history.rows) {
     times.include(row.time);
-    for (const std::size_t c : columns) values.include(row.values[c]);
+    for (const Line& line : lines) values.include(row.values[line.column] - line.offset);
   }
   if (times.empty()) times = {0.0, 1.0};
   if (times.low == times.high) times.high = times.low + 1.0;
   const Scale scale{times, padded(values)};
   Plot plot;
-  plot.geometry = {left, right, times.low, times.high};
   plot.svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixel(width) + " " + pixel(height) +
              "\" role=\"img\" aria-label=\"" + escaped(title) +
              " over time\">\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n" +
@@ -111,13 +148,12 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
   // Where title and legend do not fit side by side, the legend goes below the title.
   constexpr double character = 9.0, title_character = 8.0;
   double legend_x = right, needed = 24.0 + title_character * static_cast<double>(title.size());
-  for (const std::size_t c : columns)
-    needed += 32.0 + character * static_cast<double>(io::split_column(history.header.columns[c]).component.size());
+  for (const Line& line : lines) needed += 32.0 + character * static_cast<double>(legend_text(history, line).size());
   const double legend_y = needed > right ? 35.0 : 20.0;
   for (std::size_t k = columns.size(); k-- > 0;) {
     const std::string color = "curve s" + std::to_string(k % num_colors);
-    plot.svg += path_element(color, column_path(history, columns[k], scale));
-    const std::string component = io::split_column(history.header.columns[columns[k]]).component;
+    plot.svg += path_element(color, column_path(history, lines[k], scale));
+    const std::string component = legend_text(history, lines[k]);
     if (columns.size() < 2 || component.empty()) continue;
     plot.svg += text_element("tiny soft", legend_x, legend_y, "end", component);
     legend_x -= character * static_cast<double>(component.size()) + 6.0;

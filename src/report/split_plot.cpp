@@ -10,7 +10,7 @@
 namespace bough::report {
 namespace {
 
-constexpr double drawing_width = 990.0, head = 66.0, left = 46.0, right = 14.0, top = 30.0, bottom = 40.0;  // [px]
+constexpr double drawing_width = 990.0, head = 66.0, left = 46.0, right = 24.0, top = 30.0, bottom = 40.0;  // [px]
 constexpr double only_height = 400.0, panel_height = 232.0;  // of one panel alone, of each of several [px]
 constexpr double zero_below = 1e-12;                         // over the largest part: round-off
 constexpr std::size_t max_columns = 3;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "bough/results/balance.hpp"
+#include "bough/scene/components.hpp"
 #include "observe_parts.hpp"
 
 namespace bough::results {
@@ -276,9 +278,17 @@ struct SensorReader {
 
 HistoryHeader make_header(const plan::Plan& plan) {
   HistoryHeader header;
-  for (const plan::SensorPlan& s : plan.sensors)
-    for (const std::string& c : s.components)
+  header.runs_over_load = !plan.is_dynamic;
+  for (const plan::SensorPlan& s : plan.sensors) {
+    const std::string& part = !s.sensor.joint.empty()  ? s.sensor.joint
+                              : !s.sensor.beam.empty() ? s.sensor.beam
+                                                       : s.sensor.at.to;
+    for (std::size_t k = 0; k < s.components.size(); ++k) {
+      const std::string& c = s.components[k];
       header.columns.push_back(c.empty() ? s.sensor.name : s.sensor.name + "." + c);
+      header.about.push_back({scene::unit_of(s.sensor, k), scene::to_string(s.sensor.kind), part});
+    }
+  }
   return header;
 }
 
@@ -308,64 +318,181 @@ void eval_motion_sensors(const step::System& system, const step::State& state, s
   }
 }
 
+namespace {
+
+void copy(const Vec3<double>& from, double* to) { std::copy_n(from.v, 3, to); }
+void copy(const Mat3<double>& from, double* to) { std::copy_n(from.m, 9, to); }
+
+CurvePoint make_curve_point(const BeamPoint& p, const Vec6<double>& force) {
+  CurvePoint point{};
+  copy(p.pose.x, point.position);
+  copy(p.pose.R, point.axes);
+  copy(p.pose.R * lanes::linear_part(p.v), point.velocity);
+  std::copy_n(force.v, 6, point.force);
+  std::copy_n(p.strain.v, 6, point.strain);
+  return point;
+}
+
+int intervals_of(const plan::Plan& plan) {
+  std::size_t num_elements = 0;
+  for (const plan::BeamPlan& beam : plan.beams) num_elements += beam.elements.size();
+  return num_elements > 4000 ? 1 : num_elements > 1000 ? 2 : 4;
+}
+
+Curve make_curve(const plan::BeamPlan& beam, const step::System& system, const Field& f, const step::State& state,
+                 int parts) {
+  Curve curve;
+  curve.name = beam.name;
+  for (std::size_t k = 0; k < beam.elements.size(); ++k)
+    with_beam_element(system.plan(), beam.elements[k], [&](const auto& e) {
+      const ElementForce along(system, e, beam.loads[k], f, state);
+      for (int i = k == 0 ? 0 : 1; i <= parts; ++i) {
+        const double s = static_cast<double>(i) / parts;
+        curve.points.push_back(make_curve_point(eval_point(e, f, s), along.at(s)));
+      }
+    });
+  return curve;
+}
+
+BodyPose make_body_pose(const plan::BodyPlan& body, const Field& f, const step::State& state) {
+  const PointMotion p = motion_of_port(body.frame, f);
+  BodyPose pose{};
+  pose.name = body.name;
+  copy(p.pose.x, pose.position);
+  copy(p.pose.R, pose.axes);
+  copy(motion::transform(p.pose, body.center), pose.center);
+  copy(p.pose.R * (lanes::linear_part(p.v) + lanes::cross(lanes::angular_part(p.v), body.center)), pose.velocity);
+  for (const Port& port : body.attachments) {
+    const Vec3<double> x = position_of(f, state, port);
+    pose.attachments.push_back({x[0], x[1], x[2]});
+  }
+  return pose;
+}
+
+/// Calls visit(name, first port, second port) for joints, springs, bushings and prescribed motions, in the order of
+/// MotionFrame::links.
+template <class Visit>
+void for_each_link(const plan::Plan& plan, const Visit& visit) {
+  for (std::size_t id = 0; id < plan.directory.size(); ++id)
+    plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      using E = std::decay_t<decltype(e)>;
+      if constexpr (elements::joins_two_frames(E::role)) visit(plan.element_owner[id], e.ports[0], e.ports[1]);
+    });
+  for (const plan::WeldPlan& weld : plan.welds) visit(weld.name, weld.first, weld.second);
+}
+
+/// Point loads; several elements of one load at one place (components in axes that turn) are one arrow.
+void add_arrows(const plan::Plan& plan, const Field& f, const step::State& state, std::vector<Arrow>& arrows) {
+  for (std::size_t id = 0; id < plan.directory.size(); ++id)
+    plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      using E = std::decay_t<decltype(e)>;
+      if constexpr (E::role == elements::Role::load && E::num_ports == 1) {
+        const std::string& name = plan.element_owner[id];
+        if (arrows.empty() || arrows.back().name != name) {
+          arrows.push_back({name, {}, {}, {}});
+          copy(position_of(f, state, e.ports[0]), arrows.back().position);
+        }
+        Vec6<double> w = f.around.laws[e.law] * e.wrench;
+        if (e.follows) w = turned(motion_of_port(e.ports[0], f).pose.R, w);
+        for (int i = 0; i < 3; ++i) {
+          arrows.back().force[i] += w[i];
+          arrows.back().moment[i] += w[i + 3];
+        }
+      }
+    });
+}
+
+}  // namespace
+
 MotionFrame eval_motion(const step::System& system, const step::State& state) {
   const plan::Plan& plan = system.plan();
   const Field f = system.field(state);
   MotionFrame frame;
   frame.time = state.time;
-  for (const plan::BeamPlan& beam : plan.beams) {
-    Curve curve;
-    curve.name = beam.name;
-    constexpr int parts = 4;  // points per element: the axis is curved within it
-    for (std::size_t k = 0; k < beam.elements.size(); ++k)
-      with_beam_element(plan, beam.elements[k], [&](const auto& e) {
-        const ElementForce along(system, e, beam.loads[k], f, state);
-        for (int i = k == 0 ? 0 : 1; i <= parts; ++i) {
-          const double s = static_cast<double>(i) / parts;
-          const BeamPoint p = eval_point(e, f, s);
-          CurvePoint point;
-          for (int c = 0; c < 3; ++c) point.position[c] = p.pose.x[c];
-          for (int c = 0; c < 9; ++c) point.axes[c] = p.pose.R.m[c];
-          const Vec6<double> force = along.at(s);
-          for (int c = 0; c < 6; ++c) point.force[c] = force[c];
-          curve.points.push_back(point);
-        }
-      });
-    frame.curves.push_back(std::move(curve));
-  }
-  for (const plan::BodyPlan& body : plan.bodies) {
-    const PointMotion p = motion_of_port(body.frame, f);
-    BodyPose pose;
-    pose.name = body.name;
-    const Vec3<double> c = motion::transform(p.pose, body.center);
-    for (int i = 0; i < 3; ++i) {
-      pose.position[i] = p.pose.x[i];
-      pose.center[i] = c[i];
-    }
-    for (int i = 0; i < 9; ++i) pose.axes[i] = p.pose.R.m[i];
-    for (const Port& port : body.attachments) {
-      const Vec3<double> x = position_of(f, state, port);
-      pose.attachments.push_back({x[0], x[1], x[2]});
-    }
-    frame.bodies.push_back(pose);
-  }
-  const auto add_link = [&](const std::string& name, const Port& first, const Port& second) {
-    Link link;
+  const int parts = intervals_of(plan);
+  for (const plan::BeamPlan& beam : plan.beams) frame.curves.push_back(make_curve(beam, system, f, state, parts));
+  for (const plan::BodyPlan& body : plan.bodies) frame.bodies.push_back(make_body_pose(body, f, state));
+  for_each_link(plan, [&](const std::string& name, const Port& first, const Port& second) {
+    Link link{};
     link.name = name;
-    const Vec3<double> a = position_of(f, state, first), b = position_of(f, state, second);
-    for (int i = 0; i < 3; ++i) {
-      link.first[i] = a[i];
-      link.second[i] = b[i];
-    }
+    copy(position_of(f, state, first), link.first);
+    copy(position_of(f, state, second), link.second);
+    copy(motion_of_port(first, f).pose.R, link.axes);
     frame.links.push_back(link);
-  };
-  for (std::size_t id = 0; id < plan.directory.size(); ++id)
-    plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
-      using E = std::decay_t<decltype(e)>;
-      if constexpr (elements::joins_two_frames(E::role)) add_link(plan.element_owner[id], e.ports[0], e.ports[1]);
-    });
-  for (const plan::WeldPlan& weld : plan.welds) add_link(weld.name, weld.first, weld.second);
+  });
+  for (std::size_t k = 0; k < plan.frames.size(); ++k) {
+    const Frame<double>& pose = f.carriers[k].pose;
+    FramePose& moving = frame.frames.emplace_back();
+    moving.name = plan.frames[k].name;
+    copy(pose.x, moving.position);
+    copy(pose.R, moving.axes);
+  }
+  add_arrows(plan, f, state, frame.arrows);
   return frame;
+}
+
+namespace {
+
+/// What stands for a body without a shape: the cuboid of its mass and inertia where its axes are principal ones, edge
+/// a1^2 = 6 (J2 + J3 - J1) / m; else the sphere with the mean of its principal values. Nothing of a point mass.
+std::optional<scene::BodyShape> stand_in(const scene::Body& body) {
+  const Mat3<double>& J = body.inertia;
+  const double trace = J(0, 0) + J(1, 1) + J(2, 2);
+  if (body.is_point_mass || !(body.mass > 0.0) || !(trace > 0.0)) return std::nullopt;
+  const double off = std::max({std::abs(J(0, 1)), std::abs(J(0, 2)), std::abs(J(1, 2))});
+  if (off > 1e-9 * trace) return scene::Sphere{std::sqrt(2.5 * trace / (3.0 * body.mass))};
+  scene::Box box{};
+  constexpr double thinnest = 0.01;  // of the largest edge: what has no thickness is still seen
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    box.size[i] = std::sqrt(std::max(0.0, 6.0 * (trace - 2.0 * J(i, i)) / body.mass));
+    largest = std::max(largest, box.size[i]);
+  }
+  for (int i = 0; i < 3; ++i) box.size[i] = std::max(box.size[i], thinnest * largest);
+  return box;
+}
+
+}  // namespace
+
+MotionParts make_parts(const scene::Scene& scene, const step::System& system) {
+  MotionParts parts;
+  std::map<std::string, int> outline_of, body_of;
+  const int sides = intervals_of(system.plan()) < 4 ? 8 : 24;  // of round sections; of many, coarse ones
+  for (const scene::Section& s : scene.sections) {
+    outline_of[s.name] = static_cast<int>(parts.outlines.size());
+    parts.outlines.push_back(scene::outline_of(s.shape ? *s.shape : scene::equivalent_rectangle(s.stiffness), sides));
+  }
+  std::map<std::string, int> section_of;
+  for (const scene::Beam& b : scene.beams) section_of[b.name] = outline_of.at(b.section);
+  const plan::Plan& plan = system.plan();
+  const std::vector<tree::SubdomainId>& leaves = system.tree().leaf_of_element;
+  for (const plan::BeamPlan& beam : plan.beams) {
+    MotionParts::Curve curve;
+    curve.outline = section_of.at(beam.name);
+    for (const int e : beam.elements) curve.subdomains.push_back(leaves[static_cast<std::size_t>(e)]);
+    parts.curves.push_back(std::move(curve));
+  }
+  // Copies of one part are told apart by their surfaces alone: equal ones are one.
+  std::map<std::vector<std::array<double, 3>>, int> known;
+  for (const scene::Body& b : scene.bodies) {
+    int& surface = body_of.emplace(b.name, -1).first->second;
+    const std::optional<scene::BodyShape> shape = b.shape ? b.shape : stand_in(b);
+    if (!shape && !b.looks) continue;
+    scene::Mesh mesh = b.looks ? *b.looks : scene::mesh_of(*shape);
+    const auto [place, is_new] = known.emplace(mesh.points, static_cast<int>(parts.meshes.size()));
+    surface = place->second;
+    if (is_new) parts.meshes.push_back(std::move(mesh));
+  }
+  for (const plan::BodyPlan& body : plan.bodies) parts.bodies.push_back(body_of.at(body.name));
+  std::map<std::string, std::string> kind_of;
+  for (const scene::Joint& j : scene.joints) kind_of[j.name] = scene::to_string(j.kind);
+  for (const scene::Spring& s : scene.springs) kind_of[s.name] = "spring";
+  for (const scene::Bushing& b : scene.bushings) kind_of[b.name] = "bushing";
+  for_each_link(plan, [&](const std::string& name, const Port&, const Port&) {
+    const auto found = kind_of.find(name);
+    parts.links.push_back({found != kind_of.end() ? found->second : "prescribed motion"});
+  });
+  return parts;
 }
 
 }  // namespace bough::results

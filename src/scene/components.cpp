@@ -40,6 +40,39 @@ const std::vector<std::string>& components_of(SensorKind kind) {
   }
 }
 
+std::string unit_of(const Sensor& sensor, std::size_t component) {
+  const bool is_first_half = component < 3;
+  switch (sensor.kind) {
+    case SensorKind::position:
+    case SensorKind::joint_displacement:
+      return "m";
+    case SensorKind::rotation:
+    case SensorKind::joint_angle:
+      return "rad";
+    case SensorKind::quaternion:
+      return "";
+    case SensorKind::velocity:
+      return is_first_half ? "m/s" : "rad/s";
+    case SensorKind::acceleration:
+      return is_first_half ? "m/s^2" : "rad/s^2";
+    case SensorKind::section_force:
+    case SensorKind::joint_reaction:
+      return is_first_half ? "N" : "N m";
+    case SensorKind::section_strain:
+      return is_first_half ? "" : "1/m";
+    case SensorKind::joint_rate:
+      return sensor.coordinate == "displacement" ? "m/s" : "rad/s";
+    case SensorKind::kinetic_energy:
+    case SensorKind::strain_energy:
+    case SensorKind::potential_energy:
+    case SensorKind::total_energy:
+      return "J";
+    case SensorKind::acceleration_split:
+      return "m/s^2";
+  }
+  throw std::logic_error("a kind of sensor without a unit");
+}
+
 std::vector<std::string> columns_of(const Sensor& sensor) {
   const auto& components = components_of(sensor.kind);
   if (components.empty()) return {sensor.name};

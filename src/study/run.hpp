@@ -122,6 +122,11 @@ class Run {
   const decltype(SimulateOptions::stopped_by)& stopped_by_;
   const decltype(SimulateOptions::after_run)& after_run_;
   bool want_motion_;
+  /// Pictures whose stride is not given: every interval of the run has one, the intervals tell how many there are.
+  int most_intervals_ = 100, next_picture_ = 1;
+  static int intervals_within(const results::MotionFrame& frame, const results::MotionParts& parts);
+  double picture_end() const { return plan_.is_dynamic ? scene_.analysis.end_time : 1.0; }
+  bool tells_parts_ = false;  ///< the recorder knows what the parts of pictures are
   plan::Plan plan_;
   schedule::Threads threads_;
   step::System system_;

@@ -97,7 +97,7 @@ holds test "$(ls sweep.many | wc -l)" -le 12
 expect 0 'view.html' view sweep.many --case 008
 "$program" run good.json --out many.one --set /analysis/end_time=0.02 --set "/bodies/bob/mass=$(sed -n 's/^008,//p' sweep.many/cases.csv)" > /dev/null
 holds cmp many.one/history.csv sweep.many/008/history.csv
-holds cmp many.one/motion.jsonl sweep.many/008/motion.jsonl
+holds cmp many.one/motion.bin sweep.many/008/motion.bin
 expect 0 '210 of 210 cases are done' sweep many.json --out sweep.many --resume
 rm sweep.many/store_000.pack
 expect 0 'of 210 cases are done' sweep many.json --out sweep.many --resume
@@ -152,7 +152,7 @@ expect 0 'bough sweep' schema --sweep
 # a run
 expect 0 '1 body, 1 joint' check good.json
 expect 0 'done' run good.json
-for file in history.csv motion.pvd motion.jsonl summary.json motion/frame_000000.vtu; do holds test -s good.out/$file; done
+for file in history.csv motion.pvd motion.bin summary.json motion/frame_000000.vtu; do holds test -s good.out/$file; done
 holds test -z "$(find good.out -name '*.partial')"
 holds test "$(head -1 good.out/history.csv)" = 'time,step_size,iterations,bob.x,bob.y,bob.z'
 holds test "$(wc -l < good.out/history.csv)" -eq 52

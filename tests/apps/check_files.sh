@@ -152,9 +152,9 @@ holds grep -q '"status": "interrupted"' twice.failed/summary.json
 # files of different runs are refused
 cp -r whole mix && cp from_input/history.csv mix/ && expect 0 silence view mix --out mix.html
 "$program" run short.json --out other --quiet
-cp other/motion.jsonl mix/motion.jsonl
+cp other/motion.bin mix/motion.bin
 expect 2 'not the file that was written with the summary' view mix
-cp whole/motion.jsonl mix/ && cp other/history.csv mix/
+cp whole/motion.bin mix/ && cp other/history.csv mix/
 expect 2 'not the file that was written with the summary' compare mix whole
 rm -f mix/summary.json
 expect 2 'did not end' view mix

@@ -138,10 +138,11 @@ TEST(RunDirectory, writes_every_file_and_all_of_them_appear_together) {
   run.motion(sample_frame(1.0));
   EXPECT_FALSE(fs::exists(scratch / "out"));
   run.end(sample_summary());
-  EXPECT_EQ(run.files(),
-            (std::vector<std::string>{"history.csv", "motion.jsonl", "motion", "motion.pvd", "summary.json"}));
-  EXPECT_EQ(names_in(scratch / "out"), (std::vector<std::string>{"history.csv", "manifest.json", "motion",
-                                                                 "motion.jsonl", "motion.pvd", "summary.json"}));
+  EXPECT_EQ(run.files(), (std::vector<std::string>{"history.csv", "columns.json", "motion.bin", "motion", "motion.pvd",
+                                                   "summary.json"}));
+  EXPECT_EQ(names_in(scratch / "out"),
+            (std::vector<std::string>{"columns.json", "history.csv", "manifest.json", "motion", "motion.bin",
+                                      "motion.pvd", "summary.json"}));
   EXPECT_EQ(names_in(scratch / "out/motion"), (std::vector<std::string>{"frame_000000.vtu", "frame_000001.vtu"}));
   EXPECT_TRUE(foreign_entries(scratch / "out").empty());
 }

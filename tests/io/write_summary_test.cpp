@@ -217,7 +217,7 @@ TEST(Summary, is_read_only_with_the_files_that_were_written_with_it) {
   write("one", 1.0, true);
   write("other", 2.0, true);
   write("still", 1.0, false);
-  const std::vector<std::string> names = {"history.csv", "motion.jsonl"};
+  const std::vector<std::string> names = {"history.csv", "motion.bin"};
   const auto is_whole = [&](const char* name) {
     try {
       (void)read_whole_summary(scratch / name, names);
@@ -227,9 +227,9 @@ TEST(Summary, is_read_only_with_the_files_that_were_written_with_it) {
     }
   };
   EXPECT_TRUE(is_whole("one") && is_whole("still"));
-  std::filesystem::copy_file(scratch / "one/motion.jsonl", scratch / "still/motion.jsonl");
+  std::filesystem::copy_file(scratch / "one/motion.bin", scratch / "still/motion.bin");
   EXPECT_FALSE(is_whole("still")) << "frames of another run";
-  std::filesystem::remove(scratch / "one/motion.jsonl");
+  std::filesystem::remove(scratch / "one/motion.bin");
   EXPECT_FALSE(is_whole("one")) << "a file is missing";
   std::filesystem::rename(scratch / "still/history.csv", scratch / "other/history.csv");
   EXPECT_FALSE(is_whole("other")) << "a history of another run";

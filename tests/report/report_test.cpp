@@ -2,11 +2,13 @@
 #include <limits>
 #include <regex>
 
+#include "../../src/report/packed.hpp"
 #include "../../src/report/svg_text.hpp"
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/run_directory.hpp"
 #include "bough/report/page.hpp"
 #include "bough/report/plot.hpp"
+#include "bough/report/raster.hpp"
 #include "io/write_samples.hpp"
 
 namespace bough::report {
@@ -90,7 +92,7 @@ TEST(Picture, has_equal_axes_whatever_the_shape) {
     };
     frame.curves = {curve(1.0, 0.0), curve(0.0, height)};
     const Picture picture = make_picture({frame}, {.view = View::xy});
-    const std::string& path = picture.frames.at(0).beams;
+    const std::string& path = picture.positions.at(0).beams;
     const std::size_t second = path.find('M', 1);
     const auto a = ends_of(path.substr(0, second)), b = ends_of(path.substr(second));
     const double per_x = a[2] - a[0], per_y = (b[1] - b[3]) / height;
@@ -106,7 +108,7 @@ TEST(Picture, lays_the_asked_number_of_positions_over_each_other) {
     const std::string positions = picture.svg.substr(0, picture.svg.find("</g>"));
     EXPECT_EQ(count_of(positions, "class=\"beams "), static_cast<std::size_t>(wanted));
   }
-  EXPECT_EQ(make_picture(frames, {}).frames.size(), frames.size());
+  EXPECT_EQ(make_picture(frames, {}).positions.size(), 9u);
 }
 
 TEST(Picture, points_that_are_not_finite_are_left_out) {
@@ -116,7 +118,7 @@ TEST(Picture, points_that_are_not_finite_are_left_out) {
   const Picture picture = make_picture(frames, {});
   for (const char* word : {"nan", "inf"})
     EXPECT_EQ(picture.svg.find(std::string(word) + " "), std::string::npos) << word;
-  for (const Picture::Paths& paths : picture.frames)
+  for (const Picture::Paths& paths : picture.positions)
     for (const std::string* path : {&paths.beams, &paths.bodies, &paths.springs, &paths.joints})
       EXPECT_EQ(path->find_first_not_of("MLh0123456789.- "), std::string::npos) << *path;
 }
@@ -125,8 +127,8 @@ TEST(Picture, of_a_single_point_that_stays_is_still_a_picture) {
   results::MotionFrame frame;
   frame.bodies.push_back({"ball", {1e6, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {1e6, 0, 0}});
   const Picture picture = make_picture({frame, frame}, {});
-  EXPECT_EQ(picture.frames[0].joints.find_first_not_of("Mh0123456789.- "), std::string::npos)
-      << picture.frames[0].joints;
+  EXPECT_EQ(picture.positions[0].joints.find_first_not_of("Mh0123456789.- "), std::string::npos)
+      << picture.positions[0].joints;
 }
 
 TEST(Plot, ticks_are_round_and_inside) {
@@ -191,21 +193,70 @@ class Page : public testing::Test {
   io::ScratchDirectory scratch_;
 };
 
+/// Without what the script says: its text names formats and draws elements of its own.
+std::string without_script(const std::string& html) {
+  const std::size_t begin = html.find("</script>\n<script>");
+  return html.substr(0, begin);
+}
+
 TEST_F(Page, stands_alone_and_asks_for_nothing_from_elsewhere) {
-  const std::string html = page_html(written(true), {});
+  const std::string html = without_script(page_html(written(true), {}));
   EXPECT_EQ(count_of(html, "http://"), count_of(html, "http://www.w3.org/2000/svg")) << "names of formats only";
   for (const char* word : {"https://", "src=", "href=", "url(", "@import"}) EXPECT_EQ(count_of(html, word), 0u) << word;
   EXPECT_EQ(count_of(html, "<svg"), 1u + 2u) << "the motion, tip and energy";
 }
 
+TEST_F(Page, lets_in_its_own_script_alone_and_is_the_same_for_the_same_run) {
+  const RunFiles files = written(true);
+  const std::string html = page_html(files, {});
+  const std::size_t begin = html.rfind("<script>") + 8, end = html.rfind("</script>");
+  const std::string hash = base64(sha256(html.substr(begin, end - begin)));
+  EXPECT_NE(html.find("default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-" + hash + "'\""),
+            std::string::npos);
+  EXPECT_EQ(count_of(html, "<script"), 2u);
+  EXPECT_EQ(page_html(files, {}), html);
+}
+
+TEST_F(Page, of_two_runs_holds_both) {
+  const RunFiles files = written(true);
+  const std::string html = page_html(files, {}, &files);
+  EXPECT_EQ(count_of(html, "\"packed\":"), 2u + count_of(html.substr(html.rfind("<script>")), "\"packed\":"));
+}
+
+TEST_F(Page, pictures_are_the_same_bytes_for_the_same_instant_and_others_for_another) {
+  const RunFiles files = written(true);
+  const std::string png = picture_png(files, 0.2);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(picture_png(files, 0.2), png);
+  EXPECT_NE(picture_png(files, 0.4), png);
+}
+
+TEST(Packed, texts_have_the_published_hashes_and_codes) {
+  const auto hex = [](const std::string& bytes) {
+    std::string text;
+    for (const char c : bytes)
+      for (const int shift : {4, 0}) text += "0123456789abcdef"[static_cast<unsigned char>(c) >> shift & 15];
+    return text;
+  };
+  // FIPS 180-4, examples of the standard.
+  EXPECT_EQ(hex(sha256("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(hex(sha256("")), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(hex(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq")),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  // RFC 4648, section 10.
+  for (const auto& [text, code] :
+       {std::pair{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}})
+    EXPECT_EQ(base64(text), code);
+}
+
 TEST_F(Page, escapes_what_names_may_hold) {
-  const std::string html = page_html(written(true), {});
+  const std::string html = without_script(page_html(written(true), {}));
   EXPECT_EQ(count_of(html, "<b>"), 0u);
   EXPECT_NE(html.find("&lt;b&gt;&amp;&quot;"), std::string::npos);
 }
 
 TEST_F(Page, without_motion_says_what_to_do) {
-  const std::string html = page_html(written(false), {});
+  const std::string html = without_script(page_html(written(false), {}));
   EXPECT_NE(html.find("--set /output/motion=true"), std::string::npos);
   EXPECT_EQ(count_of(html, "<svg"), 2u);
 }

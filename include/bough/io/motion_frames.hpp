@@ -1,12 +1,19 @@
 #pragma once
-/// `motion.jsonl`: the moving structure in a compact text form, for pictures. JSON Lines: the first line is a header
-///   {"format":"bough motion 1","curves":[names],"bodies":[names],"links":[names]}
-/// and each further line one frame
-///   {"t":time,"c":[[x,y,z, x,y,z, ...] per curve],
-///    "b":[[x,y,z, R row-major, center x,y,z, attachments x,y,z ...] per body],"l":[[x,y,z, x,y,z] per link]}
-/// with nine significant digits: enough for any picture; full precision stands in history.csv and in the VTU files.
+/// `motion.bin`: the moving structure, for pictures. A header, one line of JSON that spaces fill to a multiple of 8 bytes:
+///   {"format":"bough motion 2","frame_bytes":n,"curves":[{"name","points","outline","subdomains"}],
+///    "bodies":[{"name","attachments","mesh"}],"links":[{"name","kind"}],"frames":[name],"arrows":[name],
+///    "outlines":[[[x2,x3,x2,x3,...] per loop]],"meshes":[{"points":[x,y,z,...],"triangles":[a,b,c,...]}]}
+/// then numbers as they stand in memory, little-endian, without gaps. First the start, float64:
+///   curve point: position 3, axes 9 (row-major, columns are axes) | body: centre 3, axes 9, position 3, attachments 3 each
+///   link: first 3, second 3, axes 9 | frame: position 3, axes 9 | arrow: position 3
+/// then the frames, each of frame_bytes: the time, float64, and float32
+///   curve point: displacement 3, rotation 3, velocity 3, force 6, strain 6 | body: displacement 3, rotation 3, velocity 3
+///   link: displacement of first 3, of second 3, rotation 3 | frame: displacement 3, rotation 3
+///   arrow: displacement 3, force 3, moment 3
+/// Displacements are those from the start, so that small ones keep their digits far from the origin; a rotation r turns
+/// the axes of the start in space,  axes = exp(~r) axes_start.  Frames that are not whole (a crash) do not count.
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,20 +23,23 @@
 
 namespace bough::io {
 
-/// The lines of such a file.
-class MotionLines {
+/// The bytes of such a file.
+class MotionBytes {
  public:
-  /// All frames must have the parts of the first one, before whose line the header stands.
-  void append(std::string& text, const results::MotionFrame& frame);
+  explicit MotionBytes(results::MotionParts parts = {}) : parts_(std::move(parts)) {}
+  /// All frames must have the parts of the first one, before which the header and the start stand.
+  void append(std::string& bytes, const results::MotionFrame& frame);
 
  private:
-  bool has_header_ = false;
+  results::MotionParts parts_;
+  std::unique_ptr<results::MotionFrame> start_;
 };
 
-class MotionLinesWriter {
+class MotionWriter {
  public:
-  explicit MotionLinesWriter(const std::filesystem::path& path) : file_(path) {}
-  /// All frames must have the parts of the first one. std::runtime_error where it cannot be written.
+  explicit MotionWriter(const std::filesystem::path& path, results::MotionParts parts = {})
+      : file_(path), bytes_(std::move(parts)) {}
+  /// As MotionBytes::append. std::runtime_error where it cannot be written.
   void frame(const results::MotionFrame& frame);
   void commit(Durability durability = Durability::now) { file_.commit(durability); }
   /// Of what stands in the file.
@@ -40,12 +50,17 @@ class MotionLinesWriter {
 
  private:
   AtomicFile file_;
-  std::string line_;
-  MotionLines lines_;
+  MotionBytes bytes_;
 };
 
-/// Reads at most `max_frames` frames (>= 2), evenly chosen, always the first and the last. Section forces and axes of curves are not in this
-/// file and come back zero. Throws std::runtime_error naming file, line and what is wrong.
-std::vector<results::MotionFrame> read_motion_lines(const std::filesystem::path& path, std::size_t max_frames);
+struct Motion {
+  results::MotionParts parts;
+  std::vector<results::MotionFrame> frames;
+  std::size_t num_recorded = 0;  ///< frames in the file; those here are chosen from them
+};
+
+/// Reads at most `max_frames` frames (>= 2), evenly chosen, always the first and the last. Throws std::runtime_error naming the file and what
+/// is wrong.
+Motion read_motion_file(const std::filesystem::path& path, std::size_t max_frames);
 
 }  // namespace bough::io

@@ -1,8 +1,9 @@
 #pragma once
 /// The directory of one run: the recorder that writes it.
 ///   history.csv    the sensors
-///   motion.pvd, motion/frame_000000.vtu ..., motion.jsonl   where motion is recorded
-///                  (a build without BOUGH_WITH_VTK writes motion.jsonl only)
+///   columns.json   unit, quantity and part of each of its columns
+///   motion.pvd, motion/frame_000000.vtu ..., motion.bin   where motion is recorded
+///                  (a build without BOUGH_WITH_VTK writes motion.bin only)
 ///   summary.json   how the run ended, what it was made from, the hash of every file
 ///   manifest.json  what in the directory is bough's (manifest.hpp)
 /// All of them appear under the directory's name together, at the end (output_folder.hpp).
@@ -33,6 +34,7 @@ class RunDirectory final : public results::Recorder {
   void begin(const results::HistoryHeader& header) override;
   void row(const results::HistoryRow& row) override;
   void motion(const results::MotionFrame& frame) override;
+  void parts(const results::MotionParts& parts) override { parts_ = parts; }
 
   /// Gives history, motion and summary their place. After a failed write what was safely written before is kept,
   /// without a summary. Throws the first failure.
@@ -69,9 +71,10 @@ class RunDirectory final : public results::Recorder {
   RunOrigin origin_;
   std::unique_ptr<OutputFolder> folder_;
   std::unique_ptr<HistoryWriter> history_;
-  std::unique_ptr<MotionLinesWriter> motion_lines_;
+  std::unique_ptr<MotionWriter> motion_;
+  results::MotionParts parts_;
+  std::string columns_;  ///< of columns.json
   bool has_ended_ = false;
-  VtuOptions vtu_options_;
   std::vector<PvdEntry> frames_;
   std::vector<FileRecord> frame_records_, records_;
   std::vector<std::string> files_;

@@ -58,7 +58,7 @@ void remove_stores(const std::filesystem::path& folder);
 std::filesystem::path unpack_run(const std::vector<StoredFile>& files, FolderState state,
                                  const std::filesystem::path& folder);
 
-/// A run that is recorded in memory, to be stored: history.csv, motion.jsonl and summary.json of RunDirectory, to the byte but for
+/// A run that is recorded in memory, to be stored: history.csv, columns.json, motion.bin and summary.json of RunDirectory, to the byte but for
 /// what the summary says of VTU files, which are not made.
 class RunInMemory final : public results::Recorder {
  public:
@@ -66,6 +66,7 @@ class RunInMemory final : public results::Recorder {
   void begin(const results::HistoryHeader& header) override;
   void row(const results::HistoryRow& row) override;
   void motion(const results::MotionFrame& frame) override;
+  void parts(const results::MotionParts& parts) override { motion_bytes_ = MotionBytes(parts); }
   void end(const results::Summary& summary) override;
   /// For a run that was cut off by `cause` before `end`; as RunDirectory::end_as_failed.
   void end_as_failed(results::Summary summary, const std::string& cause);
@@ -74,8 +75,8 @@ class RunInMemory final : public results::Recorder {
  private:
   std::string version_;
   RunOrigin origin_;
-  std::string history_, motion_;
-  MotionLines motion_lines_;
+  std::string history_, columns_, motion_;
+  MotionBytes motion_bytes_;
   std::vector<StoredFile> files_;
 };
 

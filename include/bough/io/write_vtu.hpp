@@ -8,21 +8,16 @@
 
 namespace bough::io {
 
-/// Sizes of what has no size of its own in a frame.
-struct VtuOptions {
-  double section_width = 0.0;  ///< side of the square section that is swept along a beam's curve [m], > 0
-  double body_width = 0.0;     ///< side of the box that stands for a body [m], > 0
-};
-
-/// Widths that suit the structure's extent: 1 % and 4 % of the diagonal of its bounding box (1 m where that is 0).
-VtuOptions vtu_options_for(const results::MotionFrame& frame);
-
-/// An unstructured grid, VTK XML format 1.0, little-endian doubles appended raw.
-/// Cells: per beam its axis as a polyline and the swept section as hexahedra; per body a box; per link a line.
-/// Cell data: `kind` (0 beam, 1 body, 2 link), `part` (index within its kind, in the order of the frame).
-/// Point data: `force` (N, Q2, Q3) [N] and `moment` (T, M2, M3) [N m] in section axes, `axis_1`, `axis_2`, `axis_3` (section or body
-/// axes, inertial components); zero where a point has none.
-std::string vtu_text(const results::MotionFrame& frame, const VtuOptions& options);
+/// An unstructured grid, VTK XML format 1.0, little-endian, appended raw, each array compressed by zlib.
+/// Cells: per beam its axis as a polyline, and its section, cut into triangles, as wedges from point to point; per body
+/// the triangles of its surface, or its centre as a vertex; per joint, spring and bushing a line; per load a vertex.
+/// Cell data: `kind` (0 beam, 1 body, 2 link, 3 load), `part` (index within its kind), `subdomain` (leaf of the solver's
+/// tree that holds a beam's element; -1 elsewhere). Field data: `beam_names`, `body_names`, `link_names`, `load_names`.
+/// Point data, float32: `force` (N, Q2, Q3) [N], `moment` (T, M2, M3) [N m], `strain` (e1, g2, g3), `curvature` (k1, k2,
+/// k3) [1/m] in section axes, of loads force and moment in those of the ground; `velocity` [m/s]; `axis_1`, `axis_2`,
+/// `axis_3` (section axes, on axes of beams; zero elsewhere). Points are float32, and float64 where that would take
+/// more than a ten-thousandth of the size of the structure.
+std::string vtu_text(const results::MotionFrame& frame, const results::MotionParts& parts = {});
 
 struct PvdEntry {
   double time = 0.0;

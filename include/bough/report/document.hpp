@@ -40,17 +40,22 @@ class Document {
   void paragraph(std::string_view text, Tone tone = Tone::plain);
   void list(const std::vector<std::string>& items);
   void table(const Table& table);  ///< precondition: every row is as long as the head
+  /// A table behind a line that opens it; open on paper.
+  void folded(std::string_view line, const Table& table, bool is_open);
   void charts(const std::vector<Chart>& charts);
   void figure(std::string_view svg, std::string_view caption = {});  ///< a drawing of one's own; svg is taken as it is
 
+  void markup(std::string_view html);  ///< of one's own, taken as it is
+
   void figures(const std::vector<std::string>& svgs);  ///< drawings of one's own beside each other
-  /// Data and a script that reads them from the element of this id, at the end of the page. The page has no scripts else.
+  /// Data and a script that reads them from the element of this id, at the end of the page. The page lets in this script
+  /// alone, by its hash.
   void program(std::string_view id, std::string_view json, std::string_view script);
 
   std::string html() const;  ///< the whole page
 
  private:
-  std::string title_, body_, program_;
+  std::string title_, body_, program_, program_hash_;
 };
 
 }  // namespace bough::report

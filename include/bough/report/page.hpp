@@ -1,6 +1,6 @@
 #pragma once
 /// The results of one run as one self-contained page: the motion, the histories and how well the laws hold. No
-/// network, no library; readable without scripts, with a player where scripts run.
+/// network; readable without scripts, with a moving picture where scripts and WebGL run.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,6 +17,7 @@ struct RunFiles {
   std::optional<io::SummaryFile> summary;  ///< none: the run did not end
   io::History history;
   std::vector<results::MotionFrame> motion;  ///< empty: not recorded
+  results::MotionParts parts;                ///< of it
 };
 
 /// Reads a result directory. Throws std::runtime_error where it is not whole, or holds files of different runs
@@ -25,8 +26,8 @@ RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames
 
 bool is_static(const RunFiles& run);  ///< its histories run over the load factor
 
-/// options.is_static is for the caller to set.
-std::string page_html(const RunFiles& run, const PictureOptions& options);
+/// options.is_static is for the caller to set. other: a second run to lay over the first, its differences plotted.
+std::string page_html(const RunFiles& run, const PictureOptions& options, const RunFiles* other = nullptr);
 
 /// What to do where no motion was recorded, in one sentence.
 std::string_view how_to_record_motion();

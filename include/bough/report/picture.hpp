@@ -13,14 +13,14 @@ struct PictureOptions {
   bool is_static = false;  ///< frames are told apart by the load factor, not by time [s]
 };
 
-/// The drawing and what a player needs to draw any frame over it.
+/// The drawing, and the path data of what it shows.
 struct Picture {
   std::string svg;  ///< one <svg> element, styled by classes (style_text)
   struct Paths {
     double time = 0.0;
     std::string beams, bodies, springs, joints;  ///< path data in the drawing's coordinates [px]
   };
-  std::vector<Paths> frames;
+  std::vector<Paths> positions;
   View view = View::iso;  ///< as resolved
 };
 

@@ -8,13 +8,8 @@
 namespace bough::report {
 
 /// One plot of the columns of one sensor over time.
-struct PlotGeometry {
-  double left = 0.0, right = 0.0;            ///< of the plot area in the drawing [px]
-  double first_time = 0.0, last_time = 0.0;  ///< at these
-};
 struct Plot {
   std::string svg;
-  PlotGeometry geometry;
 };
 
 /// columns: indices into the header, of one unit. At most two points per pixel column and curve are drawn: the smallest and the largest

@@ -29,7 +29,11 @@ void append_nodes_of(const plan::Plan& plan, const plan::SensorPlan& sensor, std
 /// Values of the sensors that show motions, in their places; 0 for the others.
 void eval_motion_sensors(const step::System& system, const step::State& state, std::vector<double>& values);
 
-/// The moving structure, with section resultants at the beams' nodes.
+/// Sections, surfaces, kinds and sub-domains of what eval_motion shows, in the same order.
+MotionParts make_parts(const scene::Scene& scene, const step::System& system);
+
+/// The moving structure, with section resultants along the beams: four intervals an element, since the axis is curved
+/// within it; of structures of more than a thousand elements two, of more than four thousand one.
 MotionFrame eval_motion(const step::System& system, const step::State& state);
 
 }  // namespace bough::results

@@ -7,11 +7,21 @@
 #include <string>
 #include <vector>
 
+#include "bough/scene/outlines.hpp"
+
 namespace bough::results {
 
 /// One row of the history: the values follow the columns of `HistoryHeader`.
 struct HistoryHeader {
   std::vector<std::string> columns;  ///< "<sensor>.<component>" or "<sensor>"
+  /// What a column shows, in the order of `columns`; empty where nobody knows.
+  struct About {
+    std::string unit;      ///< "m", "rad/s", ...; empty: a pure number
+    std::string quantity;  ///< the kind of its sensor
+    std::string part;      ///< node, body, beam or joint that it looks at; empty: the whole structure
+  };
+  std::vector<About> about = {};
+  bool runs_over_load = false;  ///< rows are told apart by the load factor
 };
 struct HistoryRow {
   double time = 0.0;  ///< [s], or the load factor
@@ -23,8 +33,10 @@ struct HistoryRow {
 /// The moving structure at one time, for pictures and VTU.
 struct CurvePoint {
   double position[3];
-  double axes[9];   ///< rotation matrix, row-major: columns are the section's axes
-  double force[6];  ///< section resultants (N, Q2, Q3, T, M2, M3)
+  double axes[9];           ///< rotation matrix, row-major: columns are the section's axes
+  double force[6];          ///< section resultants (N, Q2, Q3, T, M2, M3)
+  double strain[6] = {};    ///< (e1, g2, g3, k1, k2, k3)
+  double velocity[3] = {};  ///< of the axis [m/s]
 };
 struct Curve {
   std::string name;
@@ -36,17 +48,48 @@ struct BodyPose {
   double axes[9];
   double center[3];  ///< centre of mass
   std::vector<std::array<double, 3>> attachments =
-      {};  ///< where joints, springs and beams hold it; drawn as spokes from the centre
+      {};                   ///< where joints, springs and beams hold it; drawn as spokes from the centre
+  double velocity[3] = {};  ///< of the centre of mass [m/s]
 };
 struct Link {
   std::string name;  ///< joint or spring, drawn as a segment (a joint may have length 0)
   double first[3];
   double second[3];
+  double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< joint frame of the first side; springs: of no meaning
+};
+struct FramePose {
+  std::string name;
+  double position[3];
+  double axes[9];
+};
+/// A load at a point: what acts now, in the axes of the ground.
+struct Arrow {
+  std::string name;
+  double position[3];
+  double force[3];   ///< [N]
+  double moment[3];  ///< [N m]
 };
 struct MotionFrame {
   double time = 0.0;
   std::vector<Curve> curves;
   std::vector<BodyPose> bodies;
+  std::vector<Link> links;
+  std::vector<FramePose> frames = {};
+  std::vector<Arrow> arrows = {};
+};
+/// What the parts of all frames of a motion are, in their order there: told once.
+struct MotionParts {
+  struct Curve {
+    int outline = -1;             ///< of its section, in `outlines`; -1: the section has no shape
+    std::vector<int> subdomains;  ///< leaf of the tree that holds each element, in order along the axis
+  };
+  struct Link {
+    std::string kind;  ///< of the joint, "spring", "bushing", "prescribed motion"
+  };
+  std::vector<scene::Outline> outlines;
+  std::vector<scene::Mesh> meshes;
+  std::vector<Curve> curves;
+  std::vector<int> bodies;  ///< surface of each, in `meshes`; -1: it has no shape
   std::vector<Link> links;
 };
 
@@ -212,6 +255,8 @@ class Recorder {
   virtual void begin(const HistoryHeader& header) = 0;
   virtual void row(const HistoryRow& row) = 0;
   virtual void motion(const MotionFrame& frame) = 0;
+  /// Before the first frame of a motion.
+  virtual void parts(const MotionParts& /*parts*/) {}
   virtual void end(const Summary& summary) = 0;
 };
 

@@ -14,6 +14,9 @@ namespace bough::scene {
 ///   section_force N Q2 Q3 T M2 M3 | section_strain e1 g2 g3 k1 k2 k3 | joint_reaction fx fy fz mx my mz
 const std::vector<std::string>& components_of(SensorKind kind);
 
+/// Unit of a component of a sensor, by its place in components_of; empty: a pure number.
+std::string unit_of(const Sensor& sensor, std::size_t component);
+
 /// Columns "<sensor>.<component>", or "<sensor>".
 std::vector<std::string> columns_of(const Sensor& sensor);
 

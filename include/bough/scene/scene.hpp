@@ -3,6 +3,7 @@
 /// (empty name = absent). Nothing is derived here; `plan` turns a scene into elements.
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,6 +12,7 @@
 #include "bough/laws/law.hpp"
 #include "bough/motion/se3.hpp"
 #include "bough/scene/moving_frame.hpp"
+#include "bough/scene/shape_kinds.hpp"
 
 namespace bough::scene {
 
@@ -43,9 +45,10 @@ struct Material {
 /// Beam section about the reference axis, axes (1 along the beam, 2, 3), order (N, Q2, Q3, T, M2, M3).
 struct Section {
   std::string name;
-  Mat6 stiffness;  ///< [N, N m, N m^2], symmetric positive definite
-  Mat6 mass;       ///< per length [kg/m, kg, kg m], symmetric positive semi-definite
-  Mat6 damping;    ///< of strain rates [N s, N m s, N m^2 s]; zero when absent
+  Mat6 stiffness;                          ///< [N, N m, N m^2], symmetric positive definite
+  Mat6 mass;                               ///< per length [kg/m, kg, kg m], symmetric positive semi-definite
+  Mat6 damping;                            ///< of strain rates [N s, N m s, N m^2 s]; zero when absent
+  std::optional<SectionShape> shape = {};  ///< for pictures: stiffness and mass stand above
 };
 
 struct Node {
@@ -56,11 +59,13 @@ struct Node {
 /// Rigid body or point mass. Its frame is a node of its own name.
 struct Body {
   std::string name;
-  Placement placement;                 ///< of the body's reference frame
-  double mass = 0.0;                   ///< [kg]
-  Mat3 inertia = Mat3::zero();         ///< about the centre of mass, in the body's axes [kg m^2]
-  Vec3 center_of_mass = Vec3::zero();  ///< in the body's frame [m]
-  bool is_point_mass = false;          ///< three unknowns would do; rotation is held where nothing else holds it
+  Placement placement;                     ///< of the body's reference frame
+  double mass = 0.0;                       ///< [kg]
+  Mat3 inertia = Mat3::zero();             ///< about the centre of mass, in the body's axes [kg m^2]
+  Vec3 center_of_mass = Vec3::zero();      ///< in the body's frame [m]
+  bool is_point_mass = false;              ///< three unknowns would do; rotation is held where nothing else holds it
+  std::optional<BodyShape> shape = {};     ///< about the centre of mass, for pictures: the inertia stands above
+  std::shared_ptr<const Mesh> looks = {};  ///< drawn instead of the shape; nothing is computed from it
 };
 
 /// Something fixed to a node, a body, a frame or the ground: the pose `offset` in the frame of `to`; `to` empty = ground. Named "ground" in
@@ -283,10 +288,10 @@ struct Solver {
 };
 
 struct Output {
-  int stride = 1;       ///< history rows: every n-th accepted step
-  bool motion = false;  ///< write motion.pvd and VTU
-  int motion_stride = 1;
-  bool checks = true;  ///< balances and constraint violations, at the times of history rows
+  int stride = 1;         ///< history rows: every n-th accepted step
+  bool motion = false;    ///< write motion.pvd and VTU
+  int motion_stride = 0;  ///< pictures: every n-th step; 0: at most 101, evenly over the run
+  bool checks = true;     ///< balances and constraint violations, at the times of history rows
 };
 
 /// What is taken of a quantity: its value at the end or at a time; the extremes of the whole run and when they are met first; how far they are apart;

@@ -1,63 +1,43 @@
 #pragma once
 /// Sections and bodies from their shapes.
 #include <optional>
-#include <variant>
 
 #include "bough/scene/scene.hpp"
 
 namespace bough::scene {
-
-struct Rectangle {
-  double width = 0.0;   ///< along section axis 2 [m]
-  double height = 0.0;  ///< along section axis 3 [m]
-};
-struct Circle {
-  double radius = 0.0;  ///< [m]
-};
-struct Tube {
-  double outer_radius = 0.0, inner_radius = 0.0;  ///< [m], inner < outer
-};
-using SectionShape = std::variant<Rectangle, Circle, Tube>;
 
 /// Figures of a plane area, axes through its centroid.
 struct AreaFigures {
   double area = 0.0;                                  ///< A [m^2]
   double second_moment_2 = 0.0;                       ///< I2, int x3^2 dA: bending about axis 2 [m^4]
   double second_moment_3 = 0.0;                       ///< I3, int x2^2 dA [m^4]
-  double torsion = 0.0;                               ///< J of Saint-Venant [m^4]
-  double shear_factor_2 = 0.0, shear_factor_3 = 0.0;  ///< Cowper (1966) for Poisson's ratio 0 [-]
+  double product_moment = 0.0;                        ///< I23, int x2 x3 dA [m^4]
+  double torsion = 0.0;                               ///< J of Saint-Venant [m^4]; polygon: 0, not known
+  double shear_factor_2 = 0.0, shear_factor_3 = 0.0;  ///< [-]; polygon: 0, not known
+  double shear_factor_23 = 0.0;                       ///< Q2 = G A (k2 g2 + k23 g3), Q3 = G A (k23 g2 + k3 g3) [-]
+  double shear_center_2 = 0.0, shear_center_3 = 0.0;  ///< from the centroid [m]
 };
+/// Area and second moments are exact. Torsion constants: rectangle, ellipse, circle, tube exact; hollow box by Bredt's
+/// formula for the middle line, 4 A_m^2 t / perimeter; I, C and L profiles  1/3 sum l t^3  over their walls. Shear
+/// factors: rectangle, circle, tube and ellipse Cowper's (1966) for Poisson's ratio 0; profiles from the energy of the
+/// shear flow in their walls, which tells the shear centre, too (profiles.hpp).
 AreaFigures area_figures(const SectionShape& shape);
 
 /// Saint-Venant's torsion constant of an a x b rectangle, a >= b [m^4], by its series to round-off:
 ///   J = a b^3 (1/3 - 64/pi^5 (b/a) sum_{n odd} tanh(n pi a / 2b) / n^5)                 [Timoshenko, Goodier, Theory of elasticity, 109]
 double rectangle_torsion_constant(double a, double b);
 
-/// Stiffness diag(EA, k2 GA, k3 GA, GJ, EI2, EI3), mass per length diag(rho A (3 times), rho (I2 + I3), rho I2, rho I3); no damping.
-Section make_section(const std::string& name, const SectionShape& shape, const Material& material,
-                     std::optional<double> shear_factor_2 = std::nullopt,
-                     std::optional<double> shear_factor_3 = std::nullopt);
+/// Stiffness and mass about the centroid; no damping. With the shear centre at (e2, e3) the strains of shear are those
+/// there, g2 - e3 k1 and g3 + e2 k1:
+///   (Q2; Q3) = G A [k2 k23; k23 k3] (g2 - e3 k1; g3 + e2 k1),  T = G J k1 - e3 Q2 + e2 Q3,  N = E A e1
+///   M2 = E (I2 k2 - I23 k3),  M3 = E (I3 k3 - I23 k2);  mass per length rho A, inertia rho [I2 + I3, 0, 0; 0, I2, -I23; 0, -I23, I3]
+Section make_section(const std::string& name, const SectionShape& shape, const AreaFigures& figures,
+                     const Material& material);
 
 /// Mass matrix per length of a section about its reference axis:
 ///   M = [m I, -m ~c; m ~c, J - m ~c ~c]
 /// m [kg/m]; rotary: J, diagonal, about the centre of mass [kg m]; c: centre of mass in section axes [m].
 Mat6 section_mass_matrix(double mass_per_length, const Vec3& rotary, const Vec3& center);
-
-struct Box {
-  Vec3 size;  ///< edges along axes 1, 2, 3 [m]
-};
-struct Cylinder {
-  double radius = 0.0, length = 0.0;  ///< [m]
-  int axis = 1;                       ///< 1, 2 or 3
-};
-struct Sphere {
-  double radius = 0.0;  ///< [m]
-};
-struct Rod {
-  double length = 0.0;  ///< [m]
-  int axis = 1;
-};
-using BodyShape = std::variant<Box, Cylinder, Sphere, Rod>;
 
 /// Volume [m^3]; a rod has none (0).
 double volume_of(const BodyShape& shape);

@@ -1,0 +1,200 @@
+"""Results of bough as NumPy arrays with names and units, and runs from Python. Needs NumPy alone.
+
+    import bough
+    run = bough.run("four_bar.json", "out", set={"/analysis/end_time": 2, "/output/motion": True})
+    run["tip.x"], run.unit("tip.x"), run.time
+    run.plot("tip")                          # where matplotlib is installed
+    motion = bough.read_motion("out")        # positions of beams and bodies, picture by picture
+
+`run` and `batch` call the program `bough` of the PATH, or that of the environment variable BOUGH.
+"""
+
+import csv
+import json
+import os
+import pathlib
+import subprocess
+
+import numpy
+
+__all__ = ["BoughError", "Motion", "Run", "batch", "read", "read_motion", "run"]
+
+
+class BoughError(RuntimeError):
+    """The program refused its input or failed; the text is what it said. `status` is its exit status."""
+
+    def __init__(self, text, status):
+        super().__init__(text)
+        self.status = status
+
+
+class Run:
+    """One directory of results. run[column] is an array of one value a row; columns are named as in history.csv."""
+
+    def __init__(self, directory):
+        self.directory = pathlib.Path(directory)
+        self.columns, table = _read_table(self.directory / "history.csv")
+        self._index = {name: k for k, name in enumerate(self.columns)}
+        self._table = table
+        self._about = {}
+        about = self.directory / "columns.json"
+        if about.exists():
+            self._about = {c["name"]: c for c in json.loads(about.read_text(encoding="utf-8"))["columns"]}
+        summary = self.directory / "summary.json"
+        self.summary = json.loads(summary.read_text(encoding="utf-8")) if summary.exists() else {}
+
+    @property
+    def time(self):
+        """Times [s] of the rows; in statics load factors."""
+        return self["time"]
+
+    @property
+    def status(self):
+        return self.summary.get("status", "unfinished")
+
+    def __getitem__(self, column):
+        """The column of this name, or all columns of the sensor of this name, one array column each."""
+        if column in self._index:
+            return self._table[:, self._index[column]]
+        of_sensor = self.columns_of(column)
+        if not of_sensor:
+            raise KeyError(f"no column or sensor {column!r}; there are {', '.join(self.columns)}")
+        return self._table[:, [self._index[c] for c in of_sensor]]
+
+    def __contains__(self, column):
+        return column in self._index or bool(self.columns_of(column))
+
+    def __len__(self):
+        return len(self._table)
+
+    def columns_of(self, sensor):
+        return [c for c in self.columns if c.rpartition(".")[0] == sensor]
+
+    def unit(self, column):
+        """Unit of a column, "" for a pure number."""
+        return self._about.get(column, {}).get("unit", "")
+
+    def label(self, column):
+        """Name with its unit, for axes."""
+        unit = self.unit(column)
+        return f"{column} [{unit}]" if unit else column
+
+    def plot(self, *columns, axes=None):
+        """Draws columns, or all of a sensor, over time; returns the axes of matplotlib."""
+        from matplotlib import pyplot
+
+        axes = axes if axes is not None else pyplot.gca()
+        for name in columns:
+            for column in [name] if name in self._index else self.columns_of(name):
+                axes.plot(self.time, self[column], label=self.label(column))
+        axes.set_xlabel(self.label("time"))
+        axes.legend()
+        return axes
+
+
+class Motion:
+    """Pictures of a run.
+
+    times: (n,); curves: {name: (n, points, 3)} places along beams [m], bodies: {name: (n, 3)} centres of mass [m];
+    forces, strains: {name: (n, points, 6)} along beams, (N, Q2, Q3, T, M2, M3) and (e1, g2, g3, k1, k2, k3);
+    velocities: {name: (n, points, 3) or (n, 3)}; rotations: the same of rotation vectors from the start, in space;
+    links: {name: (n, 2, 3)} both sides of joints and springs.
+    """
+
+    def __init__(self, path):
+        raw = pathlib.Path(path).read_bytes()
+        end = raw.find(b"\n") + 1
+        header = json.loads(raw[:end])
+        if header.get("format") != "bough motion 2":
+            raise BoughError(f"{path}: not a file of the format 'bough motion 2'", None)
+        start, at = {}, end
+        shapes = [("curves", c["name"], c["points"] * 12) for c in header["curves"]]
+        shapes += [("bodies", b["name"], 15 + 3 * b["attachments"]) for b in header["bodies"]]
+        shapes += [("links", link["name"], 15) for link in header["links"]]
+        shapes += [("frames", name, 12) for name in header["frames"]]
+        shapes += [("arrows", name, 3) for name in header["arrows"]]
+        for kind, name, count in shapes:
+            start[kind, name] = numpy.frombuffer(raw, "<f8", count, at)
+            at += 8 * count
+        size = header["frame_bytes"]
+        count = (len(raw) - at) // size  # of a run that was killed: those that are whole
+        frames = numpy.frombuffer(raw, numpy.uint8, count * size, at).reshape(count, size)
+        self.times = frames[:, :8].copy().view("<f8")[:, 0]
+        values = frames[:, 8:].copy().view("<f4").astype(float)
+        self.curves, self.bodies, self.links = {}, {}, {}
+        self.forces, self.strains, self.velocities, self.rotations = {}, {}, {}, {}
+        at = 0
+        for curve in header["curves"]:
+            name, points = curve["name"], curve["points"]
+            block = values[:, at:at + 21 * points].reshape(count, points, 21)
+            at += 21 * points
+            self.curves[name] = block[:, :, 0:3] + start["curves", name].reshape(points, 12)[:, :3]
+            self.rotations[name], self.velocities[name] = block[:, :, 3:6], block[:, :, 6:9]
+            self.forces[name], self.strains[name] = block[:, :, 9:15], block[:, :, 15:21]
+        for body in header["bodies"]:
+            name, block = body["name"], values[:, at:at + 9]
+            at += 9
+            self.bodies[name] = block[:, 0:3] + start["bodies", name][:3]
+            self.rotations[name], self.velocities[name] = block[:, 3:6], block[:, 6:9]
+        for link in header["links"]:
+            block = values[:, at:at + 9]
+            at += 9
+            self.links[link["name"]] = block[:, :6].reshape(count, 2, 3) + start["links", link["name"]][:6].reshape(2, 3)
+
+
+def read(directory):
+    """The results of a run."""
+    return Run(directory)
+
+
+def read_motion(directory):
+    """The pictures of a run with "output": {"motion": true}."""
+    return Motion(pathlib.Path(directory) / "motion.bin")
+
+
+def run(scene, out, set=None, threads=None, check=True):  # noqa: A002  named as the option of the program
+    """Runs a scene into the directory `out` and reads it. `set`: {"/pointer": value}. A run that fails is a BoughError
+    unless check is False; input that is refused always is."""
+    words = ["run", os.fspath(scene), "--out", os.fspath(out), "--quiet"]
+    status, text = _call(words + _settings(set) + ([] if threads is None else ["--threads", str(threads)]))
+    if status == 2 or (check and status != 0):
+        raise BoughError(text.strip(), status)
+    return Run(out if status == 0 or not pathlib.Path(f"{out}.failed").exists() else f"{out}.failed")
+
+
+def batch(folder, out, set=None, threads=None):  # noqa: A002
+    """Runs all scenes of a folder; returns the rows of batch.csv as a list of dictionaries, numbers as floats."""
+    words = ["batch", os.fspath(folder), "--out", os.fspath(out), "--quiet"]
+    status, text = _call(words + _settings(set) + ([] if threads is None else ["--threads", str(threads)]))
+    if status not in (0, 1):
+        raise BoughError(text.strip(), status)
+    with open(pathlib.Path(out) / "batch.csv", encoding="utf-8", newline="") as file:
+        return [{key: _number(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def _settings(values):
+    words = []
+    for pointer, value in (values or {}).items():
+        words += ["--set", f"{pointer}={json.dumps(value)}"]
+    return words
+
+
+def _call(words):
+    done = subprocess.run([os.environ.get("BOUGH", "bough"), *words], capture_output=True, text=True, check=False)
+    return done.returncode, done.stderr + done.stdout
+
+
+def _number(text):
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        return text
+
+
+def _read_table(path):
+    """Names of the columns, and all rows. Rows that a crash cut off are left out."""
+    with open(path, encoding="utf-8", newline="") as file:
+        names = next(csv.reader(file))
+        rows = [row.split(",") for row in file.read().split("\n")]
+    whole = [row for row in rows if len(row) == len(names)]
+    return names, numpy.array(whole, dtype=float).reshape(len(whole), len(names))

@@ -1,0 +1,52 @@
+#pragma once
+/// Outlines of cross-sections and surfaces of bodies, as polygons and triangles, and the figures of polygons.
+#include <string>
+
+#include "bough/scene/shape_kinds.hpp"
+
+namespace bough::scene {
+
+/// Round parts are polygons of so many sides and of the same area, so that areas and volumes of pictures are those of the
+/// scene. The centroid stands in the origin.
+Outline outline_of(const SectionShape& shape, int sides = 24);
+
+/// Of a section that has no shape the rectangle with its radii of gyration:  width^2 = 12 EI3/EA, height^2 = 12 EI2/EA.
+Rectangle equivalent_rectangle(const motion::Mat6<double>& stiffness);
+
+/// Moments of a plane area, exactly, by sums over the edges of its polygons, axes of the coordinates:
+///   A = 1/2 sum w,  S2 = int x2 dA = 1/6 sum (a2 + b2) w,  int x2^2 dA = 1/12 sum (a2^2 + a2 b2 + b2^2) w,
+///   int x2 x3 dA = 1/24 sum (a2 b3 + 2 a2 a3 + 2 b2 b3 + b2 a3) w,  w = a2 b3 - b2 a3 of an edge from a to b
+struct PolygonMoments {
+  double area = 0.0;                      ///< [m^2]
+  double first_2 = 0.0, first_3 = 0.0;    ///< int x2 dA, int x3 dA [m^3]
+  double square_2 = 0.0, square_3 = 0.0;  ///< int x2^2 dA, int x3^2 dA [m^4]
+  double product = 0.0;                   ///< int x2 x3 dA [m^4]
+};
+PolygonMoments moments_of(const Outline& outline);
+
+/// The same outline with its centroid in the origin.
+Outline centered(Outline outline);
+
+/// What is wrong with an outline, in words: fewer than three corners, corners that are not finite or repeat, an outer
+/// loop that is not counter-clockwise, a hole that is not clockwise, edges that cross; empty: nothing. Takes the square
+/// of the number of corners: with more than 500 it is refused.
+std::string problem_in(const Outline& outline);
+
+/// Triangles that fill an outline, holes left out, on its own corners (all loops one after the other); by cutting ears.
+struct Triangulation {
+  std::vector<std::array<double, 2>> points;
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise
+};
+Triangulation triangles_of(const Outline& outline);
+
+/// Surface of a shape; of a rod, which has no thickness, a bar of a fiftieth of its length. Round parts have 24 sides
+/// and the volume of the shape.
+Mesh mesh_of(const BodyShape& shape);
+
+/// Height of the centre of mass of a cone above the middle of its large end [m].
+double center_height(const Cone& cone);
+
+/// Enclosed volume [m^3]:  1/6 sum a . (b x c)  over the triangles.
+double volume_of(const Mesh& mesh);
+
+}  // namespace bough::scene

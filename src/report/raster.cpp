@@ -1,0 +1,394 @@
+#include "bough/report/raster.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "bough/motion/so3.hpp"
+#include "bough/scene/outlines.hpp"
+#include "packed.hpp"
+
+namespace bough::report {
+namespace {
+
+using Vec3 = motion::Vec3<double>;
+using Mat3 = motion::Mat3<double>;
+using Color = std::array<double, 3>;  ///< 0 to 1
+
+constexpr int samples = 2;  ///< per pixel and direction: edges are smoothed by averaging
+
+Vec3 vec(const double* x) {
+  Vec3 v;
+  std::copy_n(x, 3, v.v);
+  return v;
+}
+Mat3 mat(const double* axes) {
+  Mat3 R;
+  std::copy_n(axes, 9, R.m);
+  return R;
+}
+
+/// Pixels with the depth of what was drawn last.
+class Canvas {
+ public:
+  Canvas(int width, int height)
+      : width_(samples * width),
+        height_(samples * height),
+        colors_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), paper),
+        depths_(colors_.size(), -HUGE_VAL) {}
+
+  struct Corner {
+    double x, y, depth;  ///< [samples]; larger depths are nearer
+  };
+
+  void triangle(const Corner& a, const Corner& b, const Corner& c, const Color& color) {
+    const double twice = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    if (!(std::abs(twice) > 1e-12)) return;
+    const auto span = [](double low, double high, int size) {
+      return std::pair{static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(size))),
+                       static_cast<int>(std::clamp(std::ceil(high) + 1.0, 0.0, static_cast<double>(size)))};
+    };
+    const auto [x0, x1] = span(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), width_);
+    const auto [y0, y1] = span(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), height_);
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) {
+        const double px = x + 0.5, py = y + 0.5;
+        const double u = ((b.x - px) * (c.y - py) - (b.y - py) * (c.x - px)) / twice;
+        const double v = ((c.x - px) * (a.y - py) - (c.y - py) * (a.x - px)) / twice;
+        const double w = 1.0 - u - v;
+        if (u < 0.0 || v < 0.0 || w < 0.0) continue;
+        put(x, y, u * a.depth + v * b.depth + w * c.depth, color);
+      }
+  }
+
+  /// A line of a width in samples, a little nearer than what it lies on.
+  void line(const Corner& a, const Corner& b, double width, const Color& color, double nearer) {
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!std::isfinite(length)) return;
+    const int steps = static_cast<int>(std::min(length * 2.0, 20000.0)) + 1;
+    const int r = static_cast<int>(std::ceil(0.5 * width));
+    for (int k = 0; k <= steps; ++k) {
+      const double s = static_cast<double>(k) / steps, x = a.x + s * (b.x - a.x), y = a.y + s * (b.y - a.y);
+      if (!(x > -r && x < width_ + r && y > -r && y < height_ + r)) continue;
+      const int cx = static_cast<int>(std::floor(x)), cy = static_cast<int>(std::floor(y));
+      for (int dy = -r; dy <= r; ++dy)
+        for (int dx = -r; dx <= r; ++dx) {
+          if (std::hypot(cx + dx + 0.5 - x, cy + dy + 0.5 - y) > 0.5 * width) continue;
+          if (cx + dx < 0 || cx + dx >= width_ || cy + dy < 0 || cy + dy >= height_) continue;
+          put(cx + dx, cy + dy, a.depth + s * (b.depth - a.depth) + nearer, color);
+        }
+    }
+  }
+
+  std::string png() const {
+    const int w = width_ / samples, h = height_ / samples;
+    std::string rows;
+    rows.reserve(static_cast<std::size_t>(h) * static_cast<std::size_t>(3 * w + 1));
+    for (int y = 0; y < h; ++y) {
+      rows += '\0';  // no filter
+      for (int x = 0; x < w; ++x)
+        for (std::size_t c = 0; c < 3; ++c) {
+          double sum = 0.0;
+          for (int j = 0; j < samples; ++j)
+            for (int i = 0; i < samples; ++i) sum += colors_[at(samples * x + i, samples * y + j)][c];
+          rows += static_cast<char>(static_cast<unsigned char>(std::lround(255.0 * sum / (samples * samples))));
+        }
+    }
+    std::string head;
+    big_endian(head, static_cast<std::uint32_t>(w));
+    big_endian(head, static_cast<std::uint32_t>(h));
+    head += {'\x08', '\x02', '\0', '\0', '\0'};  // eight bits, red green blue
+    return std::string("\x89PNG\r\n\x1a\n", 8) + chunk("IHDR", head) + chunk("IDAT", deflated(rows)) +
+           chunk("IEND", "");
+  }
+
+ private:
+  static constexpr Color paper = {0.988, 0.988, 0.984};
+
+  static void big_endian(std::string& bytes, std::uint32_t v) {
+    for (int b = 3; b >= 0; --b) bytes += static_cast<char>(v >> (8 * b) & 255u);
+  }
+  static std::string chunk(const std::string& kind, const std::string& data) {
+    std::string bytes;
+    big_endian(bytes, static_cast<std::uint32_t>(data.size()));
+    const std::string body = kind + data;
+    bytes += body;
+    big_endian(bytes, static_cast<std::uint32_t>(
+                          crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()))));
+    return bytes;
+  }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+  void put(int x, int y, double depth, const Color& color) {
+    const std::size_t k = at(x, y);
+    if (!(depth > depths_[k])) return;
+    depths_[k] = depth;
+    colors_[k] = color;
+  }
+
+  int width_, height_;
+  std::vector<Color> colors_;
+  std::vector<double> depths_;
+};
+
+/// From space to the canvas.
+class Camera {
+ public:
+  Camera(const RunFiles& run, const RasterOptions& options) {
+    projection_ = projection_of(resolve_view(options.view, box_of(run.motion)));
+    for (int k = 0; k < 3; ++k) toward_[k] = cross_of(k);
+    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+    for_each_place(run, [&](const double* x, double radius) {
+      const Point2 p = projection_(x);
+      if (!std::isfinite(p.u) || !std::isfinite(p.v)) return;
+      low[0] = std::min(low[0], p.u - radius);
+      high[0] = std::max(high[0], p.u + radius);
+      low[1] = std::min(low[1], p.v - radius);
+      high[1] = std::max(high[1], p.v + radius);
+    });
+    if (low[0] > high[0]) low[0] = high[0] = low[1] = high[1] = 0.0;
+    const double width = samples * options.width, height = samples * options.height;
+    extent_ = std::max({high[0] - low[0], high[1] - low[1], 1e-9 * (std::abs(high[0]) + std::abs(high[1])), 1e-12});
+    scale_ = 0.86 * std::min(width / std::max(high[0] - low[0], 1e-3 * extent_),
+                             height / std::max(high[1] - low[1], 1e-3 * extent_));
+    x0_ = 0.5 * width - scale_ * 0.5 * (low[0] + high[0]);
+    y0_ = 0.5 * height + scale_ * 0.5 * (low[1] + high[1]);
+  }
+  Canvas::Corner operator()(const Vec3& x) const {
+    const Point2 p = projection_(x.v);
+    return {x0_ + scale_ * p.u, y0_ - scale_ * p.v, dot(toward_, x)};
+  }
+  double extent() const { return extent_; }
+  /// How bright a surface with this normal is, 0 to 1: a lamp beside the viewer, both sides alike.
+  double light(const Vec3& n) const {
+    const double size = std::sqrt(dot(n, n));
+    if (!(size > 0.0)) return 1.0;
+    const Vec3 lamp = toward_ + 0.35 * vec(projection_.up.data()) + (-0.25) * vec(projection_.right.data());
+    return 0.45 + 0.55 * std::abs(dot(n, lamp)) / (size * std::sqrt(dot(lamp, lamp)));
+  }
+
+ private:
+  /// Everything that is drawn, with a radius around it.
+  template <class Visit>
+  static void for_each_place(const RunFiles& run, const Visit& visit) {
+    std::vector<double> of_outline, of_mesh;
+    for (const scene::Outline& o : run.parts.outlines) {
+      double r = 0.0;
+      for (const auto& loop : o.loops)
+        for (const auto& p : loop) r = std::max(r, std::hypot(p[0], p[1]));
+      of_outline.push_back(r);
+    }
+    for (const scene::Mesh& m : run.parts.meshes) {
+      double r = 0.0;
+      for (const auto& p : m.points) r = std::max(r, std::hypot(p[0], p[1], p[2]));
+      of_mesh.push_back(r);
+    }
+    const auto radius = [](const std::vector<double>& list, int k) {
+      return k < 0 ? 0.0 : list[static_cast<std::size_t>(k)];
+    };
+    for (const results::MotionFrame& f : run.motion) {
+      for (std::size_t c = 0; c < f.curves.size(); ++c)
+        for (const results::CurvePoint& p : f.curves[c].points)
+          visit(p.position, radius(of_outline, c < run.parts.curves.size() ? run.parts.curves[c].outline : -1));
+      for (std::size_t k = 0; k < f.bodies.size(); ++k) {
+        visit(f.bodies[k].center, radius(of_mesh, k < run.parts.bodies.size() ? run.parts.bodies[k] : -1));
+        for (const auto& a : f.bodies[k].attachments) visit(a.data(), 0.0);
+      }
+      for (const results::Link& l : f.links) {
+        visit(l.first, 0.0);
+        visit(l.second, 0.0);
+      }
+    }
+  }
+  double cross_of(int k) const {
+    const auto &r = projection_.right, &u = projection_.up;
+    const auto a = static_cast<std::size_t>((k + 1) % 3), b = static_cast<std::size_t>((k + 2) % 3);
+    return r[a] * u[b] - r[b] * u[a];
+  }
+
+  Projection projection_;
+  Vec3 toward_ = Vec3::zero();  ///< the viewer
+  double extent_ = 1.0, scale_ = 1.0, x0_ = 0.0, y0_ = 0.0;
+};
+
+constexpr Color beam_color = {0.165, 0.471, 0.839}, body_color = {0.45, 0.55, 0.66}, joint_color = {0.3, 0.3, 0.28},
+                spring_color = {0.1, 0.55, 0.38}, load_color = {0.8, 0.18, 0.18};
+
+Color shaded(const Color& color, double light) { return {color[0] * light, color[1] * light, color[2] * light}; }
+
+class Painter {
+ public:
+  Painter(const RunFiles& run, const RasterOptions& options)
+      : run_(run), camera_(run, options), canvas_(options.width, options.height) {}
+
+  std::string paint(const results::MotionFrame& f) {
+    for (std::size_t k = 0; k < f.curves.size(); ++k) beam(f.curves[k], k);
+    for (std::size_t k = 0; k < f.bodies.size(); ++k) body(f.bodies[k], k);
+    for (std::size_t k = 0; k < f.links.size(); ++k) link(f.links[k], k);
+    arrows(f);
+    return canvas_.png();
+  }
+
+ private:
+  void face(const Vec3& a, const Vec3& b, const Vec3& c, const Color& color) {
+    const Vec3 n = lanes::cross(b - a, c - a);
+    canvas_.triangle(camera_(a), camera_(b), camera_(c), shaded(color, camera_.light(n)));
+  }
+  void stroke(const Vec3& a, const Vec3& b, double pixels, const Color& color) {
+    canvas_.line(camera_(a), camera_(b), pixels * samples, color, 2e-3 * camera_.extent());
+  }
+
+  void beam(const results::Curve& curve, std::size_t index) {
+    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k)
+      canvas_.line(camera_(vec(curve.points[k].position)), camera_(vec(curve.points[k + 1].position)), 1.6 * samples,
+                   beam_color, 0.0);
+    const int outline = index < run_.parts.curves.size() ? run_.parts.curves[index].outline : -1;
+    if (outline < 0 || curve.points.size() < 2) return;
+    const scene::Outline& section = run_.parts.outlines[static_cast<std::size_t>(outline)];
+    const auto placed = [&](const results::CurvePoint& p, const std::array<double, 2>& corner) {
+      Vec3 x = vec(p.position);
+      for (int r = 0; r < 3; ++r) x[r] += p.axes[3 * r + 1] * corner[0] + p.axes[3 * r + 2] * corner[1];
+      return x;
+    };
+    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k)
+      for (const auto& loop : section.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+          const auto &p = loop[i], &q = loop[(i + 1) % loop.size()];
+          const Vec3 a = placed(curve.points[k], p), b = placed(curve.points[k], q), c = placed(curve.points[k + 1], q),
+                     d = placed(curve.points[k + 1], p);
+          face(a, b, c, beam_color);
+          face(a, c, d, beam_color);
+        }
+    const scene::Triangulation cap = scene::triangles_of(section);
+    for (const results::CurvePoint* end : {&curve.points.front(), &curve.points.back()})
+      for (const auto& t : cap.triangles)
+        face(placed(*end, cap.points[static_cast<std::size_t>(t[0])]),
+             placed(*end, cap.points[static_cast<std::size_t>(t[1])]),
+             placed(*end, cap.points[static_cast<std::size_t>(t[2])]), beam_color);
+  }
+
+  void body(const results::BodyPose& b, std::size_t index) {
+    const Vec3 center = vec(b.center);
+    const int index_of_mesh = index < run_.parts.bodies.size() ? run_.parts.bodies[index] : -1;
+    for (const auto& a : b.attachments) stroke(center, vec(a.data()), 2.0, body_color);
+    if (index_of_mesh < 0) return square(center, 0.012, body_color);
+    const scene::Mesh& mesh = run_.parts.meshes[static_cast<std::size_t>(index_of_mesh)];
+    const Mat3 R = mat(b.axes);
+    std::vector<Vec3> x;
+    for (const auto& p : mesh.points) x.push_back(center + R * vec(p.data()));
+    for (const auto& t : mesh.triangles)
+      face(x[static_cast<std::size_t>(t[0])], x[static_cast<std::size_t>(t[1])], x[static_cast<std::size_t>(t[2])],
+           body_color);
+  }
+
+  void square(const Vec3& x, double size, const Color& color) {
+    const Canvas::Corner c = camera_(x);
+    canvas_.line(c, c, std::max(3.0, size * 500.0) * samples, color, 2e-2 * camera_.extent());
+  }
+
+  void link(const results::Link& l, std::size_t index) {
+    const std::string kind = index < run_.parts.links.size() ? run_.parts.links[index].kind : std::string();
+    const Vec3 a = vec(l.first), b = vec(l.second);
+    if (kind != "spring") {
+      square(a, 0.01, joint_color);
+      return stroke(a, b, 1.0, joint_color);
+    }
+    // A coil of eight turns between two straight ends.
+    const Vec3 along = b - a;
+    const double length = std::sqrt(dot(along, along));
+    Vec3 other = Vec3::zero();
+    other[std::abs(along[2]) < 0.9 * length ? 2 : 0] = 1.0;
+    Vec3 side = lanes::cross(other, along);
+    const double size = std::sqrt(dot(side, side));
+    if (!(size > 0.0)) return;
+    side = (std::min(0.012 * camera_.extent(), 0.2 * length) / size) * side;
+    const Vec3 third = (1.0 / length) * lanes::cross(side, along);
+    constexpr int parts = 128;
+    Vec3 before = a;
+    for (int k = 1; k <= parts; ++k) {
+      const double s = static_cast<double>(k) / parts, angle = 16.0 * 3.14159265358979 * s;
+      Vec3 x = a + s * along;
+      if (s > 0.1 && s < 0.9) x = x + std::cos(angle) * side + std::sin(angle) * third;
+      stroke(before, x, 1.2, spring_color);
+      before = x;
+    }
+  }
+
+  void arrows(const results::MotionFrame& f) {
+    double most = 0.0;
+    for (const results::MotionFrame& g : run_.motion)
+      for (const results::Arrow& a : g.arrows) most = std::max(most, std::sqrt(dot(vec(a.force), vec(a.force))));
+    if (!(most > 0.0)) return;
+    for (const results::Arrow& a : f.arrows) {
+      const Vec3 v = (0.16 * camera_.extent() / most) * vec(a.force), tip = vec(a.position);
+      stroke(tip - v, tip, 2.0, load_color);
+      Vec3 other = Vec3::zero();
+      other[std::abs(v[2]) < 0.9 * std::sqrt(dot(v, v)) ? 2 : 0] = 1.0;
+      Vec3 side = lanes::cross(other, v);
+      const double size = std::sqrt(dot(side, side));
+      if (!(size > 0.0)) continue;
+      side = (0.08 * std::sqrt(dot(v, v)) / size) * side;
+      stroke(tip, tip - 0.22 * v + side, 2.0, load_color);
+      stroke(tip, tip - 0.22 * v - side, 2.0, load_color);
+    }
+  }
+
+  const RunFiles& run_;
+  Camera camera_;
+  Canvas canvas_;
+};
+
+void mix(double* x, const double* y, double f, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) x[k] += f * (y[k] - x[k]);
+}
+/// Along the shortest rotation from one to the other.
+void turn(double* axes, const double* next, double f) {
+  const Mat3 R = mat(axes);
+  const Vec3 r = motion::log_so3(lanes::transpose(R) * mat(next));
+  const Mat3 between = R * motion::exp_so3(f * r);
+  std::copy_n(between.m, 9, axes);
+}
+
+results::MotionFrame frame_at(const std::vector<results::MotionFrame>& frames, double time) {
+  const auto after =
+      std::find_if(frames.begin(), frames.end(), [&](const results::MotionFrame& f) { return f.time >= time; });
+  if (after == frames.begin()) return frames.front();
+  if (after == frames.end()) return frames.back();
+  results::MotionFrame f = *(after - 1);
+  const results::MotionFrame& g = *after;
+  const double s = (time - f.time) / (g.time - f.time);
+  f.time = time;
+  for (std::size_t c = 0; c < f.curves.size(); ++c)
+    for (std::size_t k = 0; k < f.curves[c].points.size(); ++k) {
+      mix(f.curves[c].points[k].position, g.curves[c].points[k].position, s, 3);
+      turn(f.curves[c].points[k].axes, g.curves[c].points[k].axes, s);
+    }
+  for (std::size_t k = 0; k < f.bodies.size(); ++k) {
+    mix(f.bodies[k].center, g.bodies[k].center, s, 3);
+    turn(f.bodies[k].axes, g.bodies[k].axes, s);
+    for (std::size_t a = 0; a < f.bodies[k].attachments.size(); ++a)
+      mix(f.bodies[k].attachments[a].data(), g.bodies[k].attachments[a].data(), s, 3);
+  }
+  for (std::size_t k = 0; k < f.links.size(); ++k) {
+    mix(f.links[k].first, g.links[k].first, s, 3);
+    mix(f.links[k].second, g.links[k].second, s, 3);
+  }
+  for (std::size_t k = 0; k < f.arrows.size(); ++k) {
+    mix(f.arrows[k].position, g.arrows[k].position, s, 3);
+    mix(f.arrows[k].force, g.arrows[k].force, s, 3);
+  }
+  return f;
+}
+
+}  // namespace
+
+std::string picture_png(const RunFiles& run, double time, const RasterOptions& options) {
+  return Painter(run, options).paint(frame_at(run.motion, time));
+}
+
+}  // namespace bough::report

@@ -1,0 +1,76 @@
+#include "view_plots.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bough/io/columns.hpp"
+#include "bough/io/json_text.hpp"
+
+namespace bough::report {
+namespace {
+
+constexpr std::size_t most_groups = 1500, most_plots = 64;
+
+/// Rows that are kept, in order; the first and the last among them.
+std::vector<std::size_t> rows_of(const io::History& history, const std::vector<std::size_t>& columns) {
+  const std::size_t n = history.rows.size();
+  std::vector<std::size_t> rows;
+  if (n <= 2 * most_groups) {
+    for (std::size_t k = 0; k < n; ++k) rows.push_back(k);
+    return rows;
+  }
+  for (std::size_t g = 0; g < most_groups; ++g) {
+    const std::size_t begin = g * n / most_groups, end = (g + 1) * n / most_groups;
+    rows.push_back(begin);
+    for (const std::size_t c : columns) {
+      std::size_t low = begin, high = begin;
+      for (std::size_t k = begin; k < end; ++k) {
+        const double v = history.rows[k].values[c];
+        if (v < history.rows[low].values[c]) low = k;
+        if (v > history.rows[high].values[c]) high = k;
+      }
+      rows.push_back(low);
+      rows.push_back(high);
+    }
+  }
+  rows.push_back(n - 1);
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+}  // namespace
+
+std::string plot_data(const io::History& history, Arrays& arrays) {
+  std::string json = "[";
+  if (history.rows.empty()) return json + "]";
+  const std::vector<io::ColumnGroup> groups = io::group_columns(history.header.columns);
+  for (std::size_t g = 0; g < std::min(groups.size(), most_plots); ++g) {
+    const io::ColumnGroup& group = groups[g];
+    const std::vector<std::size_t> rows = rows_of(history, group.columns);
+    const std::string prefix = "p" + std::to_string(g);
+    std::vector<double> times;
+    for (const std::size_t r : rows) times.push_back(history.rows[r].time);
+    arrays.add(prefix, "f64", times);
+    const results::HistoryHeader::About about = group.columns.front() < history.header.about.size()
+                                                    ? history.header.about[group.columns.front()]
+                                                    : results::HistoryHeader::About{};
+    json += (g > 0 ? ",{" : "{") + ("\"title\":" + io::json_string(io::title_of(group))) +
+            ",\"unit\":" + io::json_string(about.unit) + ",\"part\":" + io::json_string(about.part) + ",\"times\":\"" +
+            prefix + "\",\"columns\":[";
+    for (std::size_t k = 0; k < group.columns.size(); ++k) {
+      const std::size_t c = group.columns[k];
+      std::vector<float> values;
+      for (const std::size_t r : rows) values.push_back(static_cast<float>(history.rows[r].values[c]));
+      const std::string name = prefix + "." + std::to_string(k);
+      arrays.add(name, "f32", values);
+      json += (k > 0 ? ",{" : "{") +
+              ("\"label\":" + io::json_string(io::split_column(history.header.columns[c]).component)) +
+              ",\"values\":\"" + name + "\"}";
+    }
+    json += "]}";
+  }
+  return json + "]";
+}
+
+}  // namespace bough::report

@@ -1,0 +1,14 @@
+#pragma once
+/// Histories of a run for the script of a view.
+#include <string>
+
+#include "bough/io/history.hpp"
+#include "packed.hpp"
+
+namespace bough::report {
+
+/// One entry a plot (view_data.hpp), its numbers added to the arrays: at most 1500 groups of rows of equal length in
+/// time, of each those rows that hold the smallest and the largest value of a column, so that no peak is lost.
+std::string plot_data(const io::History& history, Arrays& arrays);
+
+}  // namespace bough::report
