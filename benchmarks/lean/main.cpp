@@ -155,7 +155,6 @@ void run_case(benchmark::State& state, const LeanCase& c, bool barred, bool chec
   results::Summary end;
   double first_factor = 0.0;
   long first_factorizations = 0;
-  options.reads_state = false;
   options.before_step = [&](step::System& system, const step::State&, const study::BeforeStep& attempt) {
     if (attempt.number == 2) {
       first_factor = system.counts().factor;

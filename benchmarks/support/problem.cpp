@@ -29,16 +29,16 @@ class Random {
 
 step::State make_lively_state(const plan::Plan& plan, Random& random) {
   step::State state = step::make_initial_state(plan);
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
     motion::Vec6<double> eta, twist, rate;
     for (int i = 0; i < 6; ++i) {
       eta[i] = (i < 3 ? 1e-4 : 1e-3) * random();  // [m], [rad]
       twist[i] = random();                        // [m/s], [rad/s]
       rate[i] = 10.0 * random();
     }
-    step::move_node(state, n, eta);
-    state.nodes[n].v = twist;
-    state.nodes[n].a = rate;
+    step::move_node(plan, state, n, eta);
+    step::set_velocity(plan, state, n, twist);
+    step::set_acceleration(plan, state, n, rate);
   }
   for (double& m : state.multipliers) m = 100.0 * random();
   return state;
@@ -50,7 +50,7 @@ elements::Field make_field(const plan::Plan& plan, const step::State& state, std
   constexpr double h = 1e-3;
   const step::AlphaCoefficients c = step::make_alpha_coefficients(0.8);
   elements::Field f;
-  f.nodes = state.nodes.data();
+  f.nodes = step::nodes_in_space(plan, state).data();
   f.slopes = {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false};
   f.around.gravity = plan.gravity;
   f.around.laws = laws.data();

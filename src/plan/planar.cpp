@@ -1,4 +1,5 @@
 /// Elements of a scene that moves in a plane, from those in space: constants as seen along the plane.
+#include <algorithm>
 #include <cmath>
 
 #include "plan_builder.hpp"
@@ -102,6 +103,29 @@ class Flattener {
     return r;
   }
 
+  PlanarNode node(std::size_t n) const {
+    const motion::Frame<double>& pose = b_.plan.nodes[n].pose;
+    const NodeUnknowns& u = b_.plan.unknowns;
+    PlanarNode r;
+    r.basis = u.basis.empty() ? Mat3<double>::identity() : u.basis[n];
+    r.rotation = motion::normalise(motion::quaternion_of(pose.R));
+    r.place = motion::PositionPair<double>::from(pose.x);
+    const Vec3<double> first = motion::rotation_of(r.rotation) * lanes::column(r.basis, 0);
+    Vec3<double> hi, lo;
+    for (int i = 0; i < 3; ++i) motion::two_sum(pose.x[i], -model_.origin[i], hi[i], lo[i]);
+    for (int i = 0; i < 2; ++i) {
+      const Vec3<double> along = lanes::column(model_.axes, i);
+      r.turn[i] = lanes::dot(along, first);
+      r.x.hi[i] = lanes::dot(along, hi);
+      r.x.lo[i] = lanes::dot(along, lo);
+    }
+    return r;
+  }
+  double turn_sign(const elements::Joint& e) const {
+    const double along = lanes::column(axes_at(e.ports[0]), 2)[2];
+    return std::abs(along) > 0.5 ? std::copysign(1.0, along) : 0.0;
+  }
+
  private:
   /// Axes of the plane in those of a port's frame, the first two turned to it.
   Mat3<double> axes_at(const elements::Port& p) const {
@@ -152,6 +176,18 @@ class Flattener {
   const PlanarModel& model_;
 };
 
+/// Of the rows that are kept in the plane. A row for which half a turn off would be another pose of the joint that is meant,
+/// such as of one axis alone, has no branch that could be left.
+bool has_branch(const elements::Joint& e, const std::vector<int>& rows) {
+  const auto is_kept = [&rows](int row) { return std::find(rows.begin(), rows.end(), row) != rows.end(); };
+  for (int k = 0; k < e.num_rows; ++k) {
+    if (e.rows[k].kind != RowKind::across) continue;
+    if (elements::aligns_all_axes(e, k)) return is_kept(k) || is_kept(k + 1) || is_kept(k + 2);
+    if (e.rows[k].j == 2 && is_kept(k)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void Builder::add_planar_elements(const Mat3<double>& axes) {
@@ -173,6 +209,13 @@ void Builder::add_planar_elements(const Mat3<double>& axes) {
     (one(std::get<I>(plan.elements), std::get<I>(model.elements)), ...);
   };
   fill(std::make_index_sequence<std::tuple_size_v<ElementArrays>>{});
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n) model.nodes.push_back(flatten.node(n));
+  for (const JointPlan& j : plan.joints) {
+    const auto& e = array_of<elements::Joint>(
+        plan.elements)[static_cast<std::size_t>(plan.directory[static_cast<std::size_t>(j.element)].index)];
+    model.turn_sign.push_back(flatten.turn_sign(e));
+    model.has_branch.push_back(has_branch(e, j.rows));
+  }
 }
 
 }  // namespace bough::plan

@@ -116,12 +116,16 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
       if constexpr (elements::joins_two_frames(E::role))
         for (const elements::Port& p : e.ports)
           if (is_moved(plan, p)) ports_.emplace_back();
+      for (const elements::Port& p : e.ports)
+        if (p.node != elements::ground) nodes_.push_back(p.node);
     });
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
 
 double WorkMeter::step(const step::System& system, const step::State& state) {
   const plan::Plan& plan = system.plan();
-  const Field f = system.field_of_watched(state);
+  const Field f = system.field_of(state, nodes_, scratch_);
   double work = 0.0, free_mass = mass_;
   dissipation_rate_ = 0.0;
   force_ = Vec3<double>::zero();
@@ -164,16 +168,6 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
   force_ += free_mass * f.around.gravity;
   if (f.observer != nullptr) force_ = f.observer->pose.R * force_;  // elements tell forces in the ground's axes
   return work;
-}
-
-std::vector<int> WorkMeter::nodes(const plan::Plan& plan) const {
-  std::vector<int> nodes;
-  for (const Watched& w : watched_)
-    plan::with_element(plan.elements, plan.directory[w.element], [&](const auto& e) {
-      for (const elements::Port& p : e.ports)
-        if (p.node != elements::ground) nodes.push_back(p.node);
-    });
-  return nodes;
 }
 
 void WorkMeter::begin(const step::System& system, const step::State& state) { (void)step(system, state); }

@@ -354,7 +354,7 @@ Curve make_curve(const plan::BeamPlan& beam, const step::System& system, const F
   return curve;
 }
 
-BodyPose make_body_pose(const plan::BodyPlan& body, const Field& f, const step::State& state) {
+BodyPose make_body_pose(const plan::BodyPlan& body, const Field& f) {
   const PointMotion p = motion_of_port(body.frame, f);
   BodyPose pose{};
   pose.name = body.name;
@@ -363,7 +363,7 @@ BodyPose make_body_pose(const plan::BodyPlan& body, const Field& f, const step::
   copy(motion::transform(p.pose, body.center), pose.center);
   copy(p.pose.R * (lanes::linear_part(p.v) + lanes::cross(lanes::angular_part(p.v), body.center)), pose.velocity);
   for (const Port& port : body.attachments) {
-    const Vec3<double> x = position_of(f, state, port);
+    const Vec3<double> x = position_of(f, port);
     pose.attachments.push_back({x[0], x[1], x[2]});
   }
   return pose;
@@ -382,7 +382,7 @@ void for_each_link(const plan::Plan& plan, const Visit& visit) {
 }
 
 /// Point loads; several elements of one load at one place (components in axes that turn) are one arrow.
-void add_arrows(const plan::Plan& plan, const Field& f, const step::State& state, std::vector<Arrow>& arrows) {
+void add_arrows(const plan::Plan& plan, const Field& f, std::vector<Arrow>& arrows) {
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
@@ -390,7 +390,7 @@ void add_arrows(const plan::Plan& plan, const Field& f, const step::State& state
         const std::string& name = plan.element_owner[id];
         if (arrows.empty() || arrows.back().name != name) {
           arrows.push_back({name, {}, {}, {}});
-          copy(position_of(f, state, e.ports[0]), arrows.back().position);
+          copy(position_of(f, e.ports[0]), arrows.back().position);
         }
         Vec6<double> w = f.around.laws[e.law] * e.wrench;
         if (e.follows) w = turned(motion_of_port(e.ports[0], f).pose.R, w);
@@ -411,12 +411,12 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
   frame.time = state.time;
   const int parts = intervals_of(plan);
   for (const plan::BeamPlan& beam : plan.beams) frame.curves.push_back(make_curve(beam, system, f, state, parts));
-  for (const plan::BodyPlan& body : plan.bodies) frame.bodies.push_back(make_body_pose(body, f, state));
+  for (const plan::BodyPlan& body : plan.bodies) frame.bodies.push_back(make_body_pose(body, f));
   for_each_link(plan, [&](const std::string& name, const Port& first, const Port& second) {
     Link link{};
     link.name = name;
-    copy(position_of(f, state, first), link.first);
-    copy(position_of(f, state, second), link.second);
+    copy(position_of(f, first), link.first);
+    copy(position_of(f, second), link.second);
     copy(motion_of_port(first, f).pose.R, link.axes);
     frame.links.push_back(link);
   });
@@ -427,7 +427,7 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
     copy(pose.x, moving.position);
     copy(pose.R, moving.axes);
   }
-  add_arrows(plan, f, state, frame.arrows);
+  add_arrows(plan, f, frame.arrows);
   return frame;
 }
 

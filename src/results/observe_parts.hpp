@@ -44,11 +44,10 @@ inline motion::Vec6<double> resolve(const motion::Mat3<double>& R, const motion:
 }
 
 /// Where a port is, in the frame of the scene.
-inline motion::Vec3<double> position_of(const elements::Field& f, const step::State& state,
-                                        const elements::Port& port) {
+inline motion::Vec3<double> position_of(const elements::Field& f, const elements::Port& port) {
   if (port.carrier >= 0) return motion::transform(f.carriers[port.carrier].pose, port.offset.x);
   if (port.node == elements::ground) return port.offset.x;
-  const elements::NodeMotion& n = state.nodes[static_cast<std::size_t>(port.node)];
+  const elements::NodeMotion& n = f.nodes[port.node];
   return n.x.hi + n.x.lo + (port.has_offset ? n.R * port.offset.x : motion::Vec3<double>::zero());
 }
 

@@ -45,7 +45,7 @@ void SpringWatch::look(const step::System& system, const step::State& state) {
   const auto& springs = plan::array_of<elements::Spring>(system.plan().elements);
   for (Seen& s : seen_) {
     const elements::Spring& e = springs[static_cast<std::size_t>(s.spring)];
-    const Vec3<double> span = position_of(f, state, e.ports[1]) - position_of(f, state, e.ports[0]);
+    const Vec3<double> span = position_of(f, e.ports[1]) - position_of(f, e.ports[0]);
     if (!is_first_ && lanes::dot(span, s.span) < 0.0 && cosine(s.approach, s.span) < -along &&
         cosine(rate_of(e, f), span) > along) {
       passed_ = &s;

@@ -47,20 +47,20 @@ double ArcLengthPath::square(const Vectors& v) const {
   return sum;
 }
 
+Vec6<double> ArcLengthPath::way_between(const State& from, const State& to, std::size_t node) const {
+  const elements::NodeMotion &a = system_.nodes(from)[node], &b = system_.nodes(to)[node];
+  return motion::Se3::log(
+      motion::relative(motion::PreciseFrame<double>{a.R, a.x}, motion::PreciseFrame<double>{b.R, b.x}));
+}
+
 void ArcLengthPath::set_moved(const State& state) {
-  for (std::size_t n = 0; n < moved_.size(); ++n) {
-    const elements::NodeMotion &from = start_.nodes[n], &to = state.nodes[n];
-    moved_[n] = motion::Se3::log(
-        motion::relative(motion::PreciseFrame<double>{from.R, from.x}, motion::PreciseFrame<double>{to.R, to.x}));
-  }
+  for (std::size_t n = 0; n < moved_.size(); ++n) moved_[n] = way_between(start_, state, n);
 }
 
 double ArcLengthPath::distance(const State& from, const State& to) const {
   double sum = 0.0;
-  for (std::size_t n = 0; n < from.nodes.size(); ++n) {
-    const elements::NodeMotion &a = from.nodes[n], &b = to.nodes[n];
-    const Vec6<double> d = motion::Se3::log(
-        motion::relative(motion::PreciseFrame<double>{a.R, a.x}, motion::PreciseFrame<double>{b.R, b.x}));
+  for (std::size_t n = 0; n < moved_.size(); ++n) {
+    const Vec6<double> d = way_between(from, to, n);
     sum += inner(d, d);
   }
   return std::sqrt(sum);
@@ -224,7 +224,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
     report.cause = cause;
     return report;
   };
-  for (elements::NodeMotion& n : state.nodes) n.dq = n.v = n.a = Vec6<double>::zero();
+  set_at_rest(state);
   state.time = start_.time + length * slope_;
   state.unsettled.clear();
   system_.apply_along_tree(state, x_.data(), length);

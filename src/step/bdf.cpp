@@ -1,14 +1,14 @@
 #include "bough/step/bdf.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "moving_nodes.hpp"
 #include "newton.hpp"
 #include "start_parts.hpp"
 
 namespace bough::step {
-
-using motion::Vec6;
 
 namespace {
 
@@ -16,10 +16,20 @@ constexpr double largest_turn =
     1.4;  ///< of a node in one step [rad]: two of them stay below pi, where the logarithm is no longer unique
 
 /// log(H_a^-1 H_b) of a node.
-Vec6<double> increment(const State& a, const State& b, std::size_t node) {
-  const elements::NodeMotion &from = a.nodes[node], &to = b.nodes[node];
-  return motion::Se3::log(
-      motion::relative(motion::PreciseFrame<double>{from.R, from.x}, motion::PreciseFrame<double>{to.R, to.x}));
+template <class G>
+typename G::template Vector<double> increment(const NodesOn<G>& a, const NodesOn<G>& b, std::size_t node) {
+  const auto &from = a.motion[node], &to = b.motion[node];
+  using Pose = typename G::template Pose<double>;
+  const auto none = G::template Translation<double>::zero();
+  return G::log(G::relative(Pose{from.R, none}, Pose{to.R, motion::difference(to.x, from.x)}));
+}
+
+/// T(d) v.
+motion::Vec6<double> tangent_of(const motion::Vec6<double>& d, const motion::Vec6<double>& v) {
+  return motion::tangent_times(d, v);
+}
+motion::Vec3<double> tangent_of(const motion::Vec3<double>& d, const motion::Vec3<double>& v) {
+  return motion::times(motion::eval_tangent_operator<motion::Se2, double>(d), v);
 }
 
 StepReport failed(StepReport report, const std::string& cause) {
@@ -33,9 +43,14 @@ StepReport failed(StepReport report, const std::string& cause) {
 Bdf::Bdf(System& system, int order)
     : system_(system), order_(order), c_(order == 2 ? second : third), begin_(make_initial_state(system.plan())) {
   alpha_ = first_ = second_ = begin_;
-  increments_.assign(begin_.nodes.size(), Vec6<double>::zero());
-  last_ = earlier_ = v_now_ = v_last_ = v_earlier_ = y_ = rates_ = increments_;
-  for (Vectors& s : samples_) s = increments_;
+  begin_.visit([&]<class G>(const NodesOn<G>& nodes) { history_.emplace<HistoryOn<G>>().resize(nodes.motion.size()); });
+  steady_error_.assign(system.num_unknowns(), 0.0);
+}
+
+template <class G>
+void Bdf::HistoryOn<G>::resize(std::size_t num_nodes) {
+  for (Vectors* v : {&samples[0], &samples[1], &samples[2], &last, &earlier, &v_now, &v_last, &v_earlier, &y, &rates})
+    v->assign(num_nodes, G::template Vector<double>::zero());
 }
 
 void Bdf::restart(double h) {
@@ -71,8 +86,9 @@ StepReport Bdf::take_start_step(State& state, const StepOptions& options, double
     if (!report.converged) return total;
     const int sample = done_ * parts + i - 2;  // 0, 3, 6 are wanted
     if (sample % 3 == 0 && sample >= 0)
-      for (std::size_t n = 0; n < next.nodes.size(); ++n)
-        samples_[static_cast<std::size_t>(sample / 3)][n] = next.nodes[n].a;
+      next.visit([&]<class G>(const NodesOn<G>& nodes) {
+        for (std::size_t n = 0; n < nodes.motion.size(); ++n) history<G>().samples[sample / 3][n] = nodes.motion[n].a;
+      });
   }
   // What is reported: velocities of the constraints, accelerations and multipliers of the equations of motion there.
   state = next;
@@ -92,71 +108,90 @@ StepReport Bdf::take_start_step(State& state, const StepOptions& options, double
   return total;
 }
 
-void Bdf::eval_steady_error(const State& point, Vectors& error) const {
+void Bdf::eval_steady_error(const State& point) {
   const double apart = 3.0 * h_ / parts;
-  for (std::size_t n = 0; n < error.size(); ++n) {
-    const Vec6<double>&a = samples_[0][n], &b = samples_[1][n], &c = samples_[2][n], &v = point.nodes[n].v;
-    const Vec6<double> jerk = (0.5 / apart) * (c - a);
-    if (order_ == 2) {
-      error[n] = (-h_ * h_ / 3.0) * (jerk + 0.5 * motion::cross6_times(v, b));
-    } else {
-      const Vec6<double> snap = (1.0 / (apart * apart)) * (c - b - (b - a));
-      error[n] = (-0.25 * h_ * h_ * h_) * (snap + motion::cross6_times(v, jerk));
+  std::fill(steady_error_.begin(), steady_error_.end(), 0.0);
+  point.visit([&]<class G>(const NodesOn<G>& nodes) {
+    using Vector = typename NodesOn<G>::Vector;
+    const auto& samples = history<G>().samples;
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
+      const Vector &a = samples[0][n], &b = samples[1][n], &c = samples[2][n], &v = nodes.motion[n].v;
+      const Vector jerk = (0.5 / apart) * (c - a);
+      Vector error;
+      if (order_ == 2) {
+        error = (-h_ * h_ / 3.0) * (jerk + 0.5 * bracket_of(v, b));
+      } else {
+        const Vector snap = (1.0 / (apart * apart)) * (c - b - (b - a));
+        error = (-0.25 * h_ * h_ * h_) * (snap + bracket_of(v, jerk));
+      }
+      system_.set_node_part(steady_error_.data(), static_cast<int>(n), error);
     }
-  }
+  });
 }
 
 /// Increments and velocities of the starting steps, these with the steady error of the scheme.
 std::optional<Trouble> Bdf::finish_start(const State& state) {
   State last = state;
-  Vectors& d = increments_;
-  const std::pair<State*, Vectors*> points[] = {{&first_, &v_earlier_}, {&second_, &v_last_}, {&last, &v_now_}};
-  for (const auto& [point, v] : points) {
-    if (system_.plan().num_multipliers > 0) {
-      eval_steady_error(*point, d);
+  State* const points[] = {&first_, &second_, &last};
+  if (system_.plan().num_multipliers > 0)
+    for (State* point : points) {
+      eval_steady_error(*point);
       if (auto t = system_.set_time(point->time, point == &first_ ? laws::Side::right : laws::Side::left)) return t;
-      if (auto t = set_normal_velocities(system_, *point, &d)) return t;
+      if (auto t = set_normal_velocities(system_, *point, &steady_error_)) return t;
     }
-    for (std::size_t n = 0; n < d.size(); ++n) (*v)[n] = point->nodes[n].v;
-  }
-  for (std::size_t n = 0; n < d.size(); ++n) {
-    last_[n] = increment(second_, last, n);
-    earlier_[n] = increment(first_, second_, n);
-  }
+  last.visit([&]<class G>(const NodesOn<G>& now) {
+    HistoryOn<G>& past = history<G>();
+    const NodesOn<G>&begin = first_.on<G>(), &middle = second_.on<G>();
+    for (std::size_t n = 0; n < now.motion.size(); ++n) {
+      past.v_earlier[n] = begin.motion[n].v;
+      past.v_last[n] = middle.motion[n].v;
+      past.v_now[n] = now.motion[n].v;
+      past.last[n] = increment(middle, now, n);
+      past.earlier[n] = increment(begin, middle, n);
+    }
+  });
   return std::nullopt;
 }
 
 /// The parabola through y_n = 0 and y_{n-1}, or the cubic that also meets y_{n-2}, with the slope v_n.
 void Bdf::predict(State& state) {
-  for (std::size_t n = 0; n < last_.size(); ++n) {
-    const Vec6<double> y1 = -1.0 * last_[n];
-    rates_[n] = c_.c1 * v_now_[n] + c_.c2 * v_last_[n];
-    if (order_ == 2) {
-      y_[n] = c_.c2 * y1;
-      move_node(state, n, (2.0 * h_) * v_now_[n] + y1);
-      continue;
+  state.change_all([&]<class G>(NodesOn<G>& nodes) {
+    using Vector = typename NodesOn<G>::Vector;
+    HistoryOn<G>& past = history<G>();
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
+      const Vector y1 = -1.0 * past.last[n];
+      past.rates[n] = c_.c1 * past.v_now[n] + c_.c2 * past.v_last[n];
+      if (order_ == 2) {
+        past.y[n] = c_.c2 * y1;
+        move_node(nodes, n, Vector((2.0 * h_) * past.v_now[n] + y1));
+        continue;
+      }
+      const Vector y2 = G::log(G::compose(G::exp(y1), G::exp(Vector(-1.0 * past.earlier[n]))));
+      past.y[n] = c_.c2 * y1 + c_.c3 * y2;
+      past.rates[n] = past.rates[n] + c_.c3 * past.v_earlier[n];
+      move_node(nodes, n, Vector((3.0 * h_) * past.v_now[n] + 3.0 * y1 - 0.5 * y2));
     }
-    const Vec6<double> y2 =
-        motion::Se3::log(motion::compose(motion::Se3::exp(y1), motion::Se3::exp(-1.0 * earlier_[n])));
-    y_[n] = c_.c2 * y1 + c_.c3 * y2;
-    rates_[n] = rates_[n] + c_.c3 * v_earlier_[n];
-    move_node(state, n, (3.0 * h_) * v_now_[n] + 3.0 * y1 - 0.5 * y2);
-  }
+  });
 }
 
 /// Velocities and accelerations by the formulas; dq as the tangents of the elements take it.
 std::optional<Trouble> Bdf::follow(State& state) const {
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
-    elements::NodeMotion& node = state.nodes[n];
-    const Vec6<double> D = increment(begin_, state, n);
-    const motion::Vec3<double> turn = lanes::angular_part(D);
-    if (!(lanes::dot(turn, turn) <= largest_turn * largest_turn))
-      return Trouble{"'" + system_.plan().nodes[n].name + "' turns by nearly a quarter of a turn in one step"};
-    node.v = motion::tangent_times(D, (1.0 / h_) * (c_.c0 * D + y_[n]));
-    node.a = (1.0 / h_) * (c_.c0 * node.v + rates_[n]);
-    node.dq = (1.0 / c_.c0) * D;
-  }
-  return std::nullopt;
+  return state.change_all([&]<class G>(NodesOn<G>& nodes) -> std::optional<Trouble> {
+    using Vector = typename NodesOn<G>::Vector;
+    const HistoryOn<G>& past = history<G>();
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
+      auto& node = nodes.motion[n];
+      const Vector D = increment(begin_.on<G>(), nodes, n);
+      double turn = 0.0;
+      for (int i = G::translations; i < G::dof; ++i) turn += D[i] * D[i];
+      if (!(turn <= largest_turn * largest_turn))
+        return Trouble{"'" + system_.plan().nodes[n].name + "' turns by nearly a quarter of a turn in one step"};
+      node.v = tangent_of(D, Vector((1.0 / h_) * (c_.c0 * D + past.y[n])));
+      node.a = (1.0 / h_) * (c_.c0 * node.v + past.rates[n]);
+      node.dq = (1.0 / c_.c0) * D;
+    }
+    return std::nullopt;
+  });
 }
 
 StepReport Bdf::take_step(State& state, const StepOptions& options, double end_time) {
@@ -169,14 +204,17 @@ StepReport Bdf::take_step(State& state, const StepOptions& options, double end_t
   report = iterate(system_, state, options, {}, slopes, [&](State& s) { return follow(s); });
   if (!report.converged) return report;
   if (const auto t = check_shape(system_, state)) return failed(report, t->text);
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) state.nodes[n].dq = c_.c0 * state.nodes[n].dq;
-  std::swap(earlier_, last_);
-  std::swap(v_earlier_, v_last_);
-  std::swap(v_last_, v_now_);
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
-    last_[n] = state.nodes[n].dq;
-    v_now_[n] = state.nodes[n].v;
-  }
+  state.change_all([&]<class G>(NodesOn<G>& nodes) {
+    HistoryOn<G>& past = history<G>();
+    std::swap(past.earlier, past.last);
+    std::swap(past.v_earlier, past.v_last);
+    std::swap(past.v_last, past.v_now);
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
+      nodes.motion[n].dq = c_.c0 * nodes.motion[n].dq;
+      past.last[n] = nodes.motion[n].dq;
+      past.v_now[n] = nodes.motion[n].v;
+    }
+  });
   system_.recover_multipliers(state);
   return report;
 }

@@ -52,7 +52,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
   if (const auto t = system.set_time(load_factor, laws::Side::left)) return fail(t->text);
   state.time = load_factor;
   state.unsettled.clear();
-  for (elements::NodeMotion& n : state.nodes) n.dq = n.v = n.a = motion::Vec6<double>::zero();
+  set_at_rest(state);
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
   double previous = 0.0;
   for (int k = 0;; ++k) {

@@ -30,10 +30,11 @@ class Filter {
     y.assign(x.size(), 0.0);
     if (system_.evaluate(state_, {}, false)) return false;
     for (std::size_t i = 0; i < y.size(); ++i) y[i] = -system_.residual()[i];
-    for (std::size_t n = 0; n < moved_.nodes.size(); ++n) {
-      moved_.nodes[n] = state_.nodes[n];
-      (by_mass ? moved_.nodes[n].a : moved_.nodes[n].v) += system_.node_part(x.data(), static_cast<int>(n));
-    }
+    moved_.change_all([&]<class G>(NodesOn<G>& nodes) {
+      nodes.motion = state_.on<G>().motion;
+      for (std::size_t n = 0; n < nodes.motion.size(); ++n)
+        (by_mass ? nodes.motion[n].a : nodes.motion[n].v) += system_.part_on<G>(x.data(), static_cast<int>(n));
+    });
     if (system_.evaluate(moved_, {}, false)) return false;
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += system_.residual()[i];
     return true;

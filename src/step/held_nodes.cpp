@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "planar_system.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -21,7 +20,6 @@ HeldNodes::HeldNodes(const plan::Plan& plan) : plan_(plan), kind_(plan.directory
       kind_[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(j)].element)] = Kind::holds;
   }
   uses_.resize(plan.held.size());
-  std::vector<char> is_near(plan.nodes.size(), 0);
   for (std::size_t e = 0; e < plan.directory.size(); ++e) {
     int unknown = 0, part = 0;
     std::vector<std::int8_t> kept;
@@ -36,13 +34,9 @@ HeldNodes::HeldNodes(const plan::Plan& plan) : plan_(plan), kind_(plan.directory
         if (block >= 0 && block < plan.graph.num_blocks()) kept.push_back(static_cast<std::int8_t>(unknown));
       ++part;
     });
-    if (kind_[e] == Kind::trimmed)
-      for_each_part(plan, e, -1, [&](int, int, int node) { is_near[static_cast<std::size_t>(node)] = 1; });
     if (kind_[e] == Kind::trimmed) kept_.insert(kept_.end(), kept.begin(), kept.end());
     begin_.push_back(static_cast<std::int64_t>(kept_.size()));
   }
-  for (std::size_t n = 0; n < is_near.size(); ++n)
-    if (is_near[n] != 0) near_.push_back(static_cast<int>(n));
 }
 
 /// add_forces(use, node, forces): adds those of an element at the node, in its own axes, to those given.
@@ -77,33 +71,39 @@ void add_product(const E& e, const double* K, int part, Increment&& increment, V
 
 }  // namespace
 
-void HeldNodes::recover_multipliers(const System& system, State& state, const Vec6List* more,
-                                    PlanarSystem* planar) const {
-  const elements::Field field = system.field_of_watched(state);
+void HeldNodes::recover_multipliers(const System& system, State& state, const Vec6List* more, bool in_plane) const {
   const bool is_settled = state.unsettled.empty();
-  if (planar != nullptr) {
-    planar->set_field(field);
-    for (const int node : near_) planar->set_nodes(state, node, node + 1);
-  }
+  elements::Field space;
+  elements::FieldOn<motion::Se2, double> plane;
+  if (in_plane)
+    plane = system.field_on<motion::Se2>(state);
+  else
+    space = system.field(state);
+  const auto evaluate = [&]<class G>(const elements::FieldOn<G, double>& field, std::size_t id, double* residual,
+                                     auto&& take) {
+    std::array<double, elements::max_rows> scratch;
+    const int j = system.joint_of_element(static_cast<int>(id));
+    const double* multipliers =
+        j < 0 ? nullptr : multipliers_on<G>(plan_.joints[static_cast<std::size_t>(j)], state, scratch.data());
+    plan::with_element(plan::arrays_on<G>(plan_), plan_.directory[id], [&](const auto& e) {
+      std::array<double, most_unknowns * most_unknowns> tangent;
+      elements::evaluate(e, field, multipliers, j < 0 ? 0.0 : state.turns[static_cast<std::size_t>(j)], residual,
+                         is_settled ? nullptr : tangent.data());
+      take(e, tangent.data());
+    });
+  };
   const auto add_forces = [&](const Use& use, int node, Vec6<double>& forces) {
-    std::array<double, most_unknowns> residual, magnitude;
-    if (planar != nullptr) {
-      planar->evaluate_alone(use.element, state, residual.data(), magnitude.data(), nullptr);
+    std::array<double, most_unknowns> residual;
+    if (in_plane) {
+      evaluate(plane, use.element, residual.data(), [](const auto&, const double*) {});
       forces += plan_.unknowns.expanded(residual.data() + 3 * use.part, static_cast<std::size_t>(node));
       return;
     }
-    std::array<double, most_unknowns * most_unknowns> tangent;
-    const int j = system.joint_of_element(static_cast<int>(use.element));
-    const double* multipliers =
-        j < 0 ? nullptr : state.multipliers.data() + plan_.joints[static_cast<std::size_t>(j)].multiplier_begin;
-    plan::with_element(plan_.elements, plan_.directory[use.element], [&](const auto& e) {
-      elements::evaluate(e, field, multipliers, j < 0 ? 0.0 : state.turns[static_cast<std::size_t>(j)], residual.data(),
-                         is_settled ? nullptr : tangent.data());
+    evaluate(space, use.element, residual.data(), [&](const auto& e, const double* tangent) {
       for (int i = 0; i < 6; ++i) forces[i] += residual[static_cast<std::size_t>(6 * use.part + i)];
       if (!is_settled)
         add_product(
-            e, tangent.data(), use.part, [&](int other) { return state.unsettled[static_cast<std::size_t>(other)]; },
-            forces);
+            e, tangent, use.part, [&](int other) { return state.unsettled[static_cast<std::size_t>(other)]; }, forces);
     });
   };
   auto by_node = [&](std::int64_t begin, std::int64_t end) {

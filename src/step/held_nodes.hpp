@@ -11,7 +11,6 @@
 
 namespace bough::step {
 
-class PlanarSystem;
 class System;
 
 class HeldNodes {
@@ -36,11 +35,9 @@ class HeldNodes {
   double* whole(std::size_t element) const { return whole_.empty() ? nullptr : whole_[element]; }
 
   /// Multipliers of all joints that hold:  W multipliers = -(forces of all other elements on the node), in statics with what these lack to first
-  /// order, f + K eta (State::unsettled). more: forces by node beside those of elements, or null. planar: where elements move in a plane, whose
-  /// nodes near held ones are set to those of `state`; null: elements in space are asked.
-  void recover_multipliers(const System& system, State& state, const Vec6List* more, PlanarSystem* planar) const;
-  /// Nodes of the elements at held nodes: the only ones that recover_multipliers looks at.
-  const std::vector<int>& near() const { return near_; }
+  /// order, f + K eta (State::unsettled). more: forces by node beside those of elements, or null. in_plane: elements in
+  /// the scene's plane are asked, else those in space.
+  void recover_multipliers(const System& system, State& state, const Vec6List* more, bool in_plane) const;
   /// Largest of W^-1 M eta, eta the increments of the nodes by a vector x of unknowns.
   double largest_impulse(const System& system, const State& state, const double* x) const;
 
@@ -60,7 +57,6 @@ class HeldNodes {
   std::vector<std::int64_t> begin_{0};  ///< by element: range in kept_
   std::vector<std::int8_t> kept_;
   std::vector<double*> whole_;          ///< by element, null: not wanted; empty where none is
-  std::vector<int> near_;               ///< nodes of the elements at held nodes
   std::vector<std::vector<Use>> uses_;  ///< by held node, in the order of elements; without the joints that hold it
 };
 

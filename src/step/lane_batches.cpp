@@ -7,11 +7,11 @@
 
 namespace bough::step {
 
-template <class Kernels>
+template <class G>
 template <std::size_t I>
-void LaneBatches<Kernels>::add(const solve::ElementBatch& batch, Slot& slot) {
-  using E = typename std::tuple_element_t<I, typename Kernels::Arrays>::value_type;
-  const auto& array = std::get<I>(Kernels::arrays(*plan_));
+void LaneBatches<G>::add(const solve::ElementBatch& batch, Slot& slot) {
+  using E = typename std::tuple_element_t<I, Arrays>::value_type;
+  const auto& array = std::get<I>(plan::arrays_on<G>(*plan_));
   const E* list[elements::num_lanes];
   for (int l = 0; l < elements::num_lanes; ++l) {  // a lane that is missing repeats one that is there
     const int own = batch.element[static_cast<std::size_t>(l)];
@@ -29,7 +29,7 @@ void LaneBatches<Kernels>::add(const solve::ElementBatch& batch, Slot& slot) {
   for (int k = 0; k < slot.num_laws; ++k)
     for (const auto& of_lane : laws) places_.push_back(of_lane[k]);
   slot.num_unknowns = num_unknowns(*list[0]);
-  if constexpr (Kernels::template most_rows < E >> 0) place_rows(batch, slot);
+  if constexpr (E::num_multipliers > 0) place_rows(batch, slot);
   slot.array = static_cast<int>(I);
   auto& lanes = std::get<I>(lanes_);
   const bool is_uniform =
@@ -48,8 +48,8 @@ void LaneBatches<Kernels>::add(const solve::ElementBatch& batch, Slot& slot) {
     uniform_.push_back({slot.array, slot.index, static_cast<std::size_t>(list[0] - array.data())});
 }
 
-template <class Kernels>
-void LaneBatches<Kernels>::place_rows(const solve::ElementBatch& batch, Slot& slot) {
+template <class G>
+void LaneBatches<G>::place_rows(const solve::ElementBatch& batch, Slot& slot) {
   int joints[elements::num_lanes];
   for (std::size_t l = 0; l < elements::num_lanes; ++l) {
     const int id = batch.element[l] >= 0 ? batch.element[l] : batch.element[static_cast<std::size_t>(slot.first)];
@@ -64,8 +64,8 @@ void LaneBatches<Kernels>::place_rows(const solve::ElementBatch& batch, Slot& sl
   places_.insert(places_.end(), std::begin(joints), std::end(joints));
 }
 
-template <class Kernels>
-void LaneBatches<Kernels>::gather_singles() {
+template <class G>
+void LaneBatches<G>::gather_singles() {
   constexpr std::size_t near_by = 256;  ///< batches: their elements still lie in the cache together
   struct Open {
     std::size_t batch = 0;
@@ -76,8 +76,8 @@ void LaneBatches<Kernels>::gather_singles() {
   const auto share = [this](plan::ElementPlace a, plan::ElementPlace b) {
     if (a.array != b.array) return false;
     bool may = false;
-    plan::with_element(Kernels::arrays(*plan_), a, [&](const auto& x) {
-      plan::with_element(Kernels::arrays(*plan_), b, [&](const auto& y) {
+    plan::with_element(plan::arrays_on<G>(*plan_), a, [&](const auto& x) {
+      plan::with_element(plan::arrays_on<G>(*plan_), b, [&](const auto& y) {
         if constexpr (std::is_same_v<decltype(x), decltype(y)>) may = may_share_lanes(x, y);
       });
     });
@@ -111,9 +111,9 @@ void LaneBatches<Kernels>::gather_singles() {
   }
 }
 
-template <class Kernels>
-void LaneBatches<Kernels>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
-                                const std::vector<int>& joint_of_element, const HeldNodes* held) {
+template <class G>
+void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
+                          const std::vector<int>& joint_of_element, const HeldNodes* held) {
   plan_ = &plan;
   held_ = held;
   batches_.assign(batches.begin(), batches.end());
@@ -142,47 +142,46 @@ void LaneBatches<Kernels>::make(const plan::Plan& plan, std::span<const solve::E
     const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
       static_cast<void>(((array == static_cast<int>(I) ? (add<I>(batches_[b], slot), true) : false) || ...));
     };
-    pick(std::make_index_sequence<std::tuple_size_v<typename Kernels::Arrays>>{});
+    pick(std::make_index_sequence<std::tuple_size_v<Arrays>>{});
   }
 }
 
-template <class Kernels>
-void LaneBatches<Kernels>::set_frames(const plan::FrameMotions& frames) {
+template <class G>
+void LaneBatches<G>::set_frames(const plan::FrameMotions& frames) {
   carriers_.resize(frames.in_ground.size());
   for (std::size_t i = 0; i < carriers_.size(); ++i) elements::set_all_lanes(carriers_[i], frames.in_ground[i]);
   elements::set_all_lanes(observer_, frames.observer);
 }
 
-template <class Kernels>
-void LaneBatches<Kernels>::evaluate(std::size_t batch, const State& state, const Field& field,
-                                    const ElementResults& to) const {
+template <class G>
+void LaneBatches<G>::evaluate(std::size_t batch, const State& state, const Field& field,
+                              const ElementResults& to) const {
   const Slot& slot = slots_[batch];
   const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
     static_cast<void>((
         (slot.array == static_cast<int>(I) ? (evaluate_as<I>(batches_[batch], slot, state, field, to), true) : false) ||
         ...));
   };
-  pick(std::make_index_sequence<std::tuple_size_v<typename Kernels::Arrays>>{});
+  pick(std::make_index_sequence<std::tuple_size_v<Arrays>>{});
 }
 
-template <class Kernels>
+template <class G>
 template <std::size_t I>
-void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, const Slot& slot, const State& state,
-                                       const Field& field, const ElementResults& to) const {
+void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& slot, const State& state,
+                                 const Field& field, const ElementResults& to) const {
   using Pack = elements::LanePack;
-  using E = typename std::tuple_element_t<I, typename Kernels::Arrays>::value_type;
-  constexpr int rows = Kernels::template most_rows<E>, wide = elements::num_lanes,
-                most = Kernels::node_unknowns * E::num_ports + rows;
+  using E = typename std::tuple_element_t<I, Arrays>::value_type;
+  constexpr int rows = E::num_multipliers, wide = elements::num_lanes, most = G::dof * E::num_ports + rows;
   const auto& lane_element = std::get<I>(lanes_)[static_cast<std::size_t>(slot.index)];
   const int n = slot.num_unknowns;
-  typename Kernels::NodeLanes nodes[E::num_ports];
+  elements::NodeMotionOn<G, Pack> nodes[E::num_ports];
   Pack laws[elements::max_laws], multipliers[rows > 0 ? rows : 1], turns(0.0);
   const int* place = places_.data() + slot.places;
   for (int p = 0; p < E::num_ports; ++p, place += wide) {
     if (place[0] == elements::ground) continue;
     const double* from[wide];
     for (int l = 0; l < wide; ++l) from[l] = reinterpret_cast<const double*>(field.nodes + place[l]);
-    lanes::gather_lanes(from, Kernels::node_numbers, reinterpret_cast<Pack*>(&nodes[p]));
+    lanes::gather_lanes(from, elements::numbers_of_node<G>, reinterpret_cast<Pack*>(&nodes[p]));
   }
   for (int k = 0; k < slot.num_laws; ++k, place += wide) laws[k] = lanes::load_lanes<wide>(field.around.laws, place);
   if constexpr (rows > 0) {
@@ -190,7 +189,7 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, const S
       multipliers[r] = lanes::load_lanes<wide>(state.multipliers.data(), place);
     turns = lanes::load_lanes<wide>(state.turns.data(), place);
   }
-  typename Kernels::FieldLanes around;
+  elements::FieldOn<G, Pack> around;
   around.nodes = nodes;
   around.slopes = field.slopes;
   if (field.carriers != nullptr) around.carriers = carriers_.data();
@@ -205,7 +204,7 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, const S
   if (is_direct) matrix = reinterpret_cast<Pack*>(to.tangent_of(batch.element[0]).first);
   if (to.want_tangents() && !is_direct) matrix = spare;
   evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
-  join_parts(Kernels::node_unknowns, n, slot.num_rows, residual, magnitude, parts);
+  join_parts(G::dof, n, slot.num_rows, residual, magnitude, parts);
   double nowhere[2 * most], *to_parts[wide];
   for (int l = 0; l < wide; ++l) {
     const int id = batch.element[static_cast<std::size_t>(l)];
@@ -217,7 +216,7 @@ void LaneBatches<Kernels>::evaluate_as(const solve::ElementBatch& batch, const S
   lanes::scatter_lanes(parts, 2 * n, to_parts);
 }
 
-template class LaneBatches<SpatialKernels>;
-template class LaneBatches<PlanarKernels>;
+template class LaneBatches<motion::Se3>;
+template class LaneBatches<motion::Se2>;
 
 }  // namespace bough::step

@@ -26,28 +26,6 @@ struct LaneArraysOf<std::tuple<std::vector<E>...>> {
 };
 }  // namespace detail
 
-/// What differs between elements in space and those in a plane.
-struct SpatialKernels {
-  using Arrays = plan::ElementArrays;
-  using Field = elements::Field;
-  using NodeLanes = elements::NodeLanes;
-  using FieldLanes = elements::FieldLanes;
-  static constexpr int node_unknowns = 6, node_numbers = elements::numbers_of_node<motion::Se3>;
-  template <class E>
-  static constexpr int most_rows = E::num_multipliers;
-  static const Arrays& arrays(const plan::Plan& plan) { return plan.elements; }
-};
-struct PlanarKernels {
-  using Arrays = plan::PlanarArrays;
-  using Field = elements::FieldOn<motion::Se2, double>;
-  using NodeLanes = elements::NodeMotionOn<motion::Se2, elements::LanePack>;
-  using FieldLanes = elements::FieldOn<motion::Se2, elements::LanePack>;
-  static constexpr int node_unknowns = 3, node_numbers = elements::numbers_of_node<motion::Se2>;
-  template <class E>
-  static constexpr int most_rows = E::num_multipliers;
-  static const Arrays& arrays(const plan::Plan& plan) { return plan.planar->elements; }
-};
-
 /// Where results of elements go.
 struct ElementResults {
   double* parts;              ///< as System::parts_
@@ -59,10 +37,12 @@ struct ElementResults {
   solve::ElementView tangent_of(int element) const { return solver->element(element); }
 };
 
-template <class Kernels>
+/// Of elements that move on the group G.
+template <class G>
 class LaneBatches {
  public:
-  using Field = typename Kernels::Field;
+  using Arrays = plan::ArraysOn<G>;
+  using Field = elements::FieldOn<G, double>;
 
   /// Batches of the solver; elements of those that are all but empty are put together with others near by of one kind, in the place of the first.
   /// A batch goes in lanes if it holds at least `least_lanes` elements and they differ in numbers only.
@@ -113,7 +93,7 @@ class LaneBatches {
   std::vector<Slot> slots_;
   std::vector<Uniform> uniform_;
   std::vector<int> places_;  ///< here, since elements themselves are large and lie far apart
-  typename detail::LaneArraysOf<typename Kernels::Arrays>::Type lanes_;
+  typename detail::LaneArraysOf<Arrays>::Type lanes_;
   std::vector<elements::CarrierLanes> carriers_;
   elements::CarrierLanes observer_;
 };

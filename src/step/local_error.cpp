@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bough/step/step_control.hpp"
+#include "start_parts.hpp"
 
 namespace bough::step {
 
@@ -43,7 +44,7 @@ ErrorConstants make_error_constants(const AlphaCoefficients& c) {
 }
 
 LocalError::LocalError(const System& system, const StepOptions& options, double duration)
-    : alpha_(make_alpha_coefficients(options.spectral_radius)) {
+    : plan_(system.plan()), alpha_(make_alpha_coefficients(options.spectral_radius)) {
   constants_ = make_error_constants(alpha_);
   const double length = system.plan().length_scale;
   least_ = {length, 1.0, length / duration, 1.0 / duration};
@@ -136,10 +137,17 @@ void LocalError::watch(int node, double arm, bool turns, bool velocity) {
   w.arm = std::max(w.arm, arm);
 }
 
-Vec6<double> LocalError::unfiltered_of(const State& after, std::size_t node) const {
-  const elements::NodeMotion& to = after.nodes[node];
-  return (constants_.position / after.step_size) * after.acceleration_trend[node] -
-         (1.0 / 12.0) * motion::cross6_times(to.v, to.a);
+/// Adds h times the unfiltered error of dq over h^3 to dv/dt.
+void LocalError::shift_accelerations(const State& after, State& to) const {
+  const double h = after.step_size;
+  to = after;
+  to.change_all([&](auto& nodes) {
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
+      auto& node = nodes.motion[n];
+      node.a +=
+          h * ((constants_.position / h) * nodes.acceleration_trend[n] - (1.0 / 12.0) * bracket_of(node.v, node.a));
+    }
+  });
 }
 
 std::optional<Trouble> LocalError::measure(System& system, const State& after) {
@@ -149,8 +157,7 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   const double c2 = (1.0 - alpha_.alpha_m) / ((1.0 - alpha_.alpha_f) * alpha_.beta * h * h);
   if (auto t = system.evaluate(after, {}, false)) return t;  // the last iteration need not have looked at it
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
-  shifted_ = after;
-  for (std::size_t n = 0; n < shifted_.nodes.size(); ++n) shifted_.nodes[n].a += h * unfiltered_of(after, n);
+  shift_accelerations(after, shifted_);
   if (auto t = system.evaluate(shifted_, {}, false)) return t;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = c2 * (rhs[i] + system.residual()[i]);
   if (auto t = system.solve(rhs.data(), x.data())) return t;
@@ -209,18 +216,20 @@ ErrorLimit LocalError::limit(double tolerance) const {
 
 void LocalError::displace(const State& after, State& to) const {
   to = after;
+  const std::vector<elements::NodeMotion>& nodes = nodes_in_space(plan_, after);
   for (std::size_t n = 0; n < now_.size(); ++n) {
-    to.nodes[n].v += (step_ * step_) * now_[n];
-    move_node(to, n, (step_ * step_ * step_) * now_[n]);
+    set_velocity(plan_, to, n, nodes[n].v + (step_ * step_) * now_[n]);
+    move_node(plan_, to, n, (step_ * step_ * step_) * now_[n]);
   }
 }
 
 void LocalError::disturb(const State& after, State& to) const {
   to = after;
   const double of_change = has_previous_ ? std::copysign(velocity_factor(), constants_.velocity) : 0.0;
+  const std::vector<elements::NodeMotion>& nodes = nodes_in_space(plan_, after);
   for (std::size_t n = 0; n < now_.size(); ++n) {
-    to.nodes[n].v += of_change * (now_[n] - previous_[n]);
-    move_node(to, n, (step_ * step_ * step_) * now_[n]);
+    set_velocity(plan_, to, n, nodes[n].v + of_change * (now_[n] - previous_[n]));
+    move_node(plan_, to, n, (step_ * step_ * step_) * now_[n]);
   }
 }
 
@@ -229,7 +238,7 @@ void LocalError::accept(const State& after) {
   previous_step_ = step_;
   has_previous_ = true;
   Largest velocity;
-  for (const elements::NodeMotion& n : after.nodes) velocity.include(n.v);
+  for (const elements::NodeMotion& n : nodes_in_space(plan_, after)) velocity.include(n.v);
   speed_ = std::max(speed_, velocity.linear());
   spin_ = std::max(spin_, velocity.angular());
 }

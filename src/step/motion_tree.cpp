@@ -184,6 +184,24 @@ void turn_sections(const plan::Plan& plan, const MotionTree::BeamGroup& group, M
         (sections++)->twist = motion::adjoint_times(beams[lane].ports[i].offset, lanes::get_lane(twists[k++], lane));
 }
 
+/// H <- H S of a node.
+void carry(const plan::Plan&, const RigidMotion& S, SpatialNodes& nodes, std::size_t n) {
+  elements::NodeMotion& node = nodes.motion[n];
+  node.x.add(node.R * S.shift);
+  nodes.rotation[n] = motion::normalise(motion::multiply(nodes.rotation[n], S.turn));
+  node.R = motion::rotation_of(nodes.rotation[n]);
+}
+/// S turns about the plane's normal and shifts along the plane.
+void carry(const plan::Plan& plan, const RigidMotion& S, PlanarNodes& nodes, std::size_t n) {
+  const motion::Mat3<double>& B = plan.planar->nodes[n].basis;
+  const Vec3<double> shift = lanes::transpose_times(B, S.shift), half = lanes::transpose_times(B, S.turn.v);
+  auto& node = nodes.motion[n];
+  node.x.add(motion::complex_times(node.R, motion::plane_part(shift)));
+  const motion::Vec2<double> turn{{S.turn.w * S.turn.w - half[2] * half[2], 2.0 * S.turn.w * half[2]}};
+  node.R = motion::complex_times(node.R, turn);
+  node.R = (1.5 - 0.5 * lanes::dot(node.R, node.R)) * node.R;  // back to size one, to first order
+}
+
 /// Calls f with the number of nodes of a group as a constant.
 template <class F>
 void with_num_nodes(int num_nodes, F&& f) {
@@ -216,7 +234,7 @@ void System::apply_along_tree(State& state, const double* x, double factor) {
       continue;
     }
     const auto parent = static_cast<std::size_t>(link.parent);
-    const elements::NodeMotion &a = state.nodes[parent], &b = state.nodes[node];
+    const elements::NodeMotion &a = before.nodes[parent], &b = before.nodes[node];
     const Frame<double> H{lanes::transpose_times(a.R, b.R), lanes::transpose_times(a.R, motion::difference(b.x, a.x))};
     RigidMotion own;
     if (link.section < 0) {  // hinges and slides turn and slide by their increment exactly
@@ -233,13 +251,9 @@ void System::apply_along_tree(State& state, const double* x, double factor) {
                           carried.shift + own.shift + turned_by(carried.turn, own.shift)};
     tree.relative[node] = motion::compose(H, Frame<double>{motion::rotation_of(own.turn), own.shift});
   }
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
-    elements::NodeMotion& node = state.nodes[n];
-    const RigidMotion& S = tree.motions[n];
-    node.x.add(node.R * S.shift);
-    state.rotation[n] = motion::normalise(motion::multiply(state.rotation[n], S.turn));
-    node.R = motion::rotation_of(state.rotation[n]);
-  }
+  state.change_all([&](auto& nodes) {
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) carry(plan_, tree.motions[n], nodes, n);
+  });
   add_multipliers(state, x, factor);
 }
 

@@ -1,10 +1,10 @@
 #include "newton.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
-#include "planar_step.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -120,21 +120,29 @@ std::string describe(System& system, ResidualSize r, double tolerance) {
 
 namespace {
 
-/// Whether a joint left its branch.
-bool is_flipped(const elements::Joint& e, const elements::Field& f) {
+/// Whether a joint, `joint` of the plan, left its branch.
+bool is_flipped(const plan::Plan&, std::size_t, const elements::Joint& e, const elements::Field& f) {
   motion::Mat3<double> R;
   bool is_known = false;
   for (int k = 0; k < e.num_rows; ++k) {
     if (e.rows[k].kind != elements::RowKind::across) continue;
     if (!is_known) R = lanes::transpose_times(eval_port_rotation(e.ports[0], f), eval_port_rotation(e.ports[1], f));
     is_known = true;
-    const bool by_pairs = e.rows[k].j == (e.rows[k].i + 1) % 3 && k + 2 < e.num_rows && e.rows[k].i == 0 &&
-                          e.rows[k + 1].kind == elements::RowKind::across && e.rows[k + 1].i == 1 &&
-                          e.rows[k + 1].j == 2 && e.rows[k + 2].kind == elements::RowKind::across;
-    if (by_pairs) return R(0, 0) < 0.0 || R(1, 1) < 0.0 || R(2, 2) < 0.0;
+    if (elements::aligns_all_axes(e, k)) return R(0, 0) < 0.0 || R(1, 1) < 0.0 || R(2, 2) < 0.0;
     if (e.rows[k].j == 2 && R(2, 2) < 0.0) return true;
   }
   return false;
+}
+
+/// How the second of two ports is turned against the first, in a plane: (cos, sin).
+template <class E>
+motion::Vec2<double> eval_turn(const E& e, int port, const elements::FieldOn<motion::Se2, double>& f) {
+  return motion::conjugate_times(eval_port_rotation(e.ports[0], f), eval_port_rotation(e.ports[port], f));
+}
+
+bool is_flipped(const plan::Plan& plan, std::size_t joint, const elements::JointOn<motion::Se2>& e,
+                const elements::FieldOn<motion::Se2, double>& f) {
+  return plan.planar->has_branch[joint] != 0 && eval_turn(e, 1, f)[0] < 0.0;
 }
 
 /// Whether a beam turns by nearly half a turn over its length: cos(angle) = (trace(R_a^T R_b) - 1) / 2.
@@ -147,6 +155,12 @@ bool is_folded(const E& e, const elements::Field& f) {
     for (int k = 0; k < 9; ++k) trace += first.m[k] * other.m[k];
     if (0.5 * (trace - 1.0) < folded) return true;
   }
+  return false;
+}
+template <class E>
+bool is_folded(const E& e, const elements::FieldOn<motion::Se2, double>& f) {
+  for (int i = 1; i < E::num_ports; ++i)
+    if (eval_turn(e, i, f)[0] < folded) return true;
   return false;
 }
 
@@ -168,57 +182,67 @@ std::optional<Trouble> describe_shape(const System& system, std::int64_t bad) {
 
 std::optional<Trouble> check_shape(const System& system, const State& state) {
   const plan::Plan& plan = system.plan();
-  const elements::Field f = system.field(state);
   const auto count = static_cast<std::int64_t>(plan.directory.size());
   FirstBad first_bad(count);
-  auto by_element = [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t id = begin; id < end; ++id)
-      plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
-        if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint) {
-          if (is_flipped(e, f)) first_bad.note(id);
-        } else if constexpr (std::decay_t<decltype(e)>::role == elements::Role::beam) {
-          if (is_folded(e, f)) first_bad.note(id);
-        }
-      });
+  const auto look = [&]<class G>(const elements::FieldOn<G, double>& f) {
+    auto by_element = [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t id = begin; id < end; ++id)
+        plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
+          if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint) {
+            const auto joint = static_cast<std::size_t>(system.joint_of_element(static_cast<int>(id)));
+            if (is_flipped(plan, joint, e, f)) first_bad.note(id);
+          } else if constexpr (std::decay_t<decltype(e)>::role == elements::Role::beam) {
+            if (is_folded(e, f)) first_bad.note(id);
+          }
+        });
+    };
+    system.walker().for_each_chunk(count, element_grain, tree::make_chunk(by_element));
   };
-  system.walker().for_each_chunk(count, element_grain, tree::make_chunk(by_element));
+  if (state.is_planar())
+    look(system.field_on<motion::Se2>(state));
+  else
+    look(system.field(state));
   return describe_shape(system, first_bad.get());
 }
 
-std::optional<Trouble> check_folds_in_plane(const System& system) {
-  return describe_shape(system, system.planar_step()->first_folded(system.walker()));
+namespace {
+
+double eval_angle(const plan::Plan&, std::size_t, const elements::Joint& e, const elements::Field& f, double turns) {
+  return elements::eval_joint_angle(e, f, turns);
+}
+/// Both ports keep the joint's own axis 1 where its axis 3 is the normal. An axis in the plane turns nothing.
+double eval_angle(const plan::Plan& plan, std::size_t joint, const elements::JointOn<motion::Se2>& e,
+                  const elements::FieldOn<motion::Se2, double>& f, double turns) {
+  constexpr double whole = 6.283185307179586476925;
+  const double sign = plan.planar->turn_sign[joint];
+  if (sign == 0.0) return turns;
+  const motion::Vec2<double> turn = eval_turn(e, 1, f);
+  const double angle = sign * motion::angle_of(turn[0], turn[1]);
+  return angle + whole * std::round((turns - angle) / whole);  // of those half a turn from the last the nearest
 }
 
-std::optional<Trouble> check_flips_in_plane(const System& system, const State& state) {
-  const plan::Plan& plan = system.plan();
-  const std::vector<int>& joints = system.planar_step()->joints_with_angles();
-  if (joints.empty()) return std::nullopt;
-  const elements::Field f = system.field(state);
-  FirstBad first_bad(static_cast<std::int64_t>(plan.directory.size()));
-  for (const int id : joints)
-    plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
-      if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
-        if (is_flipped(e, f)) first_bad.note(id);
-    });
-  return describe_shape(system, first_bad.get());
-}
+}  // namespace
 
 void accept_turns(const System& system, State& state) {
   const plan::Plan& plan = system.plan();
-  if (state.behind != 0) return system.planar_step()->count_turns(state, system.walker());
-  const elements::Field f = system.field(state);
-  auto by_joint = [&](std::int64_t begin, std::int64_t end) {
-    for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
-      if (!plan.joints[j].counts_turns) continue;
-      plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(plan.joints[j].element)],
-                         [&](const auto& e) {
-                           if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
-                             state.turns[j] = elements::eval_joint_angle(e, f, state.turns[j]);
-                         });
-    }
+  const auto count = [&]<class G>(const elements::FieldOn<G, double>& f) {
+    auto by_joint = [&](std::int64_t begin, std::int64_t end) {
+      for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
+        if (!plan.joints[j].counts_turns) continue;
+        plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(plan.joints[j].element)],
+                           [&](const auto& e) {
+                             if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
+                               state.turns[j] = eval_angle(plan, j, e, f, state.turns[j]);
+                           });
+      }
+    };
+    system.walker().for_each_chunk(static_cast<std::int64_t>(plan.joints.size()), element_grain,
+                                   tree::make_chunk(by_joint));
   };
-  system.walker().for_each_chunk(static_cast<std::int64_t>(plan.joints.size()), element_grain,
-                                 tree::make_chunk(by_joint));
+  if (state.is_planar())
+    count(system.field_on<motion::Se2>(state));
+  else
+    count(system.field(state));
 }
 
 }  // namespace bough::step

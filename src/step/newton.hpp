@@ -64,10 +64,6 @@ inline bool may_be_round_off(int k, double change, double previous, double toler
 /// Whether what is left of a residual above the tolerance may be round-off.
 bool is_at_floor(const System& system, const ResidualSize& r, double tolerance);
 
-/// check_shape of what the PlanarStep has come to: beams by its nodes; of joints, in space, only those that could flip.
-std::optional<Trouble> check_folds_in_plane(const System& system);
-std::optional<Trouble> check_flips_in_plane(const System& system, const State& state);
-
 /// Names the part of the residual that is worst, for a message.
 std::string describe(System& system, ResidualSize r, double tolerance);
 

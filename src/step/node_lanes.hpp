@@ -8,8 +8,7 @@
 
 namespace bough::step {
 
-/// Of block_grain nodes.
-inline constexpr std::int64_t group_grain = block_grain / static_cast<std::int64_t>(nodes_in_lanes);
+inline constexpr std::size_t nodes_in_lanes = 8;
 
 /// Numbers of an item from `number` on.
 template <int numbers, class Item>
@@ -26,14 +25,15 @@ void gather(const Item* items, std::size_t begin, std::size_t count, lanes::Pack
 }
 /// Spare lanes hold what the last does, so they may write it as well.
 template <int numbers, class Item>
-void scatter(const lanes::Pack<nodes_in_lanes>* from, Item* items, std::size_t begin, std::size_t count) {
+void scatter(const lanes::Pack<nodes_in_lanes>* from, Item* items, std::size_t begin, std::size_t count,
+             std::size_t number = 0) {
   if (count == nodes_in_lanes) {
-    double* to = reinterpret_cast<double*>(items + begin);
+    double* to = reinterpret_cast<double*>(items + begin) + number;
     return lanes::scatter_rows<numbers, sizeof(Item) / sizeof(double)>(from, to);
   }
   double* to[nodes_in_lanes];
   for (std::size_t l = 0; l < nodes_in_lanes; ++l)
-    to[l] = reinterpret_cast<double*>(items + begin + std::min(l, count - 1));
+    to[l] = reinterpret_cast<double*>(items + begin + std::min(l, count - 1)) + number;
   lanes::scatter_lanes(from, numbers, to);
 }
 

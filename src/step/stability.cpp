@@ -196,7 +196,8 @@ UnstableMode Stability::mode_of(const State& state, const std::vector<double>& x
   const plan::Plan& plan = system_.plan();
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
     const Vec6<double> eta = system_.node_part(x.data(), static_cast<int>(n));
-    const Vec3<double> u = state.nodes[n].R * lanes::linear_part(eta), w = state.nodes[n].R * lanes::angular_part(eta);
+    const motion::Mat3<double>& R = system_.nodes(state)[n].R;
+    const Vec3<double> u = R * lanes::linear_part(eta), w = R * lanes::angular_part(eta);
     if (length_of(u) > most_moved) {
       most_moved = length_of(u);
       moves = {static_cast<int>(n), (1.0 / most_moved) * u, false};

@@ -7,14 +7,14 @@
 namespace bough::step {
 
 using lanes::Taylor;
-using motion::Vec6;
 
 namespace {
 
 constexpr elements::Slopes mass_slopes{0.0, 0.0, true};
 
-Vec6<double> node_part(const System& system, const std::vector<double>& x, std::size_t node) {
-  return system.node_part(x.data(), static_cast<int>(node));
+template <class G>
+typename G::template Vector<double> part_on(const System& system, const std::vector<double>& x, std::size_t node) {
+  return system.part_on<G>(x.data(), static_cast<int>(node));
 }
 
 constexpr double closed = 1e-13;  ///< relative gap that is not worth another correction
@@ -57,12 +57,22 @@ std::string contradicting(const System& system, int worst, const std::vector<int
   return text;
 }
 
+/// Largest entry of the vectors get(n) of all nodes, lengths relative to the size of the structure.
+template <class G, class Get>
+double largest_entry(const System& system, Get&& get) {
+  double most = 0.0;
+  for (std::size_t n = 0; n < system.plan().nodes.size(); ++n) {
+    const typename G::template Vector<double> v = get(n);
+    for (int i = 0; i < G::dof; ++i)
+      most = std::max(most, std::abs(v[i]) / (i < G::translations ? system.plan().length_scale : 1.0));
+  }
+  return most;
+}
 /// Largest speed, lengths relative to the size of the structure [1/s].
 double speed_scale(const System& system, const State& state) {
-  double most = 0.0;
-  for (const elements::NodeMotion& n : state.nodes)
-    for (int i = 0; i < 6; ++i) most = std::max(most, std::abs(n.v[i]) / (i < 3 ? system.plan().length_scale : 1.0));
-  return most;
+  return state.visit([&]<class G>(const NodesOn<G>& nodes) {
+    return largest_entry<G>(system, [&](std::size_t n) { return nodes.motion[n].v; });
+  });
 }
 
 /// Velocities that satisfy the constraints (plus `offset` by multiplier when given), nearest in the mass metric. Mass matrix factored. Says
@@ -76,28 +86,38 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
   if (auto t = system.solve(rhs.data(), x.data())) return t;
   if (report != nullptr) {
     const double before = speed_scale(system, state);
-    double change = 0.0;
-    for (std::size_t n = 0; n < state.nodes.size(); ++n)
-      for (int i = 0; i < 6; ++i)
-        change = std::max(change, std::abs(node_part(system, x, n)[i]) / (i < 3 ? system.plan().length_scale : 1.0));
+    const double change = state.visit([&]<class G>(const NodesOn<G>&) {
+      return largest_entry<G>(system, [&](std::size_t n) { return part_on<G>(system, x, n); });
+    });
     report->velocity_change = change > 0.0 ? change / std::max(before, change) : 0.0;
     for_each_multiplier(system, [&](int, std::size_t, std::size_t unknown, std::size_t) {
       report->velocity_impulse = std::max(report->velocity_impulse, std::abs(x[unknown]));
     });
     report->velocity_impulse = std::max(report->velocity_impulse, system.largest_held_impulse(state, x.data()));
   }
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) state.nodes[n].v += node_part(system, x, n);
+  state.change_all([&]<class G>(NodesOn<G>& nodes) {
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) nodes.motion[n].v += part_on<G>(system, x, n);
+  });
   return std::nullopt;
 }
 
-/// G d by multiplier. Element matrices hold G.
-void eval_rates(System& system, const std::vector<Vec6<double>>& d, std::vector<double>& rates) {
-  std::vector<double> vector(system.num_unknowns(), 0.0), product(system.num_unknowns());
-  for (std::size_t n = 0; n < d.size(); ++n) system.set_node_part(vector.data(), static_cast<int>(n), d[n]);
-  system.multiply(vector.data(), product.data());
+/// G d by multiplier, d a motion in the unknowns. Element matrices hold G.
+void eval_rates(System& system, const std::vector<double>& d, std::vector<double>& rates) {
+  std::vector<double> product(system.num_unknowns());
+  system.multiply(d.data(), product.data());
   rates.assign(static_cast<std::size_t>(system.plan().num_multipliers), 0.0);
   for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
     rates[multiplier] = product[unknown];
+  });
+}
+
+/// dq, and dv/dt where asked for, of all nodes are zero.
+void set_unmoved(State& state, bool with_accelerations) {
+  state.change_all([&]<class G>(NodesOn<G>& nodes) {
+    for (auto& n : nodes.motion) {
+      n.dq = NodesOn<G>::Vector::zero();
+      if (with_accelerations) n.a = n.dq;
+    }
   });
 }
 
@@ -109,7 +129,7 @@ StartReport failed(const std::string& cause) {
 
 }  // namespace
 
-std::optional<Trouble> set_normal_velocities(System& system, State& state, const std::vector<Vec6<double>>* d) {
+std::optional<Trouble> set_normal_velocities(System& system, State& state, const std::vector<double>* d) {
   if (auto t = factor_mass(system, state)) return t;
   std::vector<double> offset;
   if (d != nullptr) eval_rates(system, *d, offset);
@@ -119,14 +139,18 @@ std::optional<Trouble> set_normal_velocities(System& system, State& state, const
 std::optional<Trouble> solve_accelerations(System& system, State& state) {
   std::vector<double> rhs(system.num_unknowns()), x(system.num_unknowns());
   std::vector<Taylor<double, 3>> series;
-  for (elements::NodeMotion& n : state.nodes) n.a = Vec6<double>::zero();
+  state.change_all([](auto& nodes) {
+    for (auto& n : nodes.motion) n.a = std::decay_t<decltype(nodes)>::Vector::zero();
+  });
   std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
   if (auto t = system.evaluate(state, mass_slopes, false)) return t;
   system.constraint_series(state, nullptr, 0.0, series);
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
   set_rows(system, rhs, [&](std::size_t m) { return -2.0 * series[m].c[2]; });
   if (auto t = system.solve(rhs.data(), x.data())) return t;
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) state.nodes[n].a = node_part(system, x, n);
+  state.change_all([&]<class G>(NodesOn<G>& nodes) {
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) nodes.motion[n].a = part_on<G>(system, x, n);
+  });
   for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
     state.multipliers[multiplier] = x[unknown];
   });
@@ -137,7 +161,7 @@ std::optional<Trouble> solve_accelerations(System& system, State& state) {
 StartReport make_consistent(System& system, State& state, bool fix_positions, double step_size) {
   StartReport report;
   if (const auto t = system.set_time(state.time, laws::Side::right)) return failed(t->text);
-  for (elements::NodeMotion& n : state.nodes) n.dq = n.a = Vec6<double>::zero();
+  set_unmoved(state, true);
   std::vector<double> rhs(system.num_unknowns(), 0.0), x(system.num_unknowns());
   int worst = 0;
 
@@ -168,7 +192,7 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
     return failed(contradicting(system, worst, system.solver().blocks_not_unique()) + text +
                   (fix_positions ? "" : "; what drives it jumps there"));
   }
-  for (elements::NodeMotion& n : state.nodes) n.dq = Vec6<double>::zero();
+  set_unmoved(state, false);
 
   double speed = speed_scale(system, state);
   if (const auto t = project_velocities(system, state, nullptr, &report)) return failed(t->text);
@@ -188,7 +212,7 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
 
 StartReport start_alpha(System& system, State& state, const StepOptions& options, double h) {
   const AlphaCoefficients c = make_alpha_coefficients(options.spectral_radius);
-  for (elements::NodeMotion& n : state.nodes) n.dq = Vec6<double>::zero();
+  set_unmoved(state, false);
   // (M + O(h^2) K) jerk + G^T lambda' = -(residual)',  G jerk = -Phi'''|_{jerk = 0}, with the step's own matrix: modes faster than the step
   // are filtered, smooth ones change by O(h) only.
   const double acceleration = (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h);
@@ -202,15 +226,23 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -acceleration * rate[i];
   set_rows(system, rhs, [&](std::size_t m) { return -6.0 * series[m].c[3]; });
   if (const auto t = system.solve(rhs.data(), x.data())) return failed(t->text);
-  std::vector<Vec6<double>> jerk(state.nodes.size());
-  for (std::size_t n = 0; n < jerk.size(); ++n) {
-    jerk[n] = node_part(system, x, n);
-    state.algorithmic[n] = state.nodes[n].a + (c.shift() * h) * jerk[n];
-  }
+  // Steady velocity error of the index-3 scheme in the constraints' normals: local error of dq against the Magnus series of the motion,
+  //   G delta = -h^2 G ((beta + shift/2 - 1/6) jerk - ad(v) a / 12).
+  std::vector<double>& steady_error = rhs;
+  state.change_all([&]<class G>(NodesOn<G>& nodes) {
+    std::fill(steady_error.begin(), steady_error.end(), 0.0);
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
+      const auto& node = nodes.motion[n];
+      const typename NodesOn<G>::Vector jerk = part_on<G>(system, x, n);
+      nodes.algorithmic[n] = node.a + (c.shift() * h) * jerk;
+      nodes.acceleration_trend[n] = h * jerk;
+      nodes.trend_change[n] = NodesOn<G>::Vector::zero();
+      system.set_node_part(steady_error.data(), static_cast<int>(n),
+                           typename NodesOn<G>::Vector((-h * h) * ((c.beta + 0.5 * c.shift() - 1.0 / 6.0) * jerk -
+                                                                   (1.0 / 12.0) * bracket_of(node.v, node.a))));
+    }
+  });
   state.step_size = h;
-  state.acceleration_trend.resize(jerk.size());
-  for (std::size_t n = 0; n < jerk.size(); ++n) state.acceleration_trend[n] = h * jerk[n];
-  state.trend_change.assign(jerk.size(), Vec6<double>::zero());
   state.predictor_order = 1;
   state.local_error = state.increment = 0.0;
   state.multiplier_trend.assign(state.multipliers.size(), 0.0);
@@ -219,12 +251,7 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   StartReport report;
   report.ok = true;
   if (system.plan().num_multipliers == 0) return report;
-  // Steady velocity error of the index-3 scheme in the constraints' normals: local error of dq against the Magnus series of the motion,
-  //   G delta = -h^2 G ((beta + shift/2 - 1/6) jerk - ad(v) a / 12).
-  for (std::size_t n = 0; n < jerk.size(); ++n)
-    jerk[n] = (-h * h) * ((c.beta + 0.5 * c.shift() - 1.0 / 6.0) * jerk[n] -
-                          (1.0 / 12.0) * motion::cross6_times(state.nodes[n].v, state.nodes[n].a));
-  if (const auto t = set_normal_velocities(system, state, &jerk)) return failed(t->text);
+  if (const auto t = set_normal_velocities(system, state, &steady_error)) return failed(t->text);
   return report;
 }
 

@@ -4,10 +4,17 @@
 
 namespace bough::step {
 
-/// Velocities that meet the constraints up to G d by row (d by node, own axes; null: exactly), nearest in the mass metric. The matrix
+/// ad(v) a of twists of a node.
+inline motion::Vec6<double> bracket_of(const motion::Vec6<double>& v, const motion::Vec6<double>& a) {
+  return motion::cross6_times(v, a);
+}
+inline motion::Vec3<double> bracket_of(const motion::Vec3<double>& v, const motion::Vec3<double>& a) {
+  return motion::Se2::widened(motion::Se2::bracket(v, a));
+}
+
+/// Velocities that meet the constraints up to G d by row (d a motion in the unknowns; null: exactly), nearest in the mass metric. The matrix
 /// [M G^T; G 0] is factored at this state. Laws of its time are set.
-[[nodiscard]] std::optional<Trouble> set_normal_velocities(System& system, State& state,
-                                                           const std::vector<motion::Vec6<double>>* d);
+[[nodiscard]] std::optional<Trouble> set_normal_velocities(System& system, State& state, const std::vector<double>* d);
 
 /// dv/dt and multipliers of the equations of motion at positions and velocities, with that matrix factored.
 [[nodiscard]] std::optional<Trouble> solve_accelerations(System& system, State& state);

@@ -1,31 +1,53 @@
 #include "bough/step/state.hpp"
 
-#include <algorithm>
-
-#include "bough/lanes/transpose.hpp"
 #include "bough/plan/frames.hpp"
+#include "moving_nodes.hpp"
 
 namespace bough::step {
 
+using motion::Se2;
+using motion::Se3;
+using motion::Vec3;
+using motion::Vec6;
+
+namespace {
+
+void set_count(const plan::Plan& plan, auto& nodes) {
+  using Vector = typename std::decay_t<decltype(nodes)>::Vector;
+  const std::size_t count = plan.nodes.size();
+  nodes.motion.resize(count);
+  nodes.algorithmic.assign(count, Vector::zero());
+  nodes.acceleration_trend = nodes.trend_change = nodes.algorithmic;
+}
+
+/// A motion of space, own axes, as the group of the nodes has it.
+Vec6<double> restricted(const plan::Plan&, const SpatialNodes&, std::size_t, const Vec6<double>& v) { return v; }
+Vec3<double> restricted(const plan::Plan& plan, const PlanarNodes&, std::size_t node, const Vec6<double>& v) {
+  Vec3<double> z;
+  plan.unknowns.project(v, node, &z[0]);
+  return z;
+}
+
+}  // namespace
+
 State make_initial_state(const plan::Plan& plan) {
   State s;
+  SpatialNodes& nodes = s.emplace<Se3>();
   const std::size_t n = plan.nodes.size();
-  s.nodes.resize(n);
-  s.rotation.resize(n);
-  s.algorithmic.assign(n, motion::Vec6<double>::zero());
-  s.acceleration_trend = s.trend_change = s.algorithmic;
+  set_count(plan, nodes);
+  nodes.rotation.resize(n);
   s.multipliers.assign(static_cast<std::size_t>(plan.num_multipliers), 0.0);
   s.multiplier_trend = s.multiplier_trend_change = s.multipliers;
   for (std::size_t i = 0; i < n; ++i) {
-    elements::NodeMotion& node = s.nodes[i];
-    s.rotation[i] = motion::normalise(motion::quaternion_of(plan.nodes[i].pose.R));
-    node.R = motion::rotation_of(s.rotation[i]);
+    elements::NodeMotion& node = nodes.motion[i];
+    nodes.rotation[i] = motion::normalise(motion::quaternion_of(plan.nodes[i].pose.R));
+    node.R = motion::rotation_of(nodes.rotation[i]);
     node.x = motion::Vec3Pair::from(plan.nodes[i].pose.x);
     node.v = plan.nodes[i].twist;
-    node.a = node.dq = motion::Vec6<double>::zero();
+    node.a = node.dq = Vec6<double>::zero();
   }
   elements::Field field;
-  field.nodes = s.nodes.data();
+  field.nodes = nodes.motion.data();
   plan::FrameMotions frames;
   if (!plan.frames.empty()) frames = plan::frames_at_start(plan);
   field.carriers = frames.in_ground.data();
@@ -34,87 +56,41 @@ State make_initial_state(const plan::Plan& plan) {
       if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
         s.turns.push_back(j.counts_turns ? elements::eval_joint_angle(e, field, 0.0) : 0.0);
     });
+  if (!plan.planar) return s;
+  PlanarNodes& planar = s.emplace<Se2>();
+  set_count(plan, planar);
+  for (std::size_t i = 0; i < n; ++i) {
+    const plan::PlanarNode& at = plan.planar->nodes[i];
+    planar.motion[i] = {at.turn, at.x, restricted(plan, planar, i, plan.nodes[i].twist), Vec3<double>::zero(),
+                        Vec3<double>::zero()};
+  }
   return s;
 }
 
-namespace {
-
-/// What an increment changes of a node.
-template <class S>
-struct Mover {
-  motion::Mat3<S> R;
-  motion::PositionPair<S> x;
-  motion::Quaternion<S> q;
-  motion::Vec6<S> dq;
-
-  void move(const motion::Vec6<S>& eta, bool follow_dq) {
-    const motion::Frame<S> step = motion::Se3::exp(eta);
-    x.add(R * step.x);
-    q = motion::normalise(motion::multiply(q, motion::exp_quaternion(lanes::angular_part(eta))));
-    R = motion::rotation_of(q);
-    if (follow_dq) dq = motion::Se3::log(motion::compose(motion::Se3::exp(dq), step));
-  }
-};
-
-}  // namespace
-
-void move_node(State& state, std::size_t node, const motion::Vec6<double>& eta) {
-  elements::NodeMotion& n = state.nodes[node];
-  Mover<double> m{n.R, n.x, state.rotation[node], n.dq};
-  m.move(eta, true);
-  n.R = m.R;
-  n.x = m.x;
-  n.dq = m.dq;
-  state.rotation[node] = m.q;
+State make_spatial(const plan::Plan& plan, const State& state) {
+  State s = state;
+  if (!state.is_planar()) return s;
+  SpatialNodes& nodes = s.emplace<Se3>();
+  set_count(plan, nodes);
+  nodes.motion = nodes_in_space(plan, state);
+  for (const elements::NodeMotion& n : nodes.motion)
+    nodes.rotation.push_back(motion::normalise(motion::quaternion_of(n.R)));
+  return s;
 }
 
-void move_nodes(State& state, std::size_t begin, std::size_t count, const motion::Vec6<double>* eta, bool follow_dq) {
-  using Pack = lanes::Pack<nodes_in_lanes>;
-  static_assert(std::is_standard_layout_v<elements::NodeMotion> && sizeof(Mover<double>::R) == 9 * sizeof(double));
-  constexpr int num_pose = 15;  // of R and the position, which come first
-  const double *pose[nodes_in_lanes], *turn[nodes_in_lanes], *increment[nodes_in_lanes], *dq[nodes_in_lanes];
-  for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
-    const std::size_t k = std::min(l, count - 1);  // spare lanes repeat the last node
-    const elements::NodeMotion& n = state.nodes[begin + k];
-    pose[l] = n.R.m;
-    dq[l] = &n.dq[0];
-    turn[l] = &state.rotation[begin + k].w;
-    increment[l] = &eta[k][0];
-  }
-  Mover<Pack> m;
-  motion::Vec6<Pack> step;
-  Pack placed[num_pose], turned[4];
-  lanes::gather_lanes(pose, num_pose, placed);
-  lanes::gather_lanes(turn, 4, turned);
-  lanes::gather_lanes(increment, 6, &step[0]);
-  if (follow_dq) lanes::gather_lanes(dq, 6, &m.dq[0]);
-  for (int i = 0; i < 9; ++i) m.R.m[i] = placed[i];
-  for (int i = 0; i < 3; ++i) {
-    m.x.hi[i] = placed[9 + i];
-    m.x.lo[i] = placed[12 + i];
-    m.q.v[i] = turned[1 + i];
-  }
-  m.q.w = turned[0];
-  m.move(step, follow_dq);
-  for (int i = 0; i < 9; ++i) placed[i] = m.R.m[i];
-  for (int i = 0; i < 3; ++i) {
-    placed[9 + i] = m.x.hi[i];
-    placed[12 + i] = m.x.lo[i];
-    turned[1 + i] = m.q.v[i];
-  }
-  turned[0] = m.q.w;
-  double nowhere[num_pose], *to_pose[nodes_in_lanes], *to_turn[nodes_in_lanes], *to_dq[nodes_in_lanes];
-  for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
-    to_pose[l] = to_turn[l] = to_dq[l] = nowhere;
-    if (l >= count) continue;
-    elements::NodeMotion& n = state.nodes[begin + l];
-    to_pose[l] = n.R.m;
-    to_turn[l] = &state.rotation[begin + l].w;
-    to_dq[l] = &n.dq[0];
-  }
-  lanes::scatter_lanes(placed, num_pose, to_pose);
-  lanes::scatter_lanes(turned, 4, to_turn);
-  if (follow_dq) lanes::scatter_lanes(&m.dq[0], 6, to_dq);
+void move_node(const plan::Plan& plan, State& state, std::size_t node, const Vec6<double>& eta) {
+  state.change_all([&](auto& nodes) { move_node(nodes, node, restricted(plan, nodes, node, eta)); });
+}
+void set_velocity(const plan::Plan& plan, State& state, std::size_t node, const Vec6<double>& v) {
+  state.change_all([&](auto& nodes) { nodes.motion[node].v = restricted(plan, nodes, node, v); });
+}
+void set_acceleration(const plan::Plan& plan, State& state, std::size_t node, const Vec6<double>& a) {
+  state.change_all([&](auto& nodes) { nodes.motion[node].a = restricted(plan, nodes, node, a); });
+}
+void set_at_rest(State& state) {
+  state.change_all([](auto& nodes) {
+    for (auto& n : nodes.motion) n.dq = n.v = n.a = std::decay_t<decltype(nodes)>::Vector::zero();
+  });
 }
 
 }  // namespace bough::step

@@ -10,7 +10,7 @@
 #include "driven_nodes.hpp"
 #include "lane_batches.hpp"
 #include "make_solver.hpp"
-#include "planar_step.hpp"
+#include "moving_nodes.hpp"
 #include "projection.hpp"
 #include "system_parts.hpp"
 
@@ -65,13 +65,16 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   if (!plan.held.empty() || !plan.driven.empty()) held_ = std::make_unique<HeldNodes>(plan);
   if (!plan.driven.empty()) driven_ = std::make_unique<DrivenNodes>(*this, *held_);
   place_parts();
-  lane_batches_ = std::make_unique<LaneBatches<SpatialKernels>>();
+  spatial_lanes_ = std::make_unique<LaneBatches<motion::Se3>>();
   if (plan.unknowns.is_whole())
-    lane_batches_->make(plan, solver_->batches(), joint_of_element_, held_.get());
+    spatial_lanes_->make(plan, solver_->batches(), joint_of_element_, held_.get());
   else
     projection_ = std::make_unique<Projection>(plan);
   takes_symmetric_parts_ = plan.took("symmetric");
-  if (plan.planar) planar_ = std::make_unique<PlanarSystem>(plan, solver_->batches(), joint_of_element_, held_.get());
+  if (plan.planar) {
+    planar_lanes_ = std::make_unique<LaneBatches<motion::Se2>>();
+    planar_lanes_->make(plan, solver_->batches(), joint_of_element_, held_.get());
+  }
   law_values_.assign(plan.laws.size(), 0.0);
   law_rates_ = law_accelerations_ = law_values_;
   law_series_.resize(plan.laws.size());
@@ -89,8 +92,6 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   renewal_cost_ = estimate_step_cost(*this).renewal();
   chunk_sizes_.resize((sums_.size() + block_grain - 1) / block_grain, {{}, true});
   find_pairs();
-  if (planar_ && plan.is_dynamic) planar_step_ = std::make_unique<PlanarStep>(plan, *planar_, node_begin_, pairs_);
-  watch({});  // what multipliers of joints that hold nodes are recovered from
 }
 
 System::~System() = default;
@@ -111,13 +112,40 @@ std::optional<Trouble> System::set_time(double time, laws::Side side) {
 }
 
 elements::Field System::field(const State& state, const elements::Slopes& slopes, bool with_inertia) const {
-  if (state.behind != 0) throw std::logic_error("a state whose nodes are behind was asked for them: System::catch_up");
-  return field_of_watched(state, slopes, with_inertia);
+  elements::Field f = surroundings(slopes, with_inertia);
+  f.nodes = nodes(state).data();
+  return f;
 }
 
-elements::Field System::field_of_watched(const State& state, const elements::Slopes& slopes, bool with_inertia) const {
+elements::Field System::field_of(const State& state, std::span<const int> nodes,
+                                 std::vector<elements::NodeMotion>& scratch) const {
+  if (!state.is_planar()) return field(state);
+  elements::Field f = surroundings({}, true);
+  scratch.resize(plan_.nodes.size());
+  copy_nodes_in_space(plan_, state, nodes, scratch);
+  f.nodes = scratch.data();
+  return f;
+}
+
+template <class G>
+elements::FieldOn<G, double> System::field_on(const State& state, const elements::Slopes& slopes,
+                                              bool with_inertia) const {
+  if constexpr (std::is_same_v<G, motion::Se3>) return field(state, slopes, with_inertia);
+  const elements::Field space = surroundings(slopes, with_inertia);
+  elements::FieldOn<G, double> f;
+  f.nodes = state.on<G>().motion.data();
+  f.slopes = slopes;
+  f.around.gravity = motion::plane_part(lanes::transpose_times(plan_.planar->axes, space.around.gravity));
+  f.around.laws = space.around.laws;
+  f.around.has_inertia = space.around.has_inertia;
+  return f;
+}
+template elements::FieldOn<motion::Se2, double> System::field_on<motion::Se2>(const State&, const elements::Slopes&,
+                                                                              bool) const;
+
+/// All but the nodes.
+elements::Field System::surroundings(const elements::Slopes& slopes, bool with_inertia) const {
   elements::Field f;
-  f.nodes = state.nodes.data();
   f.slopes = slopes;
   f.around.gravity = law_values_[static_cast<std::size_t>(plan_.gravity_law)] * plan_.gravity;
   f.around.laws = law_values_.data();
@@ -133,38 +161,53 @@ elements::Field System::field_of_watched(const State& state, const elements::Slo
   return f;
 }
 
-std::span<const solve::ElementBatch> System::batches() const { return batches_of(planar_.get()); }
-
-std::span<const solve::ElementBatch> System::batches_of(const PlanarSystem* planar) const {
-  if (planar != nullptr) return planar->batches();
-  return projection_ ? solver_->batches() : lane_batches_->batches();
+std::span<const solve::ElementBatch> System::batches() const {
+  return planar_lanes_ ? batches_on<motion::Se2>() : batches_on<motion::Se3>();
 }
 
-void System::evaluate_alone(std::size_t id, const State& state, const elements::Field& f, bool tangent) {
+template <>
+const LaneBatches<motion::Se3>& System::lanes_on<motion::Se3>() const {
+  return *spatial_lanes_;
+}
+template <>
+const LaneBatches<motion::Se2>& System::lanes_on<motion::Se2>() const {
+  return *planar_lanes_;
+}
+template <class G>
+std::span<const solve::ElementBatch> System::batches_on() const {
+  const bool is_projected = std::is_same_v<G, motion::Se3> && projection_;
+  return is_projected ? solver_->batches() : lanes_on<G>().batches();
+}
+
+template <class G>
+void System::evaluate_alone(std::size_t id, const State& state, const elements::FieldOn<G, double>& f,
+                            const ElementResults& to) {
   if (held_ && held_->leaves_out(id)) return;
   const int j = joint_of_element_[id];
+  std::array<double, elements::max_rows> scratch;
   const double* multipliers = nullptr;
   double turns = 0.0;
   if (j >= 0) {
-    multipliers = state.multipliers.data() + plan_.joints[static_cast<std::size_t>(j)].multiplier_begin;
+    multipliers = multipliers_on<G>(plan_.joints[static_cast<std::size_t>(j)], state, scratch.data());
     turns = state.turns[static_cast<std::size_t>(j)];
   }
-  plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
-    if (projection_) return evaluate_projected(e, id, f, multipliers, turns, tangent);
+  plan::with_element(plan::arrays_on<G>(plan_), plan_.directory[id], [&](const auto& e) {
+    if constexpr (std::is_same_v<G, motion::Se3>)
+      if (projection_) return evaluate_projected(e, id, f, multipliers, turns, to.want_tangents());
     std::array<double, most_unknowns> residual, magnitude;
     std::array<double, most_unknowns * most_unknowns> tangent_entries;
-    const solve::ElementView view = solver_->element(static_cast<int>(id));
+    const solve::ElementView view = to.want_tangents() ? to.tangent_of(static_cast<int>(id)) : solve::ElementView{};
     const bool is_direct = view.stride == 1 && !(held_ && held_->trims(id));
     elements::evaluate(e, f, multipliers, turns, residual.data(),
-                       !tangent    ? nullptr
-                       : is_direct ? view.first
-                                   : tangent_entries.data());
-    if (tangent && !is_direct)
+                       !to.want_tangents() ? nullptr
+                       : is_direct         ? view.first
+                                           : tangent_entries.data());
+    elements::eval_magnitude(e, f, residual.data(), magnitude.data());
+    set_parts(id, residual.data(), magnitude.data());
+    if (to.want_tangents() && !is_direct)
       write_matrix(
           held_.get(), id, elements::num_unknowns(e),
           [&](int i) { return tangent_entries[static_cast<std::size_t>(i)]; }, view);
-    elements::eval_magnitude(e, f, residual.data(), magnitude.data());
-    set_parts(id, residual.data(), magnitude.data());
   });
 }
 
@@ -229,6 +272,26 @@ void System::symmetrise(const solve::ElementBatch& batch) {
   }
 }
 
+template <class G>
+void System::evaluate_on(const State& state, const elements::FieldOn<G, double>& field, bool tangent) {
+  const LaneBatches<G>& lanes = lanes_on<G>();
+  const std::span<const solve::ElementBatch> batches = batches_on<G>();
+  const ElementResults results{parts_.data(), element_begin_.data(), tangent ? solver_.get() : nullptr};
+  auto by_batch = [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const auto batch = static_cast<std::size_t>(k);
+      if (lanes.holds(batch))
+        lanes.evaluate(batch, state, field, results);
+      else
+        for (int id : batches[batch].element)
+          if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, field, results);
+      if (tangent && takes_symmetric_parts_) symmetrise(batches[batch]);
+    }
+  };
+  walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain,
+                         tree::make_chunk(by_batch, tree::Work::evaluate));
+}
+
 std::optional<Trouble> System::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
   PhaseTimer timer{clock_, counts_.assemble};
   ++counts_.evaluations;
@@ -236,32 +299,10 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
     begin_matrices();
     solver_->trust_symmetry(takes_symmetric_parts_);
   }
-  const elements::Field f = field(state, slopes);
-  PlanarSystem* const planar = as_sensors_ ? nullptr : planar_.get();
-  const std::span<const solve::ElementBatch> batches = batches_of(planar);
-  const ElementResults results{parts_.data(), element_begin_.data(), tangent ? solver_.get() : nullptr};
-  if (planar != nullptr) {
-    if (!(planar_step_ && planar_step_->is_under_way())) {
-      auto by_node = [&](std::int64_t begin, std::int64_t end) { planar->set_nodes(state, begin, end); };
-      walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
-    }
-    planar->set_field(f);
-  }
-  auto by_batch = [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k < end; ++k) {
-      const auto batch = static_cast<std::size_t>(k);
-      if (planar != nullptr)
-        planar->evaluate(batch, state, results);
-      else if (lane_batches_->holds(batch))
-        lane_batches_->evaluate(batch, state, f, results);
-      else
-        for (int id : batches[batch].element)
-          if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, f, tangent);
-      if (tangent && takes_symmetric_parts_) symmetrise(batches[batch]);
-    }
-  };
-  walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain,
-                         tree::make_chunk(by_batch, tree::Work::evaluate));
+  if (state.is_planar() && !as_sensors_)
+    evaluate_on(state, field_on<motion::Se2>(state, slopes), tangent);
+  else
+    evaluate_on(state, field(state, slopes), tangent);
   auto by_sum = [&](std::int64_t begin, std::int64_t end) { sum_parts(begin, end); };
   walker_.for_each_chunk(static_cast<std::int64_t>(sums_.size()), block_grain, tree::make_chunk(by_sum));
   if (std::all_of(chunk_sizes_.begin(), chunk_sizes_.end(), [](const ChunkSize& c) { return c.is_finite; }))

@@ -49,7 +49,7 @@ void System::set_frames() {
     for (CarrierMotion& m : frames_.in_ground) m.twist = m.twist_rate = m.twist_second = Vec6<double>::zero();
     if (plan_.observer >= 0) make_steady(frames_.observer, time_);
   }
-  lane_batches_->set_frames(frames_);
+  spatial_lanes_->set_frames(frames_);
   set_turned_laws();
 }
 

@@ -6,28 +6,41 @@
 #include "bough/elements/rows.hpp"
 #include "bough/step/system.hpp"
 #include "held_nodes.hpp"
-#include "planar_step.hpp"
+#include "moving_nodes.hpp"
 #include "projection.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
 
-using elements::NodeMotion;
 using motion::Vec6;
 
 void System::find_pairs() {
+  int lane = elements::num_lanes;
+  const auto add = [&](int a, int b, double per_length) {
+    if (lane == elements::num_lanes) {
+      lane = 0;
+      pairs_.emplace_back();
+    }
+    PairLanes& pairs = pairs_.back();
+    for (int l = lane++; l < elements::num_lanes; ++l) {
+      pairs.a[l] = a;
+      pairs.b[l] = b;
+      pairs.per_length.set(l, per_length);
+    }
+  };
   for (std::size_t id = 0; id < plan_.directory.size(); ++id)
     plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
       const double per_length = 1.0 / element_length_[id];
       const int first = e.ports[0].node == elements::ground ? -1 : e.ports[0].node;
       constexpr int num_ports = std::decay_t<decltype(e)>::num_ports;
-      if (num_ports == 1 && first >= 0) pairs_.push_back({-1, first, per_length});
+      if (num_ports == 1 && first >= 0) add(-1, first, per_length);
       for (int p = 1; p < num_ports; ++p)
-        if (e.ports[p].node != elements::ground) pairs_.push_back({first, e.ports[p].node, per_length});
+        if (e.ports[p].node != elements::ground) add(first, e.ports[p].node, per_length);
     });
-  turned_.resize(plan_.nodes.size());
   chunk_max_.resize((pairs_.size() + pair_grain - 1) / pair_grain);
 }
+
+IncrementsOf System::increments() const { return {plan_.unknowns, node_begin_.data()}; }
 
 namespace {
 constexpr std::int64_t joint_grain = 64;
@@ -42,41 +55,14 @@ Violations largest(const Violations& a, const Violations& b) {
 
 }  // namespace
 
-double System::relative_size(const State& state, const double* x) {
-  auto by_node = [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k < end; ++k) {
-      const auto n = static_cast<std::size_t>(k);
-      const Vec6<double> eta = node_part(x, static_cast<int>(k));
-      turned_[n] = lanes::join(state.nodes[n].R * lanes::linear_part(eta), state.nodes[n].R * lanes::angular_part(eta));
-    }
-  };
-  walker_.for_each_chunk(static_cast<std::int64_t>(turned_.size()), block_grain, tree::make_chunk(by_node));
-  auto by_pair = [&](std::int64_t begin, std::int64_t end) {
-    double most = 0.0;
-    for (std::int64_t k = begin; k < end; ++k) {
-      const NodePair& p = pairs_[static_cast<std::size_t>(k)];
-      const auto b = static_cast<std::size_t>(p.b);
-      Vec6<double> change = turned_[b];
-      if (p.a >= 0) {
-        const auto a = static_cast<std::size_t>(p.a);
-        change -= turned_[a];
-        const motion::Vec3<double> arm = state.nodes[b].x.hi - state.nodes[a].x.hi;
-        const motion::Vec3<double> swing = lanes::cross(lanes::angular_part(turned_[a]), arm);
-        for (int i = 0; i < 3; ++i) change[i] -= swing[i];
-      }
-      for (int i = 0; i < 3; ++i) change[i] *= p.per_length;
-      double largest = 0.0;
-      for (int i = 0; i < 6; ++i) largest = std::max(largest, std::abs(change[i]));
-      if (!(largest < too_far)) {
-        most = std::numeric_limits<double>::infinity();
-        break;
-      }
-      const motion::Vec3<double> shift = lanes::linear_part(change), turn = lanes::angular_part(change);
-      most = std::max({most, lanes::dot(shift, shift), lanes::dot(turn, turn)});
-    }
-    chunk_max_[static_cast<std::size_t>(begin / pair_grain)] = most;
-  };
-  walker_.for_each_chunk(static_cast<std::int64_t>(pairs_.size()), pair_grain, tree::make_chunk(by_pair));
+double System::relative_size(const State& state, const double* x) const {
+  state.visit([&](const auto& nodes) {
+    auto by_pair = [&](std::int64_t begin, std::int64_t end) {
+      const std::span<const PairLanes> some(pairs_.data() + begin, static_cast<std::size_t>(end - begin));
+      chunk_max_[static_cast<std::size_t>(begin / pair_grain)] = largest_change(nodes, some, x, increments());
+    };
+    walker_.for_each_chunk(static_cast<std::int64_t>(pairs_.size()), pair_grain, tree::make_chunk(by_pair));
+  });
   double most = 0.0;
   for (double size : chunk_max_) most = std::max(most, size);
   return std::sqrt(most);
@@ -113,21 +99,13 @@ void System::note_multipliers(const State& start, State& state) const {
 
 double System::apply(State& state, const double* x) {
   PhaseTimer timer{clock_, counts_.update};
-  if (planar_step_ && planar_step_->is_under_way()) {
-    const double size = planar_step_->apply(x, walker_);
-    if (plan_.num_multipliers > 0) add_multipliers(state, x, 1.0);
-    return size;
-  }
   const double change = relative_size(state, x);
-  auto by_node = [&](std::int64_t begin, std::int64_t end) {
-    Vec6<double> eta[nodes_in_lanes];
-    for (std::int64_t n = begin; n < end; n += nodes_in_lanes) {
-      const auto count = std::min<std::int64_t>(nodes_in_lanes, end - n);
-      for (std::int64_t i = 0; i < count; ++i) eta[i] = node_part(x, static_cast<int>(n + i));
-      move_nodes(state, static_cast<std::size_t>(n), static_cast<std::size_t>(count), eta, true);
-    }
-  };
-  walker_.for_each_chunk(static_cast<std::int64_t>(state.nodes.size()), block_grain, tree::make_chunk(by_node));
+  state.change_all([&](auto& nodes) {
+    auto by_node = [&](std::int64_t begin, std::int64_t end) {
+      move_nodes(nodes, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), x, increments());
+    };
+    walker_.for_each_chunk(static_cast<std::int64_t>(nodes.motion.size()), block_grain, tree::make_chunk(by_node));
+  });
   if (plan_.num_multipliers > 0) add_multipliers(state, x, 1.0);
   return change;
 }
@@ -139,30 +117,7 @@ void System::settle(State& state) {
 
 void System::recover_multipliers(State& state, const std::vector<Vec6<double>>* more) const {
   // In statics by elements in space, as sensors see them: what is unsettled belongs to their residuals.
-  if (held_) held_->recover_multipliers(*this, state, more, plan_.is_dynamic ? planar_.get() : nullptr);
-}
-
-std::optional<Trouble> System::catch_up(State& state) {
-  if (state.behind == 0) return std::nullopt;
-  if (!planar_step_ || !planar_step_->knows(state)) return lost_nodes(state);
-  if (auto t = set_time(state.time, laws::Side::left)) return t;
-  planar_step_->write(state, walker_);
-  recover_multipliers(state);
-  return std::nullopt;
-}
-
-void System::watch(std::vector<int> nodes) {
-  if (!planar_step_) return;
-  if (held_) nodes.insert(nodes.end(), held_->near().begin(), held_->near().end());
-  planar_step_->watch(nodes);
-}
-
-std::optional<Trouble> System::catch_up_watched(State& state) {
-  if (state.behind == 0) return std::nullopt;
-  if (!planar_step_ || !planar_step_->knows(state)) return lost_nodes(state);
-  planar_step_->write_watched(state, walker_);
-  recover_multipliers(state);
-  return std::nullopt;
+  if (held_) held_->recover_multipliers(*this, state, more, state.is_planar() && plan_.is_dynamic);
 }
 
 double System::largest_held_impulse(const State& state, const double* x) const {
@@ -180,9 +135,9 @@ void System::find_unsettled(State& state) {
   if (!is_of_matrices_ && factor(false, {})) return;
   if (solve(work_.rhs.data(), work_.x.data())) return;
   for (State* s : {&state, &work_.start, &work_.before})
-    s->unsettled.reserve(state.nodes.size());  // copies take no memory then
-  state.unsettled.resize(state.nodes.size());
-  for (std::size_t n = 0; n < state.nodes.size(); ++n)
+    s->unsettled.reserve(plan_.nodes.size());  // copies take no memory then
+  state.unsettled.resize(plan_.nodes.size());
+  for (std::size_t n = 0; n < plan_.nodes.size(); ++n)
     state.unsettled[n] = node_part(work_.x.data(), static_cast<int>(n));
   add_multipliers(state, work_.x.data(), 1.0);
 }

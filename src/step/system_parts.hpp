@@ -1,6 +1,6 @@
 #pragma once
-#include <algorithm>
 /// Shared by the files of System.
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 
@@ -10,7 +10,8 @@ namespace bough::step {
 
 /// Items a task takes at once; chunks do not depend on the number of threads.
 inline constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
-inline constexpr std::int64_t element_grain = 256, block_grain = 64, pair_grain = 128, batch_grain = 8;
+/// Pairs of nodes are counted by eights.
+inline constexpr std::int64_t element_grain = 256, block_grain = 64, pair_grain = 16, batch_grain = 8;
 
 inline constexpr int least_lanes = 3;  ///< elements that are evaluated as eight
 
@@ -57,6 +58,16 @@ void join_parts(int node_unknowns, int num_unknowns, int num_rows, const S* resi
     for (int i = begin; i < end; ++i) *parts++ = residual[i];
     for (int i = begin; i < end; ++i) *parts++ = magnitude[i];
   }
+}
+
+/// The multipliers that an element on the group G of a joint takes: in space of all rows, in a plane of those that are kept
+/// there, which `scratch` takes.
+template <class G>
+const double* multipliers_on(const plan::JointPlan& joint, const State& state, double* scratch) {
+  const double* from = state.multipliers.data() + joint.multiplier_begin;
+  if constexpr (std::is_same_v<G, motion::Se3>) return from;
+  for (std::size_t r = 0; r < joint.rows.size(); ++r) scratch[r] = from[joint.rows[r]];
+  return scratch;
 }
 
 /// Calls f(joint, multiplier, unknown, row) for every multiplier that is an unknown: its place in State::multipliers and in the solver's

@@ -11,6 +11,7 @@
 
 namespace bough::step {
 
+using motion::Se3;
 using motion::Vec6;
 
 namespace {
@@ -18,11 +19,11 @@ namespace {
 constexpr double largest_turn = 2.8;  ///< rotation of a node in one step [rad], below pi: the logarithm is unique
 
 /// Node n of `to` at H exp(d) of `from`.
-void place(const State& from, std::size_t n, const Vec6<double>& d, State& to) {
+void place(const SpatialNodes& from, std::size_t n, const Vec6<double>& d, SpatialNodes& to) {
   const motion::Frame<double> step = motion::Se3::exp(d);
-  elements::NodeMotion& node = to.nodes[n];
-  node.x = from.nodes[n].x;
-  node.x.add(from.nodes[n].R * step.x);
+  elements::NodeMotion& node = to.motion[n];
+  node.x = from.motion[n].x;
+  node.x.add(from.motion[n].R * step.x);
   to.rotation[n] =
       motion::normalise(motion::multiply(from.rotation[n], motion::exp_quaternion(lanes::angular_part(d))));
   node.R = motion::rotation_of(to.rotation[n]);
@@ -55,7 +56,7 @@ Variational::Variational(System& system, const scene::Solver& solver, double new
 }
 
 std::optional<Trouble> Variational::start(State& state) {
-  state.momentum.resize(state.nodes.size());
+  state.momentum.resize(D_.size());
   state.last_step = 0.0;
   mass_step_ = 0.0;
   return set_momenta(state, state.step_size);
@@ -68,7 +69,7 @@ double Variational::elastic_inertia(double h) const { return (newmark_beta_ - 0.
 std::optional<Trouble> Variational::set_momenta(State& state, double h) {
   const elements::Field field = system_.field(state);
   if (auto t = sums_.evaluate(system_, field, state.turns, elastic_inertia(h), MomentumSums::Want::momenta)) return t;
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) state.momentum[n] = sums_.momentum(n);
+  for (std::size_t n = 0; n < D_.size(); ++n) state.momentum[n] = sums_.momentum(n);
   return std::nullopt;
 }
 
@@ -77,7 +78,7 @@ std::optional<Trouble> Variational::set_momenta(State& state, double h) {
 void Variational::predict(double h) {
   const double last = base_.last_step;
   for (std::size_t n = 0; n < D_.size(); ++n) {
-    const elements::NodeMotion& node = base_.nodes[n];
+    const elements::NodeMotion& node = base_.on<Se3>().motion[n];
     const Vec6<double> a = last > 0.0 ? (2.0 / last) * (node.v - (1.0 / last) * node.dq) : node.a;
     D_[n] = h * node.v + (0.5 * h * h) * a;
   }
@@ -85,14 +86,16 @@ void Variational::predict(double h) {
 
 /// The nodes of `next` and of the middle by D.
 std::optional<Trouble> Variational::place_nodes(State& next, double h) {
+  const SpatialNodes& base = base_.on<Se3>();
+  SpatialNodes &mid = mid_.change<Se3>(), &end = next.change<Se3>();
   for (std::size_t n = 0; n < D_.size(); ++n) {
     const motion::Vec3<double> turn = lanes::angular_part(D_[n]);
     if (!(lanes::dot(turn, turn) <= largest_turn * largest_turn))
       return Trouble{"'" + system_.plan().nodes[n].name + "' turns by nearly half a turn in one step"};
-    place(base_, n, 0.5 * D_[n], mid_);
-    place(base_, n, D_[n], next);
-    mid_.nodes[n].v = (1.0 / h) * D_[n];
-    mid_.nodes[n].a = Vec6<double>::zero();
+    place(base, n, 0.5 * D_[n], mid);
+    place(base, n, D_[n], end);
+    mid.motion[n].v = (1.0 / h) * D_[n];
+    mid.motion[n].a = Vec6<double>::zero();
   }
   return std::nullopt;
 }
@@ -116,7 +119,7 @@ std::optional<Trouble> Variational::evaluate_step(const State& next, double h, R
     Vec6<double> terms = sums_.force_size(n);
     add_sizes(residual_[n], terms);
     add_sizes((2.0 / h) * (P - p), terms);
-    add_sizes(motion::cross6_transpose_times(mid_.nodes[n].v, P), terms);
+    add_sizes(motion::cross6_transpose_times(mid_.on<Se3>().motion[n].v, P), terms);
     residual_[n] -= (2.0 / h) * p;
     residual_[n] = 0.5 * (residual_[n] + motion::adjoint_transpose_times(motion::Se3::exp(half), residual_[n])) +
                    (2.0 / h) * motion::inverse_tangent_transpose_times(-half, P) + sums_.force(n);
@@ -175,7 +178,7 @@ void Variational::add_elastic_tangent(const E& e, const elements::Field& field, 
     int row = 0;
     for (const elements::Port& port : e.ports) {
       if (port.node == elements::ground) continue;
-      const elements::NodeMotion& node = mid_.nodes[static_cast<std::size_t>(port.node)];
+      const elements::NodeMotion& node = mid_.on<Se3>().motion[static_cast<std::size_t>(port.node)];
       for (int j = 0; j < size; ++j) {
         Vec6<double> P;
         for (int i = 0; i < 6; ++i) P[i] = elastic[(row + i) * size + j];

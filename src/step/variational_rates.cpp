@@ -9,6 +9,7 @@
 
 namespace bough::step {
 
+using motion::Se3;
 using motion::Vec6;
 
 namespace {
@@ -91,10 +92,11 @@ std::optional<Trouble> Variational::solve_mass(State& moving, std::vector<double
 /// Adds x_ to velocities and multipliers, and what it closes to the rows. Returns the largest change: of motion relative to the motion, of
 /// multipliers to their largest or `scale`.
 double Variational::add_solution(State& moving, std::vector<double>& multipliers, double scale) {
+  std::vector<elements::NodeMotion>& nodes = moving.change<Se3>().motion;
   for (std::size_t n = 0; n < D_.size(); ++n) {
     increments_[n] = node_part(n);
-    moving.nodes[n].v += increments_[n];
-    left_[n] = moving.nodes[n].v;
+    nodes[n].v += increments_[n];
+    left_[n] = nodes[n].v;
   }
   double by_rows = 0.0, largest_row = scale;
   for (const ConstraintRows::Place& p : after_.places())
@@ -114,7 +116,8 @@ double Variational::add_solution(State& moving, std::vector<double>& multipliers
 
 /// P(q, v) + G^T mu = p,  Phi'(q, v) = 0;  then p <- p - G^T mu.
 std::optional<Trouble> Variational::solve_velocities(State& state, double h) {
-  for (std::size_t n = 0; n < D_.size(); ++n) state.nodes[n].v = (2.0 / h) * D_[n] - base_.nodes[n].v;
+  std::vector<elements::NodeMotion>& nodes = state.change<Se3>().motion;
+  for (std::size_t n = 0; n < D_.size(); ++n) nodes[n].v = (2.0 / h) * D_[n] - base_.on<Se3>().motion[n].v;
   system_.constraint_series(state, nullptr, 0.0, series_);
   for (std::size_t m = 0; m < impulses_.size(); ++m) {
     row_goals_[m] = -series_[m].c[1];
@@ -136,21 +139,23 @@ std::optional<Trouble> Variational::solve_accelerations(State& state, double h) 
     std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
   system_.constraint_series(state, nullptr, 0.0, series_);
   for (std::size_t m = 0; m < impulses_.size(); ++m) row_goals_[m] = -2.0 * series_[m].c[2];
-  mid_.nodes = state.nodes;
-  mid_.rotation = state.rotation;
+  SpatialNodes& mid = mid_.change<Se3>();
+  mid.motion = state.on<Se3>().motion;
+  mid.rotation = state.on<Se3>().rotation;
   mid_.time = state.time;
   mid_.turns = state.turns;
   mid_.multipliers = impulses_;
   std::fill(mid_.multipliers.begin(), mid_.multipliers.end(), 0.0);
-  for (elements::NodeMotion& n : mid_.nodes) n.a = Vec6<double>::zero();
+  for (elements::NodeMotion& n : mid.motion) n.a = Vec6<double>::zero();
   if (auto t = system_.evaluate(mid_, {}, false)) return t;
   for (std::size_t n = 0; n < D_.size(); ++n) {
     goal_[n] = -1.0 * system_.node_part(system_.residual().data(), static_cast<int>(n));
-    mid_.nodes[n].v = state.nodes[n].a;
+    mid.motion[n].v = state.on<Se3>().motion[n].a;
   }
   if (auto t = solve_mass(mid_, state.multipliers, h, 1e-12)) return t;
   if (auto t = recover_multipliers(state, h)) return t;
-  for (std::size_t n = 0; n < D_.size(); ++n) state.nodes[n].a = mid_.nodes[n].v;
+  std::vector<elements::NodeMotion>& nodes = state.change<Se3>().motion;
+  for (std::size_t n = 0; n < D_.size(); ++n) nodes[n].a = mid.motion[n].v;
   return std::nullopt;
 }
 
@@ -162,7 +167,7 @@ std::optional<Trouble> Variational::recover_multipliers(State& state, double h) 
     return t;
   for (std::size_t n = 0; n < D_.size(); ++n) {
     left_[n] = sums_.momentum(n);
-    state.nodes[n].a = Vec6<double>::zero();
+    state.change<Se3>().motion[n].a = Vec6<double>::zero();
   }
   system_.recover_multipliers(state, &left_);
   return std::nullopt;
@@ -183,13 +188,14 @@ void Variational::add_counts() {
 
 /// The trapezoidal rule holds to O(h^2) where the step resolves the motion.
 void Variational::compare_rates(const State& state, double h) {
+  const std::vector<elements::NodeMotion>&before = base_.on<Se3>().motion, &after = state.on<Se3>().motion;
   for (std::size_t n = 0; n < D_.size(); ++n) {
-    const elements::NodeMotion &a = base_.nodes[n], &b = state.nodes[n];
+    const elements::NodeMotion &a = before[n], &b = after[n];
     increments_[n] = b.v - a.v - (0.5 * h) * (a.a + b.a);
     left_[n] = (0.5 * h) * (a.a + b.a);
   }
   Vectors& changes = residual_;
-  for (std::size_t n = 0; n < D_.size(); ++n) changes[n] = state.nodes[n].v - base_.nodes[n].v;
+  for (std::size_t n = 0; n < D_.size(); ++n) changes[n] = after[n].v - before[n].v;
   const double size = std::max(largest(left_), largest(changes));
   unresolved_ = size > 0.0 ? largest(increments_) / size : 0.0;
 }

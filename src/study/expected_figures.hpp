@@ -24,7 +24,7 @@ class ExpectedFigures {
 
   /// Whether the end of a step at this time has to be handed to `add`: never where nothing is asked for. Some ends around a time are.
   bool wants(double time) const;
-  /// Takes the end of an accepted step, or the start of a stretch; the state must not be behind, laws stand at its time, and stand there again
+  /// Takes the end of an accepted step, or the start of a stretch; laws stand at its time, and stand there again
   /// afterwards.
   void add(step::System& system, const step::State& state, results::EnergyMeter& meter);
   /// To be called at a breakpoint and at the end of the run: nothing is interpolated across.

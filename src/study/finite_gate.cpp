@@ -73,8 +73,9 @@ void FiniteGate::look_at(const results::MotionFrame& frame) {
 }
 
 void FiniteGate::look_at(const step::State& state, const plan::Plan& plan) {
-  for (std::size_t k = 0; k < state.nodes.size(); ++k) {
-    const elements::NodeMotion& n = state.nodes[k];
+  const std::vector<elements::NodeMotion>& nodes = step::nodes_in_space(plan, state);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const elements::NodeMotion& n = nodes[k];
     bool good = are_finite(n.R.m);
     for (int i = 0; i < 3; ++i) good = good && std::isfinite(n.x.hi[i]);
     for (int i = 0; i < 6; ++i) good = good && std::isfinite(n.v[i]);

@@ -22,10 +22,11 @@ double speed_of(const Vec6<double>& twist, double length) {
 }  // namespace
 
 std::vector<results::ChangedVelocity> changed_velocities(const plan::Plan& plan, const step::State& start) {
+  const std::vector<elements::NodeMotion>& nodes = step::nodes_in_space(plan, start);
   double speed = 0.0;
   for (std::size_t n = 0; n < plan.nodes.size(); ++n)
-    speed = std::max(
-        {speed, speed_of(plan.nodes[n].twist, plan.length_scale), speed_of(start.nodes[n].v, plan.length_scale)});
+    speed =
+        std::max({speed, speed_of(plan.nodes[n].twist, plan.length_scale), speed_of(nodes[n].v, plan.length_scale)});
   std::vector<results::ChangedVelocity> changed;
   const auto compare = [&](const std::string& of, bool is_angular, const Vec3<double>& asked, const Vec3<double>& got) {
     if (size_of(asked) == 0.0) return;  // left open
@@ -42,7 +43,7 @@ std::vector<results::ChangedVelocity> changed_velocities(const plan::Plan& plan,
     const auto n = static_cast<std::size_t>(given.node);
     const motion::Mat3<double> R = plan.nodes[n].pose.R * given.offset.R;
     const Vec6<double> asked = motion::inverse_adjoint_times(given.offset, plan.nodes[n].twist),
-                       got = motion::inverse_adjoint_times(given.offset, start.nodes[n].v);
+                       got = motion::inverse_adjoint_times(given.offset, nodes[n].v);
     compare(given.of, false, R * lanes::linear_part(asked), R * lanes::linear_part(got));
     compare(given.of, true, R * lanes::angular_part(asked), R * lanes::angular_part(got));
   }

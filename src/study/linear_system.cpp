@@ -147,7 +147,7 @@ void fill(step::System& system, step::State state, const BeforeStep& attempt, Li
     trouble = step::predict(system, state, attempt.options, attempt.end, slopes);
   } else {
     trouble = system.set_time(attempt.end);
-    for (elements::NodeMotion& n : state.nodes) n.dq = n.v = n.a = motion::Vec6<double>::zero();
+    step::set_at_rest(state);
   }
   if (!trouble) trouble = system.evaluate(state, slopes, true);
   if (trouble) {

@@ -25,7 +25,6 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
     watch = std::make_unique<schedule::TimedWalker>(inner);
     return watch->walker();
   };
-  simulate_options.reads_state = false;
   simulate_options.before_step = [&](step::System&, const step::State&, const BeforeStep& attempt) {
     if (attempt.number > options.steps) return false;
     if (tried++ == 0) run.start = watch->times();

@@ -70,7 +70,7 @@ double ReactionWatch::steepness_at_pole(const Row& r, double now, double scale) 
 /// Of the motion, by the time that the fastest part takes for its error [s].
 double ReactionWatch::delay(const step::State& state) const {
   double square = 0.0;
-  for (const elements::NodeMotion& n : state.nodes) {
+  for (const elements::NodeMotion& n : step::nodes_in_space(plan_, state)) {
     const motion::Vec3<double> v = lanes::linear_part(n.v), w = lanes::angular_part(n.v);
     square = std::max({square, lanes::dot(v, v) / (plan_.length_scale * plan_.length_scale), lanes::dot(w, w)});
   }

@@ -102,8 +102,6 @@ class Run {
   step::StepReport advance_to(double target);
   bool is_due(long row, bool is_last) const;
   bool is_motion_due(long row, bool is_last) const;
-  bool will_look(bool is_last) const;
-  bool catch_up();
   void choose_bdf_order(double step_size);
   bool start_segment(double step_size, bool is_first);
   void note_moved_start(const step::StartReport& consistent);
@@ -172,8 +170,6 @@ class Run {
   results::SpringWatch springs_;
   std::optional<ReactionWatch> reactions_;  ///< where checks are made and sensors show reactions
   long rows_ = 0;
-  bool looks_always_ = true;   ///< at each end of a step, for hooks
-  bool is_untouched_ = false;  ///< the state is as the last step left it
   double last_step_ = 0.0;
 };
 

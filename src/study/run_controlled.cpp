@@ -181,7 +181,6 @@ bool Run::look_at_error() {
     unfiltered_looked_ = std::max(unfiltered_looked_, unfiltered);
     local_error_->restart();
   }
-  if (!catch_up()) return false;
   steps_since_look_ = 0;
   looking_ = !is_second;
   if (const auto t = local_error_->measure(system_, state_)) return fail(t->text);

@@ -16,8 +16,6 @@ namespace bough::study {
 using results::RunStatus;
 
 bool Run::start_segment(double step_size, bool is_first) {
-  if (!catch_up()) return false;
-  is_untouched_ = false;
   if (reactions_) reactions_->restart();
   results::Energies before;
   if (!is_first && has_balance()) before = energy_meter_.eval(system_, state_);
@@ -99,29 +97,13 @@ void Run::note_moved_start(const step::StartReport& consistent) {
   note(text + where);
 }
 
-/// Whether somebody reads the state at the end of the step that makes the next row.
-bool Run::will_look(bool is_last) const {
-  return looks_always_ || is_due(rows_, is_last) || is_motion_due(rows_, is_last) || !measures_.empty() ||
-         figures_.wants(state_.time);
-}
-
-bool Run::catch_up() {
-  const auto t = system_.catch_up(state_);
-  return t ? fail(t->text) : true;
-}
-
 bool Run::watch_reactions() {
   if (!reactions_->wants_look(state_, summary_.checks.local_error_sum)) return true;
-  if (!catch_up()) return false;
   const auto t = reactions_->look(system_, state_);
   return t ? fail(t->text) : true;
 }
 
 bool Run::set_step_size(double size) {
-  if (size != state_.step_size) {
-    if (!catch_up()) return false;
-    is_untouched_ = false;
-  }
   if (variational_) {
     state_.step_size = size;
   } else if (bdf_) {
@@ -132,13 +114,10 @@ bool Run::set_step_size(double size) {
   return true;
 }
 
-/// What ends in the plane is left there (State::behind): joints count turns there, whoever reads the state later calls catch_up.
 step::StepReport Run::advance_to(double target) {
   if (variational_) return variational_->advance(state_, options_, target);
   if (bdf_) return bdf_->advance(state_, options_, target);
-  step::StepReport report = step::advance(system_, state_, options_, target, {is_untouched_, false});
-  is_untouched_ = report.converged;
-  return report;
+  return step::advance(system_, state_, options_, target);
 }
 
 /// A step that failed is tried again from where its first try set out: each change of size corrects velocities, and where steps resolve nothing,
@@ -174,7 +153,6 @@ bool Run::run_segment(double begin, double end, double& total_end) {
                     std::to_string(size) + ": " +
                     (summary_.instability.empty() ? "" : summary_.instability + "; it ended in this: ") + report.cause +
                     (vibrations_.seen() ? "; " + std::string(undamped) : ""));
-      if (!catch_up()) return false;
       keep_or_restore(failures++ == 0);
       done *= 2;
       continue;
@@ -185,13 +163,9 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     if (options_.single_solution && summary_.steps.accepted == 1)
       note("one linear solution per step: residuals are not driven to the tolerance");
     if (!plan_.joints.empty()) step::accept_turns(system_, state_);
-    if (will_look(target == total_end) && !catch_up()) return false;
     if (reactions_ && !watch_reactions()) return false;
     if (watches_error() && !look_at_error()) return false;
-    if (has_balance()) {
-      if (const auto t = system_.catch_up_watched(state_)) return fail(t->text);
-      work_meter_.add(system_, state_, size);
-    }
+    if (has_balance()) work_meter_.add(system_, state_, size);
     const bool goes_on = !variational_ || watch_vibrations();
     record(report.iterations, target == total_end || !goes_on);
     if (!goes_on) return false;

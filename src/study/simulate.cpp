@@ -81,8 +81,6 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
     };
     if (std::any_of(plan_.sensors.begin(), plan_.sensors.end(), shows_reaction)) reactions_.emplace(system_);
   }
-  looks_always_ = before_step_ && options.reads_state;
-  if (scene.output.checks) system_.watch(work_meter_.nodes(plan_));
   summary_.scene = scene.name;
   summary_.title = scene.title;
   summary_.threads = threads_.count();
@@ -334,18 +332,19 @@ void Run::estimate_solution_error() {
   if (system_.counts().factorizations == 0) return;
   constexpr double least_motion = 1e-12;  // of the structure: less is a few roundings of places
   std::vector<double> rhs(system_.num_unknowns()), x(system_.num_unknowns());
-  if (!catch_up() || system_.evaluate(state_, {}, false)) return;
+  if (system_.evaluate(state_, {}, false)) return;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system_.residual()[i];
   if (system_.solve(rhs.data(), x.data())) return;
   double moved = least_motion, shift = 0.0;
-  for (std::size_t n = 0; n < state_.nodes.size(); ++n) {
+  const std::vector<elements::NodeMotion>& nodes = system_.nodes(state_);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
     const motion::Frame<double>& from = plan_.nodes[n].pose;
     const motion::Vec6<double> eta = system_.node_part(x.data(), static_cast<int>(n));
     for (int i = 0; i < 3; ++i) {
-      moved = std::max(moved, std::abs(state_.nodes[n].x.hi[i] - from.x[i]) / plan_.length_scale);
+      moved = std::max(moved, std::abs(nodes[n].x.hi[i] - from.x[i]) / plan_.length_scale);
       shift = std::max({shift, std::abs(eta[i]) / plan_.length_scale, std::abs(eta[3 + i])});
     }
-    for (int i = 0; i < 9; ++i) moved = std::max(moved, std::abs(state_.nodes[n].R.m[i] - from.R.m[i]));
+    for (int i = 0; i < 9; ++i) moved = std::max(moved, std::abs(nodes[n].R.m[i] - from.R.m[i]));
   }
   summary_.solver.emplace_back("solution_error_estimate", shift / moved);
 }
@@ -400,7 +399,6 @@ void Run::finish() {
   if (reactions_)
     if (const std::string wrong = reactions_->misplaced(); !wrong.empty()) summary_.doubts.push_back({"error", wrong});
   if (!after_run_) return;
-  (void)catch_up();
   after_run_(system_, state_);
 }
 

@@ -53,11 +53,11 @@ void StabilityWatch::look_at_hidden(const step::State& state) {
   scene::Scene whole = scene_;
   whole.without.insert(whole.without.end(), {"planar", "line"});
   const plan::Plan plan = plan::make_plan(whole);
-  const bool is_alike = plan.nodes.size() == state.nodes.size() && plan.joints.size() == state.turns.size() &&
+  const bool is_alike = plan.nodes.size() == state.num_nodes() && plan.joints.size() == state.turns.size() &&
                         static_cast<std::size_t>(plan.num_multipliers) == state.multipliers.size();
   if (!is_alike) return;  // rigid parts were found otherwise
   step::System system(plan, whole.solver, schedule::make_serial_walker());
-  step::State at_rest = state;
+  step::State at_rest = step::make_spatial(system_.plan(), state);
   at_rest.unsettled.clear();
   if (system.set_time(state.time) || system.evaluate(at_rest, {}, true)) return;
   step::Stability stability(system);

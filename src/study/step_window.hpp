@@ -22,7 +22,7 @@ class StepWindow {
 
   const std::vector<int>& sensors() const { return sensors_; }
   void clear() { num_ends_ = 0; }
-  /// Takes the end of a step; beyond four the first is forgotten. The state must not be behind, laws stand at its time.
+  /// Takes the end of a step; beyond four the first is forgotten. Laws stand at its time.
   void push(const step::System& system, const step::State& state, results::EnergyMeter& meter);
 
   int num_ends() const { return num_ends_; }
@@ -49,7 +49,8 @@ class StepWindow {
   std::vector<int> nodes_;                  ///< that sensors of motion look at
   std::array<End, most_ends> ends_;
   int num_ends_ = 0;
-  step::State between_;  ///< only what sensors of motion look at is set
+  std::vector<elements::NodeMotion> between_nodes_;  ///< scratch of push
+  step::State between_;                              ///< only what sensors of motion look at is set
   std::vector<double> found_;
 };
 

@@ -37,7 +37,6 @@ double time_run(const scene::Scene& scene, const TuneOptions& options, std::stri
   long done = 0;
   SimulateOptions simulate_options;
   simulate_options.threads = options.threads;
-  simulate_options.reads_state = false;
   simulate_options.before_step = [&](step::System&, const step::State&, const BeforeStep& attempt) {
     if (attempt.number > options.steps) return false;
     if (attempt.number == 1 && done == 0) start = Clock::now();

@@ -95,7 +95,6 @@ std::string run_fault(Scene scene) {
   const double start = cpu_seconds();
   long attempts = 0;
   bough::study::SimulateOptions options;
-  options.reads_state = false;
   options.before_step = [&](auto&, const auto&, const auto&) {
     return ++attempts < most_steps && cpu_seconds() - start < most_seconds;
   };

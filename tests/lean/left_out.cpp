@@ -31,7 +31,6 @@ bool count_steps(scene::Scene scene) {
   }
   int tried = 0;
   study::SimulateOptions options;
-  options.reads_state = false;
   options.before_step = [&](step::System&, const step::State&, const study::BeforeStep&) {
     if (++tried == first_counted) {
       CALLGRIND_START_INSTRUMENTATION;

@@ -42,12 +42,7 @@ TEST(Advance, gives_the_same_bits_on_any_number_of_threads) {
   const State one = run(s, 1, 15, 1e-3);
   for (int threads : {2, 3, 8}) {
     const State many = run(s, threads, 15, 1e-3);
-    for (std::size_t n = 0; n < one.nodes.size(); ++n)
-      for (int i = 0; i < 3; ++i) {
-        EXPECT_EQ(one.nodes[n].x.hi[i], many.nodes[n].x.hi[i]);
-        EXPECT_EQ(one.nodes[n].x.lo[i], many.nodes[n].x.lo[i]);
-        EXPECT_EQ(one.nodes[n].v[i], many.nodes[n].v[i]);
-      }
+    test::expect_same_nodes(one, many);
     for (std::size_t m = 0; m < one.multipliers.size(); ++m) EXPECT_EQ(one.multipliers[m], many.multipliers[m]);
   }
 }
@@ -121,18 +116,25 @@ TEST(Equilibrate, converges_quadratically_under_a_bending_load) {
 
 TEST(MoveNode, adds_up_increments_like_the_group) {
   scene::Scene s = test::make_chain(1);
-  const plan::Plan plan = plan::make_plan(s);
-  State state = make_initial_state(plan);
-  const motion::Vec6<double> a{{0.1, -0.2, 0.3, 0.4, 0.5, -0.6}}, b{{-0.3, 0.1, 0.2, 0.2, -0.4, 0.1}};
-  const motion::Frame<double> start{state.nodes[1].R, state.nodes[1].x.hi};
-  move_node(state, 1, a);
-  move_node(state, 1, b);
-  const auto step = motion::compose(motion::Se3::exp(a), motion::Se3::exp(b));
-  const auto expected = motion::compose(start, step);
-  const auto dq = motion::Se3::log(step);
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(state.nodes[1].x.hi[i], expected.x[i], 1e-15);
-  for (int i = 0; i < 9; ++i) EXPECT_NEAR(state.nodes[1].R.m[i], expected.R.m[i], 1e-15);
-  for (int i = 0; i < 6; ++i) EXPECT_NEAR(state.nodes[1].dq[i], dq[i], 1e-15);
+  for (const bool is_planar : {false, true}) {
+    s.without = is_planar ? std::vector<std::string>{} : std::vector<std::string>{"planar"};
+    const plan::Plan plan = plan::make_plan(s);
+    ASSERT_EQ(plan.planar.has_value(), is_planar);
+    State state = make_initial_state(plan);
+    motion::Vec6<double> a{{0.1, -0.2, 0.3, 0.4, 0.5, -0.6}}, b{{-0.3, 0.1, 0.2, 0.2, -0.4, 0.1}};
+    if (is_planar)  // the plane is that of axes 1 and 3
+      for (motion::Vec6<double>* v : {&a, &b}) (*v)[1] = (*v)[3] = (*v)[5] = 0.0;
+    const motion::Frame<double> start{nodes_in_space(plan, state)[1].R, nodes_in_space(plan, state)[1].x.hi};
+    move_node(plan, state, 1, a);
+    move_node(plan, state, 1, b);
+    const auto step = motion::compose(motion::Se3::exp(a), motion::Se3::exp(b));
+    const auto expected = motion::compose(start, step);
+    const auto dq = motion::Se3::log(step);
+    const elements::NodeMotion& node = nodes_in_space(plan, state)[1];
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(node.x.hi[i], expected.x[i], 1e-15);
+    for (int i = 0; i < 9; ++i) EXPECT_NEAR(node.R.m[i], expected.R.m[i], 1e-15);
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(node.dq[i], dq[i], 1e-15);
+  }
 }
 
 }  // namespace

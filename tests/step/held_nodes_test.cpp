@@ -103,7 +103,7 @@ double unbalanced(const Rig& held, Rig& whole) {
   std::vector<double> forces = whole.system.residual();
   if (!held.state.unsettled.empty()) {  // f + K eta
     std::vector<double> eta(forces.size(), 0.0), more(forces.size());
-    for (std::size_t n = 0; n < held.state.nodes.size(); ++n)
+    for (std::size_t n = 0; n < held.plan.nodes.size(); ++n)
       whole.system.set_node_part(eta.data(), static_cast<int>(n), held.state.unsettled[n]);
     whole.system.solver().multiply(whole.system.walker(), eta.data(), more.data());
     for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += more[i];
@@ -266,8 +266,7 @@ TEST(HeldNodes, give_the_same_bits_on_any_number_of_threads) {
   }
   for (std::size_t k = 1; k < ends.size(); ++k) {
     EXPECT_EQ(ends[0].multipliers, ends[k].multipliers);
-    for (std::size_t n = 0; n < ends[0].nodes.size(); ++n)
-      for (int i = 0; i < 6; ++i) EXPECT_EQ(ends[0].nodes[n].v[i], ends[k].nodes[n].v[i]);
+    test::expect_same_nodes(ends[0], ends[k]);
   }
 }
 

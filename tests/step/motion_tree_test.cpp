@@ -38,17 +38,17 @@ struct Fixture {
   }
 };
 
-motion::Vec6<double> difference(const State& a, const State& b, std::size_t node) {
-  const auto& p = a.nodes[node];
-  const auto& q = b.nodes[node];
+motion::Vec6<double> difference(const plan::Plan& plan, const State& a, const State& b, std::size_t node) {
+  const auto& p = nodes_in_space(plan, a)[node];
+  const auto& q = nodes_in_space(plan, b)[node];
   return motion::Se3::log(motion::Frame<double>{lanes::transpose_times(p.R, q.R),
                                                 lanes::transpose_times(p.R, motion::difference(q.x, p.x))});
 }
 
-double largest(const State& a, const State& b) {
+double largest(const plan::Plan& plan, const State& a, const State& b) {
   double most = 0.0;
-  for (std::size_t n = 0; n < a.nodes.size(); ++n) {
-    const motion::Vec6<double> d = difference(a, b, n);
+  for (std::size_t n = 0; n < a.num_nodes(); ++n) {
+    const motion::Vec6<double> d = difference(plan, a, b, n);
     for (int i = 0; i < 6; ++i) most = std::max(most, std::abs(d[i]));
   }
   return most;
@@ -74,7 +74,7 @@ TEST(MotionTree, moves_nodes_as_they_move_alone_to_first_order) {
     State alone = f.state, carried = f.state;
     f.system.apply(alone, x.data());
     f.system.apply_along_tree(carried, x.data(), 1.0);
-    const double d = largest(alone, carried);
+    const double d = largest(f.plan, alone, carried);
     EXPECT_LT(d, 100.0 * size * size);
     if (last > 0.0) {
       EXPECT_NEAR(d / last, 1e-2, 2e-3);
@@ -98,8 +98,8 @@ TEST(MotionTree, tells_the_power_at_the_end_of_the_path) {
     expected += force * speed;
     scale += std::abs(force * speed);
   };
-  for (std::size_t n = 0; n < at.nodes.size(); ++n) {
-    const motion::Vec6<double> twist = (0.5 / h) * difference(before, after, n);
+  for (std::size_t n = 0; n < at.num_nodes(); ++n) {
+    const motion::Vec6<double> twist = (0.5 / h) * difference(f.plan, before, after, n);
     const auto begin = static_cast<std::size_t>(f.system.block_begin(static_cast<int>(n)));
     for (std::size_t i = 0; i < 6; ++i) add(f.system.residual()[begin + i], twist[static_cast<int>(i)]);
   }

@@ -47,13 +47,13 @@ inline void stir(Rig& fewer, Rig& whole) {
     for (int i = 0; i < 6; ++i) v[i] = size * uniform(random);
     return v;
   };
-  for (std::size_t n = 0; n < fewer.state.nodes.size(); ++n) {
+  for (std::size_t n = 0; n < fewer.plan.nodes.size(); ++n) {
     const motion::Vec6<double> eta = any(0.05), v = any(1.0), a = any(10.0);
     if (fewer.plan.block_of_node[n] < 0) continue;
     for (Rig* rig : {&fewer, &whole}) {
-      step::move_node(rig->state, n, eta);
-      rig->state.nodes[n].v = v;
-      rig->state.nodes[n].a = a;
+      step::move_node(rig->plan, rig->state, n, eta);
+      step::set_velocity(rig->plan, rig->state, n, v);
+      step::set_acceleration(rig->plan, rig->state, n, a);
     }
   }
   for (std::size_t m = 0; m < fewer.state.multipliers.size(); ++m)
@@ -74,7 +74,7 @@ inline double rounding_of_forces(const Rig& rig) {
 
 inline void expect_equal(const Rig& a, const Rig& b, double tolerance) {
   double size = 0.0, speed = 0.0;
-  for (const elements::NodeMotion& n : b.state.nodes)
+  for (const elements::NodeMotion& n : b.nodes())
     for (int i = 0; i < 6; ++i) {
       speed = std::max(speed, std::abs(n.v[i]));
       size = std::max(size, std::abs(n.a[i]));
@@ -83,13 +83,13 @@ inline void expect_equal(const Rig& a, const Rig& b, double tolerance) {
   // Places are rounded, and accelerations hold their increments dq / (beta h^2).
   const double beta = step::make_alpha_coefficients(b.scene.analysis.spectral_radius).beta;
   const double rounding = h > 0.0 ? 2.2e-16 * b.plan.length_scale / (beta * h * h) : 0.0;
-  for (std::size_t n = 0; n < a.state.nodes.size(); ++n)
+  for (std::size_t n = 0; n < a.plan.nodes.size(); ++n)
     for (int i = 0; i < 6; ++i) {
       if (i < 3) {
-        EXPECT_NEAR(a.state.nodes[n].x.hi[i], b.state.nodes[n].x.hi[i], tolerance);
+        EXPECT_NEAR(a.nodes()[n].x.hi[i], b.nodes()[n].x.hi[i], tolerance);
       }
-      EXPECT_NEAR(a.state.nodes[n].v[i], b.state.nodes[n].v[i], tolerance * speed);
-      EXPECT_NEAR(a.state.nodes[n].a[i], b.state.nodes[n].a[i], tolerance * size + rounding);
+      EXPECT_NEAR(a.nodes()[n].v[i], b.nodes()[n].v[i], tolerance * speed);
+      EXPECT_NEAR(a.nodes()[n].a[i], b.nodes()[n].a[i], tolerance * size + rounding);
     }
   const double allowed = tolerance * largest(b.state.multipliers) + rounding_of_forces(b);
   for (std::size_t m = 0; m < a.state.multipliers.size(); ++m)

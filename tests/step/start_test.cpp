@@ -26,7 +26,7 @@ TEST(MakeConsistent, closes_positions_velocities_and_accelerations) {
   EXPECT_LT(rig.system.constraint_violation(rig.state, 0), 1e-13);
   EXPECT_LT(rig.system.constraint_violation(rig.state, 1), 1e-12);
   double largest = 0.0;  // 1e9 rad/s^2: what closes the gap has bent the bars, which are let go
-  for (const elements::NodeMotion& n : rig.state.nodes)
+  for (const elements::NodeMotion& n : rig.nodes())
     for (int i = 0; i < 6; ++i) largest = std::max(largest, std::abs(n.a[i]));
   EXPECT_LT(rig.system.constraint_violation(rig.state, 2), std::numeric_limits<double>::epsilon() * largest);
 }
@@ -48,7 +48,7 @@ TEST(MakeConsistent, gives_a_hanging_body_its_weight_as_reaction_at_once) {
   s.joints.push_back(j);
   Rig rig(s);
   ASSERT_TRUE(make_consistent(rig.system, rig.state, true, 1e-3).ok);
-  for (double a : {rig.state.nodes[0].a[0], rig.state.nodes[0].a[2]}) EXPECT_NEAR(a, 0.0, 1e-13);
+  for (double a : {rig.nodes()[0].a[0], rig.nodes()[0].a[2]}) EXPECT_NEAR(a, 0.0, 1e-13);
   EXPECT_NEAR(std::abs(rig.state.multipliers[2]), 20.0, 1e-12);
 }
 

@@ -80,12 +80,12 @@ void stir(Rig& flat, Rig& whole) {
     for (double& entry : x) entry = size * uniform(random);
     return flat.plan.unknowns.expanded(x, node);
   };
-  for (std::size_t n = 0; n < flat.state.nodes.size(); ++n) {
+  for (std::size_t n = 0; n < flat.plan.nodes.size(); ++n) {
     const Vec6<double> eta = any(n, 0.05), v = any(n, 1.0), a = any(n, 10.0);
     for (Rig* rig : {&flat, &whole}) {
-      step::move_node(rig->state, n, eta);
-      rig->state.nodes[n].v = v;
-      rig->state.nodes[n].a = a;
+      step::move_node(rig->plan, rig->state, n, eta);
+      step::set_velocity(rig->plan, rig->state, n, v);
+      step::set_acceleration(rig->plan, rig->state, n, a);
     }
   }
   for (std::size_t j = 0; j < flat.plan.joints.size(); ++j)

@@ -64,7 +64,7 @@ Drift drift_of(const std::string& text, double h, double duration) {
   results::EnergyMeter meter(s.system().plan());
   const motion::Vec6<double> first = meter.eval(s.system(), s.state()).momentum;
   const auto spin = [&s] {
-    const elements::NodeMotion& n = s.state().nodes.front();
+    const elements::NodeMotion& n = s.system().nodes(s.state()).front();
     return n.R * motion::Vec3<double>{{1.0 * n.v[3], 2.0 * n.v[4], 3.0 * n.v[5]}};
   };
   const motion::Vec3<double> first_spin = spin();
@@ -283,7 +283,7 @@ TEST(Balances, are_left_out_when_not_asked_for_and_change_no_result) {
   EXPECT_EQ(with.history.rows, without.history.rows);
 }
 
-/// What a step in the plane leaves behind where nobody looks at its end (State::behind) is not lost at a load's end, at the end of the run and where steps fail.
+/// Whoever looks at a state in space changes nothing of it: at rows, at a load's end, at the end of the run and where steps fail.
 TEST(Rows, that_nobody_asks_for_change_no_other) {
   const std::string spun = R"({
     "sections": [{"name": "section", "stiffness": {"EA": 1e6, "GA2": 4e5, "GA3": 4e5, "GJ": 500, "EI2": 600, "EI3": 600},

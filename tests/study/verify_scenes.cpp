@@ -39,7 +39,10 @@ Direct::Direct(const scene::Scene& scene)
 
 Vec3<double> Direct::position(const std::string& node) const {
   for (std::size_t i = 0; i < plan.nodes.size(); ++i)
-    if (plan.nodes[i].name == node) return state.nodes[i].x.hi + state.nodes[i].x.lo;
+    if (plan.nodes[i].name == node) {
+      const motion::PositionPair<double>& x = system.nodes(state)[i].x;
+      return x.hi + x.lo;
+    }
   throw std::out_of_range(node);
 }
 

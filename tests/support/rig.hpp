@@ -21,6 +21,9 @@ struct Rig {
         system(plan, scene.solver, walker),
         state(step::make_initial_state(plan)) {}
 
+  /// In space.
+  const std::vector<elements::NodeMotion>& nodes() const { return system.nodes(state); }
+
   /// A consistent start and steps of generalized-alpha.
   void run(int steps, double h) {
     const step::StepOptions options = step::make_step_options(scene.analysis);
@@ -33,10 +36,26 @@ struct Rig {
   }
 };
 
+/// Nodes of two states on the same group, bit by bit.
+inline void expect_same_nodes(const step::State& a, const step::State& b) {
+  a.visit([&b]<class G>(const step::NodesOn<G>& nodes) {
+    const step::NodesOn<G>& others = b.on<G>();
+    ASSERT_EQ(nodes.motion.size(), others.motion.size());
+    const auto* x = reinterpret_cast<const double*>(nodes.motion.data());
+    const auto* y = reinterpret_cast<const double*>(others.motion.data());
+    for (std::size_t i = 0; i < nodes.motion.size() * elements::numbers_of_node<G>; ++i) EXPECT_EQ(x[i], y[i]);
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n)
+      for (int i = 0; i < G::dof; ++i) {
+        EXPECT_EQ(nodes.algorithmic[n][i], others.algorithmic[n][i]);
+        EXPECT_EQ(nodes.acceleration_trend[n][i], others.acceleration_trend[n][i]);
+      }
+  });
+}
+
 /// A vector of the system with fewer unknowns in the one of the same scene with more: what is left out is zero.
 inline std::vector<double> expand(const Rig& fewer, const Rig& more, const std::vector<double>& x) {
   std::vector<double> out(more.system.num_unknowns(), 0.0);
-  for (std::size_t n = 0; n < fewer.state.nodes.size(); ++n)
+  for (std::size_t n = 0; n < fewer.plan.nodes.size(); ++n)
     more.system.set_node_part(out.data(), static_cast<int>(n), fewer.system.node_part(x.data(), static_cast<int>(n)));
   for (std::size_t j = 0; j < fewer.plan.joints.size(); ++j) {
     const plan::JointPlan &from = fewer.plan.joints[j], &to = more.plan.joints[j];

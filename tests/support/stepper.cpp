@@ -80,7 +80,7 @@ void Stepper::step(double end_time) {
 Sample Stepper::sample() const {
   Sample s;
   s.time = state_.time;
-  for (const elements::NodeMotion& n : state_.nodes) {
+  for (const elements::NodeMotion& n : system_.nodes(state_)) {
     s.positions.insert(s.positions.end(), n.R.m, n.R.m + 9);
     for (int i = 0; i < 3; ++i) s.positions.push_back(n.x.hi[i] + n.x.lo[i]);
     s.velocities.insert(s.velocities.end(), n.v.v, n.v.v + 6);

@@ -98,6 +98,13 @@ inline motion::Mat3<double> eval_port_rotation(const Port& port, const Field& fi
   return port.has_offset ? node * port.offset.R : node;
 }
 
+inline motion::Vec2<double> eval_port_rotation(const PortOn<motion::Se2, double>& port,
+                                               const FieldOn<motion::Se2, double>& field) {
+  if (port.node == ground) return port.offset.R;
+  const motion::Vec2<double>& node = field.nodes[port.node].R;
+  return port.has_offset ? motion::complex_times(node, port.offset.R) : node;
+}
+
 /// Unknowns of an element: those of its group per port off the ground, then its multipliers.
 template <class E>
 int num_multipliers(const E& e) {

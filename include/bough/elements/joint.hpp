@@ -107,6 +107,13 @@ bool exchanges_energy(const JointOn<G, C>& joint) {
   return is_driven(joint) || joint.num_efforts > 0;
 }
 
+/// Whether rows k to k + 2 of a joint hold all axes of its second frame along those of its first: e_1 . R e_2 = e_2 . R e_3 =
+/// e_3 . R e_1 = 0, which half a turn off about any of them would meet as well.
+inline bool aligns_all_axes(const Joint& e, int k) {
+  return k + 2 < e.num_rows && e.rows[k].i == 0 && e.rows[k].j == 1 && e.rows[k + 1].kind == RowKind::across &&
+         e.rows[k + 1].i == 1 && e.rows[k + 1].j == 2 && e.rows[k + 2].kind == RowKind::across;
+}
+
 /// theta = turns + atan2(s', c'), (c', s') the rotation about axis 3 seen from the last accepted angle: smooth over any number of turns.
 /// turn: (c, s) of the rotation, times any positive factor.
 template <class G, class S, class C>

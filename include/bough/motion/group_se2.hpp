@@ -7,6 +7,7 @@
 namespace bough::motion {
 
 struct Se2 : Se2Blocks {
+  using Se2Blocks::log;
   using Se2Blocks::turned_back;
   // ---- poses
 
@@ -23,6 +24,13 @@ struct Se2 : Se2Blocks {
   static PlanePose<S> exp(const Vec3<S>& d) {
     const lanes::Vec<S, 8> c = eval_stumpff(S(d[2] * d[2]));
     return {{{c[0], S(d[2] * c[1])}}, complex_times(Vec2<S>{{c[1], S(d[2] * c[2])}}, plane_part(d))};
+  }
+  template <class S>
+  static Vec3<S> log(const PlanePose<S>& H) {
+    Vec3<S> d;
+    S square;
+    static_cast<void>(log(H, d, square));
+    return d;
   }
   /// Ad(H)^-1 v: a twist at the frame H from one at the frame that H is described in; A: scalar of a constant pose.
   template <class A, class S>

@@ -6,6 +6,8 @@
 
 #include "bough/blocks/block_graph.hpp"
 #include "bough/laws/law.hpp"
+#include "bough/motion/compensated.hpp"
+#include "bough/motion/quaternion.hpp"
 #include "bough/plan/elements_of.hpp"
 #include "bough/plan/mobility.hpp"
 #include "bough/plan/unknowns.hpp"
@@ -133,11 +135,25 @@ struct SensorPlan {
   std::vector<std::string> components;  ///< "" for a scalar
 };
 
-/// The elements of a scene that moves in a plane, in three unknowns a node.
+/// A node of a scene that moves in a plane, as it stands at the start, there and in space.
+struct PlanarNode {
+  motion::Mat3<double> basis;           ///< plane's axes and normal in those of the node
+  motion::Quaternion<double> rotation;  ///< in space
+  motion::PositionPair<double> place;   ///< in space [m]
+  motion::Vec2<double> turn;            ///< of its first axis of `basis` in the plane: (cos, sin)
+  motion::PositionPair<double, 2> x;    ///< in the plane [m]
+};
+
+/// A scene that moves in a plane, in three unknowns a node.
 struct PlanarModel {
-  motion::Mat3<double> axes;    ///< columns: two along the plane, its normal; in the ground
-  motion::Vec3<double> origin;  ///< where coordinates in the plane are counted from
-  PlanarArrays elements;        ///< with the places of Plan::elements
+  motion::Mat3<double> axes;      ///< columns: two along the plane, its normal; in the ground
+  motion::Vec3<double> origin;    ///< where coordinates in the plane are counted from
+  PlanarArrays elements;          ///< with the places of Plan::elements
+  std::vector<PlanarNode> nodes;  ///< by node
+  /// By joint: the sign of its angle in the plane, 0 where its axis lies in the plane.
+  std::vector<double> turn_sign;
+  /// By joint: whether its rows hold an angle in the plane that they would also let be half a turn off.
+  std::vector<char> has_branch;
 };
 
 struct Plan {
@@ -173,6 +189,18 @@ struct Plan {
   Mobility mobility;
   std::vector<std::string> notes;  ///< what the plan chose where the scene leaves it open, in words
 };
+
+/// The elements on the group G; those in space are always there.
+template <class G>
+const ArraysOn<G>& arrays_on(const Plan& plan);
+template <>
+inline const ElementArrays& arrays_on<motion::Se3>(const Plan& plan) {
+  return plan.elements;
+}
+template <>
+inline const PlanarArrays& arrays_on<motion::Se2>(const Plan& plan) {
+  return plan.planar->elements;
+}
 
 /// Elements, nodes and graph of a scene. Precondition: problems_in(scene) is empty.
 Plan make_plan(const scene::Scene& scene);

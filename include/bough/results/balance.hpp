@@ -31,8 +31,6 @@ class WorkMeter {
   void add(const step::System& system, const step::State& state, double step_size);
   const Supply& supply() const { return supply_; }
   double mass() const { return mass_; }  ///< of everything [kg]
-  /// Nodes that it looks at: the others of a state may be behind (step::State).
-  std::vector<int> nodes(const plan::Plan& plan) const;
 
  private:
   /// A force or multiplier and what it works on: a port's pose with its wrench in the port's axes, or a number with its conjugate.
@@ -51,6 +49,8 @@ class WorkMeter {
   };
   double step(const step::System& system, const step::State& state);  ///< work since the last call
 
+  std::vector<int> nodes_;                     ///< that it looks at
+  std::vector<elements::NodeMotion> scratch_;  ///< of field_of
   std::vector<Watched> watched_;
   std::vector<Port> ports_;
   std::vector<Drive> drives_;

@@ -62,17 +62,9 @@ StartReport change_step_size(System& system, State& state, const StepOptions& op
 [[nodiscard]] std::optional<Trouble> predict(System& system, State& state, const StepOptions& options, double end_time,
                                              elements::Slopes& slopes);
 
-/// What a caller knows of the state it hands to `advance`, and spares a step in the plane: reading nodes from space, and writing them there.
-struct Handover {
-  bool is_untouched = false;  ///< since the last `advance` of this System ended there nothing of the state was changed
-  bool is_read =
-      true;  ///< false: nothing of the end but its time need be known before the next `advance`; State::behind may be set
-};
-
 /// One step of Lie-group generalized-alpha, index 3 (Bruls, Cardona, Arnold 2012), from `state` over h to `state`.
 /// Not converged: `state` is as it was.
-StepReport advance(System& system, State& state, const StepOptions& options, double end_time,
-                   const Handover& handover = {});
+StepReport advance(System& system, State& state, const StepOptions& options, double end_time);
 
 /// Equilibrium at a load factor, by Newton from the present shape. Not converged: `state` is as it was.
 StepReport equilibrate(System& system, State& state, const StepOptions& options, double load_factor);

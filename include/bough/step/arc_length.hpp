@@ -57,6 +57,8 @@ class ArcLengthPath {
   [[nodiscard]] std::optional<Trouble> solve_load(const State& state, double load_factor);
   /// moved_ = log(H_start^-1 H).
   void set_moved(const State& state);
+  /// log(H_from^-1 H_to) of a node, in space.
+  motion::Vec6<double> way_between(const State& from, const State& to, std::size_t node) const;
   double square(const Vectors& v) const;
   motion::Vec6<double> node_part(const std::vector<double>& x, std::size_t node) const;
   double inner(const motion::Vec6<double>& a, const motion::Vec6<double>& b) const;

@@ -15,6 +15,7 @@
 /// velocities of the start get it, too, or multipliers would be of lower order in the steps to come. Any change of h is a new start.
 /// Sources: Faltinsen, Marthinsen, Munthe-Kaas 2001 (multistep methods in coordinates of each step); Wieloch, Arnold 2021 (starting values at
 /// index 3).
+#include <variant>
 #include <vector>
 
 #include "bough/step/advance.hpp"
@@ -34,7 +35,24 @@ class Bdf {
   StepReport advance(State& state, const StepOptions& options, double end_time);
 
  private:
-  using Vectors = std::vector<motion::Vec6<double>>;
+  /// What is kept of earlier steps, on the scene's group.
+  template <class G>
+  struct HistoryOn {
+    using Vectors = std::vector<typename G::template Vector<double>>;
+    Vectors samples[3];                ///< v' at parts 2, 5 and 8 of the start
+    Vectors last, earlier;             ///< D_{n-1}, D_{n-2}
+    Vectors v_now, v_last, v_earlier;  ///< v_n, v_{n-1}, v_{n-2}
+    Vectors y, rates;                  ///< c2 y_{n-1} + c3 y_{n-2}; c1 v_n + c2 v_{n-1} + c3 v_{n-2}
+    void resize(std::size_t num_nodes);
+  };
+  template <class G>
+  HistoryOn<G>& history() {
+    return std::get<HistoryOn<G>>(history_);
+  }
+  template <class G>
+  const HistoryOn<G>& history() const {
+    return std::get<HistoryOn<G>>(history_);
+  }
   static constexpr int start_steps = 2, parts = 4;
   struct Rule {
     double c0, c1, c2, c3;
@@ -45,21 +63,19 @@ class Bdf {
   StepReport take_step(State& state, const StepOptions& options, double end_time);
   [[nodiscard]] std::optional<Trouble> follow(State& state) const;
   void predict(State& state);
-  /// Over h: what the rule's velocities are off by in steady motion.
-  void eval_steady_error(const State& point, Vectors& error) const;
+  /// Over h: what the rule's velocities are off by in steady motion, in the unknowns.
+  void eval_steady_error(const State& point);
 
   System& system_;
   int order_;
   Rule c_;
   double h_ = 0.0;
-  int done_ = 0;                         ///< starting steps
-  State begin_;                          ///< of the present step
-  State alpha_;                          ///< of the start, between its steps
-  State first_, second_;                 ///< states at the start and after its first step
-  Vectors samples_[3];                   ///< v' at parts 2, 5 and 8 of the start
-  Vectors increments_, last_, earlier_;  ///< D of the present step, D_{n-1}, D_{n-2}
-  Vectors v_now_, v_last_, v_earlier_;   ///< v_n, v_{n-1}, v_{n-2}
-  Vectors y_, rates_;                    ///< c2 y_{n-1} + c3 y_{n-2}; c1 v_n + c2 v_{n-1} + c3 v_{n-2}
+  int done_ = 0;          ///< starting steps
+  State begin_;           ///< of the present step
+  State alpha_;           ///< of the start, between its steps
+  State first_, second_;  ///< states at the start and after its first step
+  std::variant<HistoryOn<motion::Se3>, HistoryOn<motion::Se2>> history_;
+  std::vector<double> steady_error_;  ///< in the unknowns
 };
 
 }  // namespace bough::step

@@ -1,6 +1,9 @@
 #pragma once
-/// Everything that changes during a run, as plain data: two equal states continue equally.
-#include <cstdint>
+/// Everything that changes during a run, as plain data: two equal states continue equally. Nodes move on one group: on SE(3), or on
+/// SE(2) where the scene moves in a plane. Whoever looks at a scene in space asks for nodes_in_space.
+#include <span>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "bough/elements/evaluate.hpp"
@@ -9,14 +12,32 @@
 
 namespace bough::step {
 
+/// Nodes that move on the group G. Vectors are in the nodes' own axes.
+template <class G>
+struct NodesOn {
+  using Group = G;
+  using Vector = typename G::template Vector<double>;
+  std::vector<elements::NodeMotionOn<G, double>> motion;  ///< R, x, v, dv/dt, and dq since the last accepted step
+  std::vector<motion::Quaternion<double>> rotation;       ///< in space, where R is made from it; in a plane empty
+  std::vector<Vector> algorithmic;                        ///< a_n, the acceleration-like variable of generalized-alpha
+  std::vector<Vector> acceleration_trend;                 ///< change of dv/dt over the last step, of generalized-alpha
+  std::vector<Vector> trend_change;                       ///< change of that from the step before; zero after a start
+
+  /// As many nodes as there are in `like`.
+  void resize_as(const NodesOn& like) {
+    motion.resize(like.motion.size());
+    rotation.resize(like.rotation.size());
+    algorithmic.resize(like.motion.size());
+    acceleration_trend.resize(like.motion.size());
+    trend_change.resize(like.motion.size());
+  }
+};
+using SpatialNodes = NodesOn<motion::Se3>;
+using PlanarNodes = NodesOn<motion::Se2>;
+
 struct State {
-  double time = 0.0;                                     ///< [s], or the load factor in statics
-  double step_size = 0.0;                                ///< h that `algorithmic` belongs to [s]; 0 before the start
-  std::vector<elements::NodeMotion> nodes;               ///< R, x, v, dv/dt, and dq since the last accepted step
-  std::vector<motion::Quaternion<double>> rotation;      ///< of nodes; R is made from it
-  std::vector<motion::Vec6<double>> algorithmic;         ///< a_n, the acceleration-like variable of generalized-alpha
-  std::vector<motion::Vec6<double>> acceleration_trend;  ///< change of dv/dt over the last step, of generalized-alpha
-  std::vector<motion::Vec6<double>> trend_change;        ///< change of that from the step before; zero after a start
+  double time = 0.0;       ///< [s], or the load factor in statics
+  double step_size = 0.0;  ///< h that NodesOn::algorithmic belongs to [s]; 0 before the start
   /// Order of the polynomial through past dv/dt that would have been nearest to the last step: 0, 1 or 2.
   int predictor_order = 0;
   /// Of the last step of generalized-alpha, the largest over all nodes, lengths over the size of the structure: its local
@@ -24,27 +45,96 @@ struct State {
   double local_error = 0.0, increment = 0.0;
   double last_step = 0.0;                      ///< h that dq spans, of the variational integrator [s]; 0 at a start
   std::vector<motion::Vec6<double>> momentum;  ///< p_n of the variational integrator, own axes; else empty
-  std::vector<motion::Vec6<double>>
-      unsettled;  ///< statics: eta that nodes still lack and their digits cannot hold; else empty
+  /// Statics: increments in space that nodes still lack and their digits cannot hold; else empty.
+  std::vector<motion::Vec6<double>> unsettled;
   std::vector<double> multipliers;
   std::vector<double> multiplier_trend;         ///< change of multipliers over the last step; zero after a start
   std::vector<double> multiplier_trend_change;  ///< change of that from the step before; zero after a start
   int multiplier_order = 0;                     ///< as predictor_order
-  /// Not 0: the first five vectors and the multipliers of joints that hold nodes are those of an earlier time; only the System whose step of this
-  /// number ended here knows the others, see System::catch_up.
-  std::int64_t behind = 0;
-  std::vector<double> turns;  ///< angle of each joint at the last accepted step [rad]
+  std::vector<double> turns;                    ///< angle of each joint at the last accepted step [rad]
+
+  std::size_t num_nodes() const {
+    return std::visit([](const auto& nodes) { return nodes.motion.size(); }, nodes_);
+  }
+  bool is_planar() const { return std::holds_alternative<PlanarNodes>(nodes_); }
+  /// The nodes, for whom the scene's group is known.
+  template <class G>
+  const NodesOn<G>& on() const {
+    return std::get<NodesOn<G>>(nodes_);
+  }
+  /// The same to be changed: what was made of them in space holds no longer.
+  template <class G>
+  NodesOn<G>& change() {
+    in_space_.nodes.clear();
+    return std::get<NodesOn<G>>(nodes_);
+  }
+  /// Calls f(nodes) on the scene's group.
+  template <class F>
+  decltype(auto) visit(F&& f) const {
+    return std::visit(std::forward<F>(f), nodes_);
+  }
+  template <class F>
+  decltype(auto) change_all(F&& f) {
+    in_space_.nodes.clear();
+    return std::visit(std::forward<F>(f), nodes_);
+  }
+  /// As many nodes as there are in `like`, on its group, whatever they were.
+  template <class G>
+  NodesOn<G>& resize_as(const State& like) {
+    in_space_.nodes.reserve(like.in_space_.nodes.capacity());
+    NodesOn<G>& nodes = emplace<G>();
+    nodes.resize_as(like.on<G>());
+    return nodes;
+  }
+  /// Takes nodes of any group in place of those that there are.
+  template <class G>
+  NodesOn<G>& emplace() {
+    in_space_.nodes.clear();
+    if (!std::holds_alternative<NodesOn<G>>(nodes_)) nodes_.template emplace<NodesOn<G>>();
+    return std::get<NodesOn<G>>(nodes_);
+  }
+
+ private:
+  friend const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, const State& state);
+  std::variant<SpatialNodes, PlanarNodes> nodes_;
+  /// Planar nodes in space, once asked for; empty: not yet. A copy makes its own.
+  struct InSpace {
+    std::vector<elements::NodeMotion> nodes;
+    InSpace() = default;
+    InSpace(const InSpace& other) { nodes.reserve(other.nodes.capacity()); }
+    InSpace& operator=(const InSpace& other) {
+      nodes.clear();
+      nodes.reserve(other.nodes.capacity());
+      return *this;
+    }
+    InSpace(InSpace&&) = default;
+    InSpace& operator=(InSpace&&) = default;
+    ~InSpace() = default;
+  };
+  mutable InSpace in_space_;
 };
 
 /// The scene's own poses and twists, not yet consistent.
 State make_initial_state(const plan::Plan& plan);
 
-/// H <- H exp(eta) of one node, and dq <- log(exp(dq) exp(eta)).
-void move_node(State& state, std::size_t node, const motion::Vec6<double>& eta);
+/// R, x, v, dv/dt and dq of all nodes in space, own axes of the nodes as the scene places them:
+///   R = R_0 exp(theta n),  x = x_0 + A (p - p_0),  v = B (v_1, v_2, 0; 0, 0, w)
+/// theta and p - p_0 turn and displacement in the plane since the start, A the plane's axes, n and B normal and axes of the
+/// plane in those of the node (PlanarModel). Made once for a state, which keeps them until it is changed.
+const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, const State& state);
+/// Some of them alone, in their places of `to`, which has room for all.
+void copy_nodes_in_space(const plan::Plan& plan, const State& state, std::span<const int> nodes,
+                         std::vector<elements::NodeMotion>& to);
 
-/// The same for nodes [begin, begin + count), 1 <= count <= nodes_in_lanes, one to a lane: the bits of move_node. eta: `count` increments.
-/// Without `follow_dq` dq is left as it is.
-inline constexpr std::size_t nodes_in_lanes = 8;
-void move_nodes(State& state, std::size_t begin, std::size_t count, const motion::Vec6<double>* eta, bool follow_dq);
+/// The poses, twists, multipliers and turns of a state for steps in space.
+State make_spatial(const plan::Plan& plan, const State& state);
+
+/// H <- H exp(eta) of one node, and dq <- log(exp(dq) exp(eta)). Vectors are those of space, own axes; what leaves a plane in
+/// which the scene moves is left out.
+void move_node(const plan::Plan& plan, State& state, std::size_t node, const motion::Vec6<double>& eta);
+void set_velocity(const plan::Plan& plan, State& state, std::size_t node, const motion::Vec6<double>& v);
+void set_acceleration(const plan::Plan& plan, State& state, std::size_t node, const motion::Vec6<double>& a);
+/// v, dv/dt and dq of all nodes are zero.
+void set_at_rest(State& state);
 
 }  // namespace bough::step

@@ -91,8 +91,9 @@ class LocalError {
   double velocity_factor() const;
   /// What errors are compared with: size + allowance / tolerance.
   ErrorParts sizes() const;
-  motion::Vec6<double> unfiltered_of(const State& after, std::size_t node) const;
+  void shift_accelerations(const State& after, State& to) const;
 
+  const plan::Plan& plan_;
   ErrorConstants constants_;
   AlphaCoefficients alpha_;
   ErrorParts least_, allowance_;  ///< least sizes; absolute tolerances over the relative one

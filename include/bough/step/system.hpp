@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "bough/plan/frames.hpp"
@@ -54,6 +55,7 @@ struct Workspace {
     double error = 0.0, increment = 0.0;  ///< as State::local_error and State::increment
   };
   std::vector<StepEnd> step_ends;  ///< by chunk of nodes
+  std::vector<double> chunk_most;  ///< by chunk of nodes: the largest of something
 };
 
 /// What a plan and the options of a scene ask of the linear solver.
@@ -65,15 +67,14 @@ struct Trouble {
   std::string text;
 };
 
-template <class Kernels>
+template <class G>
 class LaneBatches;
-struct SpatialKernels;
-class PlanarSystem;
-class PlanarStep;
 class Projection;
 class HeldNodes;
 class DrivenNodes;
-struct NodePair;
+struct PairLanes;
+struct IncrementsOf;
+struct ElementResults;
 
 class System {
  public:
@@ -93,10 +94,16 @@ class System {
 
   /// Values of all time functions at t (right or left limit). A value that is not finite is told with its owner and the time.
   [[nodiscard]] std::optional<Trouble> set_time(double time, laws::Side side = laws::Side::left);
+  /// A state in space, whatever the scene's group: for whom reads results, not for steps.
   elements::Field field(const State& state, const elements::Slopes& slopes = {}, bool with_inertia = true) const;
-  /// The same of a state of which only what is watched is looked at.
-  elements::Field field_of_watched(const State& state, const elements::Slopes& slopes = {},
-                                   bool with_inertia = true) const;
+  /// The same for whom looks at some nodes only; the others are not to be read. scratch: keeps these nodes.
+  elements::Field field_of(const State& state, std::span<const int> nodes,
+                           std::vector<elements::NodeMotion>& scratch) const;
+  /// A state as the elements on the group G see it; only on the group of the scene.
+  template <class G>
+  elements::FieldOn<G, double> field_on(const State& state, const elements::Slopes& slopes = {},
+                                        bool with_inertia = true) const;
+  const std::vector<elements::NodeMotion>& nodes(const State& state) const { return nodes_in_space(plan_, state); }
 
   /// Residual of all elements (and element matrices when `tangent`), then summed over nodes into residual().
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
@@ -152,7 +159,7 @@ class System {
   /// Size of an increment: the largest change of relative motions, of elements' nodes with respect to each other, lengths relative to the
   /// element [-] and angles [rad], which no rigid motion of the whole changes:
   ///   |R_b w_b - R_a w_a|,  |R_b u_b - R_a u_a - (R_a w_a) x (x_b - x_a)| / length          for increments (u; w) of nodes a and b
-  double relative_size(const State& state, const double* x);
+  double relative_size(const State& state, const double* x) const;
   /// Applies a solution: each node moves by its own increment, H <- H exp(eta), multipliers grow by theirs. Returns relative_size.
   double apply(State& state, const double* x);
   /// Applies `factor` of a solution, nodes carrying each other along the motion tree; statics only (State's dq is left alone).
@@ -201,10 +208,23 @@ class System {
     if (begin < 0) return motion::Vec6<double>::zero();
     return plan_.unknowns.expanded(x + begin, static_cast<std::size_t>(node));
   }
+  /// The same on the scene's group.
+  template <class G>
+  typename G::template Vector<double> part_on(const double* x, int node) const {
+    if constexpr (std::is_same_v<G, motion::Se3>) return node_part(x, node);
+    const std::int64_t begin = node_begin(node);
+    typename G::template Vector<double> v = G::template Vector<double>::zero();
+    for (int i = 0; i < G::dof && begin >= 0; ++i) v[i] = x[begin + i];
+    return v;
+  }
   /// Sets the unknowns of a node, where it has some, from a motion, or the entries of a right-hand side from a wrench.
   void set_node_part(double* x, int node, const motion::Vec6<double>& eta) const {
     const std::int64_t begin = node_begin(node);
     if (begin >= 0) plan_.unknowns.project(eta, static_cast<std::size_t>(node), x + begin);
+  }
+  void set_node_part(double* x, int node, const motion::Vec3<double>& eta) const {  ///< of a scene in a plane
+    const std::int64_t begin = node_begin(node);
+    for (int i = 0; i < 3 && begin >= 0; ++i) x[begin + i] = eta[i];
   }
   /// First unknown of a node; -1: it has none.
   std::int64_t node_begin(int node) const { return node_begin_[static_cast<std::size_t>(node)]; }
@@ -217,20 +237,6 @@ class System {
   const std::vector<double>& law_rates() const { return law_rates_; }
   /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame itself.
   const elements::CarrierMotion* observer() const { return plan_.observer < 0 ? nullptr : &frames_.observer; }
-
-  /// Makes a state whole again whose nodes a step in the plane left behind (State::behind); laws are then those of its time. Fails where the System
-  /// has taken another step since.
-  [[nodiscard]] std::optional<Trouble> catch_up(State& state);
-  /// Nodes that some reader looks at in every step, for catch_up_watched.
-  void watch(std::vector<int> nodes);
-  /// catch_up of these and some beside them, and of multipliers of joints that hold nodes; laws are to be those of the state's time already. Otherwise
-  /// the state stays behind: field_of_watched gives it to who looks no further.
-  [[nodiscard]] std::optional<Trouble> catch_up_watched(State& state);
-
-  /// Where steps of generalized-alpha iterate in the plane; null: in space. While one is under way evaluate and apply move and look at its nodes,
-  /// and leave those of the states they are given alone.
-  PlanarStep* planar_step() { return planar_step_.get(); }
-  const PlanarStep* planar_step() const { return planar_step_.get(); }
 
  private:
   /// sum |K| eps |coordinates| over the elements that count.
@@ -269,20 +275,27 @@ class System {
 
   /// Puts (A + A^T) / 2 in place of the tangents of a batch.
   void symmetrise(const solve::ElementBatch& batch);
-  /// planar: evaluates them, null: elements in space.
-  std::span<const solve::ElementBatch> batches_of(const PlanarSystem* planar) const;
-  void evaluate_alone(std::size_t id, const State& state, const elements::Field& field, bool tangent);
+  template <class G>
+  std::span<const solve::ElementBatch> batches_on() const;
+  template <class G>
+  const LaneBatches<G>& lanes_on() const;
+  template <class G>
+  void evaluate_on(const State& state, const elements::FieldOn<G, double>& field, bool tangent);
+  template <class G>
+  void evaluate_alone(std::size_t id, const State& state, const elements::FieldOn<G, double>& field,
+                      const ElementResults& to);
+  IncrementsOf increments() const;
+  elements::Field surroundings(const elements::Slopes& slopes, bool with_inertia) const;
   template <class E>
   void evaluate_projected(const E& e, std::size_t id, const elements::Field& field, const double* multipliers,
                           double turns, bool tangent);
 
   const plan::Plan& plan_;
-  std::unique_ptr<LaneBatches<SpatialKernels>> lane_batches_;
-  std::unique_ptr<PlanarSystem> planar_;  ///< where the plan has planar elements
-  std::unique_ptr<PlanarStep> planar_step_;
-  std::unique_ptr<Projection> projection_;  ///< none where a node has six unknowns
-  std::unique_ptr<HeldNodes> held_;         ///< none where the solver knows all nodes
-  std::unique_ptr<DrivenNodes> driven_;     ///< none where no node is driven
+  std::unique_ptr<LaneBatches<motion::Se3>> spatial_lanes_;
+  std::unique_ptr<LaneBatches<motion::Se2>> planar_lanes_;  ///< of a scene in a plane; else null
+  std::unique_ptr<Projection> projection_;                  ///< none where a node has six unknowns
+  std::unique_ptr<HeldNodes> held_;                         ///< none where the solver knows all nodes
+  std::unique_ptr<DrivenNodes> driven_;                     ///< none where no node is driven
   std::unique_ptr<tree::Tree> tree_;
   std::unique_ptr<solve::AnySolver> solver_;
   tree::Walker walker_;
@@ -318,10 +331,8 @@ class System {
     std::size_t multiplier, unknown;
   };
   std::vector<MultiplierPlace> multiplier_places_;
-  std::vector<NodePair> pairs_;  ///< whose relative motions relative_size looks at
-  std::vector<motion::Vec6<double>>
-      turned_;  ///< scratch of relative_size: increments of the nodes in the axes of the ground
-  std::vector<double> chunk_max_;
+  std::vector<PairLanes> pairs_;  ///< whose relative motions relative_size looks at
+  mutable std::vector<double> chunk_max_;
   std::vector<double> element_length_;  ///< size of each element, for relative changes [m]
   double moment_arm_ = 0.0;
   double time_ = 0.0;

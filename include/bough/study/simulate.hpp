@@ -26,7 +26,6 @@ struct SimulateOptions {
   std::function<void(double time, const std::vector<double>& values)> sample = {};
   /// Asked before every attempt of a step, with the state it starts from; false: stop here (interrupted), the system is no longer used.
   std::function<bool(step::System&, const step::State&, const BeforeStep&)> before_step = {};
-  bool reads_state = true;  ///< false: before_step looks at no nodes of the state, which may be behind
   /// The walker that the solver gets instead of the one of the threads: another way of the same walks, a watched one say.
   std::function<tree::Walker(const tree::Walker&)> wrap_walker = {};
   /// What stopped a run that its progress callback ended, in words; default: the user.

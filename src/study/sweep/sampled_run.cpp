@@ -74,7 +74,6 @@ results::Summary run_limited(const scene::Scene& scene, const std::vector<double
   bool is_late = false;
   options.threads = threads;
   options.stops = sample_times;
-  options.reads_state = false;
   options.before_step = [&](step::System&, const step::State&, const BeforeStep&) {
     was_stopped = limits.stop != nullptr && *limits.stop && (*limits.stop)();
     is_late = limits.time_limit > 0.0 && seconds_since(start) > limits.time_limit;

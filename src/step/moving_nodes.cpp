@@ -1,0 +1,338 @@
+#include "moving_nodes.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "node_lanes.hpp"
+#include "system_parts.hpp"
+
+namespace bough::step {
+
+using motion::Mat3;
+using motion::plane_part;
+using motion::PositionPair;
+using motion::Quaternion;
+using motion::Se2;
+using motion::Se3;
+using motion::Vec2;
+using motion::Vec3;
+using motion::Vec6;
+
+namespace {
+
+using Pack = elements::LanePack;
+static_assert(elements::num_lanes == static_cast<int>(nodes_in_lanes));
+
+template <class G>
+using NodeLanes = elements::NodeMotionOn<G, Pack>;
+template <class G>
+using VectorLanes = typename G::template Vector<Pack>;
+
+/// Where the numbers of a node stand: its pose, v, dv/dt and dq, one after the other.
+template <class G>
+struct NodeNumbers {
+  static constexpr int all = elements::numbers_of_node<G>, dof = G::dof, pose = all - 3 * dof, v = pose, dq = all - dof;
+};
+
+Pack larger(const Pack& a, const Pack& b) { return select(less(a, b), b, a); }
+double largest_of(const Pack& a) {
+  double most = a[0];
+  for (int l = 1; l < elements::num_lanes; ++l) most = std::max(most, a[l]);
+  return most;
+}
+
+Vec2<Pack> linear(const Vec3<Pack>& v) { return plane_part(v); }
+Vec3<Pack> linear(const Vec6<Pack>& v) { return lanes::linear_part(v); }
+Pack angular_square(const Vec3<Pack>& v) { return v[2] * v[2]; }
+Pack angular_square(const Vec6<Pack>& v) { return lanes::dot(lanes::angular_part(v), lanes::angular_part(v)); }
+
+Vec6<Pack> bracket(const Vec6<Pack>& v, const Vec6<Pack>& a) { return motion::cross6_times(v, a); }
+Vec3<Pack> bracket(const Vec3<Pack>& v, const Vec3<Pack>& a) { return Se2::widened(Se2::bracket(v, a)); }
+
+/// A node's pose, and what an increment changes of it.
+template <class G, class S>
+struct Mover;
+template <class S>
+struct Mover<Se3, S> {
+  Mat3<S> R;
+  PositionPair<S> x;
+  Vec6<S> dq;
+  Quaternion<S> q;
+
+  void move(const Vec6<S>& eta, bool follow_dq) {
+    const motion::Frame<S> step = Se3::exp(eta);
+    x.add(R * step.x);
+    q = motion::normalise(motion::multiply(q, motion::exp_quaternion(lanes::angular_part(eta))));
+    R = motion::rotation_of(q);
+    if (follow_dq) dq = Se3::log(motion::compose(Se3::exp(dq), step));
+  }
+};
+template <class S>
+struct Mover<Se2, S> {
+  Vec2<S> R;
+  PositionPair<S, 2> x;
+  Vec3<S> dq;
+
+  /// The angle of dq is known beyond half a turn: it has grown by that of eta.
+  void move(const Vec3<S>& eta, bool follow_dq) {
+    const auto step = Se2::exp(eta);
+    x.add(motion::complex_times(R, step.x));
+    R = motion::complex_times(R, step.R);
+    R = S(1.5 - 0.5 * lanes::dot(R, R)) * R;  // back to size one, to first order
+    if (!follow_dq) return;
+    const auto before = Se2::exp(dq);
+    const Vec2<S> way = before.x + motion::complex_times(before.R, step.x);
+    const S angle = dq[2] + eta[2];
+    const Vec2<S> inverse{{motion::half_cotangent(S(angle * angle)), S(-0.5 * angle)}};
+    dq = motion::join(motion::complex_times(inverse, way), angle);
+  }
+};
+
+/// Pose and quaternion of eight nodes.
+template <class G>
+void gather_pose(const NodesOn<G>& nodes, std::size_t from, std::size_t count, Mover<G, Pack>& m) {
+  gather<NodeNumbers<G>::pose>(nodes.motion.data(), from, count, reinterpret_cast<Pack*>(&m.R));
+  if constexpr (std::is_same_v<G, Se3>) gather<4>(nodes.rotation.data(), from, count, &m.q.w);
+}
+template <class G>
+void scatter_pose(const Mover<G, Pack>& m, NodesOn<G>& nodes, std::size_t from, std::size_t count) {
+  scatter<NodeNumbers<G>::pose>(reinterpret_cast<const Pack*>(&m.R), nodes.motion.data(), from, count);
+  if constexpr (std::is_same_v<G, Se3>) scatter<4>(&m.q.w, nodes.rotation.data(), from, count);
+}
+static_assert(sizeof(Quaternion<double>) == 4 * sizeof(double) && offsetof(Quaternion<double>, w) == 0);
+
+constexpr double nothing[12] =
+    {};  ///< increment of a node without unknowns; what is read of a node where there is none
+
+/// Increments of eight nodes, node(lane) < 0: none.
+template <class G, class Node>
+VectorLanes<G> gather_increments(const double* x, const IncrementsOf& of, Node&& node) {
+  const plan::NodeUnknowns& u = of.unknowns;
+  const double* from[nodes_in_lanes];
+  for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
+    const int n = node(l);
+    const std::int64_t unknown = n < 0 ? -1 : of.begin[n];
+    from[l] = unknown < 0 ? nothing : x + unknown;
+  }
+  VectorLanes<G> eta;
+  lanes::gather_lanes(from, u.count, &eta[0]);
+  if constexpr (std::is_same_v<G, Se3>) {
+    if (u.count == G::dof) return eta;
+    // P^T x as NodeUnknowns::expanded has it: of point masses, which do not turn.
+    for (int i = u.count; i < G::dof; ++i) eta[i] = Pack(0.0);
+    if (u.basis.empty()) return eta;
+    for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
+      const int n = node(l);
+      from[l] = n < 0 ? nothing : u.basis[static_cast<std::size_t>(n)].m;
+    }
+    Mat3<Pack> basis;
+    lanes::gather_lanes(from, 9, basis.m);
+    return lanes::join(basis * lanes::linear_part(eta), Vec3<Pack>::zero());
+  }
+  return eta;
+}
+
+/// Calls f(first, count) for every eight nodes.
+template <class F>
+void by_eights(std::size_t begin, std::size_t end, F&& f) {
+  for (std::size_t n = begin; n < end; n += nodes_in_lanes) f(n, std::min(nodes_in_lanes, end - n));
+}
+
+}  // namespace
+
+template <class G>
+void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x, const IncrementsOf& of) {
+  by_eights(begin, end, [&](std::size_t first, std::size_t count) {
+    Mover<G, Pack> m;
+    gather_pose(nodes, first, count, m);
+    gather<G::dof>(nodes.motion.data(), first, count, &m.dq[0], NodeNumbers<G>::dq);
+    const auto eta = gather_increments<G>(
+        x, of, [first, count](std::size_t l) { return static_cast<int>(first + std::min(l, count - 1)); });
+    if constexpr (std::is_same_v<G, Se3>) {
+      m.move(eta, true);
+    } else {
+      m.move(eta, false);
+      m.dq[2] = m.dq[2] + eta[2];
+    }
+    scatter_pose(m, nodes, first, count);
+    scatter<G::dof>(&m.dq[0], nodes.motion.data(), first, count, NodeNumbers<G>::dq);
+  });
+}
+
+template <class G>
+void move_node(NodesOn<G>& nodes, std::size_t node, const typename G::template Vector<double>& eta) {
+  auto& n = nodes.motion[node];
+  Mover<G, double> m;
+  m.R = n.R;
+  m.x = n.x;
+  m.dq = n.dq;
+  if constexpr (std::is_same_v<G, Se3>) m.q = nodes.rotation[node];
+  m.move(eta, true);
+  n.R = m.R;
+  n.x = m.x;
+  n.dq = m.dq;
+  if constexpr (std::is_same_v<G, Se3>) nodes.rotation[node] = m.q;
+}
+
+template <class G>
+double predict_nodes(const AlphaRule& rule, int order, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
+                     std::size_t end) {
+  using Numbers = NodeNumbers<G>;
+  Pack turned(0.0);
+  by_eights(begin, end, [&](std::size_t first, std::size_t count) {
+    Mover<G, Pack> m;
+    VectorLanes<G> rates[3], algorithmic, trend, of_trend;  // v, dv/dt and dq
+    gather_pose(start, first, count, m);
+    gather<2 * G::dof>(start.motion.data(), first, count, &rates[0][0], Numbers::v);
+    gather<G::dof>(start.algorithmic.data(), first, count, &algorithmic[0]);
+    gather<G::dof>(start.acceleration_trend.data(), first, count, &trend[0]);
+    gather<G::dof>(start.trend_change.data(), first, count, &of_trend[0]);
+    const VectorLanes<G> eta = rule.predict(rates[0], rates[1], algorithmic, predicted_change(order, trend, of_trend));
+    m.move(eta, false);
+    const auto now = rule.follow(eta, rates[0], rates[1], algorithmic);
+    rates[0] = now.v;
+    rates[1] = now.a;
+    rates[2] = eta;
+    scatter_pose(m, state, first, count);
+    scatter<3 * G::dof>(&rates[0][0], state.motion.data(), first, count, Numbers::v);
+    scatter<G::dof>(&now.algorithmic[0], state.algorithmic.data(), first, count);
+    turned = larger(turned, angular_square(eta));
+  });
+  return largest_of(turned);
+}
+
+namespace {
+
+/// dq of eight nodes from where they started: in space as move_nodes left it.
+VectorLanes<Se3> measure_increment(const SpatialNodes&, const SpatialNodes& state, std::size_t first,
+                                   std::size_t count) {
+  VectorLanes<Se3> dq;
+  gather<Se3::dof>(state.motion.data(), first, count, &dq[0], NodeNumbers<Se3>::dq);
+  return dq;
+}
+/// log(H_start^-1 H), whose angle is known beyond half a turn: no rounding of a move is left between places and increments.
+VectorLanes<Se2> measure_increment(const PlanarNodes& start, const PlanarNodes& state, std::size_t first,
+                                   std::size_t count) {
+  Mover<Se2, Pack> from, to;
+  gather_pose(start, first, count, from);
+  gather_pose(state, first, count, to);
+  Pack angle;
+  gather<1>(state.motion.data(), first, count, &angle, NodeNumbers<Se2>::dq + 2);
+  const Vec2<Pack> way = motion::conjugate_times(from.R, motion::difference(to.x, from.x));
+  const Vec2<Pack> inverse{{motion::half_cotangent(Pack(angle * angle)), -0.5 * angle}};
+  return motion::join(motion::complex_times(inverse, way), angle);
+}
+
+}  // namespace
+
+template <class G>
+double follow_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
+                    std::size_t end) {
+  using Numbers = NodeNumbers<G>;
+  Pack turned(0.0);
+  by_eights(begin, end, [&](std::size_t first, std::size_t count) {
+    VectorLanes<G> rates[3], algorithmic;  // v, dv/dt and dq
+    gather<2 * G::dof>(start.motion.data(), first, count, &rates[0][0], Numbers::v);
+    gather<G::dof>(start.algorithmic.data(), first, count, &algorithmic[0]);
+    rates[2] = measure_increment(start, state, first, count);
+    const auto now = rule.follow(rates[2], rates[0], rates[1], algorithmic);
+    rates[0] = now.v;
+    rates[1] = now.a;
+    scatter<3 * G::dof>(&rates[0][0], state.motion.data(), first, count, Numbers::v);
+    scatter<G::dof>(&now.algorithmic[0], state.algorithmic.data(), first, count);
+    turned = larger(turned, angular_square(rates[2]));
+  });
+  return largest_of(turned);
+}
+
+template <class G>
+Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
+                                NodesOn<G>& state, std::size_t begin, std::size_t end) {
+  using Numbers = NodeNumbers<G>;
+  Workspace::StepEnd part;
+  const auto size = [arm](const VectorLanes<G>& a) {
+    return Pack(lanes::dot(linear(a), linear(a)) + arm * arm * angular_square(a));
+  };
+  const auto largest = [per_length](const VectorLanes<G>& v) {
+    Pack most(0.0);
+    for (int i = 0; i < G::dof; ++i)
+      most = larger(most, i < G::translations ? Pack(per_length * lanes::abs(v[i])) : lanes::abs(v[i]));
+    return largest_of(most);
+  };
+  by_eights(begin, end, [&](std::size_t first, std::size_t count) {
+    VectorLanes<G> rates[3], before, trend, of_trend;  // v, dv/dt and dq
+    gather<3 * G::dof>(state.motion.data(), first, count, &rates[0][0], Numbers::v);
+    gather<G::dof>(start.motion.data(), first, count, &before[0], Numbers::v + G::dof);
+    gather<G::dof>(start.acceleration_trend.data(), first, count, &trend[0]);
+    gather<G::dof>(start.trend_change.data(), first, count, &of_trend[0]);
+    const VectorLanes<G> change = rates[1] - before, of_change = change - trend;
+    const Pack miss[] = {size(change), size(of_change), size(of_change - of_trend)};
+    for (std::size_t k = 0; k < part.misses.size(); ++k)
+      for (std::size_t l = 0; l < count; ++l) part.misses[k] += miss[k][static_cast<int>(l)];
+    part.error = std::max(part.error, largest(rule.local_error(change, bracket(rates[0], rates[1]))));
+    part.increment = std::max(part.increment, largest(rates[2]));
+    scatter<G::dof>(&change[0], state.acceleration_trend.data(), first, count);
+    scatter<G::dof>(&of_change[0], state.trend_change.data(), first, count);
+  });
+  return part;
+}
+
+namespace {
+
+/// Eight nodes: where they are, and how an increment moves them, in the axes in which places are told.
+template <class G>
+struct Moving {
+  typename G::template Rotation<Pack> R;
+  typename G::template Translation<Pack> x;
+  VectorLanes<G> change;
+};
+Vec6<Pack> turned(const Mat3<Pack>& R, const Vec6<Pack>& eta) {
+  return lanes::join(R * lanes::linear_part(eta), R * lanes::angular_part(eta));
+}
+Vec3<Pack> turned(const Vec2<Pack>& R, const Vec3<Pack>& eta) {
+  return motion::join(motion::complex_times(R, plane_part(eta)), eta[2]);
+}
+
+}  // namespace
+
+template <class G>
+double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const double* x,
+                      const IncrementsOf& of) {
+  constexpr int numbers = NodeNumbers<G>::pose - G::translations;  // R and the rounded place
+  const auto look_at = [&](const int(&node)[nodes_in_lanes]) {
+    const double* from[nodes_in_lanes];
+    for (std::size_t l = 0; l < nodes_in_lanes; ++l)
+      from[l] =
+          node[l] < 0 ? nothing : reinterpret_cast<const double*>(&nodes.motion[static_cast<std::size_t>(node[l])]);
+    Moving<G> m;
+    lanes::gather_lanes(from, numbers, reinterpret_cast<Pack*>(&m));
+    m.change = turned(m.R, gather_increments<G>(x, of, [&node](std::size_t l) { return node[l]; }));
+    return m;
+  };
+  const Pack far(too_far);
+  Pack most(0.0);
+  lanes::Mask<elements::num_lanes> near = less(most, far);  // in no lane where something is not a number
+  for (const PairLanes& p : pairs) {
+    const Moving<G> a = look_at(p.a), b = look_at(p.b);
+    const VectorLanes<G> change = b.change - a.change;
+    const typename G::template Translation<Pack> arm = b.x - a.x, swing = G::spin(a.change, arm),
+                                                 shift = p.per_length * (linear(change) - swing);
+    for (int i = 0; i < G::dof; ++i) near = near & less(lanes::abs(i < G::translations ? shift[i] : change[i]), far);
+    most = larger(most, larger(lanes::dot(shift, shift), angular_square(change)));
+  }
+  return all(near) ? largest_of(most) : std::numeric_limits<double>::infinity();
+}
+
+#define BOUGH_INSTANTIATE(G)                                                                                         \
+  template void move_nodes<G>(NodesOn<G>&, std::size_t, std::size_t, const double*, const IncrementsOf&);            \
+  template void move_node<G>(NodesOn<G>&, std::size_t, const G::Vector<double>&);                                    \
+  template double predict_nodes<G>(const AlphaRule&, int, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t); \
+  template double follow_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t);       \
+  template Workspace::StepEnd finish_nodes<G>(const AlphaRule&, double, double, const NodesOn<G>&, NodesOn<G>&,      \
+                                              std::size_t, std::size_t);                                             \
+  template double largest_change<G>(const NodesOn<G>&, std::span<const PairLanes>, const double*, const IncrementsOf&)
+
+BOUGH_INSTANTIATE(Se3);
+BOUGH_INSTANTIATE(Se2);
+
+}  // namespace bough::step
