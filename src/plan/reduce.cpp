@@ -405,8 +405,6 @@ void take(Builder& b, const Motion& motion) {
 Obstacle general_obstacle(const Builder& b) {
   if (b.plan.nodes.empty()) return "there are no nodes";
   if (!b.plan.frames.empty()) return "frames of prescribed motion move in six ways";
-  if (b.plan.is_dynamic && b.scene.analysis.integrator == scene::Integrator::variational)
-    return "the variational integrator takes six unknowns a node";
   return std::nullopt;
 }
 
@@ -415,12 +413,12 @@ Obstacle general_obstacle(const Builder& b) {
 void Builder::choose_unknowns() {
   const Obstacle general = general_obstacle(*this);
   Motions before = Motions::spatial;
-  const auto settle = [&](const char* name, const char* what, const char* why,
+  const auto settle = [&](const char* name, const char* what, const char* why, const Obstacle& beforehand,
                           const std::vector<Vec3<double>>& directions, auto make) {
-    std::string reason = general.value_or("everything is at one place");
+    std::string reason = beforehand.value_or("everything is at one place");
     bool holds = false;
     std::size_t furthest = 0;
-    for (std::size_t k = 0; k < directions.size() && !general && !holds; ++k) {
+    for (std::size_t k = 0; k < directions.size() && !beforehand && !holds; ++k) {
       const auto motion = make(directions[k]);
       const Verdict v = judge(*this, motion);
       holds = !v.obstacle;
@@ -437,6 +435,9 @@ void Builder::choose_unknowns() {
     decide(name, what, fewer, reason);
     before = plan.unknowns.motions;
   };
+  Obstacle of_points = general;
+  if (!general && plan.is_dynamic && scene.analysis.integrator == scene::Integrator::variational)
+    of_points = "the variational integrator moves nodes that turn";
   const std::vector<Vec3<double>> any{Vec3<double>::zero()};
   std::vector<Vec3<double>> lines, planes;
   if (!general) {
@@ -447,19 +448,19 @@ void Builder::choose_unknowns() {
          "one unknown a node. Taken where only springs and forces along one line act, at the origins of nodes on it. "
          "What leaves the line is not seen (springs under pressure that give way sideways); statics looks once, at its "
          "last equilibrium",
-         "point masses, springs and loads lie on one line", lines,
+         "point masses, springs and loads lie on one line", of_points, lines,
          [this](const Vec3<double>& d) { return OfPoints(*this, d); });
   settle("translation",
          "three unknowns a node, no rotations. Taken where only springs, forces and held displacements act, at the "
          "origins of nodes",
-         "forces act at the origins of nodes only, so nothing turns", any,
+         "forces act at the origins of nodes only, so nothing turns", of_points, any,
          [this](const Vec3<double>&) { return OfPoints(*this, std::nullopt); });
   settle("planar",
          "three unknowns a node, two displacements and a rotation. Taken where geometry, sections, masses, joints, "
          "loads and initial "
          "data are their own mirror images in one plane. What leaves the plane is not seen (buckling sideways, lateral "
          "torsional buckling); statics looks once, at its last equilibrium",
-         "geometry, sections, masses, joints, loads and initial data are symmetric about one plane", planes,
+         "geometry, sections, masses, joints, loads and initial data are symmetric about one plane", general, planes,
          [this](const Vec3<double>& n) { return InPlane(*this, n); });
 }
 

@@ -159,19 +159,43 @@ void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const dou
   });
 }
 
+namespace {
+
 template <class G>
-void move_node(NodesOn<G>& nodes, std::size_t node, const typename G::template Vector<double>& eta) {
-  auto& n = nodes.motion[node];
+Mover<G, double> mover_of(const NodesOn<G>& nodes, std::size_t node) {
+  const auto& n = nodes.motion[node];
   Mover<G, double> m;
   m.R = n.R;
   m.x = n.x;
   m.dq = n.dq;
   if constexpr (std::is_same_v<G, Se3>) m.q = nodes.rotation[node];
-  m.move(eta, true);
+  return m;
+}
+template <class G>
+void put(const Mover<G, double>& m, NodesOn<G>& nodes, std::size_t node) {
+  auto& n = nodes.motion[node];
   n.R = m.R;
   n.x = m.x;
   n.dq = m.dq;
   if constexpr (std::is_same_v<G, Se3>) nodes.rotation[node] = m.q;
+}
+
+}  // namespace
+
+template <class G>
+void move_node(NodesOn<G>& nodes, std::size_t node, const typename G::template Vector<double>& eta) {
+  Mover<G, double> m = mover_of(nodes, node);
+  m.move(eta, true);
+  put(m, nodes, node);
+}
+
+template <class G>
+void place_node(const NodesOn<G>& from, std::size_t node, const typename G::template Vector<double>& d,
+                NodesOn<G>& to) {
+  Mover<G, double> m = mover_of(from, node);
+  m.move(d, false);
+  m.dq = d;
+  put(m, to, node);
 }
 
 template <class G>
@@ -326,6 +350,7 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
 #define BOUGH_INSTANTIATE(G)                                                                                         \
   template void move_nodes<G>(NodesOn<G>&, std::size_t, std::size_t, const double*, const IncrementsOf&);            \
   template void move_node<G>(NodesOn<G>&, std::size_t, const G::Vector<double>&);                                    \
+  template void place_node<G>(const NodesOn<G>&, std::size_t, const G::Vector<double>&, NodesOn<G>&);                \
   template double predict_nodes<G>(const AlphaRule&, int, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t); \
   template double follow_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t);       \
   template Workspace::StepEnd finish_nodes<G>(const AlphaRule&, double, double, const NodesOn<G>&, NodesOn<G>&,      \

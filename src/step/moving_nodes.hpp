@@ -15,6 +15,14 @@ struct IncrementsOf {
   const std::int64_t* begin;
 };
 
+/// A vector of a node as one of space, own axes.
+inline const motion::Vec6<double>& vector_in_space(const plan::Plan&, std::size_t, const motion::Vec6<double>& v) {
+  return v;
+}
+inline motion::Vec6<double> vector_in_space(const plan::Plan& plan, std::size_t node, const motion::Vec3<double>& v) {
+  return plan.unknowns.expanded(&v[0], node);
+}
+
 /// Eight pairs of nodes of an element; a < 0: b alone, against what does not move. Spare lanes repeat the last pair.
 struct PairLanes {
   int a[elements::num_lanes], b[elements::num_lanes];
@@ -45,6 +53,10 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
 template <class G>
 double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const double* x,
                       const IncrementsOf& increments);
+
+/// Node n of `to` at H exp(d) of `from`, dq = d.
+template <class G>
+void place_node(const NodesOn<G>& from, std::size_t node, const typename G::template Vector<double>& d, NodesOn<G>& to);
 
 /// One node.
 template <class G>

@@ -59,6 +59,7 @@ State make_initial_state(const plan::Plan& plan) {
   if (!plan.planar) return s;
   PlanarNodes& planar = s.emplace<Se2>();
   set_count(plan, planar);
+  s.in_space_.nodes.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
     const plan::PlanarNode& at = plan.planar->nodes[i];
     planar.motion[i] = {at.turn, at.x, restricted(plan, planar, i, plan.nodes[i].twist), Vec3<double>::zero(),

@@ -130,16 +130,20 @@ elements::Field System::field_of(const State& state, std::span<const int> nodes,
 template <class G>
 elements::FieldOn<G, double> System::field_on(const State& state, const elements::Slopes& slopes,
                                               bool with_inertia) const {
-  if constexpr (std::is_same_v<G, motion::Se3>) return field(state, slopes, with_inertia);
-  const elements::Field space = surroundings(slopes, with_inertia);
-  elements::FieldOn<G, double> f;
-  f.nodes = state.on<G>().motion.data();
-  f.slopes = slopes;
-  f.around.gravity = motion::plane_part(lanes::transpose_times(plan_.planar->axes, space.around.gravity));
-  f.around.laws = space.around.laws;
-  f.around.has_inertia = space.around.has_inertia;
-  return f;
+  if constexpr (std::is_same_v<G, motion::Se3>) {
+    return field(state, slopes, with_inertia);
+  } else {
+    const elements::Field space = surroundings(slopes, with_inertia);
+    elements::FieldOn<G, double> f;
+    f.nodes = state.on<G>().motion.data();
+    f.slopes = slopes;
+    f.around.gravity = motion::plane_part(lanes::transpose_times(plan_.planar->axes, space.around.gravity));
+    f.around.laws = space.around.laws;
+    f.around.has_inertia = space.around.has_inertia;
+    return f;
+  }
 }
+template elements::Field System::field_on<motion::Se3>(const State&, const elements::Slopes&, bool) const;
 template elements::FieldOn<motion::Se2, double> System::field_on<motion::Se2>(const State&, const elements::Slopes&,
                                                                               bool) const;
 

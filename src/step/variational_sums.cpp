@@ -1,15 +1,13 @@
 /// Momenta, forces and constraint rows of a state, summed by node.
 #include <cmath>
 
-#include "bough/elements/momentum.hpp"
-#include "bough/step/variational.hpp"
 #include "system_parts.hpp"
+#include "variational_on.hpp"
 
 namespace bough::step {
 
-using motion::Vec6;
-
-MomentumSums::MomentumSums(const plan::Plan& plan) {
+template <class G>
+MomentumSums<G>::MomentumSums(const plan::Plan& plan) {
   const std::size_t num_nodes = plan.nodes.size();
   std::vector<std::vector<std::int64_t>> uses(num_nodes);
   begin_.assign(1, 0);
@@ -19,7 +17,7 @@ MomentumSums::MomentumSums(const plan::Plan& plan) {
       for (const elements::Port& port : e.ports) {
         if (port.node == elements::ground) continue;
         uses[static_cast<std::size_t>(port.node)].push_back(at);
-        at += 6;
+        at += G::dof;
       }
     });
     begin_.push_back(at);
@@ -31,12 +29,13 @@ MomentumSums::MomentumSums(const plan::Plan& plan) {
   }
   momenta_.assign(static_cast<std::size_t>(begin_.back()), 0.0);
   forces_ = momenta_;
-  momentum_.assign(num_nodes, Vec6<double>::zero());
+  momentum_.assign(num_nodes, Vector::zero());
   force_ = force_size_ = momentum_;
 }
 
-std::optional<Trouble> MomentumSums::evaluate(const System& system, const elements::Field& field,
-                                              const std::vector<double>& turns, double elastic_inertia, Want want) {
+template <class G>
+std::optional<Trouble> MomentumSums<G>::evaluate(const System& system, const elements::FieldOn<G, double>& field,
+                                                 const std::vector<double>& turns, double elastic_inertia, Want want) {
   const plan::Plan& plan = system.plan();
   const bool with_forces = want == Want::forces;
   const tree::Tree& tree = system.tree();
@@ -45,7 +44,7 @@ std::optional<Trouble> MomentumSums::evaluate(const System& system, const elemen
       const auto id = static_cast<std::size_t>(tree.element_order[static_cast<std::size_t>(k)]);
       const int joint = system.joint_of_element(static_cast<int>(id));
       const auto at = static_cast<std::size_t>(begin_[id]);
-      plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      plan::with_element(plan::arrays_on<G>(plan), plan.directory[id], [&](const auto& e) {
         elements::evaluate_momentum(e, field, joint < 0 ? 0.0 : turns[static_cast<std::size_t>(joint)], elastic_inertia,
                                     momenta_.data() + at, with_forces ? forces_.data() + at : nullptr);
       });
@@ -56,11 +55,11 @@ std::optional<Trouble> MomentumSums::evaluate(const System& system, const elemen
   auto by_node = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t n = begin; n < end; ++n) {
       const auto node = static_cast<std::size_t>(n);
-      Vec6<double> P = Vec6<double>::zero(), F = P, size = P;
+      Vector P = Vector::zero(), F = P, size = P;
       for (std::int64_t u = use_begin_[node]; u < use_begin_[node + 1]; ++u) {
         const auto at = static_cast<std::size_t>(uses_[static_cast<std::size_t>(u)]);
-        for (int i = 0; i < 6; ++i) P[i] += momenta_[at + static_cast<std::size_t>(i)];
-        for (int i = 0; i < 6 && with_forces; ++i) {
+        for (int i = 0; i < G::dof; ++i) P[i] += momenta_[at + static_cast<std::size_t>(i)];
+        for (int i = 0; i < G::dof && with_forces; ++i) {
           F[i] += forces_[at + static_cast<std::size_t>(i)];
           size[i] += std::abs(forces_[at + static_cast<std::size_t>(i)]);
         }
@@ -73,53 +72,64 @@ std::optional<Trouble> MomentumSums::evaluate(const System& system, const elemen
   };
   system.walker().for_each_chunk(static_cast<std::int64_t>(plan.nodes.size()), block_grain, tree::make_chunk(by_node));
   for (std::size_t n = 0; n < plan.nodes.size(); ++n)
-    for (int i = 0; i < 6; ++i)
+    for (int i = 0; i < G::dof; ++i)
       if (!std::isfinite(momentum_[n][i]) || (with_forces && !std::isfinite(force_[n][i])))
         return Trouble{"the forces at '" + plan.nodes[n].name + "' are not finite"};
   return std::nullopt;
 }
 
-ConstraintRows::ConstraintRows(const plan::Plan& plan) {
-  std::size_t at = 0;
+template <class G>
+ConstraintRows<G>::ConstraintRows(const plan::Plan& plan) {
+  std::size_t at = 0, values = 0;
   place_of_element_.assign(plan.directory.size(), -1);
   for (const plan::JointPlan& j : plan.joints) {
     if (j.block < 0) continue;
     place_of_element_[static_cast<std::size_t>(j.element)] = static_cast<int>(places_.size());
     Place p;
     p.element = j.element;
-    p.block = j.block;
-    p.multiplier_begin = j.multiplier_begin;
+    p.plan = &j;
     p.gradient_begin = at;
-    p.joint = &plan::array_of<elements::Joint>(
-        plan.elements)[static_cast<std::size_t>(plan.directory[static_cast<std::size_t>(j.element)].index)];
-    for (const elements::Port& port : p.joint->ports)
+    p.value_begin = values;
+    p.joint = &std::get<std::vector<elements::JointOn<G>>>(
+        plan::arrays_on<G>(plan))[static_cast<std::size_t>(plan.directory[static_cast<std::size_t>(j.element)].index)];
+    for (const auto& port : p.joint->ports)
       if (port.node != elements::ground) p.nodes[p.num_nodes++] = port.node;
-    at += static_cast<std::size_t>(6 * p.num_nodes * p.joint->num_rows);
+    at += static_cast<std::size_t>(G::dof * p.num_nodes * p.joint->num_rows);
+    values += static_cast<std::size_t>(p.joint->num_rows);
     places_.push_back(p);
   }
-  values_.assign(static_cast<std::size_t>(plan.num_multipliers), 0.0);
+  values_.assign(values, 0.0);
   gradients_.assign(at, 0.0);
 }
 
-void ConstraintRows::evaluate(const System& system, const elements::Field& field, const std::vector<double>& turns) {
+template <class G>
+void ConstraintRows<G>::evaluate(const System& system, const elements::FieldOn<G, double>& field,
+                                 const std::vector<double>& turns) {
   auto by_joint = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const Place& p = places_[static_cast<std::size_t>(k)];
       elements::evaluate_rows(*p.joint, field, turns[static_cast<std::size_t>(system.joint_of_element(p.element))],
-                              values_.data() + p.multiplier_begin, gradients_.data() + p.gradient_begin);
+                              values_.data() + p.value_begin, gradients_.data() + p.gradient_begin);
     }
   };
   system.walker().for_each_chunk(static_cast<std::int64_t>(places_.size()), element_grain, tree::make_chunk(by_joint));
 }
 
-void ConstraintRows::add_forces(const double* multipliers, double factor, std::vector<Vec6<double>>& to) const {
+template <class G>
+void ConstraintRows<G>::add_forces(const double* multipliers, double factor,
+                                   std::vector<typename G::template Vector<double>>& to) const {
   for (const Place& p : places_)
     for (int k = 0; k < p.joint->num_rows; ++k) {
-      const double size = factor * multipliers[p.multiplier_begin + k];
+      const double size = factor * multipliers[p.multiplier(k)];
       const double* g = gradient(p, k);
       for (int n = 0; n < p.num_nodes; ++n)
-        for (int i = 0; i < 6; ++i) to[static_cast<std::size_t>(p.nodes[n])][i] += size * g[6 * n + i];
+        for (int i = 0; i < G::dof; ++i) to[static_cast<std::size_t>(p.nodes[n])][i] += size * g[G::dof * n + i];
     }
 }
+
+template class MomentumSums<motion::Se3>;
+template class MomentumSums<motion::Se2>;
+template class ConstraintRows<motion::Se3>;
+template class ConstraintRows<motion::Se2>;
 
 }  // namespace bough::step

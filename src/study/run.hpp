@@ -58,7 +58,7 @@ class Run {
   void check();
   double energy_round_off() const;
   /// Work and energies are looked at in every step.
-  bool has_balance() const { return scene_.output.checks || variational_.has_value(); }
+  bool has_balance() const { return scene_.output.checks || variational_ != nullptr; }
   bool run_statics();
   bool take_load_step(double from, double width, bool is_last);
   bool run_path();
@@ -128,7 +128,7 @@ class Run {
   plan::Plan plan_;
   schedule::Threads threads_;
   step::System system_;
-  std::optional<step::Variational> variational_;  ///< when chosen
+  std::unique_ptr<step::Variational> variational_;  ///< when chosen
   step::State state_;
   step::State tried_;  ///< from which the first try of a step that failed set out
   results::WorkMeter work_meter_;

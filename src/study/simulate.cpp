@@ -63,7 +63,7 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, results::Rec
       springs_(plan_) {
   options_.reuse_factors = plan_.took("reuse");
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::variational)
-    variational_.emplace(system_, scene.solver, options_.newmark_beta);
+    variational_ = step::make_variational(system_, scene.solver, options_.newmark_beta);
   if (plan_.is_dynamic && options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_, options_.bdf_order);
   if (plan_.is_dynamic && !variational_ && !bdf_ && (options_.step_control || scene.output.checks))
     local_error_.emplace(system_, options_, scene.analysis.end_time);

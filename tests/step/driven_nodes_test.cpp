@@ -113,8 +113,7 @@ void compare_steps(scene::Scene s, scene::Integrator integrator = scene::Integra
   expect_equal(driven, whole, 1e-11);  // accelerations and multipliers at the start
   for (Rig* rig : {&driven, &whole}) take_steps(*rig, h);
   expect_equal(driven, whole, 1e-10);
-  for (std::size_t n = 0; n < driven.state.momentum.size(); ++n)
-    for (int i = 0; i < 6; ++i) EXPECT_NEAR(driven.state.momentum[n][i], whole.state.momentum[n][i], 1e-10);
+  test::expect_near_momenta(driven.state, whole.state, 1e-10);
   EXPECT_LT(driven.system.relative_violation(driven.state, 0), 1e-12);
 }
 

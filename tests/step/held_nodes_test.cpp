@@ -131,8 +131,7 @@ void compare_steps(scene::Scene s, scene::Integrator integrator = scene::Integra
   if (integrator != scene::Integrator::variational) {  // whose multipliers belong to inertia of its own
     EXPECT_LT(unbalanced(held, whole), 1e-13);
   }
-  for (std::size_t n = 0; n < held.state.momentum.size(); ++n)
-    for (int i = 0; i < 6; ++i) EXPECT_NEAR(held.state.momentum[n][i], whole.state.momentum[n][i], 1e-10);
+  test::expect_near_momenta(held.state, whole.state, 1e-10);
   EXPECT_LT(held.system.relative_violation(held.state, 0), 1e-12);
 }
 

@@ -96,17 +96,25 @@ inline void expect_equal(const Rig& a, const Rig& b, double tolerance) {
     EXPECT_NEAR(a.state.multipliers[m], b.state.multipliers[m], allowed) << "multiplier " << m;
 }
 
+/// Of the variational integrator; others have none.
+inline void expect_near_momenta(const step::State& a, const step::State& b, double tolerance) {
+  a.visit([&]<class G>(const step::NodesOn<G>& nodes) {
+    for (std::size_t n = 0; n < nodes.momentum.size(); ++n)
+      for (int i = 0; i < G::dof; ++i) EXPECT_NEAR(nodes.momentum[n][i], b.on<G>().momentum[n][i], tolerance);
+  });
+}
+
 /// 20 steps by the integrator of the scene. Returns the iterations that they took.
 inline int take_steps(Rig& rig, double h) {
   const step::StepOptions options = step::make_step_options(rig.scene.analysis);
   const bool is_bdf = options.integrator == scene::Integrator::bdf,
              is_variational = options.integrator == scene::Integrator::variational;
-  std::optional<step::Variational> variational;
+  std::unique_ptr<step::Variational> variational;
   step::Bdf bdf(rig.system, 3);
   rig.state.step_size = h;
   bdf.restart(h);
   if (is_variational) {
-    variational.emplace(rig.system, rig.scene.solver, options.newmark_beta);
+    variational = step::make_variational(rig.system, rig.scene.solver, options.newmark_beta);
     EXPECT_FALSE(variational->start(rig.state));
   } else if (!is_bdf) {
     EXPECT_TRUE(step::start_alpha(rig.system, rig.state, options, h).ok);

@@ -31,7 +31,7 @@ Stepper::Stepper(const scene::Scene& scene)
       state_(step::make_initial_state(plan_)),
       options_(step::make_step_options(scene.analysis)) {
   if (options_.integrator == scene::Integrator::variational)
-    variational_.emplace(system_, scene.solver, options_.newmark_beta);
+    variational_ = step::make_variational(system_, scene.solver, options_.newmark_beta);
   if (options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_, options_.bdf_order);
 }
 

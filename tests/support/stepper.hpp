@@ -35,7 +35,7 @@ class Stepper {
   step::System system_;
   step::State state_;
   step::StepOptions options_;
-  std::optional<step::Variational> variational_;  ///< when the scene chooses it
+  std::unique_ptr<step::Variational> variational_;  ///< when the scene chooses it
   std::optional<step::Bdf> bdf_;                  ///< the same
 };
 

@@ -3,6 +3,7 @@
 ///   L(q, v) = kinetic energy - strain energy - potential of gravity,
 /// at a pose q and a twist v of its ports. Sources: Marsden, West 2001; Bou-Rabee, Marsden 2009 (Lie groups).
 #include "bough/elements/evaluate.hpp"
+#include "bough/motion/vectors_on.hpp"
 
 namespace bough::elements {
 
@@ -172,31 +173,45 @@ void eval_momentum(const BeamOn<G, N, C>& beam, const PortMotionOn<G, S>* ports,
 /// The step of the midpoint rule on the group, H_{n+1} = H_n exp(D), with P and F at the pose H_n exp(D/2) and the twist D/h: momenta at
 /// both ends, in the axes there, from the discrete Lagrangian L_d = h L(H_n exp(D/2), D/h):
 ///   p_n = -D_1 L_d = T(-D)^-T (P + (h/2) T(-D/2)^T F),   p_{n+1} = D_2 L_d = T(D)^-T (P - (h/2) T(D/2)^T F).
-template <class S>
-Vec6<S> eval_momentum_before(const Vec6<S>& D, double h, const Vec6<S>& P, const Vec6<S>& F) {
-  return motion::inverse_tangent_transpose_times(
-      Vec6<S>(-D), Vec6<S>(P + (0.5 * h) * motion::tangent_transpose_times(Vec6<S>(-0.5 * D), F)));
+template <class G, class S>
+typename G::template Vector<S> eval_momentum_before(const typename G::template Vector<S>& D, double h,
+                                                    const typename G::template Vector<S>& P,
+                                                    const typename G::template Vector<S>& F) {
+  using On = motion::VectorsOn<G>;
+  using V = typename G::template Vector<S>;
+  const V forces = On::template tangent_transpose_times<S>(V(-0.5 * D), F);
+  return On::template inverse_tangent_transpose_times<S>(V(-D), V(P + (0.5 * h) * forces));
 }
-template <class S>
-Vec6<S> eval_momentum_after(const Vec6<S>& D, double h, const Vec6<S>& P, const Vec6<S>& F) {
-  return motion::inverse_tangent_transpose_times(
-      D, Vec6<S>(P - (0.5 * h) * motion::tangent_transpose_times(Vec6<S>(0.5 * D), F)));
+template <class G, class S>
+typename G::template Vector<S> eval_momentum_after(const typename G::template Vector<S>& D, double h,
+                                                   const typename G::template Vector<S>& P,
+                                                   const typename G::template Vector<S>& F) {
+  using On = motion::VectorsOn<G>;
+  using V = typename G::template Vector<S>;
+  const V forces = On::template tangent_transpose_times<S>(V(0.5 * D), F);
+  return On::template inverse_tangent_transpose_times<S>(D, V(P - (0.5 * h) * forces));
 }
 
-/// Momentum and force of an element in the axes of its nodes, 6 each per port off the ground; accelerations are not looked at.
+/// What an element of a group looks at.
 template <class E>
-void evaluate_momentum(const E& e, const Field& field, double turns, double elastic_inertia, double* momentum,
+using FieldFor = FieldOn<typename E::Group, double>;
+
+/// Momentum and force of an element in the axes of its nodes, G::dof each per port off the ground; accelerations are not looked at.
+template <class E>
+void evaluate_momentum(const E& e, const FieldFor<E>& field, double turns, double elastic_inertia, double* momentum,
                        double* force);
 
 /// matrix += factor / tau times the elastic inertia's part of dP/dv, in the unknowns of the nodes, row-major.
 template <class E>
-void add_elastic_mass(const E& e, const Field& field, double factor, double* matrix);
+void add_elastic_mass(const E& e, const FieldFor<E>& field, double factor, double* matrix);
 
 /// matrix += factor ad(v)^T M on the diagonal blocks of the nodes, M that of a body, or of a beam's mass shared out among its nodes.
 template <class E>
-void add_gyroscopic(const E& e, const Field& field, double factor, double* matrix);
+void add_gyroscopic(const E& e, const FieldFor<E>& field, double factor, double* matrix);
 
-/// Values of a joint's rows, and their gradients by right increments of its nodes off the ground, row-major, num_rows x 6 (nodes).
-void evaluate_rows(const Joint& joint, const Field& field, double turns, double* rows, double* gradient);
+/// Values of a joint's rows, and their gradients by right increments of its nodes off the ground, row-major, num_rows x dof (nodes).
+template <class G>
+void evaluate_rows(const JointOn<G>& joint, const FieldOn<G, double>& field, double turns, double* rows,
+                   double* gradient);
 
 }  // namespace bough::elements

@@ -22,6 +22,7 @@ struct NodesOn {
   std::vector<Vector> algorithmic;                        ///< a_n, the acceleration-like variable of generalized-alpha
   std::vector<Vector> acceleration_trend;                 ///< change of dv/dt over the last step, of generalized-alpha
   std::vector<Vector> trend_change;                       ///< change of that from the step before; zero after a start
+  std::vector<Vector> momentum;                           ///< p_n of the variational integrator; else empty
 
   /// As many nodes as there are in `like`.
   void resize_as(const NodesOn& like) {
@@ -43,8 +44,7 @@ struct State {
   /// Of the last step of generalized-alpha, the largest over all nodes, lengths over the size of the structure: its local
   /// error without the filter of stiff parts (step_control.hpp), 0 after a start; and dq.
   double local_error = 0.0, increment = 0.0;
-  double last_step = 0.0;                      ///< h that dq spans, of the variational integrator [s]; 0 at a start
-  std::vector<motion::Vec6<double>> momentum;  ///< p_n of the variational integrator, own axes; else empty
+  double last_step = 0.0;  ///< h that dq spans, of the variational integrator [s]; 0 at a start
   /// Statics: increments in space that nodes still lack and their digits cannot hold; else empty.
   std::vector<motion::Vec6<double>> unsettled;
   std::vector<double> multipliers;
@@ -95,6 +95,7 @@ struct State {
   }
 
  private:
+  friend State make_initial_state(const plan::Plan& plan);
   friend const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, const State& state);
   std::variant<SpatialNodes, PlanarNodes> nodes_;
   /// Planar nodes in space, once asked for; empty: not yet. A copy makes its own.
@@ -114,7 +115,7 @@ struct State {
   mutable InSpace in_space_;
 };
 
-/// The scene's own poses and twists, not yet consistent.
+/// The scene's own poses and twists, not yet consistent. Copies of it take no more memory later.
 State make_initial_state(const plan::Plan& plan);
 
 /// R, x, v, dv/dt and dq of all nodes in space, own axes of the nodes as the scene places them:
