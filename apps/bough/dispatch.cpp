@@ -47,7 +47,7 @@ void add_without(CLI::App& verb, std::vector<std::string>& overrides) {
       ->type_name("DECISION")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->check(CLI::IsMember(scene::decision_names()));
+      ->check(CLI::IsMember(scene::names_in_without()));
 }
 
 /// Scenes of which a run would take more are refused before anything is allocated for them.

@@ -12,7 +12,6 @@
 #include "../support/arguments.hpp"
 #include "../support/context.hpp"
 #include "../support/scenes.hpp"
-#include "bough/laws/make_law.hpp"
 #include "bough/study/simulate.hpp"
 
 namespace {
@@ -55,15 +54,6 @@ scene::Scene make_light_bracket(int elements) {
   s.gravity = 1e-3 * s.gravity;
   return s;
 }
-/// The first, turned by a law at that end.
-scene::Scene make_swung_beam(int elements) {
-  scene::Scene s = make_chain(1);
-  s.joints[0].drives.emplace_back();
-  s.joints[0].drives[0].coordinate = "angle";
-  s.joints[0].drives[0].law = laws::make_harmonic(0.2, 20.0);
-  s.beams[0].elements = elements;
-  return s;
-}
 /// Links joined by fixed joints instead of hinges, the first on its hinge: one long beam, put together of parts.
 scene::Scene make_tied_chain(int links) {
   scene::Scene s = make_chain(links);
@@ -104,8 +94,6 @@ std::vector<LeanCase> make_cases() {
           {"held", "cantilever_8", 8, 400, make_cantilever},
           {"held", "cantilever_64", 64, 200, make_cantilever},
           {"held", "lattice_20", 20, 20, make_level_lattice},
-          {"driven", "swung_beam_8", 8, 400, make_swung_beam},
-          {"driven", "swung_beam_64", 64, 200, make_swung_beam},
           {"reuse", "chain_128", 128, 50, make_chain},
           {"reuse", "cantilever_64", 64, 200, make_cantilever},
           {"reuse", "cantilever_512", 512, 50, make_cantilever},

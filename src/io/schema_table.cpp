@@ -370,7 +370,7 @@ RuleTable make_table() {
        need("analysis", named_rule("analysis"), "What is computed."),
        may("solver", named_rule("solver"), "Linear solver.", "{}"),
        may("output", named_rule("output"), "What is written.", "{}"),
-       may("without", array_rule("", word_rule("", scene::decision_names())),
+       may("without", array_rule("", word_rule("", scene::names_in_without())),
            "Decisions that the plan is not to take (`bough plan` lists them), for comparison.", "[]"),
        may("parameters", named_rule("parameters"), "Named numbers of formulas."),
        may("repeat", named_rule("repeat"), "Parts that come many times.")});

@@ -48,7 +48,7 @@ std::string count_of(std::size_t n, const std::string& one, const std::string& m
 /// What speaks against a matrix that is positive definite: rows of constraints, a node that neither has mass nor, in statics, any support.
 std::string obstacle_to_definite(const Plan& plan, std::size_t rows) {
   if (rows > 0) return "joints have multipliers: " + count_of(rows, "constraint row", "constraint rows");
-  bool is_supported = !plan.held.empty() || !plan.driven.empty();
+  bool is_supported = !plan.held.empty();
   std::vector<bool> bears_mass(plan.nodes.size(), false);
   for_each_array(plan.elements, [&](const auto& array) {
     using E = typename std::decay_t<decltype(array)>::value_type;
@@ -65,7 +65,6 @@ std::string obstacle_to_definite(const Plan& plan, std::size_t rows) {
   });
   if (!plan.is_dynamic) return is_supported ? "" : "no node is held and no spring leads to the ground";
   for (const HeldNode& h : plan.held) bears_mass[static_cast<std::size_t>(h.node)] = true;  // not in the matrix
-  for (const DrivenNode& d : plan.driven) bears_mass[static_cast<std::size_t>(d.node)] = true;
   for (std::size_t n = 0; n < plan.nodes.size(); ++n)
     if (!bears_mass[n]) return "'" + plan.nodes[n].name + "' has no mass";
   return "";
@@ -93,6 +92,10 @@ std::string obstacle_to_potential(const Plan& plan, bool in_plane) {
 
 void Builder::settle() {
   const bool dynamic = plan.is_dynamic;
+  for (const std::string& name : scene::retired_decision_names())
+    if (is_barred(name))
+      plan.notes.push_back("\"without\" names '" + name +
+                           "', a simplification that is no longer made: it changes nothing");
   char text[120];
   std::size_t damped = 0, rows = 0;
   double work = 0.0;
@@ -106,8 +109,7 @@ void Builder::settle() {
   for (const JointPlan& j : plan.joints) rows += j.rows.size();
   for (const HeldNode& h : plan.held)
     for (int j : h.joints) rows -= plan.joints[static_cast<std::size_t>(j)].rows.size();
-  rows -= plan.driven.size() * static_cast<std::size_t>(plan.unknowns.count);
-  const bool had_rows = !plan.held.empty() || !plan.driven.empty();
+  const bool had_rows = !plan.held.empty();
 
   decide("reuse",
          "a factor serves again, over iterations and steps of one size, while it shrinks the changes to 0.03 of what "
@@ -174,7 +176,7 @@ void Builder::settle() {
   decide("no multipliers", "the matrix has no constraint rows. Taken where no joint has a row that is solved for",
          rows == 0,
          rows > 0   ? count_of(rows, "constraint row", "constraint rows")
-         : had_rows ? "the nodes that have constraints are held or driven"
+         : had_rows ? "the nodes that have constraints are held"
                     : "there are no constraints");
   decide("no moving frames", "no frame's motion is evaluated. Taken where no frame is driven", plan.frames.empty(),
          plan.frames.empty() ? "all frames are fixed" : count_of(plan.frames.size(), "frame moves", "frames move"));

@@ -1,4 +1,4 @@
-/// Nodes that joints hold at rest, and nodes that they move as prescribed: what is known of them beforehand needs no unknowns.
+/// Nodes that joints hold at rest: what is known of them beforehand needs no unknowns.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -17,7 +17,6 @@ namespace {
 
 constexpr double closed = 1e-13;      ///< relative gap of a joint that a consistent start leaves as well
 constexpr double least_pivot = 1e-6;  ///< relative to the largest, rows of size 1: below, the rows hold the node hardly
-constexpr const char* loose = "its joints do not hold it on all sides";
 
 bool is_to_ground(const elements::Joint& e) {
   return e.ports[0].node == elements::ground || e.ports[1].node == elements::ground;
@@ -63,20 +62,8 @@ class Holder {
     if (starts_moving(node)) return "it starts moving";
     if (!are_closed(joints)) return "it does not start where it is held";
     held = {static_cast<int>(node), joints, wrenches(node, joints)};
-    if (!invert_small(held.inverse.data(), plan_.unknowns.count, least_pivot)) return loose;
-    return std::nullopt;
-  }
-
-  /// Whether a node of such joints is at rest where it starts: then what keeps it from being held keeps it from being driven as well.
-  bool rests(std::size_t node, const std::vector<int>& joints) const {
-    return mover_among(joints) == nullptr && !starts_moving(node) && are_closed(joints);
-  }
-
-  /// What stands against eliminating a node that these joints move, if something does.
-  std::optional<std::string> obstacle_to_driving(std::size_t node, const std::vector<int>& joints) const {
-    if (const char* way = dependence_of(node, joints)) return way;
-    std::vector<double> W = wrenches(node, joints);
-    if (!invert_small(W.data(), plan_.unknowns.count, least_pivot)) return loose;
+    if (!invert_small(held.inverse.data(), plan_.unknowns.count, least_pivot))
+      return "its joints do not hold it on all sides";
     return std::nullopt;
   }
 
@@ -201,7 +188,7 @@ class Holder {
   std::vector<Group> groups_;                ///< by the node that stands for one
 };
 
-/// What a decision about nodes tells of them: the first that it is taken for, how many more, and why not for the first of the others.
+/// What the decision tells of nodes: the first that it is taken for, how many more, and why not for the first of the others.
 struct Account {
   std::string first, obstacle;
   std::size_t count = 0;
@@ -213,12 +200,12 @@ struct Account {
     if (obstacle.empty()) obstacle = "'" + name + "': " + why;
   }
   /// "'a' and 2 more do not move: 18 unknowns and 18 rows ...; not 'b': ...".
-  std::string reason(const std::string& none, const std::string& one_does, const std::string& many_do, int unknowns,
-                     const std::string& done) const {
-    if (count == 0) return obstacle.empty() ? none : obstacle;
+  std::string reason(int unknowns) const {
+    if (count == 0) return obstacle.empty() ? "no joint holds a node to the ground on all sides" : obstacle;
     const std::string rows = std::to_string(count * static_cast<std::size_t>(unknowns));
-    return first + (count == 1 ? one_does : " and " + std::to_string(count - 1) + " more" + many_do) + ": " + rows +
-           " unknowns and " + rows + " rows of joints are " + done + (obstacle.empty() ? "" : "; not " + obstacle);
+    return first + (count == 1 ? " does not move" : " and " + std::to_string(count - 1) + " more do not move") + ": " +
+           rows + " unknowns and " + rows + " rows of joints are left out" +
+           (obstacle.empty() ? "" : "; not " + obstacle);
   }
 };
 
@@ -227,52 +214,28 @@ struct Account {
 void Builder::hold_nodes() {
   const Holder holder(*this);
   std::vector<HeldNode> held;
-  std::vector<DrivenNode> driven;
-  Account of_held, of_driven;
+  Account account;
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
     const std::vector<int> joints = holder.joints_that_hold(n);
     if (joints.empty()) continue;
     const std::string& name = plan.nodes[n].name;
     HeldNode candidate;
     const auto why = holder.try_to_hold(n, joints, candidate);
-    if (!why) {
-      held.push_back(candidate);
-      of_held.take(name);
-      continue;
-    }
-    of_held.leave(name, *why);
-    if (holder.rests(n, joints)) continue;
-    if (const auto obstacle = holder.obstacle_to_driving(n, joints)) {
-      of_driven.leave(name, *obstacle);
+    if (why) {
+      account.leave(name, *why);
     } else {
-      driven.push_back({static_cast<int>(n), joints});
-      of_driven.take(name);
+      held.push_back(candidate);
+      account.take(name);
     }
   }
-  const std::string empty = "nothing would be left";
-  bool holds = !held.empty(), leaves = held.size() < plan.nodes.size();
+  const bool leaves = held.size() < plan.nodes.size();
   decide("held",
          "nodes that the ground holds at rest have no unknowns, and the joints that hold them no multipliers in the "
          "system: these follow from the forces on the node. Taken where joints and constant displacements leave a node "
          "no motion, "
          "and other joints neither lead from it to the ground nor form a loop",
-         holds && leaves,
-         leaves ? of_held.reason("no joint holds a node to the ground on all sides", " does not move", " do not move",
-                                 plan.unknowns.count, "left out")
-                : empty);
+         !held.empty() && leaves, leaves ? account.reason(plan.unknowns.count) : "nothing would be left");
   if (plan.took("held")) plan.held = std::move(held);
-  holds = !driven.empty();
-  leaves = driven.size() + plan.held.size() < plan.nodes.size();
-  decide("driven",
-         "nodes that joints to the ground or to moving frames move as laws prescribe are eliminated before the linear "
-         "system is factored, with the multipliers of these joints: their motion follows from the rows alone, the "
-         "multipliers from the forces on the node. Taken where as many rows as a node has unknowns prescribe its "
-         "motion, and other joints neither lead from it to the ground nor form a loop",
-         holds && leaves,
-         leaves ? of_driven.reason("no motion is prescribed for a node on all sides", " moves as prescribed",
-                                   " move as prescribed", plan.unknowns.count, "eliminated beforehand")
-                : empty);
-  if (plan.took("driven")) plan.driven = std::move(driven);
 }
 
 }  // namespace bough::plan

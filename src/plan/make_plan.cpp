@@ -355,10 +355,6 @@ void Builder::make_graph() {
     plan.block_of_node[static_cast<std::size_t>(h.node)] = -1;
     for (int j : h.joints) joint_of_element.erase(plan.joints[static_cast<std::size_t>(j)].element);
   }
-  for (const DrivenNode& d : plan.driven) {
-    plan.block_of_node[static_cast<std::size_t>(d.node)] = -1;
-    for (int j : d.joints) joint_of_element.erase(plan.joints[static_cast<std::size_t>(j)].element);
-  }
   int num_blocks = 0;
   for (int& block : plan.block_of_node)
     if (block == 0) block = num_blocks++;
@@ -378,11 +374,6 @@ void Builder::make_graph() {
       }
     });
     g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
-  }
-  int beyond = g.num_blocks();
-  for (const DrivenNode& d : plan.driven) {
-    plan.block_of_node[static_cast<std::size_t>(d.node)] = beyond++;
-    for (int j : d.joints) plan.joints[static_cast<std::size_t>(j)].block = beyond++;
   }
 }
 

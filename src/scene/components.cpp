@@ -102,8 +102,19 @@ const std::vector<std::string>& coordinates_of(JointKind kind) {
 }
 
 const std::vector<std::string>& decision_names() {
-  static const std::vector<std::string> names{"welded",    "line",     "translation", "planar", "held", "driven",
+  static const std::vector<std::string> names{"welded",    "line",     "translation", "planar", "held",
                                               "symmetric", "definite", "reuse",       "lanes",  "small"};
+  return names;
+}
+
+const std::vector<std::string>& retired_decision_names() {
+  static const std::vector<std::string> names{"driven"};
+  return names;
+}
+
+std::vector<std::string> names_in_without() {
+  std::vector<std::string> names = decision_names();
+  names.insert(names.end(), retired_decision_names().begin(), retired_decision_names().end());
   return names;
 }
 

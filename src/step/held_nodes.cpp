@@ -29,9 +29,8 @@ HeldNodes::HeldNodes(const plan::Plan& plan) : plan_(plan), kind_(plan.directory
         kind_[e] = Kind::trimmed;
         uses_[static_cast<std::size_t>(held)].push_back({e, part});
       }
-      if (block >= plan.graph.num_blocks()) kind_[e] = Kind::trimmed;
       for (int i = 0; i < size; ++i, ++unknown)
-        if (block >= 0 && block < plan.graph.num_blocks()) kept.push_back(static_cast<std::int8_t>(unknown));
+        if (block >= 0) kept.push_back(static_cast<std::int8_t>(unknown));
       ++part;
     });
     if (kind_[e] == Kind::trimmed) kept_.insert(kept_.end(), kept.begin(), kept.end());

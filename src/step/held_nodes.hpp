@@ -1,5 +1,5 @@
 #pragma once
-/// What the solver does not see of elements at nodes that joints hold at rest (Plan::held) or move as prescribed (Plan::driven); the multipliers of
+/// What the solver does not see of elements at nodes that joints hold at rest (Plan::held); the multipliers of
 /// joints that hold nodes at rest, from the balance of the node. Internal to step.
 #include <cstdint>
 #include <span>
@@ -27,13 +27,6 @@ class HeldNodes {
     return {kept_.data() + begin_[element], static_cast<std::size_t>(begin_[element + 1] - begin_[element])};
   }
 
-  /// An element's matrix is written whole besides: `to` takes its rows, one after the other.
-  void keep_whole(std::size_t element, double* to) {
-    whole_.resize(kind_.size(), nullptr);
-    whole_[element] = to;
-  }
-  double* whole(std::size_t element) const { return whole_.empty() ? nullptr : whole_[element]; }
-
   /// Multipliers of all joints that hold:  W multipliers = -(forces of all other elements on the node), in statics with what these lack to first
   /// order, f + K eta (State::unsettled). more: forces by node beside those of elements, or null. in_plane: elements in
   /// the scene's plane are asked, else those in space.
@@ -56,7 +49,6 @@ class HeldNodes {
   std::vector<Kind> kind_;              ///< by element
   std::vector<std::int64_t> begin_{0};  ///< by element: range in kept_
   std::vector<std::int8_t> kept_;
-  std::vector<double*> whole_;          ///< by element, null: not wanted; empty where none is
   std::vector<std::vector<Use>> uses_;  ///< by held node, in the order of elements; without the joints that hold it
 };
 
@@ -77,8 +69,6 @@ void for_each_kept(const HeldNodes* held, std::size_t element, int n, F&& f) {
 template <class Entry>
 void write_matrix(const HeldNodes* held, std::size_t element, int n, Entry&& entry, const solve::ElementView& to) {
   for_each_kept(held, element, n, [&](std::int64_t place, int i) { to[place] = entry(i); });
-  if (double* whole = held != nullptr ? held->whole(element) : nullptr)
-    for (int i = 0; i < n * n; ++i) whole[i] = entry(i);
 }
 
 }  // namespace bough::step

@@ -7,7 +7,6 @@
 
 #include "bough/elements/rows.hpp"
 #include "bough/step/step_cost.hpp"
-#include "driven_nodes.hpp"
 #include "lane_batches.hpp"
 #include "make_solver.hpp"
 #include "moving_nodes.hpp"
@@ -36,12 +35,6 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
       clock_(walker.threads == 1) {
   solver_ = make_solver(plan, *tree_, solver);
   unknown_begin_ = tree_->unknown_begin;
-  for (const plan::DrivenNode& d : plan.driven) {
-    unknown_begin_.push_back(unknown_begin_.back() + plan.unknowns.count);
-    for (int j : d.joints)
-      unknown_begin_.push_back(unknown_begin_.back() +
-                               static_cast<std::int64_t>(plan.joints[static_cast<std::size_t>(j)].rows.size()));
-  }
   const std::size_t num_elements = plan.directory.size();
   element_length_.resize(num_elements);
   for (std::size_t e = 0; e < num_elements; ++e)
@@ -62,8 +55,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
     if (plan.joints[j].block >= 0)
       joint_of_block_[static_cast<std::size_t>(plan.joints[j].block)] = static_cast<int>(j);
   }
-  if (!plan.held.empty() || !plan.driven.empty()) held_ = std::make_unique<HeldNodes>(plan);
-  if (!plan.driven.empty()) driven_ = std::make_unique<DrivenNodes>(*this, *held_);
+  if (!plan.held.empty()) held_ = std::make_unique<HeldNodes>(plan);
   place_parts();
   spatial_lanes_ = std::make_unique<LaneBatches<motion::Se3>>();
   if (plan.unknowns.is_whole())
@@ -244,16 +236,12 @@ void System::set_matrix(int element, int num_unknowns, const double* entries) {
   const solve::ElementView view = solver_->element(element);
   for_each_kept(held_.get(), static_cast<std::size_t>(element), num_unknowns,
                 [&](std::int64_t place, int i) { view[place] = entries[i]; });
-  if (double* whole = held_ ? held_->whole(static_cast<std::size_t>(element)) : nullptr)
-    std::copy(entries, entries + num_unknowns * num_unknowns, whole);
 }
 
 void System::add_matrix(int element, int num_unknowns, const double* entries) {
   const solve::ElementView view = solver_->element(element);
   for_each_kept(held_.get(), static_cast<std::size_t>(element), num_unknowns,
                 [&](std::int64_t place, int i) { view[place] += entries[i]; });
-  if (double* whole = held_ ? held_->whole(static_cast<std::size_t>(element)) : nullptr)
-    for (int i = 0; i < num_unknowns * num_unknowns; ++i) whole[i] += entries[i];
 }
 
 /// Of an element, those that the solver knows.
@@ -272,7 +260,6 @@ void System::symmetrise(const solve::ElementBatch& batch) {
     const solve::ElementView view = solver_->element(id);
     for (int i = 1; i < n; ++i)
       for (int j = 0; j < i; ++j) view[i * n + j] = view[j * n + i] = 0.5 * (view[i * n + j] + view[j * n + i]);
-    if (driven_ && driven_->has(static_cast<std::size_t>(id))) driven_->symmetrise(static_cast<std::size_t>(id));
   }
 }
 
@@ -346,10 +333,6 @@ std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slop
   ++counts_.factorizations;
   const solve::FactorStatus status = solver_->factor(walker_);
   if (status.ok()) {
-    if (driven_)
-      if (const auto d = driven_->factor())
-        return Trouble{"the joints that move '" + plan_.nodes[static_cast<std::size_t>(plan_.driven[*d].node)].name +
-                       "' do not hold it on all sides there"};
     factored_ = slopes;
     is_factored_ = is_of_matrices_ = true;
     is_trusted_ = was_trusted && status.delayed_pivots == 0 && status.deficiency == 0;
@@ -388,35 +371,6 @@ std::string System::explain_singular(const solve::FactorStatus& status) const {
 std::optional<Trouble> System::solve(const double* rhs, double* x, bool check) {
   PhaseTimer timer{clock_, counts_.solve};
   ++counts_.solutions;
-  if (!driven_) return solve_free(rhs, x, check);
-  if (auto t = solve_free(driven_->reduce(rhs, x), x, check)) return t;
-  driven_->complete(rhs, x);
-  return std::nullopt;
-}
-
-void System::multiply(const double* x, double* y) {
-  solver_->multiply(walker_, x, y);
-  if (driven_) driven_->add_product(x, y);
-}
-
-solve::ConstElementView System::matrix_of(int element, std::vector<std::int64_t>& unknowns) const {
-  unknowns.clear();
-  const auto e = static_cast<std::size_t>(element);
-  if (driven_ && driven_->has(e)) {
-    const std::span<const std::int64_t> list = driven_->unknowns(e);
-    unknowns.assign(list.begin(), list.end());
-    return driven_->matrix(e);
-  }
-  const blocks::BlockGraph& g = plan_.graph;
-  for (std::int64_t k = g.element_begin[e]; k < g.element_begin[e + 1]; ++k) {
-    const int block = g.element_blocks[static_cast<std::size_t>(k)];
-    for (std::int64_t u = block_begin(block); u < block_begin(block + 1); ++u) unknowns.push_back(u);
-  }
-  return solver_->element(element);
-}
-
-/// With the unknowns of the solver, which come first.
-std::optional<Trouble> System::solve_free(const double* rhs, double* x, bool check) {
   if (!check && is_trusted_ && solver_->hierarchical() != nullptr && ++unchecked_ < check_every) {
     static_cast<void>(solver_->solve(walker_, rhs, x, false));
     return std::nullopt;  // what is not finite shows in the change that it makes
@@ -433,6 +387,19 @@ std::optional<Trouble> System::solve_free(const double* rhs, double* x, bool che
     counts_.backward_error_max = last_solution_.backward_error;
   counts_.rank_error_max = std::max(counts_.rank_error_max, last_solution_.rank_error);
   return std::nullopt;
+}
+
+void System::multiply(const double* x, double* y) { solver_->multiply(walker_, x, y); }
+
+solve::ConstElementView System::matrix_of(int element, std::vector<std::int64_t>& unknowns) const {
+  unknowns.clear();
+  const auto e = static_cast<std::size_t>(element);
+  const blocks::BlockGraph& g = plan_.graph;
+  for (std::int64_t k = g.element_begin[e]; k < g.element_begin[e + 1]; ++k) {
+    const int block = g.element_blocks[static_cast<std::size_t>(k)];
+    for (std::int64_t u = block_begin(block); u < block_begin(block + 1); ++u) unknowns.push_back(u);
+  }
+  return solver_->element(element);
 }
 
 int System::joint_of_block(int block) const { return joint_of_block_[static_cast<std::size_t>(block)]; }

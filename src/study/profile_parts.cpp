@@ -79,7 +79,7 @@ void draw_parts(const plan::Plan& plan, const tree::Tree& tree, results::Profile
     plan::with_element(plan.elements, plan.directory[e],
                        [&](const auto& element) { add_part(plan, element, tree.leaf_of_element[e], out); });
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
-    if (plan.block_of_node[n] < 0 || plan.block_of_node[n] >= plan.graph.num_blocks()) continue;  // held or driven
+    if (plan.block_of_node[n] < 0) continue;  // held
     const tree::SubdomainId s = tree.fronts[at(tree.front_of_block[at(plan.block_of_node[n])])].subdomain;
     if (!tree.subdomains[at(s)].is_leaf()) out.separator_nodes.push_back({point_of(plan.nodes[n].pose.x), s});
   }

@@ -5,6 +5,7 @@
 #include "../step/small_scenes.hpp"
 #include "bough/laws/make_law.hpp"
 #include "bough/plan/plan.hpp"
+#include "bough/scene/components.hpp"
 
 namespace bough::plan {
 namespace {
@@ -33,6 +34,18 @@ TEST(MakePlan, numbers_elements_blocks_and_multipliers_without_gaps) {
   }
   for (const BeamPlan& b : p.beams)
     for (int e : b.elements) EXPECT_EQ(p.element_owner[static_cast<std::size_t>(e)], b.name);
+}
+
+TEST(MakePlan, says_that_a_retired_simplification_changes_nothing) {
+  scene::Scene chain = test::make_chain(2);
+  const Plan plain = make_plan(chain);
+  for (const std::string& name : scene::retired_decision_names()) {
+    chain.without = {name};
+    const Plan p = make_plan(chain);
+    ASSERT_EQ(p.notes.size(), plain.notes.size() + 1) << name;
+    EXPECT_NE(p.notes.back().find(name), std::string::npos) << p.notes.back();
+    EXPECT_EQ(p.graph.block_size, plain.graph.block_size);
+  }
 }
 
 TEST(MakePlan, lays_a_curved_beam_on_its_circle) {

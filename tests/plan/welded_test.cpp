@@ -243,21 +243,6 @@ TEST(WeldedNodes, are_held_where_one_of_them_is) {
   EXPECT_NE(std::find(p.notes.begin(), p.notes.end(), note), p.notes.end());
 }
 
-TEST(WeldedNodes, are_driven_where_one_of_them_is) {
-  const Plan p = plan_of([](Scene& s) {
-    s.joints.erase(s.joints.begin());
-    scene::PrescribedMotion m;
-    m.name = "shaker";
-    m.at.to = "lump";
-    for (auto& law : m.displacement) law = laws::make_harmonic(0.1, 20.0);
-    m.hold_rotation = true;
-    s.motions.push_back(m);
-  });
-  EXPECT_TRUE(welded(p).taken);
-  ASSERT_EQ(p.driven.size(), 1u) << test::decision_of(p, "driven").reason;
-  EXPECT_EQ(p.driven[0].node, static_cast<int>(node_of(p, "lump")));
-}
-
 TEST(WeldedNodes, start_with_their_common_motion) {
   const Plan p = plan_of([](Scene& s) {
     s.joints.erase(s.joints.begin());

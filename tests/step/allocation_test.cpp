@@ -77,7 +77,6 @@ TEST(Advance, allocates_nothing_after_the_first_step_of_a_chain_that_is_driven) 
     scene.joints[0].drives.emplace_back();
     scene.joints[0].drives[0].coordinate = "angle";
     scene.joints[0].drives[0].law = laws::make_harmonic(0.4, 6.0);
-    ASSERT_EQ(plan::make_plan(scene).driven.size(), 1u);
     EXPECT_EQ(allocations_of_steps(scene, 20), 0);
   }
 }

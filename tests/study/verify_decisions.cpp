@@ -151,97 +151,6 @@ TEST(Gallery, has_a_scene_for_every_decision) {
 INSTANTIATE_TEST_SUITE_P(Gallery, EveryScene, testing::ValuesIn(gallery_stems()),
                          [](const auto& given) { return given.param; });
 
-/// A beam with a lump at its tip whose root is moved as laws prescribe: by what `drive` adds.
-std::string driven_scene(const std::string& drive, const std::string& analysis) {
-  return R"json({"gravity": [0, 0, -9.81],
-    "sections": [{"name": "bar", "stiffness": {"EA": 8.4e6, "GA2": 2.7e6, "GA3": 2.7e6, "GJ": 180, "EI2": 280, "EI3": 280},
-      "mass": {"mass_per_length": 3.14, "rotary": [2.1e-4, 1.05e-4, 1.05e-4]}, "damping": {"time": 1e-4}}],
-    "nodes": [{"name": "root"}, {"name": "tip", "position": [1, 0, 0]}],
-    "bodies": [{"name": "lump", "mass": 0.5, "inertia": [0.01, 0.02, 0.03], "position": [1, 0, 0]}],
-    "beams": [{"name": "beam", "section": "bar", "start": "root", "end": "tip", "axis_2": [0, 1, 0], "elements": 3, "order": 2}],
-    "sensors": [
-      {"name": "root", "kind": "position", "at": "root"}, {"name": "tip", "kind": "position", "at": "tip"},
-      {"name": "speed", "kind": "velocity", "at": "root"},
-      {"name": "force", "kind": "section_force", "beam": "beam", "station": 0},
-      {"name": "hold", "kind": "joint_reaction", "joint": "hold"}, {"name": "kinetic", "kind": "kinetic_energy"},
-      {"name": "strain", "kind": "strain_energy"}, {"name": "energy", "kind": "total_energy"})json" +
-         drive + R"json({"name": "hold", "kind": "fixed", "first": "tip", "second": "lump", "position": [1, 0, 0]}],
-    "analysis": {)json" +
-         analysis + "}}";
-}
-
-struct DrivenScene {
-  std::string name, drive, analysis;
-};
-
-std::vector<DrivenScene> driven_scenes() {
-  const std::string in_time = R"json("kind": "dynamic", "end_time": 0.5, "step_size": 0.002)json";
-  const std::string in_statics = R"json("kind": "static", "load_steps": 4)json";
-  const std::string reaction = R"json(, {"name": "drive", "kind": "joint_reaction", "joint": "drive"}], )json";
-  const std::string hub = R"json("joints": [{"name": "drive", "kind": "revolute", "first": "ground", "second": "root",
-    "position": [0, 0, 0], "axis": [0, 1, 0], "drives": [{"law": {"expression": "20*t"}, "rate": true}],
-    "forces": [{"damping": 0.3}]}, )json";
-  const std::string slanted = reaction + R"json("joints": [{"name": "drive", "kind": "revolute", "first": "ground",
-    "second": "root", "position": [0, 0, 0], "axis": [0.6, 0, 0.8], "drives": [{"law": {"expression": "0.5*(1 - cos(10*t))"}}]}, )json";
-  const std::string on_table =
-      reaction + R"json("frames": [{"name": "table", "position": [0, 0, {"expression": "0.05*(1 - cos(8*t))"}],
-    "turns": [{"axis": [0, 0, 1], "angle": {"expression": "3*t^2"}}]}],
-    "joints": [{"name": "drive", "kind": "fixed", "first": "table", "second": "root", "position": [0, 0, 0]}, )json";
-  const std::string shaker = R"json(],
-    "motions": [{"name": "shaker", "at": "root", "x": 0, "y": {"expression": "0.01*(1 - cos(30*t))"},
-      "z": {"expression": "0.02*(1 - cos(20*t))"}, "rotation": {"axis": [0, 1, 0], "angle": {"expression": "0.3*(1 - cos(5*t))"}}}],
-    "joints": [)json";
-  return {{"hub_in_a_plane", reaction + hub, in_time},
-          {"hub_in_space", reaction + R"json("without": ["planar"], )json" + hub, in_time},
-          {"slanted_hub", slanted, in_time},
-          {"slanted_hub_by_bdf", slanted, in_time + R"json(, "integrator": "bdf")json"},
-          {"slanted_hub_with_controlled_steps", slanted, in_time + R"json(, "step_control": {"tolerance": 1e-3})json"},
-          {"slanted_hub_in_statics", slanted, in_statics},
-          {"shaken_root", shaker, in_time},
-          {"shaken_root_in_statics", shaker, in_statics},
-          {"root_on_a_frame", on_table, in_time}};
-}
-
-class EveryDrivenScene : public testing::TestWithParam<DrivenScene> {};
-
-TEST_P(EveryDrivenScene, has_the_same_results_iterations_and_work_without_the_decision) {
-  const Runs all(support::scene_of(driven_scene(GetParam().drive, GetParam().analysis)));
-  ASSERT_TRUE(all.run.ok()) << all.run.summary.cause;
-  ASSERT_TRUE(all.plan.took("driven"));
-  const Outcome without = expect_the_same_without(all, "driven");
-  EXPECT_EQ(all.run.summary.steps.accepted, without.summary.steps.accepted);
-  // Round-off decides whether a step takes another iteration, and adds up in balances: as far as twins are apart.
-  const auto apart = [&](auto figure) {
-    double most = 0.0;
-    for (const Outcome& twin : all.twins)
-      most = std::max(most, std::abs(static_cast<double>(figure(twin.summary) - figure(all.run.summary))));
-    return most;
-  };
-  // A factor serves while that is cheaper than a new one, by costs that are not quite the same without the decision: some more of the one stand for
-  // fewer of the other.
-  constexpr double renewal = 1.5, traded = 0.03;
-  const auto work = [](const results::Summary& s) {
-    return static_cast<double>(s.steps.newton_iterations) + renewal * static_cast<double>(s.steps.factorizations);
-  };
-  EXPECT_LE(work(all.run.summary), (1.0 + traded) * work(without.summary) + apart(work))
-      << without.summary.steps.newton_iterations << " iterations and " << without.summary.steps.factorizations
-      << " factors without the decision, with it " << all.run.summary.steps.newton_iterations << " and "
-      << all.run.summary.steps.factorizations;
-  const auto expect_near = [&](auto figure, double scale) {
-    EXPECT_NEAR(figure(all.run.summary), figure(without.summary), std::max(1e-10 * scale, 10.0 * apart(figure)));
-  };
-  const double energy = without.summary.checks.energy_scale;  // with the work of the drives
-  expect_near([](const results::Summary& s) { return s.checks.energy_scale; }, energy);
-  expect_near([](const results::Summary& s) { return s.checks.energy_balance; }, energy);
-  expect_near([](const results::Summary& s) { return s.checks.momentum_balance; }, 1.0);  // about 1 m/s of some kg
-  expect_near([](const results::Summary& s) { return s.checks.constraint_violation_velocity; }, 1.0);
-}
-
-void PrintTo(const DrivenScene& scene, std::ostream* out) { *out << scene.name; }
-
-INSTANTIATE_TEST_SUITE_P(Driven, EveryDrivenScene, testing::ValuesIn(driven_scenes()),
-                         [](const auto& given) { return given.param.name; });
-
 class EveryWeldedScene : public testing::TestWithParam<WeldedScene> {};
 
 TEST_P(EveryWeldedScene, has_the_same_results_without_the_decision) {
@@ -256,7 +165,6 @@ TEST_P(EveryWeldedScene, has_the_same_results_without_the_decision) {
   EXPECT_EQ(all.plan.joints.size() + 5, barred.plan.joints.size());
   EXPECT_EQ(all.plan.unknowns.motions, barred.plan.unknowns.motions);
   EXPECT_GE(all.plan.held.size(), barred.plan.held.size());  // more where joints of the part form a loop
-  EXPECT_EQ(all.plan.driven.size(), barred.plan.driven.size());
   EXPECT_EQ(all.plan.length_scale, barred.plan.length_scale);
   const Outcome other = expect_the_same_without(all, "welded", &barred);
   EXPECT_EQ(all.run.summary.steps.accepted, other.summary.steps.accepted);

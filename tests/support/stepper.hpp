@@ -36,7 +36,7 @@ class Stepper {
   step::State state_;
   step::StepOptions options_;
   std::unique_ptr<step::Variational> variational_;  ///< when the scene chooses it
-  std::optional<step::Bdf> bdf_;                  ///< the same
+  std::optional<step::Bdf> bdf_;                    ///< the same
 };
 
 /// Largest |a - b| relative to the largest |b|, of each part.

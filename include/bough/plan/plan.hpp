@@ -35,7 +35,6 @@ struct JointPlan {
   std::string name;
   int element = 0;           ///< global element id
   int block = -1;            ///< multiplier block; -1: no row is an unknown, or the joint holds a node of Plan::held;
-                             ///< beyond those of the graph: the joint moves a node of Plan::driven
   int multiplier_begin = 0;  ///< in the array of all multipliers
   /// Its rows that are unknowns, in order; the others hold by themselves in the motions that the scene has, their multipliers are zero.
   std::vector<int> rows;
@@ -52,13 +51,6 @@ struct HeldNode {
   std::vector<int> joints;  ///< in Plan::joints; of their `rows` there are as many as a node has unknowns
   /// W^-1, row-major: from a wrench in the unknowns of the node to the multipliers of `rows`, joint after joint.
   std::vector<double> inverse;
-};
-
-/// A node whose motion joints to the ground or to frames of prescribed motion prescribe: as many rows as it has unknowns. Its block and those of
-/// these joints stand beyond those of the graph, one after the other: the linear solver does not know them, they are eliminated before it.
-struct DrivenNode {
-  int node = 0;
-  std::vector<int> joints;  ///< in Plan::joints
 };
 
 /// A body of the scene: its frame is that of a node, or stands at an offset from one that it is part of.
@@ -182,9 +174,8 @@ struct Plan {
   bool took(const std::string& decision) const;
   std::string not_conservative;    ///< what keeps the loads from having a potential, in words; empty: they have one
   std::vector<HeldNode> held;      ///< empty unless the decision "held" was taken
-  std::vector<DrivenNode> driven;  ///< empty unless the decision "driven" was taken
   blocks::BlockGraph graph;        ///< blocks: nodes with unknowns, then one per joint that has rows which are unknowns
-  std::vector<int> block_of_node;  ///< -1: held; beyond those of the graph: driven
+  std::vector<int> block_of_node;  ///< -1: held
   double length_scale = 1.0;       ///< [m], size of the structure
   Mobility mobility;
   std::vector<std::string> notes;  ///< what the plan chose where the scene leaves it open, in words

@@ -26,6 +26,10 @@ const std::vector<std::string>& coordinates_of(JointKind kind);
 
 /// What a plan may leave out (plan::Decision), as in Scene::without.
 const std::vector<std::string>& decision_names();
+/// Names of former decisions, which scenes may still bar: nothing follows from them but a note.
+const std::vector<std::string>& retired_decision_names();
+/// What a scene may bar: both of the above.
+std::vector<std::string> names_in_without();
 
 /// All kinds of joints, in the order of the schema.
 inline constexpr std::array<JointKind, 8> joint_kinds{

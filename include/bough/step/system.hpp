@@ -71,7 +71,6 @@ template <class G>
 class LaneBatches;
 class Projection;
 class HeldNodes;
-class DrivenNodes;
 struct PairLanes;
 struct IncrementsOf;
 struct ElementResults;
@@ -107,7 +106,7 @@ class System {
 
   /// Residual of all elements (and element matrices when `tangent`), then summed over nodes into residual().
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
-  /// By block, unknowns in the order of the solver, then those of driven nodes and of the joints that move them.
+  /// By block, in the order of the solver.
   const std::vector<double>& residual() const { return residual_; }
   /// To be called before matrices are set or added to, which several threads may then do: what is known of those present holds no longer.
   void begin_matrices();
@@ -152,7 +151,7 @@ class System {
   [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x, bool check = true);
   /// y <- A x with the element matrices now present.
   void multiply(const double* x, double* y);
-  /// An element's matrix now present, row-major, and the unknowns of its rows, -1: of a node at rest, whose rows and columns mean nothing.
+  /// An element's matrix now present, row-major, and the unknowns of its rows.
   solve::ConstElementView matrix_of(int element, std::vector<std::int64_t>& unknowns) const;
   const solve::SolveReport& last_solution() const { return last_solution_; }
 
@@ -228,7 +227,6 @@ class System {
   }
   /// First unknown of a node; -1: it has none.
   std::int64_t node_begin(int node) const { return node_begin_[static_cast<std::size_t>(node)]; }
-  /// Of the graph's blocks and, after them, those of driven nodes and of the joints that move them.
   int num_blocks() const { return static_cast<int>(unknown_begin_.size()) - 1; }
   std::int64_t block_begin(int block) const { return unknown_begin_[static_cast<std::size_t>(block)]; }
   int block_size(int block) const { return static_cast<int>(block_begin(block + 1) - block_begin(block)); }
@@ -259,7 +257,6 @@ class System {
   void set_parts(std::size_t element, const double* residual, const double* magnitude);
   int num_unknowns_of(std::size_t element) const;
   std::string explain_singular(const solve::FactorStatus& status) const;
-  std::optional<Trouble> solve_free(const double* rhs, double* x, bool check);
   void find_pairs();
   void find_unsettled(State& state);
   template <int Count>
@@ -295,7 +292,6 @@ class System {
   std::unique_ptr<LaneBatches<motion::Se2>> planar_lanes_;  ///< of a scene in a plane; else null
   std::unique_ptr<Projection> projection_;                  ///< none where a node has six unknowns
   std::unique_ptr<HeldNodes> held_;                         ///< none where the solver knows all nodes
-  std::unique_ptr<DrivenNodes> driven_;                     ///< none where no node is driven
   std::unique_ptr<tree::Tree> tree_;
   std::unique_ptr<solve::AnySolver> solver_;
   tree::Walker walker_;
