@@ -64,7 +64,7 @@ Matrices make_matrices(const scene::Scene& scene) {
       std::int64_t n = 0;
       for (auto k = m.graph.element_begin[at(e)]; k < m.graph.element_begin[at(e) + 1]; ++k)
         n += m.graph.block_size[at(m.graph.element_blocks[at(k)])];
-      const solve::ElementView a = system.solver().element(e);
+      const solve::ElementView a = system.linear().solver().element(e);
       std::vector<double> values;
       for (std::int64_t k = 0; k < n * n; ++k) values.push_back(a[k]);
       m.elements.push_back(std::move(values));

@@ -77,10 +77,10 @@ results::Summary simulate(const scene::Scene& s, int threads, const study::Progr
   study::SimulateOptions options;
   options.threads = threads;
   options.after_run = [loads](step::System& system, const step::State&) {
-    if (loads == nullptr || system.solver().hierarchical() == nullptr) return;
-    loads->factor_flops = system.solver().counters().factor_flops;
+    if (loads == nullptr || system.linear().solver().hierarchical() == nullptr) return;
+    loads->factor_flops = system.linear().solver().counters().factor_flops;
     const solve::VisitShapes shapes = solve::make_visit_shapes(
-        system.plan().graph, system.tree(), step::make_solve_options(system.plan(), scene::Solver{}));
+        system.plan().graph, system.linear().tree(), step::make_solve_options(system.plan(), scene::Solver{}));
     for (const solve::VisitShape& v : shapes.visits) loads->factor_bytes += static_cast<double>(v.factor_bytes);
   };
   return study::simulate(s, options, recorder, progress);

@@ -465,7 +465,7 @@ MotionParts make_parts(const scene::Scene& scene, const step::System& system) {
   std::map<std::string, int> section_of;
   for (const scene::Beam& b : scene.beams) section_of[b.name] = outline_of.at(b.section);
   const plan::Plan& plan = system.plan();
-  const std::vector<tree::SubdomainId>& leaves = system.tree().leaf_of_element;
+  const std::vector<tree::SubdomainId>& leaves = system.linear().tree().leaf_of_element;
   for (const plan::BeamPlan& beam : plan.beams) {
     MotionParts::Curve curve;
     curve.outline = section_of.at(beam.name);

@@ -125,22 +125,22 @@ std::optional<ArcLengthPath::Spring> ArcLengthPath::find_spring(const solve::Fac
 /// Of K, or where that is singular of K + k e e^T, with the solution for k e.
 std::optional<Trouble> ArcLengthPath::factor(bool rescale) {
   spring_.reset();
-  const auto trouble = system_.factor(rescale, {});
+  const auto trouble = system_.linear().factor(rescale, {});
   if (!trouble) return std::nullopt;
-  spring_ = find_spring(system_.solver().last_status());
+  spring_ = find_spring(system_.linear().solver().last_status());
   if (!spring_) return trouble;
-  double& entry = system_.solver().element(spring_->element)[spring_->entry];
+  double& entry = system_.linear().solver().element(spring_->element)[spring_->entry];
   spring_->entry_without = entry;
   entry += spring_->stiffness;
-  if (system_.factor(true, {})) return trouble;
+  if (system_.linear().factor(true, {})) return trouble;
   std::fill(load_.begin(), load_.end(), 0.0);
   load_[spring_->unknown] = spring_->stiffness;
-  return system_.solve(load_.data(), by_spring_.data());
+  return system_.linear().solve(load_.data(), by_spring_.data());
 }
 
 /// The tangents as they were evaluated; the factor stays.
 void ArcLengthPath::take_spring_out() {
-  if (spring_) system_.solver().element(spring_->element)[spring_->entry] = spring_->entry_without;
+  if (spring_) system_.linear().solver().element(spring_->element)[spring_->entry] = spring_->entry_without;
 }
 
 /// tangent_ = K^-1 (-dR/df), with K (and its spring) factored and R evaluated at this load factor; leaves the loads of
@@ -152,7 +152,7 @@ std::optional<Trouble> ArcLengthPath::solve_load(const State& state, double load
   if (auto t = system_.evaluate(state, {}, false)) return t;
   for (std::size_t i = 0; i < load_.size(); ++i) load_[i] = (load_[i] - system_.residual()[i]) / step;
   if (auto t = system_.set_time(load_factor)) return t;
-  return system_.solve(load_.data(), tangent_.data());
+  return system_.linear().solve(load_.data(), tangent_.data());
 }
 
 std::optional<Trouble> ArcLengthPath::set_tangent(const State& state) {
@@ -247,7 +247,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
     }
     if (const auto t = factor(k == 0)) return fail(t->text);
     for (std::size_t i = 0; i < correction_.size(); ++i) load_[i] = -system_.residual()[i];
-    if (const auto t = system_.solve(load_.data(), correction_.data())) return fail(t->text);
+    if (const auto t = system_.linear().solve(load_.data(), correction_.data())) return fail(t->text);
     if (const auto t = solve_load(state, state.time)) return fail(t->text);
     set_moved(state);
     const auto df = keep_length(length);

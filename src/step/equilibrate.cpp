@@ -68,10 +68,10 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
         return fail("no convergence in " + std::to_string(k) +
                     " iterations: " + describe(system, report.residual, options.tolerance));
     }
-    if (const auto t = system.factor(k == 0, {}))
+    if (const auto t = system.linear().factor(k == 0, {}))
       return fail(k == 0 ? t->text : "iteration " + std::to_string(k) + " came to a shape at which " + t->text);
     for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
-    if (const auto t = system.solve(rhs.data(), x.data())) return fail(t->text);
+    if (const auto t = system.linear().solve(rhs.data(), x.data())) return fail(t->text);
     previous = report.change;
     report.change = system.relative_size(state, x.data());
     if (report.iterations < StepReport::remembered_changes)
@@ -93,8 +93,8 @@ StepReport equilibrate(System& system, State& state, const StepOptions& options,
   State& start = system.work().start;
   start = state;
   StepReport report = try_load(system, state, options, load_factor);
-  if (!report.converged && system.takes_symmetric_parts()) {  // may be why
-    system.drop_symmetry();
+  if (!report.converged && system.linear().takes_symmetric_parts()) {  // may be why
+    system.linear().drop_symmetry();
     state = start;
     report = try_load(system, state, options, load_factor);
   }

@@ -23,7 +23,7 @@ class Filter {
 
   bool prepare() {
     const elements::Slopes slopes{0.0, shift_, false};
-    return !system_.evaluate(state_, slopes, true) && !system_.factor(true, slopes);
+    return !system_.evaluate(state_, slopes, true) && !system_.linear().factor(true, slopes);
   }
   /// M x, or C x, in the unknowns of the solver; other rows are zero.
   bool multiply(bool by_mass, const std::vector<double>& x, std::vector<double>& y) {
@@ -44,7 +44,7 @@ class Filter {
     if (!multiply(true, x, rhs_)) return false;
     for (double& r : rhs_) r *= shift_;
     y.resize(x.size());
-    return !system_.solve(rhs_.data(), y.data());
+    return !system_.linear().solve(rhs_.data(), y.data());
   }
 
  private:

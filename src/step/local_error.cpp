@@ -160,7 +160,7 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   shift_accelerations(after, shifted_);
   if (auto t = system.evaluate(shifted_, {}, false)) return t;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = c2 * (rhs[i] + system.residual()[i]);
-  if (auto t = system.solve(rhs.data(), x.data())) return t;
+  if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
   Largest change;
   ErrorParts most;
   for (std::size_t n = 0; n < now_.size(); ++n) {

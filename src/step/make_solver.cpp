@@ -1,6 +1,6 @@
 #include "make_solver.hpp"
 
-#include "bough/step/system.hpp"
+#include "bough/step/linear_solution.hpp"
 
 namespace bough::step {
 

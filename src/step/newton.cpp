@@ -45,7 +45,7 @@ IterationGoal make_goal(const State& start) {
 bool is_settled(const System& system, const ResidualSize& r, double tolerance, const IterationGoal& goal, double error,
                 double share) {
   const double arm = system.moment_arm(), usual = left_open * tolerance;
-  const ResidualSize& noise = system.noise();
+  const ResidualSize& noise = system.met_round_off().size();
   const auto within = [&](double part, double whole, double rounding, double left) {
     return share * part <= std::max(left * whole, std::min(tolerance * whole, noise_spread * rounding));
   };
@@ -88,8 +88,8 @@ std::string partners(System& system, int joint) {
   std::string others;
   bool takes_part = false;
   int named = 0;
-  for (int b : system.solver().blocks_not_unique()) {
-    const int j = system.joint_of_block(b);
+  for (int b : system.linear().solver().blocks_not_unique()) {
+    const int j = system.linear().owners().joint(b);
     takes_part |= j == joint;
     if (j < 0 || j == joint || named == 8) continue;
     others += (named++ == 0 ? " against '" : ", '") + system.plan().joints[static_cast<std::size_t>(j)].name + "'";

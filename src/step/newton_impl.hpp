@@ -19,18 +19,20 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
   // Increments are rounded less than places: tolerances far below the usual one ask for their digits.
   const double least = goal.round_off > 0.0 ? std::min(goal.round_off, least_change) : least_change;
   const double negligible = std::max(left_open * tolerance, least);
-  bool fresh = !may_reuse || !system.has_factor(slopes) || system.is_factor_worn();  // the next solution gets a new one
-  bool is_own = false;                // whether the factor was made in this step
-  int served = 0;                     // solutions in this step with the present factor
-  double previous = 0.0, size = 0.0;  // the change before the last; the residual's largest share
-  double expected = 0.0;              // what the last solution was to leave of that
+  bool fresh = !may_reuse || !system.linear().has_factor(slopes) ||
+               system.linear().is_factor_worn();  // the next solution gets a new one
+  bool is_own = false;                            // whether the factor was made in this step
+  int served = 0;                                 // solutions in this step with the present factor
+  double previous = 0.0, size = 0.0;              // the change before the last; the residual's largest share
+  double expected = 0.0;                          // what the last solution was to leave of that
   // By how much changes and residuals shrink. A factor that served before contracts as it did; of a new one nothing is known at first.
-  double rate = fresh ? 1.0 : system.last_contraction(), shrunk = 0.0;
+  double rate = fresh ? 1.0 : system.linear().last_contraction(), shrunk = 0.0;
   double contraction = rate;  // the last that round-off did not make
   const auto converge = [&]() {
     report.converged = true;
-    if (report.iterations > 1) system.set_last_contraction(contraction);
-    system.note_service(served);
+    if (report.iterations > 1) system.linear().set_last_contraction(contraction);
+    system.linear().note_service(served);
+    system.met_round_off().count_iteration();
     return report;
   };
   for (int k = 0;; ++k) {
@@ -49,7 +51,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
       const bool lies_still = shrunk > shrinks && report.change <= least_change;
       if (k > 1 && report.change < tolerance &&
           is_noise(system, report.residual, tolerance, size, lies_still ? 0.0 : expected)) {
-        system.note_noise(report.residual);
+        system.met_round_off().note(report.residual);
         if (still && is_settled(system, report.residual, tolerance, goal, error)) return converge();
       }
       const bool stalled = k > 1 && rate > shrinks && is_own;  // with an old factor: it contracts badly here
@@ -71,24 +73,24 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
         return report;
       }
       // A new factor costs some renewal_cost solutions, and serves for one at least: it pays where as many with this one would not do.
-      const double solutions = system.renewal_cost() + 1.0;
+      const double solutions = system.linear().renewal_cost() + 1.0;
       const double left = std::pow(std::min(rate, 1.0), solutions) * report.change;
       const bool is_slow =
           k > 1 && ((rate > shrinks && shrunk > shrinks) || left > negligible ||
                     !is_settled(system, report.residual, tolerance, goal, left, std::pow(shrunk, solutions)));
-      if (k > 1 && is_own && rate > slowest_contraction && system.takes_symmetric_parts())
-        system.drop_symmetry();  // not the factor's age
-      fresh = !may_reuse || is_slow || !system.has_factor(slopes);
+      if (k > 1 && is_own && rate > slowest_contraction && system.linear().takes_symmetric_parts())
+        system.linear().drop_symmetry();  // not the factor's age
+      fresh = !may_reuse || is_slow || !system.linear().has_factor(slopes);
       if (fresh)
         if (const auto t = system.evaluate(state, slopes, true)) return fail(*t);
     }
     is_own |= fresh;
     served = fresh ? 1 : served + 1;
     if (fresh)
-      if (const auto t = system.factor(k == 0 && !may_reuse, slopes))
+      if (const auto t = system.linear().factor(k == 0 && !may_reuse, slopes))
         return fail(k == 0 ? *t : Trouble{"iteration " + std::to_string(k) + " came to a shape at which " + t->text});
     for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
-    if (const auto t = system.solve(rhs.data(), x.data(), false)) return fail(*t);
+    if (const auto t = system.linear().solve(rhs.data(), x.data(), false)) return fail(*t);
     previous = report.change;
     report.change = system.apply(state, x.data());
     if (report.iterations < StepReport::remembered_changes)
@@ -101,7 +103,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     if (k == 1 || report.change > least_change) contraction = rate;
     // What the solution leaves need not be looked at where changes and residuals shrink on as they did. Gaps have to be seen closed: rows that
     // contradict each other stay open while changes vanish.
-    const double share = unseen_growth * std::max({rate, shrunk, is_own ? 0.0 : system.last_contraction()});
+    const double share = unseen_growth * std::max({rate, shrunk, is_own ? 0.0 : system.linear().last_contraction()});
     expected = share * size;
     const double error = share * report.change;
     if (rate <= shrinks && error <= negligible && is_closed(system, report.residual, tolerance) &&

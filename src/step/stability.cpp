@@ -61,7 +61,7 @@ StabilityLook Stability::read(const solve::Inertia& inertia, int deficiency) con
 }
 
 StabilityLook Stability::look() {
-  StabilityLook look = read(system_.solver().inertia(), system_.solver().last_status().deficiency);
+  StabilityLook look = read(system_.linear().solver().inertia(), system_.linear().solver().last_status().deficiency);
   if (!look.is_known || look.unstable != last_) look = look_closely();
   if (look.is_known) last_ = look.unstable;
   return look;
@@ -77,7 +77,7 @@ void Stability::copy_tangents() {
   const bool symmetric = is_conservative();
   if (!copy_)
     copy_ = std::make_unique<solve::Hierarchical>(
-        plan.graph, system_.tree(),
+        plan.graph, system_.linear().tree(),
         solve::SolveOptions{.symmetry = symmetric ? solve::Symmetry::symmetric : solve::Symmetry::general,
                             .inertia = true,
                             .lanes = plan.took("lanes"),
@@ -87,7 +87,7 @@ void Stability::copy_tangents() {
     int n = 0;
     for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k)
       n += g.block_size[at(g.element_blocks[at(k)])];
-    const solve::ConstElementView from = system_.solver().element(e);
+    const solve::ConstElementView from = system_.linear().solver().element(e);
     const solve::ElementView to = copy_->element(e);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
@@ -103,7 +103,7 @@ void Stability::add_to_diagonal(double shift, double relative_shift) {
       std::int64_t n = 0, row = 0;
       for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k)
         n += g.block_size[at(g.element_blocks[at(k)])];
-      const solve::ConstElementView a = system_.solver().element(e);
+      const solve::ConstElementView a = system_.linear().solver().element(e);
       for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k) {
         const int b = g.element_blocks[at(k)];
         for (int i = 0; i < g.block_size[at(b)]; ++i, ++row)
@@ -159,7 +159,7 @@ double Stability::round_off(const std::vector<double>& x) const {
       for (int i = 0; i < g.block_size[at(b)]; ++i)
         own.push_back(moves ? std::abs(x[at(system_.block_begin(b) + i)]) : 0.0);
     }
-    const solve::ConstElementView a = system_.solver().element(e);
+    const solve::ConstElementView a = system_.linear().solver().element(e);
     for (std::size_t i = 0; i < own.size(); ++i)
       for (std::size_t j = 0; j < own.size(); ++j)
         sum += own[i] * std::abs(a[static_cast<std::int64_t>(i * own.size() + j)]) * own[j];

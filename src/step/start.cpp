@@ -34,7 +34,7 @@ void set_rows(const System& system, std::vector<double>& to, From&& from) {
 /// Matrix [M G^T; G 0] of the present positions, factored.
 std::optional<Trouble> factor_mass(System& system, const State& state) {
   if (auto t = system.evaluate(state, mass_slopes, true)) return t;
-  if (auto t = system.factor(true, mass_slopes))
+  if (auto t = system.linear().factor(true, mass_slopes))
     return Trouble{t->text + "; every part that can move needs inertia or has to be held by a joint"};
   return std::nullopt;
 }
@@ -48,7 +48,7 @@ std::string contradicting(const System& system, int worst, const std::vector<int
   std::string others;
   int named = 0;
   for (int b : blocks) {
-    const int j = system.joint_of_block(b);
+    const int j = system.linear().owners().joint(b);
     if (j < 0 || j == worst) continue;
     others += (named++ == 0 ? "" : ", ") + ("'" + system.plan().joints[static_cast<std::size_t>(j)].name + "'");
     if (named == 8) break;
@@ -83,7 +83,7 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
   std::vector<Taylor<double, 3>> series;
   system.constraint_series(state, nullptr, 0.0, series);
   set_rows(system, rhs, [&](std::size_t m) { return -series[m].c[1] + (offset != nullptr ? (*offset)[m] : 0.0); });
-  if (auto t = system.solve(rhs.data(), x.data())) return t;
+  if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
   if (report != nullptr) {
     const double before = speed_scale(system, state);
     const double change = state.visit([&]<class G>(const NodesOn<G>&) {
@@ -104,7 +104,7 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
 /// G d by multiplier, d a motion in the unknowns. Element matrices hold G.
 void eval_rates(System& system, const std::vector<double>& d, std::vector<double>& rates) {
   std::vector<double> product(system.num_unknowns());
-  system.multiply(d.data(), product.data());
+  system.linear().multiply(d.data(), product.data());
   rates.assign(static_cast<std::size_t>(system.plan().num_multipliers), 0.0);
   for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
     rates[multiplier] = product[unknown];
@@ -147,7 +147,7 @@ std::optional<Trouble> solve_accelerations(System& system, State& state) {
   system.constraint_series(state, nullptr, 0.0, series);
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
   set_rows(system, rhs, [&](std::size_t m) { return -2.0 * series[m].c[2]; });
-  if (auto t = system.solve(rhs.data(), x.data())) return t;
+  if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) nodes.motion[n].a = part_on<G>(system, x, n);
   });
@@ -174,7 +174,7 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
     system.constraint_series(state, nullptr, 0.0, series);
     std::fill(rhs.begin(), rhs.end(), 0.0);
     set_rows(system, rhs, [&](std::size_t m) { return -series[m].c[0]; });
-    if (const auto t = system.solve(rhs.data(), x.data())) return failed(t->text);
+    if (const auto t = system.linear().solve(rhs.data(), x.data())) return failed(t->text);
     set_rows(system, x, [](std::size_t) { return 0.0; });  // impulses of a projection are no reactions
     State trial = state;
     const double change = system.apply(trial, x.data());
@@ -189,7 +189,7 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
     char text[80];
     std::snprintf(text, sizeof text, " cannot be closed at time %.6g: a gap of %.3g is left", state.time,
                   system.constraint_violation(state, 0));
-    return failed(contradicting(system, worst, system.solver().blocks_not_unique()) + text +
+    return failed(contradicting(system, worst, system.linear().solver().blocks_not_unique()) + text +
                   (fix_positions ? "" : "; what drives it jumps there"));
   }
   set_unmoved(state, false);
@@ -202,7 +202,7 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
     char text[80];
     std::snprintf(text, sizeof text, " cannot move as asked at time %.6g: a rate of %.3g is left", state.time,
                   system.constraint_violation(state, 1));
-    return failed(contradicting(system, worst, system.solver().blocks_not_unique()) + text);
+    return failed(contradicting(system, worst, system.linear().solver().blocks_not_unique()) + text);
   }
 
   if (const auto t = solve_accelerations(system, state)) return failed(t->text);
@@ -222,10 +222,10 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   system.evaluate_rate(state, rate, h);
   system.constraint_series(state, nullptr, h, series);
   if (const auto t = system.evaluate(state, slopes, true)) return failed(t->text);
-  if (const auto t = system.factor(true, slopes)) return failed(t->text);
+  if (const auto t = system.linear().factor(true, slopes)) return failed(t->text);
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -acceleration * rate[i];
   set_rows(system, rhs, [&](std::size_t m) { return -6.0 * series[m].c[3]; });
-  if (const auto t = system.solve(rhs.data(), x.data())) return failed(t->text);
+  if (const auto t = system.linear().solve(rhs.data(), x.data())) return failed(t->text);
   // Steady velocity error of the index-3 scheme in the constraints' normals: local error of dq against the Magnus series of the motion,
   //   G delta = -h^2 G ((beta + shift/2 - 1/6) jerk - ad(v) a / 12).
   std::vector<double>& steady_error = rhs;

@@ -47,18 +47,18 @@ StepCost estimate_step_cost(const System& system) {
   StepCost cost;
   for (const solve::ElementBatch& batch : system.batches())
     add_elements(plan, batch, plan.unknowns.is_whole() || plan.planar, cost);
-  const solve::SolverCounters counters = system.solver().counters();
+  const solve::SolverCounters counters = system.linear().solver().counters();
   const auto bytes = static_cast<double>(counters.memory_bytes);
   double alone = 0.0, in_registers = 0.0;  // fronts
-  if (system.solver().hierarchical() != nullptr) {
+  if (system.linear().solver().hierarchical() != nullptr) {
     const auto in_lanes = static_cast<double>(counters.fronts_in_lanes);
     in_registers = static_cast<double>(counters.fronts_in_registers);
-    alone = system.tree().num_fronts() - in_lanes - in_registers;
+    alone = system.linear().tree().num_fronts() - in_lanes - in_registers;
     cost.factor = in_lanes * per_front_lanes + in_registers * per_front_registers + alone * per_front +
                   counters.flops_in_lanes * per_flop_lanes +
                   (counters.factor_flops - counters.flops_in_lanes) * per_flop;
   } else {
-    cost.factor = system.tree().subdomains.back().subtree_flops * per_flop_of_others;
+    cost.factor = system.linear().tree().subdomains.back().subtree_flops * per_flop_of_others;
   }
   cost.solve = alone * per_front_solved + in_registers * per_front_solved_registers +
                bytes * (bytes < bytes_near ? per_byte_near : per_byte_far);

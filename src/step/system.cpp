@@ -8,7 +8,6 @@
 #include "bough/elements/rows.hpp"
 #include "bough/step/step_cost.hpp"
 #include "lane_batches.hpp"
-#include "make_solver.hpp"
 #include "moving_nodes.hpp"
 #include "projection.hpp"
 #include "system_parts.hpp"
@@ -29,12 +28,7 @@ double length_of(const E& e, double fallback) {
 }  // namespace
 
 System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::Walker& walker)
-    : plan_(plan),
-      tree_(std::make_unique<tree::Tree>(tree::make_tree(plan.graph, make_tree_options(plan, solver)))),
-      walker_(walker),
-      clock_(walker.threads == 1) {
-  solver_ = make_solver(plan, *tree_, solver);
-  unknown_begin_ = tree_->unknown_begin;
+    : plan_(plan), walker_(walker), clock_(walker.threads == 1), linear_(plan, solver, walker, clock_, counts_) {
   const std::size_t num_elements = plan.directory.size();
   element_length_.resize(num_elements);
   for (std::size_t e = 0; e < num_elements; ++e)
@@ -49,23 +43,18 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   floor_ = residual_;
   floor_unknowns_.reserve(most_unknowns);
   joint_of_element_.assign(num_elements, -1);
-  joint_of_block_.assign(static_cast<std::size_t>(num_blocks()), -1);
-  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
     joint_of_element_[static_cast<std::size_t>(plan.joints[j].element)] = static_cast<int>(j);
-    if (plan.joints[j].block >= 0)
-      joint_of_block_[static_cast<std::size_t>(plan.joints[j].block)] = static_cast<int>(j);
-  }
   if (!plan.held.empty()) held_ = std::make_unique<HeldNodes>(plan);
   place_parts();
   spatial_lanes_ = std::make_unique<LaneBatches<motion::Se3>>();
   if (plan.unknowns.is_whole())
-    spatial_lanes_->make(plan, solver_->batches(), joint_of_element_, held_.get());
+    spatial_lanes_->make(plan, linear_.solver().batches(), joint_of_element_, held_.get());
   else
     projection_ = std::make_unique<Projection>(plan);
-  takes_symmetric_parts_ = plan.took("symmetric");
   if (plan.planar) {
     planar_lanes_ = std::make_unique<LaneBatches<motion::Se2>>();
-    planar_lanes_->make(plan, solver_->batches(), joint_of_element_, held_.get());
+    planar_lanes_->make(plan, linear_.solver().batches(), joint_of_element_, held_.get());
   }
   law_values_.assign(plan.laws.size(), 0.0);
   law_rates_ = law_accelerations_ = law_values_;
@@ -81,7 +70,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
         plan.directory[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(joint)].element)].index)];
     is_length_[unknown] = elements::is_length(e.rows[row].kind);
   });
-  renewal_cost_ = estimate_step_cost(*this).renewal();
+  linear_.set_renewal_cost(estimate_step_cost(*this).renewal());
   chunk_sizes_.resize((sums_.size() + block_grain - 1) / block_grain, {{}, true});
   find_pairs();
 }
@@ -172,7 +161,7 @@ const LaneBatches<motion::Se2>& System::lanes_on<motion::Se2>() const {
 template <class G>
 std::span<const solve::ElementBatch> System::batches_on() const {
   const bool is_projected = std::is_same_v<G, motion::Se3> && projection_;
-  return is_projected ? solver_->batches() : lanes_on<G>().batches();
+  return is_projected ? linear_.solver().batches() : lanes_on<G>().batches();
 }
 
 template <class G>
@@ -222,24 +211,23 @@ void System::evaluate_projected(const E& e, std::size_t id, const elements::Fiel
   const int n = projection_->project_matrix(id, entries.data(), reduced.data());
   write_matrix(
       held_.get(), id, n, [&](int i) { return reduced[static_cast<std::size_t>(i)]; },
-      solver_->element(static_cast<int>(id)));
+      linear_.solver().element(static_cast<int>(id)));
 }
 
 void System::begin_matrices() {
-  solver_->trust_symmetry(false);
-  is_of_matrices_ = false;
+  linear_.begin_matrices(false);
   round_off_floor_.reset();
   round_off_of_poses_.reset();
 }
 
 void System::set_matrix(int element, int num_unknowns, const double* entries) {
-  const solve::ElementView view = solver_->element(element);
+  const solve::ElementView view = linear_.solver().element(element);
   for_each_kept(held_.get(), static_cast<std::size_t>(element), num_unknowns,
                 [&](std::int64_t place, int i) { view[place] = entries[i]; });
 }
 
 void System::add_matrix(int element, int num_unknowns, const double* entries) {
-  const solve::ElementView view = solver_->element(element);
+  const solve::ElementView view = linear_.solver().element(element);
   for_each_kept(held_.get(), static_cast<std::size_t>(element), num_unknowns,
                 [&](std::int64_t place, int i) { view[place] += entries[i]; });
 }
@@ -257,7 +245,7 @@ void System::symmetrise(const solve::ElementBatch& batch) {
   for (int id : batch.element) {
     if (id < 0) continue;
     const int n = num_unknowns_of(static_cast<std::size_t>(id));
-    const solve::ElementView view = solver_->element(id);
+    const solve::ElementView view = linear_.solver().element(id);
     for (int i = 1; i < n; ++i)
       for (int j = 0; j < i; ++j) view[i * n + j] = view[j * n + i] = 0.5 * (view[i * n + j] + view[j * n + i]);
   }
@@ -267,7 +255,7 @@ template <class G>
 void System::evaluate_on(const State& state, const elements::FieldOn<G, double>& field, bool tangent) {
   const LaneBatches<G>& lanes = lanes_on<G>();
   const std::span<const solve::ElementBatch> batches = batches_on<G>();
-  const ElementResults results{parts_.data(), element_begin_.data(), tangent ? solver_.get() : nullptr};
+  const ElementResults results{parts_.data(), element_begin_.data(), tangent ? &linear_.solver() : nullptr};
   auto by_batch = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const auto batch = static_cast<std::size_t>(k);
@@ -276,7 +264,7 @@ void System::evaluate_on(const State& state, const elements::FieldOn<G, double>&
       else
         for (int id : batches[batch].element)
           if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, field, results);
-      if (tangent && takes_symmetric_parts_) symmetrise(batches[batch]);
+      if (tangent && linear_.takes_symmetric_parts()) symmetrise(batches[batch]);
     }
   };
   walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain,
@@ -288,7 +276,7 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   ++counts_.evaluations;
   if (tangent) {
     begin_matrices();
-    solver_->trust_symmetry(takes_symmetric_parts_);
+    linear_.begin_matrices(linear_.takes_symmetric_parts());
   }
   if (state.is_planar() && !as_sensors_)
     evaluate_on(state, field_on<motion::Se2>(state, slopes), tangent);
@@ -306,91 +294,6 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   return Trouble{"a sum of forces is not finite at time " + std::to_string(time_)};
 }
 
-bool System::has_factor(const elements::Slopes& s) const {
-  return is_factored_ && s.velocity == factored_.velocity && s.acceleration == factored_.acceleration &&
-         s.mass_only == factored_.mass_only;
-}
-
-void System::note_service(int solutions) {
-  service_cost_ += solutions;
-  is_worn_ = solutions * ++iterations_served_ >= service_cost_;
-  if (++noise_age_ == noise_lasts) {
-    noise_ = {};
-    noise_age_ = 0;
-  }
-}
-
-std::optional<Trouble> System::factor(bool rescale, const elements::Slopes& slopes) {
-  PhaseTimer timer{clock_, counts_.factor};
-  const bool is_like_the_last = !rescale && has_factor(slopes);
-  if (!is_like_the_last) solver_->rescale();
-  const bool was_trusted = is_trusted_ && is_like_the_last && last_solution_.backward_error <= 1e-15;
-  is_factored_ = is_trusted_ = false;
-  contraction_ = 1.0;
-  service_cost_ = renewal_cost_;
-  iterations_served_ = 0;
-  is_worn_ = false;
-  ++counts_.factorizations;
-  const solve::FactorStatus status = solver_->factor(walker_);
-  if (status.ok()) {
-    factored_ = slopes;
-    is_factored_ = is_of_matrices_ = true;
-    is_trusted_ = was_trusted && status.delayed_pivots == 0 && status.deficiency == 0;
-    return std::nullopt;
-  }
-  if (status.outcome == solve::FactorOutcome::not_finite) return Trouble{"a tangent is not finite"};
-  if (const char* why = explain_backend(status.outcome)) return Trouble{why};
-  return Trouble{explain_singular(status)};
-}
-
-/// What is known of the scene beforehand, or else the unknown without a pivot.
-std::string System::explain_singular(const solve::FactorStatus& status) const {
-  std::string text = "the linear system is singular";
-  const plan::Mobility& mobility = plan_.mobility;
-  const std::vector<std::string>& known = mobility.free.empty() ? mobility.massless : mobility.free;
-  for (const std::string& motion : known) text += (&motion == &known.front() ? ": " : "; ") + motion;
-  if (!known.empty() || status.block < 0) return text;
-  static const char* const axes[] = {"displacement along axis 1", "displacement along axis 2",
-                                     "displacement along axis 3", "rotation about axis 1",
-                                     "rotation about axis 2",     "rotation about axis 3"};
-  text += ": nothing holds " + block_name(status.block);
-  if (joint_of_block_[static_cast<std::size_t>(status.block)] < 0 && status.local >= 0 &&
-      status.local < plan_.unknowns.count) {
-    std::array<double, 6> unit{};
-    unit[static_cast<std::size_t>(status.local)] = 1.0;
-    const int node = node_of_block_[static_cast<std::size_t>(status.block)];
-    const Vec6<double> eta = plan_.unknowns.expanded(unit.data(), static_cast<std::size_t>(node));
-    int largest = 0;
-    for (int i = 1; i < 6; ++i)
-      if (std::abs(eta[i]) > std::abs(eta[largest])) largest = i;
-    text += std::string(" (") + axes[largest] + " of its own frame has the largest share)";
-  }
-  return text + ", or it is held some 1e16 times more softly than its neighbours hold each other";
-}
-
-std::optional<Trouble> System::solve(const double* rhs, double* x, bool check) {
-  PhaseTimer timer{clock_, counts_.solve};
-  ++counts_.solutions;
-  if (!check && is_trusted_ && solver_->hierarchical() != nullptr && ++unchecked_ < check_every) {
-    static_cast<void>(solver_->solve(walker_, rhs, x, false));
-    return std::nullopt;  // what is not finite shows in the change that it makes
-  }
-  unchecked_ = 0;
-  last_solution_ = solver_->solve(walker_, rhs, x);
-  is_trusted_ = last_solution_.backward_error <= 1e-14 && last_solution_.refinement_steps == 0;
-  if (!last_solution_.interface_converged)
-    return Trouble{"the iteration on the interface problem gave up after " +
-                   std::to_string(last_solution_.interface_iterations) +
-                   " iterations: choose \"direct\" for /solver/interface_solution, or another /solver/kind"};
-  if (!last_solution_.finite) return Trouble{"the solution of the linear system is not finite"};
-  if (last_solution_.backward_error > counts_.backward_error_max)
-    counts_.backward_error_max = last_solution_.backward_error;
-  counts_.rank_error_max = std::max(counts_.rank_error_max, last_solution_.rank_error);
-  return std::nullopt;
-}
-
-void System::multiply(const double* x, double* y) { solver_->multiply(walker_, x, y); }
-
 solve::ConstElementView System::matrix_of(int element, std::vector<std::int64_t>& unknowns) const {
   unknowns.clear();
   const auto e = static_cast<std::size_t>(element);
@@ -399,17 +302,7 @@ solve::ConstElementView System::matrix_of(int element, std::vector<std::int64_t>
     const int block = g.element_blocks[static_cast<std::size_t>(k)];
     for (std::int64_t u = block_begin(block); u < block_begin(block + 1); ++u) unknowns.push_back(u);
   }
-  return solver_->element(element);
-}
-
-int System::joint_of_block(int block) const { return joint_of_block_[static_cast<std::size_t>(block)]; }
-
-std::string System::block_name(int block) const {
-  const int joint = joint_of_block(block);
-  if (joint >= 0)
-    return plan_.joints[static_cast<std::size_t>(joint)].what + " '" +
-           plan_.joints[static_cast<std::size_t>(joint)].name + "'";
-  return "'" + plan_.nodes[static_cast<std::size_t>(node_of_block_[static_cast<std::size_t>(block)])].name + "'";
+  return linear_.solver().element(element);
 }
 
 }  // namespace bough::step

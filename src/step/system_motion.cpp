@@ -132,8 +132,8 @@ void System::find_unsettled(State& state) {
   as_sensors_ = false;
   if (!is_finite) return;
   for (std::size_t i = 0; i < work_.rhs.size(); ++i) work_.rhs[i] = -residual_[i];
-  if (!is_of_matrices_ && factor(false, {})) return;
-  if (solve(work_.rhs.data(), work_.x.data())) return;
+  if (!linear_.is_of_matrices() && linear_.factor(false, {})) return;
+  if (linear_.solve(work_.rhs.data(), work_.x.data())) return;
   for (State* s : {&state, &work_.start, &work_.before})
     s->unsettled.reserve(plan_.nodes.size());  // copies take no memory then
   state.unsettled.resize(plan_.nodes.size());

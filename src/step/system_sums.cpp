@@ -86,23 +86,19 @@ void System::place_parts() {
     element_begin_.push_back(at);
   }
   parts_.assign(static_cast<std::size_t>(2 * element_begin_.back()), 0.0);
-  node_of_block_.assign(count, -1);
-  for (std::size_t n = 0; n < plan_.nodes.size(); ++n) {
-    const int block = plan_.block_of_node[n];
-    node_begin_.push_back(block < 0 ? -1 : block_begin(block));
-    if (block >= 0) node_of_block_[static_cast<std::size_t>(block)] = static_cast<int>(n);
-  }
+  for (const int block : plan_.block_of_node) node_begin_.push_back(block < 0 ? -1 : block_begin(block));
   const auto add = [&](const std::vector<std::int64_t>& list, std::int64_t unknown, int size, int owner) {
     const auto begin = static_cast<std::int64_t>(uses_.size());
     uses_.insert(uses_.end(), list.begin(), list.end());
     sums_.push_back({begin, static_cast<std::int64_t>(uses_.size()), unknown, size, owner});
   };
-  for (const std::vector<int>* owner : {&node_of_block_, &joint_of_block_}) {
-    for (std::size_t b = 0; b < count; ++b)
-      if ((*owner)[b] >= 0) add(uses[b], unknown_begin_[b], block_size(static_cast<int>(b)), (*owner)[b]);
-    (owner == &node_of_block_ ? num_node_sums_ : num_row_sums_) = static_cast<std::int64_t>(sums_.size());
-  }
-  num_row_sums_ -= num_node_sums_;
+  const BlockOwners& owners = linear_.owners();
+  for (int b = 0; b < num_blocks(); ++b)
+    if (owners.node(b) >= 0) add(uses[static_cast<std::size_t>(b)], block_begin(b), block_size(b), owners.node(b));
+  num_node_sums_ = static_cast<std::int64_t>(sums_.size());
+  for (int b = 0; b < num_blocks(); ++b)
+    if (owners.joint(b) >= 0) add(uses[static_cast<std::size_t>(b)], block_begin(b), block_size(b), owners.joint(b));
+  num_row_sums_ = static_cast<std::int64_t>(sums_.size()) - num_node_sums_;
   for (std::size_t h = 0; h < plan_.held.size(); ++h)
     add(uses[count + h], -1, plan_.unknowns.count, plan_.held[h].node);
 }
@@ -271,7 +267,7 @@ ResidualSize System::sum_round_off(Counts&& counts) const {
   }
   ResidualSize s;
   for (int b = 0; b < num_blocks(); ++b) {
-    if (joint_of_block_[static_cast<std::size_t>(b)] >= 0) continue;
+    if (linear_.owners().joint(b) >= 0) continue;
     const NodeSize size = size_up(plan_.unknowns.motions, floor.data() + block_begin(b));
     s.force = std::max(s.force, size.force);
     s.moment = std::max(s.moment, size.moment);

@@ -203,7 +203,7 @@ void VariationalOn<G>::evaluate_tangent(const elements::Slopes& slopes, double h
   system_.begin_matrices();
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
-      const int id = system_.tree().element_order[static_cast<std::size_t>(k)];
+      const int id = system_.linear().tree().element_order[static_cast<std::size_t>(k)];
       const int joint = system_.joint_of_element(id);
       plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
         using E = std::decay_t<decltype(e)>;
@@ -255,8 +255,8 @@ StepReport VariationalOn<G>::iterate(State& next, const StepOptions& options, do
   };
   const elements::Slopes slopes{2.0 / h, 4.0 / (h * h), false};
   const double length = system_.plan().length_scale, tolerance = options.tolerance;
-  double previous = 0.0, rate = system_.last_contraction();
-  bool fresh = !system_.has_factor(slopes);
+  double previous = 0.0, rate = system_.linear().last_contraction();
+  bool fresh = !system_.linear().has_factor(slopes);
   for (int k = 0;; ++k) {
     if (const auto t = place_nodes(next, h)) return fail(*t);
     if (const auto t = evaluate_step(next, h, report.residual)) return fail(*t);
@@ -266,7 +266,7 @@ StepReport VariationalOn<G>::iterate(State& next, const StepOptions& options, do
       const bool stalled = k > 1 && rate > 0.3;
       if (still && (stalled || report.change * rate <= 1e-6 * tolerance)) {
         report.converged = is_small(system_, report.residual, tolerance);
-        if (report.converged && k > 1) system_.set_last_contraction(rate);
+        if (report.converged && k > 1) system_.linear().set_last_contraction(rate);
         if (!report.converged && (stalled || report.change == 0.0)) {
           const ResidualSize floor = round_off_floor(h), &r = report.residual;
           report.converged = report.at_floor = r.force <= std::max(16.0 * floor.force, tolerance * r.force_scale) &&
@@ -285,12 +285,12 @@ StepReport VariationalOn<G>::iterate(State& next, const StepOptions& options, do
     }
     if (fresh) {
       evaluate_tangent(slopes, h);
-      if (const auto t = system_.factor(k == 0, slopes)) return fail(*t);
+      if (const auto t = system_.linear().factor(k == 0, slopes)) return fail(*t);
     }
     for (std::size_t n = 0; n < D_.size(); ++n)
       system_.set_node_part(rhs_.data(), static_cast<int>(n), Vector(-1.0 * residual_[n]));
     set_rows([&](const Place& place, int row) { return -after_.value(place, row); });
-    if (const auto t = system_.solve(rhs_.data(), x_.data())) return fail(*t);
+    if (const auto t = system_.linear().solve(rhs_.data(), x_.data())) return fail(*t);
     for (std::size_t n = 0; n < D_.size(); ++n)
       D_[n] += 2.0 * On::template inverse_tangent_times<double>(Vector(0.5 * D_[n]), node_part(n));
     previous = report.change;

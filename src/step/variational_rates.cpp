@@ -45,7 +45,7 @@ std::optional<Trouble> VariationalOn<G>::factor_mass(const State& state, double 
   };
   mass_.walker().for_each_chunk(static_cast<std::int64_t>(mass_.plan().directory.size()), element_grain,
                                 tree::make_chunk(by_element));
-  if (const auto t = mass_.factor(true, mass_slopes))
+  if (const auto t = mass_.linear().factor(true, mass_slopes))
     return Trouble{t->text + "; every part that can move needs inertia or has to be held by a joint"};
   mass_step_ = h;
   return std::nullopt;
@@ -71,7 +71,7 @@ std::optional<Trouble> VariationalOn<G>::solve_mass(State& moving, std::vector<d
     after_.add_forces(multipliers.data(), -1.0, left_);
     for (std::size_t n = 0; n < goal_.size(); ++n) system_.set_node_part(rhs_.data(), static_cast<int>(n), left_[n]);
     set_rows([&](const Place& place, int row) { return row_goals_[place.multiplier(row)]; });
-    if (auto t = mass_.solve(rhs_.data(), x_.data())) return t;
+    if (auto t = mass_.linear().solve(rhs_.data(), x_.data())) return t;
     const double change = add_solution(moving, multipliers, scale);
     if (!std::isfinite(change)) return Trouble{"velocities or accelerations are not finite"};
     const double rate = previous > 0.0 ? change / previous : 1.0;
@@ -138,7 +138,7 @@ std::optional<Trouble> VariationalOn<G>::solve_velocities(State& state, double h
 template <class G>
 std::optional<Trouble> VariationalOn<G>::solve_accelerations(State& state, double h) {
   // Of dependent rows the multipliers of least norm are wanted: corrections of none have it, those of former ones do not.
-  if (mass_step_ > 0.0 && mass_.solver().last_status().deficiency != 0)
+  if (mass_step_ > 0.0 && mass_.linear().solver().last_status().deficiency != 0)
     std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
   system_.constraint_series(state, nullptr, 0.0, series_);
   for (std::size_t m = 0; m < impulses_.size(); ++m) row_goals_[m] = -2.0 * series_[m].c[2];

@@ -38,7 +38,7 @@ std::optional<Trouble> MomentumSums<G>::evaluate(const System& system, const ele
                                                  const std::vector<double>& turns, double elastic_inertia, Want want) {
   const plan::Plan& plan = system.plan();
   const bool with_forces = want == Want::forces;
-  const tree::Tree& tree = system.tree();
+  const tree::Tree& tree = system.linear().tree();
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const auto id = static_cast<std::size_t>(tree.element_order[static_cast<std::size_t>(k)]);

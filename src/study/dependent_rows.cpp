@@ -40,8 +40,8 @@ std::string dependent_groups_text(const step::System& system) {
                        });
     return node;
   };
-  for (const int block : system.solver().blocks_not_unique()) {
-    const int j = system.joint_of_block(block);
+  for (const int block : system.linear().solver().blocks_not_unique()) {
+    const int j = system.linear().owners().joint(block);
     if (j < 0) continue;
     joints.push_back(static_cast<std::size_t>(j));
     plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(plan.joints[joints.back()].element)],

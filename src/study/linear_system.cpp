@@ -117,8 +117,9 @@ std::vector<UnknownBlock> make_blocks(const step::System& system) {
   const plan::Plan& plan = system.plan();
   std::vector<UnknownBlock> out;
   for (int b = 0; b < system.num_blocks(); ++b) {
-    UnknownBlock block{system.block_name(b), "", static_cast<int>(system.block_begin(b)), system.block_size(b)};
-    const int joint = system.joint_of_block(b);
+    UnknownBlock block{system.linear().owners().name(b), "", static_cast<int>(system.block_begin(b)),
+                       system.block_size(b)};
+    const int joint = system.linear().owners().joint(b);
     if (joint < 0) {
       block.components = node_text(plan.unknowns.motions);
     } else {
@@ -157,9 +158,9 @@ void fill(step::System& system, step::State state, const BeforeStep& attempt, Li
   for (double r : system.residual()) out.rhs.push_back(-r);
   out.matrix = make_matrix(system);
   out.solution.resize(out.rhs.size());
-  trouble = system.factor(true, slopes);
-  if (!trouble) trouble = system.solve(out.rhs.data(), out.solution.data());
-  out.backward_error = system.last_solution().backward_error;
+  trouble = system.linear().factor(true, slopes);
+  if (!trouble) trouble = system.linear().solve(out.rhs.data(), out.solution.data());
+  out.backward_error = system.linear().last_solution().backward_error;
   if (trouble) {
     out.trouble = trouble->text;
     out.solution.clear();

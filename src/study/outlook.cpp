@@ -42,7 +42,7 @@ struct Built {
 Effort effort_of(Built& b) {
   Effort e;
   const bool reuse = b.plan.took("reuse"), dynamic = b.plan.is_dynamic;
-  e.unknowns = b.system.tree().num_unknowns();
+  e.unknowns = b.system.linear().tree().num_unknowns();
   e.iterations = reuse ? usual_iterations : dynamic ? 3.0 : 5.0;
   e.factorizations = reuse ? usual_factorizations : e.iterations;
   const double residuals = reuse ? usual_evaluations : 1.0, tangents = e.factorizations;
@@ -51,7 +51,7 @@ Effort effort_of(Built& b) {
   e.factor_seconds = e.factorizations * cost.factor;
   e.solve_seconds = e.iterations * cost.solve;
   e.other_seconds = e.iterations * cost.update;
-  const solve::SolverCounters counters = b.system.solver().counters();
+  const solve::SolverCounters counters = b.system.linear().solver().counters();
   e.factor_flops = counters.factor_flops;
   e.memory_bytes = counters.memory_bytes;
   e.memory_bytes += bytes_of(b.system);
@@ -85,7 +85,7 @@ Outlook look_ahead(const scene::Scene& scene) {
   out.joints = plan.joints.size();
   out.unknowns_in_space = 6 * static_cast<std::int64_t>(out.nodes) + plan.num_multipliers;
   out.motions = words(plan.unknowns.motions);
-  const tree::Tree& tree = built.system.tree();
+  const tree::Tree& tree = built.system.linear().tree();
   out.cut = tree.method;
   out.sub_domains = tree.num_subdomains();
   out.fronts = tree.num_fronts();
@@ -94,7 +94,7 @@ Outlook look_ahead(const scene::Scene& scene) {
     out.levels = std::max(out.levels, s.level + 1);
   }
   out.effort = effort_of(built);
-  const solve::SolverCounters counters = built.system.solver().counters();
+  const solve::SolverCounters counters = built.system.linear().solver().counters();
   out.fronts_in_lanes = static_cast<int>(counters.fronts_in_lanes);
   out.fronts_in_registers = static_cast<int>(counters.fronts_in_registers);
   out.steps = estimate_run(scene).steps;

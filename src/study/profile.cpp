@@ -255,13 +255,13 @@ results::Profile profile(const scene::Scene& given, const ProfileOptions& option
   out.widest_condition = options.widest_condition;
   Found found;
   const auto look = [&](step::System& system) {
-    found.tree = system.tree();
+    found.tree = system.linear().tree();
     found.graph = system.plan().graph;
     found.options = step::make_solve_options(system.plan(), scene.solver);
     found.shapes = solve::make_visit_shapes(found.graph, found.tree, found.options);
-    found.counters = system.solver().counters();
-    if (system.counts().factorizations > 0 && system.solver().last_status().ok())
-      found.interfaces = system.solver().hierarchical()->interfaces(options.widest_condition);
+    found.counters = system.linear().solver().counters();
+    if (system.counts().factorizations > 0 && system.linear().solver().last_status().ok())
+      found.interfaces = system.linear().solver().hierarchical()->interfaces(options.widest_condition);
     out.is_dynamic = system.plan().is_dynamic;
     draw_parts(system.plan(), found.tree, out);
   };

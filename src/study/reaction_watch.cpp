@@ -126,7 +126,7 @@ std::optional<step::Trouble> ReactionWatch::look(step::System& system, const ste
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
   if (auto t = system.evaluate(state, {}, false)) return t;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
-  if (auto t = system.solve(rhs.data(), x.data())) return t;
+  if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
   for (Watched& w : joints_) {
     double error = 0.0, size = 0.0;
     for (const Row& r : w.rows) {

@@ -122,7 +122,7 @@ bool Run::fail(const std::string& cause) {
 }
 
 void Run::watch_dependent_rows() {
-  const int deficiency = system_.solver().last_status().deficiency;
+  const int deficiency = system_.linear().solver().last_status().deficiency;
   least_dependent_rows_ = std::min(least_dependent_rows_, deficiency);
   if (deficiency <= dependent_rows_) return;
   dependent_rows_ = deficiency;
@@ -334,7 +334,7 @@ void Run::estimate_solution_error() {
   std::vector<double> rhs(system_.num_unknowns()), x(system_.num_unknowns());
   if (system_.evaluate(state_, {}, false)) return;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system_.residual()[i];
-  if (system_.solve(rhs.data(), x.data())) return;
+  if (system_.linear().solve(rhs.data(), x.data())) return;
   double moved = least_motion, shift = 0.0;
   const std::vector<elements::NodeMotion>& nodes = system_.nodes(state_);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -377,7 +377,7 @@ void Run::finish() {
   if (limit_watch_)
     if (const auto text = limit_watch_->text(plan_, options_.step_control->tolerance)) note(*text);
   if (!first_rejection_.empty() && summary_.status != RunStatus::failed) note(first_rejection_);
-  if (plan_.took("symmetric") && !system_.takes_symmetric_parts())
+  if (plan_.took("symmetric") && !system_.linear().takes_symmetric_parts())
     note("the symmetric parts of tangents were given up for whole ones: Newton's iteration had slowed down");
   if (summary_.checks.round_off_floor_reached)
     note("some steps were accepted at the round-off floor of the residual, above the tolerance asked for");

@@ -16,7 +16,7 @@ constexpr int widest_for_condition = 60;  // dense singular values of wider ones
 double norm_of(step::System& system, const solve::Hierarchical& solver) {
   const blocks::BlockGraph& g = system.plan().graph;
   const std::span<const double> rows = solver.row_scale(), columns = solver.column_scale();
-  std::vector<double> sums(static_cast<std::size_t>(system.tree().num_unknowns()), 0.0);
+  std::vector<double> sums(static_cast<std::size_t>(system.linear().tree().num_unknowns()), 0.0);
   std::vector<std::size_t> unknowns;
   for (int e = 0; e < g.num_elements(); ++e) {
     unknowns.clear();
@@ -82,13 +82,13 @@ template <class First>
 double estimate_condition(step::System& system, const solve::Hierarchical& solver, First&& first) {
   constexpr int iterations = 4;
   const std::span<const double> rows = solver.row_scale(), columns = solver.column_scale();
-  const auto n = static_cast<std::size_t>(system.tree().num_unknowns());
+  const auto n = static_cast<std::size_t>(system.linear().tree().num_unknowns());
   std::vector<double> scaled = signs(n), b(n), x(n);
   const double norm = norm_of(system, solver);
   double growth = 0.0;
   for (int k = 0; k < iterations; ++k) {
     for (std::size_t i = 0; i < n; ++i) b[i] = scaled[i] / rows[i];
-    (void)system.solver().solve(system.walker(), b.data(), x.data());
+    (void)system.linear().solver().solve(system.walker(), b.data(), x.data());
     if (k == 0) first(b, x, norm);
     for (std::size_t i = 0; i < n; ++i) scaled[i] = x[i] / columns[i];
     const double most = largest(scaled);
@@ -104,10 +104,10 @@ void add_backward_errors(step::System& system, const solve::Hierarchical& solver
                          const std::vector<double>& x, double norm, std::vector<results::LevelFigures>& levels) {
   // The system is as consistent as its rows let it be: where rows depend nothing is said.
   if (solver.last_status().deficiency != 0) return;
-  const tree::Tree& tree = system.tree();
+  const tree::Tree& tree = system.linear().tree();
   const std::span<const double> rows = solver.row_scale(), columns = solver.column_scale();
   std::vector<double> product(x.size()), solution(x.size());
-  system.solver().multiply(system.walker(), x.data(), product.data());
+  system.linear().solver().multiply(system.walker(), x.data(), product.data());
   for (std::size_t i = 0; i < x.size(); ++i) solution[i] = x[i] / columns[i];
   const double size = norm * largest(solution) + 1.0;
   for (int block = 0; block < system.plan().graph.num_blocks(); ++block) {
@@ -124,9 +124,9 @@ void add_backward_errors(step::System& system, const solve::Hierarchical& solver
 }  // namespace
 
 void look_at_last_factor(step::System& system, results::Summary& summary) {
-  const solve::Hierarchical* solver = system.solver().hierarchical();
+  const solve::Hierarchical* solver = system.linear().solver().hierarchical();
   if (solver == nullptr || system.counts().factorizations == 0 || !solver->last_status().ok()) return;
-  summary.levels = make_levels(system.tree(), *solver);
+  summary.levels = make_levels(system.linear().tree(), *solver);
   const double condition =
       estimate_condition(system, *solver, [&](const std::vector<double>& b, const std::vector<double>& x, double norm) {
         add_backward_errors(system, *solver, b, x, norm, summary.levels);
@@ -137,13 +137,13 @@ void look_at_last_factor(step::System& system, results::Summary& summary) {
 }
 
 decltype(results::Summary::solver) solver_figures(step::System& system, int dependent_rows) {
-  const tree::Tree& tree = system.tree();
+  const tree::Tree& tree = system.linear().tree();
   int levels = 0, leaves = 0;
   for (const tree::Subdomain& s : tree.subdomains) {
     levels = std::max(levels, s.level + 1);
     leaves += s.is_leaf() ? 1 : 0;
   }
-  const solve::SolverCounters counters = system.solver().counters();
+  const solve::SolverCounters counters = system.linear().solver().counters();
   decltype(results::Summary::solver) figures = {{"unknowns", static_cast<double>(tree.num_unknowns())},
                                                 {"sub_domains", static_cast<double>(tree.num_subdomains())},
                                                 {"leaves", static_cast<double>(leaves)},
@@ -152,7 +152,8 @@ decltype(results::Summary::solver) solver_figures(step::System& system, int depe
                                                 {"flops_per_factorization", counters.factor_flops},
                                                 {"delayed_pivots", static_cast<double>(counters.delayed_pivots)},
                                                 {"dependent_rows", static_cast<double>(dependent_rows)}};
-  if (const solve::Dual* dual = system.solver().dual(); dual != nullptr && system.counts().factorizations > 0) {
+  if (const solve::Dual* dual = system.linear().solver().dual();
+      dual != nullptr && system.counts().factorizations > 0) {
     const solve::InterfaceReport i = dual->interfaces().front();
     figures.emplace_back("interface_unknowns", i.num_unknowns);
     figures.emplace_back("interface_coarse_unknowns", i.num_coarse);
@@ -162,7 +163,7 @@ decltype(results::Summary::solver) solver_figures(step::System& system, int depe
     figures.emplace_back("interface_seconds", i.seconds);
     figures.emplace_back("interface_iterations", i.iterations);
   }
-  const solve::Hierarchical* hierarchical = system.solver().hierarchical();
+  const solve::Hierarchical* hierarchical = system.linear().solver().hierarchical();
   if (hierarchical != nullptr && hierarchical->symmetry().declared == solve::Symmetry::definite)
     figures.emplace_back("indefinite_fronts", static_cast<double>(counters.indefinite_fronts));
   if (hierarchical == nullptr || system.counts().factorizations == 0) return figures;

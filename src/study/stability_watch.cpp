@@ -61,7 +61,7 @@ void StabilityWatch::look_at_hidden(const step::State& state) {
   at_rest.unsettled.clear();
   if (system.set_time(state.time) || system.evaluate(at_rest, {}, true)) return;
   step::Stability stability(system);
-  const bool is_singular = system.factor(true, {}).has_value();
+  const bool is_singular = system.linear().factor(true, {}).has_value();
   const step::StabilityLook look = is_singular ? stability.look_closely() : stability.look();
   if (!look.is_known || look.unstable <= seen_.unstable_directions) return;
   const auto mode = stability.find_mode(at_rest);

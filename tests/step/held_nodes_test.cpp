@@ -79,8 +79,8 @@ TEST(HeldNodes, are_struck_out_of_the_equations_and_nothing_else_is) {
       std::vector<double> x(held.system.num_unknowns(), 0.0), product(x.size()), other(whole.system.num_unknowns());
       for (std::size_t i = 0; i < x.size(); ++i) {
         x[i] = 1.0;
-        held.system.solver().multiply(held.system.walker(), x.data(), product.data());
-        whole.system.solver().multiply(whole.system.walker(), expand(held, whole, x).data(), other.data());
+        held.system.linear().solver().multiply(held.system.walker(), x.data(), product.data());
+        whole.system.linear().solver().multiply(whole.system.walker(), expand(held, whole, x).data(), other.data());
         EXPECT_EQ(expand(held, whole, product), left(other)) << "column " << i;
         x[i] = 0.0;
       }
@@ -105,7 +105,7 @@ double unbalanced(const Rig& held, Rig& whole) {
     std::vector<double> eta(forces.size(), 0.0), more(forces.size());
     for (std::size_t n = 0; n < held.plan.nodes.size(); ++n)
       whole.system.set_node_part(eta.data(), static_cast<int>(n), held.state.unsettled[n]);
-    whole.system.solver().multiply(whole.system.walker(), eta.data(), more.data());
+    whole.system.linear().solver().multiply(whole.system.walker(), eta.data(), more.data());
     for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += more[i];
   }
   double most = 0.0;
@@ -158,7 +158,7 @@ TEST(HeldNodes, in_lockstep_move_nothing_else) {
       s.joints[l].first.offset.x = {{static_cast<double>(l), 0.0, 0.0}};
     }
     ASSERT_EQ(Rig(s).plan.held.size(), 32u);
-    ASSERT_GT(Rig(s).system.solver().counters().fronts_in_lanes, 0);
+    ASSERT_GT(Rig(s).system.linear().solver().counters().fronts_in_lanes, 0);
     compare_steps(s);
   }
 }

@@ -214,11 +214,12 @@ TEST(PlanarStep, of_a_chain_is_solved_in_lanes_but_for_the_root) {
   for (scene::Beam& b : s.beams) b.elements = 4;
   test::Rig rig(s);
   ASSERT_TRUE(rig.plan.planar);
-  const tree::Tree& tree = rig.system.tree();
+  const tree::Tree& tree = rig.system.linear().tree();
   const tree::Subdomain& root = tree.subdomains[static_cast<std::size_t>(tree.root())];
-  EXPECT_EQ(rig.system.solver().counters().fronts_in_lanes, tree.num_fronts() - (root.front_end - root.front_begin));
+  EXPECT_EQ(rig.system.linear().solver().counters().fronts_in_lanes,
+            tree.num_fronts() - (root.front_end - root.front_begin));
   rig.run(2, 1e-3);
-  EXPECT_LT(rig.system.last_solution().backward_error, 1e-14);
+  EXPECT_LT(rig.system.linear().last_solution().backward_error, 1e-14);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST(Renewal, none_for_forces_that_round_off_leaves) {
 TEST(StepCost, counts_elements_as_they_are_evaluated) {
   const test::Rig rig(test::make_lattice(scene::AnalysisKind::dynamics));
   int alone = 0;
-  for (const solve::ElementBatch& batch : rig.system.solver().batches()) {
+  for (const solve::ElementBatch& batch : rig.system.linear().solver().batches()) {
     const auto present = std::count_if(batch.element.begin(), batch.element.end(), [](int id) { return id >= 0; });
     alone += present == 1 ? 1 : 0;
   }

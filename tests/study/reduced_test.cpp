@@ -128,9 +128,9 @@ void compare(const scene::Scene& scene, const elements::Slopes& slopes) {
   std::vector<double> x(flat.system.num_unknowns(), 0.0), product(x.size()), other(whole.system.num_unknowns());
   for (std::size_t i = 0; i < x.size(); ++i) {
     x[i] = 1.0;
-    flat.system.multiply(x.data(), product.data());
+    flat.system.linear().multiply(x.data(), product.data());
     const std::vector<double> wide = expand(flat, whole, x), expected = expand(flat, whole, product);
-    whole.system.multiply(wide.data(), other.data());
+    whole.system.linear().multiply(wide.data(), other.data());
     EXPECT_LT(largest_difference(expected, other), 1e-12 * largest_of(expected)) << "column " << i;
     x[i] = 0.0;
   }

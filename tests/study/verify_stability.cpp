@@ -153,7 +153,7 @@ TEST(Stability, joints_without_a_load_are_stable_and_rows_that_depend_are_not_co
 
 /// Negative eigenvalues of K on ker G by dense algebra, from the tangents of a system that are present.
 int dense_unstable(const step::System& system) {
-  const auto n = static_cast<Eigen::Index>(system.tree().num_unknowns());
+  const auto n = static_cast<Eigen::Index>(system.linear().tree().num_unknowns());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
   std::vector<std::int64_t> unknowns;
   for (int e = 0; e < system.plan().graph.num_elements(); ++e) {

@@ -34,7 +34,7 @@ Eigen::MatrixXd assemble(Direct& run, const elements::Slopes& slopes) {
       const int b = g.element_blocks[static_cast<std::size_t>(k)];
       for (int i = 0; i < g.block_size[static_cast<std::size_t>(b)]; ++i) place.push_back(6 * b < n ? 6 * b + i : -1);
     }
-    const solve::ElementView a = run.system.solver().element(e);
+    const solve::ElementView a = run.system.linear().solver().element(e);
     const int size = static_cast<int>(place.size());
     for (int i = 0; i < size; ++i)
       for (int j = 0; j < size; ++j)

@@ -21,6 +21,9 @@ class AnySolver {
   ElementView element(int id) {
     return std::visit([&](auto& s) { return s.element(id); }, solver_);
   }
+  ConstElementView element(int id) const {
+    return std::visit([&](const auto& s) { return s.element(id); }, solver_);
+  }
   std::span<const ElementBatch> batches() const {
     return std::visit([](auto& s) { return s.batches(); }, solver_);
   }

@@ -21,6 +21,14 @@ class CpuClock {
   double told_ = 0.0;          ///< last [s]
 };
 
+/// CPU seconds by phase, all threads of the run, and counts of work.
+struct WorkCounts {
+  double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0;
+  long factorizations = 0, solutions = 0, evaluations = 0;
+  double backward_error_max = 0.0;
+  double rank_error_max = 0.0;
+};
+
 /// Adds the CPU seconds of its life to a sum.
 class PhaseTimer {
  public:

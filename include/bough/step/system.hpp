@@ -10,22 +10,11 @@
 #include <vector>
 
 #include "bough/plan/frames.hpp"
-#include "bough/solve/any_solver.hpp"
-#include "bough/step/cpu_clock.hpp"
+#include "bough/step/linear_solution.hpp"
 #include "bough/step/motion_tree.hpp"
 #include "bough/step/state.hpp"
-#include "bough/tree/tree.hpp"
-#include "bough/tree/walker.hpp"
 
 namespace bough::step {
-
-/// CPU seconds by phase, all threads of the run, and counts of work.
-struct WorkCounts {
-  double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0;
-  long factorizations = 0, solutions = 0, evaluations = 0;
-  double backward_error_max = 0.0;
-  double rank_error_max = 0.0;
-};
 
 /// Largest entries of a residual or constraint violation, forces and moments, lengths and angles apart.
 struct ResidualSize {
@@ -33,6 +22,25 @@ struct ResidualSize {
   double force_scale = 0.0, moment_scale = 0.0;  ///< largest sum of |contributions| at a node
   double length = 0.0, angle = 0.0;              ///< constraint violations
   int worst_force_node = -1, worst_moment_node = -1, worst_joint = -1;
+};
+
+/// Residual that iterations could not make smaller although they contracted: zero until one met it, and again after 64
+/// iterations, since forces change.
+class RoundOffMemory {
+ public:
+  const ResidualSize& size() const { return size_; }
+  void note(const ResidualSize& r) { size_ = r; }
+  /// To be called when an iteration has ended.
+  void count_iteration() {
+    if (++age_ < lasts) return;
+    size_ = {};
+    age_ = 0;
+  }
+
+ private:
+  static constexpr int lasts = 64;
+  ResidualSize size_;
+  int age_ = 0;
 };
 
 /// Largest |Phi| and |Phi'| over all rows of joints, and the same in no unit of length: lengths relative to Plan::length_scale.
@@ -58,15 +66,6 @@ struct Workspace {
   std::vector<double> chunk_most;  ///< by chunk of nodes: the largest of something
 };
 
-/// What a plan and the options of a scene ask of the linear solver.
-tree::TreeOptions make_tree_options(const plan::Plan& plan, const scene::Solver& given);
-solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solver& given);
-
-/// Why a step or a run cannot go on, in words for the user.
-struct Trouble {
-  std::string text;
-};
-
 template <class G>
 class LaneBatches;
 class Projection;
@@ -81,11 +80,11 @@ class System {
   ~System();
 
   const plan::Plan& plan() const { return plan_; }
-  const tree::Tree& tree() const { return *tree_; }
   /// Elements that are evaluated together.
   std::span<const solve::ElementBatch> batches() const;
-  solve::AnySolver& solver() { return *solver_; }
-  const solve::AnySolver& solver() const { return *solver_; }
+  /// Factors and solutions of the tangents that evaluate leaves.
+  LinearSolution& linear() { return linear_; }
+  const LinearSolution& linear() const { return linear_; }
   const tree::Walker& walker() const { return walker_; }
   WorkCounts& counts() { return counts_; }
   CpuClock& clock() { return clock_; }
@@ -121,39 +120,16 @@ class System {
   /// The same of elements between two ports alone, which answer to differences of rounded poses. Inertia of a body
   /// answers to the increment of a step, which is rounded much less.
   const ResidualSize& round_off_of_poses() const;
-  /// Residual that iterations of this run could not make smaller although they contracted: zero until one met it, and again after 64 iterations.
-  const ResidualSize& noise() const { return noise_; }
-  void note_noise(const ResidualSize& r) { noise_ = r; }
+  /// What iterations of this run could not make smaller.
+  RoundOffMemory& met_round_off() { return met_round_off_; }
+  const RoundOffMemory& met_round_off() const { return met_round_off_; }
 
-  /// Whether tangents are replaced by their symmetric parts (plan decision "symmetric"); drop_symmetry: not from now on.
-  bool takes_symmetric_parts() const { return takes_symmetric_parts_; }
-  void drop_symmetry() { takes_symmetric_parts_ = is_factored_ = false; }
-
-  /// Factors the element matrices now present, made with these slopes.
-  [[nodiscard]] std::optional<Trouble> factor(bool rescale, const elements::Slopes& slopes);
-  /// Whether the present factor was made with these slopes (of some earlier state).
-  bool has_factor(const elements::Slopes& slopes) const;
   /// Multipliers of the next step of generalized-alpha, by the polynomial of State::multiplier_order.
   void predict_multipliers(const State& start, State& state) const;
   /// What the next prediction goes by, from the step between the two states.
   void note_multipliers(const State& start, State& state) const;
-  /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
-  double last_contraction() const { return contraction_; }
-  void set_last_contraction(double contraction) { contraction_ = contraction; }
-  /// Solutions that a tangent and its factor cost, by estimate_step_cost.
-  double renewal_cost() const { return renewal_cost_; }
-  /// To be called when an iteration has ended that took `solutions` with the present factor. A factor is worn once the last iteration took at least
-  /// as many solutions as the steps since it was made cost on average, the factor included: to go on would raise that average.
-  void note_service(int solutions);
-  bool is_factor_worn() const { return is_worn_; }
-  /// x <- A^-1 rhs. check: false: its backward error may be left out, but for every 32nd solution, where one with this factor, or one before it with the same
-  /// scales and slopes, was found good (the latter with a digit to spare) and no pivot had to wait since; then last_solution() stays that of the last check.
-  [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x, bool check = true);
-  /// y <- A x with the element matrices now present.
-  void multiply(const double* x, double* y);
   /// An element's matrix now present, row-major, and the unknowns of its rows.
   solve::ConstElementView matrix_of(int element, std::vector<std::int64_t>& unknowns) const;
-  const solve::SolveReport& last_solution() const { return last_solution_; }
 
   /// Size of an increment: the largest change of relative motions, of elements' nodes with respect to each other, lengths relative to the
   /// element [-] and angles [rad], which no rigid motion of the whole changes:
@@ -195,11 +171,8 @@ class System {
 
   /// Arm that turns the scale of forces into one of moments [m]: the longest element, or the whole where none has a length.
   double moment_arm() const { return moment_arm_; }
-  int joint_of_block(int block) const;
   /// Index in plan().joints, or -1.
   int joint_of_element(int element) const { return joint_of_element_[static_cast<std::size_t>(element)]; }
-  /// "node 'a'" or "joint 'b'": the owner of a block, for messages.
-  std::string block_name(int block) const;
   /// The motion of a node in a vector of unknowns, (linear; angular) in its own axes.
   /// A node without unknowns does not move.
   motion::Vec6<double> node_part(const double* x, int node) const {
@@ -227,10 +200,10 @@ class System {
   }
   /// First unknown of a node; -1: it has none.
   std::int64_t node_begin(int node) const { return node_begin_[static_cast<std::size_t>(node)]; }
-  int num_blocks() const { return static_cast<int>(unknown_begin_.size()) - 1; }
-  std::int64_t block_begin(int block) const { return unknown_begin_[static_cast<std::size_t>(block)]; }
+  int num_blocks() const { return plan_.graph.num_blocks(); }
+  std::int64_t block_begin(int block) const { return linear_.tree().unknown_begin[static_cast<std::size_t>(block)]; }
   int block_size(int block) const { return static_cast<int>(block_begin(block + 1) - block_begin(block)); }
-  std::size_t num_unknowns() const { return static_cast<std::size_t>(unknown_begin_.back()); }
+  std::size_t num_unknowns() const { return static_cast<std::size_t>(linear_.tree().unknown_begin.back()); }
   const std::vector<double>& law_values() const { return law_values_; }
   const std::vector<double>& law_rates() const { return law_rates_; }
   /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame itself.
@@ -256,7 +229,6 @@ class System {
   void place_parts();
   void set_parts(std::size_t element, const double* residual, const double* magnitude);
   int num_unknowns_of(std::size_t element) const;
-  std::string explain_singular(const solve::FactorStatus& status) const;
   void find_pairs();
   void find_unsettled(State& state);
   template <int Count>
@@ -292,13 +264,11 @@ class System {
   std::unique_ptr<LaneBatches<motion::Se2>> planar_lanes_;  ///< of a scene in a plane; else null
   std::unique_ptr<Projection> projection_;                  ///< none where a node has six unknowns
   std::unique_ptr<HeldNodes> held_;                         ///< none where the solver knows all nodes
-  std::unique_ptr<tree::Tree> tree_;
-  std::unique_ptr<solve::AnySolver> solver_;
   tree::Walker walker_;
   CpuClock clock_;
   WorkCounts counts_;
+  LinearSolution linear_;
   Workspace work_;
-  solve::SolveReport last_solution_;
   std::vector<double> law_values_, law_rates_, law_accelerations_;
   mutable std::vector<lanes::Taylor<double, 3>> law_series_,
       row_series_;  ///< scratch of constraint_series, constraint_violation
@@ -308,12 +278,9 @@ class System {
   /// Parts of an element, from 2 element_begin_ on: of each of its nodes, then of its rows, entries of the residual and then the sums of |terms| of
   /// these.
   std::vector<double> parts_;
-  std::vector<int> joint_of_element_;  ///< index in plan.joints or -1
-  std::vector<int> joint_of_block_;
-  std::vector<int> node_of_block_;           ///< -1: of a joint
-  std::vector<std::int64_t> unknown_begin_;  ///< by block, and the end: first unknown
-  std::vector<std::int64_t> node_begin_;     ///< first unknown of each node, or -1
-  std::vector<Sum> sums_;                    ///< nodes, then joints, then held nodes, each in the order of blocks
+  std::vector<int> joint_of_element_;     ///< index in plan.joints or -1
+  std::vector<std::int64_t> node_begin_;  ///< first unknown of each node, or -1
+  std::vector<Sum> sums_;                 ///< nodes, then joints, then held nodes, each in the order of blocks
   std::int64_t num_node_sums_ = 0, num_row_sums_ = 0;
   std::vector<std::int64_t> uses_;  ///< places in parts_ that add up, fixed order
   std::vector<double> residual_;
@@ -335,21 +302,7 @@ class System {
   MotionTree motion_tree_;                    ///< empty in dynamics
   plan::FrameMotions frames_;                 ///< at time_
   mutable plan::FrameMotions series_frames_;  ///< the same with third derivatives of the laws, for starts
-  elements::Slopes factored_;
-  bool is_factored_ = false;
-  bool is_of_matrices_ = false;  ///< the factor is that of the tangents evaluated last
-  static constexpr int check_every = 32;
-  int unchecked_ = 0;        ///< solutions since the last that was checked
-  bool is_trusted_ = false;  ///< the present factor, or one like it, gave a solution that needed no refinement
-  double contraction_ = 1.0;
-  double renewal_cost_ = 0.0;
-  double service_cost_ = 0.0;  ///< of the present factor: renewal_cost and the solutions of all iterations since
-  int iterations_served_ = 0;
-  ResidualSize noise_;
-  static constexpr int noise_lasts = 64;
-  int noise_age_ = 0;
-  bool is_worn_ = false;
-  bool takes_symmetric_parts_ = false;
+  RoundOffMemory met_round_off_;
   bool as_sensors_ = false;  ///< elements in space, one at a time: the bits that sensors see
 };
 

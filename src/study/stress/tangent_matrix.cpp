@@ -24,24 +24,24 @@ TangentMatrix tangent_matrix(const scene::Scene& scene) {
     } else if (failed(system.set_time(step.end))) {
       return false;
     }
-    if (failed(system.evaluate(state, slopes, true)) || failed(system.factor(true, slopes))) return false;
-    const auto n = static_cast<Eigen::Index>(system.tree().num_unknowns());  // of the solver
+    if (failed(system.evaluate(state, slopes, true)) || failed(system.linear().factor(true, slopes))) return false;
+    const auto n = static_cast<Eigen::Index>(system.linear().tree().num_unknowns());  // of the solver
     t.matrix.resize(n, n);
     Eigen::VectorXd unit = Eigen::VectorXd::Zero(n);
     for (Eigen::Index j = 0; j < n; ++j) {
       unit(j) = 1.0;
-      system.solver().multiply(system.walker(), unit.data(), t.matrix.col(j).data());
+      system.linear().solver().multiply(system.walker(), unit.data(), t.matrix.col(j).data());
       unit(j) = 0.0;
     }
     t.row_scale = t.column_scale = Eigen::VectorXd::Ones(n);
-    if (const solve::Hierarchical* h = system.solver().hierarchical(); h != nullptr) {
+    if (const solve::Hierarchical* h = system.linear().solver().hierarchical(); h != nullptr) {
       t.row_scale = Eigen::Map<const Eigen::VectorXd>(h->row_scale().data(), n);
       t.column_scale = Eigen::Map<const Eigen::VectorXd>(h->column_scale().data(), n);
     }
     t.scaled = t.row_scale.asDiagonal() * t.matrix * t.column_scale.asDiagonal();
     t.rhs = -Eigen::Map<const Eigen::VectorXd>(system.residual().data(), n);
     t.solution.resize(n);
-    const solve::SolveReport solved = system.solver().solve(system.walker(), t.rhs.data(), t.solution.data());
+    const solve::SolveReport solved = system.linear().solver().solve(system.walker(), t.rhs.data(), t.solution.data());
     if (!solved.finite) trouble = "the solution of the linear system is not finite";
     t.backward_error = solved.backward_error;
     return false;

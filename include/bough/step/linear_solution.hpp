@@ -1,0 +1,112 @@
+#pragma once
+/// The linear solution of a step: tree, solver, and the policy by which a factor serves again. Newton's iterations ask it whether
+/// the factor at hand will do; how much of a solution is checked is its own affair.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bough/elements/evaluate.hpp"
+#include "bough/plan/plan.hpp"
+#include "bough/solve/any_solver.hpp"
+#include "bough/step/cpu_clock.hpp"
+#include "bough/step/trouble.hpp"
+#include "bough/tree/tree.hpp"
+#include "bough/tree/walker.hpp"
+
+namespace bough::step {
+
+/// What a plan and the options of a scene ask of the linear solver.
+tree::TreeOptions make_tree_options(const plan::Plan& plan, const scene::Solver& given);
+solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solver& given);
+
+/// Which node or joint a block of the graph belongs to.
+class BlockOwners {
+ public:
+  explicit BlockOwners(const plan::Plan& plan);
+  /// Index in Plan::joints or Plan::nodes; -1: of the other.
+  int joint(int block) const { return joints_[static_cast<std::size_t>(block)]; }
+  int node(int block) const { return nodes_[static_cast<std::size_t>(block)]; }
+  /// "joint 'b'" or "'a'", for messages.
+  std::string name(int block) const;
+
+ private:
+  const plan::Plan& plan_;
+  std::vector<int> joints_, nodes_;
+};
+
+class LinearSolution {
+ public:
+  /// Seconds and counts of its work are added to `counts`.
+  LinearSolution(const plan::Plan& plan, const scene::Solver& solver, const tree::Walker& walker, CpuClock& clock,
+                 WorkCounts& counts);
+
+  const tree::Tree& tree() const { return *tree_; }
+  const BlockOwners& owners() const { return owners_; }
+  solve::AnySolver& solver() { return *solver_; }
+  const solve::AnySolver& solver() const { return *solver_; }
+
+  /// To be called before element matrices are written: what is known of those present holds no longer. are_symmetric: they
+  /// will be, to the last bit.
+  void begin_matrices(bool are_symmetric);
+  /// Factors the element matrices now present, made with these slopes.
+  [[nodiscard]] std::optional<Trouble> factor(bool rescale, const elements::Slopes& slopes);
+  /// Whether the present factor was made with these slopes (of some earlier state).
+  bool has_factor(const elements::Slopes& slopes) const;
+  /// Whether it is that of the element matrices now present.
+  bool is_of_matrices() const { return is_of_matrices_; }
+  /// x <- A^-1 rhs. check: false: its backward error may be left out, but for every 32nd solution, where one with this
+  /// factor, or one before it with the same scales and slopes, was found good (the latter with a digit to spare) and no
+  /// pivot had to wait since; then last_solution() stays that of the last check.
+  [[nodiscard]] std::optional<Trouble> solve(const double* rhs, double* x, bool check = true);
+  const solve::SolveReport& last_solution() const { return last_solution_; }
+  /// y <- A x with the element matrices now present.
+  void multiply(const double* x, double* y) { solver_->multiply(walker_, x, y); }
+
+  /// Whether tangents are replaced by their symmetric parts (plan decision "symmetric"); drop_symmetry: not from now on.
+  bool takes_symmetric_parts() const { return takes_symmetric_parts_; }
+  void drop_symmetry() { takes_symmetric_parts_ = is_factored_ = false; }
+
+  /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
+  double last_contraction() const { return contraction_; }
+  void set_last_contraction(double contraction) { contraction_ = contraction; }
+  /// Solutions that a tangent and its factor cost, by estimate_step_cost.
+  double renewal_cost() const { return renewal_cost_; }
+  void set_renewal_cost(double solutions) { renewal_cost_ = solutions; }
+  /// To be called when an iteration has ended that took `solutions` with the present factor. A factor is worn once the last
+  /// iteration took at least as many solutions as the steps since it was made cost on average, the factor included: to go
+  /// on would raise that average.
+  void note_service(int solutions);
+  bool is_factor_worn() const { return is_worn_; }
+
+ private:
+  std::string explain_singular(const solve::FactorStatus& status) const;
+
+  /// Solutions from one check of the backward error to the next: on chains a check takes as long as the solution itself.
+  static constexpr int check_every = 32;
+  /// Backward error of a solution that needed no refinement, and one with a digit to spare: the next factor of the same
+  /// scales and slopes is then trusted before it was checked.
+  static constexpr double good = 1e-14, good_with_a_digit_to_spare = 1e-15;
+
+  const plan::Plan& plan_;
+  BlockOwners owners_;
+  tree::Walker walker_;
+  CpuClock& clock_;
+  WorkCounts& counts_;
+  std::unique_ptr<tree::Tree> tree_;
+  std::unique_ptr<solve::AnySolver> solver_;
+  solve::SolveReport last_solution_;
+  elements::Slopes factored_;  ///< slopes of the present factor
+  bool is_factored_ = false;
+  bool is_of_matrices_ = false;
+  bool is_trusted_ = false;  ///< it, or one like it, gave a solution that needed no refinement
+  int unchecked_ = 0;        ///< solutions since the last that was checked
+  bool takes_symmetric_parts_;
+  double contraction_ = 1.0;
+  double renewal_cost_ = 0.0;
+  double service_cost_ = 0.0;  ///< of the present factor: renewal_cost and the solutions of all iterations since
+  int iterations_served_ = 0;
+  bool is_worn_ = false;
+};
+
+}  // namespace bough::step

@@ -1,0 +1,124 @@
+#include "bough/step/linear_solution.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "make_solver.hpp"
+
+namespace bough::step {
+
+using motion::Vec6;
+
+BlockOwners::BlockOwners(const plan::Plan& plan)
+    : plan_(plan),
+      joints_(static_cast<std::size_t>(plan.graph.num_blocks()), -1),
+      nodes_(static_cast<std::size_t>(plan.graph.num_blocks()), -1) {
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    if (plan.joints[j].block >= 0) joints_[static_cast<std::size_t>(plan.joints[j].block)] = static_cast<int>(j);
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n)
+    if (plan.block_of_node[n] >= 0) nodes_[static_cast<std::size_t>(plan.block_of_node[n])] = static_cast<int>(n);
+}
+
+std::string BlockOwners::name(int block) const {
+  if (joint(block) < 0) return "'" + plan_.nodes[static_cast<std::size_t>(node(block))].name + "'";
+  const plan::JointPlan& j = plan_.joints[static_cast<std::size_t>(joint(block))];
+  return j.what + " '" + j.name + "'";
+}
+
+LinearSolution::LinearSolution(const plan::Plan& plan, const scene::Solver& solver, const tree::Walker& walker,
+                               CpuClock& clock, WorkCounts& counts)
+    : plan_(plan),
+      owners_(plan),
+      walker_(walker),
+      clock_(clock),
+      counts_(counts),
+      tree_(std::make_unique<tree::Tree>(tree::make_tree(plan.graph, make_tree_options(plan, solver)))),
+      solver_(make_solver(plan, *tree_, solver)),
+      takes_symmetric_parts_(plan.took("symmetric")) {}
+
+void LinearSolution::begin_matrices(bool are_symmetric) {
+  solver_->trust_symmetry(are_symmetric);
+  is_of_matrices_ = false;
+}
+
+bool LinearSolution::has_factor(const elements::Slopes& s) const {
+  return is_factored_ && s.velocity == factored_.velocity && s.acceleration == factored_.acceleration &&
+         s.mass_only == factored_.mass_only;
+}
+
+void LinearSolution::note_service(int solutions) {
+  service_cost_ += solutions;
+  is_worn_ = solutions * ++iterations_served_ >= service_cost_;
+}
+
+std::optional<Trouble> LinearSolution::factor(bool rescale, const elements::Slopes& slopes) {
+  PhaseTimer timer{clock_, counts_.factor};
+  const bool is_like_the_last = !rescale && has_factor(slopes);
+  if (!is_like_the_last) solver_->rescale();
+  const bool was_trusted =
+      is_trusted_ && is_like_the_last && last_solution_.backward_error <= good_with_a_digit_to_spare;
+  is_factored_ = is_trusted_ = false;
+  contraction_ = 1.0;
+  service_cost_ = renewal_cost_;
+  iterations_served_ = 0;
+  is_worn_ = false;
+  ++counts_.factorizations;
+  const solve::FactorStatus status = solver_->factor(walker_);
+  if (status.ok()) {
+    factored_ = slopes;
+    is_factored_ = is_of_matrices_ = true;
+    is_trusted_ = was_trusted && status.delayed_pivots == 0 && status.deficiency == 0;
+    return std::nullopt;
+  }
+  if (status.outcome == solve::FactorOutcome::not_finite) return Trouble{"a tangent is not finite"};
+  if (const char* why = explain_backend(status.outcome)) return Trouble{why};
+  return Trouble{explain_singular(status)};
+}
+
+/// What is known of the scene beforehand, or else the unknown without a pivot.
+std::string LinearSolution::explain_singular(const solve::FactorStatus& status) const {
+  std::string text = "the linear system is singular";
+  const plan::Mobility& mobility = plan_.mobility;
+  const std::vector<std::string>& known = mobility.free.empty() ? mobility.massless : mobility.free;
+  for (const std::string& motion : known) text += (&motion == &known.front() ? ": " : "; ") + motion;
+  if (!known.empty() || status.block < 0) return text;
+  static const char* const axes[] = {"displacement along axis 1", "displacement along axis 2",
+                                     "displacement along axis 3", "rotation about axis 1",
+                                     "rotation about axis 2",     "rotation about axis 3"};
+  text += ": nothing holds " + owners_.name(status.block);
+  if (owners_.joint(status.block) < 0 && status.local >= 0 && status.local < plan_.unknowns.count) {
+    std::array<double, 6> unit{};
+    unit[static_cast<std::size_t>(status.local)] = 1.0;
+    const int node = owners_.node(status.block);
+    const Vec6<double> eta = plan_.unknowns.expanded(unit.data(), static_cast<std::size_t>(node));
+    int largest = 0;
+    for (int i = 1; i < 6; ++i)
+      if (std::abs(eta[i]) > std::abs(eta[largest])) largest = i;
+    text += std::string(" (") + axes[largest] + " of its own frame has the largest share)";
+  }
+  return text + ", or it is held some 1e16 times more softly than its neighbours hold each other";
+}
+
+std::optional<Trouble> LinearSolution::solve(const double* rhs, double* x, bool check) {
+  PhaseTimer timer{clock_, counts_.solve};
+  ++counts_.solutions;
+  if (!check && is_trusted_ && solver_->hierarchical() != nullptr && ++unchecked_ < check_every) {
+    static_cast<void>(solver_->solve(walker_, rhs, x, false));
+    return std::nullopt;  // what is not finite shows in the change that it makes
+  }
+  unchecked_ = 0;
+  last_solution_ = solver_->solve(walker_, rhs, x);
+  is_trusted_ = last_solution_.backward_error <= good && last_solution_.refinement_steps == 0;
+  if (!last_solution_.interface_converged)
+    return Trouble{"the iteration on the interface problem gave up after " +
+                   std::to_string(last_solution_.interface_iterations) +
+                   " iterations: choose \"direct\" for /solver/interface_solution, or another /solver/kind"};
+  if (!last_solution_.finite) return Trouble{"the solution of the linear system is not finite"};
+  if (last_solution_.backward_error > counts_.backward_error_max)
+    counts_.backward_error_max = last_solution_.backward_error;
+  counts_.rank_error_max = std::max(counts_.rank_error_max, last_solution_.rank_error);
+  return std::nullopt;
+}
+
+}  // namespace bough::step
