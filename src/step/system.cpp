@@ -28,7 +28,11 @@ double length_of(const E& e, double fallback) {
 }  // namespace
 
 System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::Walker& walker)
-    : plan_(plan), walker_(walker), clock_(walker.threads == 1), linear_(plan, solver, walker, clock_, counts_) {
+    : plan_(plan),
+      instant_(plan),
+      walker_(walker),
+      clock_(walker.threads == 1),
+      linear_(plan, solver, walker, clock_, counts_) {
   const std::size_t num_elements = plan.directory.size();
   element_length_.resize(num_elements);
   for (std::size_t e = 0; e < num_elements; ++e)
@@ -56,10 +60,6 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
     planar_lanes_ = std::make_unique<LaneBatches<motion::Se2>>();
     planar_lanes_->make(plan, linear_.solver().batches(), joint_of_element_, held_.get());
   }
-  law_values_.assign(plan.laws.size(), 0.0);
-  law_rates_ = law_accelerations_ = law_values_;
-  law_series_.resize(plan.laws.size());
-  law_rate_series_.resize(plan.laws.size());
   row_series_.resize(static_cast<std::size_t>(plan.num_multipliers));
   work_.rhs.assign(num_unknowns(), 0.0);
   work_.x = work_.rhs;
@@ -78,22 +78,13 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
 System::~System() = default;
 
 std::optional<Trouble> System::set_time(double time, laws::Side side) {
-  time_ = time;
-  for (std::size_t i = 0; i < plan_.laws.size(); ++i) {
-    const laws::LawValue v = plan_.laws[i].law.at(plan_.laws[i].at_start ? 0.0 : time, side);
-    if (const auto which = laws::non_finite(v))
-      return Trouble{"the time function of '" + plan_.laws[i].user + "' is not finite at time " + std::to_string(time) +
-                     ": " + *which};
-    law_values_[i] = v.value;
-    law_rates_[i] = v.rate;
-    law_accelerations_[i] = v.acceleration;
-  }
-  if (!plan_.frames.empty()) set_frames();
+  if (auto t = instant_.set(time, side)) return t;
+  if (!plan_.frames.empty()) spatial_lanes_->set_frames(instant_.frames());
   return std::nullopt;
 }
 
 elements::Field System::field(const State& state, const elements::Slopes& slopes, bool with_inertia) const {
-  elements::Field f = surroundings(slopes, with_inertia);
+  elements::Field f = instant_.surroundings(slopes, with_inertia);
   f.nodes = nodes(state).data();
   return f;
 }
@@ -101,7 +92,7 @@ elements::Field System::field(const State& state, const elements::Slopes& slopes
 elements::Field System::field_of(const State& state, std::span<const int> nodes,
                                  std::vector<elements::NodeMotion>& scratch) const {
   if (!state.is_planar()) return field(state);
-  elements::Field f = surroundings({}, true);
+  elements::Field f = instant_.surroundings({}, true);
   scratch.resize(plan_.nodes.size());
   copy_nodes_in_space(plan_, state, nodes, scratch);
   f.nodes = scratch.data();
@@ -114,7 +105,7 @@ elements::FieldOn<G, double> System::field_on(const State& state, const elements
   if constexpr (std::is_same_v<G, motion::Se3>) {
     return field(state, slopes, with_inertia);
   } else {
-    const elements::Field space = surroundings(slopes, with_inertia);
+    const elements::Field space = instant_.surroundings(slopes, with_inertia);
     elements::FieldOn<G, double> f;
     f.nodes = state.on<G>().motion.data();
     f.slopes = slopes;
@@ -127,24 +118,6 @@ elements::FieldOn<G, double> System::field_on(const State& state, const elements
 template elements::Field System::field_on<motion::Se3>(const State&, const elements::Slopes&, bool) const;
 template elements::FieldOn<motion::Se2, double> System::field_on<motion::Se2>(const State&, const elements::Slopes&,
                                                                               bool) const;
-
-/// All but the nodes.
-elements::Field System::surroundings(const elements::Slopes& slopes, bool with_inertia) const {
-  elements::Field f;
-  f.slopes = slopes;
-  f.around.gravity = law_values_[static_cast<std::size_t>(plan_.gravity_law)] * plan_.gravity;
-  f.around.laws = law_values_.data();
-  f.around.has_inertia = plan_.is_dynamic && with_inertia;
-  f.around.nodes_turn =
-      plan_.unknowns.motions == plan::Motions::spatial || plan_.unknowns.motions == plan::Motions::planar;
-  if (plan_.frames.empty()) return f;
-  f.carriers = frames_.in_ground.data();
-  f.observer = observer();
-  if (f.observer == nullptr) return f;
-  f.around.gravity = lanes::transpose_times(f.observer->pose.R, f.around.gravity);
-  f.around.has_inertia = with_inertia;  // statics, too: at rest in a frame that moves steadily
-  return f;
-}
 
 std::span<const solve::ElementBatch> System::batches() const {
   return planar_lanes_ ? batches_on<motion::Se2>() : batches_on<motion::Se3>();
@@ -290,8 +263,8 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
     for (std::int64_t i = 2 * element_begin_[e]; i < 2 * element_begin_[e + 1]; ++i)
       if (!std::isfinite(parts_[static_cast<std::size_t>(i)]))
         return Trouble{"the forces of '" + plan_.element_owner[e] + "' are not finite at time " +
-                       std::to_string(time_)};
-  return Trouble{"a sum of forces is not finite at time " + std::to_string(time_)};
+                       std::to_string(state.time)};
+  return Trouble{"a sum of forces is not finite at time " + std::to_string(state.time)};
 }
 
 solve::ConstElementView System::matrix_of(int element, std::vector<std::int64_t>& unknowns) const {

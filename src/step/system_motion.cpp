@@ -145,21 +145,17 @@ void System::find_unsettled(State& state) {
 void System::evaluate_rate(const State& state, std::vector<double>& rate, double step_size) {
   elements::Field f = field(state);
   using T = lanes::Taylor<double, 1>;
-  std::vector<T> laws(plan_.laws.size());
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    laws[i].c[0] = law_values_[i];
-    laws[i].c[1] = law_rates_[i];
-  }
+  const std::vector<T>& laws = instant_.rate_series();
   elements::Surroundings<T> around;
   for (int k = 0; k < 3; ++k) around.gravity[k] = plan_.gravity[k] * laws[static_cast<std::size_t>(plan_.gravity_law)];
   around.laws = laws.data();
   around.has_inertia = plan_.is_dynamic;
   around.nodes_turn = f.around.nodes_turn;
   if (!plan_.frames.empty()) {
-    set_frame_series(step_size, series_frames_);
-    f.carriers = series_frames_.in_ground.data();
+    const plan::FrameMotions& frames = instant_.frame_series(step_size);
+    f.carriers = frames.in_ground.data();
     if (f.observer != nullptr) {
-      f.observer = &series_frames_.observer;
+      f.observer = &frames.observer;
       motion::Vec3<T> turning = lanes::cast<T>(lanes::angular_part(f.observer->twist));
       motion::Vec3<T> gravity = lanes::cast<T>(lanes::transpose_times(f.observer->pose.R, plan_.gravity));
       for (int k = 0; k < 3; ++k) gravity[k].c[1] = -lanes::cross(turning, gravity)[k].c[0];  // (R^T g)' = -w x R^T g
@@ -193,22 +189,8 @@ void System::evaluate_rate(const State& state, std::vector<double>& rate, double
 void System::constraint_series(const State& state, const Vec6<double>* jerk, double step_size,
                                std::vector<lanes::Taylor<double, 3>>& out) const {
   elements::Field f = field(state);
-  if (step_size > 0.0 && !plan_.frames.empty()) {
-    set_frame_series(step_size, series_frames_);
-    f.carriers = series_frames_.in_ground.data();
-  }
-  std::vector<lanes::Taylor<double, 3>>& laws = law_series_;
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    laws[i].c[0] = law_values_[i];
-    laws[i].c[1] = law_rates_[i];
-    laws[i].c[2] = 0.5 * law_accelerations_[i];
-    // Laws tell two derivatives; the third enters a term of order h^2 only, so a one-sided difference over a step will do.
-    laws[i].c[3] = 0.0;
-    if (step_size > 0.0 && !plan_.laws[i].law.is_constant()) {
-      const double next = plan_.laws[i].law.at(time_ + step_size, laws::Side::left).acceleration;
-      if (std::isfinite(next)) laws[i].c[3] = (next - law_accelerations_[i]) / (6.0 * step_size);
-    }
-  }
+  if (step_size > 0.0 && !plan_.frames.empty()) f.carriers = instant_.frame_series(step_size).in_ground.data();
+  const Instant::Series& laws = instant_.series(step_size);
   out.resize(static_cast<std::size_t>(plan_.num_multipliers));
   for (std::size_t j = 0; j < plan_.joints.size(); ++j)
     plan::with_element(plan_.elements, plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)],
@@ -222,10 +204,7 @@ void System::constraint_series(const State& state, const Vec6<double>* jerk, dou
 Violations System::constraint_violations(const State& state) const {
   using T = lanes::Taylor<double, 1>;
   const elements::Field f = field(state);
-  for (std::size_t i = 0; i < law_rate_series_.size(); ++i) {
-    law_rate_series_[i].c[0] = law_values_[i];
-    law_rate_series_[i].c[1] = law_rates_[i];
-  }
+  const std::vector<T>& laws = instant_.rate_series();
   const auto& joints = plan::array_of<elements::Joint>(plan_.elements);
   const auto count = static_cast<std::int64_t>(plan_.joints.size());
   violation_parts_.assign(static_cast<std::size_t>((count + joint_grain - 1) / joint_grain), {});
@@ -235,7 +214,7 @@ Violations System::constraint_violations(const State& state) const {
     for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
       const elements::Joint& e =
           joints[static_cast<std::size_t>(plan_.directory[static_cast<std::size_t>(plan_.joints[j].element)].index)];
-      elements::evaluate_constraint_rates(e, f, law_rate_series_.data(), state.turns[j], rows);
+      elements::evaluate_constraint_rates(e, f, laws.data(), state.turns[j], rows);
       for (int row = 0; row < e.num_rows; ++row) {
         const double length = elements::is_length(e.rows[row].kind) ? plan_.joints[j].length : 1.0;
         const double gap = std::abs(rows[row].c[0]), rate = std::abs(rows[row].c[1]);

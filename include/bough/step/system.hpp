@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "bough/plan/frames.hpp"
+#include "bough/step/instant.hpp"
 #include "bough/step/linear_solution.hpp"
 #include "bough/step/motion_tree.hpp"
 #include "bough/step/state.hpp"
@@ -204,10 +204,9 @@ class System {
   std::int64_t block_begin(int block) const { return linear_.tree().unknown_begin[static_cast<std::size_t>(block)]; }
   int block_size(int block) const { return static_cast<int>(block_begin(block + 1) - block_begin(block)); }
   std::size_t num_unknowns() const { return static_cast<std::size_t>(linear_.tree().unknown_begin.back()); }
-  const std::vector<double>& law_values() const { return law_values_; }
-  const std::vector<double>& law_rates() const { return law_rates_; }
+  const std::vector<double>& law_values() const { return instant_.law_values(); }
   /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame itself.
-  const elements::CarrierMotion* observer() const { return plan_.observer < 0 ? nullptr : &frames_.observer; }
+  const elements::CarrierMotion* observer() const { return instant_.observer(); }
 
  private:
   /// sum |K| eps |coordinates| over the elements that count.
@@ -238,9 +237,6 @@ class System {
   void sum_parts(std::int64_t begin, std::int64_t end);
   double largest_violation(const State& state, int order, bool is_relative, int* joint) const;
   void add_multipliers(State& state, const double* x, double factor) const;
-  void set_frames();
-  void set_turned_laws();
-  void set_frame_series(double step_size, plan::FrameMotions& motions) const;
 
   /// Puts (A + A^T) / 2 in place of the tangents of a batch.
   void symmetrise(const solve::ElementBatch& batch);
@@ -254,12 +250,12 @@ class System {
   void evaluate_alone(std::size_t id, const State& state, const elements::FieldOn<G, double>& field,
                       const ElementResults& to);
   IncrementsOf increments() const;
-  elements::Field surroundings(const elements::Slopes& slopes, bool with_inertia) const;
   template <class E>
   void evaluate_projected(const E& e, std::size_t id, const elements::Field& field, const double* multipliers,
                           double turns, bool tangent);
 
   const plan::Plan& plan_;
+  Instant instant_;
   std::unique_ptr<LaneBatches<motion::Se3>> spatial_lanes_;
   std::unique_ptr<LaneBatches<motion::Se2>> planar_lanes_;  ///< of a scene in a plane; else null
   std::unique_ptr<Projection> projection_;                  ///< none where a node has six unknowns
@@ -269,10 +265,7 @@ class System {
   WorkCounts counts_;
   LinearSolution linear_;
   Workspace work_;
-  std::vector<double> law_values_, law_rates_, law_accelerations_;
-  mutable std::vector<lanes::Taylor<double, 3>> law_series_,
-      row_series_;  ///< scratch of constraint_series, constraint_violation
-  mutable std::vector<lanes::Taylor<double, 1>> law_rate_series_;  ///< scratch of constraint_violations
+  mutable Instant::Series row_series_;  ///< scratch of constraint_violation
   mutable std::vector<Violations> violation_parts_;
   std::vector<std::int64_t> element_begin_;  ///< unknowns of the elements before it
   /// Parts of an element, from 2 element_begin_ on: of each of its nodes, then of its rows, entries of the residual and then the sums of |terms| of
@@ -298,10 +291,7 @@ class System {
   mutable std::vector<double> chunk_max_;
   std::vector<double> element_length_;  ///< size of each element, for relative changes [m]
   double moment_arm_ = 0.0;
-  double time_ = 0.0;
-  MotionTree motion_tree_;                    ///< empty in dynamics
-  plan::FrameMotions frames_;                 ///< at time_
-  mutable plan::FrameMotions series_frames_;  ///< the same with third derivatives of the laws, for starts
+  MotionTree motion_tree_;  ///< empty in dynamics
   RoundOffMemory met_round_off_;
   bool as_sensors_ = false;  ///< elements in space, one at a time: the bits that sensors see
 };

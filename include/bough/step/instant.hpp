@@ -1,0 +1,50 @@
+#pragma once
+/// What surrounds a scene at one time: values of its time functions, and frames of prescribed motion.
+#include <optional>
+#include <vector>
+
+#include "bough/elements/evaluate.hpp"
+#include "bough/lanes/taylor.hpp"
+#include "bough/plan/frames.hpp"
+#include "bough/plan/plan.hpp"
+#include "bough/step/trouble.hpp"
+
+namespace bough::step {
+
+class Instant {
+ public:
+  using Series = std::vector<lanes::Taylor<double, 3>>;
+
+  explicit Instant(const plan::Plan& plan);
+
+  /// Left or right limit at t. A value that is not finite is told with its owner and the time.
+  [[nodiscard]] std::optional<Trouble> set(double time, laws::Side side);
+
+  const std::vector<double>& law_values() const { return values_; }
+  /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame itself.
+  const elements::CarrierMotion* observer() const { return plan_.observer < 0 ? nullptr : &frames_.observer; }
+  const plan::FrameMotions& frames() const { return frames_; }
+  /// Gravity, laws and frames: all of a field but the nodes.
+  elements::Field surroundings(const elements::Slopes& slopes, bool with_inertia) const;
+
+  /// Laws with their first derivative, and with three. They tell two: the third is a one-sided difference over a step to come,
+  /// 0 where `step_size` is, since it enters terms of order h^2 alone. Kept until asked for again.
+  const std::vector<lanes::Taylor<double, 1>>& rate_series() const;
+  const Series& series(double step_size) const;
+  /// Frames whose laws have that third derivative.
+  const plan::FrameMotions& frame_series(double step_size) const;
+
+ private:
+  void set_frames();
+  void set_turned_laws();
+
+  const plan::Plan& plan_;
+  double time_ = 0.0;
+  std::vector<double> values_, rates_, accelerations_;  ///< of laws
+  plan::FrameMotions frames_;
+  mutable plan::FrameMotions series_frames_;  ///< scratch, as the next two
+  mutable Series series_;
+  mutable std::vector<lanes::Taylor<double, 1>> rate_series_;
+};
+
+}  // namespace bough::step
