@@ -29,7 +29,7 @@ enum class Form {
 
 /// A text of the program itself. Rules hold hundreds, which would take longer to copy than a small scene to check.
 struct Literal : std::string_view {
-  consteval Literal(const char* text = "") : std::string_view(text) {}
+  constexpr Literal(const char* text = "") : std::string_view(text) {}
 };
 
 struct Rule;
