@@ -317,6 +317,12 @@ Vec3<Pack> turned(const Vec2<Pack>& R, const Vec3<Pack>& eta) {
   return motion::join(motion::complex_times(R, plane_part(eta)), eta[2]);
 }
 
+/// How the far end of an arm moves with a turn of the near one.
+Vec3<Pack> swung(const Vec6<Pack>& change, const Vec3<Pack>& arm) {
+  return lanes::cross(lanes::angular_part(change), arm);
+}
+Vec2<Pack> swung(const Vec3<Pack>& change, const Vec2<Pack>& arm) { return change[2] * motion::quarter_turn(arm); }
+
 }  // namespace
 
 template <class G>
@@ -339,7 +345,7 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
   for (const PairLanes& p : pairs) {
     const Moving<G> a = look_at(p.a), b = look_at(p.b);
     const VectorLanes<G> change = b.change - a.change;
-    const typename G::template Translation<Pack> arm = b.x - a.x, swing = G::spin(a.change, arm),
+    const typename G::template Translation<Pack> arm = b.x - a.x, swing = swung(a.change, arm),
                                                  shift = p.per_length * (linear(change) - swing);
     for (int i = 0; i < G::dof; ++i) near = near & less(lanes::abs(i < G::translations ? shift[i] : change[i]), far);
     most = larger(most, larger(lanes::dot(shift, shift), angular_square(change)));

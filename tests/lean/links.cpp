@@ -213,7 +213,10 @@ std::vector<scene::Scene> make_scenes() {
   add("net", make_net());
   add("statics", make_statics());
   add_changed("sensors", [](scene::Scene& s) { add_sensors(s); });
-  add_changed("pictures", [](scene::Scene& s) { s.output.motion = true; });
+  add_changed("pictures", [](scene::Scene& s) {
+    s.output.motion = true;
+    s.output.motion_stride = 1;  // else a picture of every hundredth part of the run
+  });
   add_changed("checks", [](scene::Scene& s) { s.output.checks = true; });
   for (const bool are_rare : {true, false})
     add_changed(are_rare ? "rare rows" : "rows", [are_rare](scene::Scene& s) {
