@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bough/motion/vectors_on.hpp"
 #include "moving_nodes.hpp"
 #include "newton.hpp"
 #include "system_parts.hpp"
@@ -63,13 +64,9 @@ struct Integrator {
   template <class G>
   static std::optional<Trouble> judge_turn(const System& system, const NodesOn<G>& nodes, double most) {
     if (most <= largest_turn * largest_turn) return std::nullopt;
-    const auto turn = [](const auto& node) {
-      double square = 0.0;
-      for (int i = G::translations; i < G::dof; ++i) square += node.dq[i] * node.dq[i];
-      return square;
-    };
-    const auto far = std::find_if(nodes.motion.begin(), nodes.motion.end(),
-                                  [&turn](const auto& node) { return turn(node) > largest_turn * largest_turn; });
+    const auto far = std::find_if(nodes.motion.begin(), nodes.motion.end(), [](const auto& node) {
+      return motion::VectorsOn<G>::template angular_square<double>(node.dq) > largest_turn * largest_turn;
+    });
     if (far == nodes.motion.end()) return std::nullopt;
     return Trouble{"'" + system.plan().nodes[static_cast<std::size_t>(far - nodes.motion.begin())].name +
                    "' turns by nearly half a turn in one step"};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bough/motion/vectors_on.hpp"
 #include "moving_nodes.hpp"
 #include "newton.hpp"
 #include "start_parts.hpp"
@@ -22,14 +23,6 @@ typename G::template Vector<double> increment(const NodesOn<G>& a, const NodesOn
   using Pose = typename G::template Pose<double>;
   const auto none = G::template Translation<double>::zero();
   return G::log(G::relative(Pose{from.R, none}, Pose{to.R, motion::difference(to.x, from.x)}));
-}
-
-/// T(d) v.
-motion::Vec6<double> tangent_of(const motion::Vec6<double>& d, const motion::Vec6<double>& v) {
-  return motion::tangent_times(d, v);
-}
-motion::Vec3<double> tangent_of(const motion::Vec3<double>& d, const motion::Vec3<double>& v) {
-  return motion::times(motion::eval_tangent_operator<motion::Se2, double>(d), v);
 }
 
 StepReport failed(StepReport report, const std::string& cause) {
@@ -113,16 +106,17 @@ void Bdf::eval_steady_error(const State& point) {
   std::fill(steady_error_.begin(), steady_error_.end(), 0.0);
   point.visit([&]<class G>(const NodesOn<G>& nodes) {
     using Vector = typename NodesOn<G>::Vector;
+    using On = motion::VectorsOn<G>;
     const auto& samples = history<G>().samples;
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       const Vector &a = samples[0][n], &b = samples[1][n], &c = samples[2][n], &v = nodes.motion[n].v;
       const Vector jerk = (0.5 / apart) * (c - a);
       Vector error;
       if (order_ == 2) {
-        error = (-h_ * h_ / 3.0) * (jerk + 0.5 * bracket_of(v, b));
+        error = (-h_ * h_ / 3.0) * (jerk + 0.5 * On::template bracket<double>(v, b));
       } else {
         const Vector snap = (1.0 / (apart * apart)) * (c - b - (b - a));
-        error = (-0.25 * h_ * h_ * h_) * (snap + bracket_of(v, jerk));
+        error = (-0.25 * h_ * h_ * h_) * (snap + On::template bracket<double>(v, jerk));
       }
       system_.set_node_part(steady_error_.data(), static_cast<int>(n), error);
     }
@@ -178,15 +172,14 @@ void Bdf::predict(State& state) {
 std::optional<Trouble> Bdf::follow(State& state) const {
   return state.change_all([&]<class G>(NodesOn<G>& nodes) -> std::optional<Trouble> {
     using Vector = typename NodesOn<G>::Vector;
+    using On = motion::VectorsOn<G>;
     const HistoryOn<G>& past = history<G>();
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       auto& node = nodes.motion[n];
       const Vector D = increment(begin_.on<G>(), nodes, n);
-      double turn = 0.0;
-      for (int i = G::translations; i < G::dof; ++i) turn += D[i] * D[i];
-      if (!(turn <= largest_turn * largest_turn))
+      if (!(On::template angular_square<double>(D) <= largest_turn * largest_turn))
         return Trouble{"'" + system_.plan().nodes[n].name + "' turns by nearly a quarter of a turn in one step"};
-      node.v = tangent_of(D, Vector((1.0 / h_) * (c_.c0 * D + past.y[n])));
+      node.v = On::template tangent_times<double>(D, Vector((1.0 / h_) * (c_.c0 * D + past.y[n])));
       node.a = (1.0 / h_) * (c_.c0 * node.v + past.rates[n]);
       node.dq = (1.0 / c_.c0) * D;
     }

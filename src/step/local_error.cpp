@@ -4,8 +4,8 @@
 #include <iterator>
 #include <limits>
 
+#include "bough/motion/vectors_on.hpp"
 #include "bough/step/step_control.hpp"
-#include "start_parts.hpp"
 
 namespace bough::step {
 
@@ -141,11 +141,11 @@ void LocalError::watch(int node, double arm, bool turns, bool velocity) {
 void LocalError::shift_accelerations(const State& after, State& to) const {
   const double h = after.step_size;
   to = after;
-  to.change_all([&](auto& nodes) {
+  to.change_all([&]<class G>(NodesOn<G>& nodes) {
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       auto& node = nodes.motion[n];
-      node.a +=
-          h * ((constants_.position / h) * nodes.acceleration_trend[n] - (1.0 / 12.0) * bracket_of(node.v, node.a));
+      node.a += h * ((constants_.position / h) * nodes.acceleration_trend[n] -
+                     (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(node.v, node.a));
     }
   });
 }

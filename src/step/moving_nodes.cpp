@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "bough/motion/vectors_on.hpp"
 #include "node_lanes.hpp"
 #include "system_parts.hpp"
 
@@ -24,8 +25,6 @@ using Pack = elements::LanePack;
 static_assert(elements::num_lanes == static_cast<int>(nodes_in_lanes));
 
 template <class G>
-using NodeLanes = elements::NodeMotionOn<G, Pack>;
-template <class G>
 using VectorLanes = typename G::template Vector<Pack>;
 
 /// Where the numbers of a node stand: its pose, v, dv/dt and dq, one after the other.
@@ -43,11 +42,10 @@ double largest_of(const Pack& a) {
 
 Vec2<Pack> linear(const Vec3<Pack>& v) { return plane_part(v); }
 Vec3<Pack> linear(const Vec6<Pack>& v) { return lanes::linear_part(v); }
-Pack angular_square(const Vec3<Pack>& v) { return v[2] * v[2]; }
-Pack angular_square(const Vec6<Pack>& v) { return lanes::dot(lanes::angular_part(v), lanes::angular_part(v)); }
-
-Vec6<Pack> bracket(const Vec6<Pack>& v, const Vec6<Pack>& a) { return motion::cross6_times(v, a); }
-Vec3<Pack> bracket(const Vec3<Pack>& v, const Vec3<Pack>& a) { return Se2::widened(Se2::bracket(v, a)); }
+template <class G>
+Pack angular_square(const VectorLanes<G>& v) {
+  return motion::VectorsOn<G>::template angular_square<Pack>(v);
+}
 
 /// A node's pose, and what an increment changes of it.
 template <class G, class S>
@@ -220,7 +218,7 @@ double predict_nodes(const AlphaRule& rule, int order, const NodesOn<G>& start, 
     scatter_pose(m, state, first, count);
     scatter<3 * G::dof>(&rates[0][0], state.motion.data(), first, count, Numbers::v);
     scatter<G::dof>(&now.algorithmic[0], state.algorithmic.data(), first, count);
-    turned = larger(turned, angular_square(eta));
+    turned = larger(turned, angular_square<G>(eta));
   });
   return largest_of(turned);
 }
@@ -264,7 +262,7 @@ double follow_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& 
     rates[1] = now.a;
     scatter<3 * G::dof>(&rates[0][0], state.motion.data(), first, count, Numbers::v);
     scatter<G::dof>(&now.algorithmic[0], state.algorithmic.data(), first, count);
-    turned = larger(turned, angular_square(rates[2]));
+    turned = larger(turned, angular_square<G>(rates[2]));
   });
   return largest_of(turned);
 }
@@ -275,7 +273,7 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
   using Numbers = NodeNumbers<G>;
   Workspace::StepEnd part;
   const auto size = [arm](const VectorLanes<G>& a) {
-    return Pack(lanes::dot(linear(a), linear(a)) + arm * arm * angular_square(a));
+    return Pack(lanes::dot(linear(a), linear(a)) + arm * arm * angular_square<G>(a));
   };
   const auto largest = [per_length](const VectorLanes<G>& v) {
     Pack most(0.0);
@@ -293,7 +291,9 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
     const Pack miss[] = {size(change), size(of_change), size(of_change - of_trend)};
     for (std::size_t k = 0; k < part.misses.size(); ++k)
       for (std::size_t l = 0; l < count; ++l) part.misses[k] += miss[k][static_cast<int>(l)];
-    part.error = std::max(part.error, largest(rule.local_error(change, bracket(rates[0], rates[1]))));
+    part.error =
+        std::max(part.error,
+                 largest(rule.local_error(change, motion::VectorsOn<G>::template bracket<Pack>(rates[0], rates[1]))));
     part.increment = std::max(part.increment, largest(rates[2]));
     scatter<G::dof>(&change[0], state.acceleration_trend.data(), first, count);
     scatter<G::dof>(&of_change[0], state.trend_change.data(), first, count);
@@ -348,7 +348,7 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
     const typename G::template Translation<Pack> arm = b.x - a.x, swing = swung(a.change, arm),
                                                  shift = p.per_length * (linear(change) - swing);
     for (int i = 0; i < G::dof; ++i) near = near & less(lanes::abs(i < G::translations ? shift[i] : change[i]), far);
-    most = larger(most, larger(lanes::dot(shift, shift), angular_square(change)));
+    most = larger(most, larger(lanes::dot(shift, shift), angular_square<G>(change)));
   }
   return all(near) ? largest_of(most) : std::numeric_limits<double>::infinity();
 }

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "bough/motion/vectors_on.hpp"
 #include "bough/step/advance.hpp"
 #include "start_parts.hpp"
 #include "system_parts.hpp"
@@ -237,9 +238,11 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
       nodes.algorithmic[n] = node.a + (c.shift() * h) * jerk;
       nodes.acceleration_trend[n] = h * jerk;
       nodes.trend_change[n] = NodesOn<G>::Vector::zero();
-      system.set_node_part(steady_error.data(), static_cast<int>(n),
-                           typename NodesOn<G>::Vector((-h * h) * ((c.beta + 0.5 * c.shift() - 1.0 / 6.0) * jerk -
-                                                                   (1.0 / 12.0) * bracket_of(node.v, node.a))));
+      system.set_node_part(
+          steady_error.data(), static_cast<int>(n),
+          typename NodesOn<G>::Vector((-h * h) *
+                                      ((c.beta + 0.5 * c.shift() - 1.0 / 6.0) * jerk -
+                                       (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(node.v, node.a))));
     }
   });
   state.step_size = h;

@@ -4,14 +4,6 @@
 
 namespace bough::step {
 
-/// ad(v) a of twists of a node.
-inline motion::Vec6<double> bracket_of(const motion::Vec6<double>& v, const motion::Vec6<double>& a) {
-  return motion::cross6_times(v, a);
-}
-inline motion::Vec3<double> bracket_of(const motion::Vec3<double>& v, const motion::Vec3<double>& a) {
-  return motion::Se2::widened(motion::Se2::bracket(v, a));
-}
-
 /// Velocities that meet the constraints up to G d by row (d a motion in the unknowns; null: exactly), nearest in the mass metric. The matrix
 /// [M G^T; G 0] is factored at this state. Laws of its time are set.
 [[nodiscard]] std::optional<Trouble> set_normal_velocities(System& system, State& state, const std::vector<double>* d);

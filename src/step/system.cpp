@@ -187,8 +187,8 @@ void System::evaluate_projected(const E& e, std::size_t id, const elements::Fiel
       linear_.solver().element(static_cast<int>(id)));
 }
 
-void System::begin_matrices() {
-  linear_.begin_matrices(false);
+void System::begin_matrices(bool are_symmetric) {
+  linear_.begin_matrices(are_symmetric);
   round_off_floor_.reset();
   round_off_of_poses_.reset();
 }
@@ -247,10 +247,7 @@ void System::evaluate_on(const State& state, const elements::FieldOn<G, double>&
 std::optional<Trouble> System::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
   PhaseTimer timer{clock_, counts_.assemble};
   ++counts_.evaluations;
-  if (tangent) {
-    begin_matrices();
-    linear_.begin_matrices(linear_.takes_symmetric_parts());
-  }
+  if (tangent) begin_matrices(linear_.takes_symmetric_parts());
   if (state.is_planar() && !as_sensors_)
     evaluate_on(state, field_on<motion::Se2>(state, slopes), tangent);
   else

@@ -84,9 +84,7 @@ std::optional<Trouble> VariationalOn<G>::place_nodes(State& next, double h) {
   const NodesOn<G>& base = base_.on<G>();
   NodesOn<G>&mid = mid_.change<G>(), &end = next.change<G>();
   for (std::size_t n = 0; n < D_.size(); ++n) {
-    double turn = 0.0;
-    for (int i = G::translations; i < G::dof; ++i) turn += D_[n][i] * D_[n][i];
-    if (!(turn <= largest_turn * largest_turn))
+    if (!(On::template angular_square<double>(D_[n]) <= largest_turn * largest_turn))
       return Trouble{"'" + system_.plan().nodes[n].name + "' turns by nearly half a turn in one step"};
     place_node(base, n, Vector(0.5 * D_[n]), mid);
     place_node(base, n, D_[n], end);

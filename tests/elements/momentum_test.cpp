@@ -105,7 +105,7 @@ void expect_momenta(Sample<E> s) {
       F_node[i] = F[at];
     }
     const Vec6<double>& d = D[static_cast<std::size_t>(port.node)];
-    const Vec6<double> before = eval_momentum_before<motion::Se3, double>(d, h, P_node, F_node),
+    const Vec6<double> before = eval_momentum_after<motion::Se3, double>(-d, -h, P_node, F_node),
                        after = eval_momentum_after<motion::Se3, double>(d, h, P_node, F_node);
     const Vec6<Complex> none = Vec6<Complex>::zero();
     for (int i = 0; i < 6; ++i) {

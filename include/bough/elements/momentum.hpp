@@ -173,15 +173,7 @@ void eval_momentum(const BeamOn<G, N, C>& beam, const PortMotionOn<G, S>* ports,
 /// The step of the midpoint rule on the group, H_{n+1} = H_n exp(D), with P and F at the pose H_n exp(D/2) and the twist D/h: momenta at
 /// both ends, in the axes there, from the discrete Lagrangian L_d = h L(H_n exp(D/2), D/h):
 ///   p_n = -D_1 L_d = T(-D)^-T (P + (h/2) T(-D/2)^T F),   p_{n+1} = D_2 L_d = T(D)^-T (P - (h/2) T(D/2)^T F).
-template <class G, class S>
-typename G::template Vector<S> eval_momentum_before(const typename G::template Vector<S>& D, double h,
-                                                    const typename G::template Vector<S>& P,
-                                                    const typename G::template Vector<S>& F) {
-  using On = motion::VectorsOn<G>;
-  using V = typename G::template Vector<S>;
-  const V forces = On::template tangent_transpose_times<S>(V(-0.5 * D), F);
-  return On::template inverse_tangent_transpose_times<S>(V(-D), V(P + (0.5 * h) * forces));
-}
+/// This is the latter; the former is the same backwards, at -D and -h.
 template <class G, class S>
 typename G::template Vector<S> eval_momentum_after(const typename G::template Vector<S>& D, double h,
                                                    const typename G::template Vector<S>& P,

@@ -18,6 +18,13 @@ struct VectorsOn {
   using Pose = typename G::template Pose<S>;
   static constexpr bool is_spatial = std::is_same_v<G, Se3>;
 
+  /// |w|^2 of a vector (u; w)
+  template <class S>
+  static S angular_square(const Vector<S>& v) {
+    S sum = v[G::translations] * v[G::translations];
+    for (int i = G::translations + 1; i < G::dof; ++i) sum = sum + v[i] * v[i];
+    return sum;
+  }
   /// ad(v) a
   template <class S>
   static Vector<S> bracket(const Vector<S>& v, const Vector<S>& a) {

@@ -108,7 +108,8 @@ class System {
   /// By block, in the order of the solver.
   const std::vector<double>& residual() const { return residual_; }
   /// To be called before matrices are set or added to, which several threads may then do: what is known of those present holds no longer.
-  void begin_matrices();
+  /// are_symmetric: they will be, to the last bit.
+  void begin_matrices(bool are_symmetric = false);
   /// Puts an element's matrix, row-major in all of its unknowns, in the place of its tangent, or adds it there.
   void set_matrix(int element, int num_unknowns, const double* entries);
   void add_matrix(int element, int num_unknowns, const double* entries);
