@@ -1,5 +1,5 @@
-# The layers, lowest first. cmake/check_includes.py holds the arrows between them.
-set(BOUGH_LAYERS lanes blocks motion laws scene elements plan tree solve schedule step results io study report)
+# The layers, lowest first. tests/tools/check_includes.py holds the arrows between them.
+set(BOUGH_LAYERS lanes blocks motion laws scene records elements plan io tree solve schedule step results run study stress report)
 
 # What every layer and every user of a layer compiles with.
 #   -ffp-contract=off: kernels are templates and may be instantiated in a user's file; the linker keeps one copy, so

@@ -11,8 +11,8 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/run_directory.hpp"
 #include "bough/io/run_store.hpp"
-#include "bough/study/estimate.hpp"
-#include "bough/study/simulate.hpp"
+#include "bough/run/estimate.hpp"
+#include "bough/run/simulate.hpp"
 #include "bough/version.hpp"
 #include "terminal.hpp"
 
@@ -51,22 +51,22 @@ std::string first_problems(const io::SceneFile& file) {
 }
 
 /// Takes a run whose results nobody keeps.
-struct NoRecorder final : results::Recorder {
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+struct NoRecorder final : records::Recorder {
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 };
 
-results::Summary simulate(const scene::Scene& scene, const CaseSettings& settings,
-                          std::chrono::steady_clock::time_point start, results::Recorder& recorder) {
-  study::SimulateOptions options{.threads = std::min(scene.solver.threads, settings.threads)};
+records::Summary simulate(const scene::Scene& scene, const CaseSettings& settings,
+                          std::chrono::steady_clock::time_point start, records::Recorder& recorder) {
+  run::SimulateOptions options{.threads = std::min(scene.solver.threads, settings.threads)};
   options.stopped_by = [&]() -> std::string {
     const std::chrono::duration<double> age = std::chrono::steady_clock::now() - start;
     const bool is_late = settings.time_limit > 0.0 && age.count() >= 0.99 * settings.time_limit;
     return is_late ? "the time limit of " + io::rounded_text(settings.time_limit, 6) + " s" : "the user";
   };
-  return study::simulate(scene, options, recorder, [](const results::Progress&) { return !interrupted(); });
+  return run::simulate(scene, options, recorder, [](const records::Progress&) { return !interrupted(); });
 }
 
 /// What was not foreseen for a case by its estimate ends as a lack of memory in this case, not as one of the machine.
@@ -79,14 +79,14 @@ void limit_memory(double bytes) {
   (void)::setrlimit(RLIMIT_DATA, &limit);
 }
 
-int status_of(const results::Summary& summary) {
-  return summary.status == results::RunStatus::ok ? exit_done : exit_failed;
+int status_of(const records::Summary& summary) {
+  return summary.status == records::RunStatus::ok ? exit_done : exit_failed;
 }
 
 int run_into_folder(const study::BatchCase& which, const CaseSettings& settings, const scene::Scene& scene,
                     const io::RunOrigin& origin, std::chrono::steady_clock::time_point start,
                     study::CaseReport& report) {
-  results::Summary summary;
+  records::Summary summary;
   io::RunDirectory directory(which.directory, std::string(version), origin);
   try {
     directory.open();
@@ -107,7 +107,7 @@ int run_into_folder(const study::BatchCase& which, const CaseSettings& settings,
 /// Results that would take more memory than runs of the usual size are written as they come, into a folder.
 bool has_large_results(const scene::Scene& scene) {
   constexpr double bytes_a_number = 20.0, most_bytes = 64e6, numbers_a_sensor = 6.0, numbers_a_node = 6.0;
-  const study::Estimate e = study::estimate_run(scene);
+  const run::Estimate e = run::estimate_run(scene);
   const double rows = e.steps / std::max(1, scene.output.stride);
   const double frames = scene.output.motion ? e.steps / std::max(1, scene.output.motion_stride) : 0.0;
   return bytes_a_number * (rows * (3.0 + numbers_a_sensor * static_cast<double>(scene.sensors.size())) +
@@ -124,7 +124,7 @@ io::RunStore& store_in(const std::filesystem::path& folder) {
 int run_into_store(const study::BatchCase& which, const CaseSettings& settings, const scene::Scene& scene,
                    const io::RunOrigin& origin, std::chrono::steady_clock::time_point start,
                    FolderAllowance& failed_folders, study::CaseReport& report) {
-  results::Summary summary;
+  records::Summary summary;
   io::RunInMemory run(std::string(version), origin);
   try {
     summary = simulate(scene, settings, start, run);
@@ -133,7 +133,7 @@ int run_into_store(const study::BatchCase& which, const CaseSettings& settings, 
     report.cause = cause_of(error);
     summary.scene = scene.name;
     run.end_as_failed(summary, cause_of(error));
-    summary.status = results::RunStatus::failed;
+    summary.status = records::RunStatus::failed;
   }
   const int status = status_of(summary);
   report.is_unwritten = true;  // until it is
@@ -155,7 +155,7 @@ int run_case_within(const study::BatchCase& which, const CaseSettings& settings,
     report.cause = first_problems(file);
     return exit_bad_input;
   }
-  report.cause = study::refusal(file.scene, settings.memory_limit);
+  report.cause = run::refusal(file.scene, settings.memory_limit);
   if (!report.cause.empty()) return exit_bad_input;
   const io::RunOrigin origin = origin_of(which.scene, file, which.overrides);
   switch (settings.kept_as(which)) {
@@ -169,7 +169,7 @@ int run_case_within(const study::BatchCase& which, const CaseSettings& settings,
       return run_into_folder(which, settings, file.scene, origin, start, report);
   }
   NoRecorder nothing;
-  const results::Summary summary = simulate(file.scene, settings, start, nothing);
+  const records::Summary summary = simulate(file.scene, settings, start, nothing);
   report.take(summary);
   return status_of(summary);
 }

@@ -11,7 +11,7 @@
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/read_study.hpp"
 #include "bough/io/run_store.hpp"
-#include "bough/study/estimate.hpp"
+#include "bough/run/estimate.hpp"
 #include "bough/study/journal.hpp"
 #include "case_process.hpp"
 #include "memory_limit.hpp"
@@ -97,7 +97,7 @@ std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, in
   std::vector<double> seconds;
   for (const study::BatchCase& c : cases) {
     const io::SceneFile file = source.read(c);
-    seconds.push_back(file.ok() ? study::estimate_run(file.scene).seconds() : 0.0);
+    seconds.push_back(file.ok() ? run::estimate_run(file.scene).seconds() : 0.0);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return seconds[a] > seconds[b]; });
   return order;

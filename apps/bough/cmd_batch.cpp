@@ -6,7 +6,7 @@
 
 #include "arguments.hpp"
 #include "bough/io/history.hpp"
-#include "bough/study/estimate.hpp"
+#include "bough/run/estimate.hpp"
 #include "case_run.hpp"
 #include "collect_run.hpp"
 #include "shard_run.hpp"

@@ -6,9 +6,9 @@
 
 #include "arguments.hpp"
 #include "bough/io/read_scene.hpp"
+#include "bough/lanes/instruction_set.hpp"
+#include "bough/run/simulate.hpp"
 #include "bough/schedule/threads.hpp"
-#include "bough/step/instruction_set.hpp"
-#include "bough/study/simulate.hpp"
 #include "bough/version.hpp"
 #include "terminal.hpp"
 
@@ -23,12 +23,12 @@ constexpr std::string_view falling_ball = R"({
   "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.0625}
 })";
 
-struct InMemory final : results::Recorder {
-  std::vector<results::HistoryRow> rows;
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow& row) override { rows.push_back(row); }
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+struct InMemory final : records::Recorder {
+  std::vector<records::HistoryRow> rows;
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow& row) override { rows.push_back(row); }
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 };
 
 #if defined(__x86_64__)
@@ -43,7 +43,7 @@ std::string processor_flags() {
 #endif
 
 std::string instruction_sets() {
-  const step::InstructionSet used = step::instruction_set();
+  const lanes::InstructionSet used = lanes::instruction_set();
   const std::string text =
       std::string(used.name) + ", " + std::to_string(used.register_doubles) + " doubles to a register";
 #if defined(__x86_64__)
@@ -68,14 +68,14 @@ bool test_run() {
   for (const io::Problem& problem : file.problems) std::cerr << problem.text() << "\n";
   if (!line(file.ok(), "a scene in memory is read")) return false;
   InMemory one, two;
-  const results::Summary summary = study::simulate(file.scene, {.threads = 1}, one);
-  (void)study::simulate(file.scene, {.threads = 2}, two);
-  bool good = line(summary.status == results::RunStatus::ok && !one.rows.empty(),
+  const records::Summary summary = run::simulate(file.scene, {.threads = 1}, one);
+  (void)run::simulate(file.scene, {.threads = 2}, two);
+  bool good = line(summary.status == records::RunStatus::ok && !one.rows.empty(),
                    "it is simulated" + (summary.cause.empty() ? "" : ": " + summary.cause));
   if (!good) return false;
   const double height = one.rows.back().values.at(2);
   good = line(std::abs(height + 4.0) < 1e-9, "a free fall ends where g t^2 / 2 says") && good;
-  const auto same = [](const results::HistoryRow& a, const results::HistoryRow& b) {
+  const auto same = [](const records::HistoryRow& a, const records::HistoryRow& b) {
     return a.values == b.values && a.time == b.time;
   };
   return line(std::equal(one.rows.begin(), one.rows.end(), two.rows.begin(), two.rows.end(), same),

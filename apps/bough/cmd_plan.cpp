@@ -10,7 +10,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/read_scene.hpp"
-#include "bough/study/outlook.hpp"
+#include "bough/run/outlook.hpp"
 #include "memory_limit.hpp"
 #include "result_text.hpp"
 #include "terminal.hpp"
@@ -30,9 +30,9 @@ std::string change_text(double with, double without, const char* less, const cha
   return rounded_text(std::abs(change), 2) + " % " + (change < 0.0 ? less : more);
 }
 
-std::string saving_text(const study::OutlookDecision& d, const study::Effort& now) {
+std::string saving_text(const run::OutlookDecision& d, const run::Effort& now) {
   if (!d.has_saving) return "";
-  const study::Effort& other = d.without;
+  const run::Effort& other = d.without;
   std::string text;
   if (other.unknowns != now.unknowns)
     text += std::to_string(now.unknowns) + " unknowns instead of " + std::to_string(other.unknowns) + ", ";
@@ -73,8 +73,8 @@ std::string mobility_text(const plan::Mobility& m) {
   return text;
 }
 
-std::string plan_text(const study::Outlook& o) {
-  const study::Effort& e = o.effort;
+std::string plan_text(const run::Outlook& o) {
+  const run::Effort& e = o.effort;
   std::string text = o.scene + (o.title.empty() ? "" : ": " + o.title) + "\n\n";
   text += std::to_string(o.nodes) + " nodes, " + std::to_string(o.elements) + " elements, " + std::to_string(o.joints) +
           " joints; moves " + o.motions + "\n";
@@ -94,7 +94,7 @@ std::string plan_text(const study::Outlook& o) {
   text += "memory, about " + bytes_text(static_cast<double>(o.process_bytes)) + ", of which " +
           bytes_text(static_cast<double>(e.memory_bytes)) + " for the scene\n\n";
   std::vector<std::vector<std::string>> rows{{"decision", "", "with it", "because"}};
-  for (const study::OutlookDecision& d : o.decisions)
+  for (const run::OutlookDecision& d : o.decisions)
     rows.push_back({d.decision.name,
                     d.decision.taken    ? "taken"
                     : d.decision.barred ? "barred"
@@ -105,7 +105,7 @@ std::string plan_text(const study::Outlook& o) {
   return text;
 }
 
-void write_effort(io::JsonText& json, const study::Effort& e) {
+void write_effort(io::JsonText& json, const run::Effort& e) {
   json.begin_object();
   json.member("unknowns", static_cast<long long>(e.unknowns));
   json.member("factor_flops", e.factor_flops);
@@ -146,7 +146,7 @@ void write_mobility(io::JsonText& json, const plan::Mobility& m) {
   json.end_object();
 }
 
-std::string plan_json(const study::Outlook& o, const std::vector<io::Problem>& hints) {
+std::string plan_json(const run::Outlook& o, const std::vector<io::Problem>& hints) {
   io::JsonText json;
   json.begin_object();
   json.member("scene", o.scene);
@@ -171,7 +171,7 @@ std::string plan_json(const study::Outlook& o, const std::vector<io::Problem>& h
   write_effort(json, o.effort);
   json.key("decisions");
   json.begin_array();
-  for (const study::OutlookDecision& d : o.decisions) {
+  for (const run::OutlookDecision& d : o.decisions) {
     json.begin_object();
     json.member("name", d.decision.name);
     json.member("taken", d.decision.taken);
@@ -206,7 +206,7 @@ int plan(const PlanArguments& arguments) {
   if (!file.ok()) return exit_bad_input;
   io::refuse_to_overwrite({arguments.scene}, {arguments.json});
   if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
-  const study::Outlook outlook = study::look_ahead(file.scene);
+  const run::Outlook outlook = run::look_ahead(file.scene);
   try {
     if (!arguments.json.empty()) io::write_file(arguments.json, plan_json(outlook, file.warnings));
   } catch (const std::exception& error) {

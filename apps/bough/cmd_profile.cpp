@@ -18,12 +18,12 @@ namespace bough::app {
 namespace {
 
 /// A profile looks at steps; it records nothing of the motion.
-class NoRecorder final : public results::Recorder {
+class NoRecorder final : public records::Recorder {
  public:
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 };
 
 }  // namespace
@@ -46,10 +46,10 @@ int profile(const ProfileArguments& arguments) {
   options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
   options.steps = arguments.steps;
   NoRecorder nobody;
-  results::Profile result;
+  records::Profile result;
   std::string pages;
   try {
-    result = study::profile(file.scene, options, nobody, [&bar](const results::Progress& progress) {
+    result = study::profile(file.scene, options, nobody, [&bar](const records::Progress& progress) {
       bar.show(progress);
       return !interrupted();
     });

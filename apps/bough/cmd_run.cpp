@@ -6,7 +6,7 @@
 #include "arguments.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/run_directory.hpp"
-#include "bough/study/simulate.hpp"
+#include "bough/run/simulate.hpp"
 #include "bough/version.hpp"
 #include "memory_limit.hpp"
 #include "result_text.hpp"
@@ -18,19 +18,19 @@ namespace {
 
 /// Runs the scene; what cannot be written to its end is kept as far as it goes. Nothing, after a message, where there
 /// are no results.
-std::optional<results::Summary> simulate_into(io::RunDirectory& directory, const io::SceneFile& file,
+std::optional<records::Summary> simulate_into(io::RunDirectory& directory, const io::SceneFile& file,
                                               const RunArguments& arguments) {
   catch_interrupts();
   ProgressBar bar(arguments.quiet);
-  const auto on_step = [&bar](const results::Progress& progress) {
+  const auto on_step = [&bar](const records::Progress& progress) {
     bar.show(progress);
     return !interrupted();
   };
-  study::SimulateOptions options;
+  run::SimulateOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
-  results::Summary summary;
+  records::Summary summary;
   try {
-    summary = study::simulate(file.scene, options, directory, on_step);
+    summary = run::simulate(file.scene, options, directory, on_step);
   } catch (const std::exception& error) {
     bar.clear();
     std::cerr << "bough: " << cause_of(error) << "\n";
@@ -53,15 +53,15 @@ int run(const RunArguments& arguments) {
   io::RunDirectory directory(arguments.out.empty() ? std::filesystem::path(file.scene.name + ".out") : arguments.out,
                              std::string(version), origin_of(arguments.scene, file, arguments.overrides));
   directory.open();
-  const std::optional<results::Summary> summary = simulate_into(directory, file, arguments);
+  const std::optional<records::Summary> summary = simulate_into(directory, file, arguments);
   if (!summary) return exit_failed;
   if (!arguments.quiet)
     std::cout << result_text(*summary, directory.directory().string(), directory.files()) << std::flush;
-  if (summary->status != results::RunStatus::ok)
+  if (summary->status != records::RunStatus::ok)
     std::cerr << "bough: " << file.scene.name << ": " << summary->cause << "\n";
   if (const std::string why = directory.why_beside(); !why.empty())
     std::cerr << "bough: " << why << "; the results of this run stand in " << directory.directory().string() << "\n";
-  if (summary->status != results::RunStatus::ok || !directory.why_beside().empty()) return exit_failed;
+  if (summary->status != records::RunStatus::ok || !directory.why_beside().empty()) return exit_failed;
   const bool all_hold = std::all_of(summary->expected.begin(), summary->expected.end(),
                                     [](const auto& figure) { return figure.holds || !figure.reached; });
   return arguments.check_expected && !all_hold ? exit_failed : exit_done;

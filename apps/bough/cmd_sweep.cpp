@@ -6,8 +6,8 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/read_sweep.hpp"
+#include "bough/run/estimate.hpp"
 #include "bough/study/cases.hpp"
-#include "bough/study/estimate.hpp"
 #include "case_run.hpp"
 #include "result_text.hpp"
 #include "shard_run.hpp"
@@ -50,7 +50,7 @@ int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out,
     for (const auto& [name, value] : cases[i].inputs) row.push_back(value);
     const io::SceneFile file = source.read(cases[i]);
     if (file.ok()) {
-      const study::Estimate e = study::estimate_run(file.scene);
+      const run::Estimate e = run::estimate_run(file.scene);
       seconds += e.seconds();
       most_bytes = std::max(most_bytes, e.memory_bytes);
       row.insert(row.end(), {io::rounded_text(e.unknowns, 6), io::rounded_text(e.steps, 6),

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "bough/io/number_text.hpp"
-#include "bough/study/estimate.hpp"
+#include "bough/run/estimate.hpp"
 
 namespace bough::app {
 namespace {
@@ -69,7 +69,7 @@ bool read_memory_size(const std::string& text, double& bytes) {
 }
 
 bool refuse_for_memory(const std::filesystem::path& file, const scene::Scene& scene, double limit) {
-  const std::string why = study::refusal(scene, limit > 0.0 ? limit : available_memory());
+  const std::string why = run::refusal(scene, limit > 0.0 ? limit : available_memory());
   if (why.empty()) return false;
   std::cerr << file.string() << ": " << why << "\n";
   return true;

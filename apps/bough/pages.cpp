@@ -11,14 +11,14 @@ namespace bough::app {
 
 bool can_draw(std::string_view) { return true; }
 
-std::string write_profile_page(io::OutputFolder& folder, const std::string& name, const results::Profile& profile,
+std::string write_profile_page(io::OutputFolder& folder, const std::string& name, const records::Profile& profile,
                                const std::string& data) {
   folder.write(name, report::profile_page(profile, data));
   return name + " ";
 }
 
 std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
-                              const std::vector<study::StressCase>& cases, const study::StressOptions& options) {
+                              const std::vector<stress::StressCase>& cases, const stress::StressOptions& options) {
   folder.write(name, report::stress_page(cases, options));
   return name;
 }

@@ -10,9 +10,9 @@
 
 #include "bough/io/output_folder.hpp"
 #include "bough/io/split_table.hpp"
-#include "bough/results/profile.hpp"
+#include "bough/records/profile.hpp"
+#include "bough/stress/stress.hpp"
 #include "bough/study/batch.hpp"
-#include "bough/study/stress.hpp"
 #include "bough/study/sweep.hpp"
 
 namespace bough::app {
@@ -22,12 +22,12 @@ bool can_draw(std::string_view what);
 
 /// The page of a profile whose data lie in the file `data`; returns the names of the files written, each with a blank
 /// behind it.
-std::string write_profile_page(io::OutputFolder& folder, const std::string& name, const results::Profile& profile,
+std::string write_profile_page(io::OutputFolder& folder, const std::string& name, const records::Profile& profile,
                                const std::string& data);
 
 /// The page of the table of stiff and extreme cases; returns its name where it was written, or an empty one.
 std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
-                              const std::vector<study::StressCase>& cases, const study::StressOptions& options);
+                              const std::vector<stress::StressCase>& cases, const stress::StressOptions& options);
 
 /// The page of a batch or sweep, of `num_cases` cases; does nothing without reports.
 void write_batch_page(const io::OutputCollection& folder, const std::vector<study::CaseResult>& results,

@@ -16,12 +16,12 @@ int view(const ViewArguments&) {
   return exit_bad_input;
 }
 
-std::string write_profile_page(io::OutputFolder&, const std::string&, const results::Profile&, const std::string&) {
+std::string write_profile_page(io::OutputFolder&, const std::string&, const records::Profile&, const std::string&) {
   return {};
 }
 
-std::string write_stress_page(io::OutputFolder&, const std::string&, const std::vector<study::StressCase>&,
-                              const study::StressOptions&) {
+std::string write_stress_page(io::OutputFolder&, const std::string&, const std::vector<stress::StressCase>&,
+                              const stress::StressOptions&) {
   return {};
 }
 

@@ -15,13 +15,13 @@ std::string count_text(long count, const std::string& what) {
 }
 
 /// Balances over time are those of dynamics; a static run has none.
-bool is_static(const results::Summary& summary) {
+bool is_static(const records::Summary& summary) {
   return std::any_of(summary.options.begin(), summary.options.end(), [](const auto& option) {
     return option.first == "analysis/kind" && option.second == "\"static\"";
   });
 }
 
-std::string balances_text(const results::Checks& checks) {
+std::string balances_text(const records::Checks& checks) {
   std::string text = "  energy balance     " + rounded_text(checks.energy_balance, 3) + " J";
   if (checks.energy_scale > 0.0 && std::isfinite(checks.energy_balance)) {
     text += " (" + rounded_text(checks.energy_balance / checks.energy_scale, 2) + " of the largest energy)";
@@ -32,8 +32,8 @@ std::string balances_text(const results::Checks& checks) {
   return text + "  momentum balance   " + rounded_text(checks.momentum_balance, 3) + " kg m/s\n";
 }
 
-std::string checks_text(const results::Summary& summary) {
-  const results::Checks& checks = summary.checks;
+std::string checks_text(const records::Summary& summary) {
+  const records::Checks& checks = summary.checks;
   std::string text;
   if (checks.evaluated) {
     if (!is_static(summary)) text += balances_text(checks);
@@ -47,9 +47,9 @@ std::string checks_text(const results::Summary& summary) {
   return text;
 }
 
-std::string expected_text(const std::vector<results::ExpectedResult>& expected) {
+std::string expected_text(const std::vector<records::ExpectedResult>& expected) {
   std::vector<std::vector<std::string>> rows = {{"  expected", "value", "reference", "tolerance", "", "taken"}};
-  for (const results::ExpectedResult& figure : expected)
+  for (const records::ExpectedResult& figure : expected)
     rows.push_back({"  " + figure.name, figure.reached && figure.has_value ? rounded_text(figure.value, 9) : "-",
                     rounded_text(figure.reference, 9), rounded_text(figure.tolerance, 3), figure.verdict(),
                     figure.taken});
@@ -75,10 +75,10 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-std::string result_text(const results::Summary& summary, const std::string& directory,
+std::string result_text(const records::Summary& summary, const std::string& directory,
                         const std::vector<std::string>& files) {
-  const char* words = summary.status == results::RunStatus::ok       ? "done"
-                      : summary.status == results::RunStatus::failed ? "FAILED"
+  const char* words = summary.status == records::RunStatus::ok       ? "done"
+                      : summary.status == records::RunStatus::failed ? "FAILED"
                                                                      : "stopped";
   std::string text = summary.scene + ": " + words + "\n";
   if (!summary.cause.empty()) text += "  cause: " + summary.cause + "\n";
@@ -87,13 +87,13 @@ std::string result_text(const results::Summary& summary, const std::string& dire
           count_text(summary.steps.factorizations, "factorization") + " in " + rounded_text(summary.times.total, 3) +
           " s with " + count_text(summary.threads, "thread") + "\n";
   text += checks_text(summary);
-  for (const results::Doubt& doubt : summary.doubts) text += "  DOUBT (" + doubt.about + "): " + doubt.text + "\n";
+  for (const records::Doubt& doubt : summary.doubts) text += "  DOUBT (" + doubt.about + "): " + doubt.text + "\n";
   if (!summary.not_judged.empty()) text += "  not judged: " + summary.not_judged + "\n";
   for (const std::string& note : summary.notes) text += "  note: " + note + "\n";
   if (!summary.expected.empty()) text += expected_text(summary.expected);
   if (!summary.measures.empty()) {
     std::vector<std::vector<std::string>> rows;
-    for (const results::MeasureResult& m : summary.measures)
+    for (const records::MeasureResult& m : summary.measures)
       rows.push_back({"  " + m.name, m.value ? rounded_text(*m.value, 9) : "none"});
     text += table_text(rows);
   }

@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::app {
 
 /// Status, steps, checks in words, expected figures, where the files lie.
-std::string result_text(const results::Summary& summary, const std::string& directory,
+std::string result_text(const records::Summary& summary, const std::string& directory,
                         const std::vector<std::string>& files);
 
 /// Columns padded to equal widths, two spaces apart. Rows may be of different lengths; the last cell of a row may run on.

@@ -10,7 +10,7 @@
 #include "bough/io/digest.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
-#include "bough/study/estimate.hpp"
+#include "bough/run/estimate.hpp"
 #include "bough/study/job_files.hpp"
 #include "terminal.hpp"
 
@@ -51,7 +51,7 @@ fs::path folder_of(const CaseArguments& arguments, const study::Shard& shard) {
 
 double work_of(const io::SceneFile& file) {
   if (!file.ok()) return 0.0;
-  const study::Estimate e = study::estimate_run(file.scene);
+  const run::Estimate e = run::estimate_run(file.scene);
   const double work = e.unknowns * e.steps;
   return std::isfinite(work) ? work : 0.0;
 }
@@ -91,9 +91,9 @@ void take_shard(const study::Shard& shard, const CaseSource& source, WholeBatch&
 namespace {
 
 /// Seconds of all cases and memory of the largest, from at most a thousand of them.
-study::Estimate predicted(const std::vector<study::BatchCase>& cases, const CaseSource& source, double& seconds) {
+run::Estimate predicted(const std::vector<study::BatchCase>& cases, const CaseSource& source, double& seconds) {
   constexpr std::size_t most_looks = 1000;
-  study::Estimate largest;
+  run::Estimate largest;
   std::size_t looked_at = 0;
   const std::size_t every = (cases.size() + most_looks - 1) / most_looks;
   seconds = 0.0;
@@ -101,7 +101,7 @@ study::Estimate predicted(const std::vector<study::BatchCase>& cases, const Case
     ++looked_at;
     const io::SceneFile file = source.read(cases[i]);
     if (!file.ok()) continue;
-    const study::Estimate e = study::estimate_run(file.scene);
+    const run::Estimate e = run::estimate_run(file.scene);
     seconds += e.seconds();
     if (e.memory_bytes > largest.memory_bytes) largest = e;
   }
@@ -156,7 +156,7 @@ int export_jobs(const WholeBatch& batch, const CaseArguments& arguments, const C
   constexpr double cases_a_task = 300.0, seconds_a_task = 3600.0;
   constexpr double program_bytes = 256e6, spare = 1.5;  // of what a task asks for, since estimates are rough
   double seconds = 0.0;
-  const study::Estimate largest = predicted(batch.cases, source, seconds);
+  const run::Estimate largest = predicted(batch.cases, source, seconds);
   const auto cases = static_cast<double>(batch.cases.size());
   const double count = arguments.tasks > 0 ? arguments.tasks
                                            : std::ceil(std::max({1.0, cases / cases_a_task, seconds / seconds_a_task}));

@@ -32,7 +32,7 @@ std::string duration_text(double seconds) {
   return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
 }
 
-std::string words(const results::Progress& progress, double remaining) {
+std::string words(const records::Progress& progress, double remaining) {
   std::string text = "t = " + io::rounded_text(progress.time, 4) + " of " + io::rounded_text(progress.end_time, 4) +
                      ", h = " + io::rounded_text(progress.step_size, 3) + ", " + std::to_string(progress.iterations) +
                      " iterations";
@@ -69,7 +69,7 @@ std::string cause_of(const std::exception& error) {
 
 ProgressBar::ProgressBar(bool quiet) : quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) != 0) {}
 
-void ProgressBar::show(const results::Progress& progress) {
+void ProgressBar::show(const records::Progress& progress) {
   if (quiet_) return;
   constexpr std::chrono::milliseconds redraw{100};
   constexpr std::chrono::seconds next_line{2};
@@ -88,7 +88,7 @@ void ProgressBar::show(const results::Progress& progress) {
   }
 }
 
-void ProgressBar::show_bar(const results::Progress& progress, double part, double remaining) {
+void ProgressBar::show_bar(const records::Progress& progress, double part, double remaining) {
   constexpr int width = 24;
   const int filled = static_cast<int>(part * width);
   std::string line = std::string(line_start) + "[" + std::string(static_cast<std::size_t>(filled), '#') +

@@ -7,7 +7,7 @@
 #include "bough/io/output_folder.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/summary.hpp"
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::app {
 
@@ -28,12 +28,12 @@ std::string cause_of(const std::exception& error);
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);
-  void show(const results::Progress& progress);
+  void show(const records::Progress& progress);
   void clear();  ///< ends the bar's line; call it before printing anything else
 
  private:
   using Clock = std::chrono::steady_clock;
-  void show_bar(const results::Progress& progress, double part, double remaining);
+  void show_bar(const records::Progress& progress, double part, double remaining);
 
   bool quiet_, on_terminal_;
   Clock::time_point start_ = Clock::now(), shown_at_ = start_;

@@ -22,8 +22,8 @@ using io::amount_text;
 using io::bytes_text;
 using io::rounded_text;
 using io::seconds_text;
-using results::Profile;
-using results::SubdomainProfile;
+using records::Profile;
+using records::SubdomainProfile;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -186,11 +186,11 @@ std::string speed_text(const Profile& p) {
   if (p.speed.empty()) return {};
   std::vector<std::vector<std::string>> rows{
       {"  threads", "solution", "measured", "speed-up", "measured", "step", "measured"}};
-  const results::ThreadsProfile& one = p.speed.front();
+  const records::ThreadsProfile& one = p.speed.front();
   const auto ratio = [](double a, double b) {
     return std::isfinite(a / b) ? rounded_text(a / b, 3) : std::string("-");
   };
-  for (const results::ThreadsProfile& t : p.speed)
+  for (const records::ThreadsProfile& t : p.speed)
     rows.push_back({"  " + std::to_string(t.threads), seconds_text(t.predicted), seconds_text(t.measured),
                     ratio(one.predicted, t.predicted), ratio(one.measured, t.measured), seconds_text(t.predicted_step),
                     seconds_text(t.measured_step)});
@@ -202,7 +202,7 @@ std::string alternatives_text(const Profile& p) {
   if (p.alternatives.size() < 2) return {};
   std::vector<std::vector<std::string>> rows{
       {"  leaf_size", "depth", "sub-domains", "levels", "flops", "1 thread", std::to_string(p.threads) + " threads"}};
-  for (const results::Alternative& a : p.alternatives) {
+  for (const records::Alternative& a : p.alternatives) {
     if (rows.size() > 6) break;
     rows.push_back({"  " + (a.leaf_size == 0 ? "chosen" : std::to_string(a.leaf_size)),
                     a.depth < 0 ? "chosen" : std::to_string(a.depth), std::to_string(a.num_subdomains),
@@ -244,13 +244,13 @@ std::string tree_text(const Profile& p, const TextStyle& style, int most_rows) {
                      " steps, " + std::to_string(p.factorizations) + " factorizations, " + std::to_string(p.threads) +
                      (p.threads == 1 ? " thread\n" : " threads\n");
   text += TreeText(p, style, most_rows).text();
-  const results::StepProfile& s = p.step;
+  const records::StepProfile& s = p.step;
   text += "Step " + seconds_text(s.total) + ": evaluate " + seconds_text(s.evaluate) + ", factor " +
           seconds_text(s.factor) + ", solve " + seconds_text(s.forward + s.backward) + ", check " +
           seconds_text(s.residual) + ", other loops " + seconds_text(s.other_chunks) + ", rest " +
           seconds_text(s.rest) + "\n";
   double worst = std::nan("");
-  for (const results::LevelProfile& l : p.levels)
+  for (const records::LevelProfile& l : p.levels)
     if (!std::isnan(l.condition_most)) worst = std::isnan(worst) ? l.condition_most : std::max(worst, l.condition_most);
   if (!std::isnan(worst))
     text += "Interfaces: condition up to " + rounded_text(worst, 3) + ", digits lost " +

@@ -2,7 +2,7 @@
 /// The profile of a tree for the terminal.
 #include <string>
 
-#include "bough/results/profile.hpp"
+#include "bough/records/profile.hpp"
 
 namespace bough::app {
 
@@ -18,6 +18,6 @@ TextStyle style_of_terminal();
 
 /// The hierarchy from the root down, the costliest branches opened up to `most_rows` rows, every row with unknowns, interface, time and share; equal
 /// leaves go together. Then the sums: step, threads, memory, other trees.
-std::string tree_text(const results::Profile& profile, const TextStyle& style, int most_rows = 40);
+std::string tree_text(const records::Profile& profile, const TextStyle& style, int most_rows = 40);
 
 }  // namespace bough::app

@@ -12,7 +12,7 @@
 #include "../support/arguments.hpp"
 #include "../support/context.hpp"
 #include "../support/scenes.hpp"
-#include "bough/study/simulate.hpp"
+#include "bough/run/simulate.hpp"
 
 namespace {
 
@@ -114,12 +114,12 @@ std::vector<LeanCase> make_cases() {
           {"lanes", "chain_128", 128, 50, make_chain}};
 }
 
-class NoRecorder final : public results::Recorder {
+class NoRecorder final : public records::Recorder {
  public:
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 };
 
 bool is_of_factors(const LeanCase& c) { return c.decision == "symmetric" || c.decision == "definite"; }
@@ -137,13 +137,13 @@ scene::Scene make_scene(const LeanCase& c, bool barred, bool checks) {
 
 void run_case(benchmark::State& state, const LeanCase& c, bool barred, bool checks, int threads) {
   const scene::Scene s = make_scene(c, barred, checks);
-  study::SimulateOptions options;
+  run::SimulateOptions options;
   options.threads = threads;
   NoRecorder recorder;
-  results::Summary end;
+  records::Summary end;
   double first_factor = 0.0;
   long first_factorizations = 0;
-  options.before_step = [&](step::System& system, const step::State&, const study::BeforeStep& attempt) {
+  options.before_step = [&](step::System& system, const step::State&, const run::BeforeStep& attempt) {
     if (attempt.number == 2) {
       first_factor = system.counts().factor;
       first_factorizations = system.counts().factorizations;
@@ -154,13 +154,13 @@ void run_case(benchmark::State& state, const LeanCase& c, bool barred, bool chec
   while (state.KeepRunningBatch(c.steps)) {  // a run is that many iterations: the least time is one of all its steps
     double seconds = 0.0;
     std::chrono::steady_clock::time_point start;
-    end = study::simulate(s, options, recorder, [&](const results::Progress& p) {
+    end = run::simulate(s, options, recorder, [&](const records::Progress& p) {
       const auto now = std::chrono::steady_clock::now();
       if (p.step == 1) start = now;
       seconds = std::chrono::duration<double>(now - start).count();
       return true;
     });
-    if (end.status != results::RunStatus::ok || end.steps.rejected > 0) {
+    if (end.status != records::RunStatus::ok || end.steps.rejected > 0) {
       state.SkipWithError(("the run failed or rejected steps: " + end.cause).c_str());
       return;
     }

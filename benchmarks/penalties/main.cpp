@@ -12,11 +12,11 @@
 
 #include "../support/scenes.hpp"
 #include "bough/io/read_scene.hpp"
+#include "bough/run/simulate.hpp"
 #include "bough/schedule/serial.hpp"
 #include "bough/solve/dual.hpp"
 #include "bough/solve/hierarchical.hpp"
 #include "bough/step/advance.hpp"
-#include "bough/study/simulate.hpp"
 
 namespace {
 
@@ -32,12 +32,12 @@ struct Case {
   scene::Scene scene;
 };
 
-class NoRecorder final : public results::Recorder {
+class NoRecorder final : public records::Recorder {
  public:
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 };
 
 /// Element matrices of the first Newton iteration of the first step.
@@ -48,8 +48,8 @@ struct Matrices {
 
 Matrices make_matrices(const scene::Scene& scene) {
   Matrices m;
-  study::SimulateOptions options;
-  options.before_step = [&](step::System& system, const step::State& start, const study::BeforeStep& attempt) {
+  run::SimulateOptions options;
+  options.before_step = [&](step::System& system, const step::State& start, const run::BeforeStep& attempt) {
     step::State state = start;
     elements::Slopes slopes;
     std::optional<step::Trouble> trouble;
@@ -72,7 +72,7 @@ Matrices make_matrices(const scene::Scene& scene) {
     return false;
   };
   NoRecorder nobody;
-  (void)study::simulate(scene, options, nobody);
+  (void)run::simulate(scene, options, nobody);
   return m;
 }
 

@@ -15,8 +15,8 @@
 #include "../support/arguments.hpp"
 #include "../support/context.hpp"
 #include "../support/scenes.hpp"
+#include "bough/run/simulate.hpp"
 #include "bough/solve/visits.hpp"
-#include "bough/study/simulate.hpp"
 
 namespace {
 
@@ -49,12 +49,12 @@ std::vector<StepCase> make_step_cases(bool scaling) {
   return cases;
 }
 
-class NoRecorder final : public results::Recorder {
+class NoRecorder final : public records::Recorder {
  public:
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 };
 
 scene::Scene make_scene(const StepCase& c, scene::SolverKind kind, int steps) {
@@ -71,10 +71,10 @@ struct Loads {
   double factor_flops = 0.0, factor_bytes = 0.0;
 };
 
-results::Summary simulate(const scene::Scene& s, int threads, const study::ProgressCallback& progress = {},
+records::Summary simulate(const scene::Scene& s, int threads, const run::ProgressCallback& progress = {},
                           Loads* loads = nullptr) {
   NoRecorder recorder;
-  study::SimulateOptions options;
+  run::SimulateOptions options;
   options.threads = threads;
   options.after_run = [loads](step::System& system, const step::State&) {
     if (loads == nullptr || system.linear().solver().hierarchical() == nullptr) return;
@@ -83,35 +83,35 @@ results::Summary simulate(const scene::Scene& s, int threads, const study::Progr
         system.plan().graph, system.linear().tree(), step::make_solve_options(system.plan(), scene::Solver{}));
     for (const solve::VisitShape& v : shapes.visits) loads->factor_bytes += static_cast<double>(v.factor_bytes);
   };
-  return study::simulate(s, options, recorder, progress);
+  return run::simulate(s, options, recorder, progress);
 }
 
 /// Times the steps after the first one of runs of steps + 1; where a step's time goes comes from the difference to a run of one step, which
 /// `start` keeps over the repetitions.
 void run_steps(benchmark::State& state, const StepCase& c, scene::SolverKind kind, int threads,
-               std::optional<results::Summary>& start) {
+               std::optional<records::Summary>& start) {
   const scene::Scene one = make_scene(c, kind, 1), all = make_scene(c, kind, c.steps + 1);
-  results::Summary end;
+  records::Summary end;
   Loads loads;
   while (state.KeepRunningBatch(c.steps)) {
     state.PauseTiming();
     if (!start) start = simulate(one, threads);
     end = simulate(
         all, threads,
-        [&](const results::Progress& p) {
+        [&](const records::Progress& p) {
           if (p.step == 1) state.ResumeTiming();
           if (p.step == c.steps + 1) state.PauseTiming();
           return true;
         },
         &loads);
     state.ResumeTiming();
-    if (start->status != results::RunStatus::ok || end.status != results::RunStatus::ok || end.steps.rejected > 0) {
+    if (start->status != records::RunStatus::ok || end.status != records::RunStatus::ok || end.steps.rejected > 0) {
       state.SkipWithError(("the run failed or rejected steps: " + end.cause).c_str());
       return;
     }
   }
   const auto per_step = [&](auto of) { return static_cast<double>(of(end) - of(*start)) / c.steps; };
-  using S = results::Summary;
+  using S = records::Summary;
   state.counters["evaluate_ms"] = 1e3 * per_step([](const S& s) { return s.times.assemble; });
   state.counters["factor_ms"] = 1e3 * per_step([](const S& s) { return s.times.factor; });
   state.counters["solve_ms"] = 1e3 * per_step([](const S& s) { return s.times.solve; });
@@ -131,7 +131,7 @@ void run_steps(benchmark::State& state, const StepCase& c, scene::SolverKind kin
 
 void add_step_row(const std::string& solver, const StepCase& c, scene::SolverKind kind, int threads) {
   benchmark::RegisterBenchmark((solver + "/" + c.name + "/threads:" + std::to_string(threads)).c_str(),
-                               [&c, kind, threads, start = std::optional<results::Summary>()](
+                               [&c, kind, threads, start = std::optional<records::Summary>()](
                                    benchmark::State& state) mutable { run_steps(state, c, kind, threads, start); })
       ->UseRealTime()
       ->Unit(benchmark::kMillisecond);

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <dlfcn.h>
 
-#include "bough/step/instruction_set.hpp"
+#include "bough/lanes/instruction_set.hpp"
 #include "bough/version.hpp"
 
 namespace bough::bench {
@@ -42,7 +42,7 @@ void add_context() {
   benchmark::AddCustomContext("commit", std::string(commit));
   benchmark::AddCustomContext("compiler", std::string(compiler));
   benchmark::AddCustomContext("flags", std::string(compiler_flags));
-  benchmark::AddCustomContext("instruction_set", std::string(step::instruction_set().name));
+  benchmark::AddCustomContext("instruction_set", std::string(lanes::instruction_set().name));
   benchmark::AddCustomContext("blas", describe_blas());
 }
 

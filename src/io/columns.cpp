@@ -54,9 +54,9 @@ std::string title_of(const ColumnGroup& group) {
   return group.word.empty() ? group.sensor : group.sensor + ", " + group.word;
 }
 
-std::string columns_text(const results::HistoryHeader& header) {
+std::string columns_text(const records::HistoryHeader& header) {
   JsonText json;
-  const auto column = [&](const std::string& name, const results::HistoryHeader::About& about) {
+  const auto column = [&](const std::string& name, const records::HistoryHeader::About& about) {
     json.begin_object();
     json.member("name", name);
     json.member("unit", about.unit);
@@ -71,13 +71,13 @@ std::string columns_text(const results::HistoryHeader& header) {
   column("step_size", {header.runs_over_load ? "" : "s", "step_size", ""});
   column("iterations", {"", "iterations", ""});
   for (std::size_t k = 0; k < header.columns.size(); ++k)
-    column(header.columns[k], k < header.about.size() ? header.about[k] : results::HistoryHeader::About{});
+    column(header.columns[k], k < header.about.size() ? header.about[k] : records::HistoryHeader::About{});
   json.end_array();
   json.end_object();
   return json.text();
 }
 
-void read_columns(const std::filesystem::path& path, results::HistoryHeader& header) {
+void read_columns(const std::filesystem::path& path, records::HistoryHeader& header) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return;
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -86,7 +86,7 @@ void read_columns(const std::filesystem::path& path, results::HistoryHeader& hea
   const JsonValue* list = root && faults.empty() && root->is(JsonKind::object) ? root->find("columns") : nullptr;
   constexpr std::size_t before = 3;  // time, step_size, iterations
   bool good = list != nullptr && list->is(JsonKind::array) && list->items.size() == header.columns.size() + before;
-  std::vector<results::HistoryHeader::About> about;
+  std::vector<records::HistoryHeader::About> about;
   for (std::size_t k = before; good && k < list->items.size(); ++k) {
     const JsonValue& item = list->items[k];
     const auto member = [&](const char* key) {

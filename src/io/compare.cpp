@@ -23,7 +23,7 @@ struct Bounds {
 template <class ValueOf>
 Bounds bounds_of(const History& history, const ValueOf& value_of) {
   double low = std::numeric_limits<double>::max(), high = -low;
-  for (const results::HistoryRow& row : history.rows) {
+  for (const records::HistoryRow& row : history.rows) {
     const double value = value_of(row);
     if (!std::isfinite(value)) continue;
     low = std::min(low, value);
@@ -64,7 +64,7 @@ std::vector<Bounds> bounds_by_group(const History& a) {
   for (const ColumnGroup& group : group_columns(a.header.columns)) {
     Bounds widest;
     for (const std::size_t c : group.columns) {
-      const Bounds own = bounds_of(a, [c](const results::HistoryRow& row) { return row.values[c]; });
+      const Bounds own = bounds_of(a, [c](const records::HistoryRow& row) { return row.values[c]; });
       widest.range = std::max(widest.range, own.range);
       widest.magnitude = std::max(widest.magnitude, own.magnitude);
     }
@@ -86,10 +86,10 @@ Comparison compare_histories(const History& a, const History& b, const CompareOp
     comparison.columns.push_back(compare_column(name, a, b, bounds_of(a, value_of), options, value_of, value_of));
     comparison.columns.back().is_judged = is_judged;
   };
-  compare_fixed("time", true, [](const results::HistoryRow& row) { return row.time; });
-  compare_fixed("step_size", false, [](const results::HistoryRow& row) { return row.step_size; });
+  compare_fixed("time", true, [](const records::HistoryRow& row) { return row.time; });
+  compare_fixed("step_size", false, [](const records::HistoryRow& row) { return row.step_size; });
   compare_fixed("iterations", false,
-                [](const results::HistoryRow& row) { return static_cast<double>(row.iterations); });
+                [](const records::HistoryRow& row) { return static_cast<double>(row.iterations); });
 
   const std::vector<Bounds> bounds = bounds_by_group(a);
   for (std::size_t c = 0; c < a.header.columns.size(); ++c) {
@@ -100,8 +100,8 @@ Comparison compare_histories(const History& a, const History& b, const CompareOp
       continue;
     }
     comparison.columns.push_back(compare_column(
-        name, a, b, bounds[c], options, [c](const results::HistoryRow& row) { return row.values[c]; },
-        [d](const results::HistoryRow& row) { return row.values[d]; }));
+        name, a, b, bounds[c], options, [c](const records::HistoryRow& row) { return row.values[c]; },
+        [d](const records::HistoryRow& row) { return row.values[d]; }));
   }
   for (const std::string& name : b.header.columns)
     if (index_of(a.header.columns, name) == absent) comparison.problems.push_back("column " + name + " is only in B");

@@ -15,7 +15,7 @@ constexpr std::chrono::milliseconds flush_interval{500};
   throw std::runtime_error(path.string() + ":" + std::to_string(line) + ": " + what);
 }
 
-results::HistoryHeader read_header(const std::filesystem::path& path, std::string_view line) {
+records::HistoryHeader read_header(const std::filesystem::path& path, std::string_view line) {
   std::vector<std::string> fields;
   bool good = split_csv_line(line, fields) && fields.size() >= 3;
   for (std::size_t k = 0; good && k < 3; ++k) good = fields[k] == fixed_columns[k];
@@ -23,9 +23,9 @@ results::HistoryHeader read_header(const std::filesystem::path& path, std::strin
   return {{fields.begin() + 3, fields.end()}};
 }
 
-results::HistoryRow read_row(const std::filesystem::path& path, std::size_t number, std::string_view line,
+records::HistoryRow read_row(const std::filesystem::path& path, std::size_t number, std::string_view line,
                              std::size_t num_columns) {
-  results::HistoryRow row;
+  records::HistoryRow row;
   row.values.reserve(num_columns);
   std::size_t field = 0;
   while (true) {
@@ -83,13 +83,13 @@ bool split_csv_line(std::string_view line, std::vector<std::string>& fields) {
   return !quoted;
 }
 
-std::string history_head(const results::HistoryHeader& header) {
+std::string history_head(const records::HistoryHeader& header) {
   std::string line = "time,step_size,iterations";
   for (const std::string& column : header.columns) line += ',' + csv_field(column);
   return line + '\n';
 }
 
-void append_history_row(std::string& text, const results::HistoryRow& row) {
+void append_history_row(std::string& text, const records::HistoryRow& row) {
   append_number(text, row.time);
   text += ',';
   append_number(text, row.step_size);
@@ -102,13 +102,13 @@ void append_history_row(std::string& text, const results::HistoryRow& row) {
   text += '\n';
 }
 
-HistoryWriter::HistoryWriter(const std::filesystem::path& path, const results::HistoryHeader& header)
+HistoryWriter::HistoryWriter(const std::filesystem::path& path, const records::HistoryHeader& header)
     : file_(path), num_columns_(header.columns.size()), flushed_at_(std::chrono::steady_clock::now()) {
   file_.write(history_head(header));
   file_.flush();
 }
 
-void HistoryWriter::row(const results::HistoryRow& row) {
+void HistoryWriter::row(const records::HistoryRow& row) {
   if (row.values.size() != num_columns_) throw std::logic_error("HistoryWriter: a row must have one value per column");
   line_.clear();
   append_history_row(line_, row);

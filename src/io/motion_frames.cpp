@@ -51,13 +51,13 @@ void append_names(std::string& json, const char* key, const std::vector<Part>& l
   append_list(json, list, [&](std::size_t k) { json += json_string(list[k].name); });
 }
 
-std::size_t frame_bytes_of(const results::MotionFrame& f) {
+std::size_t frame_bytes_of(const records::MotionFrame& f) {
   std::size_t floats = 9 * f.bodies.size() + 9 * f.links.size() + 6 * f.frames.size() + 9 * f.arrows.size();
-  for (const results::Curve& c : f.curves) floats += 21 * c.points.size();
+  for (const records::Curve& c : f.curves) floats += 21 * c.points.size();
   return sizeof(double) + sizeof(float) * floats;
 }
 
-std::string header_of(const results::MotionParts& parts, const results::MotionFrame& f) {
+std::string header_of(const records::MotionParts& parts, const records::MotionFrame& f) {
   const auto number = [](auto n) { return std::to_string(n); };
   std::string json =
       std::string("{\"format\":\"") + format_name + "\",\"frame_bytes\":" + number(frame_bytes_of(f)) + ",\"curves\":";
@@ -124,39 +124,39 @@ void put_turn(std::string& bytes, const double* now, const double* start) {
   put<float>(bytes, r.v, 3);
 }
 
-std::string start_of(const results::MotionFrame& f) {
+std::string start_of(const records::MotionFrame& f) {
   std::string bytes;
-  for (const results::Curve& curve : f.curves)
-    for (const results::CurvePoint& p : curve.points) {
+  for (const records::Curve& curve : f.curves)
+    for (const records::CurvePoint& p : curve.points) {
       put<double>(bytes, p.position, 3);
       put<double>(bytes, p.axes, 9);
     }
-  for (const results::BodyPose& b : f.bodies) {
+  for (const records::BodyPose& b : f.bodies) {
     put<double>(bytes, b.center, 3);
     put<double>(bytes, b.axes, 9);
     put<double>(bytes, b.position, 3);
     for (const auto& a : b.attachments) put<double>(bytes, a.data(), 3);
   }
-  for (const results::Link& l : f.links) {
+  for (const records::Link& l : f.links) {
     put<double>(bytes, l.first, 3);
     put<double>(bytes, l.second, 3);
     put<double>(bytes, l.axes, 9);
   }
-  for (const results::FramePose& p : f.frames) {
+  for (const records::FramePose& p : f.frames) {
     put<double>(bytes, p.position, 3);
     put<double>(bytes, p.axes, 9);
   }
-  for (const results::Arrow& a : f.arrows) put<double>(bytes, a.position, 3);
+  for (const records::Arrow& a : f.arrows) put<double>(bytes, a.position, 3);
   return bytes;
 }
 
-std::string frame_of(const results::MotionFrame& f, const results::MotionFrame& start) {
+std::string frame_of(const records::MotionFrame& f, const records::MotionFrame& start) {
   std::string bytes;
   bytes.reserve(frame_bytes_of(f));
   put<double>(bytes, &f.time, 1);
   for (std::size_t c = 0; c < f.curves.size(); ++c)
     for (std::size_t k = 0; k < f.curves[c].points.size(); ++k) {
-      const results::CurvePoint &p = f.curves[c].points[k], &p0 = start.curves[c].points[k];
+      const records::CurvePoint &p = f.curves[c].points[k], &p0 = start.curves[c].points[k];
       put_difference(bytes, p.position, p0.position);
       put_turn(bytes, p.axes, p0.axes);
       put<float>(bytes, p.velocity, 3);
@@ -229,7 +229,7 @@ struct HeaderReader {
   }
 };
 
-void read_shapes(HeaderReader& r, results::MotionParts& parts) {
+void read_shapes(HeaderReader& r, records::MotionParts& parts) {
   for (const JsonValue* outline : r.list(r.header, "outlines")) {
     r.good = r.good && outline->is(JsonKind::array);
     if (!r.good) return;
@@ -248,19 +248,19 @@ void read_shapes(HeaderReader& r, results::MotionParts& parts) {
 }
 
 /// A frame with the names and sizes of all others, and what its parts are.
-results::MotionFrame read_header(HeaderReader& r, results::MotionParts& parts) {
-  results::MotionFrame f;
+records::MotionFrame read_header(HeaderReader& r, records::MotionParts& parts) {
+  records::MotionFrame f;
   read_shapes(r, parts);
   for (const JsonValue* v : r.list(r.header, "curves")) {
-    results::Curve& curve = f.curves.emplace_back();
+    records::Curve& curve = f.curves.emplace_back();
     curve.name = r.text(v->find("name"));
     curve.points.resize(static_cast<std::size_t>(r.count(v->find("points"), 0, r.most)));
-    results::MotionParts::Curve& part = parts.curves.emplace_back();
+    records::MotionParts::Curve& part = parts.curves.emplace_back();
     part.outline = r.count(v->find("outline"), -1, static_cast<int>(parts.outlines.size()) - 1);
     for (const JsonValue* s : r.list(*v, "subdomains")) part.subdomains.push_back(r.count(s, -1, 1 << 30));
   }
   for (const JsonValue* v : r.list(r.header, "bodies")) {
-    results::BodyPose& body = f.bodies.emplace_back();
+    records::BodyPose& body = f.bodies.emplace_back();
     body.name = r.text(v->find("name"));
     body.attachments.resize(static_cast<std::size_t>(r.count(v->find("attachments"), 0, r.most)));
     parts.bodies.push_back(r.count(v->find("mesh"), -1, static_cast<int>(parts.meshes.size()) - 1));
@@ -306,43 +306,43 @@ class Numbers {
   const char* at_;
 };
 
-void read_start(const std::string& bytes, results::MotionFrame& f) {
+void read_start(const std::string& bytes, records::MotionFrame& f) {
   Numbers n(bytes);
-  for (results::Curve& curve : f.curves)
-    for (results::CurvePoint& p : curve.points) {
+  for (records::Curve& curve : f.curves)
+    for (records::CurvePoint& p : curve.points) {
       n.take<double>(p.position, 3);
       n.take<double>(p.axes, 9);
     }
-  for (results::BodyPose& b : f.bodies) {
+  for (records::BodyPose& b : f.bodies) {
     n.take<double>(b.center, 3);
     n.take<double>(b.axes, 9);
     n.take<double>(b.position, 3);
     for (auto& a : b.attachments) n.take<double>(a.data(), 3);
   }
-  for (results::Link& l : f.links) {
+  for (records::Link& l : f.links) {
     n.take<double>(l.first, 3);
     n.take<double>(l.second, 3);
     n.take<double>(l.axes, 9);
   }
-  for (results::FramePose& p : f.frames) {
+  for (records::FramePose& p : f.frames) {
     n.take<double>(p.position, 3);
     n.take<double>(p.axes, 9);
   }
-  for (results::Arrow& a : f.arrows) n.take<double>(a.position, 3);
+  for (records::Arrow& a : f.arrows) n.take<double>(a.position, 3);
 }
 
-void read_frame(const std::string& bytes, results::MotionFrame& f) {
+void read_frame(const std::string& bytes, records::MotionFrame& f) {
   Numbers n(bytes);
   n.take<double>(&f.time, 1);
-  for (results::Curve& curve : f.curves)
-    for (results::CurvePoint& p : curve.points) {
+  for (records::Curve& curve : f.curves)
+    for (records::CurvePoint& p : curve.points) {
       n.moved(p.position);
       n.turned(p.axes);
       n.take<float>(p.velocity, 3);
       n.take<float>(p.force, 6);
       n.take<float>(p.strain, 6);
     }
-  for (results::BodyPose& b : f.bodies) {
+  for (records::BodyPose& b : f.bodies) {
     Vec3 center_before;
     std::copy_n(b.center, 3, center_before.v);
     n.moved(b.center);
@@ -357,16 +357,16 @@ void read_frame(const std::string& bytes, results::MotionFrame& f) {
     for (auto& a : b.attachments) carried(a.data());
     n.take<float>(b.velocity, 3);
   }
-  for (results::Link& l : f.links) {
+  for (records::Link& l : f.links) {
     n.moved(l.first);
     n.moved(l.second);
     n.turned(l.axes);
   }
-  for (results::FramePose& p : f.frames) {
+  for (records::FramePose& p : f.frames) {
     n.moved(p.position);
     n.turned(p.axes);
   }
-  for (results::Arrow& a : f.arrows) {
+  for (records::Arrow& a : f.arrows) {
     n.moved(a.position);
     n.take<float>(a.force, 3);
     n.take<float>(a.moment, 3);
@@ -375,16 +375,16 @@ void read_frame(const std::string& bytes, results::MotionFrame& f) {
 
 }  // namespace
 
-void MotionBytes::append(std::string& bytes, const results::MotionFrame& frame) {
+void MotionBytes::append(std::string& bytes, const records::MotionFrame& frame) {
   if (!start_) {
-    start_ = std::make_unique<results::MotionFrame>(frame);
+    start_ = std::make_unique<records::MotionFrame>(frame);
     bytes += header_of(parts_, frame);
     bytes += start_of(frame);
   }
   bytes += frame_of(frame, *start_);
 }
 
-void MotionWriter::frame(const results::MotionFrame& frame) {
+void MotionWriter::frame(const records::MotionFrame& frame) {
   std::string bytes;
   bytes_.append(bytes, frame);
   file_.write(bytes);
@@ -403,7 +403,7 @@ Motion read_motion_file(const std::filesystem::path& path, std::size_t max_frame
   const std::uintmax_t size = std::filesystem::file_size(path);
   HeaderReader reader{*header, static_cast<int>(std::min<std::uintmax_t>(size / 12, 1 << 30))};
   Motion motion;
-  results::MotionFrame start = read_header(reader, motion.parts);
+  records::MotionFrame start = read_header(reader, motion.parts);
   if (!reader.good || header->find("frame_bytes") == nullptr ||
       header->find("frame_bytes")->number != static_cast<double>(frame_bytes_of(start)))
     fail(path, "the header does not say what the frames hold");

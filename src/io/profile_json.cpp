@@ -7,7 +7,7 @@ namespace bough::io {
 
 namespace {
 
-void write_times(JsonText& json, const results::SubdomainTimes& t) {
+void write_times(JsonText& json, const records::SubdomainTimes& t) {
   json.key("seconds");
   json.begin_object();
   json.member("evaluate", t.evaluate);
@@ -21,7 +21,7 @@ void write_times(JsonText& json, const results::SubdomainTimes& t) {
   json.end_object();
 }
 
-void write_subdomain(JsonText& json, const results::SubdomainProfile& s) {
+void write_subdomain(JsonText& json, const records::SubdomainProfile& s) {
   json.begin_object();
   json.member("id", static_cast<long long>(s.id));
   json.member("parent", static_cast<long long>(s.parent));
@@ -47,7 +47,7 @@ void write_subdomain(JsonText& json, const results::SubdomainProfile& s) {
   json.end_object();
 }
 
-void write_level(JsonText& json, const results::LevelProfile& l) {
+void write_level(JsonText& json, const records::LevelProfile& l) {
   json.begin_object();
   json.member("level", static_cast<long long>(l.level));
   json.member("sub_domains", static_cast<long long>(l.num_subdomains));
@@ -61,7 +61,7 @@ void write_level(JsonText& json, const results::LevelProfile& l) {
   json.end_object();
 }
 
-void write_run(JsonText& json, const results::Profile& p) {
+void write_run(JsonText& json, const records::Profile& p) {
   json.key("run");
   json.begin_object();
   json.member("threads", static_cast<long long>(p.threads));
@@ -86,7 +86,7 @@ void write_run(JsonText& json, const results::Profile& p) {
   json.end_object();
 }
 
-void write_speed(JsonText& json, const results::Profile& p) {
+void write_speed(JsonText& json, const records::Profile& p) {
   json.key("solution");
   json.begin_object();
   json.member("total", p.total);
@@ -99,7 +99,7 @@ void write_speed(JsonText& json, const results::Profile& p) {
   json.end_array();
   json.key("threads");
   json.begin_array();
-  for (const results::ThreadsProfile& t : p.speed) {
+  for (const records::ThreadsProfile& t : p.speed) {
     json.begin_object();
     json.member("threads", static_cast<long long>(t.threads));
     json.member("predicted", t.predicted);
@@ -112,10 +112,10 @@ void write_speed(JsonText& json, const results::Profile& p) {
   json.end_object();
 }
 
-void write_alternatives(JsonText& json, const results::Profile& p) {
+void write_alternatives(JsonText& json, const records::Profile& p) {
   json.key("costs");
   json.begin_array();
-  for (const results::CostFit& c : p.costs) {
+  for (const records::CostFit& c : p.costs) {
     json.begin_object();
     json.member("in_lanes", c.in_lanes);
     json.member("visits", static_cast<long long>(c.num_visits));
@@ -128,7 +128,7 @@ void write_alternatives(JsonText& json, const results::Profile& p) {
   json.end_array();
   json.key("alternatives");
   json.begin_array();
-  for (const results::Alternative& a : p.alternatives) {
+  for (const records::Alternative& a : p.alternatives) {
     json.begin_object();
     json.member("leaf_size", static_cast<long long>(a.leaf_size));
     json.member("depth", static_cast<long long>(a.depth));
@@ -144,7 +144,7 @@ void write_alternatives(JsonText& json, const results::Profile& p) {
   json.end_array();
 }
 
-void append_event(std::string& text, const results::ProfileEvent& e, int thread) {
+void append_event(std::string& text, const records::ProfileEvent& e, int thread) {
   text += ",\n{\"name\":\"";
   text += e.work;
   text += "\",\"cat\":\"";
@@ -160,7 +160,7 @@ void append_event(std::string& text, const results::ProfileEvent& e, int thread)
 
 }  // namespace
 
-std::string profile_text(const results::Profile& p, std::string_view version) {
+std::string profile_text(const records::Profile& p, std::string_view version) {
   JsonText json;
   json.begin_object();
   json.member("scene", std::string_view(p.scene));
@@ -182,18 +182,18 @@ std::string profile_text(const results::Profile& p, std::string_view version) {
   json.member("widest_interface_with_condition", static_cast<long long>(p.widest_condition));
   json.key("levels");
   json.begin_array();
-  for (const results::LevelProfile& l : p.levels) write_level(json, l);
+  for (const records::LevelProfile& l : p.levels) write_level(json, l);
   json.end_array();
   write_alternatives(json, p);
   json.key("sub_domains");
   json.begin_array();
-  for (const results::SubdomainProfile& s : p.subdomains) write_subdomain(json, s);
+  for (const records::SubdomainProfile& s : p.subdomains) write_subdomain(json, s);
   json.end_array();
   json.end_object();
   return json.text();
 }
 
-std::string trace_text(const results::Profile& p) {
+std::string trace_text(const records::Profile& p) {
   std::string text = "{\"displayTimeUnit\":\"ms\",\"otherData\":{\"scene\":" + json_string(p.scene) +
                      ",\"events_left_out\":" + std::to_string(p.events_left_out) +
                      "},\"traceEvents\":[\n{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"args\":{\"name\":" +
@@ -205,7 +205,7 @@ std::string trace_text(const results::Profile& p) {
   };
   name_thread(0, "steps");
   for (int t = 0; t < num_threads; ++t) name_thread(t + 1, "thread " + std::to_string(t));
-  for (const results::ProfileEvent& e : p.events) append_event(text, e, e.thread + 1);
+  for (const records::ProfileEvent& e : p.events) append_event(text, e, e.thread + 1);
   return text + "\n]}\n";
 }
 

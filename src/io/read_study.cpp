@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/plan/history_header.hpp"
 #include "bough/plan/plan.hpp"
-#include "bough/results/observe.hpp"
 #include "document_report.hpp"
 #include "study_converter.hpp"
 #include "study_rules.hpp"
@@ -74,7 +74,7 @@ void StudyConverter::read_base(const Value& root) {
   if (!base_) return;
   spec.is_dynamic = base_->analysis.kind == scene::AnalysisKind::dynamics;
   spec.end = spec.is_dynamic ? base_->analysis.end_time : 1.0;
-  columns_ = results::make_header(plan::make_plan(*base_)).columns;
+  columns_ = plan::make_header(plan::make_plan(*base_)).columns;
   if (const double n = spec.sample_interval > 0.0 ? spec.end / spec.sample_interval : 1.0;
       n < 0.5 || n > 1e6 || std::abs(n - std::round(n)) > 1e-9 * n) {
     fault("/sample_interval", "the end of the run is a multiple of it, of at most a million");

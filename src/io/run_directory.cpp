@@ -42,18 +42,18 @@ void RunDirectory::open() {
   if (!folder_) folder_ = std::make_unique<OutputFolder>(directory_, "run", all_names, origin_.inputs());
 }
 
-void RunDirectory::begin(const results::HistoryHeader& header) {
+void RunDirectory::begin(const records::HistoryHeader& header) {
   open();
   history_ = std::make_unique<HistoryWriter>(folder_->staging() / "history.csv", header);
   columns_ = columns_text(header);
 }
 
-void RunDirectory::row(const results::HistoryRow& row) {
+void RunDirectory::row(const records::HistoryRow& row) {
   if (!history_) throw std::logic_error("RunDirectory: a row before begin");
   history_->row(row);
 }
 
-void RunDirectory::motion(const results::MotionFrame& frame) {
+void RunDirectory::motion(const records::MotionFrame& frame) {
   if (!motion_) {
     if constexpr (has_vtk) make_directory(folder_->staging() / "motion");
     motion_ = std::make_unique<MotionWriter>(folder_->staging() / "motion.bin", parts_);
@@ -116,7 +116,7 @@ std::exception_ptr RunDirectory::commit_files() {
   return failure;
 }
 
-void RunDirectory::end(const results::Summary& summary) {
+void RunDirectory::end(const records::Summary& summary) {
   if (!history_) begin(summary.header);
   has_ended_ = true;
   std::exception_ptr failure = commit_files();
@@ -128,7 +128,7 @@ void RunDirectory::end(const results::Summary& summary) {
       failure = std::current_exception();
     }
   }
-  const bool is_good = !failure && summary.status == results::RunStatus::ok;
+  const bool is_good = !failure && summary.status == records::RunStatus::ok;
   try {
     folder_->publish(is_good ? FolderState::good : FolderState::failed);
   } catch (...) {
@@ -154,9 +154,9 @@ std::optional<fs::path> RunDirectory::keep_rows_of_killed(const fs::path& direct
   return folder.folder();
 }
 
-void RunDirectory::end_as_failed(results::Summary summary, const std::string& cause) {
+void RunDirectory::end_as_failed(records::Summary summary, const std::string& cause) {
   if (!has_begun() || has_ended()) return;
-  summary.status = results::RunStatus::failed;
+  summary.status = records::RunStatus::failed;
   summary.cause = cause;
   end(summary);
 }

@@ -151,16 +151,16 @@ fs::path unpack_run(const std::vector<StoredFile>& files, FolderState state, con
   return output.folder();
 }
 
-void RunInMemory::begin(const results::HistoryHeader& header) {
+void RunInMemory::begin(const records::HistoryHeader& header) {
   history_ = history_head(header);
   columns_ = columns_text(header);
 }
 
-void RunInMemory::row(const results::HistoryRow& row) { append_history_row(history_, row); }
+void RunInMemory::row(const records::HistoryRow& row) { append_history_row(history_, row); }
 
-void RunInMemory::motion(const results::MotionFrame& frame) { motion_bytes_.append(motion_, frame); }
+void RunInMemory::motion(const records::MotionFrame& frame) { motion_bytes_.append(motion_, frame); }
 
-void RunInMemory::end(const results::Summary& summary) {
+void RunInMemory::end(const records::Summary& summary) {
   if (history_.empty()) begin(summary.header);
   files_.push_back({"history.csv", std::move(history_)});
   files_.push_back({"columns.json", std::move(columns_)});
@@ -170,9 +170,9 @@ void RunInMemory::end(const results::Summary& summary) {
   files_.push_back({"summary.json", summary_text(summary, version_, origin_, records)});
 }
 
-void RunInMemory::end_as_failed(results::Summary summary, const std::string& cause) {
+void RunInMemory::end_as_failed(records::Summary summary, const std::string& cause) {
   if (!files_.empty()) return;
-  summary.status = results::RunStatus::failed;
+  summary.status = records::RunStatus::failed;
   summary.cause = cause;
   end(summary);
 }

@@ -10,14 +10,14 @@
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
-#include "bough/step/instruction_set.hpp"
+#include "bough/lanes/instruction_set.hpp"
 
 namespace bough::io {
 namespace {
 
 long long wide(long count) { return static_cast<long long>(count); }
 
-void write_steps(JsonText& json, const results::Summary& summary) {
+void write_steps(JsonText& json, const records::Summary& summary) {
   json.key("steps");
   json.begin_object();
   json.member("accepted", wide(summary.steps.accepted));
@@ -41,7 +41,7 @@ void write_steps(JsonText& json, const results::Summary& summary) {
   json.member("memory_peak_bytes", static_cast<long long>(summary.memory_peak_bytes));
 }
 
-void write_checks(JsonText& json, const results::Checks& checks) {
+void write_checks(JsonText& json, const records::Checks& checks) {
   json.key("checks");
   json.begin_object();
   if (checks.evaluated) {
@@ -64,10 +64,10 @@ void write_checks(JsonText& json, const results::Checks& checks) {
   json.end_object();
 }
 
-void write_limit_points(JsonText& json, const std::vector<results::LimitPoint>& points) {
+void write_limit_points(JsonText& json, const std::vector<records::LimitPoint>& points) {
   json.key("limit_points");
   json.begin_array();
-  for (const results::LimitPoint& p : points) {
+  for (const records::LimitPoint& p : points) {
     json.begin_object();
     json.member("load_factor", p.load_factor);
     json.member("is_maximum", p.is_maximum);
@@ -78,11 +78,11 @@ void write_limit_points(JsonText& json, const std::vector<results::LimitPoint>& 
 }
 
 /// What sensors of motions are estimated to be off by at the end.
-void write_errors(JsonText& json, const std::vector<results::SensorError>& errors) {
+void write_errors(JsonText& json, const std::vector<records::SensorError>& errors) {
   if (errors.empty()) return;
   json.key("errors");
   json.begin_object();
-  for (const results::SensorError& e : errors) {
+  for (const records::SensorError& e : errors) {
     json.key(e.column);
     json.begin_object();
     json.member("error", e.of_steps + e.of_energy);
@@ -92,10 +92,10 @@ void write_errors(JsonText& json, const std::vector<results::SensorError>& error
   json.end_object();
 }
 
-void write_bifurcations(JsonText& json, const std::vector<results::Bifurcation>& points) {
+void write_bifurcations(JsonText& json, const std::vector<records::Bifurcation>& points) {
   json.key("bifurcations");
   json.begin_array();
-  for (const results::Bifurcation& p : points) {
+  for (const records::Bifurcation& p : points) {
     json.begin_object();
     json.member("load_factor", p.load_factor);
     json.member("mode", std::string_view(p.mode));
@@ -105,7 +105,7 @@ void write_bifurcations(JsonText& json, const std::vector<results::Bifurcation>&
   json.end_array();
 }
 
-void write_stability(JsonText& json, const results::Stability& s) {
+void write_stability(JsonText& json, const records::Stability& s) {
   json.key("stability");
   json.begin_object();
   json.member("is_known", s.is_known);
@@ -129,7 +129,7 @@ void write_stability(JsonText& json, const results::Stability& s) {
 }
 
 /// What speaks against the run, and how the levels of the tree were met with.
-void write_trust(JsonText& json, const results::Summary& summary) {
+void write_trust(JsonText& json, const records::Summary& summary) {
   json.key("trust");
   json.begin_object();
   const std::string& not_judged = summary.not_judged;
@@ -141,7 +141,7 @@ void write_trust(JsonText& json, const results::Summary& summary) {
   if (!not_judged.empty()) json.member("not_judged", std::string_view(not_judged));
   json.key("doubts");
   json.begin_array();
-  for (const results::Doubt& doubt : summary.doubts) {
+  for (const records::Doubt& doubt : summary.doubts) {
     json.begin_object();
     json.member("about", std::string_view(doubt.about));
     json.member("text", std::string_view(doubt.text));
@@ -151,7 +151,7 @@ void write_trust(JsonText& json, const results::Summary& summary) {
   write_errors(json, summary.sensor_errors);
   json.key("levels");
   json.begin_array();
-  for (const results::LevelFigures& level : summary.levels) {
+  for (const records::LevelFigures& level : summary.levels) {
     json.begin_object();
     json.member("level", static_cast<long long>(level.level));
     json.member("sub_domains", static_cast<long long>(level.subdomains));
@@ -165,7 +165,7 @@ void write_trust(JsonText& json, const results::Summary& summary) {
 }
 
 /// Final values: {sensor: number} or {sensor: {component: number}}.
-void write_sensors(JsonText& json, const results::Summary& summary) {
+void write_sensors(JsonText& json, const records::Summary& summary) {
   const std::vector<std::string>& columns = summary.header.columns;
   json.key("sensors");
   json.begin_object();
@@ -190,11 +190,11 @@ void write_sensors(JsonText& json, const results::Summary& summary) {
   json.end_object();
 }
 
-void write_expected(JsonText& json, const std::vector<results::ExpectedResult>& expected) {
+void write_expected(JsonText& json, const std::vector<records::ExpectedResult>& expected) {
   json.key("expected");
   json.begin_object();
   std::vector<std::string> names;
-  for (const results::ExpectedResult& figure : expected) {
+  for (const records::ExpectedResult& figure : expected) {
     const auto count = std::count(names.begin(), names.end(), figure.name);
     names.push_back(figure.name);
     json.key(count == 0 ? figure.name : figure.name + " #" + std::to_string(count + 1));
@@ -211,11 +211,11 @@ void write_expected(JsonText& json, const std::vector<results::ExpectedResult>& 
   json.end_object();
 }
 
-void write_measures(JsonText& json, const std::vector<results::MeasureResult>& measures) {
+void write_measures(JsonText& json, const std::vector<records::MeasureResult>& measures) {
   if (measures.empty()) return;
   json.key("measures");
   json.begin_object();
-  for (const results::MeasureResult& m : measures) {
+  for (const records::MeasureResult& m : measures) {
     json.key(m.name);
     if (m.value)
       json.value(*m.value);
@@ -264,7 +264,7 @@ void read_expected(const JsonValue& list, SummaryFile& summary) {
   if (!list.is(JsonKind::object)) return;
   for (std::size_t k = 0; k < list.items.size(); ++k) {
     const JsonValue& item = list.items[k];
-    results::ExpectedResult figure;
+    records::ExpectedResult figure;
     figure.name = list.items.key(k);
     const JsonValue* value = item.find("value");
     figure.has_value = value != nullptr && number_of(*value, figure.value);
@@ -281,7 +281,7 @@ void read_expected(const JsonValue& list, SummaryFile& summary) {
 void read_measures(const JsonValue& list, SummaryFile& summary) {
   for (std::size_t k = 0; k < list.items.size(); ++k) {
     const JsonValue& item = list.items[k];
-    results::MeasureResult m{list.items.key(k), {}};
+    records::MeasureResult m{list.items.key(k), {}};
     if (item.is(JsonKind::number)) m.value = item.number;
     summary.measures.push_back(std::move(m));
   }
@@ -289,13 +289,13 @@ void read_measures(const JsonValue& list, SummaryFile& summary) {
 
 }  // namespace
 
-std::string_view status_text(results::RunStatus status) {
+std::string_view status_text(records::RunStatus status) {
   switch (status) {
-    case results::RunStatus::ok:
+    case records::RunStatus::ok:
       return "ok";
-    case results::RunStatus::failed:
+    case records::RunStatus::failed:
       return "failed";
-    case results::RunStatus::interrupted:
+    case records::RunStatus::interrupted:
       return "interrupted";
   }
   return "failed";
@@ -306,7 +306,7 @@ std::vector<std::filesystem::path> RunOrigin::inputs() const {
   return {scene_file};
 }
 
-std::string summary_text(const results::Summary& summary, std::string_view version, const RunOrigin& origin,
+std::string summary_text(const records::Summary& summary, std::string_view version, const RunOrigin& origin,
                          const std::vector<FileRecord>& files) {
   JsonText json;
   json.begin_object();
@@ -315,7 +315,7 @@ std::string summary_text(const results::Summary& summary, std::string_view versi
   json.member("scene", std::string_view(summary.scene));
   json.member("title", std::string_view(summary.title));
   json.member("version", version);
-  json.member("instruction_set", step::instruction_set().name);
+  json.member("instruction_set", lanes::instruction_set().name);
   json.member("threads", static_cast<long long>(summary.threads));
   json.key("options");
   json.begin_object();

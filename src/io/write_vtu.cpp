@@ -66,19 +66,19 @@ struct Grid {
 };
 
 /// Sub-domain of the interval after point k of a curve.
-int leaf_of(const results::MotionParts::Curve& part, std::size_t k, std::size_t intervals) {
+int leaf_of(const records::MotionParts::Curve& part, std::size_t k, std::size_t intervals) {
   if (part.subdomains.empty()) return -1;
   return part.subdomains[std::min(part.subdomains.size() - 1, k * part.subdomains.size() / intervals)];
 }
 
-void add_curve(Grid& grid, const results::Curve& curve, std::size_t index, const results::MotionParts& parts,
+void add_curve(Grid& grid, const records::Curve& curve, std::size_t index, const records::MotionParts& parts,
                const std::vector<scene::Triangulation>& sections) {
   if (curve.points.size() < 2) return;
   const std::size_t intervals = curve.points.size() - 1;
-  const results::MotionParts::Curve part =
-      index < parts.curves.size() ? parts.curves[index] : results::MotionParts::Curve{};
+  const records::MotionParts::Curve part =
+      index < parts.curves.size() ? parts.curves[index] : records::MotionParts::Curve{};
   std::vector<std::int32_t> axis;
-  for (const results::CurvePoint& p : curve.points) {
+  for (const records::CurvePoint& p : curve.points) {
     axis.push_back(grid.num_points());
     grid.add_point(p.position, {p.force, p.strain, p.velocity, p.axes});
   }
@@ -87,7 +87,7 @@ void add_curve(Grid& grid, const results::Curve& curve, std::size_t index, const
   const scene::Triangulation& section = sections[static_cast<std::size_t>(part.outline)];
   const auto corners = static_cast<std::int32_t>(section.points.size());
   const std::int32_t first = grid.num_points();
-  for (const results::CurvePoint& p : curve.points)
+  for (const records::CurvePoint& p : curve.points)
     for (const auto& corner : section.points) {
       double x[3];
       for (std::size_t r = 0; r < 3; ++r)
@@ -102,7 +102,7 @@ void add_curve(Grid& grid, const results::Curve& curve, std::size_t index, const
   }
 }
 
-void add_body(Grid& grid, const results::BodyPose& body, std::size_t index, const results::MotionParts& parts) {
+void add_body(Grid& grid, const records::BodyPose& body, std::size_t index, const records::MotionParts& parts) {
   const int shape = index < parts.bodies.size() ? parts.bodies[index] : -1;
   if (shape < 0) {
     grid.add_point(body.center, {nullptr, nullptr, body.velocity, nullptr});
@@ -120,14 +120,14 @@ void add_body(Grid& grid, const results::BodyPose& body, std::size_t index, cons
     grid.add_cell(vtk_triangle, std::array{first + t[0], first + t[1], first + t[2]}, Kind::body, index);
 }
 
-void add_link(Grid& grid, const results::Link& link, std::size_t index) {
+void add_link(Grid& grid, const records::Link& link, std::size_t index) {
   const std::array ends{grid.num_points(), grid.num_points() + 1};
   grid.add_point(link.first, {});
   grid.add_point(link.second, {});
   grid.add_cell(vtk_line, ends, Kind::link, index);
 }
 
-void add_arrow(Grid& grid, const results::Arrow& arrow, std::size_t index) {
+void add_arrow(Grid& grid, const records::Arrow& arrow, std::size_t index) {
   double wrench[6];
   std::copy_n(arrow.force, 3, wrench);
   std::copy_n(arrow.moment, 3, wrench + 3);
@@ -211,7 +211,7 @@ std::string xml_escaped(std::string_view text) {
 
 }  // namespace
 
-std::string vtu_text(const results::MotionFrame& frame, const results::MotionParts& parts) {
+std::string vtu_text(const records::MotionFrame& frame, const records::MotionParts& parts) {
   std::vector<scene::Triangulation> sections;
   for (const scene::Outline& outline : parts.outlines) sections.push_back(scene::triangles_of(outline));
   Grid grid;

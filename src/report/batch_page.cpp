@@ -32,7 +32,7 @@ std::vector<Measured> measured_in(const std::vector<CaseResult>& results) {
   std::vector<Measured> all;
   std::map<std::string, std::size_t> index;
   for (std::size_t i = 0; i < results.size(); ++i)
-    for (const results::MeasureResult& m : results[i].report.measures) {
+    for (const records::MeasureResult& m : results[i].report.measures) {
       const auto [at, is_new] = index.try_emplace(m.name, all.size());
       if (is_new) all.push_back({m.name, {}, {}});
       if (!m.value) continue;
@@ -308,7 +308,7 @@ std::string json_of(const std::vector<CaseResult>& results, const std::vector<Me
     }
     for (const Measured& m : measured) {
       const auto at = std::find_if(r.report.measures.begin(), r.report.measures.end(),
-                                   [&](const results::MeasureResult& x) { return x.name == m.name; });
+                                   [&](const records::MeasureResult& x) { return x.name == m.name; });
       if (at == r.report.measures.end() || !at->value)
         json.raw("null");
       else

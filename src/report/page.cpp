@@ -73,11 +73,11 @@ std::string words_of(std::string name) {
 }
 
 /// Figures that do not hold, then those that do, folded.
-void add_expected(Document& page, const std::vector<results::ExpectedResult>& expected) {
+void add_expected(Document& page, const std::vector<records::ExpectedResult>& expected) {
   if (expected.empty()) return;
   page.section("Expected figures");
   Table open{{"figure", "value", "reference", "tolerance", "verdict", "taken"}, {}}, passed = open;
-  for (const results::ExpectedResult& f : expected) {
+  for (const records::ExpectedResult& f : expected) {
     const bool is_good = f.reached && f.holds;
     (is_good ? passed : open)
         .rows.push_back({{f.name},
@@ -99,7 +99,7 @@ void add_checks(Document& page, const io::SummaryFile& s) {
   if (!s.doubts.empty()) {
     page.section("Not to be trusted without a closer look");
     std::vector<std::string> list;
-    for (const results::Doubt& doubt : s.doubts) list.push_back(doubt.about + ": " + doubt.text);
+    for (const records::Doubt& doubt : s.doubts) list.push_back(doubt.about + ": " + doubt.text);
     page.list(list);
   }
   if (!s.not_judged.empty()) page.paragraph("Not judged: " + s.not_judged + ".", Tone::soft);

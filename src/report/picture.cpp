@@ -34,7 +34,7 @@ void include(double& low, double& high, double value) {
 }
 
 /// Scales what is drawn, in projection, to the sheet with equal axes.
-Sheet make_sheet(const std::vector<results::MotionFrame>& frames, const Projection& projection) {
+Sheet make_sheet(const std::vector<records::MotionFrame>& frames, const Projection& projection) {
   double u_low = HUGE_VAL, u_high = -HUGE_VAL, v_low = HUGE_VAL, v_high = -HUGE_VAL;
   const auto take = [&](const double* x) {
     const Point2 p = projection(x);
@@ -42,14 +42,14 @@ Sheet make_sheet(const std::vector<results::MotionFrame>& frames, const Projecti
     include(u_low, u_high, p.u);
     include(v_low, v_high, p.v);
   };
-  for (const results::MotionFrame& frame : frames) {
-    for (const results::Curve& curve : frame.curves)
-      for (const results::CurvePoint& point : curve.points) take(point.position);
-    for (const results::BodyPose& body : frame.bodies) {
+  for (const records::MotionFrame& frame : frames) {
+    for (const records::Curve& curve : frame.curves)
+      for (const records::CurvePoint& point : curve.points) take(point.position);
+    for (const records::BodyPose& body : frame.bodies) {
       take(body.center);
       for (const auto& point : body.attachments) take(point.data());
     }
-    for (const results::Link& link : frame.links) {
+    for (const records::Link& link : frame.links) {
       take(link.first);
       take(link.second);
     }
@@ -119,22 +119,22 @@ class PathData {
   std::string text_;
 };
 
-bool has_length(const results::Link& link) {
+bool has_length(const records::Link& link) {
   return std::hypot(link.second[0] - link.first[0], link.second[1] - link.first[1], link.second[2] - link.first[2]) >
          0.0;
 }
 
-Picture::Paths paths_of(const results::MotionFrame& frame, const Sheet& sheet) {
+Picture::Paths paths_of(const records::MotionFrame& frame, const Sheet& sheet) {
   Picture::Paths paths;
   paths.time = frame.time;
   PathData beams(sheet), bodies(sheet), springs(sheet), joints(sheet);
-  for (const results::Curve& curve : frame.curves) {
+  for (const records::Curve& curve : frame.curves) {
     if (curve.points.empty()) continue;
     beams.move(curve.points.front().position);
     for (std::size_t k = 1; k < curve.points.size(); ++k) beams.draw(curve.points[k].position);
     beams.finish();
   }
-  for (const results::BodyPose& body : frame.bodies) {
+  for (const records::BodyPose& body : frame.bodies) {
     for (const auto& point : body.attachments) {
       bodies.move(body.center);
       bodies.draw(point.data());
@@ -142,7 +142,7 @@ Picture::Paths paths_of(const results::MotionFrame& frame, const Sheet& sheet) {
     }
     joints.dot(body.center);
   }
-  for (const results::Link& link : frame.links) {
+  for (const records::Link& link : frame.links) {
     joints.dot(link.first);
     joints.dot(link.second);
     if (!has_length(link)) continue;
@@ -214,8 +214,8 @@ std::string color_ramp(const Sheet& sheet, const std::vector<double>& times, con
   return text;
 }
 
-std::string legend(const Sheet& sheet, const std::vector<results::MotionFrame>& frames) {
-  const results::MotionFrame& frame = frames.front();
+std::string legend(const Sheet& sheet, const std::vector<records::MotionFrame>& frames) {
+  const records::MotionFrame& frame = frames.front();
   const double y = sheet.height - 84.0;  // a line of its own, above scale, axes and times
   double x = margin;
   std::string text;
@@ -226,11 +226,11 @@ std::string legend(const Sheet& sheet, const std::vector<results::MotionFrame>& 
   const bool has_spokes =
       std::any_of(frame.bodies.begin(), frame.bodies.end(), [](const auto& body) { return !body.attachments.empty(); });
   // A joint's two points differ by round-off, a spring's by much: what is seen of either is a line of some pixels.
-  const auto is_long = [&](const results::Link& link) {
+  const auto is_long = [&](const records::Link& link) {
     const Point2 a = sheet(link.first), b = sheet(link.second);
     return std::hypot(b.u - a.u, b.v - a.v) > 1.0;
   };
-  const bool has_springs = std::any_of(frames.begin(), frames.end(), [&](const results::MotionFrame& f) {
+  const bool has_springs = std::any_of(frames.begin(), frames.end(), [&](const records::MotionFrame& f) {
     return std::any_of(f.links.begin(), f.links.end(), is_long);
   });
   const char* joint_words = frame.bodies.empty() ? "joint" : frame.links.empty() ? "centre" : "centre, joint";
@@ -244,7 +244,7 @@ std::string legend(const Sheet& sheet, const std::vector<results::MotionFrame>& 
 
 }  // namespace
 
-Picture make_picture(const std::vector<results::MotionFrame>& frames, const PictureOptions& options) {
+Picture make_picture(const std::vector<records::MotionFrame>& frames, const PictureOptions& options) {
   Picture picture;
   picture.view = resolve_view(options.view, box_of(frames));
   const Sheet sheet = make_sheet(frames, projection_of(picture.view));

@@ -61,7 +61,7 @@ std::vector<Line> lines_of(const io::History& history, const std::vector<std::si
   double largest = 0.0;
   for (const std::size_t c : columns) {
     Range own;
-    for (const results::HistoryRow& row : history.rows) own.include(row.values[c]);
+    for (const records::HistoryRow& row : history.rows) own.include(row.values[c]);
     if (own.empty()) continue;
     all.include(own.low);
     all.include(own.high);
@@ -133,7 +133,7 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
                std::string_view time_label) {
   Range times, values;
   const std::vector<Line> lines = lines_of(history, columns);
-  for (const results::HistoryRow& row : history.rows) {
+  for (const records::HistoryRow& row : history.rows) {
     times.include(row.time);
     for (const Line& line : lines) values.include(row.values[line.column] - line.offset);
   }

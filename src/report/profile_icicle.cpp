@@ -13,8 +13,8 @@ namespace bough::report {
 
 namespace {
 
-using results::Profile;
-using results::SubdomainProfile;
+using records::Profile;
+using records::SubdomainProfile;
 
 constexpr double width = 960.0, least_width = 1.2;  // [px]
 constexpr int num_colors = 9;
@@ -63,7 +63,7 @@ std::string tip_of(const SubdomainProfile& s, int count) {
   t += "\n" + std::to_string(s.num_unknowns) + " unknowns, interface " + std::to_string(s.interface_unknowns) +
        ", fill " + io::amount_text(static_cast<double>(s.fill)) + ", " + io::amount_text(s.flops) + "flop, " +
        io::bytes_text(s.bytes);
-  const results::SubdomainTimes& times = s.times;
+  const records::SubdomainTimes& times = s.times;
   t += "\nassemble " + io::seconds_text(times.assemble) + ", factor " + io::seconds_text(times.factor) + ", condense " +
        io::seconds_text(times.condense) + ", forward " + io::seconds_text(times.forward) + ", back-substitute " +
        io::seconds_text(times.backward) + ", check " + io::seconds_text(times.residual) + "\nsubtree " +

@@ -14,7 +14,7 @@ namespace {
 using io::amount_text;
 using io::bytes_text;
 using io::seconds_text;
-using results::Profile;
+using records::Profile;
 
 Cell seconds_cell(double seconds, std::string source) {
   return {seconds_text(seconds), Tone::plain, true, std::move(source)};
@@ -26,7 +26,7 @@ Cell count_cell(std::int64_t count, std::string source) {
   return {std::to_string(count), Tone::plain, true, std::move(source)};
 }
 
-std::vector<Cell> time_cells(const results::SubdomainTimes& t, const std::string& source) {
+std::vector<Cell> time_cells(const records::SubdomainTimes& t, const std::string& source) {
   std::vector<Cell> cells;
   const std::pair<double, const char*> parts[] = {
       {t.evaluate, "evaluate"}, {t.assemble, "assemble"}, {t.factor, "factor"},     {t.condense, "condense"},
@@ -42,7 +42,7 @@ void add_levels(Document& page, const Profile& p) {
   Table table{{"level", "sub-domains", "unknowns", "interface, most", "fill", "flops", "bytes"}, {}};
   table.head.insert(table.head.end(), time_head.begin(), time_head.end());
   table.head.insert(table.head.end(), {"condition, most", "digits lost"});
-  for (const results::LevelProfile& l : p.levels) {
+  for (const records::LevelProfile& l : p.levels) {
     const std::string source = "/levels/" + std::to_string(l.level);
     std::vector<Cell> row{count_cell(l.level, source + "/level"),
                           count_cell(l.num_subdomains, source + "/sub_domains"),
@@ -63,7 +63,7 @@ void add_levels(Document& page, const Profile& p) {
 
 void add_costliest(Document& page, const Profile& p) {
   constexpr std::size_t most = 20;
-  std::vector<const results::SubdomainProfile*> order;
+  std::vector<const records::SubdomainProfile*> order;
   for (const auto& s : p.subdomains) order.push_back(&s);
   std::stable_sort(order.begin(), order.end(),
                    [](const auto* a, const auto* b) { return a->times.solver() > b->times.solver(); });
@@ -72,7 +72,7 @@ void add_costliest(Document& page, const Profile& p) {
               {}};
   table.head.insert(table.head.end(), time_head.begin(), time_head.end());
   table.head.insert(table.head.end(), {"condition", "digits lost"});
-  for (const results::SubdomainProfile* s : order) {
+  for (const records::SubdomainProfile* s : order) {
     const std::string source = "/sub_domains/" + std::to_string(s->id);
     std::vector<Cell> row{count_cell(s->id, source + "/id"),
                           count_cell(s->level, source + "/level"),
@@ -96,14 +96,14 @@ void add_costliest(Document& page, const Profile& p) {
 
 void add_speed(Document& page, const Profile& p) {
   if (p.speed.empty()) return;
-  const results::ThreadsProfile& one = p.speed.front();
+  const records::ThreadsProfile& one = p.speed.front();
   Table table{{"threads", "solution, predicted", "measured", "speed-up, predicted", "measured", "step, predicted",
                "measured", "speed-up, predicted", "measured"},
               {}};
   Chart chart{"Speed-up of one factorization and solution", {"threads", Scale::log}, {"speed-up", Scale::log}, {}};
   ChartSeries predicted{"predicted", {}}, measured{"measured", {}};
   for (std::size_t k = 0; k < p.speed.size(); ++k) {
-    const results::ThreadsProfile& t = p.speed[k];
+    const records::ThreadsProfile& t = p.speed[k];
     const std::string source = "/solution/threads/" + std::to_string(k);
     table.rows.push_back(
         {count_cell(t.threads, source + "/threads"), seconds_cell(t.predicted, source + "/predicted"),
@@ -134,7 +134,7 @@ void add_alternatives(Document& page, const Profile& p) {
   if (p.alternatives.empty()) return;
   page.section("Other trees", "trees");
   std::string fit;
-  for (const results::CostFit& c : p.costs)
+  for (const records::CostFit& c : p.costs)
     if (c.num_visits > 0)
       fit += (fit.empty() ? "" : "; ") + std::to_string(c.num_visits) + (c.in_lanes ? " in lockstep" : " alone") +
              " are met to " + io::rounded_text(100.0 * c.median_error, 2) + " % (median)";
@@ -144,7 +144,7 @@ void add_alternatives(Document& page, const Profile& p) {
                std::to_string(p.threads) + (p.threads == 1 ? " thread" : " threads")},
               {}};
   for (std::size_t k = 0; k < p.alternatives.size(); ++k) {
-    const results::Alternative& a = p.alternatives[k];
+    const records::Alternative& a = p.alternatives[k];
     const std::string source = "/alternatives/" + std::to_string(k);
     table.rows.push_back({{a.is_present ? "present" : ""},
                           {a.leaf_size == 0 ? "chosen" : std::to_string(a.leaf_size), Tone::plain, true},
@@ -160,7 +160,7 @@ void add_alternatives(Document& page, const Profile& p) {
 }
 
 void add_step(Document& page, const Profile& p) {
-  const results::StepProfile& s = p.step;
+  const records::StepProfile& s = p.step;
   Table table{
       {"step", "evaluate", "factor", "forward", "back-substitute", "check", "other loops", "rest, serial",
        "evaluations", "factorizations", "solutions"},
@@ -181,7 +181,7 @@ void add_step(Document& page, const Profile& p) {
 std::string profile_page(const Profile& p, const std::string& data) {
   Document page("Profile of " + p.scene, p.title, data);
   if (!p.trouble.empty()) page.paragraph("The run ended early: " + p.trouble, Tone::bad);
-  const results::SubdomainProfile* root = p.subdomains.empty() ? nullptr : &p.subdomains.back();
+  const records::SubdomainProfile* root = p.subdomains.empty() ? nullptr : &p.subdomains.back();
   if (root != nullptr)
     page.paragraph(std::to_string(root->subtree_unknowns) + " unknowns in " + std::to_string(p.subdomains.size()) +
                    " sub-domains on " + std::to_string(p.levels.size()) + " levels, " + std::to_string(p.num_in_lanes) +

@@ -13,8 +13,8 @@ namespace bough::report {
 
 namespace {
 
-using results::Profile;
-using results::ProfilePart;
+using records::Profile;
+using records::ProfilePart;
 
 constexpr double page_width = 960.0, margin = 20.0, tallest = 460.0, lowest = 90.0;  // [px]
 constexpr int num_colors = 6, most_levels = 7;
@@ -69,10 +69,10 @@ Sheet make_sheet(const Profile& p) {
 /// For each leaf the colour of its ancestor of each level, numbered from the left.
 std::vector<std::vector<int>> colors_of(const Profile& p) {
   std::vector<int> seen(p.levels.size(), 0), number(p.subdomains.size(), 0);
-  for (const results::SubdomainProfile& s : p.subdomains) number[at(s.id)] = seen[at(s.level)]++;
+  for (const records::SubdomainProfile& s : p.subdomains) number[at(s.id)] = seen[at(s.level)]++;
   std::vector<std::vector<int>> colors(p.subdomains.size());
   for (std::size_t k = p.subdomains.size(); k-- > 0;) {
-    const results::SubdomainProfile& s = p.subdomains[k];
+    const records::SubdomainProfile& s = p.subdomains[k];
     if (s.parent >= 0) colors[k] = colors[at(s.parent)];
     colors[k].push_back(number[k]);
   }
@@ -97,7 +97,7 @@ std::string path_of(const ProfilePart& part, const Sheet& sheet) {
 std::string nodes_svg(const Profile& p, const Sheet& sheet) {
   std::string body;
   if (p.separator_nodes.size() > most_nodes) return body;
-  for (const results::ProfileNode& n : p.separator_nodes) {
+  for (const records::ProfileNode& n : p.separator_nodes) {
     const int level = p.subdomains[at(n.subdomain)].level;
     const Point2 q = sheet(n.position);
     body += "<circle class=\"mark\" cx=\"" + pixel(q.u) + "\" cy=\"" + pixel(q.v) + "\" r=\"" +

@@ -12,8 +12,8 @@ namespace bough::report {
 
 namespace {
 
-using results::Profile;
-using results::ProfileEvent;
+using records::Profile;
+using records::ProfileEvent;
 
 constexpr double left = 70.0, right = 950.0, top = 44.0, row_height = 34.0, row_gap = 8.0;  // [px]
 constexpr std::size_t most_bars = 4000;

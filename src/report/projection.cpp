@@ -50,16 +50,16 @@ Projection projection_of(View view) {
   return {{a, a, 0.0}, {-b, b, 2.0 * b}};
 }
 
-Box box_of(const std::vector<results::MotionFrame>& frames) {
+Box box_of(const std::vector<records::MotionFrame>& frames) {
   Box box;
-  for (const results::MotionFrame& frame : frames) {
-    for (const results::Curve& curve : frame.curves)
-      for (const results::CurvePoint& point : curve.points) include(box, point.position);
-    for (const results::BodyPose& body : frame.bodies) {
+  for (const records::MotionFrame& frame : frames) {
+    for (const records::Curve& curve : frame.curves)
+      for (const records::CurvePoint& point : curve.points) include(box, point.position);
+    for (const records::BodyPose& body : frame.bodies) {
       include(box, body.center);
       for (const auto& point : body.attachments) include(box, point.data());
     }
-    for (const results::Link& link : frame.links) {
+    for (const records::Link& link : frame.links) {
       include(box, link.first);
       include(box, link.second);
     }

@@ -191,15 +191,15 @@ class Camera {
     const auto radius = [](const std::vector<double>& list, int k) {
       return k < 0 ? 0.0 : list[static_cast<std::size_t>(k)];
     };
-    for (const results::MotionFrame& f : run.motion) {
+    for (const records::MotionFrame& f : run.motion) {
       for (std::size_t c = 0; c < f.curves.size(); ++c)
-        for (const results::CurvePoint& p : f.curves[c].points)
+        for (const records::CurvePoint& p : f.curves[c].points)
           visit(p.position, radius(of_outline, c < run.parts.curves.size() ? run.parts.curves[c].outline : -1));
       for (std::size_t k = 0; k < f.bodies.size(); ++k) {
         visit(f.bodies[k].center, radius(of_mesh, k < run.parts.bodies.size() ? run.parts.bodies[k] : -1));
         for (const auto& a : f.bodies[k].attachments) visit(a.data(), 0.0);
       }
-      for (const results::Link& l : f.links) {
+      for (const records::Link& l : f.links) {
         visit(l.first, 0.0);
         visit(l.second, 0.0);
       }
@@ -226,7 +226,7 @@ class Painter {
   Painter(const RunFiles& run, const RasterOptions& options)
       : run_(run), camera_(run, options), canvas_(options.width, options.height) {}
 
-  std::string paint(const results::MotionFrame& f) {
+  std::string paint(const records::MotionFrame& f) {
     for (std::size_t k = 0; k < f.curves.size(); ++k) beam(f.curves[k], k);
     for (std::size_t k = 0; k < f.bodies.size(); ++k) body(f.bodies[k], k);
     for (std::size_t k = 0; k < f.links.size(); ++k) link(f.links[k], k);
@@ -243,14 +243,14 @@ class Painter {
     canvas_.line(camera_(a), camera_(b), pixels * samples, color, 2e-3 * camera_.extent());
   }
 
-  void beam(const results::Curve& curve, std::size_t index) {
+  void beam(const records::Curve& curve, std::size_t index) {
     for (std::size_t k = 0; k + 1 < curve.points.size(); ++k)
       canvas_.line(camera_(vec(curve.points[k].position)), camera_(vec(curve.points[k + 1].position)), 1.6 * samples,
                    beam_color, 0.0);
     const int outline = index < run_.parts.curves.size() ? run_.parts.curves[index].outline : -1;
     if (outline < 0 || curve.points.size() < 2) return;
     const scene::Outline& section = run_.parts.outlines[static_cast<std::size_t>(outline)];
-    const auto placed = [&](const results::CurvePoint& p, const std::array<double, 2>& corner) {
+    const auto placed = [&](const records::CurvePoint& p, const std::array<double, 2>& corner) {
       Vec3 x = vec(p.position);
       for (int r = 0; r < 3; ++r) x[r] += p.axes[3 * r + 1] * corner[0] + p.axes[3 * r + 2] * corner[1];
       return x;
@@ -265,14 +265,14 @@ class Painter {
           face(a, c, d, beam_color);
         }
     const scene::Triangulation cap = scene::triangles_of(section);
-    for (const results::CurvePoint* end : {&curve.points.front(), &curve.points.back()})
+    for (const records::CurvePoint* end : {&curve.points.front(), &curve.points.back()})
       for (const auto& t : cap.triangles)
         face(placed(*end, cap.points[static_cast<std::size_t>(t[0])]),
              placed(*end, cap.points[static_cast<std::size_t>(t[1])]),
              placed(*end, cap.points[static_cast<std::size_t>(t[2])]), beam_color);
   }
 
-  void body(const results::BodyPose& b, std::size_t index) {
+  void body(const records::BodyPose& b, std::size_t index) {
     const Vec3 center = vec(b.center);
     const int index_of_mesh = index < run_.parts.bodies.size() ? run_.parts.bodies[index] : -1;
     for (const auto& a : b.attachments) stroke(center, vec(a.data()), 2.0, body_color);
@@ -291,7 +291,7 @@ class Painter {
     canvas_.line(c, c, std::max(3.0, size * 500.0) * samples, color, 2e-2 * camera_.extent());
   }
 
-  void link(const results::Link& l, std::size_t index) {
+  void link(const records::Link& l, std::size_t index) {
     const std::string kind = index < run_.parts.links.size() ? run_.parts.links[index].kind : std::string();
     const Vec3 a = vec(l.first), b = vec(l.second);
     if (kind != "spring") {
@@ -319,12 +319,12 @@ class Painter {
     }
   }
 
-  void arrows(const results::MotionFrame& f) {
+  void arrows(const records::MotionFrame& f) {
     double most = 0.0;
-    for (const results::MotionFrame& g : run_.motion)
-      for (const results::Arrow& a : g.arrows) most = std::max(most, std::sqrt(dot(vec(a.force), vec(a.force))));
+    for (const records::MotionFrame& g : run_.motion)
+      for (const records::Arrow& a : g.arrows) most = std::max(most, std::sqrt(dot(vec(a.force), vec(a.force))));
     if (!(most > 0.0)) return;
-    for (const results::Arrow& a : f.arrows) {
+    for (const records::Arrow& a : f.arrows) {
       const Vec3 v = (0.16 * camera_.extent() / most) * vec(a.force), tip = vec(a.position);
       stroke(tip - v, tip, 2.0, load_color);
       Vec3 other = Vec3::zero();
@@ -354,13 +354,13 @@ void turn(double* axes, const double* next, double f) {
   std::copy_n(between.m, 9, axes);
 }
 
-results::MotionFrame frame_at(const std::vector<results::MotionFrame>& frames, double time) {
+records::MotionFrame frame_at(const std::vector<records::MotionFrame>& frames, double time) {
   const auto after =
-      std::find_if(frames.begin(), frames.end(), [&](const results::MotionFrame& f) { return f.time >= time; });
+      std::find_if(frames.begin(), frames.end(), [&](const records::MotionFrame& f) { return f.time >= time; });
   if (after == frames.begin()) return frames.front();
   if (after == frames.end()) return frames.back();
-  results::MotionFrame f = *(after - 1);
-  const results::MotionFrame& g = *after;
+  records::MotionFrame f = *(after - 1);
+  const records::MotionFrame& g = *after;
   const double s = (time - f.time) / (g.time - f.time);
   f.time = time;
   for (std::size_t c = 0; c < f.curves.size(); ++c)

@@ -10,9 +10,9 @@
 namespace bough::report {
 namespace {
 
-using study::StressCase;
-using study::StressFigure;
-using study::StressStatus;
+using stress::StressCase;
+using stress::StressFigure;
+using stress::StressStatus;
 
 Tone tone_of(const StressCase& c) {
   if (c.status == StressStatus::fails) return Tone::bad;
@@ -21,7 +21,7 @@ Tone tone_of(const StressCase& c) {
 
 std::string pointer(std::size_t k, const std::string& key) { return "/cases/" + std::to_string(k) + "/" + key; }
 
-Cell status_cell(const StressCase& c) { return {study::text_of(c.status), tone_of(c)}; }
+Cell status_cell(const StressCase& c) { return {stress::text_of(c.status), tone_of(c)}; }
 
 Cell count_cell(long count, std::size_t k, const char* key) {
   return number_cell(static_cast<double>(count), 9, pointer(k, key));
@@ -81,7 +81,7 @@ std::string failure_text(const StressCase& c) {
 
 }  // namespace
 
-std::string stress_page(const std::vector<StressCase>& cases, const study::StressOptions& options) {
+std::string stress_page(const std::vector<StressCase>& cases, const stress::StressOptions& options) {
   const auto count = [&](StressStatus status) {
     return std::to_string(
         std::count_if(cases.begin(), cases.end(), [status](const StressCase& c) { return c.status == status; }));
@@ -96,7 +96,7 @@ std::string stress_page(const std::vector<StressCase>& cases, const study::Stres
     if (c.status == StressStatus::fails)
       failing.push_back(failure_text(c));
     else if (!c.is_as_expected())
-      failing.push_back(c.name + " is listed as " + study::text_of(c.expected) + " and " + study::text_of(c.status));
+      failing.push_back(c.name + " is listed as " + stress::text_of(c.expected) + " and " + stress::text_of(c.status));
   page.section("What fails");
   if (failing.empty())
     page.paragraph("Nothing.", Tone::good);
@@ -114,7 +114,7 @@ std::string stress_page(const std::vector<StressCase>& cases, const study::Stres
     const StressCase& c = cases[k];
     page.section(c.family + ": " + c.name, c.name);
     page.paragraph("Promise: " + c.promise + ".");
-    page.paragraph(std::string(study::text_of(c.status)) + (c.is_shortened ? ", shortened" : "") +
+    page.paragraph(std::string(stress::text_of(c.status)) + (c.is_shortened ? ", shortened" : "") +
                        (c.refusal.empty() ? "" : ". The refusal: " + c.refusal),
                    tone_of(c));
     if (c.status == StressStatus::fails) page.paragraph(failure_text(c), Tone::bad);

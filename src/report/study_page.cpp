@@ -25,7 +25,7 @@ std::string error_pointer(std::size_t k, std::size_t q, const char* norm) {
   return run_pointer(k) + "/errors/" + std::to_string(q) + "/" + norm;
 }
 
-bool is_ok(const SweepRun& run) { return run.status == results::RunStatus::ok; }
+bool is_ok(const SweepRun& run) { return run.status == records::RunStatus::ok; }
 
 Tone tone_of(Verdict verdict) {
   switch (verdict) {

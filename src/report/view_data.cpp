@@ -18,7 +18,7 @@ namespace {
 
 using Vec3 = motion::Vec3<double>;
 using Mat3 = motion::Mat3<double>;
-using results::MotionFrame;
+using records::MotionFrame;
 
 template <class List>
 std::string numbers(const List& list, int digits = 7) {
@@ -154,7 +154,7 @@ class Tracks {
 
 struct Quantity {
   std::string name, label, unit;
-  std::function<double(const results::CurvePoint&)> value;
+  std::function<double(const records::CurvePoint&)> value;
 };
 
 double length_of(const double* v) { return std::hypot(v[0], v[1], v[2]); }
@@ -165,11 +165,11 @@ std::vector<Quantity> quantities() {
   const char* const strains[] = {"e1", "g2", "g3", "k1", "k2", "k3"};
   for (int k = 0; k < 6; ++k)
     all.push_back({forces[k], std::string("section force ") + forces[k], k < 3 ? "N" : "N m",
-                   [k](const results::CurvePoint& p) { return p.force[k]; }});
-  all.push_back({"speed", "speed", "m/s", [](const results::CurvePoint& p) { return length_of(p.velocity); }});
+                   [k](const records::CurvePoint& p) { return p.force[k]; }});
+  all.push_back({"speed", "speed", "m/s", [](const records::CurvePoint& p) { return length_of(p.velocity); }});
   for (int k = 0; k < 6; ++k)
     all.push_back({strains[k], std::string("strain ") + strains[k], k < 3 ? "" : "1/m",
-                   [k](const results::CurvePoint& p) { return p.strain[k]; }});
+                   [k](const records::CurvePoint& p) { return p.strain[k]; }});
   return all;
 }
 
@@ -281,9 +281,9 @@ class MotionData {
     std::vector<float> point_axes;
     std::string list = "[";
     for (std::size_t c = 0; c < start.curves.size(); ++c) {
-      const results::Curve& curve = start.curves[c];
-      const results::MotionParts::Curve part =
-          c < run_.parts.curves.size() ? run_.parts.curves[c] : results::MotionParts::Curve{};
+      const records::Curve& curve = start.curves[c];
+      const records::MotionParts::Curve part =
+          c < run_.parts.curves.size() ? run_.parts.curves[c] : records::MotionParts::Curve{};
       list += (c > 0 ? ",{" : "{") + ("\"name\":" + io::json_string(curve.name)) +
               ",\"first\":" + std::to_string(point_track.size()) +
               ",\"points\":" + std::to_string(curve.points.size()) + ",\"outline\":" + std::to_string(part.outline) +
@@ -303,10 +303,10 @@ class MotionData {
       if (q.unit != "N" && q.unit != "N m" && q.name != "speed" && !with_strains_) continue;
       Scaled of_points, of_bodies;
       for (const MotionFrame* f : frames_) {
-        for (const results::Curve& curve : f->curves)
-          for (const results::CurvePoint& p : curve.points) of_points.add(q.value(p));
+        for (const records::Curve& curve : f->curves)
+          for (const records::CurvePoint& p : curve.points) of_points.add(q.value(p));
         if (q.name == "speed")
-          for (const results::BodyPose& b : f->bodies) of_bodies.add(length_of(b.velocity));
+          for (const records::BodyPose& b : f->bodies) of_bodies.add(length_of(b.velocity));
       }
       if (q.name == "speed") {
         of_points.low = of_bodies.low = std::min({0.0, of_points.low, of_bodies.low});
@@ -332,7 +332,7 @@ class MotionData {
   std::string bodies(Tracks& tracks, Arrays&) {
     const MotionFrame& start = *frames_.front();
     return ",\"bodies\":" + list_of(start.bodies, [&](std::size_t k) {
-             const results::BodyPose& b = start.bodies[k];
+             const records::BodyPose& b = start.bodies[k];
              std::vector<double> arms;
              for (const auto& a : b.attachments)
                for (std::size_t c = 0; c < 3; ++c) arms.push_back(a[c] - b.center[c]);
@@ -350,7 +350,7 @@ class MotionData {
     const auto still = [](const MotionFrame&) -> const double* { return nullptr; };
     std::string text =
         ",\"links\":" + list_of(start.links, [&](std::size_t k) {
-          const results::Link& l = start.links[k];
+          const records::Link& l = start.links[k];
           const std::size_t first = tracks.add([&](const MotionFrame& f) { return f.links[k].first; },
                                                [&](const MotionFrame& f) { return f.links[k].axes; });
           const std::size_t second = tracks.add([&](const MotionFrame& f) { return f.links[k].second; }, still);
@@ -360,7 +360,7 @@ class MotionData {
                  ",\"axes\":" + numbers(quaternion_of(l.axes)) + "}";
         });
     text += ",\"frames\":" + list_of(start.frames, [&](std::size_t k) {
-              const results::FramePose& p = start.frames[k];
+              const records::FramePose& p = start.frames[k];
               const std::size_t track = tracks.add([&](const MotionFrame& f) { return f.frames[k].position; },
                                                    [&](const MotionFrame& f) { return f.frames[k].axes; });
               return "{\"name\":" + io::json_string(p.name) + ",\"track\":" + std::to_string(track) +
@@ -368,7 +368,7 @@ class MotionData {
             });
     std::vector<float> force, moment;
     for (const MotionFrame* f : frames_)
-      for (const results::Arrow& a : f->arrows) {
+      for (const records::Arrow& a : f->arrows) {
         for (const double v : a.force) force.push_back(static_cast<float>(v));
         for (const double v : a.moment) moment.push_back(static_cast<float>(v));
       }
@@ -413,7 +413,7 @@ std::string view_data(const RunFiles& run, std::size_t most_bytes) {
   constexpr std::size_t many_points = 8000;
   std::size_t num_points = 0;
   if (!frames.empty())
-    for (const results::Curve& c : frames.front()->curves) num_points += c.points.size();
+    for (const records::Curve& c : frames.front()->curves) num_points += c.points.size();
   for (bool with_strains = num_points <= many_points;; with_strains = false) {
     Arrays arrays;
     const std::string plots = plot_data(run.history, arrays);

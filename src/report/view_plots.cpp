@@ -52,9 +52,9 @@ std::string plot_data(const io::History& history, Arrays& arrays) {
     std::vector<double> times;
     for (const std::size_t r : rows) times.push_back(history.rows[r].time);
     arrays.add(prefix, "f64", times);
-    const results::HistoryHeader::About about = group.columns.front() < history.header.about.size()
+    const records::HistoryHeader::About about = group.columns.front() < history.header.about.size()
                                                     ? history.header.about[group.columns.front()]
-                                                    : results::HistoryHeader::About{};
+                                                    : records::HistoryHeader::About{};
     json += (g > 0 ? ",{" : "{") + ("\"title\":" + io::json_string(io::title_of(group))) +
             ",\"unit\":" + io::json_string(about.unit) + ",\"part\":" + io::json_string(about.part) + ",\"times\":\"" +
             prefix + "\",\"columns\":[";

@@ -276,22 +276,6 @@ struct SensorReader {
 
 }  // namespace
 
-HistoryHeader make_header(const plan::Plan& plan) {
-  HistoryHeader header;
-  header.runs_over_load = !plan.is_dynamic;
-  for (const plan::SensorPlan& s : plan.sensors) {
-    const std::string& part = !s.sensor.joint.empty()  ? s.sensor.joint
-                              : !s.sensor.beam.empty() ? s.sensor.beam
-                                                       : s.sensor.at.to;
-    for (std::size_t k = 0; k < s.components.size(); ++k) {
-      const std::string& c = s.components[k];
-      header.columns.push_back(c.empty() ? s.sensor.name : s.sensor.name + "." + c);
-      header.about.push_back({scene::unit_of(s.sensor, k), scene::to_string(s.sensor.kind), part});
-    }
-  }
-  return header;
-}
-
 void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
                   std::vector<double>& values) {
   values.clear();
@@ -323,8 +307,8 @@ namespace {
 void copy(const Vec3<double>& from, double* to) { std::copy_n(from.v, 3, to); }
 void copy(const Mat3<double>& from, double* to) { std::copy_n(from.m, 9, to); }
 
-CurvePoint make_curve_point(const BeamPoint& p, const Vec6<double>& force) {
-  CurvePoint point{};
+records::CurvePoint make_curve_point(const BeamPoint& p, const Vec6<double>& force) {
+  records::CurvePoint point{};
   copy(p.pose.x, point.position);
   copy(p.pose.R, point.axes);
   copy(p.pose.R * lanes::linear_part(p.v), point.velocity);
@@ -339,9 +323,9 @@ int intervals_of(const plan::Plan& plan) {
   return num_elements > 4000 ? 1 : num_elements > 1000 ? 2 : 4;
 }
 
-Curve make_curve(const plan::BeamPlan& beam, const step::System& system, const Field& f, const step::State& state,
-                 int parts) {
-  Curve curve;
+records::Curve make_curve(const plan::BeamPlan& beam, const step::System& system, const Field& f,
+                          const step::State& state, int parts) {
+  records::Curve curve;
   curve.name = beam.name;
   for (std::size_t k = 0; k < beam.elements.size(); ++k)
     with_beam_element(system.plan(), beam.elements[k], [&](const auto& e) {
@@ -354,9 +338,9 @@ Curve make_curve(const plan::BeamPlan& beam, const step::System& system, const F
   return curve;
 }
 
-BodyPose make_body_pose(const plan::BodyPlan& body, const Field& f) {
+records::BodyPose make_body_pose(const plan::BodyPlan& body, const Field& f) {
   const PointMotion p = motion_of_port(body.frame, f);
-  BodyPose pose{};
+  records::BodyPose pose{};
   pose.name = body.name;
   copy(p.pose.x, pose.position);
   copy(p.pose.R, pose.axes);
@@ -382,7 +366,7 @@ void for_each_link(const plan::Plan& plan, const Visit& visit) {
 }
 
 /// Point loads; several elements of one load at one place (components in axes that turn) are one arrow.
-void add_arrows(const plan::Plan& plan, const Field& f, std::vector<Arrow>& arrows) {
+void add_arrows(const plan::Plan& plan, const Field& f, std::vector<records::Arrow>& arrows) {
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
@@ -404,16 +388,16 @@ void add_arrows(const plan::Plan& plan, const Field& f, std::vector<Arrow>& arro
 
 }  // namespace
 
-MotionFrame eval_motion(const step::System& system, const step::State& state) {
+records::MotionFrame eval_motion(const step::System& system, const step::State& state) {
   const plan::Plan& plan = system.plan();
   const Field f = system.field(state);
-  MotionFrame frame;
+  records::MotionFrame frame;
   frame.time = state.time;
   const int parts = intervals_of(plan);
   for (const plan::BeamPlan& beam : plan.beams) frame.curves.push_back(make_curve(beam, system, f, state, parts));
   for (const plan::BodyPlan& body : plan.bodies) frame.bodies.push_back(make_body_pose(body, f));
   for_each_link(plan, [&](const std::string& name, const Port& first, const Port& second) {
-    Link link{};
+    records::Link link{};
     link.name = name;
     copy(position_of(f, first), link.first);
     copy(position_of(f, second), link.second);
@@ -422,7 +406,7 @@ MotionFrame eval_motion(const step::System& system, const step::State& state) {
   });
   for (std::size_t k = 0; k < plan.frames.size(); ++k) {
     const Frame<double>& pose = f.carriers[k].pose;
-    FramePose& moving = frame.frames.emplace_back();
+    records::FramePose& moving = frame.frames.emplace_back();
     moving.name = plan.frames[k].name;
     copy(pose.x, moving.position);
     copy(pose.R, moving.axes);
@@ -454,8 +438,8 @@ std::optional<scene::BodyShape> stand_in(const scene::Body& body) {
 
 }  // namespace
 
-MotionParts make_parts(const scene::Scene& scene, const step::System& system) {
-  MotionParts parts;
+records::MotionParts make_parts(const scene::Scene& scene, const step::System& system) {
+  records::MotionParts parts;
   std::map<std::string, int> outline_of, body_of;
   const int sides = intervals_of(system.plan()) < 4 ? 8 : 24;  // of round sections; of many, coarse ones
   for (const scene::Section& s : scene.sections) {
@@ -467,7 +451,7 @@ MotionParts make_parts(const scene::Scene& scene, const step::System& system) {
   const plan::Plan& plan = system.plan();
   const std::vector<tree::SubdomainId>& leaves = system.linear().tree().leaf_of_element;
   for (const plan::BeamPlan& beam : plan.beams) {
-    MotionParts::Curve curve;
+    records::MotionParts::Curve curve;
     curve.outline = section_of.at(beam.name);
     for (const int e : beam.elements) curve.subdomains.push_back(leaves[static_cast<std::size_t>(e)]);
     parts.curves.push_back(std::move(curve));

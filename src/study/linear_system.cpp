@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bough/io/number_text.hpp"
-#include "bough/study/simulate.hpp"
+#include "bough/run/simulate.hpp"
 
 namespace bough::study {
 
@@ -12,12 +12,12 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-class NoRecorder final : public results::Recorder {
+class NoRecorder final : public records::Recorder {
  public:
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 };
 
 /// One entry of a column: its own contributions and those of its mirror.
@@ -136,7 +136,7 @@ std::vector<UnknownBlock> make_blocks(const step::System& system) {
 }
 
 /// Fills in the system from the state that a step starts from.
-void fill(step::System& system, step::State state, const BeforeStep& attempt, LinearSystem& out) {
+void fill(step::System& system, step::State state, const run::BeforeStep& attempt, LinearSystem& out) {
   out.is_dynamic = system.plan().is_dynamic;
   out.step = attempt.number;
   out.begin = state.time;
@@ -172,9 +172,9 @@ void fill(step::System& system, step::State state, const BeforeStep& attempt, Li
 std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const StepChoice& choice, int threads,
                                                std::string& cause) {
   std::optional<LinearSystem> out;
-  SimulateOptions options;
+  run::SimulateOptions options;
   options.threads = threads;
-  options.before_step = [&](step::System& system, const step::State& state, const BeforeStep& attempt) {
+  options.before_step = [&](step::System& system, const step::State& state, const run::BeforeStep& attempt) {
     const double tolerance = 1e-9 * (attempt.end - state.time);
     const bool is_it =
         choice.time ? attempt.end >= *choice.time - tolerance : attempt.number == choice.number.value_or(1);
@@ -183,9 +183,9 @@ std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const 
     return false;
   };
   NoRecorder recorder;
-  const results::Summary summary = simulate(scene, options, recorder);
+  const records::Summary summary = run::simulate(scene, options, recorder);
   if (!out)
-    cause = summary.status == results::RunStatus::failed
+    cause = summary.status == records::RunStatus::failed
                 ? summary.cause
                 : "there is no such step: the run ends with step " + std::to_string(summary.steps.accepted);
   if (out && out->matrix.size == 0 && !out->trouble.empty()) {

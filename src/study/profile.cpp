@@ -86,12 +86,12 @@ struct Found {
   solve::SolveOptions options;
 };
 
-void fill_subdomains(const Found& found, const VisitMedians& m, results::Profile& out) {
+void fill_subdomains(const Found& found, const VisitMedians& m, records::Profile& out) {
   const std::vector<std::int64_t> own_entries = count_matrix_entries(found.graph, found.tree);
   out.subdomains.resize(at(found.tree.num_subdomains()));
   for (int s = 0; s < found.tree.num_subdomains(); ++s) {
     const tree::Subdomain& sub = found.tree.subdomains[at(s)];
-    results::SubdomainProfile& p = out.subdomains[at(s)];
+    records::SubdomainProfile& p = out.subdomains[at(s)];
     p.id = s;
     p.parent = sub.parent;
     p.level = sub.level;
@@ -113,7 +113,7 @@ void fill_subdomains(const Found& found, const VisitMedians& m, results::Profile
   for (std::size_t v = 0; v < found.shapes.visits.size(); ++v) {
     const solve::VisitShape& shape = found.shapes.visits[v];
     const auto share = 1.0 / static_cast<double>(shape.subdomains.size());
-    results::SubdomainTimes t;
+    records::SubdomainTimes t;
     const double evaluated = m.stage[of(Stage::evaluate)][v];
     t.evaluate = (m.evaluate[v] + evaluated) * share;
     t.assemble = m.stage[of(Stage::assemble)][v] * share;
@@ -128,7 +128,7 @@ void fill_subdomains(const Found& found, const VisitMedians& m, results::Profile
     t.residual = m.seconds[of(Work::residual)][v] * share;
     t.wait = m.wait[v];
     for (tree::SubdomainId s : shape.subdomains) {
-      results::SubdomainProfile& p = out.subdomains[at(s)];
+      records::SubdomainProfile& p = out.subdomains[at(s)];
       p.visit = static_cast<int>(v);
       p.num_in_visit = static_cast<int>(shape.subdomains.size());
       p.times = t;
@@ -139,11 +139,11 @@ void fill_subdomains(const Found& found, const VisitMedians& m, results::Profile
     out.element_bytes += shape.element_bytes;
   }
   for (const solve::InterfaceReport& i : found.interfaces) out.subdomains[at(i.subdomain)].condition = i.condition;
-  results::sum_subtrees(out.subdomains);
-  out.levels = results::sum_levels(out.subdomains);
+  records::sum_subtrees(out.subdomains);
+  out.levels = records::sum_levels(out.subdomains);
 }
 
-void fill_events(const WatchedRun& run, results::Profile& out) {
+void fill_events(const WatchedRun& run, records::Profile& out) {
   static constexpr const char* names[] = {"other", "evaluate", "factor", "forward", "backward", "residual"};
   std::vector<std::vector<int>> visits_by_thread(at(out.num_visits), std::vector<int>(run.times.thread_busy.size(), 0));
   for (const schedule::TimedEvent& e : run.times.events) {
@@ -156,15 +156,15 @@ void fill_events(const WatchedRun& run, results::Profile& out) {
   for (std::size_t k = 0; k < run.kept_steps.size() && run.kept_steps[k].begin <= last; ++k)
     out.events.push_back({"step", -1, static_cast<int>(k), -1, run.kept_steps[k].begin, run.kept_steps[k].seconds});
   out.events_left_out = run.times.events_left_out;
-  for (results::SubdomainProfile& s : out.subdomains) {
+  for (records::SubdomainProfile& s : out.subdomains) {
     const std::vector<int>& counts = visits_by_thread[at(s.visit)];
     if (!counts.empty()) s.thread = static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
   }
 }
 
 /// Means over the steps that were watched, the start left out; total and rest are those of medians.
-results::StepProfile mean_step(const WatchedRun& run, std::size_t num_visits) {
-  results::StepProfile s;
+records::StepProfile mean_step(const WatchedRun& run, std::size_t num_visits) {
+  records::StepProfile s;
   const auto n = static_cast<double>(std::max<std::size_t>(run.watched.size(), 1));
   s.total = median(run.steps);
   const TreeTimes *end = walked_tree(run.times, num_visits), *begin = walked_tree(run.start, num_visits);
@@ -205,13 +205,13 @@ double measured_solution(const WatchedRun& run, std::size_t num_visits) {
 }
 
 /// What other numbers of threads would take, from visits that ran on one.
-void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun& alone, results::Profile& out) {
+void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun& alone, records::Profile& out) {
   constexpr double grain = schedule::Threads::usual_grain_flops;
   const std::vector<int> threads{1, 2, 4, 8, 16, 32, 64};
   std::vector<double> seconds(found.shapes.visits.size(), 0.0);
-  std::vector<results::ThreadsProfile> rows(threads.size());
+  std::vector<records::ThreadsProfile> rows(threads.size());
   for (std::size_t k = 0; k < threads.size(); ++k) rows[k].threads = threads[k];
-  const results::StepProfile step = mean_step(alone, found.shapes.visits.size());
+  const records::StepProfile step = mean_step(alone, found.shapes.visits.size());
   const double per_step[] = {step.factorizations, step.forward > 0.0 ? step.solutions : 0.0, step.solutions,
                              step.residual > 0.0 ? step.solutions : 0.0};
   for (std::size_t w = 0; w < std::size(walks); ++w) {
@@ -226,7 +226,7 @@ void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun
   }
   const auto chunks =
       static_cast<double>(std::max<std::size_t>(alone.times.chunks[of(Work::evaluate)].chunk.size(), 1));
-  for (results::ThreadsProfile& r : rows) {
+  for (records::ThreadsProfile& r : rows) {
     const double rounds = std::ceil(chunks / r.threads);  // equal chunks go in rounds
     r.predicted_step += step.rest + (step.evaluate + step.other_chunks) * rounds / chunks;
   }
@@ -243,11 +243,11 @@ std::string cannot_profile(const scene::Scene& scene) {
          "/solver/kind='\"hierarchical\"'";
 }
 
-results::Profile profile(const scene::Scene& given, const ProfileOptions& options, results::Recorder& recorder,
-                         const ProgressCallback& progress) {
+records::Profile profile(const scene::Scene& given, const ProfileOptions& options, records::Recorder& recorder,
+                         const run::ProgressCallback& progress) {
   scene::Scene scene = given;
   scene.without.push_back("small");  // the threads that are asked for are looked at, whether they pay or not
-  results::Profile out;
+  records::Profile out;
   out.scene = scene.name;
   out.title = scene.title;
   out.threads = scene.solver.tasks ? options.threads : 1;
@@ -267,7 +267,7 @@ results::Profile profile(const scene::Scene& given, const ProfileOptions& option
   };
   const WatchedRun run =
       watch_run(scene, {.threads = out.threads, .steps = options.steps, .keep_events = true}, recorder, progress, look);
-  if (run.summary.status == results::RunStatus::failed) out.trouble = run.summary.cause;
+  if (run.summary.status == records::RunStatus::failed) out.trouble = run.summary.cause;
   out.steps = run.summary.steps.accepted;
   out.factorizations = run.summary.steps.factorizations;
   out.solutions = found.counters.solutions;
@@ -294,7 +294,7 @@ results::Profile profile(const scene::Scene& given, const ProfileOptions& option
 
   NullRecorder nobody;
   WatchedRun alone;
-  const auto go_on = [&progress](const results::Progress& p) { return !progress || progress(p); };
+  const auto go_on = [&progress](const records::Progress& p) { return !progress || progress(p); };
   const auto run_on = [&](int threads) {
     return watch_run(scene, {.threads = threads, .steps = std::min(options.steps, options.steps_for_speed)}, nobody,
                      go_on);
@@ -302,7 +302,7 @@ results::Profile profile(const scene::Scene& given, const ProfileOptions& option
   if (out.threads != 1) alone = run_on(1);
   const WatchedRun& one = out.threads == 1 ? run : alone;
   predict_threads(found, find_medians(one.times, found.shapes.visits), one, out);
-  for (results::ThreadsProfile& row : out.speed) {
+  for (records::ThreadsProfile& row : out.speed) {
     if (row.threads > std::max(out.machine_threads, out.threads) || (row.threads > 1 && !scene.solver.tasks)) continue;
     WatchedRun other;
     if (row.threads != 1 && row.threads != out.threads) other = run_on(row.threads);

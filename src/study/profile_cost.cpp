@@ -64,9 +64,9 @@ double seconds_of(const Features& f, const Features& costs) {
   return f[0] * costs[0] + f[1] * costs[1] + f[2] * costs[2];
 }
 
-results::CostFit fit_kind(std::span<const solve::VisitShape> visits, const std::vector<double>& seconds,
+records::CostFit fit_kind(std::span<const solve::VisitShape> visits, const std::vector<double>& seconds,
                           bool in_lanes) {
-  results::CostFit fit{.in_lanes = in_lanes};
+  records::CostFit fit{.in_lanes = in_lanes};
   std::vector<Features> rows;
   std::vector<double> times;
   for (std::size_t v = 0; v < visits.size(); ++v) {
@@ -101,8 +101,8 @@ results::CostFit fit_kind(std::span<const solve::VisitShape> visits, const std::
   return fit;
 }
 
-results::Alternative describe(const tree::Tree& tree, int leaf_size, int depth) {
-  results::Alternative a{.leaf_size = leaf_size, .depth = depth, .num_subdomains = tree.num_subdomains()};
+records::Alternative describe(const tree::Tree& tree, int leaf_size, int depth) {
+  records::Alternative a{.leaf_size = leaf_size, .depth = depth, .num_subdomains = tree.num_subdomains()};
   for (const tree::Subdomain& s : tree.subdomains) {
     a.num_leaves += s.is_leaf() ? 1 : 0;
     a.num_levels = std::max(a.num_levels, s.level + 1);
@@ -111,18 +111,18 @@ results::Alternative describe(const tree::Tree& tree, int leaf_size, int depth) 
   return a;
 }
 
-bool is_same(const results::Alternative& a, const results::Alternative& b) {
+bool is_same(const records::Alternative& a, const records::Alternative& b) {
   return a.num_subdomains == b.num_subdomains && a.num_leaves == b.num_leaves && a.num_levels == b.num_levels &&
          a.flops == b.flops;
 }
 
 }  // namespace
 
-std::vector<results::CostFit> fit_costs(std::span<const solve::VisitShape> visits, const std::vector<double>& seconds) {
-  std::vector<results::CostFit> fits{fit_kind(visits, seconds, false), fit_kind(visits, seconds, true)};
+std::vector<records::CostFit> fit_costs(std::span<const solve::VisitShape> visits, const std::vector<double>& seconds) {
+  std::vector<records::CostFit> fits{fit_kind(visits, seconds, false), fit_kind(visits, seconds, true)};
   for (std::size_t k = 0; k < 2; ++k) {
     if (fits[k].num_visits > 0) continue;
-    const results::CostFit& other = fits[1 - k];
+    const records::CostFit& other = fits[1 - k];
     fits[k].per_front = other.per_front;
     fits[k].per_flop = other.per_flop;
     fits[k].per_byte = other.per_byte;
@@ -130,20 +130,20 @@ std::vector<results::CostFit> fit_costs(std::span<const solve::VisitShape> visit
   return fits;
 }
 
-std::vector<double> predict(std::span<const solve::VisitShape> visits, const std::vector<results::CostFit>& costs) {
+std::vector<double> predict(std::span<const solve::VisitShape> visits, const std::vector<records::CostFit>& costs) {
   std::vector<double> seconds;
   for (const solve::VisitShape& v : visits) {
-    const results::CostFit& c = costs[v.in_lanes ? 1 : 0];
+    const records::CostFit& c = costs[v.in_lanes ? 1 : 0];
     seconds.push_back(seconds_of(features_of(v), {c.per_front, c.per_flop, c.per_byte}));
   }
   return seconds;
 }
 
-std::vector<results::Alternative> try_alternatives(const blocks::BlockGraph& graph, const tree::Tree& present,
+std::vector<records::Alternative> try_alternatives(const blocks::BlockGraph& graph, const tree::Tree& present,
                                                    const scene::Solver& solver, int threads, double grain_flops,
-                                                   const std::vector<results::CostFit>& costs,
+                                                   const std::vector<records::CostFit>& costs,
                                                    const solve::SolveOptions& options) {
-  const auto price = [&](const tree::Tree& tree, results::Alternative& a) {
+  const auto price = [&](const tree::Tree& tree, records::Alternative& a) {
     const solve::VisitShapes shapes = solve::make_visit_shapes(graph, tree, options);
     const std::vector<double> seconds = predict(shapes.visits, costs);
     for (double s : seconds) a.predicted += s;
@@ -152,7 +152,7 @@ std::vector<results::Alternative> try_alternatives(const blocks::BlockGraph& gra
     if (counts.back() != threads) counts.push_back(threads);
     a.predicted_threads = eval_walks(shapes.walk, seconds, Direction::up, counts, grain_flops).back();
   };
-  std::vector<results::Alternative> list{describe(present, solver.leaf_size, solver.depth)};
+  std::vector<records::Alternative> list{describe(present, solver.leaf_size, solver.depth)};
   list.front().is_present = true;
   price(present, list.front());
   int largest_leaf = 1;
@@ -166,7 +166,7 @@ std::vector<results::Alternative> try_alternatives(const blocks::BlockGraph& gra
   for (const auto& [leaf_size, depth] : wanted) {
     const tree::Tree tree =
         tree::make_tree(graph, {.leaf_size = leaf_size, .depth = depth, .in_lockstep = options.lanes});
-    results::Alternative a = describe(tree, leaf_size, depth);
+    records::Alternative a = describe(tree, leaf_size, depth);
     if (std::any_of(list.begin(), list.end(), [&](const auto& other) { return is_same(a, other); })) continue;
     price(tree, a);
     list.push_back(a);

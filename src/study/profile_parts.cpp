@@ -24,17 +24,17 @@ void add_port(const plan::Plan& plan, const elements::Port& port, bool node_last
 }
 
 template <class E>
-void add_part(const plan::Plan& plan, const E& e, int leaf, results::Profile& out) {
-  results::ProfilePart part{.kind = results::ProfilePart::Kind::joint, .leaf = leaf, .points = {}};
+void add_part(const plan::Plan& plan, const E& e, int leaf, records::Profile& out) {
+  records::ProfilePart part{.kind = records::ProfilePart::Kind::joint, .leaf = leaf, .points = {}};
   if constexpr (E::role == elements::Role::beam) {
-    part.kind = results::ProfilePart::Kind::beam;
+    part.kind = records::ProfilePart::Kind::beam;
     for (const elements::Port& port : e.ports) {
       std::vector<std::array<double, 3>> ends;
       add_port(plan, port, false, ends);
       part.points.push_back(ends.back());
     }
   } else if constexpr (E::role == elements::Role::body) {
-    part.kind = results::ProfilePart::Kind::body;
+    part.kind = records::ProfilePart::Kind::body;
     add_port(plan, e.ports[0], false, part.points);
   } else if constexpr (elements::joins_two_frames(E::role)) {
     add_port(plan, e.ports[0], false, part.points);
@@ -74,7 +74,7 @@ std::vector<std::int64_t> count_matrix_entries(const blocks::BlockGraph& graph, 
   return entries;
 }
 
-void draw_parts(const plan::Plan& plan, const tree::Tree& tree, results::Profile& out) {
+void draw_parts(const plan::Plan& plan, const tree::Tree& tree, records::Profile& out) {
   for (std::size_t e = 0; e < plan.directory.size(); ++e)
     plan::with_element(plan.elements, plan.directory[e],
                        [&](const auto& element) { add_part(plan, element, tree.leaf_of_element[e], out); });

@@ -4,7 +4,7 @@
 
 #include "bough/blocks/block_graph.hpp"
 #include "bough/plan/plan.hpp"
-#include "bough/results/profile.hpp"
+#include "bough/records/profile.hpp"
 #include "bough/tree/tree.hpp"
 
 namespace bough::study {
@@ -13,6 +13,6 @@ namespace bough::study {
 std::vector<std::int64_t> count_matrix_entries(const blocks::BlockGraph& graph, const tree::Tree& tree);
 
 /// Elements of the structure as it is given, with their leaves, and the nodes that stand in separators.
-void draw_parts(const plan::Plan& plan, const tree::Tree& tree, results::Profile& out);
+void draw_parts(const plan::Plan& plan, const tree::Tree& tree, records::Profile& out);
 
 }  // namespace bough::study

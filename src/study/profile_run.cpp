@@ -7,8 +7,8 @@ namespace bough::study {
 
 constexpr long all_watched = 16, watched_stride = 7;
 
-WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, results::Recorder& recorder,
-                     const ProgressCallback& progress, const std::function<void(step::System&)>& look) {
+WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, records::Recorder& recorder,
+                     const run::ProgressCallback& progress, const std::function<void(step::System&)>& look) {
   using Clock = std::chrono::steady_clock;
   WatchedRun run;
   std::unique_ptr<schedule::TimedWalker> watch;
@@ -18,14 +18,14 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
   long tried = 0;
   bool is_watched = true;
   const long first_kept = options.steps >= 3 ? 3 : 1;  // the first steps find caches and pages cold
-  SimulateOptions simulate_options;
+  run::SimulateOptions simulate_options;
   simulate_options.threads = options.threads;
   simulate_options.want_motion = options.want_motion;
   simulate_options.wrap_walker = [&](const tree::Walker& inner) {
     watch = std::make_unique<schedule::TimedWalker>(inner);
     return watch->walker();
   };
-  simulate_options.before_step = [&](step::System&, const step::State&, const BeforeStep& attempt) {
+  simulate_options.before_step = [&](step::System&, const step::State&, const run::BeforeStep& attempt) {
     if (attempt.number > options.steps) return false;
     if (tried++ == 0) run.start = watch->times();
     is_watched = attempt.number <= all_watched || attempt.number % watched_stride == 0;
@@ -44,14 +44,14 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
                                 static_cast<double>(end - begin) * run.times.seconds_per_tick});
     if (look) look(system);
   };
-  const auto on_step = [&](const results::Progress& p) {
+  const auto on_step = [&](const records::Progress& p) {
     run.steps.push_back(std::chrono::duration<double>(Clock::now() - step_begin).count());
     if (is_watched) run.watched.push_back(run.steps.back());
     if (options.keep_events && is_watched && p.step >= first_kept && marks.size() < 1000)
       marks.emplace_back(mark_begin, watch->now());
     return progress ? progress(p) : true;
   };
-  run.summary = simulate(scene, simulate_options, recorder, on_step);
+  run.summary = run::simulate(scene, simulate_options, recorder, on_step);
   return run;
 }
 

@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
+#include "bough/run/simulate.hpp"
 #include "bough/schedule/timed_walker.hpp"
-#include "bough/study/simulate.hpp"
 
 namespace bough::study {
 
 struct WatchedRun {
-  results::Summary summary;
+  records::Summary summary;
   schedule::WalkTimes start;    ///< what was watched before the first step: consistent start, first accelerations
   schedule::WalkTimes times;    ///< in all
   std::vector<double> steps;    ///< wall time of each accepted step [s]
@@ -30,16 +30,16 @@ struct WatchedRunOptions {
 
 /// Runs a scene. Visits are watched in the first 16 steps, and in every seventh after them: what a watch costs is a share of small steps, and medians ask
 /// for no more. (An odd number, as factors are often renewed in every second step.) `look` is called once after the last step.
-WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, results::Recorder& recorder,
-                     const ProgressCallback& progress, const std::function<void(step::System&)>& look = {});
+WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, records::Recorder& recorder,
+                     const run::ProgressCallback& progress, const std::function<void(step::System&)>& look = {});
 
 /// A recorder that keeps nothing.
-class NullRecorder final : public results::Recorder {
+class NullRecorder final : public records::Recorder {
  public:
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 };
 
 /// The tree of visits that a run spent most of its factorizations on, among those with so many visits; null where none was walked.

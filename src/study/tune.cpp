@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "bough/plan/plan.hpp"
+#include "bough/run/simulate.hpp"
 #include "bough/solve/monolithic.hpp"
-#include "bough/study/simulate.hpp"
 #include "bough/tree/tree.hpp"
 #include "profile_run.hpp"
 
@@ -35,20 +35,20 @@ double time_run(const scene::Scene& scene, const TuneOptions& options, std::stri
   using Clock = std::chrono::steady_clock;
   Clock::time_point start, first, last;
   long done = 0;
-  SimulateOptions simulate_options;
+  run::SimulateOptions simulate_options;
   simulate_options.threads = options.threads;
-  simulate_options.before_step = [&](step::System&, const step::State&, const BeforeStep& attempt) {
+  simulate_options.before_step = [&](step::System&, const step::State&, const run::BeforeStep& attempt) {
     if (attempt.number > options.steps) return false;
     if (attempt.number == 1 && done == 0) start = Clock::now();
     return true;
   };
   NullRecorder nobody;
-  const results::Summary summary = simulate(scene, simulate_options, nobody, [&](const results::Progress&) {
+  const records::Summary summary = run::simulate(scene, simulate_options, nobody, [&](const records::Progress&) {
     last = Clock::now();
     if (done++ == 0) first = last;
     return true;
   });
-  if (summary.status == results::RunStatus::failed)
+  if (summary.status == records::RunStatus::failed)
     failure = summary.cause;
   else if (done == 0)
     failure = "the run has no step";

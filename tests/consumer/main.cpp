@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "bough/io/read_scene.hpp"
-#include "bough/results/records.hpp"
-#include "bough/study/simulate.hpp"
+#include "bough/records/run.hpp"
+#include "bough/run/simulate.hpp"
 #include "bough/version.hpp"
 
 namespace {
 
-struct CountRows : bough::results::Recorder {
+struct CountRows : bough::records::Recorder {
   long rows = 0;
-  void begin(const bough::results::HistoryHeader&) override {}
-  void row(const bough::results::HistoryRow&) override { ++rows; }
-  void motion(const bough::results::MotionFrame&) override {}
-  void end(const bough::results::Summary&) override {}
+  void begin(const bough::records::HistoryHeader&) override {}
+  void row(const bough::records::HistoryRow&) override { ++rows; }
+  void motion(const bough::records::MotionFrame&) override {}
+  void end(const bough::records::Summary&) override {}
 };
 
 }  // namespace
@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   CountRows recorder;
-  const bough::results::Summary summary = bough::study::simulate(file.scene, {.threads = 2}, recorder);
+  const bough::records::Summary summary = bough::run::simulate(file.scene, {.threads = 2}, recorder);
   std::printf("bough %s: %ld rows, %s\n", EXPECTED_VERSION, recorder.rows, summary.cause.c_str());
-  return summary.status == bough::results::RunStatus::ok && recorder.rows > 100 ? 0 : 1;
+  return summary.status == bough::records::RunStatus::ok && recorder.rows > 100 ? 0 : 1;
 }

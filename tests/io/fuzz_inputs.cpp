@@ -15,9 +15,9 @@
 #include "bough/io/read_motion.hpp"
 #include "bough/io/read_study.hpp"
 #include "bough/io/read_sweep.hpp"
-#include "bough/study/estimate.hpp"
-#include "bough/study/memory_run.hpp"
-#include "bough/study/simulate.hpp"
+#include "bough/run/estimate.hpp"
+#include "bough/run/memory_run.hpp"
+#include "bough/run/simulate.hpp"
 
 namespace {
 
@@ -89,16 +89,16 @@ std::string fault_of(const std::vector<Problem>& problems, const std::vector<Pro
 std::string run_fault(Scene scene) {
   constexpr double most_unknowns = 3000.0, most_seconds = 0.5;
   constexpr long most_steps = 12;
-  if (bough::study::estimate_run(scene).unknowns > most_unknowns) return "";
+  if (bough::run::estimate_run(scene).unknowns > most_unknowns) return "";
   scene.analysis.end_time = std::min(scene.analysis.end_time, 8.0 * scene.analysis.step_size);
   scene.analysis.load_steps = std::min(scene.analysis.load_steps, 2);
   const double start = cpu_seconds();
   long attempts = 0;
-  bough::study::SimulateOptions options;
+  bough::run::SimulateOptions options;
   options.before_step = [&](auto&, const auto&, const auto&) {
     return ++attempts < most_steps && cpu_seconds() - start < most_seconds;
   };
-  const bough::study::MemoryRun run = bough::study::run_in_memory(scene, options);
+  const bough::run::MemoryRun run = bough::run::run_in_memory(scene, options);
   if (!run.ok()) return run.summary.cause.empty() ? "a run failed without a cause" : fault_of(run.summary.cause);
   for (const auto& row : run.rows)
     for (const double x : row.values)

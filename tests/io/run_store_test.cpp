@@ -113,12 +113,12 @@ TEST_F(RunStores, what_cannot_be_written_leaves_what_was_there) {
 }
 
 TEST_F(RunStores, an_unpacked_run_is_the_folder_that_it_would_have_been) {
-  const results::Summary summary = sample_summary();
-  const results::HistoryRow row{0.0, 0.0, 0, {1.0, 2.0, 3.0}};
+  const records::Summary summary = sample_summary();
+  const records::HistoryRow row{0.0, 0.0, 0, {1.0, 2.0, 3.0}};
   RunInMemory memory("1", {});
   RunDirectory directory(scratch_ / "run", "1", {});
-  for (results::Recorder* recorder :
-       {static_cast<results::Recorder*>(&memory), static_cast<results::Recorder*>(&directory)}) {
+  for (records::Recorder* recorder :
+       {static_cast<records::Recorder*>(&memory), static_cast<records::Recorder*>(&directory)}) {
     recorder->begin(summary.header);
     recorder->row(row);
     recorder->end(summary);

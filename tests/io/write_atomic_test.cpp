@@ -149,16 +149,16 @@ TEST(RunDirectory, writes_every_file_and_all_of_them_appear_together) {
 
 TEST(RunDirectory, a_new_run_keeps_the_former_results_until_its_end_and_is_refused_beside_files_of_others) {
   const ScratchDirectory scratch;
-  const auto write = [&](int frames, results::RunStatus status) {
+  const auto write = [&](int frames, records::RunStatus status) {
     RunDirectory run(scratch / "out", "1");
     run.begin({{"a"}});
     for (int k = 0; k < frames; ++k) run.motion(sample_frame(k));
-    results::Summary summary;
+    records::Summary summary;
     summary.status = status;
     summary.header.columns = {"a"};
     run.end(summary);
   };
-  write(3, results::RunStatus::ok);
+  write(3, records::RunStatus::ok);
   {
     RunDirectory second(scratch / "out", "1");
     second.begin({{"a"}});
@@ -167,13 +167,13 @@ TEST(RunDirectory, a_new_run_keeps_the_former_results_until_its_end_and_is_refus
     RunDirectory third(scratch / "out", "1");
     EXPECT_THROW(third.begin({{"a"}}), std::runtime_error);
   }
-  write(1, results::RunStatus::failed);
+  write(1, records::RunStatus::failed);
   EXPECT_EQ(names_in(scratch / "out/motion").size(), 3u) << "a run that fails keeps good results";
   EXPECT_EQ(names_in(scratch / "out.failed/motion").size(), 1u);
-  write(2, results::RunStatus::ok);
+  write(2, records::RunStatus::ok);
   EXPECT_EQ(names_in(scratch / "out/motion").size(), 2u);
   write_file(scratch / "out/motion/frame_mine.vtu", "mine");
-  EXPECT_THROW(write(1, results::RunStatus::ok), OutputRefused);
+  EXPECT_THROW(write(1, records::RunStatus::ok), OutputRefused);
   EXPECT_TRUE(fs::exists(scratch / "out/motion/frame_mine.vtu"));
 }
 
@@ -201,7 +201,7 @@ TEST(RunDirectory, a_full_disk_keeps_the_rows_written_before_it) {
     }
   }
   EXPECT_NE(cause.find("history.csv: File too large"), std::string::npos) << cause;
-  results::Summary summary;
+  records::Summary summary;
   summary.cause = cause;
   run.end(summary);
   const History history = read_history(scratch / "out/history.csv");
@@ -216,7 +216,7 @@ TEST(RunDirectory, without_room_for_the_history_there_is_no_summary_and_the_reas
   RunDirectory run(scratch / "out", "1");
   run.begin({{"a"}});
   run.row({0.0, 0.0, 0, {1.0}});
-  results::Summary summary;
+  records::Summary summary;
   {
     const FileSizeLimit limit(30);  // the header of 28 bytes is in, the row is not
     EXPECT_THROW(run.end(summary), std::runtime_error);

@@ -88,7 +88,7 @@ TEST(Compare, iteration_counts_are_shown_but_not_judged) {
 TEST(Compare, the_order_of_columns_does_not_matter) {
   History other = wave();
   std::swap(other.header.columns[0], other.header.columns[2]);
-  for (results::HistoryRow& row : other.rows) std::swap(row.values[0], row.values[2]);
+  for (records::HistoryRow& row : other.rows) std::swap(row.values[0], row.values[2]);
   EXPECT_TRUE(compare_histories(wave(), other, {0.0, 0.0}).equal);
 }
 

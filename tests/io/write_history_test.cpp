@@ -47,11 +47,11 @@ TEST(NumberText, text_that_is_not_wholly_a_number_is_refused) {
 
 TEST(History, comes_back_bit_for_bit_with_names_that_need_quotes) {
   const ScratchDirectory scratch;
-  const results::HistoryHeader header{{"tip.x", "a,b.c", "quo\"te"}};
-  std::vector<results::HistoryRow> rows;
+  const records::HistoryHeader header{{"tip.x", "a,b.c", "quo\"te"}};
+  std::vector<records::HistoryRow> rows;
   for (int k = 0; k < 50; ++k) rows.push_back({0.1 * k, 0.1 / 3.0, k, {std::sin(0.1 * k), 1e-300 / (k + 1), -0.0}});
   HistoryWriter writer(scratch / "history.csv", header);
-  for (const results::HistoryRow& row : rows) writer.row(row);
+  for (const records::HistoryRow& row : rows) writer.row(row);
   writer.commit();
 
   const History back = read_history(scratch / "history.csv");

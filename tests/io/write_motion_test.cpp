@@ -49,8 +49,8 @@ std::vector<T> values_of(const std::string& vtu, const std::string& name) {
 }
 
 /// The sample's beam as an I with a hole beside it in its outline, its body as a cuboid.
-results::MotionParts sample_parts() {
-  results::MotionParts parts;
+records::MotionParts sample_parts() {
+  records::MotionParts parts;
   parts.outlines = {{{{{-0.02, -0.03}, {0.02, -0.03}, {0.02, 0.03}, {-0.02, 0.03}},
                       {{-0.01, -0.01}, {-0.01, 0.01}, {0.01, 0.01}, {0.01, -0.01}}}}};
   parts.meshes = {scene::mesh_of(scene::Box{{{0.1, 0.2, 0.3}}})};
@@ -82,8 +82,8 @@ TEST(Vtu, arrays_stand_where_their_offsets_say_and_agree_in_length) {
 }
 
 TEST(Vtu, wedges_and_surfaces_enclose_the_volumes_of_section_and_body) {
-  results::MotionFrame frame = sample_frame(0.0);  // straight, 1 m long
-  const results::MotionParts parts = sample_parts();
+  records::MotionFrame frame = sample_frame(0.0);  // straight, 1 m long
+  const records::MotionParts parts = sample_parts();
   const std::string vtu = vtu_text(frame, parts);
   const auto x = values_of<float>(vtu, "Points");
   const auto corners = values_of<std::int32_t>(vtu, "connectivity");
@@ -116,9 +116,9 @@ TEST(Vtu, wedges_and_surfaces_enclose_the_volumes_of_section_and_body) {
 }
 
 TEST(Vtu, far_from_the_origin_points_are_in_double_precision) {
-  results::MotionFrame frame = sample_frame(0.0);
+  records::MotionFrame frame = sample_frame(0.0);
   EXPECT_NE(vtu_text(frame).find("type=\"Float32\" Name=\"Points\""), std::string::npos);
-  for (results::CurvePoint& p : frame.curves[0].points) p.position[0] += 1e7;
+  for (records::CurvePoint& p : frame.curves[0].points) p.position[0] += 1e7;
   frame.bodies.clear();
   frame.links.clear();
   EXPECT_NE(vtu_text(frame).find("type=\"Float64\" Name=\"Points\""), std::string::npos);
@@ -130,7 +130,7 @@ TEST(Vtu, a_frame_without_parts_is_an_empty_grid) {
 
 TEST(MotionFile, frames_come_back_to_single_precision_of_their_displacements) {
   const ScratchDirectory scratch;
-  results::MotionParts parts;
+  records::MotionParts parts;
   parts.outlines = {{{{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}}}};
   parts.meshes = {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}};
   parts.curves = {{0, {3, 1, 4, 1}}};
@@ -139,8 +139,8 @@ TEST(MotionFile, frames_come_back_to_single_precision_of_their_displacements) {
   MotionWriter writer(scratch / "motion.bin", parts);
   const double far = 1e6;  // where a displacement of a micrometre would be lost in single precision
   const auto moved = [&](int k) {
-    results::MotionFrame f = sample_frame(0.25 * k);
-    for (results::CurvePoint& p : f.curves[0].points) p.position[0] += far;
+    records::MotionFrame f = sample_frame(0.25 * k);
+    for (records::CurvePoint& p : f.curves[0].points) p.position[0] += far;
     return f;
   };
   for (int k = 0; k < 4; ++k) writer.frame(moved(k));
@@ -154,7 +154,7 @@ TEST(MotionFile, frames_come_back_to_single_precision_of_their_displacements) {
   EXPECT_EQ(motion.parts.meshes.at(0).points, parts.meshes[0].points);
   EXPECT_EQ(motion.parts.meshes.at(0).triangles, parts.meshes[0].triangles);
   for (std::size_t k = 0; k < 4; ++k) {
-    const results::MotionFrame expected = moved(static_cast<int>(k)), &got = motion.frames[k];
+    const records::MotionFrame expected = moved(static_cast<int>(k)), &got = motion.frames[k];
     EXPECT_EQ(got.time, expected.time);
     EXPECT_EQ(got.curves.at(0).name, "beam");
     EXPECT_EQ(got.bodies.at(0).name, "crank");
@@ -162,7 +162,7 @@ TEST(MotionFile, frames_come_back_to_single_precision_of_their_displacements) {
     EXPECT_EQ(got.bodies.at(0).center[0], 0.1);
     EXPECT_EQ(got.bodies.at(0).attachments, expected.bodies[0].attachments);
     for (std::size_t p = 0; p < 5; ++p) {
-      const results::CurvePoint &a = got.curves.at(0).points.at(p), &b = expected.curves[0].points[p];
+      const records::CurvePoint &a = got.curves.at(0).points.at(p), &b = expected.curves[0].points[p];
       for (int c = 0; c < 3; ++c)  // displacements below 0.1 in 24 bits, and one unit of the last place of 1e6
         EXPECT_NEAR(a.position[c], b.position[c], 4e-9 + 2e-10);
       for (int c = 0; c < 9; ++c) EXPECT_NEAR(a.axes[c], b.axes[c], 1e-7);

@@ -10,7 +10,7 @@
 #include <limits>
 #include <string>
 
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 #include "support/scratch_directory.hpp"
 
 namespace bough::io {
@@ -23,14 +23,14 @@ inline std::string text_of(const std::filesystem::path& path) {
 }
 
 /// A bent beam of `num_points`, one body and one link, at time t.
-inline results::MotionFrame sample_frame(double t, std::size_t num_points = 5) {
-  results::MotionFrame frame;
+inline records::MotionFrame sample_frame(double t, std::size_t num_points = 5) {
+  records::MotionFrame frame;
   frame.time = t;
-  results::Curve& curve = frame.curves.emplace_back();
+  records::Curve& curve = frame.curves.emplace_back();
   curve.name = "beam";
   for (std::size_t k = 0; k < num_points; ++k) {
     const double s = static_cast<double>(k) / static_cast<double>(num_points - 1), angle = 0.3 * s * std::sin(t);
-    results::CurvePoint point{
+    records::CurvePoint point{
         {s, 0.1 * s * s * std::sin(t), 0.0},
         {std::cos(angle), -std::sin(angle), 0.0, std::sin(angle), std::cos(angle), 0.0, 0.0, 0.0, 1.0},
         {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}};
@@ -41,9 +41,9 @@ inline results::MotionFrame sample_frame(double t, std::size_t num_points = 5) {
   return frame;
 }
 
-inline results::Summary sample_summary() {
-  results::Summary summary;
-  summary.status = results::RunStatus::ok;
+inline records::Summary sample_summary() {
+  records::Summary summary;
+  summary.status = records::RunStatus::ok;
   summary.scene = "sample";
   summary.header.columns = {"tip.x", "tip.y", "energy"};
   summary.final_values = {1.0, -0.1, 3.5};

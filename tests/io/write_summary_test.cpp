@@ -76,7 +76,7 @@ TEST(Summary, holds_every_promised_field) {
 
 TEST(Summary, leaves_out_checks_that_were_not_made_and_values_that_were_not_reached) {
   const ScratchDirectory scratch;
-  results::Summary summary = sample_summary();
+  records::Summary summary = sample_summary();
   summary.checks.evaluated = false;
   summary.expected = {{"a.x", 1.0, 1.0, 1.0, false, "", false}, {"b.x", 1.0, 1.0, 1.0, true, ""}};
   const std::string text = summary_text(summary, "1");
@@ -96,7 +96,7 @@ TEST(Summary, leaves_out_checks_that_were_not_made_and_values_that_were_not_reac
 }
 
 TEST(Summary, a_path_without_limit_points_lists_none_and_other_runs_have_no_list) {
-  results::Summary summary = sample_summary();
+  records::Summary summary = sample_summary();
   EXPECT_EQ(parsed(summary_text(summary, "1")).find("limit_points"), nullptr);
   summary.follows_path = true;
   const JsonValue json = parsed(summary_text(summary, "1"));
@@ -108,9 +108,9 @@ TEST(Summary, a_path_without_limit_points_lists_none_and_other_runs_have_no_list
 }
 
 TEST(Summary, says_what_is_known_of_stability) {
-  results::Summary summary = sample_summary();
+  records::Summary summary = sample_summary();
   EXPECT_EQ(parsed(summary_text(summary, "1")).find("stability"), nullptr);
-  results::Stability& s = summary.stability.emplace();
+  records::Stability& s = summary.stability.emplace();
   s.is_known = true;
   s.unstable_directions = 2;
   s.first_lost = {0.25, 0.5};
@@ -122,7 +122,7 @@ TEST(Summary, says_what_is_known_of_stability) {
 }
 
 TEST(Summary, components_apart_are_one_sensor_and_equal_names_stay_distinct) {
-  results::Summary summary = sample_summary();
+  records::Summary summary = sample_summary();
   summary.header.columns = {"a.x", "b.x", "a.y"};
   summary.final_values = {1.0, 2.0, 3.0};
   summary.expected = {{"a.x", 1.0, 1.0, 1.0, true, ""}, {"a.x", 2.0, 2.0, 1.0, true, ""}};
@@ -133,8 +133,8 @@ TEST(Summary, components_apart_are_one_sensor_and_equal_names_stay_distinct) {
 
 TEST(Summary, comes_back_with_what_reports_need) {
   const ScratchDirectory scratch;
-  results::Summary summary = sample_summary();
-  summary.status = results::RunStatus::failed;
+  records::Summary summary = sample_summary();
+  summary.status = records::RunStatus::failed;
   summary.cause = "the residual of \"crank\" grew\nat t = 1";
   summary.checks.energy_balance = std::numeric_limits<double>::infinity();
   summary.notes = {"two constraints say the same"};
@@ -153,7 +153,7 @@ TEST(Summary, comes_back_with_what_reports_need) {
 
 TEST(Summary, says_what_was_not_judged) {
   const ScratchDirectory scratch;
-  results::Summary summary = sample_summary();
+  records::Summary summary = sample_summary();
   summary.not_judged = "the error in time of 'pull' is not estimated";
   const std::string text = summary_text(summary, "1");
   const JsonValue written = parsed(text);
@@ -165,7 +165,7 @@ TEST(Summary, says_what_was_not_judged) {
 
 TEST(Summary, says_whether_to_trust_the_run_and_why_not) {
   const ScratchDirectory scratch;
-  results::Summary summary = sample_summary();
+  records::Summary summary = sample_summary();
   const JsonValue good = parsed(summary_text(summary, "1"));
   EXPECT_EQ(good.find("trust")->find("verdict")->text, "nothing speaks against this run");
   EXPECT_TRUE(good.find("trust")->find("doubts")->items.empty());

@@ -4,19 +4,19 @@
 
 #include <cstdio>
 
+#include "bough/run/simulate.hpp"
 #include "bough/scene/problems.hpp"
-#include "bough/study/simulate.hpp"
 #include "links.hpp"
 
 namespace {
 
 using namespace bough;
 
-struct Discard : results::Recorder {
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+struct Discard : records::Recorder {
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 };
 
 constexpr int first_counted = 2, num_counted = 2;  ///< attempts of steps
@@ -30,8 +30,8 @@ bool count_steps(scene::Scene scene) {
     return false;
   }
   int tried = 0;
-  study::SimulateOptions options;
-  options.before_step = [&](step::System&, const step::State&, const study::BeforeStep&) {
+  run::SimulateOptions options;
+  options.before_step = [&](step::System&, const step::State&, const run::BeforeStep&) {
     if (++tried == first_counted) {
       CALLGRIND_START_INSTRUMENTATION;
       CALLGRIND_ZERO_STATS;
@@ -42,7 +42,7 @@ bool count_steps(scene::Scene scene) {
     return false;
   };
   Discard recorder;
-  const results::Summary summary = study::simulate(scene, options, recorder);
+  const records::Summary summary = run::simulate(scene, options, recorder);
   if (tried == first_counted + num_counted && summary.steps.accepted > 0) return true;
   std::printf("%s: only %d steps tried: %s\n", scene.name.c_str(), tried, summary.cause.c_str());
   return false;

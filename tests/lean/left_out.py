@@ -50,7 +50,7 @@ FEATURES = [
     ("gyroscopic terms of points", POINTS, "beads", "turning beads"),
     ("gyroscopic terms of translations", GYROSCOPIC, "net", "links"),
     ("gyroscopic terms of statics", GYROSCOPIC, "statics", "links"),
-    ("sensors", Feature(functions="eval_sensors eval_between", files="src/results/observe.cpp src/results/observe_points.cpp src/study/step_window.cpp"), "links", "sensors"),
+    ("sensors", Feature(functions="eval_sensors eval_between", files="src/results/observe.cpp src/results/observe_points.cpp src/run/step_window.cpp"), "links", "sensors"),
     ("pictures", Feature(functions="eval_motion"), "links", "pictures"),
     ("checks", Feature(functions=CHECKS + " look_at_error", files="src/results/balance.cpp src/results/energies.cpp src/elements/energies.cpp src/elements/measure.cpp src/step/local_error.cpp"),
      "links", "checks"),
@@ -60,7 +60,7 @@ FEATURES = [
      "step control"),
     ("moving frames", Feature(functions="set_frames set_frame_series set_turned_laws make_steady eval_frames add_observer_motion see_from_inertial"),
      "links", "moving frame"),
-    ("vibration watch", Feature(functions="watch_vibrations judge unresolved", files="src/study/vibration_watch.cpp src/step/variational.cpp"),
+    ("vibration watch", Feature(functions="watch_vibrations judge unresolved", files="src/run/vibration_watch.cpp src/step/variational.cpp"),
      "links", "variational"),
 ]
 

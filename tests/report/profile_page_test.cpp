@@ -13,8 +13,8 @@
 namespace bough::report {
 namespace {
 
-using results::Profile;
-using results::SubdomainProfile;
+using records::Profile;
+using records::SubdomainProfile;
 
 /// A root over two leaves of which one was factored in no time worth naming.
 Profile make_profile() {
@@ -38,15 +38,15 @@ Profile make_profile() {
     if (k < 2) s.condition = 10.0 + k;
     p.subdomains.push_back(s);
   }
-  results::sum_subtrees(p.subdomains);
-  p.levels = results::sum_levels(p.subdomains);
+  records::sum_subtrees(p.subdomains);
+  p.levels = records::sum_levels(p.subdomains);
   p.thread_busy = {1.0, 0.5};
   p.total = 12e-6;
   p.critical_path = 9e-6;
   p.speed = {{1, 12e-6, 1e-3, 13e-6, 1.1e-3}, {2, 9e-6, 8e-4}};
-  p.parts = {{results::ProfilePart::Kind::beam, 0, {{0, 0, 0}, {1, 0, 0}}},
-             {results::ProfilePart::Kind::body, 1, {{2, 0, 0}}},
-             {results::ProfilePart::Kind::joint, 1, {{1, 0, 0}, {2, 0, 0}}}};
+  p.parts = {{records::ProfilePart::Kind::beam, 0, {{0, 0, 0}, {1, 0, 0}}},
+             {records::ProfilePart::Kind::body, 1, {{2, 0, 0}}},
+             {records::ProfilePart::Kind::joint, 1, {{1, 0, 0}, {2, 0, 0}}}};
   p.separator_nodes = {{{1, 0, 0}, 2}};
   p.events = {{"factor", 0, 0, 0, 0.0, 1e-6},
               {"factor", 1, 1, 1, 0.0, 2e-6},

@@ -14,8 +14,8 @@
 namespace bough::report {
 namespace {
 
-std::vector<results::MotionFrame> sample_motion(int num_frames = 30) {
-  std::vector<results::MotionFrame> frames;
+std::vector<records::MotionFrame> sample_motion(int num_frames = 30) {
+  std::vector<records::MotionFrame> frames;
   for (int k = 0; k < num_frames; ++k) frames.push_back(io::sample_frame(0.2 * k, 20));
   return frames;
 }
@@ -82,9 +82,9 @@ std::array<double, 4> ends_of(const std::string& path) {
 
 TEST(Picture, has_equal_axes_whatever_the_shape) {
   for (const double height : {0.01, 1.0, 100.0}) {
-    results::MotionFrame frame;
+    records::MotionFrame frame;
     const auto curve = [&](double x, double y) {
-      results::Curve c;
+      records::Curve c;
       c.points.resize(2);
       c.points[1].position[0] = x;
       c.points[1].position[1] = y;
@@ -102,7 +102,7 @@ TEST(Picture, has_equal_axes_whatever_the_shape) {
 }
 
 TEST(Picture, lays_the_asked_number_of_positions_over_each_other) {
-  const std::vector<results::MotionFrame> frames = sample_motion();
+  const std::vector<records::MotionFrame> frames = sample_motion();
   for (const int wanted : {1, 2, 5, 9}) {
     const Picture picture = make_picture(frames, {.num_positions = wanted});
     const std::string positions = picture.svg.substr(0, picture.svg.find("</g>"));
@@ -112,7 +112,7 @@ TEST(Picture, lays_the_asked_number_of_positions_over_each_other) {
 }
 
 TEST(Picture, points_that_are_not_finite_are_left_out) {
-  std::vector<results::MotionFrame> frames = sample_motion(3);
+  std::vector<records::MotionFrame> frames = sample_motion(3);
   frames[1].curves[0].points[3].position[0] = std::numeric_limits<double>::quiet_NaN();
   frames[2].bodies[0].center[1] = std::numeric_limits<double>::infinity();
   const Picture picture = make_picture(frames, {});
@@ -124,7 +124,7 @@ TEST(Picture, points_that_are_not_finite_are_left_out) {
 }
 
 TEST(Picture, of_a_single_point_that_stays_is_still_a_picture) {
-  results::MotionFrame frame;
+  records::MotionFrame frame;
   frame.bodies.push_back({"ball", {1e6, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {1e6, 0, 0}});
   const Picture picture = make_picture({frame, frame}, {});
   EXPECT_EQ(picture.positions[0].joints.find_first_not_of("Mh0123456789.- "), std::string::npos)
@@ -181,7 +181,7 @@ class Page : public testing::Test {
  protected:
   RunFiles written(bool with_motion) {
     io::RunDirectory run(scratch_ / "run", "1.0");
-    results::Summary summary = io::sample_summary();
+    records::Summary summary = io::sample_summary();
     summary.title = "<b>&\"";
     run.begin(summary.header);
     for (int k = 0; k < 5; ++k) run.row({0.1 * k, 0.1, 2, {1.0, 0.5 * k, 3.5}});

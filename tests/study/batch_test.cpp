@@ -44,9 +44,9 @@ class Batch : public testing::Test {
     if (which.name.starts_with("hangs")) std::this_thread::sleep_for(std::chrono::seconds(60));
     if (which.name.starts_with("talks")) report.cause = std::string(100'000, 'x');
     io::RunDirectory run(which.directory, "1");
-    results::Summary summary = io::sample_summary();
+    records::Summary summary = io::sample_summary();
     if (!which.name.starts_with("figures"))
-      for (results::ExpectedResult& figure : summary.expected) figure.holds = true;
+      for (records::ExpectedResult& figure : summary.expected) figure.holds = true;
     run.begin(summary.header);
     run.row({0.0, 0.0, 0, {1.0, 2.0, 3.0}});
     if (which.name.starts_with("late crash")) std::raise(SIGKILL);
@@ -58,17 +58,17 @@ class Batch : public testing::Test {
       static volatile std::sig_atomic_t stop = 0;
       std::signal(SIGTERM, [](int) { stop = 1; });
       while (stop == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-      summary.status = results::RunStatus::interrupted;
+      summary.status = records::RunStatus::interrupted;
       summary.cause = "stopped when told so";
     }
     if (which.name.starts_with("fails")) {
-      summary.status = results::RunStatus::failed;
+      summary.status = records::RunStatus::failed;
       summary.cause = "no equilibrium";
     }
     run.end(summary);
     report.take(summary);
     report.directory = run.directory();
-    return summary.status == results::RunStatus::ok ? 0 : 1;
+    return summary.status == records::RunStatus::ok ? 0 : 1;
   }
 
   std::vector<CaseResult> run(const BatchOptions& o) {

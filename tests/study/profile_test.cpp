@@ -22,20 +22,20 @@
 namespace bough {
 namespace {
 
-using results::Profile;
-using results::SubdomainProfile;
+using records::Profile;
+using records::SubdomainProfile;
 using study::Direction;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Rows as they come.
-class Rows final : public results::Recorder {
+class Rows final : public records::Recorder {
  public:
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow& row) override { rows.push_back(row); }
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
-  std::vector<results::HistoryRow> rows;
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow& row) override { rows.push_back(row); }
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
+  std::vector<records::HistoryRow> rows;
 };
 
 scene::Scene make_scene(int links, int leaf_size = 0) {
@@ -104,7 +104,7 @@ TEST(ProfileCost, finds_costs_again_and_never_a_negative_one) {
   }
   const auto costs = study::fit_costs(visits, seconds);
   ASSERT_EQ(costs.size(), 2u);
-  for (const results::CostFit& c : costs) {
+  for (const records::CostFit& c : costs) {
     EXPECT_EQ(c.num_visits, 30);
     EXPECT_NEAR(c.per_front, c.in_lanes ? 1e-6 : 3e-6, 1e-10);
     EXPECT_NEAR(c.per_flop, c.in_lanes ? 1e-10 : 4e-10, 1e-14);
@@ -157,7 +157,7 @@ TEST(Profile, sums_of_the_tree_agree) {
       EXPECT_GE(d.parent >= 0 ? d.condition : 1.0, 1.0 - 1e-12);
     }
     for (const SubdomainProfile& d : p.subdomains) EXPECT_EQ(d.num_in_visit, in_visit[d.visit]);
-    for (const results::LevelProfile& l : p.levels) of_levels += l.times.solver();
+    for (const records::LevelProfile& l : p.levels) of_levels += l.times.solver();
     EXPECT_EQ(unknowns, tree.num_unknowns());
     EXPECT_NEAR(p.subdomains.back().subtree_seconds, seconds, 1e-12 * seconds);
     EXPECT_NEAR(of_levels, seconds, 1e-12 * seconds);
@@ -193,7 +193,7 @@ TEST(Profile, watches_all_of_the_first_16_steps_and_every_seventh_after_them) {
   const auto watched = [](const scene::Scene& s) {
     study::NullRecorder nobody;
     const study::WatchedRun run = study::watch_run(s, {}, nobody, {});
-    EXPECT_EQ(run.summary.status, results::RunStatus::ok) << run.summary.cause;
+    EXPECT_EQ(run.summary.status, records::RunStatus::ok) << run.summary.cause;
     return std::pair(run.steps.size(), run.watched.size());
   };
   EXPECT_EQ(watched(statics), (std::pair<std::size_t, std::size_t>(10, 10)));
@@ -285,10 +285,10 @@ TEST(Profile, does_not_change_a_bit_of_the_results) {
   for (int threads : {1, 3}) {
     scene::Scene s = make_scene(20);
     Rows alone, watched;
-    study::SimulateOptions options;
+    run::SimulateOptions options;
     options.threads = threads;
-    const results::Summary summary = study::simulate(s, options, alone);
-    ASSERT_EQ(summary.status, results::RunStatus::ok) << summary.cause;
+    const records::Summary summary = run::simulate(s, options, alone);
+    ASSERT_EQ(summary.status, records::RunStatus::ok) << summary.cause;
     const Profile p = study::profile(s, {.threads = threads, .steps = 1000, .steps_for_speed = 2}, watched);
     EXPECT_EQ(p.steps, summary.steps.accepted);
     ASSERT_EQ(alone.rows.size(), watched.rows.size());

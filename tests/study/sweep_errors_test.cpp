@@ -125,7 +125,7 @@ class Cache : public testing::Test {
  protected:
   Cache() : folder_(scratch_.path()) {
     history_.header.columns = {"tip.x"};
-    results::HistoryRow row;
+    records::HistoryRow row;
     row.time = 1.0;
     row.values = {1.0 / 3.0};
     history_.rows = {row};

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "bough/io/read_sweep.hpp"
+#include "bough/run/memory_run.hpp"
 #include "bough/study/cases.hpp"
-#include "bough/study/memory_run.hpp"
 #include "support/source_dir.hpp"
 
 namespace bough::study {
@@ -19,7 +19,7 @@ TEST(VerifyCases, indices_of_a_cantilever_are_those_of_its_formula) {
   for (const SweepCase& c : make_cases(file.spec).cases) {
     const io::SceneFile scene = io::read_scene_text(file.spec.scene_text, "cantilever", overrides_of(file.spec, c));
     ASSERT_TRUE(scene.ok());
-    const MemoryRun run = run_in_memory(scene.scene);
+    const run::MemoryRun run = run::run_in_memory(scene.scene);
     ASSERT_TRUE(run.ok()) << run.text();
     results.emplace_back();
     results.back().which.name = c.name;

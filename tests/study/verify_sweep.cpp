@@ -105,7 +105,7 @@ TEST(Sweep, keeps_runs_that_fail_with_their_cause) {
   const SweepResult r = run_sweep(limited, {});
   EXPECT_GT(r.num_failed(), 0u);
   for (const SweepRun& run : r.runs) {
-    if (run.status == results::RunStatus::ok) continue;
+    if (run.status == records::RunStatus::ok) continue;
     EXPECT_FALSE(run.cause.empty());
     EXPECT_TRUE(std::isnan(run.errors[0].max));
     EXPECT_TRUE(run.wall.empty()) << "failures are not timed";

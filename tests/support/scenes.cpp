@@ -23,17 +23,17 @@ scene::Scene checked(io::SceneFile file) {
   throw std::runtime_error(all);
 }
 
-class Memory final : public results::Recorder {
+class Memory final : public records::Recorder {
  public:
   explicit Memory(Table& table) : table_(table) {}
-  void begin(const results::HistoryHeader& header) override { table_.columns = header.columns; }
-  void row(const results::HistoryRow& row) override {
+  void begin(const records::HistoryHeader& header) override { table_.columns = header.columns; }
+  void row(const records::HistoryRow& row) override {
     table_.times.push_back(row.time);
     table_.step_sizes.push_back(row.step_size);
     table_.rows.push_back(row.values);
   }
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 
  private:
   Table& table_;
@@ -171,10 +171,10 @@ void expect_sound_solutions(double backward_error, double unknowns) {
       << "LAPACK's ratio of a linear solution, backward error " << backward_error;
 }
 
-Outcome run(const scene::Scene& scene, const study::ProgressCallback& progress) {
+Outcome run(const scene::Scene& scene, const run::ProgressCallback& progress) {
   Outcome outcome;
   Memory memory(outcome.history);
-  outcome.summary = study::simulate(scene, {}, memory, progress);
+  outcome.summary = run::simulate(scene, {}, memory, progress);
   // The foreign solvers are oracles: they do not pivot as dependent rows ask for.
   if (outcome.ok() && scene.solver.kind != scene::SolverKind::monolithic)
     for (const auto& [name, value] : outcome.summary.solver)

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bough/study/simulate.hpp"
+#include "bough/run/simulate.hpp"
 
 namespace bough::support {
 
@@ -43,9 +43,9 @@ struct Table {
 Table reference(const std::string& file);
 
 struct Outcome {
-  results::Summary summary;
+  records::Summary summary;
   Table history;
-  bool ok() const { return summary.status == results::RunStatus::ok; }
+  bool ok() const { return summary.status == records::RunStatus::ok; }
 };
 
 /// The whole scene in another place: positions, ground, gravity, dead loads and velocities turned and moved by `to`. Scenes without fixed
@@ -56,7 +56,7 @@ scene::Scene moved(scene::Scene scene, const scene::Frame& to);
 void expect_sound_solutions(double backward_error, double unknowns);
 
 /// Runs a scene in memory on one thread, and expects the linear solutions to be sound. Does not throw where the run fails: ask ok() and summary.cause.
-Outcome run(const scene::Scene& scene, const study::ProgressCallback& progress = {});
+Outcome run(const scene::Scene& scene, const run::ProgressCallback& progress = {});
 
 /// Order p from errors at step sizes h and h / ratio: e = C h^p.
 double order_of(double coarse_error, double fine_error, double ratio = 2.0);

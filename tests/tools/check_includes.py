@@ -16,16 +16,19 @@ USES = {
     "motion": ["lanes"],
     "laws": [],
     "scene": ["motion", "laws"],
+    "records": ["scene"],
     "elements": ["motion"],
-    "plan": ["scene", "elements", "blocks"],
+    "plan": ["records", "elements", "blocks"],
+    "io": ["plan"],
     "tree": ["blocks"],
     "solve": ["tree", "lanes"],
     "schedule": ["tree"],
     "step": ["plan", "solve"],
     "results": ["step"],
-    "io": ["scene", "results"],
-    "study": ["io", "results", "schedule"],
-    "report": ["results", "study"],
+    "run": ["io", "results", "schedule"],
+    "study": ["run"],
+    "stress": ["run"],
+    "report": ["study", "stress"],
 }
 
 # start of an include: layers that may name it ("apps" may name CLI11 and make the TBB arena)

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::io {
 
@@ -29,10 +29,10 @@ std::string title_of(const ColumnGroup& group);
 /// `columns.json`: what the columns of history.csv hold,
 ///   {"columns":[{"name","unit","quantity","part"},...]}
 /// first time, step_size and iterations, then those of the sensors. A load factor is a "time" without a unit.
-std::string columns_text(const results::HistoryHeader& header);
+std::string columns_text(const records::HistoryHeader& header);
 
 /// Adds to the header of a history what a `columns.json` says of its columns; leaves `about` empty where there is no
 /// such file (runs of versions before it). Throws std::runtime_error naming the file where it holds something else.
-void read_columns(const std::filesystem::path& path, results::HistoryHeader& header);
+void read_columns(const std::filesystem::path& path, records::HistoryHeader& header);
 
 }  // namespace bough::io

@@ -7,20 +7,20 @@
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/manifest.hpp"
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::io {
 
 /// The first line of a history, and a line of it.
-std::string history_head(const results::HistoryHeader& header);
-void append_history_row(std::string& text, const results::HistoryRow& row);
+std::string history_head(const records::HistoryHeader& header);
+void append_history_row(std::string& text, const records::HistoryRow& row);
 
 /// Writes rows as they come. The rows that were handed to the system can be kept after a failure: a failed write loses the rows since the
 /// last flush (at most half a second or 64 KiB) and nothing else.
 class HistoryWriter {
  public:
-  HistoryWriter(const std::filesystem::path& path, const results::HistoryHeader& header);
-  void row(const results::HistoryRow& row);
+  HistoryWriter(const std::filesystem::path& path, const records::HistoryHeader& header);
+  void row(const records::HistoryRow& row);
   void commit(Durability durability = Durability::now) { file_.commit(durability); }
   /// Of what stands in the file.
   [[nodiscard]] FileRecord record() const {
@@ -38,8 +38,8 @@ class HistoryWriter {
 };
 
 struct History {
-  results::HistoryHeader header;
-  std::vector<results::HistoryRow> rows;
+  records::HistoryHeader header;
+  std::vector<records::HistoryRow> rows;
 };
 
 /// Reads a history back, bit for bit. Throws std::runtime_error naming file, line and what is wrong.

@@ -19,28 +19,28 @@
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/manifest.hpp"
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::io {
 
 /// The bytes of such a file.
 class MotionBytes {
  public:
-  explicit MotionBytes(results::MotionParts parts = {}) : parts_(std::move(parts)) {}
+  explicit MotionBytes(records::MotionParts parts = {}) : parts_(std::move(parts)) {}
   /// All frames must have the parts of the first one, before which the header and the start stand.
-  void append(std::string& bytes, const results::MotionFrame& frame);
+  void append(std::string& bytes, const records::MotionFrame& frame);
 
  private:
-  results::MotionParts parts_;
-  std::unique_ptr<results::MotionFrame> start_;
+  records::MotionParts parts_;
+  std::unique_ptr<records::MotionFrame> start_;
 };
 
 class MotionWriter {
  public:
-  explicit MotionWriter(const std::filesystem::path& path, results::MotionParts parts = {})
+  explicit MotionWriter(const std::filesystem::path& path, records::MotionParts parts = {})
       : file_(path), bytes_(std::move(parts)) {}
   /// As MotionBytes::append. std::runtime_error where it cannot be written.
-  void frame(const results::MotionFrame& frame);
+  void frame(const records::MotionFrame& frame);
   void commit(Durability durability = Durability::now) { file_.commit(durability); }
   /// Of what stands in the file.
   [[nodiscard]] FileRecord record() const {
@@ -54,8 +54,8 @@ class MotionWriter {
 };
 
 struct Motion {
-  results::MotionParts parts;
-  std::vector<results::MotionFrame> frames;
+  records::MotionParts parts;
+  std::vector<records::MotionFrame> frames;
   std::size_t num_recorded = 0;  ///< frames in the file; those here are chosen from them
 };
 

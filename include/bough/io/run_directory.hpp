@@ -18,11 +18,11 @@
 #include "bough/io/output_folder.hpp"
 #include "bough/io/summary.hpp"
 #include "bough/io/write_vtu.hpp"
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::io {
 
-class RunDirectory final : public results::Recorder {
+class RunDirectory final : public records::Recorder {
  public:
   /// Nothing is touched until `open` or `begin`: a run that does not start leaves no directory.
   RunDirectory(std::filesystem::path directory, std::string version, RunOrigin origin = {});
@@ -31,21 +31,21 @@ class RunDirectory final : public results::Recorder {
   /// did before.
   void open();
 
-  void begin(const results::HistoryHeader& header) override;
-  void row(const results::HistoryRow& row) override;
-  void motion(const results::MotionFrame& frame) override;
-  void parts(const results::MotionParts& parts) override { parts_ = parts; }
+  void begin(const records::HistoryHeader& header) override;
+  void row(const records::HistoryRow& row) override;
+  void motion(const records::MotionFrame& frame) override;
+  void parts(const records::MotionParts& parts) override { parts_ = parts; }
 
   /// Gives history, motion and summary their place. After a failed write what was safely written before is kept,
   /// without a summary. Throws the first failure.
-  void end(const results::Summary& summary) override;
+  void end(const records::Summary& summary) override;
 
   [[nodiscard]] bool has_begun() const { return history_ != nullptr; }
   [[nodiscard]] bool has_ended() const { return has_ended_; }  ///< `end` was called, whether it went well or not
 
   /// For a run that was cut off by `cause` (a recorder that could not write, say) before `end`: ends it as failed
   /// with what is there. Does nothing where it did not begin or did end. Throws as `end`.
-  void end_as_failed(results::Summary summary, const std::string& cause);
+  void end_as_failed(records::Summary summary, const std::string& cause);
 
   /// Where the results stand; after the end of a run that failed perhaps beside former results that were good.
   [[nodiscard]] const std::filesystem::path& directory() const { return folder_ ? folder_->folder() : directory_; }
@@ -72,7 +72,7 @@ class RunDirectory final : public results::Recorder {
   std::unique_ptr<OutputFolder> folder_;
   std::unique_ptr<HistoryWriter> history_;
   std::unique_ptr<MotionWriter> motion_;
-  results::MotionParts parts_;
+  records::MotionParts parts_;
   std::string columns_;  ///< of columns.json
   bool has_ended_ = false;
   std::vector<PvdEntry> frames_;

@@ -10,7 +10,7 @@
 #include "bough/io/manifest.hpp"
 #include "bough/io/motion_frames.hpp"
 #include "bough/io/summary.hpp"
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::io {
 
@@ -60,16 +60,16 @@ std::filesystem::path unpack_run(const std::vector<StoredFile>& files, FolderSta
 
 /// A run that is recorded in memory, to be stored: history.csv, columns.json, motion.bin and summary.json of RunDirectory, to the byte but for
 /// what the summary says of VTU files, which are not made.
-class RunInMemory final : public results::Recorder {
+class RunInMemory final : public records::Recorder {
  public:
   RunInMemory(std::string version, RunOrigin origin) : version_(std::move(version)), origin_(std::move(origin)) {}
-  void begin(const results::HistoryHeader& header) override;
-  void row(const results::HistoryRow& row) override;
-  void motion(const results::MotionFrame& frame) override;
-  void parts(const results::MotionParts& parts) override { motion_bytes_ = MotionBytes(parts); }
-  void end(const results::Summary& summary) override;
+  void begin(const records::HistoryHeader& header) override;
+  void row(const records::HistoryRow& row) override;
+  void motion(const records::MotionFrame& frame) override;
+  void parts(const records::MotionParts& parts) override { motion_bytes_ = MotionBytes(parts); }
+  void end(const records::Summary& summary) override;
   /// For a run that was cut off by `cause` before `end`; as RunDirectory::end_as_failed.
-  void end_as_failed(results::Summary summary, const std::string& cause);
+  void end_as_failed(records::Summary summary, const std::string& cause);
   [[nodiscard]] const std::vector<StoredFile>& files() const { return files_; }
 
  private:

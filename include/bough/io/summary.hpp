@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bough/io/manifest.hpp"
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::io {
 
@@ -21,11 +21,11 @@ struct RunOrigin {
 };
 
 /// "ok", "failed", "interrupted".
-std::string_view status_text(results::RunStatus status);
+std::string_view status_text(records::RunStatus status);
 
 /// The file's text. NaN and infinity appear as the strings "nan", "inf", "-inf", never as null. Options are keyed by their JSON pointer, as
 /// `--set` takes them. files: all that belong to the run, each with its hash.
-std::string summary_text(const results::Summary& summary, std::string_view version, const RunOrigin& origin = {},
+std::string summary_text(const records::Summary& summary, std::string_view version, const RunOrigin& origin = {},
                          const std::vector<FileRecord>& files = {});
 
 /// What the report, the comparison and the batch table need of a summary.
@@ -35,10 +35,10 @@ struct SummaryFile {
   std::vector<std::pair<std::string, double>> checks;        ///< numbers only
   std::vector<std::pair<std::string, std::string>> options;  ///< by JSON pointer; texts only
   std::vector<std::string> notes;
-  std::vector<results::Doubt> doubts;  ///< why the run should not be trusted
+  std::vector<records::Doubt> doubts;  ///< why the run should not be trusted
   std::string not_judged;              ///< what it may hide all the same
-  std::vector<results::ExpectedResult> expected;
-  std::vector<results::MeasureResult> measures;
+  std::vector<records::ExpectedResult> expected;
+  std::vector<records::MeasureResult> measures;
   std::vector<std::string> overrides;  ///< of the scene, as they were given
   std::vector<FileRecord> files;       ///< that were written with it
 };

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::io {
 
@@ -17,7 +17,7 @@ namespace bough::io {
 /// k3) [1/m] in section axes, of loads force and moment in those of the ground; `velocity` [m/s]; `axis_1`, `axis_2`,
 /// `axis_3` (section axes, on axes of beams; zero elsewhere). Points are float32, and float64 where that would take
 /// more than a ten-thousandth of the size of the structure.
-std::string vtu_text(const results::MotionFrame& frame, const results::MotionParts& parts = {});
+std::string vtu_text(const records::MotionFrame& frame, const records::MotionParts& parts = {});
 
 struct PvdEntry {
   double time = 0.0;

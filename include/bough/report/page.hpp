@@ -16,8 +16,8 @@ struct RunFiles {
   std::string name;
   std::optional<io::SummaryFile> summary;  ///< none: the run did not end
   io::History history;
-  std::vector<results::MotionFrame> motion;  ///< empty: not recorded
-  results::MotionParts parts;                ///< of it
+  std::vector<records::MotionFrame> motion;  ///< empty: not recorded
+  records::MotionParts parts;                ///< of it
 };
 
 /// Reads a result directory. Throws std::runtime_error where it is not whole, or holds files of different runs

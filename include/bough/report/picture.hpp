@@ -25,7 +25,7 @@ struct Picture {
 };
 
 /// Equal axes, scale bar, axis triad, colour ramp of time and a legend of what occurs. frames: at least one; non-finite points are skipped.
-Picture make_picture(const std::vector<results::MotionFrame>& frames, const PictureOptions& options);
+Picture make_picture(const std::vector<records::MotionFrame>& frames, const PictureOptions& options);
 
 /// The drawing as a file of its own, with the styles for light and dark.
 std::string standalone_svg(const Picture& picture, std::string_view title);

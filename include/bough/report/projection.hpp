@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::report {
 
@@ -34,7 +34,7 @@ struct Box {
   std::array<double, 3> low{}, high{};
   bool empty = true;
 };
-Box box_of(const std::vector<results::MotionFrame>& frames);
+Box box_of(const std::vector<records::MotionFrame>& frames);
 
 /// Resolves `automatic`: the plane across the axis along which the motion extends less than 2 % of its largest extent.
 View resolve_view(View view, const Box& box);

@@ -3,14 +3,11 @@
 #include <span>
 #include <vector>
 
+#include "bough/records/run.hpp"
 #include "bough/results/energies.hpp"
-#include "bough/results/records.hpp"
 #include "bough/step/system.hpp"
 
 namespace bough::results {
-
-/// Column names of a plan's sensors.
-HistoryHeader make_header(const plan::Plan& plan);
 
 /// Values of all sensors, in the order of the header. Laws of the system must stand at the state's time.
 void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
@@ -30,10 +27,10 @@ void append_nodes_of(const plan::Plan& plan, const plan::SensorPlan& sensor, std
 void eval_motion_sensors(const step::System& system, const step::State& state, std::vector<double>& values);
 
 /// Sections, surfaces, kinds and sub-domains of what eval_motion shows, in the same order.
-MotionParts make_parts(const scene::Scene& scene, const step::System& system);
+records::MotionParts make_parts(const scene::Scene& scene, const step::System& system);
 
 /// The moving structure, with section resultants along the beams: four intervals an element, since the axis is curved
 /// within it; of structures of more than a thousand elements two, of more than four thousand one.
-MotionFrame eval_motion(const step::System& system, const step::State& state);
+records::MotionFrame eval_motion(const step::System& system, const step::State& state);
 
 }  // namespace bough::results

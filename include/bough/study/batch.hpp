@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bough/io/run_store.hpp"
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 #include "bough/study/sensitivity.hpp"
 
 namespace bough::study {
@@ -43,11 +43,11 @@ struct CaseReport {
   int expected_holds = 0, expected_fails = 0;
   std::string failing;              ///< the first expected figures that do not hold, in words
   std::vector<std::string> doubts;  ///< what they are about
-  std::vector<results::MeasureResult> measures;
+  std::vector<records::MeasureResult> measures;
   std::optional<double> energy_error,
       constraint_error;  ///< largest, over the largest energy; over the size of the parts
   /// Counts, figures and measures of a run.
-  void take(const results::Summary& summary);
+  void take(const records::Summary& summary);
 };
 
 /// What it took: measured by clocks, and so not the same twice.

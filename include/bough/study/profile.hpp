@@ -2,8 +2,8 @@
 /// The tree of sub-domains as it runs: sizes, times, critical path, what other numbers of threads and other trees would take.
 #include <string>
 
-#include "bough/results/profile.hpp"
-#include "bough/study/simulate.hpp"
+#include "bough/records/profile.hpp"
+#include "bough/run/simulate.hpp"
 
 namespace bough::study {
 
@@ -18,8 +18,8 @@ struct ProfileOptions {
 /// Runs a scene for some steps with a watched walker, then again with 1, 2, 4 ... threads up to those of the machine. Rows, motion and summary go
 /// to `recorder`, bitwise those of simulate() with the same number of steps. Precondition: problems_in(scene) is empty, the solver is hierarchical
 /// (cannot_profile is empty).
-results::Profile profile(const scene::Scene& scene, const ProfileOptions& options, results::Recorder& recorder,
-                         const ProgressCallback& progress = {});
+records::Profile profile(const scene::Scene& scene, const ProfileOptions& options, records::Recorder& recorder,
+                         const run::ProgressCallback& progress = {});
 
 /// Why a scene has no tree to profile; empty when it has.
 std::string cannot_profile(const scene::Scene& scene);

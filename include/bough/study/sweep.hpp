@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bough/io/study_spec.hpp"
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 
 namespace bough::study {
 
@@ -32,11 +32,11 @@ struct SweepRun {
   std::vector<std::size_t> choices;  ///< one of each axis of the grid
   std::string label;                 ///< "integrator variational, step size 1e-3"
   double abscissa = 0.0;
-  results::RunStatus status = results::RunStatus::failed;
+  records::RunStatus status = records::RunStatus::failed;
   std::string cause;               ///< why it failed
   std::vector<ErrorNorms> errors;  ///< by quantity
   std::size_t num_samples = 0;     ///< sample times that the run came to
-  results::StepCounts steps;
+  records::StepCounts steps;
   double flops_per_factorization = 0.0;
   std::optional<double>
       instructions;               ///< of one run, in user space; none: the machine does not tell, or several threads

@@ -54,7 +54,7 @@ std::string batch_csv(const std::vector<CaseResult>& results) {
   Columns inputs, measures;
   for (const CaseResult& r : results) {
     for (const auto& [name, value] : r.which.inputs) inputs.add(name);
-    for (const results::MeasureResult& m : r.report.measures) measures.add(m.name);
+    for (const records::MeasureResult& m : r.report.measures) measures.add(m.name);
   }
   std::string text =
       "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails,doubts,"
@@ -74,7 +74,7 @@ std::string batch_csv(const std::vector<CaseResult>& results) {
     }
     std::vector<std::string> in(inputs.names().size()), out(measures.names().size());
     for (const auto& [name, value] : r.which.inputs) in[inputs.at(name)] = input_field(value);
-    for (const results::MeasureResult& m : r.report.measures)
+    for (const records::MeasureResult& m : r.report.measures)
       if (m.value) io::append_number(out[measures.at(m.name)], *m.value);
     append_cells(text, in);
     append_cells(text, out);
@@ -171,7 +171,7 @@ std::string batch_json(const std::vector<CaseResult>& results, const std::string
     if (r.report.constraint_error) json.member("constraint_error", *r.report.constraint_error);
     json.key("measures");
     json.begin_object();
-    for (const results::MeasureResult& m : r.report.measures)
+    for (const records::MeasureResult& m : r.report.measures)
       if (m.value) json.member(m.name, *m.value);
     json.end_object();
     json.end_object();

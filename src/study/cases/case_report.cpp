@@ -11,11 +11,11 @@ namespace bough::study {
 namespace {
 
 /// The first expected figures that do not hold.
-std::string failing_figures(const results::Summary& summary) {
+std::string failing_figures(const records::Summary& summary) {
   constexpr int shown = 3;
   std::string text;
   int count = 0;
-  for (const results::ExpectedResult& figure : summary.expected) {
+  for (const records::ExpectedResult& figure : summary.expected) {
     if (!figure.reached || figure.holds || ++count > shown) continue;
     const std::string value = figure.has_value ? io::rounded_text(figure.value, 6) : "not there";
     text += (text.empty() ? "" : ", ") + figure.name + " is " + value + " instead of " +
@@ -27,20 +27,20 @@ std::string failing_figures(const results::Summary& summary) {
 
 }  // namespace
 
-void CaseReport::take(const results::Summary& summary) {
-  was_interrupted = summary.status == results::RunStatus::interrupted;
+void CaseReport::take(const records::Summary& summary) {
+  was_interrupted = summary.status == records::RunStatus::interrupted;
   accepted = summary.steps.accepted;
   rejected = summary.steps.rejected;
   newton_iterations = summary.steps.newton_iterations;
   expected_holds = expected_fails = 0;
-  for (const results::ExpectedResult& figure : summary.expected)
+  for (const records::ExpectedResult& figure : summary.expected)
     if (figure.reached) ++(figure.holds ? expected_holds : expected_fails);
   failing = failing_figures(summary);
   doubts.clear();
-  for (const results::Doubt& d : summary.doubts)
+  for (const records::Doubt& d : summary.doubts)
     if (std::find(doubts.begin(), doubts.end(), d.about) == doubts.end()) doubts.push_back(d.about);
   measures = summary.measures;
-  const results::Checks& checks = summary.checks;
+  const records::Checks& checks = summary.checks;
   energy_error = constraint_error = std::nullopt;
   if (checks.evaluated && checks.energy_scale > 0.0) energy_error = checks.energy_balance / checks.energy_scale;
   if (checks.evaluated) constraint_error = checks.relative_violation_position;
@@ -83,7 +83,7 @@ std::string text_of(const CaseReport& r) {
   json.end_array();
   json.key("measures");
   json.begin_array();
-  for (const results::MeasureResult& m : r.measures) {
+  for (const records::MeasureResult& m : r.measures) {
     json.value(std::string_view(m.name));
     if (m.value)
       json.value(*m.value);
@@ -130,7 +130,7 @@ bool report_of(std::string_view text, CaseReport& r) {
   if (checks->items[0].is(io::JsonKind::number)) r.energy_error = checks->items[0].number;
   if (checks->items[1].is(io::JsonKind::number)) r.constraint_error = checks->items[1].number;
   for (std::size_t k = 0; k + 1 < measures->items.size(); k += 2) {
-    results::MeasureResult m{measures->items[k].text, {}};
+    records::MeasureResult m{measures->items[k].text, {}};
     if (measures->items[k + 1].is(io::JsonKind::number)) m.value = measures->items[k + 1].number;
     r.measures.push_back(std::move(m));
   }

@@ -20,7 +20,7 @@
 #include "bough/io/json_value.hpp"
 #include "bough/io/manifest.hpp"
 #include "bough/io/program_hash.hpp"
-#include "bough/step/instruction_set.hpp"
+#include "bough/lanes/instruction_set.hpp"
 #include "case_report.hpp"
 
 namespace bough::study {
@@ -102,7 +102,7 @@ bool read_record(std::string_view line, std::string& key, CaseResult& r) {
 }  // namespace
 
 const Machine& this_machine() {
-  static const Machine machine{io::program_hash(), std::string(step::instruction_set().name), library_bits()};
+  static const Machine machine{io::program_hash(), std::string(lanes::instruction_set().name), library_bits()};
   return machine;
 }
 

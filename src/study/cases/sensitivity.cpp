@@ -209,7 +209,7 @@ std::vector<MeasureSensitivity> sensitivities_of(const io::SweepSpec& spec, cons
   std::vector<std::string> variables, measures;
   for (const io::SweepVariable& v : spec.designs.front().variables) variables.push_back(v.name);
   for (const CaseResult& r : results)
-    for (const results::MeasureResult& m : r.report.measures)
+    for (const records::MeasureResult& m : r.report.measures)
       if (std::find(measures.begin(), measures.end(), m.name) == measures.end()) measures.push_back(m.name);
   std::vector<MeasureSensitivity> all;
   const std::size_t num_rows = rows_of(spec.designs.front(), 0).size();
@@ -217,7 +217,7 @@ std::vector<MeasureSensitivity> sensitivities_of(const io::SweepSpec& spec, cons
     std::vector<std::optional<double>> values(num_rows);
     for (const CaseResult& r : results) {
       const std::size_t row = std::stoul(r.which.name) - 1;  // the name of a case is its number
-      for (const results::MeasureResult& m : r.report.measures)
+      for (const records::MeasureResult& m : r.report.measures)
         if (m.name == measure) values.at(row) = m.value;
     }
     if (std::optional<Sensitivity> s = sensitivity_of(spec.designs.front(), 0, values))

@@ -10,7 +10,7 @@
 #include "bough/io/manifest.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_study.hpp"
-#include "bough/step/instruction_set.hpp"
+#include "bough/lanes/instruction_set.hpp"
 #include "bough/version.hpp"
 
 namespace bough::study {
@@ -42,7 +42,7 @@ Samples given_values(const io::StudyQuantity& q, const std::vector<double>& time
 
 std::string made_from(const io::StudySpec& spec, const std::vector<std::string>& overrides) {
   std::string text = "bough " + std::string(version) + " " + std::string(commit) + ", " + std::string(compiler) + " " +
-                     std::string(compiler_flags) + " for " + std::string(step::instruction_set().name) +
+                     std::string(compiler_flags) + " for " + std::string(lanes::instruction_set().name) +
                      "\nsample interval ";
   io::append_number(text, spec.sample_interval);
   return text + "\n" + io::canonical_scene(spec.scene_text, overrides) + "\n";
@@ -68,7 +68,7 @@ void ReferenceCache::keep(const std::string& from, const io::History& history) c
   const std::string name = io::digest_of(from);
   for (const char* ending : {".csv", ".txt"}) io::list_file(folder_, "references", name + ending);
   io::HistoryWriter writer(folder_ / (name + ".csv"), history.header);
-  for (const results::HistoryRow& row : history.rows) writer.row(row);
+  for (const records::HistoryRow& row : history.rows) writer.row(row);
   writer.commit();
   io::write_file(folder_ / (name + ".txt"), from);
 }

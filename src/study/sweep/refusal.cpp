@@ -1,7 +1,7 @@
 /// Whether the runs of a study fit in memory, told from their scenes alone.
 #include <algorithm>
 
-#include "bough/study/estimate.hpp"
+#include "bough/run/estimate.hpp"
 #include "bough/study/sweep.hpp"
 #include "references.hpp"
 #include "sampled_run.hpp"
@@ -49,10 +49,10 @@ std::string refusal_of(const io::StudySpec& spec, std::vector<Variant> variants,
   const Variant* worst = nullptr;
   for (Variant& v : variants) {
     const scene::Scene scene = study_scene(spec.scene_text, spec.scene_name, v.overrides);
-    const std::string why = refusal(scene, limit);
+    const std::string why = run::refusal(scene, limit);
     if (why.empty()) continue;
     ++refused;
-    v.memory_bytes = estimate_run(scene).memory_bytes;
+    v.memory_bytes = run::estimate_run(scene).memory_bytes;
     if (v.memory_bytes <= largest) continue;
     largest = v.memory_bytes;
     worst = &v;

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-#include "bough/step/instruction_set.hpp"
+#include "bough/lanes/instruction_set.hpp"
 #include "bough/study/errors.hpp"
 #include "bough/study/sweep.hpp"
 #include "references.hpp"
@@ -45,7 +45,7 @@ void for_each_index(std::size_t count, int threads, const F& f) {
 SweepMachine this_machine() {
   SweepMachine machine;
   machine.processor = "unknown";
-  machine.instruction_set = step::instruction_set().name;
+  machine.instruction_set = lanes::instruction_set().name;
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);)
     if (line.starts_with("model name") && line.find(": ") != std::string::npos) {
@@ -147,7 +147,7 @@ class Sweep {
       if (std::optional<io::History> kept = cache_.find(r.from)) {
         r.run.samples = std::move(*kept);
         r.run.sample_times = times;
-        r.run.summary.status = results::RunStatus::ok;
+        r.run.summary.status = records::RunStatus::ok;
         r.is_cached = true;
       } else {
         r.run = run_sampled(scene_of(r.overrides), times, 1, unlimited);
@@ -198,7 +198,7 @@ class Sweep {
       for (std::size_t k = 0; k < count; ++k) {
         SweepRun& run = result_.runs[round % 2 == 0 ? k : count - 1 - k];
         if (is_stopped()) return;
-        if (run.status == results::RunStatus::ok) time(run);
+        if (run.status == records::RunStatus::ok) time(run);
         tell("run times", static_cast<std::size_t>(round) * count + k + 1, all);
       }
   }
@@ -210,7 +210,7 @@ class Sweep {
     run.wall.push_back(timed.wall);
     run.cpu.push_back(timed.cpu);
     if (timed.instructions) run.instructions = timed.instructions;
-    if (timed.summary.status != results::RunStatus::ok) {
+    if (timed.summary.status != records::RunStatus::ok) {
       run.status = timed.summary.status;
       run.cause = "a repetition failed: " + timed.summary.cause;
     }
@@ -279,7 +279,7 @@ class Sweep {
         const SweepRun& run = result_.runs[k];
         const double seconds = spread_of(run.wall).median;
         if (result_.references[run.grid].errors_of[q] != kind) continue;
-        if (run.status != results::RunStatus::ok || std::isnan(seconds) || std::isnan(run.errors[q].max)) continue;
+        if (run.status != records::RunStatus::ok || std::isnan(seconds) || std::isnan(run.errors[q].max)) continue;
         if (run.errors[q].max > wanted || seconds >= quickest) continue;
         quickest = seconds;
         advice.run = k;
@@ -302,7 +302,7 @@ SweepResult run_sweep(const io::StudySpec& spec, const SweepOptions& options) { 
 
 std::size_t SweepResult::num_failed() const {
   return static_cast<std::size_t>(std::count_if(
-      runs.begin(), runs.end(), [](const SweepRun& run) { return run.status != results::RunStatus::ok; }));
+      runs.begin(), runs.end(), [](const SweepRun& run) { return run.status != records::RunStatus::ok; }));
 }
 
 std::size_t SweepResult::num_orders(Verdict verdict) const {

@@ -8,7 +8,7 @@
 
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_scene.hpp"
-#include "bough/study/simulate.hpp"
+#include "bough/run/simulate.hpp"
 #include "instruction_counter.hpp"
 
 namespace bough::study {
@@ -28,32 +28,32 @@ double process_cpu_seconds() {
 }
 
 /// Keeps the header; rows come as samples.
-class HeaderKeeper final : public results::Recorder {
+class HeaderKeeper final : public records::Recorder {
  public:
   explicit HeaderKeeper(SampledRun& run) : run_(run) {}
-  void begin(const results::HistoryHeader& header) override { run_.samples.header = header; }
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+  void begin(const records::HistoryHeader& header) override { run_.samples.header = header; }
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 
  private:
   SampledRun& run_;
 };
 
 /// Looks at the clocks when the steps begin and when they end.
-class Stopwatch final : public results::Recorder {
+class Stopwatch final : public records::Recorder {
  public:
   explicit Stopwatch(TimedRun& run, bool count_instructions) : run_(run) {
     if (count_instructions) counter_.emplace();
   }
-  void begin(const results::HistoryHeader&) override {
+  void begin(const records::HistoryHeader&) override {
     if (counter_) counter_->start();
     cpu_ = process_cpu_seconds();
     wall_ = Clock::now();
   }
-  void row(const results::HistoryRow&) override {}
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {
     run_.wall = seconds_since(wall_);
     run_.cpu = process_cpu_seconds() - cpu_;
     if (counter_) run_.instructions = counter_->stop();
@@ -67,21 +67,21 @@ class Stopwatch final : public results::Recorder {
 };
 
 /// Runs within the limits; a run that was cut short is a failed one.
-results::Summary run_limited(const scene::Scene& scene, const std::vector<double>& sample_times, int threads,
-                             const RunLimits& limits, results::Recorder& recorder, bool& was_stopped,
-                             SimulateOptions options = {}) {
+records::Summary run_limited(const scene::Scene& scene, const std::vector<double>& sample_times, int threads,
+                             const RunLimits& limits, records::Recorder& recorder, bool& was_stopped,
+                             run::SimulateOptions options = {}) {
   const Clock::time_point start = Clock::now();
   bool is_late = false;
   options.threads = threads;
   options.stops = sample_times;
-  options.before_step = [&](step::System&, const step::State&, const BeforeStep&) {
+  options.before_step = [&](step::System&, const step::State&, const run::BeforeStep&) {
     was_stopped = limits.stop != nullptr && *limits.stop && (*limits.stop)();
     is_late = limits.time_limit > 0.0 && seconds_since(start) > limits.time_limit;
     return !was_stopped && !is_late;
   };
-  results::Summary summary = simulate(scene, options, recorder);
+  records::Summary summary = run::simulate(scene, options, recorder);
   if (is_late) {
-    summary.status = results::RunStatus::failed;
+    summary.status = records::RunStatus::failed;
     summary.cause = "it takes longer than the time_limit of " + io::rounded_text(limits.time_limit, 6) + " s";
   }
   return summary;
@@ -92,7 +92,7 @@ results::Summary run_limited(const scene::Scene& scene, const std::vector<double
 std::vector<std::vector<double>> SampledRun::of(const std::vector<std::size_t>& columns) const {
   std::vector<std::vector<double>> values(sample_times.size());
   std::size_t k = 0;
-  for (const results::HistoryRow& row : samples.rows) {
+  for (const records::HistoryRow& row : samples.rows) {
     while (k < sample_times.size() && std::abs(sample_times[k] - row.time) > same_time * sample_times.back()) ++k;
     if (k == sample_times.size()) break;
     for (const std::size_t c : columns) values[k].push_back(row.values[c]);
@@ -114,9 +114,9 @@ SampledRun run_sampled(scene::Scene scene, const std::vector<double>& sample_tim
   SampledRun run;
   run.sample_times = sample_times;
   HeaderKeeper header(run);
-  SimulateOptions options;
+  run::SimulateOptions options;
   options.sample = [&run](double time, const std::vector<double>& values) {
-    results::HistoryRow row;
+    records::HistoryRow row;
     row.time = time;
     row.values = values;
     run.samples.rows.push_back(std::move(row));

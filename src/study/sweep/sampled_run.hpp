@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bough/io/history.hpp"
-#include "bough/results/records.hpp"
+#include "bough/records/run.hpp"
 #include "bough/scene/scene.hpp"
 
 namespace bough::study {
@@ -18,11 +18,11 @@ struct RunLimits {
 
 /// A run with what its sensors show at the sample times, by the rule of SimulateOptions::stops.
 struct SampledRun {
-  results::Summary summary;
+  records::Summary summary;
   io::History samples;               ///< a row at each sample time that the run came to
   std::vector<double> sample_times;  ///< all of them
   bool was_stopped = false;          ///< by RunLimits::stop
-  bool ok() const { return summary.status == results::RunStatus::ok; }
+  bool ok() const { return summary.status == records::RunStatus::ok; }
 
   /// Columns at every sample time, empty where there is no row.
   std::vector<std::vector<double>> of(const std::vector<std::size_t>& columns) const;
@@ -37,7 +37,7 @@ SampledRun run_sampled(scene::Scene scene, const std::vector<double>& sample_tim
 struct TimedRun {
   double wall = 0.0, cpu = 0.0;  ///< of the steps, without plan and tree [s]
   std::optional<double> instructions;
-  results::Summary summary;
+  records::Summary summary;
   bool was_stopped = false;
 };
 

@@ -10,13 +10,13 @@
 namespace bough::study {
 namespace {
 
-const char* status_text(results::RunStatus status) {
+const char* status_text(records::RunStatus status) {
   switch (status) {
-    case results::RunStatus::ok:
+    case records::RunStatus::ok:
       return "ok";
-    case results::RunStatus::failed:
+    case records::RunStatus::failed:
       return "failed";
-    case results::RunStatus::interrupted:
+    case records::RunStatus::interrupted:
       return "interrupted";
   }
   return "";

@@ -4,21 +4,21 @@
 #include <numbers>
 #include <vector>
 
+#include "bough/run/outlook.hpp"
+#include "bough/run/simulate.hpp"
 #include "bough/scene/problems.hpp"
 #include "bough/scene/scene.hpp"
-#include "bough/study/outlook.hpp"
-#include "bough/study/simulate.hpp"
 
 namespace {
 
 using namespace bough;
 
-struct KeepLastRow : results::Recorder {
+struct KeepLastRow : records::Recorder {
   std::vector<double> values;
-  void begin(const results::HistoryHeader&) override {}
-  void row(const results::HistoryRow& row) override { values = row.values; }
-  void motion(const results::MotionFrame&) override {}
-  void end(const results::Summary&) override {}
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow& row) override { values = row.values; }
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
 };
 
 // A point mass on a massless bar of 1 m, released from the horizontal: position after 1 s by Jacobi's elliptic functions.
@@ -91,8 +91,8 @@ bool meets(scene::Scene scene, const char* sensed, double x, double y, double to
   for (const scene::SceneProblem& problem : scene::problems_in(scene))
     std::printf("%s: %s %s\n", scene.name.c_str(), problem.section.c_str(), problem.rule.c_str());
   KeepLastRow recorder;
-  const results::Summary summary = study::simulate(scene, {.threads = 2}, recorder);
-  if (summary.status != results::RunStatus::ok || recorder.values.size() < 2) {
+  const records::Summary summary = run::simulate(scene, {.threads = 2}, recorder);
+  if (summary.status != records::RunStatus::ok || recorder.values.size() < 2) {
     std::printf("%s: %s\n", scene.name.c_str(), summary.cause.c_str());
     return false;
   }
@@ -103,7 +103,7 @@ bool meets(scene::Scene scene, const char* sensed, double x, double y, double to
 
 // The pendulum swings in a plane: one node of three unknowns and the two rows of its hinge that are left, of 6 + 5 in space.
 bool is_planned_in_a_plane() {
-  const study::Outlook outlook = study::look_ahead(make_pendulum());
+  const run::Outlook outlook = run::look_ahead(make_pendulum());
   std::printf("pendulum: motion %s, %d unknowns of %d\n", outlook.motions.c_str(),
               static_cast<int>(outlook.effort.unknowns), static_cast<int>(outlook.unknowns_in_space));
   return outlook.motions == "in a plane" && outlook.effort.unknowns == 5;

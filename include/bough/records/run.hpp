@@ -1,0 +1,270 @@
+#pragma once
+/// What a run hands to whoever records it: plain data, no file formats.
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bough/scene/outlines.hpp"
+
+namespace bough::records {
+
+/// One row of the history: the values follow the columns of `HistoryHeader`.
+struct HistoryHeader {
+  std::vector<std::string> columns;  ///< "<sensor>.<component>" or "<sensor>"
+  /// What a column shows, in the order of `columns`; empty where nobody knows.
+  struct About {
+    std::string unit;      ///< "m", "rad/s", ...; empty: a pure number
+    std::string quantity;  ///< the kind of its sensor
+    std::string part;      ///< node, body, beam or joint that it looks at; empty: the whole structure
+  };
+  std::vector<About> about = {};
+  bool runs_over_load = false;  ///< rows are told apart by the load factor
+};
+struct HistoryRow {
+  double time = 0.0;  ///< [s], or the load factor
+  double step_size = 0.0;
+  int iterations = 0;
+  std::vector<double> values;
+};
+
+/// The moving structure at one time, for pictures and VTU.
+struct CurvePoint {
+  double position[3];
+  double axes[9];           ///< rotation matrix, row-major: columns are the section's axes
+  double force[6];          ///< section resultants (N, Q2, Q3, T, M2, M3)
+  double strain[6] = {};    ///< (e1, g2, g3, k1, k2, k3)
+  double velocity[3] = {};  ///< of the axis [m/s]
+};
+struct Curve {
+  std::string name;
+  std::vector<CurvePoint> points;
+};
+struct BodyPose {
+  std::string name;
+  double position[3];  ///< of the body's reference point
+  double axes[9];
+  double center[3];  ///< centre of mass
+  std::vector<std::array<double, 3>> attachments =
+      {};                   ///< where joints, springs and beams hold it; drawn as spokes from the centre
+  double velocity[3] = {};  ///< of the centre of mass [m/s]
+};
+struct Link {
+  std::string name;  ///< joint or spring, drawn as a segment (a joint may have length 0)
+  double first[3];
+  double second[3];
+  double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< joint frame of the first side; springs: of no meaning
+};
+struct FramePose {
+  std::string name;
+  double position[3];
+  double axes[9];
+};
+/// A load at a point: what acts now, in the axes of the ground.
+struct Arrow {
+  std::string name;
+  double position[3];
+  double force[3];   ///< [N]
+  double moment[3];  ///< [N m]
+};
+struct MotionFrame {
+  double time = 0.0;
+  std::vector<Curve> curves;
+  std::vector<BodyPose> bodies;
+  std::vector<Link> links;
+  std::vector<FramePose> frames = {};
+  std::vector<Arrow> arrows = {};
+};
+/// What the parts of all frames of a motion are, in their order there: told once.
+struct MotionParts {
+  struct Curve {
+    int outline = -1;             ///< of its section, in `outlines`; -1: the section has no shape
+    std::vector<int> subdomains;  ///< leaf of the tree that holds each element, in order along the axis
+  };
+  struct Link {
+    std::string kind;  ///< of the joint, "spring", "bushing", "prescribed motion"
+  };
+  std::vector<scene::Outline> outlines;
+  std::vector<scene::Mesh> meshes;
+  std::vector<Curve> curves;
+  std::vector<int> bodies;  ///< surface of each, in `meshes`; -1: it has no shape
+  std::vector<Link> links;
+};
+
+enum class RunStatus : std::uint8_t { ok, failed, interrupted };
+
+struct StepCounts {
+  long accepted = 0, rejected = 0, newton_iterations = 0, factorizations = 0;
+  long rejected_for_error = 0;  ///< of those rejected, by step control
+  long size_changes = 0;        ///< changes of the step size by step control
+};
+struct StepTimes {
+  double total = 0.0;                                                            ///< wall [s]
+  double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0, output = 0.0;  ///< CPU seconds summed over threads
+};
+/// Balances and violations: largest values at the times of history rows; not evaluated when the scene asks for no checks.
+struct Checks {
+  bool evaluated = true;
+  double energy_balance = 0.0;         ///< largest |kinetic + strain + potential - work + dissipation - start| [J]
+  double energy_scale = 0.0;           ///< largest sum of the parts' magnitudes [J]
+  double energy_round_off = 0.0;       ///< energies below this are round-off or what the tolerance leaves open [J]
+  double numerical_dissipation = 0.0;  ///< energy taken by the integrator up to the end [J]; 0 where it gave some
+  double momentum_balance = 0.0;       ///< largest |momentum - impulse - start| [kg m/s]
+  double constraint_violation_position = 0.0;  ///< [m] or [rad]
+  double constraint_violation_velocity = 0.0;  ///< [m/s] or [rad/s]
+  double linear_backward_error_max = 0.0;
+  double linear_rank_error_max = 0.0;  ///< what taking dependent rows for such has cost: solve::SolveReport::rank_error
+  /// Local errors of the steps in time (at fixed steps: of some) [-]: of positions and rotations, relative to the size of the structure and
+  /// 1 rad, the largest and all added up over the run; of velocities, relative to the largest speeds so far.
+  bool local_error_known = false;
+  double local_error_max = 0.0, local_error_sum = 0.0, local_error_max_velocity = 0.0;
+  bool round_off_floor_reached = false;
+  long steps_at_floor = 0;           ///< accepted at the round-off floor of the residual, above the tolerance
+  double unbalanced_at_floor = 0.0;  ///< largest force or moment these steps left, over the largest of the run [-]
+  double energy_gained =
+      0.0;  ///< of energy_balance, what the integrator had added at the end [J]; 0 where it took some
+  /// Over the size of the parts that meet in the joint, angles as they are [-]; and the joint.
+  double relative_violation_position = 0.0;
+  std::string open_joint;
+  /// Of rates, times the step: what opens in one step, over the size of the parts that meet there [-]; and the joint.
+  double relative_violation_step = 0.0;
+  std::string fast_joint;
+};
+/// One level of the tree of sub-domains, looked at with the last factorization of a run.
+struct LevelFigures {
+  int level = 0;  ///< 0 at the root
+  int subdomains = 0;
+  int interface_unknowns = 0;   ///< of the widest interface to the level above; 0 at the root
+  double condition = 0.0;       ///< of the worst interface, in scaled variables [-]; 0: not computed
+  double backward_error = 0.0;  ///< of the unknowns eliminated there, normwise [-]
+};
+/// What the steps in time are estimated to have left in a column of the history by the end of a run.
+struct SensorError {
+  std::string column;
+  double of_steps = 0.0;   ///< from their local errors, in the unit of the column
+  double of_energy = 0.0;  ///< from the energy that the integrator took, which slows motions down
+  double range = 0.0;      ///< of what the sensor's columns of this unit show
+  double relative() const { return (of_steps + of_energy) / range; }
+};
+/// An initial velocity that the scene gives and that joints, drives or other given velocities do not allow.
+struct ChangedVelocity {
+  std::string of;                    ///< node, body or beam
+  bool is_angular = false;           ///< the angular velocity, else the velocity
+  std::array<double, 3> asked, got;  ///< in the scene, and at the start; axes of the ground [m/s] or [rad/s]
+  double change = 0.0;               ///< of it, over the largest speed of the structure [-]
+};
+/// What one more correction would change of a joint's reaction where that was largest.
+struct UnsureReaction {
+  std::string joint;
+  double time = 0.0;
+  double size = 0.0, error = 0.0;  ///< the reaction then, and the change [N]; moments over the size of an element
+  double largest = 0.0;            ///< of the run [N]
+};
+/// A reason not to trust a run without a closer look.
+struct Doubt {
+  std::string about;  ///< "run", "initial velocities", "energy", "error", "linear solutions", "condition", ...
+  std::string text;
+};
+/// Where the load factor turns along the path of equilibria.
+struct LimitPoint {
+  double load_factor = 0.0;  ///< not located: by a parabola through both sides
+  bool is_maximum = true;
+  bool is_located = true;
+};
+/// Where other branches cross the path of equilibria: unstable directions come or go though the load does not turn.
+struct Bifurcation {
+  double load_factor = 0.0;
+  std::string mode;     ///< what moves most in the direction of the other branch, in words
+  bool is_lost = true;  ///< stability is, along the path; else regained
+};
+/// Stability of the equilibria of statics under loads that stay as they are; under loads without a potential an even
+/// number of unstable directions, and flutter, are not seen.
+struct Stability {
+  struct Between {
+    double before = 0.0, after = 0.0;  ///< load factors of neighbouring equilibria
+  };
+  bool is_known = false;              ///< at the end
+  bool is_declared = false;           ///< the scene says that equilibria may be unstable
+  std::string not_conservative;       ///< why the loads have no potential; empty: they have one
+  int unstable_directions = 0;        ///< at the end; loads without a potential: 1 where their number is odd
+  std::optional<Between> first_lost;  ///< where the first unstable equilibrium was met
+  std::string mode;          ///< what moves most in an unstable direction, in words: at the end, or where it was lost
+  std::string hidden;        ///< which motions the plan left out, where the last equilibrium is unstable in one of them
+  std::string hidden_mode;   ///< what moves most then
+  std::string largest_load;  ///< at the end, in words; empty: there is none
+};
+struct ExpectedResult {
+  std::string name;
+  double value = 0.0, reference = 0.0, tolerance = 0.0;
+  bool holds = false;
+  std::string source;
+  bool reached = true;     ///< false: the run ends before the time of the figure, which is then no figure of it
+  bool has_value = true;   ///< false: the run shows none, a period without crossings say; it then does not hold
+  std::string taken = {};  ///< how the value was taken from the run, in words: at the end of a step, interpolated ...
+  /// "holds", "fails" or "not reached".
+  const char* verdict() const { return !reached ? "not reached" : holds ? "holds" : "fails"; }
+};
+/// A measure of the scene; no value: the run ended before its time, a quantity is not finite, or it has none (a period
+/// without crossings).
+struct MeasureResult {
+  std::string name;
+  std::optional<double> value;
+};
+/// Nested plain options as they were used: JSON pointer (without the leading slash) to text of a JSON value.
+using EffectiveOptions = std::vector<std::pair<std::string, std::string>>;
+
+struct Summary {
+  RunStatus status = RunStatus::failed;
+  std::string cause;
+  std::string scene, title;
+  int threads = 1;
+  EffectiveOptions options;
+  StepCounts steps;
+  StepTimes times;
+  std::int64_t memory_peak_bytes = 0;
+  Checks checks;
+  std::vector<ChangedVelocity> changed_velocities;  ///< by how much they were changed, the largest first
+  std::vector<UnsureReaction> unsure_reactions;     ///< of joints with sensors of their reactions, as far as looked at
+  bool follows_path = false;                        ///< statics by arc length
+  std::vector<LimitPoint> limit_points;             ///< of these, in the order of the path
+  std::vector<Bifurcation> bifurcations;            ///< of these, in the order of the path
+  std::optional<Stability> stability;               ///< of statics
+  std::vector<std::string>
+      notes;  ///< warnings in words: dependent constraints, impulses at the start, floors reached ...
+  HistoryHeader header;
+  std::vector<double> final_values;  ///< by header
+  std::vector<ExpectedResult> expected;
+  std::vector<MeasureResult> measures;     ///< in the order of the scene
+  std::vector<Doubt> doubts;               ///< why the run should not be trusted, in words; empty: nothing was found
+  std::vector<SensorError> sensor_errors;  ///< of sensors of motions, where local errors are known
+  std::string not_judged;                  ///< of which sensors no error in time was estimated and why, in words
+  double step_size = 0.0;                  ///< longest of the run [s]
+  std::string
+      instability;  ///< why the integrator may make vibrations grow, and what to do; empty: nothing is known of such
+  std::vector<LevelFigures> levels;  ///< of the hierarchical solver
+  std::vector<std::pair<std::string, double>>
+      solver;  ///< figures of the tree: sub-domains, levels, interface unknowns, condition, ...
+};
+
+/// Receives a run as it goes. A writer throws std::runtime_error where it cannot write; the run then fails with that cause.
+class Recorder {
+ public:
+  virtual ~Recorder() = default;
+  virtual void begin(const HistoryHeader& header) = 0;
+  virtual void row(const HistoryRow& row) = 0;
+  virtual void motion(const MotionFrame& frame) = 0;
+  /// Before the first frame of a motion.
+  virtual void parts(const MotionParts& /*parts*/) {}
+  virtual void end(const Summary& summary) = 0;
+};
+
+/// Told of progress; returns false to ask the run to stop (interrupted).
+struct Progress {
+  double time = 0.0, end_time = 0.0, step_size = 0.0;
+  int iterations = 0;
+  long step = 0;
+};
+
+}  // namespace bough::records

@@ -1,0 +1,31 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bough/plan/plan.hpp"
+#include "bough/step/step_control.hpp"
+
+namespace bough::run {
+
+/// Counts what held step control to the sizes of its steps.
+class LimitWatch {
+ public:
+  explicit LimitWatch(const plan::Plan& plan);
+  /// An accepted step: by an error, or by the largest size allowed.
+  void count(const step::ErrorLimit& limit);
+  void count_largest() { ++at_largest_; }
+  /// A note on what did most often; none where nothing was counted.
+  std::optional<std::string> text(const plan::Plan& plan, double tolerance) const;
+
+ private:
+  struct Limit {
+    long steps = 0, of_velocity = 0;
+    double frequencies = 0.0;  ///< summed over the steps [rad/s]
+  };
+  std::vector<int> owner_;  ///< by node: the beam whose inner node it is, or -1
+  std::vector<Limit> of_beam_, of_node_;
+  long at_largest_ = 0, of_energy_ = 0, all_ = 0;
+};
+
+}  // namespace bough::run

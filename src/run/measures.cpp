@@ -1,0 +1,137 @@
+#include "bough/run/measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bough::run {
+
+using scene::MeasureKind;
+
+bool Measures::is_figure(const scene::Measure& measure) {
+  return measure.expression.empty() && measure.kind <= MeasureKind::period;
+}
+
+Measures::Measures(const scene::Scene& scene, const records::HistoryHeader& header) {
+  for (const scene::Measure& m : scene.measures)
+    if (!is_figure(m)) measures_.push_back({&m, quantity_of(m, header)});
+}
+
+std::size_t Measures::quantity_of(const scene::Measure& measure, const records::HistoryHeader& header) {
+  std::string key = measure.quantity + "\n" + measure.expression;
+  for (const auto& [name, column] : measure.names) key += "\n" + name + "\n" + column;
+  const auto known = std::find(keys_.begin(), keys_.end(), key);
+  if (known != keys_.end()) return static_cast<std::size_t>(known - keys_.begin());
+  keys_.push_back(key);
+  const auto column_of = [&header](const std::string& name) {
+    return static_cast<std::size_t>(std::find(header.columns.begin(), header.columns.end(), name) -
+                                    header.columns.begin());
+  };
+  Quantity quantity;
+  if (measure.expression.empty()) {
+    quantity.columns = {column_of(measure.quantity)};
+  } else {
+    std::vector<std::string> names;
+    for (const auto& [name, column] : measure.names) {
+      names.push_back(name);
+      quantity.columns.push_back(column_of(column));
+    }
+    quantity.formula.emplace(measure.expression, names);
+  }
+  arguments_.resize(std::max(arguments_.size(), quantity.columns.size()));
+  quantities_.push_back(std::move(quantity));
+  return quantities_.size() - 1;
+}
+
+void Measures::add(double time, std::span<const double> values) {
+  times_.push_back(time);
+  for (Quantity& q : quantities_) {
+    for (std::size_t k = 0; k < q.columns.size(); ++k) arguments_[k] = values[q.columns[k]];
+    q.values.push_back(q.formula ? (*q.formula)({arguments_.data(), q.columns.size()}) : arguments_[0]);
+  }
+}
+
+namespace {
+
+/// Value at a time, by the straight line; nothing outside.
+std::optional<double> value_at(const Series& s, double time) {
+  const double reach = 1e-9 * (s.times.back() - s.times.front());
+  if (time < s.times.front() - reach || time > s.times.back() + reach) return std::nullopt;
+  // The first of equal times is the end of the step before.
+  const auto next = static_cast<std::size_t>(std::lower_bound(s.times.begin(), s.times.end(), time) - s.times.begin());
+  if (next == s.times.size()) return s.values.back();
+  if (next == 0 || s.times[next] == time) return s.values[next];
+  const double part = (time - s.times[next - 1]) / (s.times[next] - s.times[next - 1]);
+  return std::lerp(s.values[next - 1], s.values[next], part);
+}
+
+/// Mean time between upward crossings of a level.
+std::optional<double> period_of(const Series& s, double level) {
+  double first = 0.0, last = 0.0;
+  int crossings = 0;
+  for (std::size_t k = 1; k < s.times.size(); ++k) {
+    const double below = s.values[k - 1] - level, above = s.values[k] - level;
+    if (!(below < 0.0 && above >= 0.0)) continue;
+    last = std::lerp(s.times[k - 1], s.times[k], below / (below - above));
+    if (crossings++ == 0) first = last;
+  }
+  if (crossings < 2) return std::nullopt;
+  return (last - first) / static_cast<double>(crossings - 1);
+}
+
+std::optional<double> figure_of(const scene::Measure& m, const Series& s) {
+  const auto low = std::min_element(s.values.begin(), s.values.end()),
+             high = std::max_element(s.values.begin(), s.values.end());
+  const auto time_of = [&s](auto at) { return s.times[static_cast<std::size_t>(at - s.values.begin())]; };
+  switch (m.kind) {
+    case MeasureKind::value:
+      return m.time ? value_at(s, *m.time) : s.values.back();
+    case MeasureKind::max:
+      return *high;
+    case MeasureKind::min:
+      return *low;
+    case MeasureKind::time_of_max:
+      return time_of(high);
+    case MeasureKind::time_of_min:
+      return time_of(low);
+    case MeasureKind::range:
+      return *high - *low;
+    case MeasureKind::period:
+      return period_of(s, m.level.value_or(0.0));
+    case MeasureKind::mean:
+      return mean_of(s);
+    case MeasureKind::rms:
+      return rms_of(s);
+    case MeasureKind::percentile:
+      return percentile_of(s, m.percent);
+    case MeasureKind::settling_time:
+      return settling_time_of(s, m.target.value_or(s.values.back()), m.band);
+    case MeasureKind::dominant_frequency:
+      return dominant_frequency_of(s);
+    case MeasureKind::cycles: {
+      double number = 0.0;
+      for (const LoadCycle& c : rainflow_of(s.values)) number += c.range >= m.range ? c.count : 0.0;
+      return number;
+    }
+    case MeasureKind::equivalent_range:
+      // Cycles not given: one a second.
+      return equivalent_range(rainflow_of(s.values), m.exponent, m.cycles.value_or(s.times.back() - s.times.front()));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<records::MeasureResult> Measures::results() const {
+  std::vector<records::MeasureResult> all;
+  for (const Measure& m : measures_) {
+    const std::vector<double>& values = quantities_[m.quantity].values;
+    records::MeasureResult r{m.given->name, {}};
+    const bool is_finite = std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+    if (!values.empty() && is_finite) r.value = figure_of(*m.given, {times_, values});
+    if (r.value && !std::isfinite(*r.value)) r.value.reset();
+    all.push_back(std::move(r));
+  }
+  return all;
+}
+
+}  // namespace bough::run

@@ -1,0 +1,90 @@
+/// Bifurcations of the path of equilibria, and steps that came to another branch.
+#include <algorithm>
+#include <cmath>
+
+#include "run.hpp"
+
+namespace bough::run {
+
+namespace {
+
+constexpr int halvings = 24;          ///< of what is left of a step: a load factor is known to 1e-7 of it
+constexpr int most_bifurcations = 8;  ///< within a step
+constexpr double beside = 1e-3;       ///< of what is left of a step
+constexpr double apart = 1e-5;        ///< of what is left of a step: what iterations leave between two equilibria
+constexpr double leap = 10.0;         ///< times the way between two equilibria of the path: they lie on two branches
+
+}  // namespace
+
+/// Between two equilibria the number of unstable directions changes where the load turns, by one, or where another
+/// branch crosses the path. If neither is found the step came to another branch, and is to be taken anew, shorter.
+std::string Run::look_at_stability(double length, bool is_last_try, PathStep& step) {
+  const step::StabilityLook look = stability_->stability().look();
+  step.look = look;
+  if (!look.is_known || !start_look_.is_known || look.unstable == start_look_.unstable) return {};
+  // Next to a critical load of a slender structure signs are those of round-off.
+  if (look.unstable > start_look_.unstable && !stability_->stability().find_mode(state_)) return {};
+  const bool passes_limit = step.limit && (!step.stop || step.stops_after_limit);
+  if (passes_limit && std::abs(look.unstable - start_look_.unstable) == 1) return {};
+  std::string cause = "the number of unstable directions changes by more than the limit point in it explains";
+  if (!passes_limit) {
+    step.look.reset();
+    const PathPlace to{length, static_cast<double>(look.unstable), step.last().time};
+    PathPlace from{0.0, static_cast<double>(start_look_.unstable), path_start_.time};
+    cause.clear();
+    for (int k = 0; cause.empty() && from.value != to.value && k < most_bifurcations; ++k)
+      cause = find_bifurcation(from, to, look.unstable, step);
+    state_ = step.last();
+    if (const auto t = path_->set_tangent(state_)) return t->text;
+  }
+  if (is_last_try && !cause.empty()) {
+    note("from load factor " + std::to_string(path_start_.time) + " to " + std::to_string(step.last().time) +
+         " the path may have changed to another branch: " + cause);
+    cause.clear();
+  }
+  return cause;
+}
+
+/// The first change of the number of unstable directions after `from`, by halves; `from` is set behind it.
+std::string Run::find_bifurcation(PathPlace& from, PathPlace to, int unstable_there, PathStep& step) {
+  PathSearch search(*path_, path_start_, path_direction_, summary_.steps.newton_iterations);
+  const double before = from.value, end = to.distance, width = end - from.distance;
+  step::State stable = path_start_, beyond = step.last();
+  bool has_stable = from.distance == 0.0;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (from.distance + to.distance);
+    step::State state;
+    if (const auto t = search.go_to(state, middle)) {
+      if (k > halvings / 2) break;  // the tangent is singular: it is known well enough
+      return "a bifurcation in it was not met: " + t->text;
+    }
+    const step::StabilityLook look = stability_->stability().look();
+    if (!look.is_known) return {};
+    const bool is_before = look.unstable == static_cast<int>(before);
+    (is_before ? from : to) = {middle, static_cast<double>(look.unstable), state.time};
+    (is_before ? stable : beyond) = state;
+    has_stable = has_stable || is_before;
+  }
+  if (has_stable && path_->distance(stable, beyond) > leap * (to.distance - from.distance) + apart * width)
+    return "the number of unstable directions changes from " + std::to_string(static_cast<int>(before)) + " to " +
+           std::to_string(unstable_there) + ", and there is neither a limit point nor a bifurcation";
+  records::Bifurcation found{0.5 * (from.load_factor + to.load_factor), "", to.value > before};
+  // The mode is unstable on one side, by more than round-off a little away.
+  const double away = found.is_lost ? std::min(to.distance + beside * width, end)
+                                    : std::max(from.distance - beside * width, 0.5 * from.distance);
+  step::State state;
+  if (away > 0.0 && !search.go_to(state, away))
+    if (const auto mode = stability_->stability().find_mode(state)) found.mode = StabilityWatch::describe(plan_, *mode);
+  step.bifurcations.push_back(std::move(found));
+  from = to;
+  return {};
+}
+
+void Run::accept_bifurcation(records::Bifurcation&& b) {
+  note("a bifurcation was passed at load factor " + std::to_string(b.load_factor) + ", where stability is " +
+       (b.is_lost ? "lost" : "regained") + (b.mode.empty() ? "" : ": " + b.mode) +
+       "; another branch of equilibria begins there");
+  summary_.bifurcations.push_back(std::move(b));
+}
+
+}  // namespace bough::run

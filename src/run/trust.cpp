@@ -1,0 +1,225 @@
+#include "trust.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bough/io/number_text.hpp"
+
+namespace bough::run {
+
+namespace {
+
+constexpr double unit_round_off = 0x1p-53;
+
+double solver_figure(const records::Summary& summary, const char* name) {
+  for (const auto& [key, value] : summary.solver)
+    if (key == name) return value;
+  return 0.0;
+}
+
+std::string number(double value) { return io::rounded_text(value, 2); }
+
+/// Whether a value passes its bound, or is no number.
+bool passes(double value, double bound) { return !(value <= bound); }
+
+void doubt_energy(const records::Summary& s, const TrustLimits& limits, std::vector<records::Doubt>& doubts) {
+  const records::Checks& c = s.checks;
+  const auto bound = [&c](double share) { return std::max(share * c.energy_scale, c.energy_round_off); };
+  if (passes(c.energy_gained, bound(limits.energy_gained)))
+    doubts.push_back({"energy", "energy grows out of nothing: the integrator has added " + number(c.energy_gained) +
+                                    " J, " + number(100.0 * c.energy_gained / c.energy_scale) +
+                                    " % of the largest energy; " +
+                                    (s.instability.empty() ? "take smaller steps" : s.instability)});
+  if (passes(c.numerical_dissipation, bound(limits.energy_taken)))
+    doubts.push_back(
+        {"energy", "the integrator has taken " + number(c.numerical_dissipation) + " J, " +
+                       number(100.0 * c.numerical_dissipation / c.energy_scale) +
+                       " % of the largest energy: what moves fast relative to the step is damped away; take "
+                       "smaller steps or a spectral radius nearer to 1"});
+}
+
+/// What would bring an error of the second order in the step, or of the first in the tolerance, safely below its bound:
+/// the estimate of a run that is far off is itself off, by less than the margin in all runs that were tried.
+std::string remedy(const records::Summary& s, double excess) {
+  constexpr double margin = 1.5;
+  excess *= margin;
+  if (s.steps.size_changes > 0) return "a tolerance of step_control " + number(excess) + " times smaller";
+  return "steps of " + number(s.step_size / std::sqrt(excess)) + " s";
+}
+
+void doubt_errors(const records::Summary& s, const TrustLimits& limits, std::vector<records::Doubt>& doubts) {
+  const auto& all = s.sensor_errors;
+  if (all.empty()) {
+    const double sum = s.checks.local_error_sum;
+    if (s.checks.local_error_known && passes(sum, limits.local_error_sum))
+      doubts.push_back({"error", "the local errors of the steps add up to " + number(100.0 * sum) +
+                                     " % of the size of the structure (or of 1 rad); " +
+                                     remedy(s, sum / limits.local_error_sum) + " would make it less than " +
+                                     number(100.0 * limits.local_error_sum) + " %"});
+    return;
+  }
+  const auto is_wrong = [&](const records::SensorError& e) { return passes(e.relative(), limits.sensor_error); };
+  const auto count = std::count_if(all.begin(), all.end(), is_wrong);
+  if (count == 0) return;
+  const auto& worst = *std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.relative() < b.relative() || (std::isnan(b.relative()) && !std::isnan(a.relative()));
+  });
+  const double error = worst.of_steps + worst.of_energy;
+  doubts.push_back(
+      {"error",
+       "'" + worst.column + "' is off by about " + number(error) + " by the end, " + number(100.0 * worst.relative()) +
+           " % of the " + number(worst.range) + " over which it ranges" +
+           (count > 1 ? " (and " + std::to_string(count - 1) + " more columns by more than " +
+                            number(100.0 * limits.sensor_error) + " %)"
+                      : "") +
+           (worst.of_energy > worst.of_steps ? ", since the energy that the integrator took slows the motion down"
+                                             : ", as the local errors of the steps add up and grow") +
+           "; " + remedy(s, worst.relative() / limits.sensor_error) + " would make it less than " +
+           number(100.0 * limits.sensor_error) + " %"});
+}
+
+void doubt_linear_solutions(const records::Summary& s, const TrustLimits& limits, std::vector<records::Doubt>& doubts) {
+  const double unknowns = solver_figure(s, "unknowns");
+  const double bar = limits.lapack_ratio * std::max(1.0, unknowns) * unit_round_off;
+  if (passes(s.checks.linear_backward_error_max, bar))
+    doubts.push_back({"linear solutions", "a linear solution left a residual of " +
+                                              number(s.checks.linear_backward_error_max) +
+                                              " of what enters it, above 30 n u = " + number(bar) +
+                                              ": the tangent is singular or nearly so somewhere on the way"});
+  for (const records::LevelFigures& level : s.levels)
+    if (passes(level.backward_error, bar))
+      doubts.push_back({"linear solutions", "on level " + std::to_string(level.level) +
+                                                " of the tree a linear solution leaves a residual of " +
+                                                number(level.backward_error)});
+}
+
+/// What round-off and tolerance leave of results. Where a limit point was located the tangent is singular as it has to
+/// be, and the path goes on.
+void doubt_condition(const records::Summary& s, bool is_dynamic, const TrustLimits& limits,
+                     std::vector<records::Doubt>& doubts) {
+  const double error = solver_figure(s, "solution_error_estimate");
+  if (s.limit_points.empty() && passes(error, limits.lost))
+    doubts.push_back(
+        {"condition", "one more correction would move the " + std::string(is_dynamic ? "end" : "equilibrium") + " by " +
+                          number(error) + " of its displacement: it hangs on round-off and the tolerance (condition " +
+                          number(solver_figure(s, "condition_estimate")) +
+                          " of the tangent); look for parts that hardly anything holds, stiffness ratios or element "
+                          "numbers that can be less"});
+  const records::UnsureReaction* worst = nullptr;
+  std::size_t unsure = 0;
+  for (const records::UnsureReaction& r : s.unsure_reactions) {
+    if (!passes(r.error, limits.lost * r.largest)) continue;
+    ++unsure;
+    if (worst == nullptr || r.error > worst->error) worst = &r;
+  }
+  if (worst == nullptr) return;
+  doubts.push_back(
+      {"condition", "the reaction of '" + worst->joint + "'" +
+                        (unsure > 1 ? " and those of " + std::to_string(unsure - 1) + " other joints hang" : " hangs") +
+                        " on round-off and the tolerance: at time " + io::rounded_text(worst->time, 6) +
+                        " one more correction would change " + number(worst->size) + " N (N m over the " +
+                        "size of an element) by " + number(worst->error) +
+                        ": constraints come close to depending on each other there; take larger steps or "
+                        "leave these times out"});
+}
+
+std::string named(const std::string& joint) { return joint.empty() ? "a joint " : "joint '" + joint + "' "; }
+
+void doubt_constraints(const records::Checks& c, const TrustLimits& limits, std::vector<records::Doubt>& doubts) {
+  if (passes(c.relative_violation_position, limits.violation))
+    doubts.push_back({"constraints", named(c.open_joint) + "stays open by " + number(c.relative_violation_position) +
+                                         " of the size of the parts that meet in it (or rad)"});
+  if (passes(c.relative_violation_step, limits.violation_step))
+    doubts.push_back(
+        {"constraints", named(c.fast_joint) + "is left by velocities that open it by " +
+                            number(c.relative_violation_step) +
+                            " of the size of the parts that meet in it (or rad) in a step; take smaller steps"});
+}
+
+/// "the last equilibrium is unstable, it is left in one direction: ..."; empty where it is stable in the motions that
+/// the plan has taken.
+std::string unstable_text(const records::Stability& s) {
+  if (s.unstable_directions == 0) return "";
+  const std::string count = !s.not_conservative.empty()  ? "an odd number of directions"
+                            : s.unstable_directions == 1 ? "one direction"
+                                                         : std::to_string(s.unstable_directions) + " directions";
+  return "the last equilibrium is unstable, it is left in " + count + ": " + s.mode;
+}
+
+/// One doubt, in which motions ever the structure leaves its equilibria.
+void doubt_stability(const records::Stability& s, std::vector<records::Doubt>& doubts) {
+  std::string text = unstable_text(s);
+  const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+  if (!s.hidden.empty())
+    add((text.empty() ? "the last equilibrium is unstable " : "it is unstable ") + s.hidden +
+        (text.empty() ? "" : " as well") + ", which the plan leaves out of the motions: " + s.hidden_mode);
+  if (s.first_lost) {
+    const std::string lost = "the first unstable equilibrium was met between load factors " +
+                             io::rounded_text(s.first_lost->before, 6) + " and " +
+                             io::rounded_text(s.first_lost->after, 6);
+    add(s.unstable_directions > 0
+            ? lost
+            : "equilibria on the way are unstable, the structure would have left them: " + lost + "; " + s.mode);
+  }
+  if (text.empty()) return;
+  if (!s.largest_load.empty()) text += "; " + s.largest_load;
+  doubts.push_back(
+      {"stability", text + "; a small imperfection of the shape or a small load in that direction leads to the branch "
+                           "that the structure takes; if unstable equilibria are what is looked for, say so with "
+                           "\"unstable\": true in /analysis"});
+}
+
+std::string vector_text(const std::array<double, 3>& v) {
+  return "(" + io::rounded_text(v[0], 4) + ", " + io::rounded_text(v[1], 4) + ", " + io::rounded_text(v[2], 4) + ")";
+}
+
+void doubt_start(const std::vector<records::ChangedVelocity>& changed, const TrustLimits& limits,
+                 std::vector<records::Doubt>& doubts) {
+  if (!changed.empty() && passes(changed.front().change, limits.velocity_changed))
+    doubts.push_back({"initial velocities", describe(changed) +
+                                                "; give velocities that joints and drives allow to all parts that "
+                                                "move, or only to those that determine the motion"});
+}
+
+}  // namespace
+
+std::string describe(const std::vector<records::ChangedVelocity>& changed) {
+  constexpr std::size_t most_named = 3;
+  std::string text = "joints and drives do not allow the given initial velocities:";
+  for (std::size_t i = 0; i < std::min(changed.size(), most_named); ++i) {
+    const records::ChangedVelocity& v = changed[i];
+    const char* const unit = v.is_angular ? " rad/s" : " m/s";
+    text += (i == 0 ? " '" : "; '") + v.of + "' was given " + vector_text(v.asked) + unit + " and starts with " +
+            vector_text(v.got) + unit;
+  }
+  if (changed.size() > most_named) text += "; and " + std::to_string(changed.size() - most_named) + " others";
+  return text;
+}
+
+std::vector<records::Doubt> doubts_of(const records::Summary& s, bool is_dynamic, const TrustLimits& limits) {
+  std::vector<records::Doubt> doubts;
+  if (s.status == records::RunStatus::failed) doubts.push_back({"run", "it broke off: " + s.cause});
+  if (s.status == records::RunStatus::interrupted) doubts.push_back({"run", "it was stopped before its end"});
+  doubt_start(s.changed_velocities, limits, doubts);
+  const records::Checks& c = s.checks;
+  if (c.evaluated && is_dynamic) doubt_energy(s, limits, doubts);
+  if (c.evaluated && is_dynamic) doubt_errors(s, limits, doubts);
+  if (c.evaluated) doubt_constraints(c, limits, doubts);
+  doubt_linear_solutions(s, limits, doubts);
+  doubt_condition(s, is_dynamic, limits, doubts);
+  if (is_dynamic && passes(c.unbalanced_at_floor, limits.unbalanced))
+    doubts.push_back(
+        {"round-off",
+         std::to_string(c.steps_at_floor) + " of " + std::to_string(s.steps.accepted) +
+             " steps ended at the round-off floor of the residual and left up to " + number(c.unbalanced_at_floor) +
+             " of the largest force unbalanced: accelerations, reactions and section forces are no more exact"});
+  if (s.stability && !s.stability->is_declared) doubt_stability(*s.stability, doubts);
+  if (static_cast<double>(s.steps.rejected) > limits.rejected * static_cast<double>(s.steps.accepted) &&
+      s.status == records::RunStatus::ok)
+    doubts.push_back({"steps", std::to_string(s.steps.rejected) + " steps were rejected for " +
+                                   std::to_string(s.steps.accepted) +
+                                   " accepted ones: the step size is not that of the problem"});
+  return doubts;
+}
+
+}  // namespace bough::run

@@ -1,0 +1,180 @@
+// Figures of quantities over time, against closed forms and published counts.
+#include "bough/run/measures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include "support/scenes.hpp"
+
+namespace bough::run {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A function at times that are not equally far apart.
+struct Sampled {
+  std::vector<double> times, values;
+  template <class F>
+  Sampled(double end, int n, const F& f) {
+    for (int k = 0; k <= n; ++k) {
+      const double s = static_cast<double>(k) / n;
+      times.push_back(end * (k == n ? 1.0 : s + 0.1 / n * std::sin(7.0 * k)));
+      if (k == 0) times.back() = 0.0;
+      values.push_back(f(times.back()));
+    }
+  }
+  operator Series() const { return {times, values}; }
+};
+
+std::map<double, double> counts(const std::vector<double>& values) {
+  std::map<double, double> by_range;
+  for (const LoadCycle& c : rainflow_of(values)) by_range[c.range] += c.count;
+  return by_range;
+}
+
+TEST(Measures, rainflow_counts_the_series_of_the_standard) {
+  // ASTM E 1049-85 (2017), figure 6.
+  const std::map<double, double> expected = {{3, 0.5}, {4, 1.5}, {6, 0.5}, {8, 1.0}, {9, 0.5}};
+  EXPECT_EQ(counts({-2, 1, -3, 5, -1, 3, -4, 4, -2}), expected);
+  // Points on the way and repeated ones are no turning points.
+  EXPECT_EQ(counts({-2, -2, 0, 1, 1, -1, -3, 5, 2, -1, -1, 3, -4, 0, 4, -2, -2}), expected);
+  EXPECT_TRUE(rainflow_of({}).empty());
+  EXPECT_TRUE(rainflow_of(std::vector<double>{3, 3, 3}).empty());
+  EXPECT_EQ(counts({0, 2}), (std::map<double, double>{{2, 0.5}}));
+}
+
+/// Every turn of the history ends in exactly one count: the counts add up to half the number of turns.
+TEST(Measures, rainflow_counts_every_range_of_turning_points_once) {
+  std::mt19937 random(3);
+  for (int n = 2; n < 200; n += 7) {
+    std::vector<double> values;
+    for (int k = 0; k < n; ++k)
+      values.push_back((k % 2 == 0 ? 1.0 : -1.0) * (1.0 + 1e-9 * static_cast<double>(random())));
+    double number = 0.0;
+    for (const LoadCycle& c : rainflow_of(values)) number += c.count;
+    EXPECT_EQ(number, 0.5 * (n - 1));
+  }
+}
+
+TEST(Measures, equal_cycles_are_their_own_equivalent) {
+  std::vector<double> values;
+  for (int k = 0; k <= 20; ++k) values.push_back(k % 2 == 0 ? -1.5 : 1.5);
+  const auto cycles = rainflow_of(values);
+  for (const double m : {1.0, 3.0, 12.0}) {
+    EXPECT_NEAR(equivalent_range(cycles, m, 10.0), 3.0, 1e-14);
+    EXPECT_NEAR(equivalent_range(cycles, m, 20.0), 3.0 * std::pow(0.5, 1.0 / m), 1e-14);
+  }
+  for (double& x : values) x *= 1e200;
+  EXPECT_NEAR(equivalent_range(rainflow_of(values), 12.0, 10.0) / 3e200, 1.0, 1e-14);
+}
+
+TEST(Measures, means_are_weighted_with_time) {
+  const Sampled sine(2.0 * pi, 4000, [](double t) { return 3.0 + 2.0 * std::sin(t); });
+  EXPECT_NEAR(mean_of(sine), 3.0, 2e-6);
+  EXPECT_NEAR(rms_of(sine), std::sqrt(9.0 + 2.0), 2e-6);
+  const std::vector<double> times = {0, 1, 1, 4}, values = {0, 0, 2, 2};  // a jump
+  EXPECT_DOUBLE_EQ(mean_of({times, values}), 1.5);
+  EXPECT_DOUBLE_EQ(rms_of({times, values}), std::sqrt(3.0));
+  EXPECT_NEAR(percentile_of({times, values}, 25.0), 0.0, 1e-15);
+}
+
+TEST(Measures, percentiles_of_a_sine_are_those_of_the_arcsine_law) {
+  const Sampled sine(2.0 * pi, 20000, [](double t) { return std::sin(t); });
+  for (const double p : {1.0, 10.0, 50.0, 75.0, 99.0})
+    EXPECT_NEAR(percentile_of(sine, p), std::sin(pi * (0.01 * p - 0.5)), 1e-5) << p;
+  EXPECT_DOUBLE_EQ(percentile_of(sine, 100.0), *std::max_element(sine.values.begin(), sine.values.end()));
+}
+
+TEST(Measures, settling_time_of_a_decay_is_that_of_its_envelope) {
+  const Sampled decay(10.0, 20000, [](double t) { return 1.0 - std::exp(-t); });
+  EXPECT_NEAR(settling_time_of(decay, 1.0, 0.02).value(), std::log(50.0), 1e-6);
+  EXPECT_FALSE(settling_time_of(decay, 5.0, 0.02).has_value());
+  EXPECT_EQ(settling_time_of(decay, 0.5, 0.6).value(), 0.0);
+}
+
+TEST(Measures, dominant_frequency_is_found_between_lines_of_the_spectrum) {
+  for (const double f : {1.0, 3.1, 12.34}) {
+    const Sampled mixed(10.0, 3000, [f](double t) {
+      return 5.0 + std::sin(2.0 * pi * f * t + 0.3) + 0.4 * std::sin(2.0 * pi * 2.7 * f * t) + 0.1 * t;
+    });
+    EXPECT_NEAR(dominant_frequency_of(mixed).value(), f, 0.02 / 10.0) << f;
+  }
+  EXPECT_FALSE(dominant_frequency_of(Sampled(1.0, 100, [](double) { return 2.0; })).has_value());
+}
+
+const char* const oscillator = R"("bodies": [{"name": "a", "kind": "point_mass", "mass": 1, "position": [2, 0, 0]}],
+  "frames": [{"name": "wall"}],
+  "springs": [{"name": "k", "first": "wall", "second": "a", "stiffness": 39.47841760435743, "rest_length": 1}],
+  "motions": [{"at": "a", "y": 0, "z": 0}],
+  "sensors": [{"name": "a", "kind": "position", "at": "a"}, {"name": "v", "kind": "velocity", "at": "a"}],
+  "analysis": {"kind": "dynamic", "end_time": 4, "step_size": 0.002, "spectral_radius": 0.99}, "output": {"stride": 50},
+  "parameters": {"half": 0.5, "w": 6.283185307179586})";
+
+/// x = 1 + cos(2 pi t).
+TEST(Measures, a_run_measures_all_accepted_steps_whatever_the_stride) {
+  const scene::Scene scene = support::scene_of(std::string("{") + oscillator + R"x(, "measures": [
+      {"name": "top", "quantity": "a.x", "figure": "max"},
+      {"name": "early", "quantity": "a.x", "time": 1.2345},
+      {"name": "end", "quantity": "v.vx"},
+      {"name": "mean", "quantity": "a.x", "figure": "mean"},
+      {"name": "period", "quantity": "a.x", "figure": "period", "level": 1},
+      {"name": "energy", "expression": "half*v^2 + half*w^2*(x - 1)^2", "of": {"x": "a.x", "v": "v.vx"}, "figure": "max"},
+      {"name": "frequency", "quantity": "a.x", "figure": "dominant_frequency"},
+      {"name": "cycles", "quantity": "a.x", "figure": "cycles", "range": 1.9},
+      {"name": "load", "quantity": "a.x", "figure": "equivalent_range", "exponent": 4},
+      {"name": "late", "quantity": "a.x", "time": 5},
+      {"name": "none", "expression": "log(x - 3)", "of": {"x": "a.x"}, "figure": "max"}]})x");
+  const support::Outcome run = support::run(scene);
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  std::map<std::string, std::optional<double>> by_name;
+  for (const records::MeasureResult& m : run.summary.measures) by_name[m.name] = m.value;
+  ASSERT_EQ(by_name.size(), 11u);
+  EXPECT_NEAR(by_name["top"].value(), 2.0, 1e-4);
+  EXPECT_NEAR(by_name["early"].value(), 1.0 + std::cos(2.0 * pi * 1.2345), 2e-3);
+  EXPECT_NEAR(by_name["end"].value(), 0.0, 0.01);
+  EXPECT_NEAR(by_name["mean"].value(), 1.0, 1e-3);
+  EXPECT_NEAR(by_name["period"].value(), 1.0, 1e-4);
+  EXPECT_NEAR(by_name["energy"].value(), 0.5 * 4.0 * pi * pi, 1e-3 * 2.0 * pi * pi);
+  EXPECT_NEAR(by_name["frequency"].value(), 1.0, 0.01);
+  EXPECT_EQ(by_name["cycles"].value(), 4.0);
+  EXPECT_NEAR(by_name["load"].value(), 2.0, 1e-3);  // one a second
+  EXPECT_FALSE(by_name["late"].has_value());
+  EXPECT_FALSE(by_name["none"].has_value());
+}
+
+TEST(Measures, measures_change_no_bit_of_the_run) {
+  const support::Outcome plain = support::run(support::gallery("slider_crank", {"/analysis/end_time=0.1"}));
+  const support::Outcome measured = support::run(support::gallery(
+      "slider_crank", {"/analysis/end_time=0.1", R"(/measures=[{"name": "m", "quantity": ")" +
+                                                     plain.history.columns[0] + R"(", "figure": "rms"}])"}));
+  EXPECT_EQ(plain.history.rows, measured.history.rows);
+  EXPECT_EQ(measured.summary.measures.size(), 1u);
+}
+
+TEST(Measures, what_is_wrong_with_a_measure_is_told) {
+  const std::pair<const char*, const char*> cases[] = {
+      {R"({"name": "m", "quantity": "b.x"})", "no sensor"},
+      {R"({"name": "m", "quantity": "a"})", "components"},
+      {R"({"name": "m"})", "exactly one of the keys"},
+      {R"({"name": "m", "expression": "1"})", "\"of\""},
+      {R"({"name": "m", "expression": "x + y", "of": {"x": "a.x"}})", "y"},
+      {R"({"name": "m", "expression": "x", "of": {"x": "a.w"}})", "components"},
+      {R"({"name": "m", "quantity": "a.x", "figure": "settling_time"})", "band"},
+      {R"({"name": "m", "quantity": "a.x", "figure": "maximum"})", "has to be"},
+      {R"({"name": "m", "quantity": "a.x", "figure": "max", "time": 1})", "whole run"}};
+  for (const auto& [measure, word] : cases) {
+    try {
+      (void)support::scene_of(std::string("{") + oscillator + ", \"measures\": [" + measure + "]}");
+      ADD_FAILURE() << measure;
+    } catch (const std::runtime_error& e) {
+      EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << measure << ": " << e.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bough::run
