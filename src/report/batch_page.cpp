@@ -7,8 +7,8 @@
 #include <numeric>
 #include <set>
 
+#include "batch_cases.hpp"
 #include "batch_script.hpp"
-#include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/report/document.hpp"
@@ -20,13 +20,6 @@ namespace {
 
 using study::CaseResult;
 using study::CaseStatus;
-
-/// The values of one measure over all cases that have one.
-struct Measured {
-  std::string name;
-  std::vector<double> values;
-  std::vector<std::size_t> cases;  ///< ascending values
-};
 
 std::vector<Measured> measured_in(const std::vector<CaseResult>& results) {
   std::vector<Measured> all;
@@ -53,8 +46,6 @@ std::vector<Measured> measured_in(const std::vector<CaseResult>& results) {
   }
   return all;
 }
-
-bool is_good(const CaseResult& r) { return r.status == CaseStatus::ok; }
 
 Table status_table(const std::vector<CaseResult>& results) {
   std::map<CaseStatus, std::size_t> counts;
@@ -199,7 +190,7 @@ std::string shortened(const std::string& name) {
 
 /// Bars of the indices of one measure, one colour an index, with intervals of confidence.
 std::string index_bars(const study::MeasureSensitivity& s) {
-  constexpr double bar = 12.0, gap = 10.0, left = 120.0;
+  constexpr double bar = 16.0, gap = 10.0, left = 120.0;
   double most = 0.0;
   for (const auto& of : s.of.values)
     for (const study::Index& i : of)
@@ -258,70 +249,6 @@ void add_sensitivities(Document& page, const std::vector<study::MeasureSensitivi
                      Tone::soft);
 }
 
-/// A value of an input: a number, or a text.
-void write_input(io::JsonText& json, const std::string& text) {
-  double number = 0.0;
-  if (io::read_number(text, number) && std::isfinite(number))
-    json.value(number);
-  else
-    json.value(std::string_view(text.size() >= 2 && text.front() == '"' ? text.substr(1, text.size() - 2) : text));
-}
-
-std::string json_of(const std::vector<CaseResult>& results, const std::vector<Measured>& measured) {
-  std::vector<std::string> inputs;
-  for (const CaseResult& r : results)
-    for (const auto& [name, value] : r.which.inputs)
-      if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) inputs.push_back(name);
-  io::JsonText json;
-  json.begin_object();
-  json.member("inputs", static_cast<long long>(inputs.size()));
-  json.key("columns");
-  json.begin_array();
-  for (const char* name : {"case", "status", "cause", "doubts"}) json.value(name);
-  for (const std::string& name : inputs) json.value(std::string_view(name));
-  for (const Measured& m : measured) json.value(std::string_view(m.name));
-  json.value("steps");
-  json.end_array();
-  json.key("numeric");
-  json.begin_array();
-  for (int k = 0; k < 4; ++k) json.value(false);
-  for (std::size_t k = 0; k < inputs.size() + measured.size() + 1; ++k) json.value(true);
-  json.end_array();
-  json.key("rows");
-  json.begin_array();
-  for (const std::size_t i : cases_shown(results)) {
-    const CaseResult& r = results[i];
-    json.begin_array();
-    json.value(std::string_view(r.which.name));
-    json.value(study::text_of(r.status));
-    json.value(std::string_view(r.cause.substr(0, 200)));
-    std::string doubts;
-    for (const std::string& d : r.report.doubts) doubts += (doubts.empty() ? "" : ", ") + d;
-    json.value(std::string_view(doubts));
-    for (const std::string& name : inputs) {
-      const auto at =
-          std::find_if(r.which.inputs.begin(), r.which.inputs.end(), [&](const auto& in) { return in.first == name; });
-      if (at == r.which.inputs.end())
-        json.raw("null");
-      else
-        write_input(json, at->second);
-    }
-    for (const Measured& m : measured) {
-      const auto at = std::find_if(r.report.measures.begin(), r.report.measures.end(),
-                                   [&](const records::MeasureResult& x) { return x.name == m.name; });
-      if (at == r.report.measures.end() || !at->value)
-        json.raw("null");
-      else
-        json.value(*at->value);
-    }
-    json.value(static_cast<long long>(r.report.accepted));
-    json.end_array();
-  }
-  json.end_array();
-  json.end_object();
-  return json.text();
-}
-
 }  // namespace
 
 std::vector<std::size_t> cases_shown(const std::vector<CaseResult>& results, std::size_t most) {
@@ -373,17 +300,17 @@ std::string batch_page(const std::vector<CaseResult>& results, const std::string
   }
   add_sensitivities(page, sensitivities);
   page.section("Cases");
-  const std::size_t shown = cases_shown(results).size();
+  const Cases cases = cases_of(results, measured);
   page.paragraph(
-      shown < results.size()
-          ? "The extreme cases of every measure, failures and a sample, " + std::to_string(shown) +
+      cases.shown.size() < results.size()
+          ? "The extreme cases of every measure, failures and a sample, " + std::to_string(cases.shown.size()) +
                 " in all; batch.csv holds every case."
           : "A click on a heading sorts, one on a row or point selects; selected cases have links to their views.",
       Tone::soft);
-  page.figure(
-      "<div id=\"scatter\"></div><div id=\"cases\"></div><noscript>The table and its chart need scripts; batch.csv "
-      "holds the same.</noscript>");
-  page.program("batch", json_of(results, measured), batch_script);
+  page.markup("<div id=\"scatter\"></div>\n<div id=\"cases\">\n");
+  page.table(case_table(cases, results, measured));
+  page.markup("</div>\n");
+  page.program("batch", cases_json(cases, results, measured), batch_script);
   return page.html();
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-/// The script of batch.html: a table that sorts, filters and selects, and a chart of any column against any. `batch` is a
-/// JSON value in the page: {"columns": [names], "numeric": [true, ...], "rows": [[cells], ...]}; a cell is a number, a text
-/// or null. All text goes into the page as text nodes.
+/// The script of batch.html: sorts, filters and selects the rows of the table of cases, which stands in the page, and draws
+/// any column against any. `batch` is a JSON value in the page, with the rows and columns of the table: {"columns":
+/// [names], "numeric": [true, ...], "rows": [[cells], ...]}; a cell is a number, a text or null. All text goes into the page
+/// as text nodes.
 #include <string_view>
 
 namespace bough::report {
@@ -19,23 +20,32 @@ inline constexpr std::string_view batch_script = R"js(
     return e;
   }
   function shown(v) { return v === null ? "" : typeof v === "number" ? String(Number(v.toPrecision(6))) : v; }
-  var root = document.getElementById("cases");
-  var bar = el(root, "p"), label = el(bar, "label", "Filter: "), filter = el(label, "input");
+  var root = document.getElementById("cases"), bar = document.createElement("p"), label = el(bar, "label", "Filter: ");
+  root.insertBefore(bar, root.firstChild);
+  var filter = el(label, "input"), count = el(bar, "span"), sorting = el(el(bar, "label", " Sort by: "), "select");
   filter.type = "search";
   filter.placeholder = "failed, or  k > 2 & tip < -1";
-  filter.size = 40;
-  var count = el(bar, "span");
-  var wide = el(root, "div"), table = el(wide, "table"), head = el(el(table, "thead"), "tr"), body = el(table, "tbody");
-  wide.className = "wide";
+  filter.size = 28;
+  el(sorting, "option", "number of the case").value = -1;
+  columns.forEach(function (name, c) { el(sorting, "option", name).value = c; });
+  sorting.addEventListener("change", function () { sortBy = Number(sorting.value); down = false; draw(); });
   var views = el(root, "div");
-  columns.forEach(function (name, c) {
-    var th = el(head, "th"), button = el(th, "button", name);
-    if (numeric[c]) th.className = "number";
-    button.addEventListener("click", function () {
-      down = sortBy === c ? !down : false;
-      sortBy = c;
-      draw();
+  // A table too wide for the page stands in parts, each with the first column again.
+  var next = 1;
+  var parts = Array.from(root.querySelectorAll("table")).map(function (table, p) {
+    Array.from(table.tHead.rows[0].cells).forEach(function (th, k) {
+      var c = k === 0 ? 0 : next++, name = th.textContent;
+      th.textContent = "";
+      el(th, "button", name).addEventListener("click", function () {
+        down = sortBy === c ? !down : false;
+        sortBy = c;
+        sorting.value = c;
+        draw();
+      });
     });
+    var body = table.tBodies[0], trs = Array.from(body.rows);
+    trs.forEach(function (tr, i) { tr.addEventListener("click", function () { selected[i] = !selected[i]; draw(); }); });
+    return {body: body, rows: trs};
   });
   /// "name < 3 & other >= 2", else a piece of text of any cell.
   function condition(text) {
@@ -62,15 +72,12 @@ inline constexpr std::string_view batch_script = R"js(
       if (y === null) return -1;
       return (x < y ? -1 : 1) * (down ? -1 : 1);
     });
-    body.textContent = "";
-    left.slice(0, 300).forEach(function (i) {
-      var tr = el(body, "tr");
-      if (selected[i]) tr.className = "chosen";
-      rows[i].forEach(function (v, c) {
-        var td = el(tr, "td", shown(v));
-        if (numeric[c]) td.className = "number";
+    parts.forEach(function (part) {
+      part.body.textContent = "";
+      left.slice(0, 300).forEach(function (i) {
+        part.rows[i].className = selected[i] ? "chosen" : "";
+        part.body.appendChild(part.rows[i]);
       });
-      tr.addEventListener("click", function () { selected[i] = !selected[i]; draw(); });
     });
     views.textContent = "";
     order.filter(function (i) { return selected[i]; }).slice(0, 20).forEach(function (i) {

@@ -62,22 +62,45 @@ double least_width(const Table& table, std::size_t c) {
   return padding + (c == 0 ? std::max(width, first_column) : width);
 }
 
-/// Columns of a table that fit beside each other on the page, and, at four fifths of its letters, on paper of 190 mm; a wider table goes on in
-/// further ones, each with the first column again.
-std::vector<std::vector<std::size_t>> parts_of(const Table& table) {
-  constexpr double widest = 860.0;  // [px]
+/// Columns that fit beside each other in a width, part after part, each with the first column again.
+std::vector<std::vector<std::size_t>> parts_within(const std::vector<double>& widths, double widest) {
   std::vector<std::vector<std::size_t>> parts(1);
   double used = 0.0;
-  for (std::size_t c = 0; c < table.head.size(); ++c) {
-    const double width = least_width(table, c);
-    if (used + width > widest && parts.back().size() > 1) {
+  for (std::size_t c = 0; c < widths.size(); ++c) {
+    if (used + widths[c] > widest && parts.back().size() > 1) {
       parts.push_back({0});
-      used = least_width(table, 0);
+      used = widths[0];
     }
     parts.back().push_back(c);
-    used += width;
+    used += widths[c];
   }
   return parts;
+}
+
+/// Columns of a table that fit beside each other on the page, and, at four fifths of its letters, on paper of 190 mm; a
+/// wider table goes on in further ones, as few as possible and as equal in width.
+std::vector<std::vector<std::size_t>> parts_of(const Table& table) {
+  constexpr double widest = 860.0, step = 10.0;  // [px]
+  std::vector<double> widths;
+  for (std::size_t c = 0; c < table.head.size(); ++c) widths.push_back(least_width(table, c));
+  std::vector<std::vector<std::size_t>> parts = parts_within(widths, widest);
+  for (double width = widest - step; width > 0.0; width -= step) {
+    std::vector<std::vector<std::size_t>> narrower = parts_within(widths, width);
+    if (narrower.size() > parts.size()) break;
+    parts = std::move(narrower);
+  }
+  return parts;
+}
+
+/// Rows of a table as cards in windows up to a width.
+std::string cards_style(std::string_view width, const std::string& table) {
+  std::string rules = "@media screen and (max-width:" + std::string(width) + "){";
+  rules += table + " thead{display:none}" + table + "," + table + " tbody," + table + " tr{display:block}";
+  rules += table + " tr{padding:6px 0;border-bottom:1px solid #a9a8a0}";
+  rules += table +
+           " td{display:flex;gap:12px;justify-content:space-between;min-width:0;padding:1px "
+           "0;border:0;overflow-wrap:anywhere;white-space:normal}";
+  return rules + table + " td::before{content:attr(data-label);color:#52514e;flex:none;max-width:50%}}\n";
 }
 
 }  // namespace
@@ -113,11 +136,12 @@ void Document::table(const Table& table) {
     if (row.size() != table.head.size()) throw std::logic_error("a row is as long as the head of its table");
   const std::vector<std::vector<std::size_t>> parts = parts_of(table);
   for (const std::vector<std::size_t>& columns : parts) {
-    // On a narrow screen the rows of such a table are cards, a line for each column: nothing is cut or pushed aside.
+    // Where the window is narrower than such a table its rows are cards, a line for each column: nothing is cut or pushed aside.
     double width = 0.0;
     for (const std::size_t c : columns) width += least_width(table, c);
     const bool has_cards = width > 340.0;
-    body_ += has_cards ? "<div class=\"wide\"><table class=\"cards\">\n" : "<div class=\"wide\"><table>\n";
+    const std::string_view kind = width > 580.0 ? " class=\"cards large\"" : has_cards ? " class=\"cards\"" : "";
+    body_ += "<div class=\"wide\"><table" + std::string(kind) + ">\n";
     if (!table.caption.empty() && &columns == &parts.front())
       body_ += "<caption>" + escaped(table.caption) + "</caption>\n";
     body_ += "<thead><tr>";
@@ -174,8 +198,9 @@ std::string Document::html() const {
          (program_.empty() ? std::string() : "; script-src 'sha256-" + program_hash_ + "'") +
          "\">\n"
          "<title>" +
-         escaped(title_) + "</title>\n<style>" + std::string(page_style) + std::string(style_text()) +
-         "</style>\n</head>\n<body>\n" + body_ + "</main>\n" + program_ + "</body>\n</html>\n";
+         escaped(title_) + "</title>\n<style>" + std::string(page_style) + cards_style("640px", ".cards") +
+         cards_style("920px", ".cards.large") + std::string(style_text()) + "</style>\n</head>\n<body>\n" + body_ +
+         "</main>\n" + program_ + "</body>\n</html>\n";
 }
 
 }  // namespace bough::report

@@ -33,8 +33,7 @@ void add_heading(Document& page, const RunFiles& run) {
 void add_motion(Document& page, const RunFiles& run, const PictureOptions& options) {
   if (run.motion.empty()) return page.paragraph(how_to_record_motion(), Tone::soft);
   page.markup(
-      "<div id=\"viewer\" hidden></div>\n<p id=\"no-webgl\" class=\"lead\" hidden>This browser shows no WebGL: the "
-      "drawing stands for the moving picture.</p>\n<figure id=\"motion\">\n" +
+      "<div id=\"viewer\" hidden></div>\n<p id=\"no-webgl\" class=\"lead\" hidden></p>\n<figure id=\"motion\">\n" +
       make_picture(run.motion, options).svg + "</figure>\n");
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bough/io/columns.hpp"
+#include "bough/io/json_value.hpp"
 #include "curve.hpp"
 #include "svg_text.hpp"
 
@@ -144,10 +145,11 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
   plot.svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixel(width) + " " + pixel(height) +
              "\" role=\"img\" aria-label=\"" + escaped(title) +
              " over time\">\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n" +
-             text_element("head ink", 10.0, 20.0, "start", title) + axes(scale, time_label);
+             text_element("head ink", 10.0, 20.0, "start", io::shown(title, 46)) + axes(scale, time_label);
   // Where title and legend do not fit side by side, the legend goes below the title.
   constexpr double character = 9.0, title_character = 8.0;
-  double legend_x = right, needed = 24.0 + title_character * static_cast<double>(title.size());
+  double legend_x = right,
+         needed = 24.0 + title_character * static_cast<double>(std::min<std::size_t>(title.size(), 49));
   for (const Line& line : lines) needed += 32.0 + character * static_cast<double>(legend_text(history, line).size());
   const double legend_y = needed > right ? 35.0 : 20.0;
   for (std::size_t k = columns.size(); k-- > 0;) {

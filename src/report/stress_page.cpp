@@ -118,7 +118,11 @@ std::string stress_page(const std::vector<StressCase>& cases, const stress::Stre
                        (c.refusal.empty() ? "" : ". The refusal: " + c.refusal),
                    tone_of(c));
     if (c.status == StressStatus::fails) page.paragraph(failure_text(c), Tone::bad);
-    page.table(figures(c, k));
+    const Table table = figures(c, k);
+    if (c.status == StressStatus::fails)
+      page.table(table);
+    else
+      page.folded(std::to_string(table.rows.size()) + (table.rows.size() == 1 ? " figure" : " figures"), table, false);
   }
   page.section("How this was made");
   page.paragraph(

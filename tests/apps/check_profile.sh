@@ -12,7 +12,7 @@ cd "$scratch" || exit 1
 failures=0
 for scene in chain four_bar_planar bend_45; do
   "$program" profile "$source/data/scenarios/$scene.json" --out $scene --steps 10 --quiet || { echo "FAIL: $scene"; exit 1; }
-  sh "$source/tests/tools/check_html.sh" $scene/profile.html || failures=$((failures + 1))
+  python3 "$source/tests/tools/check_html.py" $scene/profile.html || failures=$((failures + 1))
   for drawing in hierarchy 'scene by sub-domains' 'timeline of tasks' Speed-up; do
     grep -q "$drawing" $scene/profile.html || { echo "FAIL: $scene has no $drawing"; failures=$((failures + 1)); }
   done

@@ -12,7 +12,7 @@ fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$bough" study "$source_dir/data/studies/princeton_beam.json" --out "$scratch/study" --threads 1 --repetitions 1 --quiet
-sh "$source_dir/tests/tools/check_html.sh" "$scratch/study/study.html"
+python3 "$source_dir/tests/tools/check_html.py" "$scratch/study/study.html"
 
 # shot NAME OPTIONS...: what the browser shows
 shot() {

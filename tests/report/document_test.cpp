@@ -202,7 +202,7 @@ TEST(Document, a_table_too_wide_for_the_page_goes_on_below_with_its_first_column
   }
   page.table(table);
   const std::string html = page.html();
-  const std::size_t parts = count_of(html, "<table class=\"cards\">") + count_of(html, "<table>");
+  const std::size_t parts = count_of(html, "<table class=\"cards") + count_of(html, "<table>");
   EXPECT_GE(parts, 2u);
   EXPECT_EQ(count_of(html, "<th>case</th>"), parts);
   EXPECT_EQ(count_of(html, "<td data-label=\"case\">two</td>") + count_of(html, "<td>two</td>"), parts);

@@ -1,7 +1,8 @@
 #!/usr/bin/env node
 // measure_view.js PAGE [SCREENSHOT.png]   opens a view in headless Chromium with WebGL in software, 1000 x 700, in real time, and prints how
-// long the first picture takes from the start of the navigation, how many pictures a second are drawn while the view is turned (lines
-// where shapes are too slow), and how long the shapes take afterwards. Needs node; no packages.
+// long the first picture takes from the start of the navigation (in a browser that draws already), how many pictures a second are drawn while
+// time goes on (lines where shapes are too slow), how much
+// processor time each takes, and how long the shapes take afterwards. Needs node; no packages.
 "use strict";
 const {spawn} = require("child_process"),
   fs = require("fs"),
@@ -60,6 +61,30 @@ async function evaluate(text) {
   return r.result.value;
 }
 
+// Milliseconds that the browser and all processes below it have used.
+function processorTime() {
+  const parent = new Map(),
+    used = new Map();
+  for (const name of fs.readdirSync("/proc")) {
+    if (!/^\d+$/.test(name)) continue;
+    try {
+      const text = fs.readFileSync(`/proc/${name}/stat`, "latin1"),
+        field = text.slice(text.lastIndexOf(")") + 2).split(" ");
+      parent.set(name, field[1]);
+      used.set(name, 10 * (Number(field[11]) + Number(field[12])));
+    } catch (error) {
+      continue; // ended meanwhile
+    }
+  }
+  let sum = 0;
+  for (const [name, time] of used) {
+    let p = name;
+    while (p !== undefined && p !== String(browser.pid)) p = parent.get(p);
+    if (p !== undefined) sum += time;
+  }
+  return sum;
+}
+
 (async function () {
   let page;
   while (!page)
@@ -69,11 +94,18 @@ async function evaluate(text) {
   const {targetId} = page;
   session = (await send("Target.attachToTarget", {targetId: targetId, flatten: true})).sessionId;
   await send("Page.enable");
+  const warm = path.join(profile, "warm.html");
+  fs.writeFileSync(warm, "<!DOCTYPE html><title>warm</title>");
+  await send("Page.navigate", {url: "file://" + warm});
+  const hasContext =
+    "new Promise(function (done) { (function look() { document.title === 'warm' ? done(document.createElement('canvas').getContext('webgl2') !== null) : setTimeout(look, 5); })(); })";
+  if (!(await evaluate(hasContext))) throw new Error("this browser shows no WebGL");
   await send("Page.navigate", {url: "file://" + path.resolve(process.argv[2])});
   const first = await evaluate(
     "new Promise(function (done) { (function look() { window.boughView && window.boughView.drawn ? done(performance.now()) : setTimeout(look, 5); })(); })",
   );
   await evaluate("new Promise(function (done) { setTimeout(done, 1500); })");
+  const before = processorTime();
   const moving = await evaluate(`new Promise(function (done) {
     const view = window.boughView, begin = performance.now(), from = view.drawn, t = view.runs[0].times;
     (function step() {
@@ -83,6 +115,7 @@ async function evaluate(text) {
       requestAnimationFrame(step);
     })();
   })`);
+  const used = processorTime() - before;
   const after = await evaluate(`new Promise(function (done) {
     const view = window.boughView, begin = performance.now();
     delete view.shapesTook;
@@ -91,7 +124,7 @@ async function evaluate(text) {
   if (process.argv[3])
     fs.writeFileSync(process.argv[3], Buffer.from((await send("Page.captureScreenshot")).data, "base64"));
   console.log(
-    `${fs.statSync(process.argv[2]).size} bytes, first picture after ${(first / 1000).toFixed(2)} s, ${moving.toFixed(0)} pictures a second while it moves, shapes ${(after / 1000).toFixed(2)} s after`,
+    `${fs.statSync(process.argv[2]).size} bytes, first picture after ${(first / 1000).toFixed(2)} s, ${moving.toFixed(0)} pictures a second while it moves, ${(used / (4 * moving)).toFixed(0)} ms of processors each, shapes ${(after / 1000).toFixed(2)} s after`,
   );
 })()
   .catch(function (error) {

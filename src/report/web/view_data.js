@@ -111,7 +111,8 @@ function posesAt(run, time, scale, poses) {
 
 function number(v, digits) {
   if (typeof v !== "number" || !Number.isFinite(v)) return String(v);
-  return String(Number(v.toPrecision(digits || 5)));
+  const rounded = Number(v.toPrecision(digits || 5));
+  return rounded !== 0 && Math.abs(rounded) < 1e-3 ? rounded.toExponential() : String(rounded);
 }
 function withUnit(text, unit) {
   return unit ? text + " [" + unit + "]" : text;

@@ -1,0 +1,164 @@
+// From where the structure is seen: views along axes, fitting, following a part, and the triad and the rule on the picture.
+class ViewCamera {
+  // stage: holds the canvas; run: the one that is fitted; request(): asks for a picture
+  constructor(stage, canvas, run, request) {
+    const {size} = run;
+    Object.assign(this, {stage, canvas, run, request, size, followed: null, shown: ""});
+    this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -50 * size, 50 * size);
+    this.camera.up.set(0, 0, 1);
+    const lamp = new THREE.DirectionalLight("#ffffff", 1.9);
+    this.camera.add(lamp);
+    lamp.position.set(-0.4, 0.8, 1);
+    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.radii = run.meshes.map(function (m) {
+      let r = 0;
+      for (let k = 0; k < m.points.length; k += 3)
+        r = Math.max(r, Math.hypot(m.points[k], m.points[k + 1], m.points[k + 2]));
+      return r;
+    });
+    this.projected = new THREE.Vector3();
+    this.buildTriad();
+  }
+
+  resize(renderer) {
+    const width = this.stage.clientWidth,
+      height = Math.max(240, Math.min(0.7 * window.innerHeight, 0.7 * width));
+    renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
+    renderer.setSize(width, height, false);
+    this.canvas.style.height = height + "px";
+    const half = (0.62 * this.size) / Math.min(1, width / height);
+    this.camera.left = (-half * width) / height;
+    this.camera.right = (half * width) / height;
+    this.camera.top = half;
+    this.camera.bottom = -half;
+    this.changed();
+  }
+  changed() {
+    this.camera.updateProjectionMatrix();
+    this.request();
+  }
+  // From the side on which axes keep their sense: x to the right and z (or y) up.
+  lookFrom(name) {
+    const {camera, controls} = this,
+      d = new THREE.Vector3(...{x: [1, 0, 0], y: [0, -1, 0], z: [0, 0, 1], iso: [1, -1, 0.8]}[name]);
+    camera.up.set(0, name === "z" ? 1 : 0, name === "z" ? 0 : 1);
+    camera.position.copy(controls.target).addScaledVector(d.normalize(), 3 * this.size);
+    camera.lookAt(controls.target);
+    controls.update();
+    this.request();
+  }
+  fit(scale) {
+    this.controls.target.fromArray(this.run.middle);
+    this.camera.zoom = 1;
+    this.camera.updateProjectionMatrix();
+    this.lookFrom(this.run.look);
+    this.fitZoom(scale);
+  }
+  // The whole motion, displacements times scale, seen from where it is looked at now: its middle into the middle of the
+  // picture, its extent to the rims.
+  fitZoom(scale) {
+    const {camera, run} = this;
+    camera.updateMatrixWorld();
+    const [low, high] = this.extent(camera.matrixWorld.clone().invert().elements, scale);
+    if (!(high[0] >= low[0])) return;
+    const least = 1e-6 * run.size,
+      width = camera.right - camera.left,
+      height = camera.top - camera.bottom;
+    camera.zoom =
+      0.88 *
+      Math.min(
+        width / Math.max(high[0] - low[0], least),
+        height / Math.max(high[1] - low[1], least),
+        (4 * height) / run.size,
+      );
+    this.move(
+      new THREE.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, 0).applyQuaternion(camera.quaternion),
+    );
+    this.changed();
+  }
+  // Smallest and largest coordinates in the plane of the picture, over at most 25 instants.
+  extent(m, scale) {
+    const {run} = this,
+      low = [Infinity, Infinity],
+      high = [-Infinity, -Infinity],
+      last = run.times.length - 1,
+      instants = Math.min(run.times.length, 25);
+    const take = function (x, i, r) {
+      const u = m[0] * x[i] + m[4] * x[i + 1] + m[8] * x[i + 2] + m[12],
+        v = m[1] * x[i] + m[5] * x[i + 1] + m[9] * x[i + 2] + m[13];
+      if (u - r < low[0]) low[0] = u - r;
+      if (u + r > high[0]) high[0] = u + r;
+      if (v - r < low[1]) low[1] = v - r;
+      if (v + r > high[1]) high[1] = v + r;
+    };
+    let poses = null;
+    for (let s = 0; s < instants; ++s) {
+      poses = posesAt(run, run.times[Math.round((s * last) / Math.max(1, instants - 1))], scale, poses);
+      for (let i = 0; i < poses.x.length; i += 3) take(poses.x, i, 0);
+      for (const b of run.bodies) if (b.mesh >= 0) take(poses.x, 3 * b.track, this.radii[b.mesh]);
+    }
+    return [low, high];
+  }
+  zoomBy(f) {
+    this.camera.zoom *= f;
+    this.changed();
+  }
+  move(by) {
+    this.camera.position.add(by);
+    this.controls.target.add(by);
+    this.controls.update();
+  }
+  // Keeps a track where it is on the screen; begins with it in the middle.
+  follow(x, track) {
+    if (track < 0) return;
+    const now = new THREE.Vector3().fromArray(x, 3 * track);
+    this.move(now.clone().sub(this.followed || this.controls.target));
+    this.followed = now;
+  }
+  // Pixels of a place.
+  project(x, i) {
+    const p = this.projected.set(x[i], x[i + 1], x[i + 2]).project(this.camera);
+    return [((p.x + 1) / 2) * this.canvas.clientWidth, ((1 - p.y) / 2) * this.canvas.clientHeight];
+  }
+
+  buildTriad() {
+    const box = svg(make(this.stage, "div", {class: "triad"}), "svg", {
+      viewBox: "-30 -30 60 60",
+      width: 60,
+      height: 60,
+      "aria-hidden": "true",
+    });
+    this.triad = ["x", "y", "z"].map(function (n, k) {
+      return [
+        svg(box, "line", {x1: 0, y1: 0, stroke: ["#cc3333", "#1a9933", "#3a66e6"][k], "stroke-width": 2}),
+        svg(box, "text", {class: "tiny soft", "text-anchor": "middle"}, n),
+      ];
+    });
+    const rule = make(this.stage, "div", {class: "rule"});
+    this.rule = make(rule, "i");
+    this.ruleText = make(rule, "span");
+  }
+  // Written anew where the view has changed: what lies over the picture costs more than its lines.
+  drawTriad() {
+    const {camera, canvas} = this,
+      key = camera.quaternion.toArray().concat(camera.zoom, camera.right, canvas.clientWidth).join();
+    if (key === this.shown) return;
+    this.shown = key;
+    const inverse = camera.quaternion.clone().invert();
+    this.triad.forEach(function ([line, text], k) {
+      const v = new THREE.Vector3(k === 0 ? 1 : 0, k === 1 ? 1 : 0, k === 2 ? 1 : 0).applyQuaternion(inverse);
+      line.setAttribute("x2", 18 * v.x);
+      line.setAttribute("y2", -18 * v.y);
+      text.setAttribute("x", 25 * v.x);
+      text.setAttribute("y", -25 * v.y + 4);
+      text.setAttribute("visibility", Math.hypot(v.x, v.y) < 0.15 ? "hidden" : "visible");
+    });
+    const scale = (camera.right - camera.left) / camera.zoom / canvas.clientWidth,
+      raw = 120 * scale,
+      power = Math.pow(10, Math.floor(Math.log10(raw))),
+      length = [5, 2, 1].find((f) => f * power <= raw) * power;
+    this.rule.style.width = length / scale + "px";
+    this.ruleText.textContent = number(length, 3) + " m";
+  }
+}

@@ -1,0 +1,122 @@
+"""A headless Chromium that is handled through its debugging pipe: pages are laid out, looked at and told apart. No packages.
+
+    with Browser() as browser:
+        browser.open("view.html", width=800, dark=True)
+        browser.evaluate("document.title"), browser.faults
+"""
+
+import base64
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+
+FLAGS = ["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run", "--use-gl=angle", "--use-angle=swiftshader",
+         "--enable-unsafe-swiftshader", "--proxy-server=127.0.0.1:9", "--hide-scrollbars", "--remote-debugging-pipe"]
+
+
+def find():
+    """The program, or None."""
+    return next((p for p in map(shutil.which, ["chromium", "google-chrome", "chromium-browser"]) if p), None)
+
+
+class Browser:
+    def __init__(self):
+        self.folder = tempfile.mkdtemp()
+        to_child, self._out = os.pipe()
+        self._in, from_child = os.pipe()
+        # Commands are read from descriptor 3 and answers written to 4.
+        words = ["sh", "-c", f'exec "$@" 3<&{to_child} 4>&{from_child}', "sh", find(), *FLAGS,
+                 f"--user-data-dir={self.folder}/profile", "about:blank"]
+        self._process = subprocess.Popen(words, pass_fds=(to_child, from_child), stdin=subprocess.DEVNULL,
+                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(to_child)
+        os.close(from_child)
+        self._rest, self._next, self._session = b"", 1, None
+        self.faults, self.events, self._page = [], [], ""
+        targets = []
+        while not targets:
+            targets = [t for t in self.send("Target.getTargets")["targetInfos"] if t["type"] == "page"]
+        attached = self.send("Target.attachToTarget", targetId=targets[0]["targetId"], flatten=True)
+        self._session = attached["sessionId"]
+        for domain in ["Page", "Runtime", "Log", "Network"]:
+            self.send(f"{domain}.enable")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._process.kill()
+        self._process.wait()
+        os.close(self._in)
+        os.close(self._out)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def send(self, method, **params):
+        number, self._next = self._next, self._next + 1
+        message = {"id": number, "method": method, "params": params}
+        if self._session:
+            message["sessionId"] = self._session
+        os.write(self._out, json.dumps(message).encode() + b"\0")
+        while True:
+            answer = self._receive()
+            if answer.get("id") == number:
+                if "error" in answer:
+                    raise RuntimeError(f"{method}: {answer['error']['message']}")
+                return answer["result"]
+
+    def _receive(self):
+        while b"\0" not in self._rest:
+            part = os.read(self._in, 1 << 16)
+            if not part:
+                raise RuntimeError("the browser ended")
+            self._rest += part
+        text, _, self._rest = self._rest.partition(b"\0")
+        message = json.loads(text)
+        if "method" in message:
+            self._see(message["method"], message["params"])
+        return message
+
+    def _see(self, method, params):
+        """What a page must not do: errors on the console, exceptions, and asking for anything but itself."""
+        self.events.append(method)
+        if method == "Runtime.exceptionThrown":
+            self.faults.append("exception: " + json.dumps(params["exceptionDetails"])[:300])
+        elif method == "Runtime.consoleAPICalled" and params["type"] in ("error", "warning", "assert"):
+            self.faults.append(f"console, {params['type']}: " + json.dumps(params["args"])[:300])
+        elif method == "Log.entryAdded" and params["entry"]["level"] == "error":
+            self.faults.append("console: " + params["entry"]["text"][:300])
+        elif method == "Network.requestWillBeSent":
+            url = params["request"]["url"]
+            if url != self._page and not url.startswith(("data:", "blob:")):
+                self.faults.append("asks for " + url[:200])
+
+    def open(self, page, width=1300, height=1400, dark=False, media="screen", scripts=True):
+        """Loads a page; `faults` then holds what it did wrong. On paper (media "print") the width is that of the paper."""
+        self.faults, self.events = [], []
+        self._page = pathlib.Path(page).resolve().as_uri()
+        scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
+        self.send("Emulation.setEmulatedMedia", media=media, features=scheme)
+        self.send("Emulation.setScriptExecutionDisabled", value=not scripts)
+        self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.send("Page.navigate", url=self._page)
+        while "Page.loadEventFired" not in self.events:
+            self._receive()
+        # Views say that they have drawn; other scripts are done with the page.
+        if scripts and self.evaluate("Boolean(document.getElementById('viewer'))"):
+            self.evaluate("""new Promise(function (done) { (function look() {
+              const is_done = document.documentElement.classList.contains("no-view") || window.boughView && window.boughView.drawn > 0;
+              is_done ? setTimeout(done, 100) : setTimeout(look, 10); })(); })""")
+
+    def evaluate(self, text):
+        answer = self.send("Runtime.evaluate", expression=text, awaitPromise=True, returnByValue=True)
+        if "exceptionDetails" in answer:
+            raise RuntimeError(json.dumps(answer["exceptionDetails"])[:600])
+        return answer["result"].get("value")
+
+    def screenshot(self, file):
+        """The whole page as PNG."""
+        answer = self.send("Page.captureScreenshot", captureBeyondViewport=True)
+        pathlib.Path(file).write_bytes(base64.b64decode(answer["data"]))
