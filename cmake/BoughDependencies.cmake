@@ -1,6 +1,6 @@
 # Everything the layers link from outside, found once. A layer names imported targets only:
 #   Eigen3::Eigen  TBB::tbb  nlohmann_json::nlohmann_json (with BOUGH_WITH_IO)  Threads::Threads
-#   ZLIB::ZLIB (with BOUGH_WITH_VTK or BOUGH_WITH_REPORTS)
+#   ZLIB::ZLIB (with BOUGH_WITH_IO)
 #   SuiteSparse::KLU and METIS::METIS exist only when BOUGH_HAS_KLU / BOUGH_HAS_METIS is true here.
 # What programs and tests use besides (CLI11, GoogleTest, muParser) is found where it is used.
 find_package(Threads REQUIRED)
@@ -12,7 +12,7 @@ endif()
 
 # What compresses VTU files and pages.
 set(BOUGH_NEEDS_ZLIB OFF)
-if(BOUGH_WITH_IO AND (BOUGH_WITH_VTK OR BOUGH_WITH_REPORTS))
+if(BOUGH_WITH_IO)
   find_package(ZLIB REQUIRED)
   set(BOUGH_NEEDS_ZLIB ON)
 endif()

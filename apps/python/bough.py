@@ -13,7 +13,9 @@ import csv
 import json
 import os
 import pathlib
+import struct
 import subprocess
+import zlib
 
 import numpy
 
@@ -105,22 +107,29 @@ class Motion:
         raw = pathlib.Path(path).read_bytes()
         end = raw.find(b"\n") + 1
         header = json.loads(raw[:end])
-        if header.get("format") != "bough motion 2":
-            raise BoughError(f"{path}: not a file of the format 'bough motion 2'", None)
+        if header.get("format") != "bough motion 3":
+            raise BoughError(f"{path}: not a file of the format 'bough motion 3'", None)
         start, at = {}, end
         shapes = [("curves", c["name"], c["points"] * 12) for c in header["curves"]]
         shapes += [("bodies", b["name"], 15 + 3 * b["attachments"]) for b in header["bodies"]]
         shapes += [("links", link["name"], 15) for link in header["links"]]
         shapes += [("frames", name, 12) for name in header["frames"]]
-        shapes += [("arrows", name, 3) for name in header["arrows"]]
+        shapes += [("arrows", arrow["name"], 3) for arrow in header["arrows"]]
         for kind, name, count in shapes:
             start[kind, name] = numpy.frombuffer(raw, "<f8", count, at)
             at += 8 * count
-        size = header["frame_bytes"]
-        count = (len(raw) - at) // size  # of a run that was killed: those that are whole
-        frames = numpy.frombuffer(raw, numpy.uint8, count * size, at).reshape(count, size)
-        self.times = frames[:, :8].copy().view("<f8")[:, 0]
-        values = frames[:, 8:].copy().view("<f4").astype(float)
+        times, frames = [], []
+        while at + 16 <= len(raw):  # of a run that was killed: those that are whole
+            time, size = struct.unpack_from("<dQ", raw, at)
+            if size > len(raw) - at - 16:
+                break
+            planes = numpy.frombuffer(zlib.decompress(raw[at + 16:at + 16 + size]), numpy.uint8)
+            frames.append(planes.reshape(4, -1).T.copy().view("<f4")[:, 0])
+            times.append(time)
+            at += 16 + size
+        count = len(times)
+        self.times = numpy.array(times)
+        values = numpy.array(frames, dtype=float).reshape(count, header["frame_floats"])
         self.curves, self.bodies, self.links = {}, {}, {}
         self.forces, self.strains, self.velocities, self.rotations = {}, {}, {}, {}
         at = 0

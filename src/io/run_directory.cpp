@@ -59,11 +59,13 @@ void RunDirectory::motion(const records::MotionFrame& frame) {
     motion_ = std::make_unique<MotionWriter>(folder_->staging() / "motion.bin", parts_);
   }
   if constexpr (has_vtk) {
-    const std::string name = frame_name(frames_.size());
-    const std::string text = vtu_text(frame, parts_);
-    write_file(folder_->staging() / name, text, Durability::soon);
-    frames_.push_back({frame.time, name});
-    frame_records_.push_back({name, text.size(), digest_of(text)});
+    if (frame.for_others) {
+      const std::string name = frame_name(frames_.size());
+      const std::string text = vtu_text(frame, parts_);
+      write_file(folder_->staging() / name, text, Durability::soon);
+      frames_.push_back({frame.time, name});
+      frame_records_.push_back({name, text.size(), digest_of(text)});
+    }
   }
   motion_->frame(frame);
 }

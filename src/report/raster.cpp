@@ -294,7 +294,7 @@ class Painter {
   void link(const records::Link& l, std::size_t index) {
     const std::string kind = index < run_.parts.links.size() ? run_.parts.links[index].kind : std::string();
     const Vec3 a = vec(l.first), b = vec(l.second);
-    if (kind != "spring") {
+    if (!kind.starts_with("spring") && kind != "damper") {
       square(a, 0.01, joint_color);
       return stroke(a, b, 1.0, joint_color);
     }
@@ -308,6 +308,8 @@ class Painter {
     if (!(size > 0.0)) return;
     side = (std::min(0.012 * camera_.extent(), 0.2 * length) / size) * side;
     const Vec3 third = (1.0 / length) * lanes::cross(side, along);
+    if (kind != "spring") dashpot(a, along, kind == "damper" ? 1.0 : 0.5, side, third);
+    if (kind == "damper") return;
     constexpr int parts = 128;
     Vec3 before = a;
     for (int k = 1; k <= parts; ++k) {
@@ -319,13 +321,31 @@ class Painter {
     }
   }
 
+  /// The piston with its rod, and the open cylinder about it.
+  void dashpot(const Vec3& a, const Vec3& along, double size, const Vec3& side, const Vec3& third) {
+    const auto place = [&](double s, double u, double v) {
+      return a + s * along + (size * u) * side + (size * v) * third;
+    };
+    stroke(place(0.0, 0.0, 0.0), place(0.5, 0.0, 0.0), 1.2, spring_color);
+    stroke(place(0.66, 0.0, 0.0), place(1.0, 0.0, 0.0), 1.2, spring_color);
+    for (const auto& [u, v] : {std::pair{1.0, 0.0}, std::pair{0.0, 1.0}}) {
+      stroke(place(0.5, -0.7 * u, -0.7 * v), place(0.5, 0.7 * u, 0.7 * v), 1.2, spring_color);
+      stroke(place(0.66, -u, -v), place(0.66, u, v), 1.2, spring_color);
+      for (const double sign : {-1.0, 1.0})
+        stroke(place(0.38, sign * u, sign * v), place(0.66, sign * u, sign * v), 1.2, spring_color);
+    }
+  }
+
+  /// Forces as long as they are large against the largest of their kind: of point loads, or of line loads.
   void arrows(const records::MotionFrame& f) {
-    double most = 0.0;
+    double most[2] = {0.0, 0.0};
     for (const records::MotionFrame& g : run_.motion)
-      for (const records::Arrow& a : g.arrows) most = std::max(most, std::sqrt(dot(vec(a.force), vec(a.force))));
-    if (!(most > 0.0)) return;
+      for (const records::Arrow& a : g.arrows)
+        most[a.is_per_length] = std::max(most[a.is_per_length], std::sqrt(dot(vec(a.force), vec(a.force))));
     for (const records::Arrow& a : f.arrows) {
-      const Vec3 v = (0.16 * camera_.extent() / most) * vec(a.force), tip = vec(a.position);
+      if (!(most[a.is_per_length] > 0.0)) continue;
+      const double longest = (a.is_per_length ? 0.08 : 0.16) * camera_.extent();
+      const Vec3 v = (longest / most[a.is_per_length]) * vec(a.force), tip = vec(a.position);
       stroke(tip - v, tip, 2.0, load_color);
       Vec3 other = Vec3::zero();
       other[std::abs(v[2]) < 0.9 * std::sqrt(dot(v, v)) ? 2 : 0] = 1.0;

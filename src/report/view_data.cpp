@@ -376,7 +376,9 @@ class MotionData {
     arrays.add("moment", "f32", moment);
     text += ",\"arrows\":" + list_of(start.arrows, [&](std::size_t k) {
               const std::size_t track = tracks.add([&](const MotionFrame& f) { return f.arrows[k].position; }, still);
-              return "{\"name\":" + io::json_string(start.arrows[k].name) + ",\"track\":" + std::to_string(track) + "}";
+              return "{\"name\":" + io::json_string(start.arrows[k].name) + ",\"kind\":\"" +
+                     (start.arrows[k].is_per_length ? "line load" : "load") + "\",\"track\":" + std::to_string(track) +
+                     "}";
             });
     const auto flat = [](const auto& points) {
       std::vector<double> values;

@@ -365,22 +365,38 @@ void for_each_link(const plan::Plan& plan, const Visit& visit) {
   for (const plan::WeldPlan& weld : plan.welds) visit(weld.name, weld.first, weld.second);
 }
 
-/// Point loads; several elements of one load at one place (components in axes that turn) are one arrow.
+/// What a load's element gives at a port, in the axes of the ground.
+template <class E>
+records::Arrow arrow_at(const E& e, int port, const std::string& name, const Field& f) {
+  records::Arrow arrow{name, {}, {}, {}, E::num_ports > 1};
+  copy(position_of(f, e.ports[port]), arrow.position);
+  Vec6<double> w = f.around.laws[e.law] * e.wrench;
+  if (e.follows) w = turned(motion_of_port(e.ports[port], f).pose.R, w);
+  std::copy_n(w.v, 3, arrow.force);
+  std::copy_n(w.v + 3, 3, arrow.moment);
+  return arrow;
+}
+
+/// Point loads; several elements of one load at one place (components in axes that turn) are one arrow. Of line loads the
+/// ends and inner nodes of their elements; a node that two elements share one after the other once.
 void add_arrows(const plan::Plan& plan, const Field& f, std::vector<records::Arrow>& arrows) {
+  int last_node = elements::ground;
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
-      if constexpr (E::role == elements::Role::load && E::num_ports == 1) {
-        const std::string& name = plan.element_owner[id];
-        if (arrows.empty() || arrows.back().name != name) {
-          arrows.push_back({name, {}, {}, {}});
-          copy(position_of(f, e.ports[0]), arrows.back().position);
-        }
-        Vec6<double> w = f.around.laws[e.law] * e.wrench;
-        if (e.follows) w = turned(motion_of_port(e.ports[0], f).pose.R, w);
-        for (int i = 0; i < 3; ++i) {
-          arrows.back().force[i] += w[i];
-          arrows.back().moment[i] += w[i + 3];
+      if constexpr (E::role == elements::Role::load) {
+        for (int port = 0; port < E::num_ports; ++port) {
+          const records::Arrow arrow = arrow_at(e, port, plan.element_owner[id], f);
+          const int node = e.ports[port].node;
+          const bool follows_own = !arrows.empty() && arrows.back().name == arrow.name;
+          if (!follows_own || (E::num_ports > 1 && (node == elements::ground || node != last_node)))
+            arrows.push_back(arrow);
+          else if (E::num_ports == 1)
+            for (int i = 0; i < 3; ++i) {
+              arrows.back().force[i] += arrow.force[i];
+              arrows.back().moment[i] += arrow.moment[i];
+            }
+          last_node = node;
         }
       }
     });
@@ -470,7 +486,8 @@ records::MotionParts make_parts(const scene::Scene& scene, const step::System& s
   for (const plan::BodyPlan& body : plan.bodies) parts.bodies.push_back(body_of.at(body.name));
   std::map<std::string, std::string> kind_of;
   for (const scene::Joint& j : scene.joints) kind_of[j.name] = scene::to_string(j.kind);
-  for (const scene::Spring& s : scene.springs) kind_of[s.name] = "spring";
+  for (const scene::Spring& s : scene.springs)
+    kind_of[s.name] = !(s.damping > 0.0) ? "spring" : !(s.stiffness > 0.0) ? "damper" : "spring and damper";
   for (const scene::Bushing& b : scene.bushings) kind_of[b.name] = "bushing";
   for_each_link(plan, [&](const std::string& name, const Port&, const Port&) {
     const auto found = kind_of.find(name);

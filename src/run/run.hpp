@@ -122,7 +122,8 @@ class Run {
   bool want_motion_;
   /// Pictures whose stride is not given: every interval of the run has one, the intervals tell how many there are.
   int most_intervals_ = 100, next_picture_ = 1;
-  static int intervals_within(const records::MotionFrame& frame, const records::MotionParts& parts);
+  int others_every_ = 1, pictures_ = 0;  ///< every so many pictures are written for other programs, too
+  void plan_pictures(const records::MotionFrame& frame, const records::MotionParts& parts);
   double picture_end() const { return plan_.is_dynamic ? scene_.analysis.end_time : 1.0; }
   bool tells_parts_ = false;  ///< the recorder knows what the parts of pictures are
   plan::Plan plan_;

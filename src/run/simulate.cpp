@@ -189,19 +189,47 @@ bool Run::watch_vibrations() {
   return cause ? fail(*cause) : true;
 }
 
-/// At most a hundred, so that motion.bin and the VTU files stay below 200 MB: of a point of a beam 84 bytes in the one,
-/// and in the others, compressed, about 30 and 22 a corner of its section (measured on lattices of round and square bars).
-int Run::intervals_within(const records::MotionFrame& frame, const records::MotionParts& parts) {
-  double bytes = 200.0 * static_cast<double>(1 + frame.bodies.size() + frame.links.size());
+/// Bytes of one picture, compressed, as measured on lattices of 10 512 tubes and rectangular bars, largest ones: of a point
+/// of a beam 50 in motion.bin (49 to 50), in a VTU file 93 and 13.2 for a corner of its section (16 corners: 297 to 305; 4: 143
+/// to 147).
+constexpr double bytes_per_point = 50.0, vtu_bytes_per_point = 93.0, vtu_bytes_per_corner = 13.2;
+struct PictureBytes {
+  double motion = 200.0;  ///< in motion.bin
+  double vtu = 4000.0;    ///< of the file for other programs
+};
+PictureBytes bytes_of(const records::MotionFrame& frame, const records::MotionParts& parts) {
+  PictureBytes bytes;
+  const auto others = static_cast<double>(frame.bodies.size() + frame.links.size() + frame.arrows.size());
+  bytes.motion += 36.0 * others;
+  bytes.vtu += 100.0 * others;
+  for (const int mesh : parts.bodies)
+    if (mesh >= 0) bytes.vtu += 16.0 * static_cast<double>(parts.meshes[static_cast<std::size_t>(mesh)].points.size());
   for (std::size_t k = 0; k < frame.curves.size(); ++k) {
-    double corners = 0.0;
+    const auto points = static_cast<double>(frame.curves[k].points.size());
     const int outline = k < parts.curves.size() ? parts.curves[k].outline : -1;
+    double corners = 0.0;
     if (outline >= 0)
       for (const auto& loop : parts.outlines[static_cast<std::size_t>(outline)].loops)
         corners += static_cast<double>(loop.size());
-    bytes += (114.0 + 22.0 * corners) * static_cast<double>(frame.curves[k].points.size());
+    bytes.motion += bytes_per_point * points;
+    bytes.vtu += (vtu_bytes_per_point + vtu_bytes_per_corner * corners) * points;
   }
-  return static_cast<int>(std::clamp(200e6 / bytes, 2.0, 100.0));
+  return bytes;
+}
+
+/// At most 101 pictures, and so many that motion.bin stays below 120 MB and all files below 200 MB: where those for other
+/// programs are too large for that, every second or third or so of the pictures has one.
+void Run::plan_pictures(const records::MotionFrame& frame, const records::MotionParts& parts) {
+  if (scene_.output.motion_stride > 0) return;
+  constexpr double most = 200e6, most_motion = 120e6;
+  const PictureBytes bytes = bytes_of(frame, parts);
+  most_intervals_ = static_cast<int>(std::clamp(most_motion / bytes.motion - 1.0, 2.0, 100.0));
+  const double left = most - bytes.motion * (most_intervals_ + 1);
+  others_every_ = static_cast<int>(std::ceil(most_intervals_ / std::max(1.0, left / bytes.vtu - 1.0)));
+  if (most_intervals_ == 100 && others_every_ == 1) return;
+  note("of the motion " + std::to_string(most_intervals_ + 1) + " pictures are kept, and every " +
+       (others_every_ == 1 ? std::string() : std::to_string(others_every_) + "th ") +
+       "one as a VTU file, so that all stay below 200 MB; output.motion_stride keeps as many as it says");
 }
 
 void Run::record(int iterations, bool is_last) {
@@ -225,14 +253,15 @@ void Run::record(int iterations, bool is_last) {
     recorder_.row(row_);
   }
   if (is_motion_due(row, is_last)) {
-    const records::MotionFrame frame = results::eval_motion(system_, state_);
+    records::MotionFrame frame = results::eval_motion(system_, state_);
     gate_.look_at(frame);
     if (!tells_parts_) {
       const records::MotionParts parts = results::make_parts(scene_, system_);
-      most_intervals_ = intervals_within(frame, parts);
+      plan_pictures(frame, parts);
       recorder_.parts(parts);
       tells_parts_ = true;
     }
+    frame.for_others = pictures_++ % others_every_ == 0 || is_last;
     recorder_.motion(frame);
     while (next_picture_ < most_intervals_ &&
            state_.time >= (1.0 - 1e-9) * picture_end() * next_picture_ / most_intervals_)

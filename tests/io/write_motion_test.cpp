@@ -221,6 +221,15 @@ TEST(MotionFile, damaged_files_are_refused_in_words_and_frames_cut_off_do_not_co
       EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
     }
   }
+  std::string last_byte = good;  // of the check sum of the last frame
+  last_byte.back() = static_cast<char>(last_byte.back() ^ 1);
+  write_file(scratch / "m.bin", last_byte);
+  try {
+    (void)read_motion_file(scratch / "m.bin", 10);
+    ADD_FAILURE() << "a damaged frame was taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("cannot be unpacked"), std::string::npos) << error.what();
+  }
   write_file(scratch / "cut.bin", good.substr(0, good.size() - 3));
   EXPECT_EQ(read_motion_file(scratch / "cut.bin", 10).frames.size(), 2u);
 }

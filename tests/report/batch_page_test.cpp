@@ -74,7 +74,8 @@ TEST(BatchPage, of_many_cases_extremes_failures_and_a_sample_are_shown) {
       is_shown(static_cast<std::size_t>(std::min_element(results.begin(), results.end(), less) - results.begin())));
   EXPECT_TRUE(
       is_shown(static_cast<std::size_t>(std::max_element(results.begin(), results.end(), less) - results.begin())));
-  EXPECT_LT(batch_page(results, "t", {}, results.size()).size(), 1'500'000u);  // twice 2000 rows: as a table and as numbers
+  EXPECT_LT(batch_page(results, "t", {}, results.size()).size(),
+            1'500'000u);  // twice 2000 rows: as a table and as numbers
 }
 
 TEST(BatchPage, an_empty_batch_is_a_page) {

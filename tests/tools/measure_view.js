@@ -133,7 +133,7 @@ function processorTime() {
   })
   .finally(function () {
     browser.once("exit", function () {
-      fs.rmSync(profile, {recursive: true, force: true});
+      fs.rmSync(profile, {recursive: true, force: true, maxRetries: 5});
     });
     browser.kill();
   });

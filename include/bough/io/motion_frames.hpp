@@ -1,15 +1,16 @@
 #pragma once
 /// `motion.bin`: the moving structure, for pictures. A header, one line of JSON that spaces fill to a multiple of 8 bytes:
-///   {"format":"bough motion 2","frame_bytes":n,"curves":[{"name","points","outline","subdomains"}],
-///    "bodies":[{"name","attachments","mesh"}],"links":[{"name","kind"}],"frames":[name],"arrows":[name],
+///   {"format":"bough motion 3","frame_floats":n,"curves":[{"name","points","outline","subdomains"}],
+///    "bodies":[{"name","attachments","mesh"}],"links":[{"name","kind"}],"frames":[name],"arrows":[{"name","kind"}],
 ///    "outlines":[[[x2,x3,x2,x3,...] per loop]],"meshes":[{"points":[x,y,z,...],"triangles":[a,b,c,...]}]}
 /// then numbers as they stand in memory, little-endian, without gaps. First the start, float64:
 ///   curve point: position 3, axes 9 (row-major, columns are axes) | body: centre 3, axes 9, position 3, attachments 3 each
 ///   link: first 3, second 3, axes 9 | frame: position 3, axes 9 | arrow: position 3
-/// then the frames, each of frame_bytes: the time, float64, and float32
+/// then the frames, each:  time, float64 | number m of packed bytes, uint64 | m bytes: n float32 compressed by zlib, the
+/// lowest bytes of all first, then the next ones up to the highest:
 ///   curve point: displacement 3, rotation 3, velocity 3, force 6, strain 6 | body: displacement 3, rotation 3, velocity 3
 ///   link: displacement of first 3, of second 3, rotation 3 | frame: displacement 3, rotation 3
-///   arrow: displacement 3, force 3, moment 3
+///   arrow: displacement 3, force 3, moment 3 (of kind "line load" per length)
 /// Displacements are those from the start, so that small ones keep their digits far from the origin; a rotation r turns
 /// the axes of the start in space,  axes = exp(~r) axes_start.  Frames that are not whole (a crash) do not count.
 #include <filesystem>

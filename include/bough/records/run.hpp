@@ -62,12 +62,13 @@ struct FramePose {
   double position[3];
   double axes[9];
 };
-/// A load at a point: what acts now, in the axes of the ground.
+/// A load at a point, or at a point of a line load: what acts now, in the axes of the ground.
 struct Arrow {
   std::string name;
   double position[3];
-  double force[3];   ///< [N]
-  double moment[3];  ///< [N m]
+  double force[3];             ///< [N], of a line load [N/m]
+  double moment[3];            ///< [N m], of a line load [N]
+  bool is_per_length = false;  ///< of a line load, per reference length
 };
 struct MotionFrame {
   double time = 0.0;
@@ -76,6 +77,7 @@ struct MotionFrame {
   std::vector<Link> links;
   std::vector<FramePose> frames = {};
   std::vector<Arrow> arrows = {};
+  bool for_others = true;  ///< is to be written for other programs, too: files for these are the larger ones
 };
 /// What the parts of all frames of a motion are, in their order there: told once.
 struct MotionParts {
@@ -84,7 +86,7 @@ struct MotionParts {
     std::vector<int> subdomains;  ///< leaf of the tree that holds each element, in order along the axis
   };
   struct Link {
-    std::string kind;  ///< of the joint, "spring", "bushing", "prescribed motion"
+    std::string kind;  ///< of the joint, "spring", "damper", "spring and damper", "bushing", "prescribed motion"
   };
   std::vector<scene::Outline> outlines;
   std::vector<scene::Mesh> meshes;

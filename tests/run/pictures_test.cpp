@@ -1,0 +1,89 @@
+/// What pictures of a run hold, and how many of them there are.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "bough/io/read_scene.hpp"
+#include "bough/run/simulate.hpp"
+
+namespace bough::run {
+namespace {
+
+class Pictures : public records::Recorder {
+ public:
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame& frame) override { frames.push_back(frame); }
+  void parts(const records::MotionParts& told) override { all_parts = told; }
+  void end(const records::Summary& told) override { summary = told; }
+
+  std::vector<records::MotionFrame> frames;
+  records::MotionParts all_parts;
+  records::Summary summary;
+};
+
+Pictures pictures_of(const std::string& text) {
+  const io::SceneFile file = io::read_scene_text(text, "test");
+  EXPECT_TRUE(file.ok()) << (file.ok() ? "" : file.problems.front().text());
+  Pictures pictures;
+  simulate(file.scene, {}, pictures);
+  return pictures;
+}
+
+const std::string bar = R"("schema_version": 1, "sections": [{"name": "bar",
+  "stiffness": {"EA": 1e6, "GA2": 1e6, "GA3": 1e6, "GJ": 100, "EI2": 100, "EI3": 100},
+  "mass": {"mass_per_length": 1, "rotary": [1e-3, 1e-3, 1e-3]}}])";
+
+TEST(Pictures, line_loads_are_arrows_along_their_beam_that_follow_law_and_axes) {
+  const Pictures p = pictures_of("{" + bar + R"(,
+    "nodes": [{"name": "root"}, {"name": "tip", "position": [2, 0, 0]}],
+    "beams": [{"name": "beam", "section": "bar", "start": "root", "end": "tip", "elements": 4}],
+    "joints": [{"name": "wall", "kind": "fixed", "first": "ground", "second": "root", "position": [0, 0, 0]}],
+    "loads": [{"name": "wind", "beam": "beam", "force": [0, 0, -3], "axes": "body", "law": {"expression": "t"}},
+              {"name": "weight", "at": "tip", "force": [0, 5, 0]}],
+    "analysis": {"kind": "dynamic", "end_time": 0.5, "step_size": 0.05}, "output": {"motion": true}})");
+  ASSERT_FALSE(p.frames.empty());
+  std::size_t along = 0, at_point = 0;
+  for (const records::MotionFrame& f : p.frames) {
+    ASSERT_EQ(f.arrows.size(), p.frames.front().arrows.size());
+    for (const records::Arrow& a : f.arrows) {
+      const double size = std::hypot(a.force[0], a.force[1], a.force[2]);
+      EXPECT_EQ(a.is_per_length, a.name == "wind");
+      EXPECT_NEAR(size, a.is_per_length ? 3.0 * f.time : 5.0, 1e-12);
+      (a.is_per_length ? along : at_point) += 1;
+    }
+  }
+  EXPECT_EQ(at_point, p.frames.size());
+  EXPECT_GE(along, 4 * p.frames.size());
+  EXPECT_LE(along, 8 * p.frames.size());
+}
+
+TEST(Pictures, springs_and_dampers_are_told_apart) {
+  const Pictures p = pictures_of(R"({"schema_version": 1,
+    "bodies": [{"name": "a", "kind": "point_mass", "mass": 1}],
+    "springs": [
+      {"name": "s", "first": "a", "second": {"to": "ground", "position": [1, 0, 0]}, "stiffness": 4},
+      {"name": "d", "first": "a", "second": {"to": "ground", "position": [0, 1, 0]}, "damping": 2, "stiffness": 0},
+      {"name": "b", "first": "a", "second": {"to": "ground", "position": [0, 0, 1]}, "stiffness": 4, "damping": 2}],
+    "analysis": {"kind": "dynamic", "end_time": 0.1, "step_size": 0.01}, "output": {"motion": true}})");
+  ASSERT_FALSE(p.frames.empty());
+  std::map<std::string, std::string> kinds;
+  for (std::size_t k = 0; k < p.frames[0].links.size(); ++k)
+    kinds[p.frames[0].links[k].name] = p.all_parts.links.at(k).kind;
+  EXPECT_EQ(kinds["s"], "spring");
+  EXPECT_EQ(kinds["d"], "damper");
+  EXPECT_EQ(kinds["b"], "spring and damper");
+}
+
+TEST(Pictures, of_a_small_structure_every_picture_is_a_file_for_other_programs_too) {
+  const Pictures p = pictures_of(R"({"schema_version": 1,
+    "bodies": [{"name": "a", "kind": "point_mass", "mass": 1}],
+    "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.001}, "output": {"motion": true}})");
+  EXPECT_EQ(p.frames.size(), 101u);
+  for (const records::MotionFrame& f : p.frames) EXPECT_TRUE(f.for_others);
+  for (const std::string& note : p.summary.notes) EXPECT_EQ(note.find("pictures are kept"), std::string::npos) << note;
+}
+
+}  // namespace
+}  // namespace bough::run
