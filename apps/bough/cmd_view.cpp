@@ -58,7 +58,7 @@ int view(const ViewArguments& given) {
   const std::filesystem::path page = arguments.out.empty() ? arguments.directory / "view.html" : arguments.out;
   std::vector<std::filesystem::path> inputs;
   for (const char* name :
-       {"history.csv", "columns.json", "motion.bin", "motion.pvd", "summary.json", io::manifest_name}) {
+       {"history.csv", "history.npy", "columns.json", "motion.bin", "motion.pvd", "summary.json", io::manifest_name}) {
     inputs.push_back(arguments.directory / name);
     if (!arguments.other.empty()) inputs.push_back(arguments.other / name);
   }

@@ -19,7 +19,7 @@ import zlib
 
 import numpy
 
-__all__ = ["BoughError", "Motion", "Run", "batch", "read", "read_motion", "run"]
+__all__ = ["BoughError", "Motion", "Run", "batch", "read", "read_motion", "read_npy", "run"]
 
 
 class BoughError(RuntimeError):
@@ -35,7 +35,7 @@ class Run:
 
     def __init__(self, directory):
         self.directory = pathlib.Path(directory)
-        self.columns, table = _read_table(self.directory / "history.csv")
+        self.columns, table = _read_table(self.directory)
         self._index = {name: k for k, name in enumerate(self.columns)}
         self._table = table
         self._about = {}
@@ -151,6 +151,20 @@ class Motion:
             self.links[link["name"]] = block[:, :6].reshape(count, 2, 3) + start["links", link["name"]][:6].reshape(2, 3)
 
 
+def read_npy(path, columns=None):
+    """The rows of history.npy, also of one that a crash left unfinished (history.npy.partial): its size tells how many."""
+    with open(path, "rb") as file:
+        version = numpy.lib.format.read_magic(file)
+        if version != (1, 0):
+            raise BoughError(f"{path}: not a file of the format .npy, version 1.0", None)
+        shape, _, kind = numpy.lib.format.read_array_header_1_0(file)
+        begin = file.tell()
+    if len(shape) != 2 or kind != numpy.dtype("<f8") or columns not in (None, shape[1]):
+        raise BoughError(f"{path}: not the rows of a history", None)
+    rows = (os.path.getsize(path) - begin) // (8 * shape[1])
+    return numpy.memmap(path, "<f8", "r", begin, (rows, shape[1])) if rows else numpy.empty((0, shape[1]))
+
+
 def read(directory):
     """The results of a run."""
     return Run(directory)
@@ -200,10 +214,13 @@ def _number(text):
         return text
 
 
-def _read_table(path):
-    """Names of the columns, and all rows. Rows that a crash cut off are left out."""
-    with open(path, encoding="utf-8", newline="") as file:
+def _read_table(directory):
+    """Names of the columns, and all rows: those of history.npy where the history is long, else of history.csv, of which
+    rows that a crash cut off are left out."""
+    with open(directory / "history.csv", encoding="utf-8", newline="") as file:
         names = next(csv.reader(file))
+        if (directory / "history.npy").exists():
+            return names, read_npy(directory / "history.npy", len(names))
         rows = [row.split(",") for row in file.read().split("\n")]
     whole = [row for row in rows if len(row) == len(names)]
     return names, numpy.array(whole, dtype=float).reshape(len(whole), len(names))

@@ -124,6 +124,18 @@ void AtomicFile::flush() {
   fail(error);
 }
 
+void AtomicFile::replace_front(std::string_view bytes) {
+  flush();
+  if (bytes.size() > flushed_) throw std::logic_error("AtomicFile: a front longer than the file");
+  const int error = ::lseek(descriptor_, 0, SEEK_SET) < 0 ? errno : write_all(descriptor_, bytes);
+  if (error != 0 || ::lseek(descriptor_, static_cast<off_t>(flushed_), SEEK_SET) < 0) {
+    const int cause = error != 0 ? error : errno;
+    give_up();  // what is in the file is not known to be whole
+    fail(cause);
+  }
+  digest_anew_ = digest_of_file(partial_path_);
+}
+
 void AtomicFile::start_writing_out() {
   flush();
   (void)::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);  // what fails is told by the fsync that follows

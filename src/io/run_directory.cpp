@@ -18,7 +18,7 @@ constexpr bool has_vtk = true;
 constexpr bool has_vtk = false;  // what stands under it is not compiled: vtu_text and its like are not there
 #endif
 
-const std::vector<std::string> all_names = {"history.csv", "columns.json",   "motion.bin",
+const std::vector<std::string> all_names = {"history.csv", "history.npy",    "columns.json", "motion.bin",
                                             "motion.pvd",  "motion/frame_*", "summary.json"};
 
 std::string frame_name(std::size_t number) {
@@ -45,12 +45,14 @@ void RunDirectory::open() {
 void RunDirectory::begin(const records::HistoryHeader& header) {
   open();
   history_ = std::make_unique<HistoryWriter>(folder_->staging() / "history.csv", header);
+  twin_ = std::make_unique<NpyHistoryWriter>(folder_->staging() / "history.npy", header);
   columns_ = columns_text(header);
 }
 
 void RunDirectory::row(const records::HistoryRow& row) {
   if (!history_) throw std::logic_error("RunDirectory: a row before begin");
   history_->row(row);
+  twin_->row(row);
 }
 
 void RunDirectory::motion(const records::MotionFrame& frame) {
@@ -98,6 +100,7 @@ std::exception_ptr RunDirectory::commit_files() {
     list(writer.record());
   };
   attempt("history.csv", [&] { commit(*history_); });
+  if (twin_->has_begun()) attempt("history.npy", [&] { commit(*twin_); });
   attempt("columns.json", [&] {
     write_file(folder_->staging() / "columns.json", columns_, Durability::soon);
     list({"columns.json", columns_.size(), digest_of(columns_)});
@@ -140,18 +143,26 @@ void RunDirectory::end(const records::Summary& summary) {
 }
 
 std::optional<fs::path> RunDirectory::keep_rows_of_killed(const fs::path& directory) {
-  std::string rows;
+  std::string rows, twin;
   {
     FolderLock lock;
     const fs::path staging = OutputFolder::staging_of(directory);
     if (!lock.take(staging) || !read_manifest(staging)) return std::nullopt;
-    std::ifstream file(staging / "history.csv.partial", std::ios::binary);
-    rows.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    const auto bytes_of = [&](const char* name) {
+      std::ifstream file(staging / name, std::ios::binary);
+      return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    };
+    rows = bytes_of("history.csv.partial");
+    twin = bytes_of("history.npy.partial");
   }
   rows.resize(rows.rfind('\n') + 1);  // whole rows; npos + 1 is 0
   if (rows.empty()) return std::nullopt;
+  std::vector<std::string> columns;
+  if (split_csv_line(std::string_view(rows).substr(0, rows.find('\n')), columns))
+    twin = repaired_npy(std::move(twin), columns.size());
   OutputFolder folder(directory, "run", all_names);
   folder.write("history.csv", rows);
+  if (!twin.empty()) folder.write("history.npy", twin);
   folder.publish(FolderState::failed);
   return folder.folder();
 }

@@ -72,6 +72,24 @@ def main():
     (folder / "cut/history.csv").write_text("\n".join(rows[:4]) + "\n0.03,0.0")
     assert len(bough.read(folder / "cut")) == 3 and bough.read(folder / "cut").status == "unfinished"
 
+    # Long histories have a twin for NumPy with the same bits; one that a crash left tells its rows by its size.
+    assert not (folder / "out/history.npy").exists()
+    long = bough.run(scene, folder / "long", set={"/analysis/step_size": 1e-5, "/analysis/end_time": 0.11})
+    assert len(long) == 11001 and isinstance(long._table, numpy.memmap)
+    loaded = numpy.load(folder / "long/history.npy")
+    rows = (folder / "long/history.csv").read_text().splitlines()
+    assert loaded.shape == (11001, len(long.columns)) and numpy.array_equal(loaded, long._table)
+    for k in [0, 1, 5000, 9999, 10000, 10001, 11000]:
+        assert [float(v) for v in rows[k + 1].split(",")] == list(loaded[k]), k
+    listed = json.loads((folder / "long/manifest.json").read_text(encoding="utf-8"))
+    assert "history.npy" in json.dumps(listed) and "history.npy" in json.dumps(long.summary["files"])
+    whole = (folder / "long/history.npy").read_bytes()
+    head = len(whole) - loaded.nbytes
+    (folder / "cut.npy").write_bytes(whole[:head].replace(b"11001", b"    0") + whole[head:-70])
+    cut = bough.read_npy(folder / "cut.npy")
+    missing = -(-70 // (8 * len(long.columns)))
+    assert len(cut) == 11001 - missing and numpy.array_equal(cut, loaded[:-missing])
+
     try:
         bough.run(scene, folder / "bad", set={"/analysis/step_size": -1})
         raise AssertionError("bad input was taken")

@@ -4,7 +4,9 @@
 #include <locale>
 #include <random>
 
+#include "bough/io/digest.hpp"
 #include "bough/io/history.hpp"
+#include "bough/io/npy_history.hpp"
 #include "bough/io/number_text.hpp"
 #include "write_samples.hpp"
 
@@ -124,6 +126,26 @@ TEST(History, a_damaged_file_is_refused_with_its_line) {
       EXPECT_NE(std::string(error.what()).find("bad.csv:3:"), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(NpyHistory, a_file_cut_anywhere_keeps_its_whole_rows) {
+  const ScratchDirectory scratch;
+  const std::size_t rows = NpyHistoryWriter::long_history + 7;
+  NpyHistoryWriter writer(scratch / "history.npy", {{"a", "b"}});
+  for (std::size_t k = 0; k < rows; ++k)
+    writer.row({0.5 * static_cast<double>(k), 0.5, 3, {static_cast<double>(k), -static_cast<double>(k)}});
+  writer.commit();
+  const std::string whole = text_of(scratch / "history.npy"), head = npy_head(rows, 5);
+  EXPECT_EQ(head.size() % 64, 0u);
+  ASSERT_EQ(whole.size(), head.size() + 40 * rows);
+  EXPECT_EQ(whole.substr(0, head.size()), head);
+  EXPECT_EQ(writer.record().hash, digest_of(whole));
+  for (const std::size_t lost : {0u, 1u, 39u, 40u, 41u}) {
+    const std::size_t left = rows - (lost + 39) / 40;
+    const std::string cut = npy_head(0, 5) + whole.substr(head.size(), 40 * rows - lost);
+    EXPECT_EQ(repaired_npy(cut, 5), npy_head(left, 5) + whole.substr(head.size(), 40 * left)) << lost;
+  }
+  EXPECT_EQ(repaired_npy(npy_head(0, 5) + "not a row", 5), "");
 }
 
 }  // namespace

@@ -30,6 +30,9 @@ class AtomicFile {
   /// dropped, so that what is in the file is always a sequence of whole flushes.
   void flush();
 
+  /// Flush, then other bytes in the place of as many first ones. The hash is taken anew, by reading the file.
+  void replace_front(std::string_view bytes);
+
   /// Flush, and the disk begins to take what was flushed; nobody waits for it. Of several files that are handed over
   /// so, the first fsync waits for all, and those after it find little left to do.
   void start_writing_out();
@@ -44,7 +47,7 @@ class AtomicFile {
   [[nodiscard]] std::size_t buffered() const { return buffer_.size(); }
   [[nodiscard]] std::size_t bytes_flushed() const { return flushed_; }
   /// Of what was flushed.
-  [[nodiscard]] std::string digest() const { return digest_.text(); }
+  [[nodiscard]] std::string digest() const { return digest_anew_.empty() ? digest_.text() : digest_anew_; }
   [[nodiscard]] const std::filesystem::path& path() const { return final_path_; }
 
  private:
@@ -55,6 +58,7 @@ class AtomicFile {
   std::string buffer_;
   std::size_t flushed_ = 0;
   Digest digest_;
+  std::string digest_anew_;  ///< after the front was replaced
   int descriptor_ = -1;
 };
 

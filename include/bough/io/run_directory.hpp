@@ -1,6 +1,7 @@
 #pragma once
 /// The directory of one run: the recorder that writes it.
 ///   history.csv    the sensors
+///   history.npy    the same of more than 10 000 rows, for NumPy
 ///   columns.json   unit, quantity and part of each of its columns
 ///   motion.pvd, motion/frame_000000.vtu ..., motion.bin   where motion is recorded
 ///                  (a build without BOUGH_WITH_VTK writes motion.bin only)
@@ -15,6 +16,7 @@
 
 #include "bough/io/history.hpp"
 #include "bough/io/motion_frames.hpp"
+#include "bough/io/npy_history.hpp"
 #include "bough/io/output_folder.hpp"
 #include "bough/io/summary.hpp"
 #include "bough/io/write_vtu.hpp"
@@ -71,6 +73,7 @@ class RunDirectory final : public records::Recorder {
   RunOrigin origin_;
   std::unique_ptr<OutputFolder> folder_;
   std::unique_ptr<HistoryWriter> history_;
+  std::unique_ptr<NpyHistoryWriter> twin_;
   std::unique_ptr<MotionWriter> motion_;
   records::MotionParts parts_;
   std::string columns_;  ///< of columns.json

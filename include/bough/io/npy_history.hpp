@@ -1,0 +1,46 @@
+#pragma once
+/// `history.npy`: the numbers of a long history as an array of NumPy, format 1.0: float64, one row of the history after the
+/// other, columns as in columns.json (time, step_size, iterations, sensors). It stands beside history.csv and holds the
+/// same bits. While it is written its head tells of no rows; how many there are follows from its size, also after a crash.
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/manifest.hpp"
+#include "bough/records/run.hpp"
+
+namespace bough::io {
+
+/// Head of such a file, a multiple of 64 bytes, the same length for any number of rows.
+std::string npy_head(std::size_t rows, std::size_t columns);
+
+/// The bytes of a file that a crash left, cut to whole rows and with their number in its head; empty where there are none.
+std::string repaired_npy(std::string bytes, std::size_t columns);
+
+/// Begins the file when there are more rows than `long_history`; until then it keeps them.
+class NpyHistoryWriter {
+ public:
+  static constexpr std::size_t long_history = 10'000;
+
+  NpyHistoryWriter(std::filesystem::path path, const records::HistoryHeader& header)
+      : path_(std::move(path)), num_columns_(3 + header.columns.size()) {}
+  void row(const records::HistoryRow& row);
+  [[nodiscard]] bool has_begun() const { return file_ != nullptr; }
+  /// Writes the number of rows into the head, and commits.
+  void commit(Durability durability = Durability::now);
+  /// Of what stands in the file.
+  [[nodiscard]] FileRecord record() const {
+    return {path_.filename().string(), file_->bytes_flushed(), file_->digest()};
+  }
+  [[nodiscard]] bool can_commit() const { return file_->is_open(); }
+
+ private:
+  std::filesystem::path path_;
+  std::size_t num_columns_, rows_ = 0;
+  std::string kept_;  ///< rows of a history that is not yet long
+  std::unique_ptr<AtomicFile> file_;
+};
+
+}  // namespace bough::io
