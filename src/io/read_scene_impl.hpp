@@ -70,6 +70,7 @@ class Converter : private ValueConverter {
   void motion(const Value& v, const std::string& at);
   void initial_velocity(const Value& v, const std::string& at);
   void sensor(const Value& v, const std::string& at);
+  void read_expected_value(const Value& v, scene::Expected& e) const;
   void expected(const Value& v, const std::string& at);
   void measure(const Value& v, const std::string& at);
   void read_measured_names(const Value& v, const std::string& at, scene::Measure& m);

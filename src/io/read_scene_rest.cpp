@@ -99,6 +99,13 @@ void Converter::sensor(const Value& v, const std::string& at) {
   add(scene.sensors, "sensors", std::move(s), at);
 }
 
+void Converter::read_expected_value(const Value& v, scene::Expected& e) const {
+  e.value = v.find("value")->number;
+  e.tolerance = number_or(v, "tolerance", 0.0);
+  e.relative_tolerance = number_or(v, "relative_tolerance", 0.0);
+  e.source = text_or(v, "source");
+}
+
 void Converter::expected(const Value& v, const std::string& at) {
   scene::Expected e;
   e.quantity = v.find("quantity")->text;
@@ -107,10 +114,7 @@ void Converter::expected(const Value& v, const std::string& at) {
     if (scene::to_string(static_cast<scene::FigureKind>(k)) == figure) e.figure = static_cast<scene::FigureKind>(k);
   if (const Value* time = v.find("time")) e.time = time->number;
   if (const Value* level = v.find("level")) e.level = level->number;
-  e.value = v.find("value")->number;
-  e.tolerance = number_or(v, "tolerance", 0.0);
-  e.relative_tolerance = number_or(v, "relative_tolerance", 0.0);
-  e.source = v.find("source")->text;
+  read_expected_value(v, e);
   add(scene.expected, "expected", std::move(e), at);
 }
 
@@ -134,6 +138,12 @@ void Converter::measure(const Value& v, const std::string& at) {
   m.band = number_or(v, "band", m.band);
   m.range = number_or(v, "range", m.range);
   m.exponent = number_or(v, "exponent", m.exponent);
+  if (v.find("value") != nullptr) {
+    read_expected_value(v, m.expected.emplace());
+  } else {
+    for (const char* key : {"tolerance", "relative_tolerance", "source"})
+      if (v.find(key) != nullptr) fault(at + "/" + key, "goes with a \"value\" that the measure has to be");
+  }
   if (!measure_names_.insert(m.name).second)
     fault(at + "/name", "another measure has this name", "names are used once");
   if (m.kind == scene::MeasureKind::settling_time && v.find("band") == nullptr)

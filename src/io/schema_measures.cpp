@@ -37,7 +37,11 @@ void add_measure_rules(RuleTable& t) {
        may("range", not_negative(""), "Of figure \"cycles\": smaller ranges are not counted.", "0"),
        may("exponent", number_rule("", 1.0, false, 100.0), "Of figure \"equivalent_range\": m of the S-N line [-].",
            "10"),
-       may("cycles", positive(""), "Of figure \"equivalent_range\". Default: one a second of the run.")});
+       may("cycles", positive(""), "Of figure \"equivalent_range\". Default: one a second of the run."),
+       may("value", any, "What it has to be, as of expected figures; with one tolerance at least."),
+       may("tolerance", positive(""), "Largest difference, absolute; with relative_tolerance the two add up."),
+       may("relative_tolerance", positive(""), "Largest difference as a part of |value| [-]."),
+       may("source", text_rule(""), "Where the value comes from.")});
   measure.exactly_one = {{"quantity", "expression"}};
   t.named["measure"] = made(std::move(measure));
 }

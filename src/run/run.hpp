@@ -109,6 +109,7 @@ class Run {
   void finish();
   /// Expected figures and measures of what was run.
   void take_figures();
+  bool is_time_reached(const scene::Measure& m) const;
   void finish_statics();
 
   const scene::Scene& scene_;

@@ -39,6 +39,19 @@ std::vector<scene::Expected> figures_asked_for(const scene::Scene& scene) {
   return figures;
 }
 
+/// What a measure is held against what it has to be; `how` tells how it was taken, and whether its time was reached.
+records::ExpectedResult held_against(const scene::Expected& given, const records::MeasureResult& measured,
+                                     records::ExpectedResult how) {
+  how.name = measured.name;
+  how.value = measured.value.value_or(0.0);
+  how.reference = given.value;
+  how.tolerance = given.allowed();
+  how.source = given.source;
+  how.has_value = measured.value.has_value();
+  how.holds = how.reached && measured.value && std::abs(how.value - how.reference) <= how.tolerance;
+  return how;
+}
+
 }  // namespace
 
 Run::Run(const scene::Scene& scene, const SimulateOptions& options, records::Recorder& recorder,
@@ -274,20 +287,30 @@ void Run::take_figures() {
   summary_.expected = figures_.results(summary_);
   const std::vector<records::MeasureResult> of_whole_run = measures_.results();
   summary_.measures.clear();
+  std::vector<records::ExpectedResult> of_measures;
   std::size_t next_figure = scene_.expected.size(), next_measure = 0;
   for (const scene::Measure& m : scene_.measures) {
-    if (!Measures::is_figure(m)) {
-      summary_.measures.push_back(of_whole_run[next_measure++]);
-      continue;
+    records::MeasureResult measured{m.name, std::nullopt};
+    records::ExpectedResult how;
+    if (Measures::is_figure(m)) {
+      how = summary_.expected[next_figure++];
+      if (how.reached && how.has_value && std::isfinite(how.value)) measured.value = how.value;
+    } else {
+      measured = of_whole_run[next_measure++];
+      how.taken = "from the ends of all accepted steps";
+      how.reached = is_time_reached(m);
     }
-    const records::ExpectedResult& figure = summary_.expected[next_figure++];
-    const bool is_there = figure.reached && figure.has_value && std::isfinite(figure.value);
-    summary_.measures.push_back({m.name, is_there ? std::optional<double>(figure.value) : std::nullopt});
+    if (summary_.status != RunStatus::ok) measured.value.reset();  // what a part of a run shows is no figure of it
+    if (m.expected) of_measures.push_back(held_against(*m.expected, measured, std::move(how)));
+    summary_.measures.push_back(std::move(measured));
   }
-  if (summary_.status != RunStatus::ok)
-    for (records::MeasureResult& m : summary_.measures)
-      m.value.reset();  // what a part of a run shows is no figure of it
   summary_.expected.resize(scene_.expected.size());
+  summary_.expected.insert(summary_.expected.end(), of_measures.begin(), of_measures.end());
+}
+
+/// Whether the run gets to the time of a measure, if it has one: a run in time may be made shorter.
+bool Run::is_time_reached(const scene::Measure& m) const {
+  return !m.time || !plan_.is_dynamic || *m.time <= scene_.analysis.end_time * (1.0 + 1e-12);
 }
 
 bool Run::is_due(long row, bool is_last) const { return row % std::max(1, scene_.output.stride) == 0 || is_last; }

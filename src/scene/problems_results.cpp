@@ -98,7 +98,16 @@ void check_sensor(ProblemList& list, std::size_t i) {
     list.add("sensors", i, "station", text_of(s.station), "a station is a fraction of the beam's length, 0 to 1");
 }
 
-/// Members that do not go together, and tolerances that nothing could meet.
+/// Tolerances that nothing could meet.
+void check_tolerance(ProblemList& list, const char* part, std::size_t i, const Expected& e) {
+  if (e.tolerance == 0.0 && e.relative_tolerance == 0.0)
+    list.add(part, i, "", "", "needs a tolerance", "give \"tolerance\", \"relative_tolerance\" or both");
+  else if (!(e.allowed() > 0.0))
+    list.add(part, i, "relative_tolerance", text_of(e.relative_tolerance), "is a part of the value, which is 0",
+             "give a \"tolerance\", which is absolute");
+}
+
+/// Members that do not go together.
 void check_figure(ProblemList& list, std::size_t i) {
   const Expected& e = list.scene.expected[i];
   const std::string figure = to_string(e.figure);
@@ -110,11 +119,7 @@ void check_figure(ProblemList& list, std::size_t i) {
     list.add("expected", i, "level", text_of(*e.level), "a level goes with the figure \"period\" alone");
   if (is_static && e.figure == FigureKind::period)
     list.add("expected", i, "figure", figure, "a period is one of time, and the analysis is static");
-  if (e.tolerance == 0.0 && e.relative_tolerance == 0.0)
-    list.add("expected", i, "", "", "needs a tolerance", "give \"tolerance\", \"relative_tolerance\" or both");
-  else if (!(e.allowed() > 0.0))
-    list.add("expected", i, "relative_tolerance", text_of(e.relative_tolerance), "is a part of the value, which is 0",
-             "give a \"tolerance\", which is absolute");
+  check_tolerance(list, "expected", i, e);
   // A run in time may be made shorter than a figure asks for, which is then reported as not reached; a load factor ends at 1.
   if (!e.time || !(*e.time > list.last_time * (1.0 + 1e-12))) return;
   const std::string rule = "the analysis ends at " + text_of(list.last_time);
@@ -226,7 +231,10 @@ void check_sensors(ProblemList& list) {
     check_figure(list, i);
     check_quantity(list, "expected", i, "quantity", list.scene.expected[i].quantity);
   }
-  for (std::size_t i = 0; i < list.scene.measures.size(); ++i) check_measure(list, i);
+  for (std::size_t i = 0; i < list.scene.measures.size(); ++i) {
+    check_measure(list, i);
+    if (const std::optional<Expected>& e = list.scene.measures[i].expected) check_tolerance(list, "measures", i, *e);
+  }
 }
 
 void check_analysis(ProblemList& list) {

@@ -146,6 +146,26 @@ TEST(Measures, a_run_measures_all_accepted_steps_whatever_the_stride) {
   EXPECT_FALSE(by_name["none"].has_value());
 }
 
+TEST(Measures, a_measure_may_have_a_value_that_it_has_to_be) {
+  const support::Outcome run = support::run(support::scene_of(std::string("{") + oscillator + R"x(, "measures": [
+      {"name": "mean", "quantity": "a.x", "figure": "mean", "value": 1, "tolerance": 1e-3, "source": "by hand"},
+      {"name": "rms", "quantity": "v.vx", "figure": "rms", "value": 4, "relative_tolerance": 0.01},
+      {"name": "top", "quantity": "a.x", "figure": "max", "value": 2, "relative_tolerance": 1e-3},
+      {"name": "none", "expression": "log(x - 3)", "of": {"x": "a.x"}, "figure": "max", "value": 0, "tolerance": 9},
+      {"name": "late", "quantity": "a.x", "time": 5, "value": 0, "tolerance": 9},
+      {"name": "only measured", "quantity": "a.x"}],
+      "expected": [{"quantity": "a.x", "figure": "max", "value": 2, "tolerance": 1e-3}]})x"));
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  EXPECT_EQ(run.summary.measures.size(), 6u);
+  std::string verdicts;
+  for (const records::ExpectedResult& e : run.summary.expected) verdicts += e.name + " " + e.verdict() + "; ";
+  EXPECT_EQ(verdicts, run.summary.expected.at(0).name +
+                          " holds; mean holds; rms fails; top holds; none fails; late not reached; ");
+  EXPECT_EQ(run.summary.expected.at(1).source, "by hand");
+  EXPECT_NEAR(run.summary.expected.at(2).value, 2.0 * std::numbers::pi / std::numbers::sqrt2, 0.01);
+  EXPECT_DOUBLE_EQ(run.summary.expected.at(2).tolerance, 0.04);
+}
+
 TEST(Measures, measures_change_no_bit_of_the_run) {
   const support::Outcome plain = support::run(support::gallery("slider_crank", {"/analysis/end_time=0.1"}));
   const support::Outcome measured = support::run(support::gallery(
@@ -165,7 +185,10 @@ TEST(Measures, what_is_wrong_with_a_measure_is_told) {
       {R"({"name": "m", "expression": "x", "of": {"x": "a.w"}})", "components"},
       {R"({"name": "m", "quantity": "a.x", "figure": "settling_time"})", "band"},
       {R"({"name": "m", "quantity": "a.x", "figure": "maximum"})", "has to be"},
-      {R"({"name": "m", "quantity": "a.x", "figure": "max", "time": 1})", "whole run"}};
+      {R"({"name": "m", "quantity": "a.x", "figure": "max", "time": 1})", "whole run"},
+      {R"({"name": "m", "quantity": "a.x", "value": 1})", "needs a tolerance"},
+      {R"({"name": "m", "quantity": "a.x", "value": 0, "relative_tolerance": 1})", "part of the value, which is 0"},
+      {R"({"name": "m", "quantity": "a.x", "tolerance": 1})", "goes with a \"value\""}};
   for (const auto& [measure, word] : cases) {
     try {
       (void)support::scene_of(std::string("{") + oscillator + ", \"measures\": [" + measure + "]}");

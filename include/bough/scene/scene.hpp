@@ -330,7 +330,7 @@ enum class MeasureKind : std::uint8_t {
   equivalent_range     ///< of `cycles` equal cycles of the same damage, with exponent m: the damage-equivalent load
 };
 
-/// A figure of a run that nothing is expected of: a column of batches and sweeps.
+/// A figure of a run: a column of batches and sweeps.
 struct Measure {
   std::string name;
   std::string quantity;    ///< "<sensor>.<component>" or "<sensor>"; empty: the expression
@@ -345,6 +345,8 @@ struct Measure {
   double range = 0.0;            ///< of `cycles`
   double exponent = 10.0;        ///< of `equivalent_range`: m, of the S-N line
   std::optional<double> cycles;  ///< of `equivalent_range`; none: one a second
+  /// What it has to be: value, tolerances and source are those of the measure, all else is not used.
+  std::optional<Expected> expected;
 };
 
 struct Scene {
