@@ -143,18 +143,20 @@ int threads_asked_for(const study::BatchCase& which, const CaseSource& source) {
   return file.ok() ? file.scene.solver.threads : 1;
 }
 
-/// What each case is: the content of its scene, without comments and spaces, what it changes there, the policy.
+/// What each case is: its scene with all that the case changes, formulas, copies and defaults written out, and the
+/// policy. One with problems is the text of its file and what it changes there. Of cases that are the same each has a
+/// key of its own, so that none takes the results of another.
 std::vector<std::string> keys_of(const std::vector<study::BatchCase>& cases, const CaseSettings& settings,
                                  const CaseSource& source) {
   std::vector<std::string> keys;
-  std::string text, content;
+  std::unordered_map<std::string, std::size_t> met;
+  const std::string policy = policy_of(settings);
   for (const study::BatchCase& c : cases) {
-    std::string next = source.text(c);
-    if (next != text || keys.empty()) {
-      text = std::move(next);
-      content = io::canonical_text(text) + policy_of(settings);
-    }
-    keys.push_back(study::key_of(c, content));
+    const std::string text = source.text(c), scene = io::canonical_scene(text, c.overrides);
+    std::string key =
+        scene.empty() ? study::key_of(io::canonical_text(text) + policy, c.overrides) : study::key_of(scene + policy);
+    if (const std::size_t before = met[key]++; before > 0) key += "." + std::to_string(before + 1);
+    keys.push_back(std::move(key));
   }
   return keys;
 }

@@ -105,6 +105,11 @@ holds test -s sweep.many/store_000.pack
 # comments and spaces do not make another scene
 sed 's/"title": "pendulum",/"title":   "pendulum", "comment": "other",/' good.json > other.json && mv good.json first.json && mv other.json good.json
 expect 0 '210 of 210 cases are done' sweep many.json --out sweep.many --resume
+# nor does a formula for a number, but another number in it
+sed 's/"step_size": 0.01/"step_size": {"expression": "h"}/; s/"title"/"parameters": {"h": 0.01}, "title"/' first.json > good.json
+expect 0 '210 of 210 cases are done' sweep many.json --out sweep.many --resume
+sed -i 's/"h": 0.01/"h": 0.005/' good.json
+expect 0 '^0 of 210 cases are done' sweep many.json --out sweep.many --resume
 mv first.json good.json
 holds test -s sweep.one/07/history.csv
 holds test ! -e sweep.two/07

@@ -2,6 +2,7 @@
 /// What a batch has done so far, in a file that survives kills and power failures.
 #include <chrono>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -18,9 +19,9 @@ struct Machine {
 };
 const Machine& this_machine();
 
-/// What a case is: a hash of the text of its scene, of what it changes there, and of the machine. Equal keys give equal
+/// What a case is: a hash of its scene, of what is still to be changed there, and of the machine. Equal keys give equal
 /// results.
-std::string key_of(const BatchCase& which, const std::string& scene_text);
+std::string key_of(const std::string& scene, std::span<const std::string> overrides = {});
 
 /// Whether a case that ended so is done for good: it would end so again. Cases that were stopped, by a user or by a
 /// limit of time, are not, nor are those whose results could not be written.

@@ -106,13 +106,13 @@ const Machine& this_machine() {
   return machine;
 }
 
-std::string key_of(const BatchCase& which, const std::string& scene_text) {
+std::string key_of(const std::string& scene, std::span<const std::string> overrides) {
   static const std::string machine =
       this_machine().program + " " + this_machine().instruction_set + " " + this_machine().library;
   io::Digest digest;
   digest.add(machine);
-  digest.add(scene_text);
-  for (const std::string& o : which.overrides) {
+  digest.add(scene);
+  for (const std::string& o : overrides) {
     digest.add(std::string_view("\0", 1));
     digest.add(o);
   }
