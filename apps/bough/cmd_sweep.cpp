@@ -71,6 +71,11 @@ int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out,
   return bad > 0 ? exit_bad_input : exit_done;
 }
 
+/// Of files that the scene names.
+std::filesystem::path folder_of(const io::SweepSpec& spec) {
+  return std::filesystem::path(spec.scene_file).parent_path();
+}
+
 std::vector<double> work_of_cases(const io::SweepSpec& spec, const study::SweepCases& made,
                                   const std::vector<std::string>& overrides) {
   std::vector<std::vector<io::SweepValue>> rows;
@@ -78,7 +83,7 @@ std::vector<double> work_of_cases(const io::SweepSpec& spec, const study::SweepC
   return study::predicted_work(rows, [&](const std::vector<io::SweepValue>& inputs) {
     std::vector<std::string> changes = study::overrides_of(spec, {"", inputs});
     changes.insert(changes.end(), overrides.begin(), overrides.end());
-    return work_of(io::read_scene_text(spec.scene_text, spec.scene_name, changes));
+    return work_of(io::read_scene_text(spec.scene_text, spec.scene_name, changes, folder_of(spec)));
   });
 }
 
@@ -122,7 +127,8 @@ int sweep(const SweepArguments& arguments) {
     return exit_bad_input;
   }
   CaseSource source{[&](const study::BatchCase& which) {
-                      return io::read_scene_text(file.spec.scene_text, file.spec.scene_name, which.overrides);
+                      return io::read_scene_text(file.spec.scene_text, file.spec.scene_name, which.overrides,
+                                                 folder_of(file.spec));
                     },
                     [&](const study::BatchCase&) { return file.spec.scene_text; }};
   if (arguments.dry_run)

@@ -45,7 +45,8 @@ struct ReadScene {
   std::optional<JsonValue> document;
 };
 
-ReadScene read(std::string_view text, std::string name, std::span<const std::string> set_overrides) {
+ReadScene read(std::string_view text, std::string name, std::span<const std::string> set_overrides,
+               const std::filesystem::path& folder) {
   ReadScene result;
   SceneFile& file = result.file;
   std::vector<JsonFault> text_faults;
@@ -55,6 +56,7 @@ ReadScene read(std::string_view text, std::string name, std::span<const std::str
   std::vector<CheckFault> check_faults;
   std::size_t more_faults = 0;
   Expansion expansion;
+  std::string contents;
   if (root) {
     apply_overrides(*root, set_overrides, override_texts, override_faults);
     expansion = expand_scene(*root);
@@ -68,15 +70,16 @@ ReadScene read(std::string_view text, std::string name, std::span<const std::str
   for (const CheckFault& f : check_faults) report.add(f);
   report.count_others(more_faults);
   if (root && root->is(JsonKind::object) && expansion.has_outline && !breaks_outline(check_faults)) {
-    Converter converter(*root);
+    Converter converter(*root, folder);
     converter.convert();
+    contents = converter.files.contents();
     report.add(converter.faults, false);
     report.add(converter.warnings, true);
     add_scene_problems(converter, report);
     file.scene = std::move(converter.scene);
   }
   file.scene.name = std::move(name);
-  file.hash = digest_of(text);
+  file.hash = contents.empty() ? digest_of(text) : digest_of(std::string(text) + contents);
   report.write(file.problems, file.warnings);
   result.document = std::move(root);
   return result;
@@ -96,16 +99,28 @@ auto read_file(const std::filesystem::path& file, const ReadText& read_text) {
 
 }  // namespace
 
-SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides) {
-  return read(text, std::move(name), set_overrides).file;
+SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides,
+                          const std::filesystem::path& folder) {
+  return read(text, std::move(name), set_overrides, folder).file;
 }
 
-ExpandedScene expanded_scene_text(std::string_view text, std::span<const std::string> set_overrides) {
-  ReadScene result = read(text, "", set_overrides);
+ExpandedScene expanded_scene_text(std::string_view text, std::span<const std::string> set_overrides,
+                                  const std::filesystem::path& folder) {
+  ReadScene result = read(text, "", set_overrides, folder);
   ExpandedScene expanded{"", std::move(result.file.problems), std::move(result.file.warnings)};
   if (expanded.ok()) expanded.text = printed(*result.document) + "\n";
   return expanded;
 }
+
+namespace {
+
+/// Of files that a scene names; none for one from standard input.
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  if (file == "-") return {};
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+}  // namespace
 
 std::string name_of_file(const std::filesystem::path& file) {
   const std::string stem = file.stem().string();
@@ -114,13 +129,14 @@ std::string name_of_file(const std::filesystem::path& file) {
 
 SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides) {
   return read_file(file, [&](const std::string& text, std::string name) {
-    return read_scene_text(text, std::move(name), set_overrides);
+    return read_scene_text(text, std::move(name), set_overrides, folder_of(file));
   });
 }
 
 ExpandedScene expanded_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides) {
-  return read_file(
-      file, [&](const std::string& text, const std::string&) { return expanded_scene_text(text, set_overrides); });
+  return read_file(file, [&](const std::string& text, const std::string&) {
+    return expanded_scene_text(text, set_overrides, folder_of(file));
+  });
 }
 
 }  // namespace bough::io

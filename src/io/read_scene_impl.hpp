@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "bough/scene/poses.hpp"
 #include "bough/scene/scene.hpp"
 #include "read_values.hpp"
+#include "scene_files.hpp"
 
 namespace bough::io {
 
@@ -22,11 +24,13 @@ void apply_overrides(JsonValue& root, std::span<const std::string> overrides, st
 /// Turns a checked document into a scene. Items that are not sound, or turn out wrong here, are left out and named in `defective`.
 class Converter : private ValueConverter {
  public:
-  explicit Converter(const JsonValue& root) : root_(root) {}
+  /// folder: of files that the scene names; empty: it may name none.
+  Converter(const JsonValue& root, const std::filesystem::path& folder) : files(folder), root_(root) {}
   void convert();
 
   scene::Scene scene;
   std::vector<std::string> defective;
+  SceneFiles files;
   using ValueConverter::faults;
   using ValueConverter::warnings;
   std::map<std::string, std::vector<std::string>> pointers;  ///< of the items of each list of the scene
@@ -44,6 +48,8 @@ class Converter : private ValueConverter {
   void body(const Value& v, const std::string& at);
   void beam(const Value& v, const std::string& at);
   std::vector<std::array<double, 2>> corners(const Value& list) const;
+  std::optional<scene::Outline> outline(const Value& v, const std::string& at);
+  void body_looks(const Value& v, const std::string& at, scene::Body& body);
   bool is_sound(const scene::Outline& outline, const std::string& at);
   std::optional<scene::SectionShape> section_shape(const Value& v, const std::string& at);
   scene::Section shaped_section(const Value& v, const std::string& at);

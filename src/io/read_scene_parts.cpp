@@ -131,11 +131,9 @@ std::optional<scene::SectionShape> Converter::section_shape(const Value& s, cons
     if (kind == "i") return scene::IProfile{get("width"), get("height"), get("web"), get("flange")};
     return scene::CProfile{get("width"), get("height"), get("web"), get("flange")};
   }
-  scene::Outline outline;
-  outline.loops.push_back(corners(*s.find("points")));
-  for (const Value& hole : s.find("holes")->items) outline.loops.push_back(corners(hole));
-  if (!is_sound(outline, at)) return {};
-  return scene::Polygon{std::move(outline)};
+  std::optional<scene::Outline> polygon = outline(s, at);
+  if (!polygon) return {};
+  return scene::Polygon{std::move(*polygon)};
 }
 
 scene::Section Converter::shaped_section(const Value& v, const std::string& at) {
@@ -239,9 +237,10 @@ void Converter::body_inertia(const Value& v, const std::string& at, scene::Body&
     shape = scene::Ring{outer, inner, s.find("length")->number, axis};
   }
   if (kind == "extrusion") {
-    scene::Outline outline{{corners(*s.find("points"))}};
-    if (!is_sound(outline, at + "/shape")) return;
-    shape = scene::Extrusion{std::move(outline), s.find("length")->number, axis};
+    std::optional<scene::Outline> polygon = outline(s, at + "/shape");
+    if (!polygon) return;
+    if (polygon->loops.size() > 1) return fault(at + "/shape/file", "the polygon of an extrusion has no holes");
+    shape = scene::Extrusion{std::move(*polygon), s.find("length")->number, axis};
   }
   if (mass == nullptr && !has_other)
     return fault(at, "needs one of the keys \"mass\", \"density\" or \"material\" with its shape");
@@ -267,6 +266,7 @@ void Converter::body(const Value& v, const std::string& at) {
   b.center_of_mass = vector(*v.find("center_of_mass"));
   b.is_point_mass = v.find("kind")->text == "point_mass";
   body_inertia(v, at, b);
+  body_looks(v, at, b);
   add(scene.bodies, "bodies", std::move(b), at);
 }
 

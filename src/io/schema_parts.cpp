@@ -75,6 +75,13 @@ void add_attachments(RuleTable& t) {
       {"space", "body"});
 }
 
+RuleRef file_name() { return text_rule(""); }
+
+Rule with_points_or_file(Rule rule) {
+  rule.exactly_one = {{"points", "file"}};
+  return rule;
+}
+
 void add_section_parts(RuleTable& t) {
   t.named["pair"] = array_rule("Coordinates along axes 2 and 3 [m].", number_rule(""), 2, 2);
   t.named["section_shape"] = choice_rule(
@@ -107,18 +114,21 @@ void add_section_parts(RuleTable& t) {
                            {need("width", positive(""), "Of the leg along axis 2 [m]."),
                             need("height", positive(""), "Of the leg along axis 3 [m]."),
                             need("thickness", positive(""), "Of both legs [m].")})),
-       made(object_of_kind(
+       made(with_points_or_file(object_of_kind(
            {"polygon"},
            "Any outline; area and second moments are exact, torsion and shear have to be given. The section needs "
            "shear_factors.",
-           {need("points", array_rule("", named_rule("pair"), 3, 500),
-                 "Corners along axes 2 and 3, counter-clockwise, the last one joined to the first [m]. The axis of the "
-                 "beam runs through the centroid."),
+           {may("points", array_rule("", named_rule("pair"), 3, 500),
+                "Corners along axes 2 and 3, counter-clockwise, the last one joined to the first [m]. The axis of the "
+                "beam runs through the centroid."),
+            may("file", file_name(),
+                "Corners from a file below the folder of the scene: two numbers a line [m], an empty line before each "
+                "hole."),
             may("holes", array_rule("", array_rule("", named_rule("pair"), 3, 500)), "Corners of holes, clockwise.",
                 "[]"),
             may("torsion_constant", positive(""),
                 "J of Saint-Venant [m^4]; needed where stiffness follows from the shape."),
-            may("shear_center", named_rule("pair"), "From the centroid, along axes 2 and 3 [m].", "[0, 0]")}))});
+            may("shear_center", named_rule("pair"), "From the centroid, along axes 2 and 3 [m].", "[0, 0]")})))});
   t.named["section_stiffness"] = choice_rule(
       "Section stiffness in the order (N, Q2, Q3, T, M2, M3) [N, N m, N m^2]; symmetric, positive definite.",
       {named_rule("diagonal6"), named_rule("matrix6"),
@@ -171,12 +181,18 @@ void add_body_parts(RuleTable& t) {
            {"ring"}, "Hollow cylinder.",
            {need("outer_radius", positive(""), "[m]."), need("inner_radius", positive(""), "[m], below the outer one."),
             need("length", positive(""), "[m]."), may("axis", axis, "1, 2 or 3.", "1")})),
-       made(
-           object_of_kind({"extrusion"}, "A polygon drawn along an axis.",
-                          {need("points", array_rule("", named_rule("pair"), 3, 500),
-                                "Corners in the two axes after `axis`, counter-clockwise [m]; the centroid becomes the "
-                                "centre of mass."),
-                           need("length", positive(""), "[m]."), may("axis", axis, "1, 2 or 3.", "1")}))});
+       made(with_points_or_file(object_of_kind(
+           {"extrusion"}, "A polygon drawn along an axis.",
+           {may("points", array_rule("", named_rule("pair"), 3, 500),
+                "Corners in the two axes after `axis`, counter-clockwise [m]; the centroid becomes the "
+                "centre of mass."),
+            may("file", file_name(), "Corners from a file below the folder of the scene, two numbers a line [m]."),
+            need("length", positive(""), "[m]."), may("axis", axis, "1, 2 or 3.", "1")})))});
+  t.named["body_looks"] = made(object_of(
+      "A surface for pictures; nothing is computed from it.",
+      {need("file", file_name(),
+            "STL or OBJ below the folder of the scene, in the axes of the body's frame, at most 100 000 triangles."),
+       may("scale", positive(""), "Times what the file says, for [m]: 0.001 of millimetres.", "1")}));
 }
 
 }  // namespace

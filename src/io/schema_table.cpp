@@ -75,6 +75,7 @@ void add_parts(RuleTable& t) {
        may("mass", not_negative(""), "[kg]; may be left out where density or material say it."),
        may("inertia", named_rule("inertia"), "About the centre of mass, in the body's axes."),
        may("shape", named_rule("body_shape"), "Shape that the inertia follows from."),
+       may("looks", named_rule("body_looks"), "Surface that pictures show in the place of the shape."),
        may("density", positive(""), "With a shape [kg/m^3]."),
        may("material", reference, "Material whose density a shape takes."),
        may("center_of_mass", named_rule("vector"), "In the body's frame [m].", "[0, 0, 0]")});

@@ -96,7 +96,7 @@ void StudyScene::expand_tokens(const JsonValue* at, const std::vector<std::strin
 std::optional<scene::Scene> StudyScene::read(const std::vector<std::string>& overrides,
                                              const std::vector<SettingOrigin>& origins, const std::string& otherwise,
                                              PlacedFaults& faults) {
-  SceneFile file = read_scene_text(text_, name_, overrides);
+  SceneFile file = read_scene_text(text_, name_, overrides, folder_);
   if (file.ok()) return std::move(file.scene);
   for (const Problem& problem : file.problems) {
     const SettingOrigin* origin = nullptr;

@@ -19,7 +19,9 @@ struct SettingOrigin {
 
 class StudyScene {
  public:
-  StudyScene(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {}
+  /// folder: of files that the scene names; empty: it may name none.
+  StudyScene(std::string text, std::string name, std::filesystem::path folder = {})
+      : text_(std::move(text)), name_(std::move(name)), folder_(std::move(folder)) {}
 
   const std::string& text() const { return text_; }
 
@@ -36,6 +38,7 @@ class StudyScene {
                      std::vector<std::string>& pointers) const;
 
   std::string text_, name_;
+  std::filesystem::path folder_;
   std::optional<JsonValue> root_;
   std::set<std::string> said_;
 };

@@ -22,7 +22,7 @@ summary{cursor:pointer;margin:8px 0}
 .triad{position:absolute;left:6px;bottom:6px;width:60px;height:60px;pointer-events:none}.triad svg{border-radius:0}
 .rule{position:absolute;left:78px;bottom:10px;font-size:12px;pointer-events:none}.rule i{display:block;height:5px;border:1.5px solid currentColor;border-top:0}
 .bar{display:flex;flex-wrap:wrap;gap:6px 10px;align-items:center;margin:8px 0}.bar input[type=range]{flex:1;min-width:120px}.bar button:first-child{min-width:4.6em}
-.choices{font-size:13px}.choices label{white-space:nowrap}.choices select{max-width:15em}.choices button{min-width:0}
+.choices{font-size:13px}.choices label{white-space:nowrap}.choices select{max-width:15em}.bar.choices button{min-width:0}
 .has-view #motion{display:none}@media screen and (scripting:enabled){html:not(.no-view) #motion{display:none}}#viewer[hidden]{display:none}
 .plot{border-radius:6px;padding:4px;background:#fcfcfb}.plot.lit{outline:3px solid #b3261e}.plot svg{touch-action:pan-y;cursor:crosshair}
 .plot-head{display:flex;gap:6px;align-items:baseline}.plot-head button{border:0;background:none;color:inherit;padding:0 3px;font-size:12px;cursor:pointer}

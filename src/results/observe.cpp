@@ -473,13 +473,14 @@ records::MotionParts make_parts(const scene::Scene& scene, const step::System& s
     parts.curves.push_back(std::move(curve));
   }
   // Copies of one part are told apart by their surfaces alone: equal ones are one.
-  std::map<std::vector<std::array<double, 3>>, int> known;
+  std::map<std::pair<std::vector<std::array<double, 3>>, std::vector<std::array<int, 3>>>, int> known;
   for (const scene::Body& b : scene.bodies) {
     int& surface = body_of.emplace(b.name, -1).first->second;
     const std::optional<scene::BodyShape> shape = b.shape ? b.shape : stand_in(b);
     if (!shape && !b.looks) continue;
     scene::Mesh mesh = b.looks ? *b.looks : scene::mesh_of(*shape);
-    const auto [place, is_new] = known.emplace(mesh.points, static_cast<int>(parts.meshes.size()));
+    const auto [place, is_new] =
+        known.emplace(std::pair(mesh.points, mesh.triangles), static_cast<int>(parts.meshes.size()));
     surface = place->second;
     if (is_new) parts.meshes.push_back(std::move(mesh));
   }

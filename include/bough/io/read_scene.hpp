@@ -30,7 +30,7 @@ struct SceneFile {
   scene::Scene scene;
   std::vector<Problem> problems;  ///< in the order of the file; at most max_problems
   std::vector<Problem> warnings;  ///< legal, but probably not meant
-  std::string hash;               ///< digest of the text (digest.hpp)
+  std::string hash;               ///< digest of the text, and of the files that it names (digest.hpp)
   bool ok() const { return problems.empty(); }
 };
 
@@ -50,7 +50,9 @@ SceneFile read_scene(const std::filesystem::path& file, std::span<const std::str
 std::string name_of_file(const std::filesystem::path& file);
 
 /// The same from a text in memory. name: becomes Scene::name.
-SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides = {});
+/// folder: where files that the scene names are found; empty: it may name none.
+SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides = {},
+                          const std::filesystem::path& folder = {});
 
 /// A scene with numbers in the place of its parameters and formulas, and all copies of its repeated parts, as a file
 /// of its own. Read again it gives the same scene, to the last bit. text: empty where there are problems.
@@ -60,7 +62,8 @@ struct ExpandedScene {
   bool ok() const { return problems.empty(); }
 };
 ExpandedScene expanded_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides = {});
-ExpandedScene expanded_scene_text(std::string_view text, std::span<const std::string> set_overrides = {});
+ExpandedScene expanded_scene_text(std::string_view text, std::span<const std::string> set_overrides = {},
+                                  const std::filesystem::path& folder = {});
 
 /// The JSON Schema (draft-07) of scene files, made from the table that checks them.
 std::string schema_text();
