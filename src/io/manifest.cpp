@@ -202,8 +202,12 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
 }
 
 std::vector<std::string> foreign_entries(const fs::path& folder, std::size_t limit) {
+  return foreign_entries(folder, read_manifest(folder), limit);
+}
+
+std::vector<std::string> foreign_entries(const fs::path& folder, const std::optional<Manifest>& manifest,
+                                         std::size_t limit) {
   std::vector<std::string> foreign;
-  const std::optional<Manifest> manifest = read_manifest(folder);
   const Listed listed(manifest.value_or(Manifest{}));
   if (!manifest && fs::exists(fs::symlink_status(folder / manifest_name))) foreign.emplace_back(manifest_name);
   look_below(folder, "", listed, limit, foreign);

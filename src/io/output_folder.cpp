@@ -68,16 +68,18 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(fs::symlink_status(path, ignored));
 }
 
-/// Folders within that are not part of the results themselves.
+/// Folders within that are not part of the results themselves. Most results hold no folder: then no manifest is read.
 std::vector<std::string> guests_of(const fs::path& folder) {
-  const Manifest manifest = read_manifest(folder).value_or(Manifest{});
   std::vector<std::string> guests;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    const bool is_listed = std::any_of(manifest.files.begin(), manifest.files.end(),
-                                       [&](const FileRecord& r) { return r.name.starts_with(name + "/"); });
-    if (is_folder(entry.path()) && !is_listed && name != former_name) guests.push_back(name);
-  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (!entry.is_symlink() && entry.is_directory() && entry.path().filename() != former_name)
+      guests.push_back(entry.path().filename().string());
+  if (guests.empty()) return guests;
+  const Manifest manifest = read_manifest(folder).value_or(Manifest{});
+  std::erase_if(guests, [&](const std::string& name) {
+    return std::any_of(manifest.files.begin(), manifest.files.end(),
+                       [&](const FileRecord& r) { return r.name.starts_with(name + "/"); });
+  });
   return guests;
 }
 
@@ -260,8 +262,8 @@ fs::path OutputFolder::place_beside() const {
 /// Why the results cannot take the place of what stands under the final name; empty where they can.
 std::string OutputFolder::obstacle(FolderState state) const {
   if (!is_folder(final_)) return {};
-  if (!foreign_entries(final_, 1).empty()) return "holds files now that bough did not write";
   const std::optional<Manifest> former = read_manifest(final_);
+  if (!foreign_entries(final_, former, 1).empty()) return "holds files now that bough did not write";
   const bool would_lose = former && former->state == FolderState::good && state != FolderState::good;
   return would_lose ? "holds good results, which are kept" : "";
 }

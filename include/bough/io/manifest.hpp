@@ -43,6 +43,9 @@ std::optional<Manifest> read_manifest(const std::filesystem::path& folder);
 /// manifest of its own, nor what a listed file leaves behind when its writer is killed. Relative names, at most
 /// `limit`. Links are never followed and never bough's.
 std::vector<std::string> foreign_entries(const std::filesystem::path& folder, std::size_t limit = 3);
+/// The same with what read_manifest gave for the folder.
+std::vector<std::string> foreign_entries(const std::filesystem::path& folder, const std::optional<Manifest>& manifest,
+                                         std::size_t limit);
 
 /// Removes what the folder's manifest lists, the manifest itself, and folders that are empty then, itself among them.
 /// What else lies there stays. Throws std::runtime_error where something cannot be removed.
