@@ -17,9 +17,9 @@ img{width:100%;height:auto;border-radius:6px}figcaption{font-size:13px}h1{font-s
 @media print{main{grid-template-columns:1fr 1fr}figure{break-inside:avoid}}"""
 
 
-def draw(program, out, scene):
-    """Runs a scene and draws it; the figure, or what went wrong."""
-    folder = out / scene.stem
+def draw(program, out, scene, name):
+    """Runs a scene into the folder of a name and draws it; the figure, or what went wrong."""
+    folder = out / name
     words = [program, "run", scene, "--out", folder, "--quiet", "--threads", "1", "--set", "/output/motion=true"]
     run = subprocess.run(words, capture_output=True, text=True, check=False)
     if run.returncode != 0:
@@ -34,17 +34,19 @@ def draw(program, out, scene):
         return None, f"{scene.name}: {view.stderr.strip()}"
     picture = base64.b64encode((folder / "picture.png").read_bytes()).decode()
     title = html.escape(summary.get("title") or scene.stem)
-    return (f'<figure><a href="{html.escape(scene.stem)}/view.html"><img alt="{title}" width="1000" height="700" '
+    return (f'<figure><a href="{html.escape(name)}/view.html"><img alt="{title}" width="1000" height="700" '
             f'src="data:image/png;base64,{picture}"></a>'
-            f"<figcaption><b>{html.escape(scene.stem)}</b> {title}</figcaption></figure>"), None
+            f"<figcaption><b>{html.escape(name)}</b> {title}</figcaption></figure>"), None
 
 
 def main():
     program, out = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2])
     scenes = sorted((pathlib.Path(s) for s in sys.argv[3:]), key=lambda s: s.stem)
     out.mkdir(parents=True, exist_ok=True)
+    stems = [s.stem for s in scenes]  # one that two folders have is told apart by these
+    names = [s.stem if stems.count(s.stem) == 1 else f"{s.parent.name}_{s.stem}" for s in scenes]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        drawn = list(pool.map(lambda s: draw(program, out, s), scenes))
+        drawn = list(pool.map(lambda s, n: draw(program, out, s, n), scenes, names))
     policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
     page = ('<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width,initial-scale=1">'
