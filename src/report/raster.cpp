@@ -139,18 +139,27 @@ class Canvas {
 /// From space to the canvas.
 class Camera {
  public:
-  Camera(const RunFiles& run, const RasterOptions& options) {
+  /// Shows the whole motion, or the instant alone where that is so small beside it that nothing would be seen.
+  Camera(const RunFiles& run, const records::MotionFrame& instant, const RasterOptions& options) {
     projection_ = projection_of(resolve_view(options.view, box_of(run.motion)));
     for (int k = 0; k < 3; ++k) toward_[k] = cross_of(k);
-    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
-    for_each_place(run, [&](const double* x, double radius) {
-      const Point2 p = projection_(x);
-      if (!std::isfinite(p.u) || !std::isfinite(p.v)) return;
-      low[0] = std::min(low[0], p.u - radius);
-      high[0] = std::max(high[0], p.u + radius);
-      low[1] = std::min(low[1], p.v - radius);
-      high[1] = std::max(high[1], p.v + radius);
-    });
+    double low[2], high[2];
+    const auto look_at = [&](const std::vector<records::MotionFrame>& frames) {
+      std::fill_n(low, 2, HUGE_VAL);
+      std::fill_n(high, 2, -HUGE_VAL);
+      for_each_place(run, frames, [&](const double* x, double radius) {
+        const Point2 p = projection_(x);
+        if (!std::isfinite(p.u) || !std::isfinite(p.v)) return;
+        low[0] = std::min(low[0], p.u - radius);
+        high[0] = std::max(high[0], p.u + radius);
+        low[1] = std::min(low[1], p.v - radius);
+        high[1] = std::max(high[1], p.v + radius);
+      });
+      return std::max(high[0] - low[0], high[1] - low[1]);
+    };
+    constexpr double least_share = 0.02;
+    const double of_instant = look_at({instant}), of_motion = look_at(run.motion);
+    if (of_instant > 0.0 && of_instant < least_share * of_motion) look_at({instant});
     if (low[0] > high[0]) low[0] = high[0] = low[1] = high[1] = 0.0;
     const double width = samples * options.width, height = samples * options.height;
     extent_ = std::max({high[0] - low[0], high[1] - low[1], 1e-9 * (std::abs(high[0]) + std::abs(high[1])), 1e-12});
@@ -175,7 +184,7 @@ class Camera {
  private:
   /// Everything that is drawn, with a radius around it.
   template <class Visit>
-  static void for_each_place(const RunFiles& run, const Visit& visit) {
+  static void for_each_place(const RunFiles& run, const std::vector<records::MotionFrame>& frames, const Visit& visit) {
     std::vector<double> of_outline, of_mesh;
     for (const scene::Outline& o : run.parts.outlines) {
       double r = 0.0;
@@ -191,7 +200,7 @@ class Camera {
     const auto radius = [](const std::vector<double>& list, int k) {
       return k < 0 ? 0.0 : list[static_cast<std::size_t>(k)];
     };
-    for (const records::MotionFrame& f : run.motion) {
+    for (const records::MotionFrame& f : frames) {
       for (std::size_t c = 0; c < f.curves.size(); ++c)
         for (const records::CurvePoint& p : f.curves[c].points)
           visit(p.position, radius(of_outline, c < run.parts.curves.size() ? run.parts.curves[c].outline : -1));
@@ -223,8 +232,8 @@ Color shaded(const Color& color, double light) { return {color[0] * light, color
 
 class Painter {
  public:
-  Painter(const RunFiles& run, const RasterOptions& options)
-      : run_(run), camera_(run, options), canvas_(options.width, options.height) {}
+  Painter(const RunFiles& run, const records::MotionFrame& instant, const RasterOptions& options)
+      : run_(run), camera_(run, instant, options), canvas_(options.width, options.height) {}
 
   std::string paint(const records::MotionFrame& f) {
     for (std::size_t k = 0; k < f.curves.size(); ++k) beam(f.curves[k], k);
@@ -408,7 +417,8 @@ records::MotionFrame frame_at(const std::vector<records::MotionFrame>& frames, d
 }  // namespace
 
 std::string picture_png(const RunFiles& run, double time, const RasterOptions& options) {
-  return Painter(run, options).paint(frame_at(run.motion, time));
+  const records::MotionFrame instant = frame_at(run.motion, time);
+  return Painter(run, instant, options).paint(instant);
 }
 
 }  // namespace bough::report
