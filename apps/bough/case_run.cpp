@@ -144,8 +144,8 @@ int threads_asked_for(const study::BatchCase& which, const CaseSource& source) {
 }
 
 /// What each case is: its scene with all that the case changes, formulas, copies and defaults written out, and the
-/// policy. One with problems is the text of its file and what it changes there. Of cases that are the same each has a
-/// key of its own, so that none takes the results of another.
+/// policy. Where it may name files, the hash of these and of its text, too. One with problems is the text of its file and
+/// what it changes there. Of cases that are the same each has a key of its own, so that none takes the results of another.
 std::vector<std::string> keys_of(const std::vector<study::BatchCase>& cases, const CaseSettings& settings,
                                  const CaseSource& source) {
   std::vector<std::string> keys;
@@ -153,8 +153,10 @@ std::vector<std::string> keys_of(const std::vector<study::BatchCase>& cases, con
   const std::string policy = policy_of(settings);
   for (const study::BatchCase& c : cases) {
     const std::string text = source.text(c), scene = io::canonical_scene(text, c.overrides);
-    std::string key =
-        scene.empty() ? study::key_of(io::canonical_text(text) + policy, c.overrides) : study::key_of(scene + policy);
+    const bool may_name_files = text.find("file") != std::string::npos || scene.find("file") != std::string::npos;
+    const std::string files = may_name_files ? source.read(c).hash : std::string();
+    std::string key = scene.empty() ? study::key_of(io::canonical_text(text) + files + policy, c.overrides)
+                                    : study::key_of(scene + files + policy);
     if (const std::size_t before = met[key]++; before > 0) key += "." + std::to_string(before + 1);
     keys.push_back(std::move(key));
   }

@@ -110,6 +110,15 @@ sed 's/"step_size": 0.01/"step_size": {"expression": "h"}/; s/"title"/"parameter
 expect 0 '210 of 210 cases are done' sweep many.json --out sweep.many --resume
 sed -i 's/"h": 0.01/"h": 0.005/' good.json
 expect 0 '^0 of 210 cases are done' sweep many.json --out sweep.many --resume
+# files that a scene names are part of it
+mkdir -p outlined
+printf '0 0\n0.1 0\n0 0.1\n' > corners.txt
+pendulum 0.02 | sed 's/"kind": "point_mass", "mass": 1,/"shape": {"kind": "extrusion", "file": "corners.txt", "length": 1}, "mass": 1,/' > outlined/scene.json
+mv corners.txt outlined
+expect 0 '1 cases' batch outlined --out outlined.out
+expect 0 '1 of 1 cases are done' batch outlined --out outlined.out --resume
+printf '0 0\n0.2 0\n0 0.1\n' > outlined/corners.txt
+expect 0 '0 of 1 cases are done' batch outlined --out outlined.out --resume
 mv first.json good.json
 holds test -s sweep.one/07/history.csv
 holds test ! -e sweep.two/07
