@@ -19,6 +19,7 @@ import json
 import os
 import random
 import resource
+import shutil
 import statistics
 import subprocess
 import sys
@@ -144,6 +145,10 @@ def main():
     scenes = args.scenes or sorted(glob.glob(os.path.join(root, "data", "scenarios", "*.json")))
     good = True
     with tempfile.TemporaryDirectory() as scratch:
+        # Copies, for a file that a linker wrote lies in smaller pages of the cache than one that was copied: the same
+        # program of 6 ms took 13 % less time as a copy.
+        args.old = shutil.copy(args.old, os.path.join(scratch, "old_program"))
+        args.new = shutil.copy(args.new, os.path.join(scratch, "new_program"))
         for scene in scenes:
             line, ok = compare(scene, args, scratch)
             print(line, flush=True)
