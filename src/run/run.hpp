@@ -12,9 +12,8 @@
 #include "bough/schedule/threads.hpp"
 #include "bough/step/advance.hpp"
 #include "bough/step/arc_length.hpp"
-#include "bough/step/bdf.hpp"
+#include "bough/step/integrator.hpp"
 #include "bough/step/step_control.hpp"
-#include "bough/step/variational.hpp"
 #include "energy_error.hpp"
 #include "error_watch.hpp"
 #include "expected_figures.hpp"
@@ -58,7 +57,9 @@ class Run {
   void check();
   double energy_round_off() const;
   /// Work and energies are looked at in every step.
-  bool has_balance() const { return scene_.output.checks || variational_ != nullptr; }
+  bool has_balance() const { return scene_.output.checks || is_variational(); }
+  bool is_variational() const { return plan_.is_dynamic && options_.integrator == scene::Integrator::variational; }
+  bool is_alpha() const { return plan_.is_dynamic && options_.integrator == scene::Integrator::generalized_alpha; }
   bool run_statics();
   bool take_load_step(double from, double width, bool is_last);
   bool run_path();
@@ -99,7 +100,6 @@ class Run {
   std::vector<double> stops_between(double begin, double end) const;
   bool set_step_size(double size);
   void keep_or_restore(bool is_first_failure);
-  step::StepReport advance_to(double target);
   bool is_due(long row, bool is_last) const;
   bool is_motion_due(long row, bool is_last) const;
   void choose_bdf_order(double step_size);
@@ -130,7 +130,7 @@ class Run {
   plan::Plan plan_;
   schedule::Threads threads_;
   step::System system_;
-  std::unique_ptr<step::Variational> variational_;  ///< when chosen
+  std::unique_ptr<step::Integrator> integrator_;  ///< dynamics
   step::State state_;
   step::State tried_;  ///< from which the first try of a step that failed set out
   results::WorkMeter work_meter_;
@@ -148,7 +148,6 @@ class Run {
   int open_joint_ = -1, fast_joint_ = -1;  ///< of the largest relative violations seen, in Plan::joints
   int dependent_rows_ = 0, least_dependent_rows_ = std::numeric_limits<int>::max();
   double dependent_since_ = 0.0;                 ///< when the largest number was met first: time or load factor
-  std::optional<step::Bdf> bdf_;                 ///< when chosen
   std::optional<step::ArcLengthPath> path_;      ///< statics by arc length
   step::State path_start_;                       ///< of its present step
   step::ArcLengthPath::Vectors path_direction_;  ///< of the path there

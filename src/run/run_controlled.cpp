@@ -74,12 +74,11 @@ bool Run::take_controlled_steps(double stop, double total_end) {
   };
   while (done < steps) {
     if (size != state_.step_size) ++summary_.steps.size_changes;
-    if (const auto changed = step::change_step_size(system_, state_, options_, size); !changed.ok)
-      return fail(changed.cause);
+    if (!set_step_size(size)) return false;
     const bool is_last = done + 1 == steps;
     const double target = is_last ? stop : begin + static_cast<double>(done + 1) * size;
     if (!may_try(target)) return false;
-    const step::StepReport report = step::advance(system_, state_, options_, target);
+    const step::StepReport report = integrator_->advance(state_, options_, target);
     if (report.converged && !measure_controlled()) return false;
     const double ratio = report.converged ? controller_->ratio(*local_error_) : 0.0;
     if (!report.converged || !(ratio <= 1.0)) {

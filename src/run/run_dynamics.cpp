@@ -47,16 +47,8 @@ bool Run::start_segment(double step_size, bool is_first) {
     record(0, false);
   else
     figures_.add(system_, state_, energy_meter_);
-  if (variational_) {
-    const auto t = variational_->start(state_);
-    return t ? fail(t->text) : true;
-  }
-  if (bdf_) {
-    if (is_first) choose_bdf_order(step_size);
-    bdf_->restart(step_size);
-    return true;
-  }
-  const step::StartReport started = step::start_alpha(system_, state_, options_, step_size);
+  if (is_first && options_.integrator == scene::Integrator::bdf) choose_bdf_order(step_size);
+  const step::StartReport started = integrator_->start(state_, options_, step_size);
   if (!started.ok) return fail(started.cause);
   return true;
 }
@@ -75,7 +67,9 @@ void Run::choose_bdf_order(double step_size) {
       summary_.instability = cause + ": take \"bdf_order\": 2 or generalized_alpha";
       note(summary_.instability);
     } else {
-      bdf_.emplace(system_, 2);
+      step::StepOptions of_order_2 = options_;
+      of_order_2.bdf_order = 2;
+      integrator_ = step::make_integrator(system_, scene_.solver, of_order_2);
       note("backward differences of order 2 are taken: " + cause);
     }
   }
@@ -104,20 +98,8 @@ bool Run::watch_reactions() {
 }
 
 bool Run::set_step_size(double size) {
-  if (variational_) {
-    state_.step_size = size;
-  } else if (bdf_) {
-    if (size != bdf_->step_size()) bdf_->restart(size);
-  } else if (const auto changed = step::change_step_size(system_, state_, options_, size); !changed.ok) {
-    return fail(changed.cause);
-  }
-  return true;
-}
-
-step::StepReport Run::advance_to(double target) {
-  if (variational_) return variational_->advance(state_, options_, target);
-  if (bdf_) return bdf_->advance(state_, options_, target);
-  return step::advance(system_, state_, options_, target);
+  const step::StartReport changed = integrator_->change_step_size(state_, options_, size);
+  return changed.ok ? true : fail(changed.cause);
 }
 
 /// A step that failed is tried again from where its first try set out: each change of size corrects velocities, and where steps resolve nothing,
@@ -143,7 +125,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     const long next = done + 1;
     const double target = next == (steps << level) ? end : begin + static_cast<double>(next) * size;
     if (!may_try(target)) return false;
-    const step::StepReport report = advance_to(target);
+    const step::StepReport report = integrator_->advance(state_, options_, target);
     count(report);
     if (!report.converged) {
       easy = 0;
@@ -166,7 +148,7 @@ bool Run::run_segment(double begin, double end, double& total_end) {
     if (reactions_ && !watch_reactions()) return false;
     if (watches_error() && !look_at_error()) return false;
     if (has_balance()) work_meter_.add(system_, state_, size);
-    const bool goes_on = !variational_ || watch_vibrations();
+    const bool goes_on = !is_variational() || watch_vibrations();
     record(report.iterations, target == total_end || !goes_on);
     if (!goes_on) return false;
     if (!report_progress(report, total_end)) return false;

@@ -76,10 +76,8 @@ Run::Run(const scene::Scene& scene, const SimulateOptions& options, records::Rec
       measures_(scene, plan::make_header(plan_)),
       springs_(plan_) {
   options_.reuse_factors = plan_.took("reuse");
-  if (plan_.is_dynamic && options_.integrator == scene::Integrator::variational)
-    variational_ = step::make_variational(system_, scene.solver, options_.newmark_beta);
-  if (plan_.is_dynamic && options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_, options_.bdf_order);
-  if (plan_.is_dynamic && !variational_ && !bdf_ && (options_.step_control || scene.output.checks))
+  if (plan_.is_dynamic) integrator_ = step::make_integrator(system_, scene.solver, options_);
+  if (is_alpha() && (options_.step_control || scene.output.checks))
     local_error_.emplace(system_, options_, scene.analysis.end_time);
   if (plan_.is_dynamic && options_.step_control) {
     controller_.emplace(options_.step_control->tolerance);
@@ -195,7 +193,7 @@ void Run::watch_floor(const step::StepReport& report) {
 }
 
 bool Run::watch_vibrations() {
-  if (const auto text = vibrations_.look(*variational_, state_.time)) note(*text);
+  if (const auto text = vibrations_.look(*integrator_, state_.time)) note(*text);
   if (!vibrations_.seen()) return true;
   balance_.compare(energy_meter_.eval(system_, state_), work_meter_.supply());
   const auto cause = vibrations_.judge(balance_, state_.time);
@@ -444,7 +442,7 @@ void Run::finish() {
   if (reactions_) summary_.unsure_reactions = reactions_->found();
   if (summary_.status == RunStatus::ok) {
     look_at_last_factor(system_, summary_);
-    if (!variational_ && !bdf_) estimate_solution_error();
+    if (!plan_.is_dynamic || is_alpha()) estimate_solution_error();
   }
   if (stability_) finish_statics();
   summary_.doubts = doubts_of(summary_, plan_.is_dynamic);

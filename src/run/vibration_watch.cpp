@@ -4,7 +4,7 @@
 
 namespace bough::run {
 
-std::optional<std::string> VibrationWatch::look(const step::Variational& integrator, double time) {
+std::optional<std::string> VibrationWatch::look(const step::Integrator& integrator, double time) {
   constexpr double noticeable = 0.5;  // of the changes of velocity
   if (seen_ || !(integrator.unresolved() > noticeable)) return std::nullopt;
   seen_ = true;

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "bough/results/balance.hpp"
-#include "bough/step/variational.hpp"
+#include "bough/step/integrator.hpp"
 
 namespace bough::run {
 
@@ -15,7 +15,7 @@ inline constexpr const char* undamped =
 class VibrationWatch {
  public:
   /// After an accepted step: a note when they first make up a good part of the accelerations.
-  std::optional<std::string> look(const step::Variational& integrator, double time);
+  std::optional<std::string> look(const step::Integrator& integrator, double time);
   bool seen() const { return seen_; }
   /// Every step once they were seen: why the run has to end, where energy keeps above what work explains.
   std::optional<std::string> judge(const results::Balance& balance, double time);

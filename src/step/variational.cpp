@@ -43,11 +43,25 @@ VariationalOn<G>::VariationalOn(System& system, const scene::Solver& solver, dou
 }
 
 template <class G>
-std::optional<Trouble> VariationalOn<G>::start(State& state) {
+StartReport VariationalOn<G>::start(State& state, const StepOptions& /*options*/, double step_size) {
+  state.step_size = step_size;
   state.change<G>().momentum.resize(D_.size());
   state.last_step = 0.0;
   mass_step_ = 0.0;
-  return set_momenta(state, state.step_size);
+  StartReport report;
+  const std::optional<Trouble> trouble = set_momenta(state, step_size);
+  report.ok = !trouble;
+  if (trouble) report.cause = trouble->text;
+  return report;
+}
+
+/// Momenta of another step size are found where the next step begins.
+template <class G>
+StartReport VariationalOn<G>::change_step_size(State& state, const StepOptions& /*options*/, double step_size) {
+  state.step_size = step_size;
+  StartReport report;
+  report.ok = true;
+  return report;
 }
 
 /// tau = (beta - 1/4) h^2 with the beta of Newmark's rule.
@@ -350,7 +364,7 @@ StepReport VariationalOn<G>::try_step(State& state, const StepOptions& options, 
 template class VariationalOn<motion::Se3>;
 template class VariationalOn<motion::Se2>;
 
-std::unique_ptr<Variational> make_variational(System& system, const scene::Solver& solver, double newmark_beta) {
+std::unique_ptr<Integrator> make_variational(System& system, const scene::Solver& solver, double newmark_beta) {
   if (system.plan().planar) return std::make_unique<VariationalOn<motion::Se2>>(system, solver, newmark_beta);
   return std::make_unique<VariationalOn<motion::Se3>>(system, solver, newmark_beta);
 }

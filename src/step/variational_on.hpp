@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "bough/elements/momentum.hpp"
-#include "bough/step/variational.hpp"
+#include "variational.hpp"
 
 namespace bough::step {
 
@@ -69,10 +69,11 @@ class ConstraintRows {
 
 /// The integrator on the group G.
 template <class G>
-class VariationalOn final : public Variational {
+class VariationalOn final : public Integrator {
  public:
   VariationalOn(System& system, const scene::Solver& solver, double newmark_beta);
-  std::optional<Trouble> start(State& state) override;
+  StartReport start(State& state, const StepOptions& options, double step_size) override;
+  StartReport change_step_size(State& state, const StepOptions& options, double step_size) override;
   StepReport advance(State& state, const StepOptions& options, double end_time) override;
   double unresolved() const override { return unresolved_; }
 

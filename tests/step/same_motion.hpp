@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bough/step/bdf.hpp"
-#include "bough/step/variational.hpp"
+#include "bough/step/integrator.hpp"
 #include "small_scenes.hpp"
 #include "support/rig.hpp"
 
@@ -107,23 +106,12 @@ inline void expect_near_momenta(const step::State& a, const step::State& b, doub
 /// 20 steps by the integrator of the scene. Returns the iterations that they took.
 inline int take_steps(Rig& rig, double h) {
   const step::StepOptions options = step::make_step_options(rig.scene.analysis);
-  const bool is_bdf = options.integrator == scene::Integrator::bdf,
-             is_variational = options.integrator == scene::Integrator::variational;
-  std::unique_ptr<step::Variational> variational;
-  step::Bdf bdf(rig.system, 3);
-  rig.state.step_size = h;
-  bdf.restart(h);
-  if (is_variational) {
-    variational = step::make_variational(rig.system, rig.scene.solver, options.newmark_beta);
-    EXPECT_FALSE(variational->start(rig.state));
-  } else if (!is_bdf) {
-    EXPECT_TRUE(step::start_alpha(rig.system, rig.state, options, h).ok);
-  }
+  const std::unique_ptr<step::Integrator> integrator = step::make_integrator(rig.system, rig.scene.solver, options);
+  const step::StartReport started = integrator->start(rig.state, options, h);
+  EXPECT_TRUE(started.ok) << started.cause;
   int iterations = 0;
   for (int k = 1; k <= 20; ++k) {
-    const step::StepReport report = is_bdf           ? bdf.advance(rig.state, options, k * h)
-                                    : is_variational ? variational->advance(rig.state, options, k * h)
-                                                     : step::advance(rig.system, rig.state, options, k * h);
+    const step::StepReport report = integrator->advance(rig.state, options, k * h);
     EXPECT_TRUE(report.converged) << report.cause;
     step::accept_turns(rig.system, rig.state);
     iterations += report.iterations;

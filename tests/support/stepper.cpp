@@ -30,9 +30,7 @@ Stepper::Stepper(const scene::Scene& scene)
       system_(plan_, scene.solver, schedule::make_serial_walker()),
       state_(step::make_initial_state(plan_)),
       options_(step::make_step_options(scene.analysis)) {
-  if (options_.integrator == scene::Integrator::variational)
-    variational_ = step::make_variational(system_, scene.solver, options_.newmark_beta);
-  if (options_.integrator == scene::Integrator::bdf) bdf_.emplace(system_, options_.bdf_order);
+  integrator_ = step::make_integrator(system_, scene.solver, options_);
 }
 
 Stepper::~Stepper() {
@@ -42,37 +40,18 @@ Stepper::~Stepper() {
 step::StartReport Stepper::start(double step_size) {
   const step::StartReport consistent = step::make_consistent(system_, state_, state_.time == 0.0, step_size);
   if (!consistent.ok) throw std::runtime_error(consistent.cause);
-  if (variational_) {
-    state_.step_size = step_size;
-    if (const auto t = variational_->start(state_)) throw std::runtime_error(t->text);
-    return consistent;
-  }
-  if (bdf_) {
-    bdf_->restart(step_size);
-    return consistent;
-  }
-  const step::StartReport started = step::start_alpha(system_, state_, options_, step_size);
+  const step::StartReport started = integrator_->start(state_, options_, step_size);
   if (!started.ok) throw std::runtime_error(started.cause);
   return consistent;
 }
 
 void Stepper::change(double step_size) {
-  if (variational_) {
-    state_.step_size = step_size;
-    return;
-  }
-  if (bdf_) {
-    if (step_size != bdf_->step_size()) bdf_->restart(step_size);
-    return;
-  }
-  const step::StartReport changed = step::change_step_size(system_, state_, options_, step_size);
+  const step::StartReport changed = integrator_->change_step_size(state_, options_, step_size);
   if (!changed.ok) throw std::runtime_error(changed.cause);
 }
 
 void Stepper::step(double end_time) {
-  const step::StepReport report = variational_ ? variational_->advance(state_, options_, end_time)
-                                  : bdf_       ? bdf_->advance(state_, options_, end_time)
-                                               : step::advance(system_, state_, options_, end_time);
+  const step::StepReport report = integrator_->advance(state_, options_, end_time);
   if (!report.converged) throw std::runtime_error(report.cause);
   step::accept_turns(system_, state_);
 }

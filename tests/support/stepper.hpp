@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "bough/plan/plan.hpp"
-#include "bough/step/bdf.hpp"
-#include "bough/step/variational.hpp"
+#include "bough/step/integrator.hpp"
 
 namespace bough::support {
 
@@ -35,8 +34,7 @@ class Stepper {
   step::System system_;
   step::State state_;
   step::StepOptions options_;
-  std::unique_ptr<step::Variational> variational_;  ///< when the scene chooses it
-  std::optional<step::Bdf> bdf_;                    ///< the same
+  std::unique_ptr<step::Integrator> integrator_;
 };
 
 /// Largest |a - b| relative to the largest |b|, of each part.

@@ -9,31 +9,16 @@
 /// Sources: Marsden, West 2001; Leyendecker, Marsden, Ortiz 2008 (constraints); Andersen 1983 (RATTLE).
 #include <memory>
 
-#include "bough/step/advance.hpp"
+#include "bough/step/integrator.hpp"
 
 namespace bough::step {
 
 /// The integrator with its buffers, and a second linear solver, of [M G^T; G 0], for velocities and accelerations; both factors serve over
-/// many steps. Allocates when made, not afterwards.
-class Variational {
- public:
-  virtual ~Variational() = default;
-
-  /// Momenta of a consistent state (make_consistent). A step of any size may follow.
-  [[nodiscard]] virtual std::optional<Trouble> start(State& state) = 0;
-
-  /// One step of size `state.step_size` to `end_time`. Velocities afterwards are those of the momenta and satisfy the constraints; accelerations
-  /// and multipliers are those of the equations of motion there (left limit). Not converged: `state` is as it was, its momenta those of this
-  /// step size.
-  virtual StepReport advance(State& state, const StepOptions& options, double end_time) = 0;
-
-  /// Largest |v_{n+1} - v_n - h (a_n + a_{n+1})/2| over |h a| of the last step, lengths by the scene's size: small where the step resolves the
-  /// motion, near 1 where it contains vibrations faster than the step, which this rule does not damp.
-  virtual double unresolved() const = 0;
-};
-
+/// many steps. Velocities after a step are those of the momenta and satisfy the constraints; accelerations and multipliers are those of the
+/// equations of motion there (left limit). `unresolved` is the largest |v_{n+1} - v_n - h (a_n + a_{n+1})/2| over |h a| of the last step,
+/// lengths by the scene's size: small where the step resolves the motion, near 1 where it contains vibrations faster than the step.
 /// On the group of the system's scene. `newmark_beta`: see StepOptions; (beta - 1/4) h^2 is the elastic inertia of
 /// elements/momentum.hpp.
-std::unique_ptr<Variational> make_variational(System& system, const scene::Solver& solver, double newmark_beta);
+std::unique_ptr<Integrator> make_variational(System& system, const scene::Solver& solver, double newmark_beta);
 
 }  // namespace bough::step

@@ -18,21 +18,21 @@
 #include <variant>
 #include <vector>
 
-#include "bough/step/advance.hpp"
+#include "bough/step/integrator.hpp"
 
 namespace bough::step {
 
-class Bdf {
+class Bdf final : public Integrator {
  public:
   /// `order`: 2; everything else is 3.
   Bdf(System& system, int order);
 
-  /// The next step, of size h, starts anew from positions, velocities and dv/dt of a state.
-  void restart(double h);
-  double step_size() const { return h_; }
-
-  /// One step of size step_size() to `end_time`. Not converged: `state` is as it was; another size may follow.
-  StepReport advance(State& state, const StepOptions& options, double end_time);
+  /// The next step starts anew from positions, velocities and dv/dt of the state that it gets.
+  StartReport start(State& state, const StepOptions& options, double step_size) override;
+  StartReport change_step_size(State& state, const StepOptions& options, double step_size) override;
+  StepReport advance(State& state, const StepOptions& options, double end_time) override;
+  std::unique_ptr<Memory> remember() const override;
+  void recall(const Memory* memory) override;
 
  private:
   /// What is kept of earlier steps, on the scene's group.
@@ -47,11 +47,11 @@ class Bdf {
   };
   template <class G>
   HistoryOn<G>& history() {
-    return std::get<HistoryOn<G>>(history_);
+    return std::get<HistoryOn<G>>(past_.history);
   }
   template <class G>
   const HistoryOn<G>& history() const {
-    return std::get<HistoryOn<G>>(history_);
+    return std::get<HistoryOn<G>>(past_.history);
   }
   static constexpr int start_steps = 2, parts = 4;
   struct Rule {
@@ -66,15 +66,20 @@ class Bdf {
   /// Over h: what the rule's velocities are off by in steady motion, in the unknowns.
   void eval_steady_error(const State& point);
 
+  /// What steps to come need of earlier ones.
+  struct Past final : Memory {
+    double h = 0.0;
+    int done = 0;         ///< starting steps
+    State alpha;          ///< of the start, between its steps
+    State first, second;  ///< states at the start and after its first step
+    std::variant<HistoryOn<motion::Se3>, HistoryOn<motion::Se2>> history;
+  };
+
   System& system_;
   int order_;
   Rule c_;
-  double h_ = 0.0;
-  int done_ = 0;          ///< starting steps
-  State begin_;           ///< of the present step
-  State alpha_;           ///< of the start, between its steps
-  State first_, second_;  ///< states at the start and after its first step
-  std::variant<HistoryOn<motion::Se3>, HistoryOn<motion::Se2>> history_;
+  State begin_;  ///< of the present step
+  Past past_;
   std::vector<double> steady_error_;  ///< in the unknowns
 };
 

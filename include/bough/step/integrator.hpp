@@ -1,0 +1,40 @@
+#pragma once
+/// Rules that take a consistent state from step to step in time: generalized-alpha, backward differences, the variational integrator.
+#include <memory>
+
+#include "bough/step/advance.hpp"
+
+namespace bough::step {
+
+/// A rule with the vectors that it keeps beside the state. Allocates when made, not afterwards.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// Takes over a state that is consistent at its time (make_consistent), for steps of this size [s].
+  virtual StartReport start(State& state, const StepOptions& options, double step_size) = 0;
+
+  /// The steps to come have another size. Nothing happens where it is the present one.
+  virtual StartReport change_step_size(State& state, const StepOptions& options, double step_size) = 0;
+
+  /// One step of the present size to `end_time`, which is given so that no round-off of sizes adds up. Not converged: `state` is as it was.
+  virtual StepReport advance(State& state, const StepOptions& options, double end_time) = 0;
+
+  /// How much of the last step's motion vibrates faster than the step, from 0 to 1: of rules that do not damp such vibrations, else 0.
+  virtual double unresolved() const { return 0.0; }
+
+  /// What a rule keeps of earlier steps. Factors are none of it: they change how a solution is found, not which one.
+  class Memory {
+   public:
+    virtual ~Memory() = default;
+  };
+  /// A copy of it, to go on later from a copy of the state; null where the state holds everything.
+  virtual std::unique_ptr<Memory> remember() const { return nullptr; }
+  /// Goes back to what `remember` of this integrator has returned.
+  virtual void recall(const Memory* /*memory*/) {}
+};
+
+/// The rule that the options name, for a system, which outlives it.
+std::unique_ptr<Integrator> make_integrator(System& system, const scene::Solver& solver, const StepOptions& options);
+
+}  // namespace bough::step
