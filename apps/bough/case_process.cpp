@@ -174,7 +174,8 @@ int run_case_within(const study::BatchCase& which, const CaseSettings& settings,
   return status_of(summary);
 }
 
-/// What a case that failed changes to be tried again: half the step, or twice the load steps; `which` names what it did.
+/// What a case that failed changes to be tried again: half the step, or twice the load steps; `which` names what it
+/// did.
 std::string smaller_steps(const study::BatchCase& which, const CaseSource& source) {
   const io::SceneFile file = source.read(which);
   if (!file.ok()) return {};

@@ -3,8 +3,8 @@
 
 namespace bough::app {
 
-/// Folders of failed cases that may still be made, counted by all workers of a batch: beyond, failed cases are stored as
-/// others are. Precondition of what is shared: made before workers are forked.
+/// Folders of failed cases that may still be made, counted by all workers of a batch: beyond, failed cases are stored
+/// as others are. Precondition of what is shared: made before workers are forked.
 class FolderAllowance {
  public:
   explicit FolderAllowance(std::size_t count);

@@ -21,7 +21,8 @@
 namespace bough::app {
 namespace {
 
-/// Tells of cases as they end: each of a few; of many those that did not end well, and about once a second how far it is.
+/// Tells of cases as they end: each of a few; of many those that did not end well, and about once a second how far it
+/// is.
 class CaseProgress {
  public:
   explicit CaseProgress(bool quiet) : quiet_(quiet) {}
@@ -87,8 +88,8 @@ class LivePage {
   double took_ = 0.0;
 };
 
-/// Large cases first, so that none is left to run alone at the end. Only a thousand are looked at: of more, the last ones
-/// are a small part of the whole.
+/// Large cases first, so that none is left to run alone at the end. Only a thousand are looked at: of more, the last
+/// ones are a small part of the whole.
 std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, int threads, const CaseSource& source) {
   constexpr std::size_t most = 1000;
   std::vector<std::size_t> order(cases.size());
@@ -144,8 +145,9 @@ int threads_asked_for(const study::BatchCase& which, const CaseSource& source) {
 }
 
 /// What each case is: its scene with all that the case changes, formulas, copies and defaults written out, and the
-/// policy. Where it may name files, the hash of these and of its text, too. One with problems is the text of its file and
-/// what it changes there. Of cases that are the same each has a key of its own, so that none takes the results of another.
+/// policy. Where it may name files, the hash of these and of its text, too. One with problems is the text of its file
+/// and what it changes there. Of cases that are the same each has a key of its own, so that none takes the results of
+/// another.
 std::vector<std::string> keys_of(const std::vector<study::BatchCase>& cases, const CaseSettings& settings,
                                  const CaseSource& source) {
   std::vector<std::string> keys;

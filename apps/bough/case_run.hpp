@@ -41,8 +41,9 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
 /// What a retried case depends on besides its scene and what it changes there: of its key.
 std::string policy_of(const CaseArguments& arguments);
 
-/// table: batch.csv, where it is another one than that of the results. Writes batch.csv, batch.json, batch.html, cost.csv and, where there are sensitivities, sensitivities.csv; tells what came of the
-/// cases and returns the exit status.
+/// table: batch.csv, where it is another one than that of the results. Writes batch.csv, batch.json, batch.html,
+/// cost.csv and, where there are sensitivities, sensitivities.csv; tells what came of the cases and returns the exit
+/// status.
 int finish_cases(const std::vector<study::CaseResult>& results,
                  const std::vector<study::MeasureSensitivity>& sensitivities, const CaseSettings& settings,
                  const io::OutputCollection& collection, const std::string& table = {});

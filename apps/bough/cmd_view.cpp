@@ -22,7 +22,8 @@ void write_page(const std::filesystem::path& path, const std::string& text) {
     io::write_file(path, text);
 }
 
-/// Makes the folder of a case that is stored; false where it is not. Of shards that lie in the folder all are looked at.
+/// Makes the folder of a case that is stored; false where it is not. Of shards that lie in the folder all are looked
+/// at.
 bool unpack_case(const std::filesystem::path& batch, const std::string& which) {
   std::vector<std::filesystem::path> places = {batch};
   std::error_code ignored;

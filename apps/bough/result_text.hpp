@@ -11,7 +11,8 @@ namespace bough::app {
 std::string result_text(const records::Summary& summary, const std::string& directory,
                         const std::vector<std::string>& files);
 
-/// Columns padded to equal widths, two spaces apart. Rows may be of different lengths; the last cell of a row may run on.
+/// Columns padded to equal widths, two spaces apart. Rows may be of different lengths; the last cell of a row may run
+/// on.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace bough::app

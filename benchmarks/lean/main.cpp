@@ -1,6 +1,7 @@
 /// bench_lean [--case=REGEX] [--checks=yes] [options of Google Benchmark]
-/// Rows taken/CASE and barred/CASE: the same scene with a decision of its plan taken and barred, interleaved; CASE begins with the decision.
-/// One iteration is one accepted step, but for symmetric_... and definite_..., where it is one factorization.
+/// Rows taken/CASE and barred/CASE: the same scene with a decision of its plan taken and barred, interleaved; CASE
+/// begins with the decision. One iteration is one accepted step, but for symmetric_... and definite_..., where it is
+/// one factorization.
 #include <benchmark/benchmark.h>
 
 #include <chrono>

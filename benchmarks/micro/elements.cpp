@@ -1,5 +1,5 @@
-/// Residual, and residual with exact tangent, of the elements: one call each, and one call over eight lanes. The counter `element` is the
-/// CPU time of one element: with lanes, of one lane.
+/// Residual, and residual with exact tangent, of the elements: one call each, and one call over eight lanes. The
+/// counter `element` is the CPU time of one element: with lanes, of one lane.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

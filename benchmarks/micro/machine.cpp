@@ -1,5 +1,6 @@
-/// What the machine can do on one thread, to set beside the counters of bench_step: fused multiply-adds in registers, and reading from each cache
-/// and from memory. Gflop/s and GB/s are the counters `flops` and `bytes`. Rows second_thread/...: the same by one thread alone and by two side by side.
+/// What the machine can do on one thread, to set beside the counters of bench_step: fused multiply-adds in registers,
+/// and reading from each cache and from memory. Gflop/s and GB/s are the counters `flops` and `bytes`. Rows
+/// second_thread/...: the same by one thread alone and by two side by side.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -70,7 +71,8 @@ void run_side_by_side(benchmark::State& state, long repeats, Work work) {
   times.report(state);
 }
 
-/// One sum waits for itself and leaves most of a core idle: two threads of one core do twice as much of these, but no more of multiply_adds.
+/// One sum waits for itself and leaves most of a core idle: two threads of one core do twice as much of these, but no
+/// more of multiply_adds.
 template <int sums>
 void side_by_side_multiply_adds(benchmark::State& state) {
   run_side_by_side(state, 120000 / (sums + 4), [](int) { multiply_and_add<sums>(); });

@@ -1,6 +1,6 @@
 /// Hot operators of motions: bough in double and in packs of 8 lanes, and the same job by Eigen's route through
-/// AngleAxis, Quaternion and Isometry3d with sine and cosine. One row is IMPLEMENTATION/OPERATOR; the counter `each` is the
-/// time of one motion. Before it is timed, every row is compared with bough in double.
+/// AngleAxis, Quaternion and Isometry3d with sine and cosine. One row is IMPLEMENTATION/OPERATOR; the counter `each`
+/// is the time of one motion. Before it is timed, every row is compared with bough in double.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Geometry>

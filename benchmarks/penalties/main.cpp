@@ -1,7 +1,7 @@
 /// bench_penalties [CASE]
-/// What a penalty costs: the error of one solution against extended precision, for each form of the solver, over the penalty factor; and the worst
-/// condition of the scaled interface flexibility in the tree. No refinement. The right-hand side belongs to a random solution of order one in
-/// scaled unknowns. Prints Markdown tables.
+/// What a penalty costs: the error of one solution against extended precision, for each form of the solver, over the
+/// penalty factor; and the worst condition of the scaled interface flexibility in the tree. No refinement. The
+/// right-hand side belongs to a random solution of order one in scaled unknowns. Prints Markdown tables.
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>

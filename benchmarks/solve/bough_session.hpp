@@ -24,7 +24,8 @@ void write_elements(const Problem& p, Solver& solver) {
 struct BoughStorage {
   tree::Tree tree;
   solve::Hierarchical solver;
-  /// One solution to a factorization, which is what the rows time; lockstep: the tree as for several, where that is another one.
+  /// One solution to a factorization, which is what the rows time; lockstep: the tree as for several, where that is
+  /// another one.
   explicit BoughStorage(const Problem& p, bool lockstep = false)
       : tree(tree::make_tree(p.graph, {.for_one_solution = !lockstep && !p.is_symmetric()})),
         solver(p.graph, tree,

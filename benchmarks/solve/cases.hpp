@@ -64,10 +64,13 @@ struct OwnRows {
 };
 
 /// Makes the problem, tries the peers' orderings, checks every solution, and decides who is left out:
-///   a solver that does not apply; that fails; whose backward error is above 1e-10; that is not among the rivals and whose first
-///   numeric factorization takes more than 20 times (best rival's refactorization and solution) / bar, here or in a smaller case of the
+///   a solver that does not apply; that fails; whose backward error is above 1e-10; that is not among the rivals and
+///     whose first
+///   numeric factorization takes more than 20 times (best rival's refactorization and solution) / bar, here or in a
+///     smaller case of the
 ///   family.
-/// Orderings are tried while the first factorization takes less than 0.3 s; larger cases keep the choice of the next smaller one.
+/// Orderings are tried while the first factorization takes less than 0.3 s; larger cases keep the choice of the next
+/// smaller one.
 Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const OwnRows& own, Memory& memory,
                  std::vector<LeftOut>& left_out);
 

@@ -17,8 +17,8 @@ class Session {
   [[nodiscard]] virtual bool analyze() = 0;
   /// The first numeric factorization, pivot search included. False: failed.
   [[nodiscard]] virtual bool factor() = 0;
-  /// What is timed: numeric factorization with the symbolic work at hand, then x = A^-1 rhs of the problem. No refinement, no estimate of
-  /// errors. False: failed.
+  /// What is timed: numeric factorization with the symbolic work at hand, then x = A^-1 rhs of the problem. No
+  /// refinement, no estimate of errors. False: failed.
   [[nodiscard]] virtual bool refactor_and_solve(std::vector<double>& x) = 0;
   /// Nonzeros of L and U, their diagonal once; 0: not told.
   virtual double factor_entries() const { return 0.0; }
@@ -26,7 +26,8 @@ class Session {
   virtual double memory_bytes() const { return 0.0; }
   /// Of one factorization [flop]; 0: not told.
   virtual double factor_flops() const { return 0.0; }
-  /// Runs the iterations of a row, with what they have in common around them, such as threads that stay together during a run.
+  /// Runs the iterations of a row, with what they have in common around them, such as threads that stay together
+  /// during a run.
   virtual void iterate(const std::function<void()>& iterations) { iterations(); }
 };
 

@@ -87,7 +87,8 @@ Peer make_eigen_lu_peer() {
           }};
 }
 
-/// LDL^T without pivoting: an order of scalars may meet the zero diagonal of a multiplier before anything was added to it.
+/// LDL^T without pivoting: an order of scalars may meet the zero diagonal of a multiplier before anything was added
+/// to it.
 Peer make_eigen_ldlt_peer() {
   return {
       "eigen_ldlt", version(),

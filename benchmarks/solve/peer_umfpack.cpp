@@ -1,4 +1,5 @@
-/// UMFPACK: unsymmetric multifrontal. Its numeric object is made anew at every factorization; there is no call that reuses it.
+/// UMFPACK: unsymmetric multifrontal. Its numeric object is made anew at every factorization; there is no call that
+/// reuses it.
 #include <umfpack.h>
 
 #include "peer.hpp"

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double longest_trial = 0.3;
 
-/// CPU seconds of the process: trials run on one thread, and what else runs on the machine must not decide who takes part.
+/// CPU seconds of the process: trials run on one thread, and what else runs on the machine must not decide who takes
+/// part.
 double cpu_now() {
   timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);

@@ -1,5 +1,6 @@
 /// bench_step [--case=REGEX] [--solver=REGEX] [--scaling=yes] [options of Google Benchmark]
-/// One iteration is one accepted time step of the program, from rest. --scaling=yes: chains of 32 to 32768 links instead of the usual cases.
+/// One iteration is one accepted time step of the program, from rest. --scaling=yes: chains of 32 to 32768 links
+/// instead of the usual cases.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -66,7 +67,8 @@ scene::Scene make_scene(const StepCase& c, scene::SolverKind kind, int steps) {
   return s;
 }
 
-/// What one factorization computes and what one solution reads: all factors once, L upward and U downward. 0: not the hierarchical solver's.
+/// What one factorization computes and what one solution reads: all factors once, L upward and U downward. 0: not the
+/// hierarchical solver's.
 struct Loads {
   double factor_flops = 0.0, factor_bytes = 0.0;
 };
@@ -86,8 +88,8 @@ records::Summary simulate(const scene::Scene& s, int threads, const run::Progres
   return run::simulate(s, options, recorder, progress);
 }
 
-/// Times the steps after the first one of runs of steps + 1; where a step's time goes comes from the difference to a run of one step, which
-/// `start` keeps over the repetitions.
+/// Times the steps after the first one of runs of steps + 1; where a step's time goes comes from the difference to a
+/// run of one step, which `start` keeps over the repetitions.
 void run_steps(benchmark::State& state, const StepCase& c, scene::SolverKind kind, int threads,
                std::optional<records::Summary>& start) {
   const scene::Scene one = make_scene(c, kind, 1), all = make_scene(c, kind, c.steps + 1);

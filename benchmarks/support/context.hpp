@@ -4,7 +4,8 @@
 
 namespace bough::bench {
 
-/// Adds commit, compiler, flags, instruction set and BLAS to the context of Google Benchmark, and sets the BLAS to one thread a call.
+/// Adds commit, compiler, flags, instruction set and BLAS to the context of Google Benchmark, and sets the BLAS to
+/// one thread a call.
 void add_context();
 /// Name and threads of the BLAS that was loaded; "none" where no solver needs one.
 std::string describe_blas();

@@ -1,5 +1,6 @@
 #pragma once
-/// One linear system in two forms: element matrices over a block graph for bough, compressed sparse columns for its peers.
+/// One linear system in two forms: element matrices over a block graph for bough, compressed sparse columns for its
+/// peers.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -32,11 +33,11 @@ struct Problem {
   bool is_symmetric() const { return values == Values::symmetric; }
 };
 
-/// The tangent of a time step of 1e-3 s (spectral radius 0.8) of a scene whose nodes are displaced, turned and moving a little at random
-/// (fixed seed), so that no entry vanishes by chance.
+/// The tangent of a time step of 1e-3 s (spectral radius 0.8) of a scene whose nodes are displaced, turned and moving
+/// a little at random (fixed seed), so that no entry vanishes by chance.
 ///   symmetric: the symmetric part of each element matrix, constraint rows included.
-/// Unknowns and rows are measured in units of powers of two that bring the diagonal (of multipliers: the largest entry of the row) near one,
-/// so that no solver needs scaling. The right-hand side is random in [-1, 1].
+/// Unknowns and rows are measured in units of powers of two that bring the diagonal (of multipliers: the largest
+/// entry of the row) near one, so that no solver needs scaling. The right-hand side is random in [-1, 1].
 Problem make_problem(const std::string& name, const scene::Scene& scene, Values values);
 
 /// max_i |b - A x|_i / (|A|_inf |x|_inf + |b|_inf); NaN where x is not finite.
@@ -47,8 +48,9 @@ SparseMatrix lower_triangle(const SparseMatrix& a);
 /// P A P^T: row i of the result is row order[i] of a.
 SparseMatrix permute(const SparseMatrix& a, const std::vector<int>& order);
 
-/// Elimination orders found on the graph of nodes, a joint's multipliers merged into the first node it constrains and eliminated right
-/// after it, so that no pivot is zero.  "node amd" or "node metis" (empty when METIS was not found). order[i]: i-th unknown to eliminate.
+/// Elimination orders found on the graph of nodes, a joint's multipliers merged into the first node it constrains and
+/// eliminated right after it, so that no pivot is zero.  "node amd" or "node metis" (empty when METIS was not found).
+/// order[i]: i-th unknown to eliminate.
 std::vector<int> order_nodes(const Problem& problem, const std::string& method);
 
 }  // namespace bough::bench

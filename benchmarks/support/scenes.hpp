@@ -1,5 +1,6 @@
 #pragma once
-/// Scenes of the benchmarks, made in code: all of one steel bar of 20 mm x 20 mm (E 2.1e11 Pa, nu 0.3, 7850 kg/m^3), gravity along -z.
+/// Scenes of the benchmarks, made in code: all of one steel bar of 20 mm x 20 mm (E 2.1e11 Pa, nu 0.3, 7850 kg/m^3),
+/// gravity along -z.
 #include "bough/scene/scene.hpp"
 
 namespace bough::bench {
@@ -10,7 +11,8 @@ enum class Support {
   spring,  ///< bushings: no multipliers, so that the tangent has none and its symmetric part is positive definite
 };
 
-/// Links of 1 m, four two-node beam elements each, revolute joints about y between them and to the ground, straight along x.
+/// Links of 1 m, four two-node beam elements each, revolute joints about y between them and to the ground, straight
+/// along x.
 scene::Scene make_chain(int links);
 /// Rigid bodies with the mass and inertia of these links, joints alike.
 scene::Scene make_rigid_chain(int links);

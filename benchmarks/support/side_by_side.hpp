@@ -1,5 +1,6 @@
 #pragma once
-/// How much of a second processor a machine has: the same work by one thread alone and by two side by side, each on data of its own.
+/// How much of a second processor a machine has: the same work by one thread alone and by two side by side, each on
+/// data of its own.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -10,8 +11,8 @@
 
 namespace bough::bench {
 
-/// Wall seconds of `rounds` rounds of work(k) on each of the threads k = 0, 1, ...: they begin together, after a few untimed rounds that spread them over
-/// the processors and fill the caches, and wait for each other at the end only.
+/// Wall seconds of `rounds` rounds of work(k) on each of the threads k = 0, 1, ...: they begin together, after a few
+/// untimed rounds that spread them over the processors and fill the caches, and wait for each other at the end only.
 template <class Work>
 double eval_rounds(int threads, long rounds, Work& work) {
   using Clock = std::chrono::steady_clock;
@@ -31,8 +32,9 @@ double eval_rounds(int threads, long rounds, Work& work) {
   return std::chrono::duration<double>(wall).count();
 }
 
-/// One iteration is one round of two threads side by side. Counters, milliseconds of a round: `alone`, `side_by_side`, in turn; and what a second thread
-/// can gain, `bound` = 2 alone / side_by_side, but for caches: two threads on one piece of work have twice as much of them for it.
+/// One iteration is one round of two threads side by side. Counters, milliseconds of a round: `alone`,
+/// `side_by_side`, in turn; and what a second thread can gain, `bound` = 2 alone / side_by_side, but for caches: two
+/// threads on one piece of work have twice as much of them for it.
 struct SideBySide {
   double alone = 0.0, both = 0.0;
 

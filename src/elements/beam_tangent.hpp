@@ -1,7 +1,7 @@
 #pragma once
-/// Tangents of beams of three and four nodes and of line loads in closed form. All that moves a section, from the nodes' increments on, is
-/// a map of motions in the group's compact form, so only masses, stiffnesses and what they multiply are full blocks. Derivation: README.md,
-/// "Tangent".
+/// Tangents of beams of three and four nodes and of line loads in closed form. All that moves a section, from the
+/// nodes' increments on, is a map of motions in the group's compact form, so only masses, stiffnesses and what they
+/// multiply are full blocks. Derivation: README.md, "Tangent".
 #include "bough/elements/beam_forces.hpp"
 #include "screw_tangent.hpp"
 
@@ -20,8 +20,9 @@ struct BeamColumns {
   typename G::template Map<S> b[N];  ///< of a - (R^T g; 0) of every node by its own increment
 };
 
-/// z_i = U w_i, d_i' = z_i + ad(d_i) v_r, z_i' = U c_i + (D U[d_i']) w_i, with dd_i = U eta_i - (U - ad(d_i)) eta_r. What z_i' follows of d_i',
-/// J_i dd_i' with J_i = d(U w_i)/dd_i, is put to what it follows of z_i and d_i: dd_i' = dz_i - ad(v_r) dd_i + ad(d_i) dv_r.
+/// z_i = U w_i, d_i' = z_i + ad(d_i) v_r, z_i' = U c_i + (D U[d_i']) w_i, with dd_i = U eta_i - (U - ad(d_i)) eta_r.
+/// What z_i' follows of d_i', J_i dd_i' with J_i = d(U w_i)/dd_i, is put to what it follows of z_i and d_i: dd_i' =
+/// dz_i - ad(v_r) dd_i + ad(d_i) dv_r.
 template <class G, class S, int N>
 void eval_node_columns(const BeamRates<G, S, N>& b, const PortSlopesOn<G, S>* ports, bool has_mass,
                        const BeamTerms& terms, int i, BeamColumns<G, S, N>& columns) {
@@ -96,12 +97,14 @@ struct BeamBlocks {
   typename G::template Matrix<S> by[N][N], sum_by[N];
 };
 
-/// Derivatives of the forces of a strain point, T^T n by the node's slope and A^T n by its value, by d and y = dd/ds there.
+/// Derivatives of the forces of a strain point, T^T n by the node's slope and A^T n by its value, by d and y = dd/ds
+/// there.
 template <class G, class S>
 struct StrainBlocks {
   typename G::template Matrix<S> slope_d, slope_y, shape_d, shape_y;
 };
-/// Adds w (N_i' s_j + N_i h_j), s_j = N_j slope_d + N_j' slope_y and h_j the same of the others, to the derivatives of p_i by d_j.
+/// Adds w (N_i' s_j + N_i h_j), s_j = N_j slope_d + N_j' slope_y and h_j the same of the others, to the derivatives
+/// of p_i by d_j.
 template <class G, class S, int N>
 void spread(const ShapeRule<N, N - 1>& rule, int point, const StrainBlocks<G, S>& s,
             typename G::template Matrix<S> (&by_d)[N][N]) {
@@ -193,8 +196,8 @@ void sum_internal_blocks(const BeamRates<G, S, N>& b, const typename G::template
   }
 }
 
-/// Inertia and gravity at a mass point:  dv = dv_r + T dz + J(z) dd,  db = db_r + T dz' + T' dz + J(z) dd' + (J(z') + J'(z)) dd, where
-/// again dd' = dz - ad(v_r) dd + ad(d) dv_r.
+/// Inertia and gravity at a mass point:  dv = dv_r + T dz + J(z) dd,  db = db_r + T dz' + T' dz + J(z) dd' + (J(z') +
+/// J'(z)) dd, where again dd' = dz - ad(v_r) dd + ad(d) dv_r.
 template <class G, class S, int N, class C>
 void add_mass_point(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>& b, const PortSlopesOn<G, S>* ports,
                     const ShapeRule<N, N>& rule, int point, const MassPoint<G, S>& m, const BeamTerms& terms,

@@ -5,7 +5,8 @@
 
 namespace bough::elements {
 
-/// dF = M (da - d(R^T g)) - (ad(v)^T M + hat(M v)) dv; of a point df = m (du' - d(R^T g)) + m (w x du + dw x u) without moments.
+/// dF = M (da - d(R^T g)) - (ad(v)^T M + hat(M v)) dv; of a point df = m (du' - d(R^T g)) + m (w x du + dw x u)
+/// without moments.
 template <class G, class S, class C, class Put>
 BOUGH_INLINE void eval_tangent(const RigidBodyOn<G, C>& body, const PortMotionOn<G, S>* p,
                                const PortSlopesOn<G, S>* ports, const SurroundingsOn<G, S>& around, S* residual,
@@ -41,7 +42,8 @@ BOUGH_INLINE void eval_tangent(const PointLoadOn<G, C>& load, const PortMotionOn
 /// Force t n on the second port in inertial axes, t = k (l - l0) + c n . w:
 ///   d(t n) = (t/l) (1 - n n^T) dr + n dt,   dt = (k n + (c/l) (w - n n . w)) . dr + c n . dw,
 ///   dr = R_b eta_b - R_a eta_a (linear parts),   dw = R_b (dv_b + theta_b x v_b) - R_a (dv_a + theta_a x v_a).
-/// So the block of ports k and q is, but for the sign, (t/l) R_k^T R_q + (R_k^T n) (what R_q^T (gradient - (t/l) n) and the damping do)^T.
+/// So the block of ports k and q is, but for the sign, (t/l) R_k^T R_q + (R_k^T n) (what R_q^T (gradient - (t/l) n)
+/// and the damping do)^T.
 template <class G, class S, class C, class Put>
 BOUGH_INLINE void eval_tangent(const SpringOn<G, C>& spring, const PortMotionOn<G, S>* p,
                                const PortSlopesOn<G, S>* ports, const SurroundingsOn<G, S>& around, S* residual,

@@ -1,5 +1,6 @@
 #pragma once
-/// From nodes to ports, and from what elements say at their ports to the unknowns of nodes: once for all groups and elements. Internal.
+/// From nodes to ports, and from what elements say at their ports to the unknowns of nodes: once for all groups and
+/// elements. Internal.
 #include "beam_tangent.hpp"
 #include "body_tangent.hpp"
 #include "bough/elements/evaluate.hpp"
@@ -28,8 +29,8 @@ void eval_port_slopes(const E& e, const FieldOn<G, S>& field, PortSlopesOn<G, S>
   }
 }
 
-/// Motions of an element with mass as seen from the inertial frame, where nodes are described in a frame that moves; and with
-/// slopes how they follow the port's increment eta, since Ad((H exp(eta))^-1) V = c + ad(c) eta:
+/// Motions of an element with mass as seen from the inertial frame, where nodes are described in a frame that moves;
+/// and with slopes how they follow the port's increment eta, since Ad((H exp(eta))^-1) V = c + ad(c) eta:
 ///   dv_s = dv + ad(c) eta,   da_s = da + ad(c) dv + (ad(Ad(H^-1) V') - ad(v) ad(c)) eta
 /// All of these are operators on motions, as the kernels take them. Precondition: there is an observer.
 template <class E, class S>

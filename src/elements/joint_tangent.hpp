@@ -36,7 +36,8 @@ void add_gradient_slope(const S& factor, const GradientSlope<G, S>& r, RelativeF
   if (r.has_moment) G::add_moment_slope(e.by_pose, factor, r.moment);
 }
 
-/// Of an effort along a coordinate with gradient g: stiffness k g g^T, damping c (g . xi) g, and the gradient's own change.
+/// Of an effort along a coordinate with gradient g: stiffness k g g^T, damping c (g . xi) g, and the gradient's own
+/// change.
 template <class G, class S, class C>
 void add_effort_slopes(const EffortOn<G, C>& effort, const typename G::template Pose<S>& H,
                        const typename G::template Motion<S>& xi, const SurroundingsOn<G, S>& around, const C& turns,
@@ -57,8 +58,8 @@ void add_effort_slopes(const EffortOn<G, C>& effort, const typename G::template 
   G::add_outer(e.by_twist, damped, g);
 }
 
-/// Blocks as put(i, j, block), gradients of the rows as put.row(row, port, gradient). With poses held (a consistent start) the forces do not
-/// change and the rows keep their gradient.
+/// Blocks as put(i, j, block), gradients of the rows as put.row(row, port, gradient). With poses held (a consistent
+/// start) the forces do not change and the rows keep their gradient.
 template <class G, class S, class C, class Put>
 void eval_tangent(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const PortSlopesOn<G, S>* ports,
                   const Constant<S>* multipliers, const SurroundingsOn<G, S>& around, const C& turns, S* residual,

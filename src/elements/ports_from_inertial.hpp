@@ -12,8 +12,8 @@ Vec6<S> to_inertial(const PortMotion<S>& p, const Vec3<S>& anchor, const Vec6<S>
   return lanes::join(force, moment);
 }
 
-/// Motions of the ports as seen from the inertial frame, in the axes of the frame in which nodes are described. `anchor` is what
-/// positions are relative to, counted from the inertial origin.
+/// Motions of the ports as seen from the inertial frame, in the axes of the frame in which nodes are described.
+/// `anchor` is what positions are relative to, counted from the inertial origin.
 template <class E, class S>
 void eval_ports_from_inertial(const E& e, const FieldOf<S>& field, PortMotion<S>* p, Vec3<S>& anchor) {
   const motion::PositionPair<S> a = anchor_of(e, field.nodes);

@@ -1,12 +1,13 @@
 #pragma once
-/// Couplings of two ports whose force f on the second is a function of the relative motion H = H_a^-1 H_b and of the relative twist
-/// xi = v_b - Q v_a alone, Q = Ad(H)^-1. So it is differentiated in those and carried to the ports:
+/// Couplings of two ports whose force f on the second is a function of the relative motion H = H_a^-1 H_b and of the
+/// relative twist xi = v_b - Q v_a alone, Q = Ad(H)^-1. So it is differentiated in those and carried to the ports:
 ///   zeta = eta_b - Q eta_a,   dxi = dv_b - Q dv_a - ad(Q v_a) zeta,   F_a = -Q^T f,   dF_a = -Q^T (df - hat(f) zeta).
 #include "beam_terms.hpp"
 
 namespace bough::elements {
 
-/// The force on the second port and its derivatives by zeta and, if it `has_twist`, by xi; else `by_twist` is not looked at.
+/// The force on the second port and its derivatives by zeta and, if it `has_twist`, by xi; else `by_twist` is not
+/// looked at.
 template <class G, class S>
 struct RelativeForce {
   typename G::template Map<S> Q;  ///< Ad(H)^-1

@@ -1,6 +1,6 @@
 #pragma once
-/// Tangent of the two-node beam (elements/screw_beam.hpp). Odd and even parts of every operator serve both Gauss points. Derivation:
-/// README.md, "Tangent".
+/// Tangent of the two-node beam (elements/screw_beam.hpp). Odd and even parts of every operator serve both Gauss
+/// points. Derivation: README.md, "Tangent".
 #include "beam_terms.hpp"
 #include "bough/elements/screw_beam.hpp"
 
@@ -12,7 +12,8 @@ struct OddEven {
   T odd, even;
 };
 
-/// How d follows the nodes' increments, dd = by_node[0] eta_r + by_node[1] eta_1, and how d' = T(d)^-1 w + ad(d) v_r follows d.
+/// How d follows the nodes' increments, dd = by_node[0] eta_r + by_node[1] eta_1, and how d' = T(d)^-1 w + ad(d) v_r
+/// follows d.
 template <class G, class S>
 struct ScrewColumns {
   typename G::template Map<S> by_node[2];  ///< ad(d) - U and U = T(d)^-1
@@ -154,8 +155,8 @@ BOUGH_INLINE void eval_elastic_blocks(const BeamOn<G, 2, C>& e, const ScrewRates
   }
 }
 
-/// Forces on the nodes, F_1 = first + D^T inner and F_r = sum - F_1, put together term by term. The derivative of F_1 by d, forces held,
-/// is hat(inner + n/2) + 2 (D^T slope) <d, .> + D^T hat(pair).
+/// Forces on the nodes, F_1 = first + D^T inner and F_r = sum - F_1, put together term by term. The derivative of F_1
+/// by d, forces held, is hat(inner + n/2) + 2 (D^T slope) <d, .> + D^T hat(pair).
 template <class G, class S>
 struct ScrewForces {
   typename G::template Wrench<S> first, sum, inner, slope, pair;

@@ -11,7 +11,8 @@ using Mask = lanes::Mask<num_lanes>;
 
 /// Corrections below this have no second order above round-off.
 constexpr double smallest_bend = 1e-9;
-/// A change of the slopes, relative to the length, that is round-off; below the second it may be where it no longer shrinks.
+/// A change of the slopes, relative to the length, that is round-off; below the second it may be where it no longer
+/// shrinks.
 constexpr double round_off = 1e-15, near_round_off = 1e-12;
 constexpr int most_sweeps = 40;
 constexpr double far_off = 100.0;  ///< a change that no shape on the way asks for: the sweeps diverge
@@ -24,7 +25,8 @@ constexpr int place_of(int node) {
   return node < Beam<N>::reference ? node : node - 1;
 }
 
-/// Values of d at the nodes and at the strain points from its slopes at the strain points; d is zero at the reference node.
+/// Values of d at the nodes and at the strain points from its slopes at the strain points; d is zero at the reference
+/// node.
 template <int N>
 struct FromSlopes {
   double node[N - 1][N - 1], point[N - 1][N - 1];
@@ -85,7 +87,8 @@ Pack square_of(const Vec6<Pack>* x, const Pack& by_length) {
   return most;
 }
 
-/// Repeats x <- next(x) in lanes that are active until their changes are round-off; returns those that do not come there.
+/// Repeats x <- next(x) in lanes that are active until their changes are round-off; returns those that do not come
+/// there.
 template <int N, class Next>
 Mask substitute(Mask active, const Pack& by_length, Vec6<Pack>* x, Next&& next) {
   Pack last(1e300);
@@ -106,8 +109,8 @@ Mask substitute(Mask active, const Pack& by_length, Vec6<Pack>* x, Next&& next) 
   return lost | active;
 }
 
-/// Slopes of d at the strain points whose strains are given, from slopes near them, which lanes keep where there are none.
-/// Returns the active lanes that have them.
+/// Slopes of d at the strain points whose strains are given, from slopes near them, which lanes keep where there are
+/// none. Returns the active lanes that have them.
 template <int N>
 Mask solve_strains(const Vec6<Pack>* strains, const Mask& active, const Pack& by_length, Vec6<Pack>* slopes) {
   Vec6<Pack> near[N - 1];

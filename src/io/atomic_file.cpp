@@ -67,7 +67,8 @@ void sync_file(const std::filesystem::path& path) { sync_path(path, 0); }
 
 AtomicFile::AtomicFile(std::filesystem::path final_path)
     : final_path_(std::move(final_path)), partial_path_(final_path_) {
-  // A rename would put a file in the place of a device, a pipe or a folder's link: only files and links to files are replaced.
+  // A rename would put a file in the place of a device, a pipe or a folder's link: only files and links to files are
+  // replaced.
   std::error_code ignored;
   const std::filesystem::file_status there = std::filesystem::status(final_path_, ignored);
   if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {

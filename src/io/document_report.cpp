@@ -37,7 +37,8 @@ void Report::add_override(const PlacedFault& f) {
 void Report::add(const PlacedFault& f, bool is_warning) {
   std::string reached;
   const JsonValue* at = locate(f.pointer, &reached);
-  // The value at fault may be inside what the pointer names; a longer pointer than the document has is cut to what is there.
+  // The value at fault may be inside what the pointer names; a longer pointer than the document has is cut to what is
+  // there.
   Problem p{reached, 0, 0, f.value, f.rule, f.hint};
   if (p.value.empty() && at != nullptr) p.value = summary(*at);
   std::vector<Placed>& list = is_warning ? warnings_ : problems_;

@@ -1,5 +1,6 @@
 #pragma once
-/// What is wrong with a document, gathered from all checks and placed in its text. Scenes and chains of frames share it.
+/// What is wrong with a document, gathered from all checks and placed in its text. Scenes and chains of frames share
+/// it.
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -73,8 +74,8 @@ class Report {
 /// The bytes of a file, "-": of standard input; where they can not be had, `problem.rule` says why.
 std::string read_whole_file(const std::filesystem::path& file, Problem& problem);
 
-/// A document of given rules: parsed, checked, and converted where it is an object. converter: has `convert(root)`, `faults` and
-/// `warnings`. What is wrong goes to the members `problems` and `warnings` of `file`.
+/// A document of given rules: parsed, checked, and converted where it is an object. converter: has `convert(root)`,
+/// `faults` and `warnings`. What is wrong goes to the members `problems` and `warnings` of `file`.
 template <class File, class Converter>
 void read_document(std::string_view text, const RuleTable& rules, Converter& converter, File& file) {
   std::vector<JsonFault> text_faults;

@@ -48,8 +48,9 @@ std::vector<std::uint32_t> count_items(std::string_view text) {
   return counts;
 }
 
-/// Builds the tree from the reader's events. The reader tells no positions, but its events come in the order of the text and each
-/// stands for one token, so a cursor that steps over the same tokens knows where every one of them lies.
+/// Builds the tree from the reader's events. The reader tells no positions, but its events come in the order of the
+/// text and each stands for one token, so a cursor that steps over the same tokens knows where every one of them
+/// lies.
 class Builder : public nlohmann::json_sax<Base> {
  public:
   Builder(std::string_view text, std::int16_t source, std::vector<JsonFault>& faults, std::vector<std::uint32_t> counts)

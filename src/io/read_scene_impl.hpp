@@ -17,11 +17,13 @@
 
 namespace bough::io {
 
-/// Applies "/pointer=value" to a document. texts: keeps the value texts, number i + 1 of which is the source of the new values.
+/// Applies "/pointer=value" to a document. texts: keeps the value texts, number i + 1 of which is the source of the
+/// new values.
 void apply_overrides(JsonValue& root, std::span<const std::string> overrides, std::vector<std::string>& texts,
                      std::vector<PlacedFault>& faults);
 
-/// Turns a checked document into a scene. Items that are not sound, or turn out wrong here, are left out and named in `defective`.
+/// Turns a checked document into a scene. Items that are not sound, or turn out wrong here, are left out and named in
+/// `defective`.
 class Converter : private ValueConverter {
  public:
   /// folder: of files that the scene names; empty: it may name none.

@@ -46,8 +46,8 @@ Converter::Side Converter::side(const Value& v, const std::string& at) {
   return s;
 }
 
-/// The joint's frame at the start, from position and axes or from what the two sides say. Nothing where it can not be said; then a fault
-/// was reported, or one of the sides is not there (reported by the check of references).
+/// The joint's frame at the start, from position and axes or from what the two sides say. Nothing where it can not be
+/// said; then a fault was reported, or one of the sides is not there (reported by the check of references).
 std::optional<Frame> Converter::common_frame(const Value& v, const std::string& at, JointKind kind, const Side& a,
                                              const Side& b) {
   const auto H_a = poses_->of(std::string_view(a.to.to)), H_b = poses_->of(std::string_view(b.to.to));

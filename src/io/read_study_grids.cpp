@@ -96,8 +96,8 @@ std::optional<StudyChoice> StudyConverter::read_value(const std::string& name, c
 
 namespace {
 
-/// Whether a pointer leads to the mechanics of a scene, not to how they are computed. What parameters are used for is not
-/// known here.
+/// Whether a pointer leads to the mechanics of a scene, not to how they are computed. What parameters are used for is
+/// not known here.
 bool changes_the_scene(const std::string& pointer) {
   const auto tokens = split_pointer(pointer);
   if (!tokens || tokens->empty()) return false;  // told as no pointer

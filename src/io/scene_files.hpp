@@ -15,12 +15,13 @@ namespace bough::io {
 template <class T>
 using OrFault = std::variant<T, std::string>;
 
-/// Corners of a polygon, one a line: two numbers with a comma, semicolon or blanks between them. A line without numbers ends
-/// a loop: those after the first are holes. Holes and outer loop are turned as scene::Outline asks. # begins a comment.
+/// Corners of a polygon, one a line: two numbers with a comma, semicolon or blanks between them. A line without
+/// numbers ends a loop: those after the first are holes. Holes and outer loop are turned as scene::Outline asks. #
+/// begins a comment.
 OrFault<scene::Outline> outline_of_text(std::string_view text);
 
-/// A surface: STL, binary or text, or OBJ, of which vertices and faces are read (polygons as fans). Corners at one place are
-/// one point. At most `most_triangles`.
+/// A surface: STL, binary or text, or OBJ, of which vertices and faces are read (polygons as fans). Corners at one
+/// place are one point. At most `most_triangles`.
 inline constexpr std::size_t most_triangles = 100'000;
 OrFault<scene::Mesh> mesh_of_text(std::string_view text, std::string_view ending);
 
@@ -29,8 +30,8 @@ class SceneFiles {
  public:
   explicit SceneFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// The bytes of a file, or what is wrong: its name is absolute, it does not lie below the folder once links are resolved,
-  /// it is no file, or larger than `most_bytes`.
+  /// The bytes of a file, or what is wrong: its name is absolute, it does not lie below the folder once links are
+  /// resolved, it is no file, or larger than `most_bytes`.
   OrFault<std::string> read(const std::string& name, std::size_t most_bytes);
   /// Names and bytes of all that was read, by name.
   [[nodiscard]] std::string contents() const;

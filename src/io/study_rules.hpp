@@ -8,7 +8,8 @@ namespace bough::io {
 /// The table of study files.
 const RuleTable& study_rules();
 
-/// Where the axes with known names lead in the scene; `*` stands for every item of a list. "threads" leads nowhere: it is no part of a scene.
+/// Where the axes with known names lead in the scene; `*` stands for every item of a list. "threads" leads nowhere:
+/// it is no part of a scene.
 struct KnownAxis {
   const char* name;
   const char* pointer;

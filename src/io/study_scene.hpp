@@ -1,5 +1,6 @@
 #pragma once
-/// The scene of a study while the study is read: where its settings lead, and who is to blame for what is wrong with it.
+/// The scene of a study while the study is read: where its settings lead, and who is to blame for what is wrong with
+/// it.
 #include <map>
 #include <optional>
 #include <set>
@@ -25,11 +26,12 @@ class StudyScene {
 
   const std::string& text() const { return text_; }
 
-  /// "/pointer=value" with every `*` replaced by the indices of the list it stands in; nothing where there is no such list.
+  /// "/pointer=value" with every `*` replaced by the indices of the list it stands in; nothing where there is no such
+  /// list.
   std::vector<std::string> expand(const std::string& pointer, const std::string& value);
 
-  /// Reads the scene with overrides. Each problem becomes one fault, at the setting that the problem's place belongs to, else at `otherwise`; what
-  /// was said of a place before is not said again.
+  /// Reads the scene with overrides. Each problem becomes one fault, at the setting that the problem's place belongs
+  /// to, else at `otherwise`; what was said of a place before is not said again.
   std::optional<scene::Scene> read(const std::vector<std::string>& overrides, const std::vector<SettingOrigin>& origins,
                                    const std::string& otherwise, PlacedFaults& faults);
 

@@ -29,23 +29,25 @@ void Builder::decide(const std::string& name, const std::string& what, bool hold
 
 namespace {
 
-/// Nanoseconds of residuals below which the start of a task costs more than a second thread saves: a chain of 64 links of four beam elements takes 0.29 ms a
-/// step on one thread and 0.34 on two, one of 96 links 0.46 and 0.46; in a plane 128 links take 0.22 and 0.245, 192 links 0.34 and 0.325.
+/// Nanoseconds of residuals below which the start of a task costs more than a second thread saves: a chain of 64
+/// links of four beam elements takes 0.29 ms a step on one thread and 0.34 on two, one of 96 links 0.46 and 0.46; in
+/// a plane 128 links take 0.22 and 0.245, 192 links 0.34 and 0.325.
 constexpr double task_break_even = 150e3;
 
-/// The same for sub-domains in lockstep, which leaves lanes empty where there are few: chains of 16 links gain a fifth or more, spin_up, four_bar_misaligned
-/// and flying_spaghetti of the gallery lose as much.
+/// The same for sub-domains in lockstep, which leaves lanes empty where there are few: chains of 16 links gain a
+/// fifth or more, spin_up, four_bar_misaligned and flying_spaghetti of the gallery lose as much.
 constexpr double lanes_break_even = 25e3;
 
-/// Loops of the structure from which on a factorization outweighs the rest of a step, and symmetric parts pay for iterations that they may add: a
-/// lattice of 9 by 9 nodes.
+/// Loops of the structure from which on a factorization outweighs the rest of a step, and symmetric parts pay for
+/// iterations that they may add: a lattice of 9 by 9 nodes.
 constexpr int loops_of_lattices = 64;
 
 std::string count_of(std::size_t n, const std::string& one, const std::string& many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-/// What speaks against a matrix that is positive definite: rows of constraints, a node that neither has mass nor, in statics, any support.
+/// What speaks against a matrix that is positive definite: rows of constraints, a node that neither has mass nor, in
+/// statics, any support.
 std::string obstacle_to_definite(const Plan& plan, std::size_t rows) {
   if (rows > 0) return "joints have multipliers: " + count_of(rows, "constraint row", "constraint rows");
   bool is_supported = !plan.held.empty();

@@ -32,7 +32,8 @@ Series derivative(const Series& x) {
   return r;
 }
 
-/// Motion of a frame in its parent. The angular velocity in the frame's axes grows turn by turn: w <- exp(-angle ~axis) w + angle' axis.
+/// Motion of a frame in its parent. The angular velocity in the frame's axes grows turn by turn: w <- exp(-angle
+/// ~axis) w + angle' axis.
 Course in_parent(const FramePlan& f, const Series* laws) {
   Course c{motion::cast<Series>(f.pose), Vec6<Series>::zero()};
   Vec3<Series> velocity = Vec3<Series>::zero(), turning = Vec3<Series>::zero();

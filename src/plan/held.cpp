@@ -90,16 +90,18 @@ class Holder {
     return plan_.is_dynamic && lanes::dot(twist, twist) > 0.0;
   }
 
-  /// Why multipliers of the joints that hold a node may not be what they are by the node's balance alone; null: they are.
+  /// Why multipliers of the joints that hold a node may not be what they are by the node's balance alone; null: they
+  /// are.
   const char* dependence_of(std::size_t node, const std::vector<int>& joints) const {
     int rows = 0;
     for (int j : joints) rows += num_rows(j);
     return rows > plan_.unknowns.count ? "it is held more than once" : loop_from(node, joints);
   }
 
-  /// Over joints other than those that hold the node. Where these lead to the ground or form a loop, rows may depend on each other, and how their
-  /// multipliers share a load, by least norm in scales that the node's unknowns take part in, is a matter of all of them. In a tree that is held at this node
-  /// alone no combination of rows is without force.
+  /// Over joints other than those that hold the node. Where these lead to the ground or form a loop, rows may depend
+  /// on each other, and how their multipliers share a load, by least norm in scales that the node's unknowns take
+  /// part in, is a matter of all of them. In a tree that is held at this node alone no combination of rows is without
+  /// force.
   const char* loop_from(std::size_t node, const std::vector<int>& holding) const {
     const Group& group = groups_[group_of_[node]];
     if (group.to_ground > holding.size())
@@ -153,8 +155,8 @@ class Holder {
     return true;
   }
 
-  /// W at the start, row-major: by column the wrench on the node of one multiplier of size 1, in the unknowns of the node. Precondition: as many rows
-  /// as these.
+  /// W at the start, row-major: by column the wrench on the node of one multiplier of size 1, in the unknowns of the
+  /// node. Precondition: as many rows as these.
   std::vector<double> wrenches(std::size_t node, const std::vector<int>& joints) const {
     const auto n = static_cast<std::size_t>(plan_.unknowns.count);
     std::vector<double> W(n * n);
@@ -188,7 +190,8 @@ class Holder {
   std::vector<Group> groups_;                ///< by the node that stands for one
 };
 
-/// What the decision tells of nodes: the first that it is taken for, how many more, and why not for the first of the others.
+/// What the decision tells of nodes: the first that it is taken for, how many more, and why not for the first of the
+/// others.
 struct Account {
   std::string first, obstacle;
   std::size_t count = 0;

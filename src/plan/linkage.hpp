@@ -34,8 +34,8 @@ struct LinkComponent {
   bool is_rank_known = true;  ///< false: too large to find it; it is then taken to be full
   bool reaches_ground = false;
   int mobility() const { return freedoms - rank; }
-  /// Twists of all parts for each independent motion that is left, [6 * parts.size() x mobility]. Empty where the component
-  /// is too large.
+  /// Twists of all parts for each independent motion that is left, [6 * parts.size() x mobility]. Empty where the
+  /// component is too large.
   Eigen::MatrixXd motions;
   std::map<int, int> place;  ///< of a part in `parts`
   Twist twist_of(int part, Eigen::Index motion) const;

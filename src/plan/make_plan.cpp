@@ -308,8 +308,8 @@ void Builder::list_attachments() {
   }
 }
 
-/// Diagonal of the box around all nodes and all places where elements take hold [m]; radius of gyration of the largest body where that is
-/// larger; 1 where nothing has a size.
+/// Diagonal of the box around all nodes and all places where elements take hold [m]; radius of gyration of the
+/// largest body where that is larger; 1 where nothing has a size.
 double Builder::size_of_structure() const {
   Vec3<double> low = Vec3<double>::zero(), high = low;
   bool is_first = true;

@@ -176,8 +176,8 @@ class Flattener {
   const PlanarModel& model_;
 };
 
-/// Of the rows that are kept in the plane. A row for which half a turn off would be another pose of the joint that is meant,
-/// such as of one axis alone, has no branch that could be left.
+/// Of the rows that are kept in the plane. A row for which half a turn off would be another pose of the joint that is
+/// meant, such as of one axis alone, has no branch that could be left.
 bool has_branch(const elements::Joint& e, const std::vector<int>& rows) {
   const auto is_kept = [&rows](int row) { return std::find(rows.begin(), rows.end(), row) != rows.end(); };
   for (int k = 0; k < e.num_rows; ++k) {

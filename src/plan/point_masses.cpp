@@ -8,10 +8,11 @@ using elements::Port;
 using motion::Frame;
 using motion::Vec3;
 
-/// A point mass has no rotational inertia: its rotation is held where nothing that meets it feels it. Where it is met in points of one line
-/// through it only, nothing feels the spin about this line: it gets inertia there, m d^2 with the largest distance d, which changes no motion
-/// (no moment acts about the line, so a spin that starts at zero in the inertial frame stays zero: see stop_spins) and leaves no unknown
-/// undetermined. Not in statics, where inertia holds nothing and would be felt in a frame that turns.
+/// A point mass has no rotational inertia: its rotation is held where nothing that meets it feels it. Where it is met
+/// in points of one line through it only, nothing feels the spin about this line: it gets inertia there, m d^2 with
+/// the largest distance d, which changes no motion (no moment acts about the line, so a spin that starts at zero in
+/// the inertial frame stays zero: see stop_spins) and leaves no unknown undetermined. Not in statics, where inertia
+/// holds nothing and would be felt in a frame that turns.
 void Builder::hold_point_masses() {
   std::vector<bool> feels(plan.nodes.size(), false);              // more than forces at points
   std::vector<std::vector<Vec3<double>>> met(plan.nodes.size());  // at points apart from the node
@@ -86,8 +87,9 @@ void Builder::keep_from_spinning(std::size_t body, const std::vector<Vec3<double
       "' is held at one line through it: nothing feels its spin about that line, which is none from start to end");
 }
 
-/// A point that spins is the same as one that does not, but the inertia which its node was given would turn with it: the spin in the inertial
-/// frame, of initial velocities and of the frame the analysis is described in, is taken away.
+/// A point that spins is the same as one that does not, but the inertia which its node was given would turn with it:
+/// the spin in the inertial frame, of initial velocities and of the frame the analysis is described in, is taken
+/// away.
 void Builder::stop_spins() {
   for (const auto& [node, line] : spinless) {
     NodePlan& n = plan.nodes[static_cast<std::size_t>(node)];

@@ -42,7 +42,8 @@ Mat3<double> axes_with(int which, const Vec3<double>& direction) {
   return axes;
 }
 
-/// Whether a matrix of sections or bodies couples motions in the plane with those out of it; axes: columns along, along, normal.
+/// Whether a matrix of sections or bodies couples motions in the plane with those out of it; axes: columns along,
+/// along, normal.
 bool couples(const Mat6<double>& m, const Mat3<double>& axes) {
   double turned[6][6], largest[2] = {0.0, 0.0};
   for (int i = 0; i < 6; ++i)
@@ -104,7 +105,8 @@ class Motion {
   double size_;  ///< of the structure [m]
 };
 
-/// Symmetry of reflection in a plane: geometry, masses and loads are their own mirror images, so forces out of the plane are zero.
+/// Symmetry of reflection in a plane: geometry, masses and loads are their own mirror images, so forces out of the
+/// plane are zero.
 class InPlane final : public Motion {
  public:
   InPlane(const Builder& builder, const Vec3<double>& normal)
@@ -319,8 +321,8 @@ Verdict judge(const Builder& b, const Motion& motion) {
   return v;
 }
 
-/// Normals that the plane of a scene may have: the ground's axes, the axes of its joints, the normal of its nodes and of
-/// what is at them.
+/// Normals that the plane of a scene may have: the ground's axes, the axes of its joints, the normal of its nodes and
+/// of what is at them.
 std::vector<Vec3<double>> normals(const Builder& b) {
   std::vector<Vec3<double>> list;
   const auto add = [&list](const Vec3<double>& n) {

@@ -1,4 +1,5 @@
-/// Rigid parts: nodes and bodies that fixed joints tie to each other become one node, whatever the part was put together from.
+/// Rigid parts: nodes and bodies that fixed joints tie to each other become one node, whatever the part was put
+/// together from.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,8 +28,8 @@ const elements::Joint& joint_at(const Plan& plan, std::size_t j) { return array_
 
 double length_of(const Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
 
-/// An offset without what is round-off of what it was computed from, places of size `reach`: where the nodes of a part are at one place elements at them
-/// need no offset, and equal parts stay equal for lanes.
+/// An offset without what is round-off of what it was computed from, places of size `reach`: where the nodes of a
+/// part are at one place elements at them need no offset, and equal parts stay equal for lanes.
 Frame<double> cleared(Frame<double> H, double reach) {
   constexpr double turns = 1e-14, places = 8.0 * std::numeric_limits<double>::epsilon();
   if (length_of(motion::log_so3(H.R)) <= turns) H.R = Mat3<double>::identity();
@@ -47,7 +48,8 @@ Mat6<double> seen_from_node(const Frame<double>& H, const Mat6<double>& mass) {
   return 0.5 * (M + lanes::transpose(M));
 }
 
-/// Nodes, and the ground, between which two ways or more lead over joints: rows of joints within one set may depend on each other.
+/// Nodes, and the ground, between which two ways or more lead over joints: rows of joints within one set may depend
+/// on each other.
 Sets loops_of_joints(const Plan& plan) {
   const std::size_t count = plan.nodes.size() + 1;
   Sets loops(plan.nodes.size());
@@ -188,8 +190,8 @@ class Welder {
     std::apply([&](auto&... arrays) { (each(arrays), ...); }, plan_.elements);
   }
 
-  /// An element with two ends at one node is none that the graph knows: a beam or spring between rigid parts, a joint that closes a loop with a gap. Then the
-  /// part stays as it was given.
+  /// An element with two ends at one node is none that the graph knows: a beam or spring between rigid parts, a joint
+  /// that closes a loop with a gap. Then the part stays as it was given.
   void keep_parts_that_something_closes() {
     std::set<std::size_t> kept;
     for_each_other([&](const auto& e, const std::string& owner) {
@@ -208,8 +210,8 @@ class Welder {
       if (goes_[j]) tie(j);
   }
 
-  /// The node of a part where most elements and joints of it meet, the first of these: their ports stay as they are, and hubs of one kind look alike to
-  /// lanes. Bodies do not count, their masses become those of the node.
+  /// The node of a part where most elements and joints of it meet, the first of these: their ports stay as they are,
+  /// and hubs of one kind look alike to lanes. Bodies do not count, their masses become those of the node.
   void choose_roots() {
     std::vector<std::size_t> meets(plan_.nodes.size(), 0), best(plan_.nodes.size(), none);
     for_each_other([&](const auto& e, const std::string&) {

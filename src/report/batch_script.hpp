@@ -1,8 +1,8 @@
 #pragma once
-/// The script of batch.html: sorts, filters and selects the rows of the table of cases, which stands in the page, and draws
-/// any column against any. `batch` is a JSON value in the page, with the rows and columns of the table: {"columns":
-/// [names], "numeric": [true, ...], "rows": [[cells], ...]}; a cell is a number, a text or null. All text goes into the page
-/// as text nodes.
+/// The script of batch.html: sorts, filters and selects the rows of the table of cases, which stands in the page, and
+/// draws any column against any. `batch` is a JSON value in the page, with the rows and columns of the table:
+/// {"columns": [names], "numeric": [true, ...], "rows": [[cells], ...]}; a cell is a number, a text or null. All text
+/// goes into the page as text nodes.
 #include <string_view>
 
 namespace bough::report {

@@ -226,8 +226,8 @@ std::string failures_text(const Chart& chart, const ChartFrame& f) {
   return text;
 }
 
-/// The part of the line inside the plot area, by clipping against its four edges, from the end at which its label is looked for; none: it
-/// lies outside.
+/// The part of the line inside the plot area, by clipping against its four edges, from the end at which its label is
+/// looked for; none: it lies outside.
 std::optional<Segment> guide_of(const Chart& chart, const ChartFrame& f, const SlopeLine& line) {
   const double x0 = on_axis(line.x0, chart.x.scale), y0 = on_axis(line.y0, chart.y.scale);
   if (!std::isfinite(x0) || !std::isfinite(y0) || !std::isfinite(line.slope)) return std::nullopt;

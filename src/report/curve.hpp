@@ -9,8 +9,8 @@
 
 namespace bough::report {
 
-/// Rows to draw: all where they are few; else, per pixel column, the rows of the smallest and largest value in their order.
-/// to_x(k): of row k on paper, ascending [px]; value(k): of row k.
+/// Rows to draw: all where they are few; else, per pixel column, the rows of the smallest and largest value in their
+/// order. to_x(k): of row k on paper, ascending [px]; value(k): of row k.
 template <class ToX, class ValueOf>
 std::vector<std::size_t> rows_to_draw(std::size_t num_rows, const ToX& to_x, const ValueOf& value) {
   std::vector<std::size_t> rows;

@@ -136,7 +136,8 @@ void Document::table(const Table& table) {
     if (row.size() != table.head.size()) throw std::logic_error("a row is as long as the head of its table");
   const std::vector<std::vector<std::size_t>> parts = parts_of(table);
   for (const std::vector<std::size_t>& columns : parts) {
-    // Where the window is narrower than such a table its rows are cards, a line for each column: nothing is cut or pushed aside.
+    // Where the window is narrower than such a table its rows are cards, a line for each column: nothing is cut or
+    // pushed aside.
     double width = 0.0;
     for (const std::size_t c : columns) width += least_width(table, c);
     const bool has_cards = width > 340.0;

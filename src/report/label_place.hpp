@@ -21,8 +21,8 @@ Box box_of(const LabelPlace& place, double width);
 /// Whether any part of a segment lies in a box.
 bool meets(const Segment& segment, const Box& box);
 
-/// Beside `line`, from its first end on, preferably below it: the first place within `area` at which the label meets nothing of `drawn`,
-/// the line itself included; where there is none, that at which it meets least.
+/// Beside `line`, from its first end on, preferably below it: the first place within `area` at which the label meets
+/// nothing of `drawn`, the line itself included; where there is none, that at which it meets least.
 LabelPlace place_label(const Segment& line, double width, const std::vector<Segment>& drawn, const Box& area);
 
 }  // namespace bough::report

@@ -1,5 +1,6 @@
 #pragma once
-/// Numbers of a page as text: arrays one after the other, compressed by zlib, in base64; and the hash that lets a script in.
+/// Numbers of a page as text: arrays one after the other, compressed by zlib, in base64; and the hash that lets a
+/// script in.
 #include <cstdint>
 #include <cstring>
 #include <string>

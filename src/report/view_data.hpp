@@ -2,15 +2,18 @@
 /// What the script of a view needs of a run: one JSON object with its numbers packed.
 ///
 ///   {"name","isStatic","timeLabel","times":[t],"origin":[3],"middle":[3],"size","look","numPoints",
-///    "curves":[{"name","first","points","outline","subdomains"}],"bodies":[{"name","track","axes":[4],"mesh","arms":[3 each]}],
+///    "curves":[{"name","first","points","outline","subdomains"}],"bodies":[{"name","track","axes":[4],"mesh","arms":[3
+///      each]}],
 ///    "links":[{"name","kind","first","second","axes":[4]}],"frames":[{"name","track","axes":[4]}],"arrows":[{"name","track"}],
-///    "outlines":[[[x2,x3,...] per loop]],"meshes":[{"points","triangles"}],"quantities":[{"name","label","unit","low","high"}],
+///    "outlines":[[[x2,x3,...] per
+///      loop]],"meshes":[{"points","triangles"}],"quantities":[{"name","label","unit","low","high"}],
 ///    "plots":[{"title","unit","part","times":array,"columns":[{"label","values":array}]}],
 ///    "arrays":{name:[type,offset,count]},"packed":base64 of zlib}
 ///
-/// A track is a moving frame: its place from `origin` at the start, its displacement in steps of its own range's 65535th
-/// part, and the rotation from the start as the vector part of a quaternion with w >= 0 in 32767ths. Tracks that do the
-/// same are one, so beams that meet in a node share it. Arrays of frames (d16, d8) hold differences from frame to frame.
+/// A track is a moving frame: its place from `origin` at the start, its displacement in steps of its own range's
+/// 65535th part, and the rotation from the start as the vector part of a quaternion with w >= 0 in 32767ths. Tracks
+/// that do the same are one, so beams that meet in a node share it. Arrays of frames (d16, d8) hold differences from
+/// frame to frame.
 #include <string>
 
 #include "bough/report/page.hpp"

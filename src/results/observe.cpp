@@ -29,7 +29,8 @@ struct BeamPoint {
 
 using Series = lanes::Taylor<double, 1>;  ///< value and change to first order
 
-/// A port's motion, and how it changes with the increment eta (own axes of the node) that the node still lacks:  R' = R ~w, x' = R v.
+/// A port's motion, and how it changes with the increment eta (own axes of the node) that the node still lacks:  R' =
+/// R ~w, x' = R v.
 PortMotion<Series> with_unsettled(const PortMotion<double>& p, const Port& port, const step::State& state) {
   PortMotion<Series> r;
   r.H.R = lanes::cast<Series>(p.H.R);
@@ -49,7 +50,8 @@ PortMotion<Series> with_unsettled(const PortMotion<double>& p, const Port& port,
   return r;
 }
 
-/// Adds the residual of an element to `sum`; in statics with what it lacks to first order, f + K eta, see step::System::settle.
+/// Adds the residual of an element to `sum`; in statics with what it lacks to first order, f + K eta, see
+/// step::System::settle.
 template <class E>
 void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& f, const step::State& state,
                           double* sum) {
@@ -72,8 +74,8 @@ void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& 
   for (int k = 0; k < n; ++k) sum[k] += change[k].c[1];
 }
 
-/// Wrenches of a beam element and its line loads on its first and last node, in section axes; out-of-element ends see (-first, last) as the
-/// section resultants: nodal equilibrium, one order more accurate than the strains.
+/// Wrenches of a beam element and its line loads on its first and last node, in section axes; out-of-element ends see
+/// (-first, last) as the section resultants: nodal equilibrium, one order more accurate than the strains.
 template <class E>
 void eval_end_wrenches(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f,
                        const step::State& state, Vec6<double>& first, Vec6<double>& last) {
@@ -148,8 +150,9 @@ PointMotion eval_sensor_point(const step::System& system, const step::State& sta
   return point;
 }
 
-/// Curvature of the sectional force over an element, 1/2 d2f/ds2, from its strains at the strain points: elements of four nodes have three and
-/// hence one; those of fewer nodes none. (Strains elsewhere than at these points are less accurate.)
+/// Curvature of the sectional force over an element, 1/2 d2f/ds2, from its strains at the strain points: elements of
+/// four nodes have three and hence one; those of fewer nodes none. (Strains elsewhere than at these points are less
+/// accurate.)
 template <class E>
 Vec6<double> eval_force_curvature(const E& e, const Field& f, const step::State& state) {
   constexpr int N = E::num_ports, P = E::num_strain_points;
@@ -185,7 +188,8 @@ Vec6<double> eval_force_curvature(const E& e, const Field& f, const step::State&
   }
 }
 
-/// Sectional force of an element at s in [0, 1]: nodal equilibrium at the ends, between them straight or as curved as the strains are.
+/// Sectional force of an element at s in [0, 1]: nodal equilibrium at the ends, between them straight or as curved as
+/// the strains are.
 struct ElementForce {
   Vec6<double> first, last, curvature;
   template <class E>
@@ -377,8 +381,8 @@ records::Arrow arrow_at(const E& e, int port, const std::string& name, const Fie
   return arrow;
 }
 
-/// Point loads; several elements of one load at one place (components in axes that turn) are one arrow. Of line loads the
-/// ends and inner nodes of their elements; a node that two elements share one after the other once.
+/// Point loads; several elements of one load at one place (components in axes that turn) are one arrow. Of line loads
+/// the ends and inner nodes of their elements; a node that two elements share one after the other once.
 void add_arrows(const plan::Plan& plan, const Field& f, std::vector<records::Arrow>& arrows) {
   int last_node = elements::ground;
   for (std::size_t id = 0; id < plan.directory.size(); ++id)

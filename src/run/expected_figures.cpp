@@ -158,7 +158,8 @@ void ExpectedFigures::Extreme::take(double sign, double other, double when, doub
   is_known = true;
 }
 
-/// Within a step the function has one extreme at most: where it leaves one end towards it and comes from it at the other.
+/// Within a step the function has one extreme at most: where it leaves one end towards it and comes from it at the
+/// other.
 template <class F>
 void ExpectedFigures::seek_extreme(Extreme& best, double sign, double begin, double end, double spread, F&& f) const {
   const auto g = [&](double t) { return sign * f(t); };

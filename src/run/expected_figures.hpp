@@ -1,5 +1,6 @@
 #pragma once
-/// Expected figures of a run, and what sensors show at times asked for, taken from all accepted steps and from between them.
+/// Expected figures of a run, and what sensors show at times asked for, taken from all accepted steps and from
+/// between them.
 #include <optional>
 #include <span>
 #include <string>
@@ -12,9 +13,10 @@
 
 namespace bough::run {
 
-/// One rule for every time that is asked for: where a step ends there (within round-off), what sensors show at this end; else, in time, what
-/// StepWindow interpolates between the two ends around it. Statics interpolate nothing: load steps end there, and so do steps of sizes that are
-/// chosen. Extremes, ranges and periods look at the ends of all accepted steps, whatever the stride of the output, and at what lies between.
+/// One rule for every time that is asked for: where a step ends there (within round-off), what sensors show at this
+/// end; else, in time, what StepWindow interpolates between the two ends around it. Statics interpolate nothing: load
+/// steps end there, and so do steps of sizes that are chosen. Extremes, ranges and periods look at the ends of all
+/// accepted steps, whatever the stride of the output, and at what lies between.
 class ExpectedFigures {
  public:
   /// expected: outlives this object. sample_times: ascending; looked at where `sample` is given.
@@ -22,7 +24,8 @@ class ExpectedFigures {
                   const records::HistoryHeader& header, std::vector<double> sample_times,
                   decltype(SimulateOptions::sample) sample);
 
-  /// Whether the end of a step at this time has to be handed to `add`: never where nothing is asked for. Some ends around a time are.
+  /// Whether the end of a step at this time has to be handed to `add`: never where nothing is asked for. Some ends
+  /// around a time are.
   bool wants(double time) const;
   /// Takes the end of an accepted step, or the start of a stretch; laws stand at its time, and stand there again
   /// afterwards.

@@ -1,5 +1,6 @@
 #pragma once
-/// One simulation as it goes: state, observers, summary. simulate.cpp sets up, records and sums up; run_statics.cpp and run_dynamics.cpp step.
+/// One simulation as it goes: state, observers, summary. simulate.cpp sets up, records and sums up; run_statics.cpp
+/// and run_dynamics.cpp step.
 #include <limits>
 #include <optional>
 #include <string>
@@ -47,7 +48,8 @@ class Run {
   /// Counts a step that was rejected, for this cause, converged or not.
   void reject(const step::StepReport& report, const std::string& cause);
   void watch_floor(const step::StepReport& report);
-  /// The variational integrator, for which this is, damps nothing: ends a run whose unresolved vibrations make energy out of nothing.
+  /// The variational integrator, for which this is, damps nothing: ends a run whose unresolved vibrations make energy
+  /// out of nothing.
   bool watch_vibrations();
   /// Records the state (as its time's left limit, or right limit at a start).
   void record(int iterations, bool is_last);

@@ -169,8 +169,8 @@ void Run::watch_errors(double norm) {
   error_watch_->look(values_before_, values_now_, values_displaced_, norm, last_step_);
 }
 
-/// At fixed steps: local errors of two steps in a row (the second tells that of velocities), at least each 32 steps and where they rise: a
-/// solution and two evaluations in one of 16 steps.
+/// At fixed steps: local errors of two steps in a row (the second tells that of velocities), at least each 32 steps
+/// and where they rise: a solution and two evaluations in one of 16 steps.
 bool Run::look_at_error() {
   const bool is_second = looking_;
   const double unfiltered = state_.local_error;

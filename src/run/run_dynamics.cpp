@@ -102,8 +102,8 @@ bool Run::set_step_size(double size) {
   return changed.ok ? true : fail(changed.cause);
 }
 
-/// A step that failed is tried again from where its first try set out: each change of size corrects velocities, and where steps resolve nothing,
-/// corrections of corrections grow without bound.
+/// A step that failed is tried again from where its first try set out: each change of size corrects velocities, and
+/// where steps resolve nothing, corrections of corrections grow without bound.
 void Run::keep_or_restore(bool is_first_failure) {
   if (is_first_failure)
     tried_ = state_;
@@ -111,7 +111,8 @@ void Run::keep_or_restore(bool is_first_failure) {
     state_ = tried_;
 }
 
-/// Steps of equal size from one breakpoint to the next; a step that fails is halved, and the size grows back after four easy steps.
+/// Steps of equal size from one breakpoint to the next; a step that fails is halved, and the size grows back after
+/// four easy steps.
 bool Run::run_segment(double begin, double end, double& total_end) {
   const double wanted = scene_.analysis.step_size;
   const long steps = std::max(1L, static_cast<long>(std::ceil((end - begin) / wanted - 1e-9)));

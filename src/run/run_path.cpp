@@ -221,8 +221,8 @@ bool Run::take_path_step(double& length) {
   return report_progress(report, arc.end_load_factor);
 }
 
-/// Steps of equal length along the path, shorter where they need many iterations, to where the load factor passes its last value or to a
-/// limit point.
+/// Steps of equal length along the path, shorter where they need many iterations, to where the load factor passes its
+/// last value or to a limit point.
 bool Run::run_path() {
   const scene::ArcLength& arc = *options_.arc_length;
   const step::StepReport start = step::equilibrate(system_, state_, options_, 0.0);

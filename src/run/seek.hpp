@@ -5,7 +5,8 @@
 
 namespace bough::run {
 
-/// Where a continuous f changes its sign between a and b, to `tolerance`; fa = f(a), fb = f(b) of opposite signs. Illinois' regula falsi.
+/// Where a continuous f changes its sign between a and b, to `tolerance`; fa = f(a), fb = f(b) of opposite signs.
+/// Illinois' regula falsi.
 template <class F>
 double find_zero(F&& f, double a, double b, double fa, double fb, double tolerance) {
   constexpr int most_trials = 60;
@@ -26,8 +27,8 @@ double find_zero(F&& f, double a, double b, double fa, double fb, double toleran
   return x;
 }
 
-/// Place and value of the largest f between a and b, where it has one maximum there, to `tolerance`: golden section and parabolas through the
-/// last three places (Brent 1973, chapter 5).
+/// Place and value of the largest f between a and b, where it has one maximum there, to `tolerance`: golden section
+/// and parabolas through the last three places (Brent 1973, chapter 5).
 template <class F>
 std::pair<double, double> find_maximum(F&& f, double a, double b, double tolerance) {
   constexpr int most_trials = 60;

@@ -181,7 +181,8 @@ void Run::reject(const step::StepReport& report, const std::string& cause) {
     first_rejection_ = "the first rejected step was that from " + std::to_string(state_.time) + ": " + cause;
 }
 
-/// What steps leave unbalanced at the floor counts against the largest forces of the run: at rest there are none to compare with.
+/// What steps leave unbalanced at the floor counts against the largest forces of the run: at rest there are none to
+/// compare with.
 void Run::watch_floor(const step::StepReport& report) {
   const step::ResidualSize& r = report.residual;
   const double arm = system_.moment_arm();
@@ -200,9 +201,9 @@ bool Run::watch_vibrations() {
   return cause ? fail(*cause) : true;
 }
 
-/// Bytes of one picture, compressed, as measured on lattices of 10 512 tubes and rectangular bars, largest ones: of a point
-/// of a beam 50 in motion.bin (49 to 50), in a VTU file 93 and 13.2 for a corner of its section (16 corners: 297 to 305; 4: 143
-/// to 147).
+/// Bytes of one picture, compressed, as measured on lattices of 10 512 tubes and rectangular bars, largest ones: of a
+/// point of a beam 50 in motion.bin (49 to 50), in a VTU file 93 and 13.2 for a corner of its section (16 corners:
+/// 297 to 305; 4: 143 to 147).
 constexpr double bytes_per_point = 50.0, vtu_bytes_per_point = 93.0, vtu_bytes_per_corner = 13.2;
 struct PictureBytes {
   double motion = 200.0;  ///< in motion.bin
@@ -228,8 +229,8 @@ PictureBytes bytes_of(const records::MotionFrame& frame, const records::MotionPa
   return bytes;
 }
 
-/// At most 101 pictures, and so many that motion.bin stays below 120 MB and all files below 200 MB: where those for other
-/// programs are too large for that, every second or third or so of the pictures has one.
+/// At most 101 pictures, and so many that motion.bin stays below 120 MB and all files below 200 MB: where those for
+/// other programs are too large for that, every second or third or so of the pictures has one.
 void Run::plan_pictures(const records::MotionFrame& frame, const records::MotionParts& parts) {
   if (scene_.output.motion_stride > 0) return;
   constexpr double most = 200e6, most_motion = 120e6;

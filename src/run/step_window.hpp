@@ -9,8 +9,10 @@
 namespace bough::run {
 
 /// The ends of up to four steps in a row of one smooth stretch, as some sensors see them. Between two of them
-/// - sensors of motion (results::shows_motion) are evaluated on nodes interpolated by step::eval_between, of order h^4 in places;
-/// - all others take the polynomial through their values at the ends: with four of them of order h^4. (A stiff part's force evaluated on
+/// - sensors of motion (results::shows_motion) are evaluated on nodes interpolated by step::eval_between, of order
+///   h^4 in places;
+/// - all others take the polynomial through their values at the ends: with four of them of order h^4. (A stiff part's
+///   force evaluated on
 ///   interpolated nodes would be off by its stiffness times an error of order h^4, which no balance takes back.)
 /// Nothing is interpolated across a start or a breakpoint, where a window is begun anew.
 class StepWindow {
@@ -29,8 +31,9 @@ class StepWindow {
   double time(int end) const { return ends_[static_cast<std::size_t>(end)].time; }
   /// Values of the sensor `sensors()[k]` at an end.
   std::span<const double> values(int end, int k) const;
-  /// The same at a time between the ends `interval` and `interval` + 1; no values where a law is not finite there. Good until the next call.
-  /// Where frames move, the laws of the system then stand at this time: the caller puts them back.
+  /// The same at a time between the ends `interval` and `interval` + 1; no values where a law is not finite there.
+  /// Good until the next call. Where frames move, the laws of the system then stand at this time: the caller puts
+  /// them back.
   std::span<const double> values_between(step::System& system, results::EnergyMeter& meter, int interval, double time,
                                          int k);
 

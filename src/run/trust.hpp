@@ -6,14 +6,15 @@
 
 namespace bough::run {
 
-/// Where a run is doubted. Each bound lies well above what the gallery shows and below what an engineer would accept unsaid.
+/// Where a run is doubted. Each bound lies well above what the gallery shows and below what an engineer would accept
+/// unsaid.
 struct TrustLimits {
   /// Of the largest speed: a given initial velocity that the start changes by more is not the one asked for. Numbers
   /// in a scene have six digits at
   /// least, so what is less may be their rounding; a note tells it.
   double velocity_changed = 1e-6;
-  /// Of the largest energy: what the integrator may have added by the end. A scheme that is stable adds what its truncation error is; a hundredth
-  /// is visible in amplitudes (their half).
+  /// Of the largest energy: what the integrator may have added by the end. A scheme that is stable adds what its
+  /// truncation error is; a hundredth is visible in amplitudes (their half).
   double energy_gained = 1e-2;
   /// Of the largest energy: the same for what it took. Damping of unresolved vibrations is meant, a tenth of
   /// all energy changes amplitudes by a twentieth.
@@ -33,8 +34,9 @@ struct TrustLimits {
   double violation = 1e-6;
   /// The same for what the rates open in one step: a thousandth.
   double violation_step = 1e-3;
-  /// Of the largest force: what steps in time accepted at the floor of round-off leave unbalanced. Reactions and section forces have that error; a
-  /// tolerance that asks for more digits than there are is no reason for doubt. In statics nothing stays unbalanced, see step::System::settle.
+  /// Of the largest force: what steps in time accepted at the floor of round-off leave unbalanced. Reactions and
+  /// section forces have that error; a tolerance that asks for more digits than there are is no reason for doubt. In
+  /// statics nothing stays unbalanced, see step::System::settle.
   double unbalanced = 1e-6;
   /// Share of the steps that were rejected: the step size is not that of the problem.
   double rejected = 0.1;

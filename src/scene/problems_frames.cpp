@@ -15,7 +15,8 @@ void check_frame_laws(ProblemList& list, std::size_t i) {
     list.check_law("frames", i, "turns/" + std::to_string(k) + "/angle", f.motion->turns[k].angle, true);
 }
 
-/// What the inertial loads of a frame depend on, in its own axes: angular velocity and acceleration, acceleration of the origin, gravity.
+/// What the inertial loads of a frame depend on, in its own axes: angular velocity and acceleration, acceleration of
+/// the origin, gravity.
 struct Loading {
   Vec3 turning, angular, origin, gravity;
 };

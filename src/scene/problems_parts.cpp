@@ -7,7 +7,8 @@
 namespace bough::scene {
 namespace {
 
-/// Smallest pivot of L D L^T after scaling to a unit diagonal, with its row; a matrix of zeros on a zero diagonal row counts as semi-definite.
+/// Smallest pivot of L D L^T after scaling to a unit diagonal, with its row; a matrix of zeros on a zero diagonal row
+/// counts as semi-definite.
 struct Pivot {
   double value = 1.0;
   int row = -1;
@@ -90,7 +91,8 @@ void check_body(ProblemList& list, std::size_t i) {
              "is it given about the centre of mass, in the body's axes?");
 }
 
-/// A beam element cannot tell a turn from one of the other sense beyond half a turn; the solver refuses it shortly before.
+/// A beam element cannot tell a turn from one of the other sense beyond half a turn; the solver refuses it shortly
+/// before.
 void check_turn_of_elements(ProblemList& list, std::size_t i, double length) {
   constexpr double most = 2.8;  // [rad], the angle whose cosine is -0.94
   const Beam& b = list.scene.beams[i];

@@ -120,7 +120,8 @@ void check_figure(ProblemList& list, std::size_t i) {
   if (is_static && e.figure == FigureKind::period)
     list.add("expected", i, "figure", figure, "a period is one of time, and the analysis is static");
   check_tolerance(list, "expected", i, e);
-  // A run in time may be made shorter than a figure asks for, which is then reported as not reached; a load factor ends at 1.
+  // A run in time may be made shorter than a figure asks for, which is then reported as not reached; a load factor
+  // ends at 1.
   if (!e.time || !(*e.time > list.last_time * (1.0 + 1e-12))) return;
   const std::string rule = "the analysis ends at " + text_of(list.last_time);
   if (is_static)

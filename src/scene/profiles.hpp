@@ -18,7 +18,8 @@ struct Wall {
 
 /// Figures of shear of thin walls, from the shear flow of  int sigma' x dA = Q:
 ///   q(s) = q(0) - int_0^s sigma' t ds,  sigma' = a2 (x2 - c2) + a3 (x3 - c3),  [I3 I23; I23 I2] (a2; a3) = (Q2; Q3)
-///   compliance  G S_ij = sum over walls int q_i q_j / t ds,   torque about the centroid  m_i = int (x2 dx3 - x3 dx2) q_i
+///   compliance  G S_ij = sum over walls int q_i q_j / t ds,   torque about the centroid  m_i = int (x2 dx3 - x3 dx2)
+///     q_i
 ///   shear centre  e2 = m_3, e3 = -m_2   (Timoshenko, Strength of materials II, thin-walled open sections)
 struct WallFigures {
   double area = 0.0;

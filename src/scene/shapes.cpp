@@ -12,7 +12,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A ring between radii r < R; r = 0 is a full circle. Cowper's factor at nu = 0: 6 (1 + m^2)^2 / (7 (1 + m^2)^2 + 20 m^2), m = r / R.
+/// A ring between radii r < R; r = 0 is a full circle. Cowper's factor at nu = 0: 6 (1 + m^2)^2 / (7 (1 + m^2)^2 + 20
+/// m^2), m = r / R.
 AreaFigures ring_figures(double R, double r) {
   AreaFigures f;
   f.area = pi * (R - r) * (R + r);
@@ -32,7 +33,8 @@ AreaFigures figures(const Rectangle& s) {
   f.shear_factor_2 = f.shear_factor_3 = 5.0 / 6.0;
   return f;
 }
-/// J = pi a^3 b^3 / (a^2 + b^2); Cowper's factor at nu = 0 for a force along a: 3 (3 n^2 + 1) / (10 n^2 + 4), n = a / b.
+/// J = pi a^3 b^3 / (a^2 + b^2); Cowper's factor at nu = 0 for a force along a: 3 (3 n^2 + 1) / (10 n^2 + 4), n = a /
+/// b.
 AreaFigures figures(const Ellipse& s) {
   const double a = 0.5 * s.width, b = 0.5 * s.height;
   AreaFigures f;

@@ -33,7 +33,8 @@ const tree::Subdomain& subdomain(const tree::Tree& tree, std::int64_t id) {
   return tree.subdomains[static_cast<std::size_t>(id)];
 }
 
-/// First sub-domain of the helper's half of a tree, the later children of the root. Halves are ranges, since sub-domains are in postorder.
+/// First sub-domain of the helper's half of a tree, the later children of the root. Halves are ranges, since
+/// sub-domains are in postorder.
 std::int64_t first_of_helper(const tree::Tree& tree) {
   const auto children = tree.children(subdomain(tree, tree.root()));
   const std::size_t mine = (children.size() + 1) / 2;

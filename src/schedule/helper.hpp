@@ -11,14 +11,16 @@
 
 namespace bough::schedule {
 
-/// One thread, the owner, works; another serves. A walk is cut in two; the helper goes through the second half while the owner does the first,
-/// and the owner then does what the helper has left, however little that one has done. Nobody waits for a thread without a processor, unless it
-/// loses it in the middle of a visit, which costs a clock tick or two.
+/// One thread, the owner, works; another serves. A walk is cut in two; the helper goes through the second half while
+/// the owner does the first, and the owner then does what the helper has left, however little that one has done.
+/// Nobody waits for a thread without a processor, unless it loses it in the middle of a visit, which costs a clock
+/// tick or two.
 ///
-/// A scheduler that is fair takes the processor from whoever had more than his share, and gives it at once to whoever wakes up and had less.
-/// So the helper works in bursts shorter than a scheduler's slice, sleeps between them, and is woken only while it has had less than its share
-/// of the time. To give a processor up instead of sleeping (as idle threads of oneTBB do, a hundred times before they sleep) is to get it back
-/// with a clock tick, milliseconds later. The helper is kept off the owner's processor: whoever is woken up may else be put beside his waker.
+/// A scheduler that is fair takes the processor from whoever had more than his share, and gives it at once to whoever
+/// wakes up and had less. So the helper works in bursts shorter than a scheduler's slice, sleeps between them, and is
+/// woken only while it has had less than its share of the time. To give a processor up instead of sleeping (as idle
+/// threads of oneTBB do, a hundred times before they sleep) is to get it back with a clock tick, milliseconds later.
+/// The helper is kept off the owner's processor: whoever is woken up may else be put beside his waker.
 class Helper {
  public:
   Helper();
@@ -26,13 +28,15 @@ class Helper {
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
 
-  /// Serves after a `call`, until `dismiss` or until nothing was offered for 5 ms and no part of a walk is being shared: the thread may be the only
-  /// one that others of the process could have. The owner's own call returns at once, as does one that was not asked for.
+  /// Serves after a `call`, until `dismiss` or until nothing was offered for 5 ms and no part of a walk is being
+  /// shared: the thread may be the only one that others of the process could have. The owner's own call returns at
+  /// once, as does one that was not asked for.
   void serve();
 
   // All that follows is for the owner, except `run_chunks`.
 
-  /// Whether another thread has to be sent to `serve`, because none is there or on its way. The caller is the owner from then on.
+  /// Whether another thread has to be sent to `serve`, because none is there or on its way. The caller is the owner
+  /// from then on.
   bool call();
 
   /// Whoever serves returns soon.

@@ -47,7 +47,8 @@ struct Threads::State {
   bool outnumbers_processors = false;
   std::unique_ptr<tbb::global_control> allowance;  ///< more threads than the machine has need a permission
 
-  /// The arena, with its threads. TBB takes a third of a millisecond to look at the machine: a run without tasks does not ask for it.
+  /// The arena, with its threads. TBB takes a third of a millisecond to look at the machine: a run without tasks does
+  /// not ask for it.
   tbb::task_arena& started() {
     std::call_once(is_started, [this] {
       outnumbers_processors = count > tbb::info::default_concurrency();
@@ -65,7 +66,8 @@ struct Threads::State {
   std::optional<Helper> helper;  ///< while the processors are crowded
   tbb::task_group serving;       ///< the task in which the helper serves
 
-  /// Between walks: settles whether there is a helper. Only two threads work with one: of more, some go on while one has no processor.
+  /// Between walks: settles whether there is a helper. Only two threads work with one: of more, some go on while one
+  /// has no processor.
   void look_around() {
     tbb::task_arena& threads = started();
     if (count != 2 || is_walking) return;

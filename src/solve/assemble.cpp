@@ -1,4 +1,5 @@
-/// Assembly of a front: extend-add of the children's Schur complements, column by column, then the front's own elements and children in lanes.
+/// Assembly of a front: extend-add of the children's Schur complements, column by column, then the front's own
+/// elements and children in lanes.
 #include <algorithm>
 #include <cstring>
 
@@ -13,7 +14,8 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Columns that are cleared and added to in one go: they stay in the cache nearest to the core but one.
 constexpr int doubles_in_cache = 1 << 16;
-/// Symmetric fronts from this size on are cleared below the diagonal alone; of shorter columns that would cost more than it saves.
+/// Symmetric fronts from this size on are cleared below the diagonal alone; of shorter columns that would cost more
+/// than it saves.
 constexpr int cleared_by_columns = 160;
 /// Reading, adding and writing an entry takes as long as so many operations of an elimination.
 constexpr double flops_of_an_entry = 8.0;
@@ -48,7 +50,8 @@ void Hierarchical::State::assemble_front(tree::FrontId f) {
     if (!is_scalar(c)) add_lane_child(c, d);
 }
 
-/// Clears columns [first, last), all on one side of `full`, and adds what the children on the scalar path hold for them, child by child.
+/// Clears columns [first, last), all on one side of `full`, and adds what the children on the scalar path hold for
+/// them, child by child.
 void Hierarchical::State::fill_columns(tree::FrontId f, int first, int last) {
   const FrontData& d = data(f);
   const FrontParts parts(d.matrix());
@@ -75,7 +78,8 @@ void Hierarchical::State::fill_columns(tree::FrontId f, int first, int last) {
   }
 }
 
-/// Columns [first, last) of the parent: what waits in the child, and its Schur complement; symmetric: what is not above the diagonal.
+/// Columns [first, last) of the parent: what waits in the child, and its Schur complement; symmetric: what is not
+/// above the diagonal.
 void Hierarchical::State::add_child(tree::FrontId child, const FrontData& parent, int first, int last) {
   const FrontData& c = data(child);
   const int waiting = c.num_delayed(), delayed = c.delayed_to;
@@ -83,7 +87,8 @@ void Hierarchical::State::add_child(tree::FrontId child, const FrontData& parent
   const Run* runs_begin = runs.data() + run_begin[at(child)];
   const FrontParts from(c.matrix()), to(parent.matrix());
   const bool is_lower = parent.is_symmetric();
-  // Column j of the child to column k of the parent: what waits from row `first_waiting` on, the boundary from row `skip` of `run` on.
+  // Column j of the child to column k of the parent: what waits from row `first_waiting` on, the boundary from row
+  // `skip` of `run` on.
   const auto add_column = [&](int j, int k, int first_waiting, const Run* run, int skip) {
     const double *top = from.top(j) + c.pivots, *bottom = from.bottom(j);
     double *to_top = to.top(k), *to_bottom = to.bottom(k) - parent.full;

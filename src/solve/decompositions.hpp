@@ -1,4 +1,5 @@
-/// Eigen's decompositions of small dense matrices, compiled once: each takes longer to compile than all the rest of a file that uses it.
+/// Eigen's decompositions of small dense matrices, compiled once: each takes longer to compile than all the rest of a
+/// file that uses it.
 #pragma once
 
 #include <Eigen/Core>

@@ -6,11 +6,12 @@
 
 namespace bough::solve {
 
-/// c -= a b. c: m x n, a: m x k, b: k x n; every entry is one sum over k upward, taken off at once for each 96 terms, whatever the blocking.
+/// c -= a b. c: m x n, a: m x k, b: k x n; every entry is one sum over k upward, taken off at once for each 96 terms,
+/// whatever the blocking.
 void subtract_product(int m, int n, int k, const double* a, int lda, const double* b, int ldb, double* c, int ldc);
 
-/// A front being factored: the first `full` rows and columns are fully summed. Either one square (u null, leading dimension size), or in
-/// three parts, of which the last can be given up when the parent has read it:
+/// A front being factored: the first `full` rows and columns are fully summed. Either one square (u null, leading
+/// dimension size), or in three parts, of which the last can be given up when the parent has read it:
 ///   [ a  u ]     a: size x full, u: full x (size - full), s: (size - full) x (size - full)
 ///   [ .  s ]
 /// Symmetric: the lower triangles of a and s alone; u is not there, above the diagonals stands nothing of meaning.
@@ -54,34 +55,39 @@ struct PivotRule {
   double least = 1e-9;      ///< at least this
 };
 
-/// Eliminates as many fully summed unknowns as the rule allows, the diagonal preferred, rows exchanged within the fully summed ones only;
-/// leaves L (unit, below), U and the Schur complement in place, the refused rows and columns last among the fully summed.
+/// Eliminates as many fully summed unknowns as the rule allows, the diagonal preferred, rows exchanged within the
+/// fully summed ones only; leaves L (unit, below), U and the Schur complement in place, the refused rows and columns
+/// last among the fully summed.
 ///   P A Q = [L11 0; L21 I] [U11 U12; 0 S]
 /// The update of what remains goes to the walker's threads where it is large; bits do not depend on that.
 /// Returns the number of pivots, or -1 when an entry is not finite.
 int eliminate_with_threshold(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
 
-/// The same for a symmetric front (lower triangle; d given): P A P^T = L D L^T, D of blocks of one and two rows. A pivot of two rows, p and the largest
-/// entry of its column among the candidates at hand, is taken if |D^-1| times the largest entries of its columns stays below 1 / threshold
-/// [Duff, Reid 1983].
+/// The same for a symmetric front (lower triangle; d given): P A P^T = L D L^T, D of blocks of one and two rows. A
+/// pivot of two rows, p and the largest entry of its column among the candidates at hand, is taken if |D^-1| times
+/// the largest entries of its columns stays below 1 / threshold [Duff, Reid 1983].
 int eliminate_symmetric(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
 
-/// The same where it is expected to be positive definite: no search, no exchange, D diagonal. Stops at a pivot that is not finite, below `least`, or
-/// below `least` times what it was before, and where a panel takes more than 1 / threshold off a diagonal below it: no definite matrix does whose
-/// diagonal is about one, and no entry grows by more. Returns the number of pivots: below `full` the front is spoilt, to be assembled once more.
+/// The same where it is expected to be positive definite: no search, no exchange, D diagonal. Stops at a pivot that
+/// is not finite, below `least`, or below `least` times what it was before, and where a panel takes more than 1 /
+/// threshold off a diagonal below it: no definite matrix does whose diagonal is about one, and no entry grows by
+/// more. Returns the number of pivots: below `full` the front is spoilt, to be assembled once more.
 int eliminate_definite(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
 
-/// Goes on from `pivots` up to `most` with complete pivoting over the remaining fully summed block (precondition: no boundary), as long as
-/// the largest entry reaches `least`. row_weight, column_weight: one factor for each remaining row and column by which entries are
-/// compared, permuted along; or null for ones. Returns the number of pivots reached.
+/// Goes on from `pivots` up to `most` with complete pivoting over the remaining fully summed block (precondition: no
+/// boundary), as long as the largest entry reaches `least`. row_weight, column_weight: one factor for each remaining
+/// row and column by which entries are compared, permuted along; or null for ones. Returns the number of pivots
+/// reached.
 int eliminate_completely(FrontMatrix& front, int pivots, int most, double least, double* row_weight = nullptr,
                          double* column_weight = nullptr);
 
 /// f = L^-1 f for the first `pivots` entries, the rest reduced: f_B -= L21 y. f already permuted.
 void substitute_forward(const FrontMatrix& front, int pivots, double* f);
-/// y = U11^-1 (y - U12 x_B), symmetric: L11^-T (D^-1 y - L21^T x_B); x: size entries, y in the first `pivots`, x_B in the others.
+/// y = U11^-1 (y - U12 x_B), symmetric: L11^-T (D^-1 y - L21^T x_B); x: size entries, y in the first `pivots`, x_B in
+/// the others.
 void substitute_backward(const FrontMatrix& front, int pivots, double* x);
-/// Left vectors: z^T = -z_B^T L21 L11^-1 in the first `pivots` entries, z_B in the others; then add nothing else (rows are permuted).
+/// Left vectors: z^T = -z_B^T L21 L11^-1 in the first `pivots` entries, z_B in the others; then add nothing else
+/// (rows are permuted).
 void substitute_backward_left(const FrontMatrix& front, int pivots, double* z);
 
 /// The same for a square.

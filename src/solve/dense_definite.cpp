@@ -15,7 +15,8 @@ namespace {
 
 using namespace tiles;
 
-/// The square of a panel: its unit L by rows, in groups of `width` rows, one column after the other, as packed products take it.
+/// The square of a panel: its unit L by rows, in groups of `width` rows, one column after the other, as packed
+/// products take it.
 struct Square {
   alignas(64) double l[deepest * deepest];
   double inverse[deepest];  ///< of D
@@ -60,8 +61,8 @@ inline void reduce_tile(int depth, const double* x, const double* b, Lanes (&t)[
   }
 }
 
-/// L of m rows, at most registers x width, in the columns [0, columns) of a panel, in place; x: room for L D of them, packed.
-/// reduction: what each row's diagonal loses by these pivots.
+/// L of m rows, at most registers x width, in the columns [0, columns) of a panel, in place; x: room for L D of them,
+/// packed. reduction: what each row's diagonal loses by these pivots.
 template <int registers>
 inline void solve_rows(int m, int columns, const Square& square, double* a, std::ptrdiff_t lda, double* x,
                        double* reduction) {
@@ -138,7 +139,8 @@ int eliminate_definite(FrontMatrix& f, const PivotRule& rule, const tree::Walker
   Square square;
   for (int k = 0; k < f.full;) {
     const int end = end_of_panel(k, f.full, outer_panel);
-    // Against one, which scaled diagonals were near when scales were taken, and against what the pivot was before its front was eliminated.
+    // Against one, which scaled diagonals were near when scales were taken, and against what the pivot was before its
+    // front was eliminated.
     double least[deepest];
     if (k == 0)
       for (int i = 0; i < f.full; ++i) f.d[2 * i] = v.top(i)[i];

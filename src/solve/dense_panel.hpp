@@ -1,5 +1,6 @@
 #pragma once
-/// What the eliminations of a front share: panels, the search of a column, chunks of columns for threads. Internal to solve.
+/// What the eliminations of a front share: panels, the search of a column, chunks of columns for threads. Internal to
+/// solve.
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -18,7 +19,8 @@ inline int end_of_panel(int begin, int end, int width) {
   return end - begin <= width + width / 2 ? end : begin + width;
 }
 
-/// Largest magnitude of rows [begin, end), compared as bits: infinity and NaN come out on top, above every finite number.
+/// Largest magnitude of rows [begin, end), compared as bits: infinity and NaN come out on top, above every finite
+/// number.
 inline double find_largest(const double* column, int begin, int end) {
   constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
   std::uint64_t largest = 0;
@@ -26,8 +28,8 @@ inline double find_largest(const double* column, int begin, int end) {
   return std::bit_cast<double>(largest);
 }
 
-/// update(first, last) for chunks of the columns [begin, full) and [full, size), by the walker's threads where the work is worth it.
-/// flops: of one column.
+/// update(first, last) for chunks of the columns [begin, full) and [full, size), by the walker's threads where the
+/// work is worth it. flops: of one column.
 template <class Update>
 void for_chunks_of_columns(int begin, int full, int size, double flops, const tree::Walker* walker,
                            const Update& update) {
@@ -48,7 +50,8 @@ void for_chunks_of_columns(int begin, int full, int size, double flops, const tr
   }
 }
 
-/// Symmetric: columns [first, last), at most a chunk and all on one side of `full`, catch up with the pivots [begin, k), whose D is d.
+/// Symmetric: columns [first, last), at most a chunk and all on one side of `full`, catch up with the pivots [begin,
+/// k), whose D is d.
 void catch_up_symmetric(const FrontParts& front, const double* d, int begin, int k, int first, int last);
 
 }  // namespace bough::solve

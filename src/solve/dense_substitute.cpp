@@ -60,7 +60,8 @@ void take_product_with(int n, int k, const double* a, std::ptrdiff_t lda, const 
                [&](auto count) { take_columns<decltype(count)::value>(n, a + j * lda, lda, y + j, f); });
 }
 
-/// Products of C columns with x, each in eight partial sums, whatever the width of the registers: columns that go together keep the memory busy.
+/// Products of C columns with x, each in eight partial sums, whatever the width of the registers: columns that go
+/// together keep the memory busy.
 template <int C>
 void sum_products(int n, const double* a, std::ptrdiff_t lda, const double* x, double* to) {
   constexpr int registers = 8 / width;
@@ -80,7 +81,8 @@ void sum_products(int n, const double* a, std::ptrdiff_t lda, const double* x, d
   for (int c = 0; c < C; ++c) to[c] = tiles::sum_of_eight(sum[c]);
 }
 
-// Triangles of C rows, in registers: through memory every product would wait for the one before it to be written and read again.
+// Triangles of C rows, in registers: through memory every product would wait for the one before it to be written and
+// read again.
 
 /// f[0, C) <- L^-1 f, L unit lower.
 template <int C>

@@ -1,8 +1,8 @@
 #pragma once
 /// Registers, and the product of packed panels: what the dense kernels are made of. Internal to solve.
 ///
-/// Products are fused (rounded once) where the instruction set has it, in vectors and in what is left over alike, so an entry's bits do
-/// not depend on where in a tile it stands. All loops run upward.
+/// Products are fused (rounded once) where the instruction set has it, in vectors and in what is left over alike, so
+/// an entry's bits do not depend on where in a tile it stands. All loops run upward.
 #include <cstddef>
 #include <cstring>
 #if defined(__FMA__) || defined(__AVX512F__)

@@ -153,7 +153,8 @@ SolveReport Dual::solve(const tree::Walker& walker, const double* rhs, double* x
       report.inconsistent_amount =
           part.segment(first, size).cwiseQuotient(row.segment(first, size)).cwiseAbs().maxCoeff();
     }
-    // Less is round-off of the null vectors. Taken out, it would move what the load leaves at rest (a planar mechanism out of its plane).
+    // Less is round-off of the null vectors. Taken out, it would move what the load leaves at rest (a planar
+    // mechanism out of its plane).
     if (report.inconsistency > contradiction) b -= part.cwiseQuotient(row);
   }
   solve_and_refine(walker, s.elements, s.scales, s.options, s.options.refinement_steps,

@@ -23,8 +23,8 @@ struct BoundaryUnknown {
   bool is_first;  ///< carries the load
 };
 
-/// One sub-domain condensed to its boundary, then to its ties: local order is refused unknowns, boundary unknowns, those of the interface
-/// mesh last.
+/// One sub-domain condensed to its boundary, then to its ties: local order is refused unknowns, boundary unknowns,
+/// those of the interface mesh last.
 struct LeafInterface {
   tree::SubdomainId id = tree::none;
   std::vector<BoundaryUnknown> boundary;             ///< in the order of the leaf's boundary blocks

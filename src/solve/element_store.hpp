@@ -13,9 +13,10 @@
 
 namespace bough::solve {
 
-/// Scales D_r, D_c: powers of two. Motion unknowns: both 2^round(-log2(a)/2), a = sum over the elements of |diagonal| (row norm where that
-/// is 0). Multipliers: column and row by the inverse 2-norm of the constraint's column and row in scaled motion unknowns.
-/// A tangent K + C/h + M/h^2 then has diagonal near 1 and constraint rows of norm near 1 for every h.
+/// Scales D_r, D_c: powers of two. Motion unknowns: both 2^round(-log2(a)/2), a = sum over the elements of |diagonal|
+/// (row norm where that is 0). Multipliers: column and row by the inverse 2-norm of the constraint's column and row
+/// in scaled motion unknowns. A tangent K + C/h + M/h^2 then has diagonal near 1 and constraint rows of norm near 1
+/// for every h.
 struct Scales {
   std::vector<double> row, column;
   std::vector<double>

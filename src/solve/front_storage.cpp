@@ -34,7 +34,8 @@ FrontShape::FrontShape(int size, int full, bool symmetric) : is_symmetric(symmet
 
 namespace {
 
-/// A front with those of its descendants whose depth has the same parity needs one region, those of the other parity another.
+/// A front with those of its descendants whose depth has the same parity needs one region, those of the other parity
+/// another.
 class SchurPlanner {
  public:
   SchurPlanner(const tree::Tree& tree, const std::vector<int>& in_lanes, bool is_symmetric)

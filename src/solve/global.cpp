@@ -8,12 +8,14 @@ namespace bough::solve {
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// Pivots of a sub-domain below this, scaled, are left over: directions in which it floats or nearly does. Those taken amplify round-off
-/// by its inverse at most; what is left over is kept with its true remainder, so nothing is lost either way.
+/// Pivots of a sub-domain below this, scaled, are left over: directions in which it floats or nearly does. Those
+/// taken amplify round-off by its inverse at most; what is left over is kept with its true remainder, so nothing is
+/// lost either way.
 constexpr double floating_pivot = 1e-6;
 }  // namespace
 
-/// Finds the copies of every boundary block. A block of several leaves is on the interface mesh or is torn: m - 1 ties to its first copy.
+/// Finds the copies of every boundary block. A block of several leaves is on the interface mesh or is torn: m - 1
+/// ties to its first copy.
 void Dual::State::tear(const blocks::BlockGraph& graph) {
   std::vector<std::vector<int>> leaves_of(at(graph.num_blocks()));
   std::vector<char> is_inside(at(graph.num_blocks()), 0);
@@ -135,7 +137,8 @@ void Dual::State::eval_responses(LeafInterface& leaf) {
   }
 }
 
-/// The load of the leaf's kept unknowns in local order: what its inside hands up, and the boundary's own where this is its first leaf.
+/// The load of the leaf's kept unknowns in local order: what its inside hands up, and the boundary's own where this
+/// is its first leaf.
 void Dual::State::condense_load(LeafInterface& leaf, const double* b) {
   const double* inside = fronts.forward(leaf.id, b);
   const int refused = fronts.num_refused(leaf.id);
@@ -176,7 +179,8 @@ void Dual::State::recover_leaf(LeafInterface& leaf, const Eigen::VectorXd& solut
   for (int i = 0; i < leaf.size; ++i) leaf.x[at(i < leaf.full ? leaf.columns[at(i)] : i)] = x[i];
 }
 
-/// The rows' vector y of the leaf with y^T A = y_l^T B in the eliminated columns, y_w in the rows that keep their place.
+/// The rows' vector y of the leaf with y^T A = y_l^T B in the eliminated columns, y_w in the rows that keep their
+/// place.
 void Dual::State::recover_leaf_left(LeafInterface& leaf, const Eigen::VectorXd& vector) {
   double* y = leaf.work.data();
   const int m = leaf.size, p = leaf.pivots;

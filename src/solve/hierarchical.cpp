@@ -134,7 +134,8 @@ void Hierarchical::State::check_all_symmetric() {
   }
 }
 
-/// What the visits found. What is not finite may stand above the diagonal, where no front has seen it; it says nothing about symmetry.
+/// What the visits found. What is not finite may stand above the diagonal, where no front has seen it; it says
+/// nothing about symmetry.
 void Hierarchical::State::check_visits_symmetric() {
   for (const Asymmetry& a : asymmetries) {
     if (a.element < 0) continue;
@@ -192,7 +193,8 @@ SolveReport Hierarchical::solve_unchecked(const tree::Walker& walker, const doub
   return {};
 }
 
-/// The solution goes straight to x_out. The right-hand side is copied only where it is changed, or overwritten before it is looked at again.
+/// The solution goes straight to x_out. The right-hand side is copied only where it is changed, or overwritten before
+/// it is looked at again.
 void Hierarchical::State::take(const double* b, double* x_out, bool looks_again) {
   given = b;
   x = x_out;
@@ -208,7 +210,8 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
   report.deficiency = null_space.dimension;
   ++counters.solutions;
   eval_inconsistency(given, report);
-  // Dependent rows that disagree have no solution: what was solved, and is checked, is the nearest right-hand side that has one.
+  // Dependent rows that disagree have no solution: what was solved, and is checked, is the nearest right-hand side
+  // that has one.
   if (null_space.dimension > 0)
     for (std::size_t i = 0; i < n; ++i) rhs[i] -= correction[i] / scales.row[i];
   if (options.check == SolveCheck::none) return report;

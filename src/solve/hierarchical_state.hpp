@@ -25,7 +25,8 @@ struct Run {
   int length;
 };
 
-/// Numbers of one front. All pointers go into the pools of State, but where pivots wait, or lanes and registers did not do.
+/// Numbers of one front. All pointers go into the pools of State, but where pivots wait, or lanes and registers did
+/// not do.
 struct FrontData {
   double* a = nullptr;  ///< the parts of FrontMatrix
   double* u = nullptr;
@@ -174,7 +175,8 @@ struct Hierarchical::State {
     return (f.is_top ? lane_tops.data() : group_scratch[static_cast<std::size_t>(f.group)]) + f.schur * lanes_wide;
   }
   double* factor_of(const LaneFront& f) { return lane_factors.data() + f.factor * lanes_wide; }
-  /// On the way up the right-hand side, condensed, on the way down the solution: eliminated unknowns, then the boundary.
+  /// On the way up the right-hand side, condensed, on the way down the solution: eliminated unknowns, then the
+  /// boundary.
   double* vector_of(const LaneFront& f) { return schur_of(f) + f.schur_size() * lanes_wide; }
   template <class Visit>
   void with_scratch(int group, Visit&& visit);

@@ -15,8 +15,8 @@ using Vector = Eigen::VectorXd;
 
 constexpr double coarse_pivot =
     1e-6;  ///< unknowns of the coarse problem below this, scaled, go along with the multipliers
-/// Flexibility of a tie, against the largest of its leaf, below which it is round-off: joints hold that direction. Scaled to one, the
-/// round-off of a direction held on both sides (a dependent row) would pass for stiffness.
+/// Flexibility of a tie, against the largest of its leaf, below which it is round-off: joints hold that direction.
+/// Scaled to one, the round-off of a direction held on both sides (a dependent row) would pass for stiffness.
 constexpr double held = 1e-6;
 constexpr double suspect_pivot =
     1e-6;  ///< pivots of the interface problem below this are looked at before they are used
@@ -40,8 +40,8 @@ double DenseStage::flops() const {
   return sum;
 }
 
-/// By block: hybrid, whether it is on the interface mesh. Cross points are; then every leaf without one gives a motion block, rather one
-/// that it shares with another leaf still without.
+/// By block: hybrid, whether it is on the interface mesh. Cross points are; then every leaf without one gives a
+/// motion block, rather one that it shares with another leaf still without.
 std::vector<char> Dual::State::choose_local(const std::vector<std::vector<int>>& leaves_of_block) const {
   std::vector<char> is_local(leaves_of_block.size(), 0), has_local(leaves.size(), 0);
   if (form.form == DualForm::global) return is_local;

@@ -83,8 +83,9 @@ Outcome gmres(const Matrix& A, const Matrix& preconditioner, const Vector& b, Ve
 }
 }  // namespace
 
-/// Each tie weighs the boundary stiffnesses of its two sides, half and half: M = sum 1/2 B_i S_i B_i^T 1/2 (Dirichlet preconditioner
-/// [Farhat, Mandel, Roux 1994]); S_i: the leaf's boundary with what is not tied eliminated or, on the interface mesh, held.
+/// Each tie weighs the boundary stiffnesses of its two sides, half and half: M = sum 1/2 B_i S_i B_i^T 1/2 (Dirichlet
+/// preconditioner [Farhat, Mandel, Roux 1994]); S_i: the leaf's boundary with what is not tied eliminated or, on the
+/// interface mesh, held.
 void Dual::State::assemble_preconditioner() {
   const int waiting = static_cast<int>(reduced.rows()) - num_ties();
   preconditioner = Matrix::Identity(reduced.rows(), reduced.rows());

@@ -1,4 +1,5 @@
-/// The method's own quantities: interface flexibility, its conditioning, local multipliers, and the textbook condensation through it.
+/// The method's own quantities: interface flexibility, its conditioning, local multipliers, and the textbook
+/// condensation through it.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -17,8 +18,8 @@ using Map = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
 
 }  // namespace
 
-/// |diagonal| that the sub-domain's own elements have at its interface, scaled; where only joints of it hold a motion unknown, the diagonal
-/// that the whole has there, 1; for multipliers 0.
+/// |diagonal| that the sub-domain's own elements have at its interface, scaled; where only joints of it hold a motion
+/// unknown, the diagonal that the whole has there, 1; for multipliers 0.
 std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s) const {
   const tree::Subdomain& sub = tree.subdomains[at(s)];
   const tree::Front& top = front(sub.top());
@@ -108,8 +109,9 @@ tree::Walker serial_walker() {
 
 }  // namespace
 
-/// Only factors are kept, not the Schur complements that reports look at: these come from a factorization of the same matrices and
-/// scales that keeps them whole (symmetric ones have one triangle), without lanes, made when first asked for.
+/// Only factors are kept, not the Schur complements that reports look at: these come from a factorization of the same
+/// matrices and scales that keeps them whole (symmetric ones have one triangle), without lanes, made when first asked
+/// for.
 const Hierarchical& Hierarchical::reporting_solver() const {
   State& s = *state_;
   if ((s.keeps_all && s.lanes.fronts.empty() && !s.is_symmetric()) || s.counters.factorizations == 0) return *this;

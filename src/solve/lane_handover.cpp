@@ -1,4 +1,5 @@
-/// The hand-over between lanes and the scalar path: fronts that leave a lane, and what lanes and single fronts give each other.
+/// The hand-over between lanes and the scalar path: fronts that leave a lane, and what lanes and single fronts give
+/// each other.
 #include <array>
 
 #include "hierarchical_state.hpp"

@@ -197,7 +197,8 @@ inline void move_run(const double* from, int count, double* to, std::ptrdiff_t s
   if (count > 0) with_size(count, [&](auto n) { move_packs<decltype(n)::value, is_first>(from, to, step); });
 }
 
-/// Lanes of a pack in the order in which another one takes them: lane from_lane[l] comes to lane l, zero where that is negative.
+/// Lanes of a pack in the order in which another one takes them: lane from_lane[l] comes to lane l, zero where that
+/// is negative.
 class LaneChoice {
  public:
   explicit LaneChoice(const std::int8_t* from_lane) {

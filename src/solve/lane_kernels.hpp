@@ -1,7 +1,7 @@
 #pragma once
-/// Dense kernels over eight fronts in lockstep: entry k of lane l at [8 k + l], columns one after the other. No row is exchanged; what grows
-/// too much is told lane by lane. Lanes never mix, so a lane's numbers do not depend on its neighbours or on the width of the registers.
-/// Internal to solve.
+/// Dense kernels over eight fronts in lockstep: entry k of lane l at [8 k + l], columns one after the other. No row
+/// is exchanged; what grows too much is told lane by lane. Lanes never mix, so a lane's numbers do not depend on its
+/// neighbours or on the width of the registers. Internal to solve.
 #include <cstdint>
 
 #include "bough/solve/element_view.hpp"
@@ -22,19 +22,20 @@ struct LanePivotRule {
   double least = 1e-10;     ///< at least this, rows and columns scaled
 };
 
-/// Eliminates the first e of n unknowns. factor: e columns of n entries, then n - e columns of e entries; schur: the other columns' rows below.
-/// After: L (unit) below the diagonal, the inverse pivots on it, U above and in the further columns, the Schur complement.
-/// row_scale: n packs, inverse_column_scale: e packs. Lanes with a pivot against the rule are answered; they hold an identity from there on.
-/// beside: steps elimination_steps(n, e) times.
+/// Eliminates the first e of n unknowns. factor: e columns of n entries, then n - e columns of e entries; schur: the
+/// other columns' rows below. After: L (unit) below the diagonal, the inverse pivots on it, U above and in the
+/// further columns, the Schur complement. row_scale: n packs, inverse_column_scale: e packs. Lanes with a pivot
+/// against the rule are answered; they hold an identity from there on. beside: steps elimination_steps(n, e) times.
 LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const double* row_scale,
                         const double* inverse_column_scale, const LanePivotRule& rule, Transfers& beside);
 
-/// The same for symmetric fronts, L D L^T. factor: e columns of n entries, schur as above; of both only what is not above the diagonal is read. After: L
-/// (unit) below the diagonal, the inverse of D on it, the Schur complement on and below its diagonal; above stands nothing of meaning.
+/// The same for symmetric fronts, L D L^T. factor: e columns of n entries, schur as above; of both only what is not
+/// above the diagonal is read. After: L (unit) below the diagonal, the inverse of D on it, the Schur complement on
+/// and below its diagonal; above stands nothing of meaning.
 LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, const double* scale,
                                   const double* inverse_scale, const LanePivotRule& rule, Transfers& beside);
-/// The same where they are expected to be positive definite: pivots are to be positive, at least `least`, scaled, and `least` times
-/// what they were, and no panel may take more than 1 / threshold, scaled, off a diagonal below.
+/// The same where they are expected to be positive definite: pivots are to be positive, at least `least`, scaled, and
+/// `least` times what they were, and no panel may take more than 1 / threshold, scaled, off a diagonal below.
 LaneSet eliminate_lanes_definite(double* factor, double* schur, int n, int e, const double* scale,
                                  const double* inverse_scale, const LanePivotRule& rule, Transfers& beside);
 int elimination_steps(int n, int e);
@@ -43,7 +44,8 @@ constexpr int most_lane_rows = 2 * lanes_wide * lanes_wide;  ///< no front in la
 /// Identity in the eliminated part and 0 elsewhere, for the lanes of the set.
 void neutralise_lanes(double* factor, double* schur, int n, int e, LaneSet lanes, Symmetry symmetry);
 
-/// v: n packs. Forward: v_E = L11^-1 v_E, v_B -= L21 v_E. Backward: v_E = U11^-1 (v_E - U12 v_B). Left: v_E^T = -v_B^T L21 L11^-1.
+/// v: n packs. Forward: v_E = L11^-1 v_E, v_B -= L21 v_E. Backward: v_E = U11^-1 (v_E - U12 v_B). Left: v_E^T =
+/// -v_B^T L21 L11^-1.
 void forward_lanes(const double* factor, int n, int e, double* v);
 void backward_lanes(const double* factor, int n, int e, double* v);
 /// v_E = L11^-T (D^-1 v_E - L21^T v_B); forward and left are those of L.
@@ -58,18 +60,20 @@ void move_block(const double* source, const LaneMove& move, const std::int8_t* f
 /// y_i += sum_j element_ij x_j for a block as above.
 void multiply_block_lanes(const double* element, int stride, int p, int q, const double* x, double* y);
 
-/// Largest of |a_ij - a_ji| scale_i scale_j over all lanes of an element, `count` blocks at their places in the front whose row scales are
-/// given; not a number comes out as infinity or NaN.
+/// Largest of |a_ij - a_ji| scale_i scale_j over all lanes of an element, `count` blocks at their places in the front
+/// whose row scales are given; not a number comes out as infinity or NaN.
 double largest_asymmetry_lanes(const double* element, int size, const Place* places, int count,
                                const double* row_scale);
 
 /// Largest of |v_i| scale_i over `count` packs and all lanes; not a number comes out as infinity or NaN.
 double largest_scaled(const double* v, const double* scale, int count);
 
-/// Asks for `count` packs to be brought to the second cache. Not inline: g++ takes a function that only prefetches for pure, and drops calls of it.
+/// Asks for `count` packs to be brought to the second cache. Not inline: g++ takes a function that only prefetches
+/// for pure, and drops calls of it.
 void prefetch_packs(const double* packs, int count);
 
-/// to += from, `count` packs; with `from_lane` lane l of `to` takes lane from_lane[l], or nothing where that is negative.
+/// to += from, `count` packs; with `from_lane` lane l of `to` takes lane from_lane[l], or nothing where that is
+/// negative.
 void add_packs(const double* from, int count, double* to);
 void add_packs(const double* from, int count, double* to, const std::int8_t* from_lane);
 

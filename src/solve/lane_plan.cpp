@@ -11,7 +11,8 @@ namespace {
 
 /// Largest front that goes in lanes: eight of them must stay in the cache nearest to the core but one.
 constexpr int largest_in_lanes = 64;
-/// A single sub-domain goes through the kernel of eight only while its fronts are so small that their overhead counts most.
+/// A single sub-domain goes through the kernel of eight only while its fronts are so small that their overhead counts
+/// most.
 constexpr int largest_alone = 24;
 /// Lanes go together while the fronts that fit all of them cost at most this much more than those of the larger one.
 constexpr double most_padding = 1.35;
@@ -84,8 +85,8 @@ bool LanePlanner::fits(tree::SubdomainId a, tree::SubdomainId b) const {
   return m && m->common <= (subdomain(a).is_leaf() ? most_padding : most_inner_padding) * std::max(m->a, m->b);
 }
 
-/// The last pack of a class may have lanes to spare: they take another class, such as the one leaf at the end of a chain, where the pack grows by less
-/// than one of its own would cost.
+/// The last pack of a class may have lanes to spare: they take another class, such as the one leaf at the end of a
+/// chain, where the pack grows by less than one of its own would cost.
 void LanePlanner::fill_packs(Classes& classes) const {
   for (std::size_t b = 0; b < classes.size();) {
     const auto takes = [&](const std::vector<tree::SubdomainId>& members) {

@@ -1,5 +1,6 @@
 #pragma once
-/// Which sub-domains are factored in lockstep, one to a SIMD lane, and how their fronts fit together. Symbolic, made once. Internal to solve.
+/// Which sub-domains are factored in lockstep, one to a SIMD lane, and how their fronts fit together. Symbolic, made
+/// once. Internal to solve.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -26,8 +27,8 @@ struct Place {
   int length;  ///< unknowns
 };
 
-/// One block of an element or of a child's Schur complement on its way into a front; offsets and steps in packs. Fronts that are put together
-/// alike share their moves and gaps, which are read with every front.
+/// One block of an element or of a child's Schur complement on its way into a front; offsets and steps in packs.
+/// Fronts that are put together alike share their moves and gaps, which are read with every front.
 struct LaneMove {
   std::int64_t source = 0;  ///< from LaneFront::values, or from the child's Schur complement
   std::int64_t target = 0;  ///< from the factor, or from the Schur complement of the front
@@ -119,8 +120,8 @@ struct LanePlan {
   std::vector<int> element_stride;             ///< by element
 };
 
-/// Groups the sub-domains of a tree. A function of graph and tree alone, batches and places in the element store whatever the symmetry.
-/// `use_lanes` false: every sub-domain alone, on the scalar path.
+/// Groups the sub-domains of a tree. A function of graph and tree alone, batches and places in the element store
+/// whatever the symmetry. `use_lanes` false: every sub-domain alone, on the scalar path.
 LanePlan make_lane_plan(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes,
                         Symmetry symmetry = Symmetry::general);
 

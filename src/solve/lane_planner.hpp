@@ -1,6 +1,6 @@
 #pragma once
-/// Makes a LanePlan: which sub-domains go together (lane_plan.cpp), their common fronts (lane_fronts.cpp), and the way of every block into them
-/// (lane_moves.cpp). Internal to solve.
+/// Makes a LanePlan: which sub-domains go together (lane_plan.cpp), their common fronts (lane_fronts.cpp), and the
+/// way of every block into them (lane_moves.cpp). Internal to solve.
 #include <optional>
 
 #include "lane_plan.hpp"
@@ -58,12 +58,12 @@ class LanePlanner {
   void add_children(LaneFront& f);
 
   // ways into them
-  /// Every block of every contributor with its place, in fixed order: what comes first is written, what follows is added, what is left is
-  /// a gap. So no front is cleared as a whole.
+  /// Every block of every contributor with its place, in fixed order: what comes first is written, what follows is
+  /// added, what is left is a gap. So no front is cleared as a whole.
   void add_moves(LaneFront& f);
   void share_moves(LaneFront& f);
-  /// Schur complements and vectors live until the parent has taken them on the way up, and vectors from there on the way down: first fit in
-  /// the group's scratch. Those of the top last.
+  /// Schur complements and vectors live until the parent has taken them on the way up, and vectors from there on the
+  /// way down: first fit in the group's scratch. Those of the top last.
   void place_work(LaneGroup& group);
 
   const blocks::BlockGraph& graph_;

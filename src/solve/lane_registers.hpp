@@ -33,8 +33,8 @@ inline Real load(const double* p) {
 }
 inline void store(double* p, const Real& v) { std::memcpy(p, &v, sizeof v); }
 
-/// c - a b, rounded once where the instruction set has it, as the products of dense_tiles.hpp. Elsewhere std::fma would be
-/// a call for every number.
+/// c - a b, rounded once where the instruction set has it, as the products of dense_tiles.hpp. Elsewhere std::fma
+/// would be a call for every number.
 inline Real minus_product(const Real& c, const Real& a, const Real& b) {
 #if defined(__AVX512F__)
   return Real(_mm512_fnmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
@@ -188,9 +188,9 @@ inline void with_size(int k, const Triangle& triangle) {
 
 constexpr int panel_width = 6;  ///< pivots of one update
 
-/// LU of the K x K block at (k0, k0), in place; the inverse pivots on the diagonal. `refused`: lanes whose pivot is tiny, not finite, or small
-/// against the block's part of its column. Symmetric: only what is not above the diagonal is read. Definite: `inverse_column_scale` holds what each
-/// pivot has to reach.
+/// LU of the K x K block at (k0, k0), in place; the inverse pivots on the diagonal. `refused`: lanes whose pivot is
+/// tiny, not finite, or small against the block's part of its column. Symmetric: only what is not above the diagonal
+/// is read. Definite: `inverse_column_scale` holds what each pivot has to reach.
 template <int K, Symmetry symmetry>
 inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
                                 const LanePivotRule& rule) {
@@ -206,8 +206,8 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
           symmetry != Symmetry::general && i < j ? load(block + i * ld + j * wide) : load(block + j * ld + i * wide);
 #pragma GCC unroll 8
   for (int k = 0; k < K; ++k) {
-    // Compared as bits: a NaN or infinity on either side refuses, and traps nothing; so does a sign. What the pivot is to its column
-    // is decided beside the division, which would else wait for it.
+    // Compared as bits: a NaN or infinity on either side refuses, and traps nothing; so does a sign. What the pivot
+    // is to its column is decided beside the division, which would else wait for it.
     Real size = a[k][k], least = load(inverse_column_scale + (k0 + k) * wide);
     if constexpr (symmetry != Symmetry::definite) {
       size = magnitude(size * load(row_scale + (k0 + k) * wide));
@@ -240,7 +240,8 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
   return refused;
 }
 
-/// L of R rows below the block, and the largest of each column, rows scaled; definite: the most that is taken off a diagonal, scaled. Symmetric: L D to `products`, row by row, six packs a row.
+/// L of R rows below the block, and the largest of each column, rows scaled; definite: the most that is taken off a
+/// diagonal, scaled. Symmetric: L D to `products`, row by row, six packs a row.
 template <int K, Symmetry symmetry, int R>
 inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld, const double* row_scale, Real* largest,
                            [[maybe_unused]] double* products) {
@@ -279,7 +280,8 @@ inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld,
     }
 }
 
-/// The columns of a panel: their block, and L below. What is refused is neutralised and answered. beside: a step for every four rows or rest.
+/// The columns of a panel: their block, and L below. What is refused is neutralised and answered. beside: a step for
+/// every four rows or rest.
 template <int K, Symmetry symmetry>
 inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
                                 const LanePivotRule& rule, double* products, Transfers& beside) {
@@ -300,7 +302,8 @@ inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale,
   for (; i + 4 <= f.n; i += 4) rows(i, std::integral_constant<int, 4>{});
   for (; i + 2 <= f.n; i += 2) rows(i, std::integral_constant<int, 2>{});
   for (; i < f.n; ++i) rows(i, std::integral_constant<int, 1>{});
-  // A pivot is small against its column where an entry of L, rows scaled, is above 1 / threshold; definite: where more is taken off a diagonal.
+  // A pivot is small against its column where an entry of L, rows scaled, is above 1 / threshold; definite: where
+  // more is taken off a diagonal.
   Flag good = ~Flag{};
   if constexpr (symmetry == Symmetry::definite)
     good = bits_of(rule.threshold * largest[0]) <= bits_of(Real{} + 1.0);

@@ -9,8 +9,9 @@
 
 namespace bough::solve {
 
-/// Row scales of every row of a front and inverse column scales of what it eliminates, in packs; 1 for padding. Fronts whose scales are the same in every
-/// lane, as those of equal links are, share them: what every factorization reads then stays in the nearest cache.
+/// Row scales of every row of a front and inverse column scales of what it eliminates, in packs; 1 for padding.
+/// Fronts whose scales are the same in every lane, as those of equal links are, share them: what every factorization
+/// reads then stays in the nearest cache.
 class LaneScales {
  public:
   /// Room for scales of all fronts, if they all should differ; memory that is not written is not taken from the system.

@@ -29,7 +29,8 @@ inline void subtract_corner(int k, const double* a, std::ptrdiff_t la, const dou
     for (int i = j; i < C; ++i) store(c + j * lc + i * wide, sum[j][i]);
 }
 
-/// Columns [column, column + C) of the front, from the diagonal down, catch up with the K pivots from k0. products: L D of the rows below them.
+/// Columns [column, column + C) of the front, from the diagonal down, catch up with the K pivots from k0. products: L
+/// D of the rows below them.
 template <int K, int C>
 inline void update(const Front& f, int k0, int column, const double* products) {
   const std::ptrdiff_t ld = f.ld(), of_row = static_cast<std::ptrdiff_t>(panel_width) * wide;
@@ -65,7 +66,8 @@ unsigned eliminate_register(const Front& f, const double* scale, const double* b
   return failed;
 }
 
-/// Definite: what the pivots have to reach, against the unknown's scale and against its diagonal before the front is eliminated.
+/// Definite: what the pivots have to reach, against the unknown's scale and against its diagonal before the front is
+/// eliminated.
 void eval_bars(const Front& f, const double* scale, const double* inverse_scale, double least, double* bar) {
   for (int k = 0; k < f.e; ++k) {
     const Real diagonal = load(f.left + k * (f.ld() + wide));

@@ -1,5 +1,6 @@
 #pragma once
-/// The leaves of the tree condensed to their boundaries, for the forms that go on from there in their own way. Internal to solve.
+/// The leaves of the tree condensed to their boundaries, for the forms that go on from there in their own way.
+/// Internal to solve.
 #include <vector>
 
 #include "dense.hpp"
@@ -7,8 +8,9 @@
 
 namespace bough::solve {
 
-/// One front after another, scalar, as the tree lays them out. A leaf's condensed matrix holds the unknowns whose pivots were refused in
-/// it (first) and those of its boundary blocks. Leaves are independent: verbs of different leaves may run at the same time.
+/// One front after another, scalar, as the tree lays them out. A leaf's condensed matrix holds the unknowns whose
+/// pivots were refused in it (first) and those of its boundary blocks. Leaves are independent: verbs of different
+/// leaves may run at the same time.
 class LeafFronts {
  public:
   LeafFronts(const ElementStore& elements, const tree::Tree& tree);
@@ -22,7 +24,8 @@ class LeafFronts {
   const int* refused_columns(tree::SubdomainId leaf) const { return top(leaf).columns.data() + top(leaf).pivots; }
   double condensed(tree::SubdomainId leaf, int i, int j) const;
 
-  /// Condenses the loads of the unknowns inside (b: all unknowns, scaled). The result, num_kept entries, stays until the next call.
+  /// Condenses the loads of the unknowns inside (b: all unknowns, scaled). The result, num_kept entries, stays until
+  /// the next call.
   const double* forward(tree::SubdomainId leaf, const double* b);
   /// The load of the interior becomes zero, as for null vectors.
   void clear_load(tree::SubdomainId leaf);

@@ -1,6 +1,6 @@
 #pragma once
-/// Memory that begins on a cache line, so that a pack of eight doubles never straddles two; what is large on large pages, so that columns
-/// of a front are not one miss of the page table each. Internal to solve.
+/// Memory that begins on a cache line, so that a pack of eight doubles never straddles two; what is large on large
+/// pages, so that columns of a front are not one miss of the page table each. Internal to solve.
 #include <cstddef>
 #include <cstdint>
 #include <new>

@@ -16,10 +16,12 @@ namespace bough::solve {
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// d^2 in scaled variables, lowered from the multipliers' diagonal where rows depend on each other. Refinement on the system as it is
-/// contracts by about d^2 a step; what round-off leaves along null vectors is eps / d^2, which a larger d^2 keeps small at the price of some steps more.
+/// d^2 in scaled variables, lowered from the multipliers' diagonal where rows depend on each other. Refinement on the
+/// system as it is contracts by about d^2 a step; what round-off leaves along null vectors is eps / d^2, which a
+/// larger d^2 keeps small at the price of some steps more.
 constexpr double regularisation = 1e-4;
-/// Where a row nearly depends on others, at a distance below the root of the above, refinement stalls; this one then takes over.
+/// Where a row nearly depends on others, at a distance below the root of the above, refinement stalls; this one then
+/// takes over.
 constexpr double weak_regularisation = 1e-7;
 [[maybe_unused]] constexpr int most_refinements = 10;  ///< where regularised
 constexpr double refined_enough =

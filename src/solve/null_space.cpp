@@ -13,8 +13,8 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// Combinations of the columns that are orthonormal after rows are multiplied by `weight`. The second sweep takes out what the condition of the
-/// columns has left in the first.
+/// Combinations of the columns that are orthonormal after rows are multiplied by `weight`. The second sweep takes out
+/// what the condition of the columns has left in the first.
 void orthonormalise(std::vector<double>& vectors, int count, const Eigen::VectorXd& weight) {
   Eigen::Map<Eigen::MatrixXd> V(vectors.data(), weight.size(), count);
   for (int sweep = 0; sweep < 2; ++sweep) {
@@ -23,10 +23,11 @@ void orthonormalise(std::vector<double>& vectors, int count, const Eigen::Vector
   }
 }
 
-/// Whether the constraint forces of a vector (scaled) cancel at every node: G^T y = 0 against |G|^T |y|, in the units of the scene. Where rows really
-/// depend they do, whatever masses there are. Behind a light body between heavy ones they do not, although in scaled variables, in which
-/// the light body moves by much, the singular value is only the ratio of the masses. A thirtieth of what meets at a node passes, and what is 3e-5
-/// of the largest: loops that are still open, by 1e-5 as rank_tolerance has it.
+/// Whether the constraint forces of a vector (scaled) cancel at every node: G^T y = 0 against |G|^T |y|, in the units
+/// of the scene. Where rows really depend they do, whatever masses there are. Behind a light body between heavy ones
+/// they do not, although in scaled variables, in which the light body moves by much, the singular value is only the
+/// ratio of the masses. A thirtieth of what meets at a node passes, and what is 3e-5 of the largest: loops that are
+/// still open, by 1e-5 as rank_tolerance has it.
 bool forces_cancel(const ElementStore& elements, const tree::Tree& tree, const bool* is_constraint,
                    const std::vector<double>& column_scale, const double* z) {
   constexpr double passing = 3e-2, insignificant = 1e-3;
@@ -61,8 +62,8 @@ bool forces_cancel(const ElementStore& elements, const tree::Tree& tree, const b
 
 }  // namespace
 
-/// With the k left-over rows and columns of the root held at unit vectors in turn: right vectors z by back-substitution, left ones y with L.
-/// Then y_i^T A z_j is the left-over block of the root.
+/// With the k left-over rows and columns of the root held at unit vectors in turn: right vectors z by
+/// back-substitution, left ones y with L. Then y_i^T A z_j is the left-over block of the root.
 void Hierarchical::State::eval_null_candidates() {
   const FrontData& root = fronts.back();
   const int k = root.num_delayed();
@@ -122,9 +123,10 @@ void Hierarchical::State::backward_left_front(tree::FrontId f, std::vector<doubl
   });
 }
 
-/// The left-over block T of the root is small, but small against what? With Z = Q_z R_z and Y = Q_y R_y the smallest singular values of A
-/// are, nearly, those of R_y^-T T R_z^-1: the distances to singular matrices. Directions without motion count as dependent rows below
-/// rank_tolerance where their forces cancel as well, others as singular below singular_tolerance; all the rest is eliminated after all.
+/// The left-over block T of the root is small, but small against what? With Z = Q_z R_z and Y = Q_y R_y the smallest
+/// singular values of A are, nearly, those of R_y^-T T R_z^-1: the distances to singular matrices. Directions without
+/// motion count as dependent rows below rank_tolerance where their forces cancel as well, others as singular below
+/// singular_tolerance; all the rest is eliminated after all.
 void Hierarchical::State::decide_rank() {
   FrontData& root = fronts.back();
   const int m = root.num_delayed();
@@ -221,10 +223,11 @@ void Hierarchical::State::project_multipliers() {
   }
 }
 
-/// Where rows depend the matrix that is solved with is A_k, A with the left-over block T of the root for zero: its null vectors are exact, and its
-/// solutions are those of A but for T x in the left-over rows. The residual is that of A_k; |T x|, what deciding on the rank has
-/// cost, is told apart. T is the singular value that was taken for zero, times the lengths of the null vectors in units of the left-over
-/// rows and columns, which are long where a direction hardly lives in these.
+/// Where rows depend the matrix that is solved with is A_k, A with the left-over block T of the root for zero: its
+/// null vectors are exact, and its solutions are those of A but for T x in the left-over rows. The residual is that
+/// of A_k; |T x|, what deciding on the rank has cost, is told apart. T is the singular value that was taken for zero,
+/// times the lengths of the null vectors in units of the left-over rows and columns, which are long where a direction
+/// hardly lives in these.
 ElementStore::Errors Hierarchical::State::eval_met_residual(const tree::Walker& walker, SolveReport& report) {
   ElementStore::Errors errors = elements.eval_residual(walker, scales, x, given, residual.data());
   if (null_space.dimension == 0 || !errors.finite || !(errors.size > 0.0)) return errors;

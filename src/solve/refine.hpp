@@ -1,5 +1,6 @@
 #pragma once
-/// Solution with refinement against the element matrices, for the solvers beside the hierarchical one. Internal to solve.
+/// Solution with refinement against the element matrices, for the solvers beside the hierarchical one. Internal to
+/// solve.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -45,8 +46,8 @@ struct RefineBuffers {
   std::vector<double> scaled_rhs, scaled, rhs, x, trial, residual;
 };
 
-/// x = A^-1 rhs by apply(scaled right-hand side, scaled solution), then at most `most` steps of refinement while they help and the normwise
-/// backward error is above refinement_above. Fills the report's backward errors, steps, growth.
+/// x = A^-1 rhs by apply(scaled right-hand side, scaled solution), then at most `most` steps of refinement while they
+/// help and the normwise backward error is above refinement_above. Fills the report's backward errors, steps, growth.
 template <class Apply>
 void solve_and_refine(const tree::Walker& walker, ElementStore& elements, const Scales& scales,
                       const SolveOptions& options, int most, bool check, RefineBuffers& w, const double* rhs, double* x,

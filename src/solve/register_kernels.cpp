@@ -16,7 +16,8 @@ using rows::Eight;
 using rows::eight;
 using rows::Mask;
 
-/// What the elimination of up to eight pivots, all in one column of registers, needs. Pointers begin at the first pivot's row and register.
+/// What the elimination of up to eight pivots, all in one column of registers, needs. Pointers begin at the first
+/// pivot's row and register.
 struct Panel {
   double* rows;
   int step;        ///< between rows
@@ -41,7 +42,8 @@ constexpr Mask first_lanes(int count) {
   return static_cast<Mask>(count >= eight ? 0xff : count <= 0 ? 0 : (1 << count) - 1);
 }
 
-/// C rows from row i on catch up with the K pivots, p their rows; symmetric: as they were before they were divided, which then stand in f.rows.
+/// C rows from row i on catch up with the K pivots, p their rows; symmetric: as they were before they were divided,
+/// which then stand in f.rows.
 template <int R, int K, int C, bool is_symmetric>
 [[gnu::always_inline]] inline void update_rows(const Panel& f, const Eight (&p)[K][R], int i) {
   Eight t[C][R];

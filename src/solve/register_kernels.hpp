@@ -1,8 +1,11 @@
 #pragma once
-/// Kernels of one small front, row by row in registers, the right-hand side in the last lane of its rows. No row is exchanged. Internal to solve.
-///   A = L U, U unit upper with the pivots in L: rows of U are divided, so that multipliers are the entries of L as they stand.
-/// A pivot is to reach `least`. Of the up to eight that go together the squares of the entries of U are summed by columns, scaled: a sum above
-/// 1 / threshold^2 refuses them, so that no entry of U is larger than 1 / threshold (definite: RegisterKind).
+/// Kernels of one small front, row by row in registers, the right-hand side in the last lane of its rows. No row is
+/// exchanged. Internal to solve.
+///   A = L U, U unit upper with the pivots in L: rows of U are divided, so that multipliers are the entries of L as
+///     they stand.
+/// A pivot is to reach `least`. Of the up to eight that go together the squares of the entries of U are summed by
+/// columns, scaled: a sum above 1 / threshold^2 refuses them, so that no entry of U is larger than 1 / threshold
+/// (definite: RegisterKind).
 #include "register_plan.hpp"
 
 namespace bough::solve {
@@ -13,7 +16,8 @@ enum class RegisterKind {
   definite,  ///< the same; pivots are to be positive, and no panel may take more than 1 / threshold, scaled, off a diagonal
 };
 
-/// Scales of a front: columns (zero beyond), and of what is eliminated 1 / column and what the magnitudes of pivots have to reach.
+/// Scales of a front: columns (zero beyond), and of what is eliminated 1 / column and what the magnitudes of pivots
+/// have to reach.
 struct RegisterScales {
   const double *column, *inverse_column, *least;
 };

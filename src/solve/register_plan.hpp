@@ -1,5 +1,6 @@
 #pragma once
-/// Small fronts of a leaf that goes alone, row by row in registers: how they are put together. Symbolic, made once. Internal to solve.
+/// Small fronts of a leaf that goes alone, row by row in registers: how they are put together. Symbolic, made once.
+/// Internal to solve.
 #include <cstdint>
 #include <vector>
 

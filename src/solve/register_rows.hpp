@@ -54,7 +54,8 @@ inline void take_lane(Eight& v, int to, const Eight& from, int lane) {
   v.r[0] = Real(_mm512_mask_permutexvar_pd(__m512d(v.r[0]), static_cast<Mask>(1 << to), _mm512_set1_epi64(lane),
                                            __m512d(from.r[0])));
 }
-/// Lanes [shift, shift + 8) of two that follow each other; the last one is the last of `low` or of `high` instead, if asked for.
+/// Lanes [shift, shift + 8) of two that follow each other; the last one is the last of `low` or of `high` instead, if
+/// asked for.
 template <int shift, LastLane last>
 inline Eight shifted(const Eight& low, const Eight& high) {
   const auto lane = [](int l) {

@@ -18,7 +18,8 @@ constexpr int largest_step = (largest_in_registers / row_register + 1) * row_reg
 
 }  // namespace
 
-/// False: a pivot would not stand where it is. The leaf then goes the pivoted way as a whole, from its element matrices.
+/// False: a pivot would not stand where it is. The leaf then goes the pivoted way as a whole, from its element
+/// matrices.
 bool Hierarchical::State::factor_registers(int group, const double* b) {
   const RegisterGroup& own = registers.groups[at(group)];
   const RegisterKind kind = is_definite()    ? RegisterKind::definite
@@ -73,7 +74,8 @@ bool Hierarchical::State::factor_registers(int group, const double* b) {
   return true;
 }
 
-/// A front's right-hand side: what the children have condensed, then its own, which the visit that factors adds last, too.
+/// A front's right-hand side: what the children have condensed, then its own, which the visit that factors adds last,
+/// too.
 void Hierarchical::State::gather_register_rhs(const RegisterFront& f, const double* b, double* t) const {
   std::fill_n(t, f.size(), 0.0);
   for (int c = f.child_begin; c < f.child_end; ++c) {

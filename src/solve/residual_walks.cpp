@@ -34,7 +34,8 @@ void Hierarchical::State::residual_group(int index) {
   size.rhs = most[1];
 }
 
-/// b - A x in the rows eliminated here; the elements' part in the boundary goes to the parent, like a condensed right-hand side.
+/// b - A x in the rows eliminated here; the elements' part in the boundary goes to the parent, like a condensed
+/// right-hand side.
 void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
   const LaneFront& f = lanes.fronts[at(index)];
   const int* unknown = lanes.unknowns.data() + f.unknown;

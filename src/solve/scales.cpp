@@ -10,13 +10,15 @@ namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
-/// An unknown with little or nothing on the diagonal may still resist through a constraint to one that does (the turning of a massless bar
-/// that carries a mass): a row g then lends it g_u^2 / sum_{v != u} g_v^2 / a_v. Taken where the own diagonal is weaker by `weak`;
-/// scaled by noise instead, such an unknown would dwarf the others in its rows and make them look dependent.
-/// strict: rows all of whose other unknowns have a diagonal; it is their own one that they lend, not what they have borrowed, else the rows of
-/// many hinges on one body, which couple its unknowns in ever other ratios, raise these without end. bare: a node between joints, to which no such row leads, takes the sum over
-/// what has one in the row's other blocks, and the most of its rows; what its own block could give way to is held by its other joints, or
-/// by nothing at all. What was lent in a bare sweep stands negative until its end and does not lend on. Answers whether something was lent.
+/// An unknown with little or nothing on the diagonal may still resist through a constraint to one that does (the
+/// turning of a massless bar that carries a mass): a row g then lends it g_u^2 / sum_{v != u} g_v^2 / a_v. Taken
+/// where the own diagonal is weaker by `weak`; scaled by noise instead, such an unknown would dwarf the others in its
+/// rows and make them look dependent. strict: rows all of whose other unknowns have a diagonal; it is their own one
+/// that they lend, not what they have borrowed, else the rows of many hinges on one body, which couple its unknowns
+/// in ever other ratios, raise these without end. bare: a node between joints, to which no such row leads, takes the
+/// sum over what has one in the row's other blocks, and the most of its rows; what its own block could give way to is
+/// held by its other joints, or by nothing at all. What was lent in a bare sweep stands negative until its end and
+/// does not lend on. Answers whether something was lent.
 bool ElementStore::lend_diagonals(Lending lending, const std::vector<double>& given,
                                   std::vector<double>& diagonal) const {
   constexpr double weak = 1e-6;
@@ -42,8 +44,8 @@ bool ElementStore::lend_diagonals(Lending lending, const std::vector<double>& gi
         const auto couples = [&](std::int64_t j) { return std::abs(g[j]) > 1e-8 * largest; };
         for_motion([&](std::size_t u, std::int64_t j, int own) {
           if (!couples(j)) return;
-          // A joint to the ground that is a little out of line with the node's axes holds u, and drags on its neighbours
-          // by tiny shares. Where these are no stronger than u they say nothing about it.
+          // A joint to the ground that is a little out of line with the node's axes holds u, and drags on its
+          // neighbours by tiny shares. Where these are no stronger than u they say nothing about it.
           const auto is_dragged = [&](std::size_t v, std::int64_t k, int other) {
             constexpr double tiny_share = 1e-3;
             return other == own && std::abs(g[k]) < tiny_share * std::abs(g[j]) && given[u] >= weak * given[v];
@@ -77,8 +79,8 @@ bool ElementStore::lend_diagonals(Lending lending, const std::vector<double>& gi
   return has_lent;
 }
 
-/// given: the sums of |diagonal| before rows lend any. Strictly once: rows that couple in other ratios would raise each other without end. Bare nodes borrow from nothing, so only once each;
-/// what has borrowed lends on.
+/// given: the sums of |diagonal| before rows lend any. Strictly once: rows that couple in other ratios would raise
+/// each other without end. Bare nodes borrow from nothing, so only once each; what has borrowed lends on.
 void ElementStore::lift_weak_diagonals(std::vector<double>& given, std::vector<double>& diagonal) const {
   given = diagonal;
   lend_diagonals(Lending::strict, given, diagonal);

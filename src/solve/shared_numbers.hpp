@@ -10,10 +10,12 @@ namespace bough::solve {
 /// Doubles on the boundary of a cache line.
 using LaneDoubles = std::vector<double, LineAllocator<double>>;
 
-/// Arrays written one after the other; one that has the bits of an earlier one is kept once. What a walk reads of them then stays in the nearest cache.
+/// Arrays written one after the other; one that has the bits of an earlier one is kept once. What a walk reads of
+/// them then stays in the nearest cache.
 class SharedNumbers {
  public:
-  /// Room for `count` arrays of `numbers` doubles in all, if they all should differ; memory that is not written is not taken from the system.
+  /// Room for `count` arrays of `numbers` doubles in all, if they all should differ; memory that is not written is
+  /// not taken from the system.
   SharedNumbers(std::int64_t count, std::int64_t numbers);
   void clear();
   /// The next array, filled with `value`, to be written until end(). No allocation. size: a multiple of a line.

@@ -60,7 +60,8 @@ void Hierarchical::State::backward_front(tree::FrontId f) {
   });
 }
 
-/// x = solution of A x = b, which may be the same array; unknowns left over at the root (dependent rows) are zero, then multipliers are made least.
+/// x = solution of A x = b, which may be the same array; unknowns left over at the root (dependent rows) are zero,
+/// then multipliers are made least.
 void Hierarchical::State::solve_into_x(const tree::Walker& walker, const double* b) {
   visit_rhs = b;
   auto forward = [this](int group) { forward_group(group); };

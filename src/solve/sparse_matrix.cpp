@@ -8,7 +8,8 @@ namespace bough::solve {
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// Calls visit(row, column, entry of the element matrix) for all entries of all elements, in the order of SparseAssembly::slots_.
+/// Calls visit(row, column, entry of the element matrix) for all entries of all elements, in the order of
+/// SparseAssembly::slots_.
 template <class Visit>
 void for_entries(const ElementStore& elements, Visit&& visit) {
   const auto& first = elements.tree().unknown_begin;

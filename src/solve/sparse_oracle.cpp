@@ -14,7 +14,8 @@ namespace bough::solve {
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// d^2 in scaled variables: refinement contracts by about d^2 a step, null vectors pick up eps / d^2: half the digits each.
+/// d^2 in scaled variables: refinement contracts by about d^2 a step, null vectors pick up eps / d^2: half the digits
+/// each.
 constexpr double regularisation = 1e-7;
 /// CHOLMOD refines what is not singular too, and must get there where constraints are soft: less, and more steps.
 constexpr double cholmod_regularisation = 1e-10;
@@ -72,7 +73,8 @@ bool SparseOracle::State::factor_lowered(double lowered) {
   return std::visit([&](auto& b) { return b.factor(sparse.matrix()); }, backend);
 }
 
-/// Two inverse iterations from a vector without pattern: a lower bound of |A^-1|, rarely far below. Infinite when it overflows.
+/// Two inverse iterations from a vector without pattern: a lower bound of |A^-1|, rarely far below. Infinite when it
+/// overflows.
 double SparseOracle::State::eval_growth(std::size_t& largest) {
   const std::size_t n = probe.size();
   std::uint32_t bits = 12345;
@@ -96,7 +98,8 @@ double SparseOracle::State::eval_growth(std::size_t& largest) {
   return growth;
 }
 
-/// Whether the vector that the matrix shrinks most moves anything: then it is no dependence of rows, the matrix is ill-conditioned.
+/// Whether the vector that the matrix shrinks most moves anything: then it is no dependence of rows, the matrix is
+/// ill-conditioned.
 bool SparseOracle::State::has_motion_in_response() const {
   const auto& graph = elements.graph();
   double motion = 0.0, whole = 0.0;
@@ -109,7 +112,8 @@ bool SparseOracle::State::has_motion_in_response() const {
   return motion > options.null_motion_tolerance * options.null_motion_tolerance * whole;
 }
 
-/// Share of b that no x reaches, 0 below 1e-8: against |b| alone, since the multipliers of rows that contradict grow without bound.
+/// Share of b that no x reaches, 0 below 1e-8: against |b| alone, since the multipliers of rows that contradict grow
+/// without bound.
 double SparseOracle::State::eval_inconsistency(const tree::Walker& walker, const double* rhs, const double* x) {
   const auto errors = elements.eval_residual(walker, scales, x, rhs, buffers.residual.data());
   double left = 0.0, whole = 0.0;

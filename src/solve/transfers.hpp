@@ -4,14 +4,15 @@
 
 namespace bough::solve {
 
-/// Lines of memory that are asked for or written past the caches, a few at a time between parts of a computation. All at once they would fill the
-/// few buffers that a core has for lines under way, and the computation would wait until the last of them has one.
+/// Lines of memory that are asked for or written past the caches, a few at a time between parts of a computation. All
+/// at once they would fill the few buffers that a core has for lines under way, and the computation would wait until
+/// the last of them has one.
 class Transfers {
  public:
   /// Brings packs to the second cache.
   void fetch(const double* packs, std::int64_t count) { add(packs, nullptr, count); }
-  /// Copies packs to lines of memory without reading what stands there. `from` must last until finish(); what was written is in memory for
-  /// all threads after end_writes().
+  /// Copies packs to lines of memory without reading what stands there. `from` must last until finish(); what was
+  /// written is in memory for all threads after end_writes().
   void write(const double* from, std::int64_t count, double* to) { add(from, to, count); }
   /// Spreads all that waits evenly over the next `steps` calls of step().
   void spread(int steps);

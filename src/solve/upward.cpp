@@ -97,7 +97,8 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
   const PivotRule rule{is_root ? std::max(options.pivot_threshold, 0.1) : options.pivot_threshold,
                        is_root ? 1e-2 : options.tiny_pivot};
   if (is_definite() && !d.is_indefinite && d.delayed_in == 0) {
-    // At the root as well: pivots that are all positive are those of a definite matrix, whose rank there is nothing to decide about.
+    // At the root as well: pivots that are all positive are those of a definite matrix, whose rank there is nothing
+    // to decide about.
     d.pivots = eliminate_definite(matrix, {options.pivot_threshold, options.tiny_pivot}, &factor_walker);
     if (d.pivots == d.full) return;
     d.is_indefinite = true;

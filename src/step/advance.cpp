@@ -43,9 +43,9 @@ struct Integrator {
     });
   }
 
-  /// Predictor: dv/dt goes on as the polynomial through past ones that would have been nearest last; a_{n+1} follows. So do
-  /// multipliers: the first solution would find them whatever they were, but an old factor the better the nearer they
-  /// are. Writes all of `state`, its nodes in one pass over the start.
+  /// Predictor: dv/dt goes on as the polynomial through past ones that would have been nearest last; a_{n+1} follows.
+  /// So do multipliers: the first solution would find them whatever they were, but an old factor the better the
+  /// nearer they are. Writes all of `state`, its nodes in one pass over the start.
   std::optional<Trouble> predict(System& system, State& state) const {
     state.step_size = start.step_size;
     system.predict_multipliers(start, state);
@@ -73,8 +73,8 @@ struct Integrator {
   }
 };
 
-/// What the next step goes by: its predictor, and how far it iterates. Angular accelerations count by the arm that turns
-/// them into linear ones.
+/// What the next step goes by: its predictor, and how far it iterates. Angular accelerations count by the arm that
+/// turns them into linear ones.
 void note_end(System& system, const AlphaRule& rule, const State& start, State& state) {
   const double arm = system.moment_arm(), per_length = 1.0 / system.plan().length_scale;
   std::vector<Workspace::StepEnd>& parts = system.work().step_ends;

@@ -5,8 +5,8 @@
 
 namespace bough::step {
 
-/// Of a step of size h [s]: velocities and accelerations that belong to its increment dq, and the increment that it starts from. V: a motion
-/// vector, of doubles or packs.
+/// Of a step of size h [s]: velocities and accelerations that belong to its increment dq, and the increment that it
+/// starts from. V: a motion vector, of doubles or packs.
 struct AlphaRule {
   AlphaCoefficients c;
   double h;
@@ -20,7 +20,8 @@ struct AlphaRule {
     return {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false};
   }
 
-  ///   a_{n+1} = (dq - h v_n) / (beta h^2) - (1/2 - beta)/beta a_n,  v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1}),
+  ///   a_{n+1} = (dq - h v_n) / (beta h^2) - (1/2 - beta)/beta a_n,  v_{n+1} = v_n + h ((1 - gamma) a_n + gamma
+  ///     a_{n+1}),
   ///   dv/dt_{n+1} = ((1 - alpha_m) a_{n+1} + alpha_m a_n - alpha_f dv/dt_n) / (1 - alpha_f)
   template <class V>
   Rates<V> follow(const V& dq, const V& v, const V& a, const V& algorithmic) const {

@@ -90,8 +90,8 @@ double ArcLengthPath::choose_first_step(const State& state) {
   return step;
 }
 
-/// A spring on one unknown, the one that moves most where nothing else holds the shape: K + k e e^T is regular at a limit
-/// point. k is of the size of the loads over the motions that they cause, so that no digits go to it.
+/// A spring on one unknown, the one that moves most where nothing else holds the shape: K + k e e^T is regular at a
+/// limit point. k is of the size of the loads over the motions that they cause, so that no digits go to it.
 std::optional<ArcLengthPath::Spring> ArcLengthPath::find_spring(const solve::FactorStatus& status) const {
   if (!has_direction_ || status.outcome != solve::FactorOutcome::singular || status.block < 0) return std::nullopt;
   const blocks::BlockGraph& g = system_.plan().graph;

@@ -1,20 +1,22 @@
 #pragma once
 /// Backward differences of second or third order on the group, index 3.
-///   D = log(H_n^-1 H_{n+1}),  d/dt of local coordinates y(t) = log(H_n^-1 H(t)):  y' = (c0 D + c2 y_{n-1} + c3 y_{n-2}) / h
+///   D = log(H_n^-1 H_{n+1}),  d/dt of local coordinates y(t) = log(H_n^-1 H(t)):  y' = (c0 D + c2 y_{n-1} + c3
+///     y_{n-2}) / h
 ///   v_{n+1} = T(D) y',   v'_{n+1} = (c0 v_{n+1} + c1 v_n + c2 v_{n-1} + c3 v_{n-2}) / h,   R = 0, Phi = 0 at t_{n+1}
 ///   c = (3/2, -2, 1/2, 0) or (11/6, -3, 3/2, -1/3)
-/// y_{n-1} = -D_{n-1}, y_{n-2} = log(exp(-D_{n-1}) exp(-D_{n-2})): earlier poses are carried into the coordinates of each step exactly, so that
-/// the order is that of the linear space, in positions, velocities, accelerations and multipliers. Vibrations much faster than the step
-/// are damped within a few of them. Order 2 damps all vibrations; order 3 is stable within 86 degrees of the negative axis: undamped
-/// vibrations of some 3 to 12 steps a period grow.
+/// y_{n-1} = -D_{n-1}, y_{n-2} = log(exp(-D_{n-1}) exp(-D_{n-2})): earlier poses are carried into the coordinates of
+/// each step exactly, so that the order is that of the linear space, in positions, velocities, accelerations and
+/// multipliers. Vibrations much faster than the step are damped within a few of them. Order 2 damps all vibrations;
+/// order 3 is stable within 86 degrees of the negative axis: undamped vibrations of some 3 to 12 steps a period grow.
 ///
-/// The iteration's matrix is that of generalized-alpha with slopes c0 / h and their square:  dv = (c0 / h) T(D / c0)^-1 eta to first order.
+/// The iteration's matrix is that of generalized-alpha with slopes c0 / h and their square:  dv = (c0 / h) T(D /
+/// c0)^-1 eta to first order.
 ///
-/// Start: two steps by generalized-alpha in quarters, whose error over so short a time is of third order. Index 3 carries a steady velocity
-/// error in the constraints' normals, -(h^2 / 3) G (v'' + ad(v) v' / 2) at order 2 and -(h^3 / 4) G (v''' + ad(v) v'') at order 3; the
-/// velocities of the start get it, too, or multipliers would be of lower order in the steps to come. Any change of h is a new start.
-/// Sources: Faltinsen, Marthinsen, Munthe-Kaas 2001 (multistep methods in coordinates of each step); Wieloch, Arnold 2021 (starting values at
-/// index 3).
+/// Start: two steps by generalized-alpha in quarters, whose error over so short a time is of third order. Index 3
+/// carries a steady velocity error in the constraints' normals, -(h^2 / 3) G (v'' + ad(v) v' / 2) at order 2 and
+/// -(h^3 / 4) G (v''' + ad(v) v'') at order 3; the velocities of the start get it, too, or multipliers would be of
+/// lower order in the steps to come. Any change of h is a new start. Sources: Faltinsen, Marthinsen, Munthe-Kaas 2001
+/// (multistep methods in coordinates of each step); Wieloch, Arnold 2021 (starting values at index 3).
 #include <variant>
 #include <vector>
 

@@ -9,16 +9,17 @@ namespace bough::step {
 namespace {
 
 constexpr double taken_whole = 1e-2;  ///< smaller changes are not tested: there Newton's own convergence has set in
-/// The second order of smaller changes is below the rounding of strains: nodes take them as they are, without the roundings
-/// of the way along the tree.
+/// The second order of smaller changes is below the rounding of strains: nodes take them as they are, without the
+/// roundings of the way along the tree.
 constexpr double taken_by_node = 1e-8;
 constexpr double loose =
     0.8;  ///< part of the first power that may be left: the search only keeps Newton from overshooting
 constexpr int max_trials = 6;
 constexpr double divergence = 1e3;  ///< change of relative motions that no shape on the way to an equilibrium needs
 
-/// Applies as much of the correction in work().x as does not overshoot (line search on the power of the unbalanced forces along the path,
-/// Matthies, Strang 1979):  g(s) = residual(q(s)) . dq/ds,  not  g(s) / g(0) < -loose;  by regula falsi between 0 and 1.
+/// Applies as much of the correction in work().x as does not overshoot (line search on the power of the unbalanced
+/// forces along the path, Matthies, Strang 1979):  g(s) = residual(q(s)) . dq/ds,  not  g(s) / g(0) < -loose;  by
+/// regula falsi between 0 and 1.
 void apply_damped(System& system, State& state, double size) {
   const std::vector<double>& x = system.work().x;
   if (size <= taken_by_node) {

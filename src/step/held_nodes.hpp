@@ -27,9 +27,9 @@ class HeldNodes {
     return {kept_.data() + begin_[element], static_cast<std::size_t>(begin_[element + 1] - begin_[element])};
   }
 
-  /// Multipliers of all joints that hold:  W multipliers = -(forces of all other elements on the node), in statics with what these lack to first
-  /// order, f + K eta (State::unsettled). more: forces by node beside those of elements, or null. in_plane: elements in
-  /// the scene's plane are asked, else those in space.
+  /// Multipliers of all joints that hold:  W multipliers = -(forces of all other elements on the node), in statics
+  /// with what these lack to first order, f + K eta (State::unsettled). more: forces by node beside those of
+  /// elements, or null. in_plane: elements in the scene's plane are asked, else those in space.
   void recover_multipliers(const System& system, State& state, const Vec6List* more, bool in_plane) const;
   /// Largest of W^-1 M eta, eta the increments of the nodes by a vector x of unknowns.
   double largest_impulse(const System& system, const State& state, const double* x) const;
@@ -52,7 +52,8 @@ class HeldNodes {
   std::vector<std::vector<Use>> uses_;  ///< by held node, in the order of elements; without the joints that hold it
 };
 
-/// Calls f(place, i) for every entry i of an element's n x n matrix, row-major, that the solver takes, and its place there. held: may be null.
+/// Calls f(place, i) for every entry i of an element's n x n matrix, row-major, that the solver takes, and its place
+/// there. held: may be null.
 template <class F>
 void for_each_kept(const HeldNodes* held, std::size_t element, int n, F&& f) {
   if (held == nullptr || !held->trims(element)) {

@@ -13,7 +13,8 @@ namespace {
 
 /// The observer of statics moves steadily: every point of its frame has an acceleration that does not change in it,
 ///   a_0 + w x (w x x),  a_0 = V_l' + w x V_l,
-/// and the load factor scales it. A common velocity changes nothing, so it is left out:  V = (0; sqrt(factor) w),  V' = (factor a_0; 0).
+/// and the load factor scales it. A common velocity changes nothing, so it is left out:  V = (0; sqrt(factor) w),  V'
+/// = (factor a_0; 0).
 void make_steady(CarrierMotion& m, double factor) {
   const Vec3<double> w = lanes::angular_part(m.twist);
   const Vec3<double> origin = lanes::linear_part(m.twist_rate) + cross(w, lanes::linear_part(m.twist));

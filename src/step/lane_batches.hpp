@@ -1,6 +1,6 @@
 #pragma once
-/// Elements that the solver factors in lockstep, evaluated in lockstep as well: eight of one kind in the lanes of a pack, their tangents
-/// written where the solver takes them. Internal to step.
+/// Elements that the solver factors in lockstep, evaluated in lockstep as well: eight of one kind in the lanes of a
+/// pack, their tangents written where the solver takes them. Internal to step.
 #include <cstdint>
 #include <span>
 #include <tuple>
@@ -44,9 +44,9 @@ class LaneBatches {
   using Arrays = plan::ArraysOn<G>;
   using Field = elements::FieldOn<G, double>;
 
-  /// Batches of the solver; elements of those that are all but empty are put together with others near by of one kind, in the place of the first.
-  /// A batch goes in lanes if it holds at least `least_lanes` elements and they differ in numbers only.
-  /// Joints that hold nodes are in none: nothing of them is asked for.
+  /// Batches of the solver; elements of those that are all but empty are put together with others near by of one
+  /// kind, in the place of the first. A batch goes in lanes if it holds at least `least_lanes` elements and they
+  /// differ in numbers only. Joints that hold nodes are in none: nothing of them is asked for.
   void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
             const std::vector<int>& joint_of_element, const HeldNodes* held);
 
@@ -72,7 +72,8 @@ class LaneBatches {
         0;  ///< in places_: nodes port by port, laws and multipliers one by one, joints; of all lanes each
     bool is_trimmed = false;  ///< a node of one of them is held
   };
-  /// A lane element of eight equal ones, which further batches of the same may use: constants of a large structure do not fit into the caches.
+  /// A lane element of eight equal ones, which further batches of the same may use: constants of a large structure do
+  /// not fit into the caches.
   struct Uniform {
     int array, index;
     std::size_t element;  ///< one of them, in the plan's array

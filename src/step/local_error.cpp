@@ -153,7 +153,8 @@ void LocalError::shift_accelerations(const State& after, State& to) const {
 std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   const double h = after.step_size, h3 = h * h * h;
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
-  // Forces are linear in v': M e = R(v' + e) - R(v'), with an e of the size of v' so that the difference keeps its digits.
+  // Forces are linear in v': M e = R(v' + e) - R(v'), with an e of the size of v' so that the difference keeps its
+  // digits.
   const double c2 = (1.0 - alpha_.alpha_m) / ((1.0 - alpha_.alpha_f) * alpha_.beta * h * h);
   if (auto t = system.evaluate(after, {}, false)) return t;  // the last iteration need not have looked at it
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];

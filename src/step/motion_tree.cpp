@@ -17,7 +17,8 @@ struct Edge {
   int section = -1;  ///< of a beam
 };
 
-/// Edges of all elements between nodes, in the order of the elements, sorted by rank. Sections of beams are numbered in it.
+/// Edges of all elements between nodes, in the order of the elements, sorted by rank. Sections of beams are numbered
+/// in it.
 std::vector<Edge> edges_of(const plan::Plan& plan) {
   std::vector<Edge> edges;
   int section = 0;

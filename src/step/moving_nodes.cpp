@@ -232,7 +232,8 @@ VectorLanes<Se3> measure_increment(const SpatialNodes&, const SpatialNodes& stat
   gather<Se3::dof>(state.motion.data(), first, count, &dq[0], NodeNumbers<Se3>::dq);
   return dq;
 }
-/// log(H_start^-1 H), whose angle is known beyond half a turn: no rounding of a move is left between places and increments.
+/// log(H_start^-1 H), whose angle is known beyond half a turn: no rounding of a move is left between places and
+/// increments.
 VectorLanes<Se2> measure_increment(const PlanarNodes& start, const PlanarNodes& state, std::size_t first,
                                    std::size_t count) {
   Mover<Se2, Pack> from, to;

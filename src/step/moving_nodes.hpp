@@ -29,8 +29,8 @@ struct PairLanes {
   elements::LanePack per_length;  ///< 1 / length of the element [1/m]
 };
 
-/// H <- H exp(eta), eta from a vector x of unknowns. In space dq <- log(exp(dq) exp(eta)); in a plane the angle of dq alone is
-/// kept, which the pose does not tell beyond half a turn: follow_nodes finds the rest.
+/// H <- H exp(eta), eta from a vector x of unknowns. In space dq <- log(exp(dq) exp(eta)); in a plane the angle of dq
+/// alone is kept, which the pose does not tell beyond half a turn: follow_nodes finds the rest.
 template <class G>
 void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x, const IncrementsOf& increments);
 

@@ -14,8 +14,8 @@ namespace {
 /// Round-off is never twice the same: residuals within this many times what was met as such are it, too.
 constexpr double noise_spread = 1.5;
 
-/// sum |K| eps |coordinates| counts one rounding of each coordinate, a residual makes several (poses, relative motions, sums over elements): up to so
-/// many of them may be left above the tolerance.
+/// sum |K| eps |coordinates| counts one rounding of each coordinate, a residual makes several (poses, relative
+/// motions, sums over elements): up to so many of them may be left above the tolerance.
 constexpr double roundings = 16.0;
 
 }  // namespace

@@ -7,8 +7,8 @@ namespace bough::step {
 /// Changes that an own factor contracts less than this do not come from a whole tangent of a smooth system.
 constexpr double slowest_contraction = 0.03;
 
-/// Residual and change that an iteration may leave, measured or to be expected from its contraction, relative to the tolerance: an old factor must
-/// come as near as a new one, since errors of steps add up.
+/// Residual and change that an iteration may leave, measured or to be expected from its contraction, relative to the
+/// tolerance: an old factor must come as near as a new one, since errors of steps add up.
 constexpr double left_open = 1e-3;
 
 /// Changes of relative motions that are round-off at any tolerance.
@@ -26,11 +26,12 @@ struct IterationGoal {
   double round_off = 0.0;  ///< changes of relative motions that rounding of a step's increments makes [-]
 };
 
-/// Iterations may leave 3e-5 of the local error, as a residual relative to what makes it, down to 1e-13. Nothing is asked
-/// where the error is round-off itself, as where drives prescribe all motion, nor after a start.
+/// Iterations may leave 3e-5 of the local error, as a residual relative to what makes it, down to 1e-13. Nothing is
+/// asked where the error is round-off itself, as where drives prescribe all motion, nor after a start.
 IterationGoal make_goal(const State& start);
 
-/// Repeats: evaluate, stop when converged, factor, solve, apply. `follow` brings velocities and accelerations along with the positions.
+/// Repeats: evaluate, stop when converged, factor, solve, apply. `follow` brings velocities and accelerations along
+/// with the positions.
 template <class Follow>
 StepReport iterate(System& system, State& state, const StepOptions& options, const IterationGoal& goal,
                    const elements::Slopes& slopes, Follow&& follow);
@@ -48,14 +49,15 @@ bool is_small(const System& system, const ResidualSize& r, double tolerance);
 bool is_settled(const System& system, const ResidualSize& r, double tolerance, const IterationGoal& goal, double error,
                 double share = 1.0);
 
-/// Whether a residual, `size` of what makes it, is much larger than `expected` of it and yet, below the tolerance, as small as round-off can make it.
+/// Whether a residual, `size` of what makes it, is much larger than `expected` of it and yet, below the tolerance, as
+/// small as round-off can make it.
 bool is_noise(const System& system, const ResidualSize& r, double tolerance, double size, double expected);
 
 /// Whether the gaps of joints are within the tolerance.
 bool is_closed(const System& system, const ResidualSize& r, double tolerance);
 
-/// Whether iteration k of statics leaves a residual above the tolerance that may be what rounded places leave: changes, the
-/// last one and that before, no longer shrink, or shrink so fast that the next would be negligible.
+/// Whether iteration k of statics leaves a residual above the tolerance that may be what rounded places leave:
+/// changes, the last one and that before, no longer shrink, or shrink so fast that the next would be negligible.
 inline bool may_be_round_off(int k, double change, double previous, double tolerance) {
   if (change == 0.0) return true;
   return k > 1 && (change > shrinks * previous || change * change <= left_open * tolerance * previous);

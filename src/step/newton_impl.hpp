@@ -25,7 +25,8 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
   int served = 0;                                 // solutions in this step with the present factor
   double previous = 0.0, size = 0.0;              // the change before the last; the residual's largest share
   double expected = 0.0;                          // what the last solution was to leave of that
-  // By how much changes and residuals shrink. A factor that served before contracts as it did; of a new one nothing is known at first.
+  // By how much changes and residuals shrink. A factor that served before contracts as it did; of a new one nothing
+  // is known at first.
   double rate = fresh ? 1.0 : system.linear().last_contraction(), shrunk = 0.0;
   double contraction = rate;  // the last that round-off did not make
   const auto converge = [&]() {
@@ -72,7 +73,8 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
         report.cause = "the iteration diverges: " + describe(system, report.residual, tolerance);
         return report;
       }
-      // A new factor costs some renewal_cost solutions, and serves for one at least: it pays where as many with this one would not do.
+      // A new factor costs some renewal_cost solutions, and serves for one at least: it pays where as many with this
+      // one would not do.
       const double solutions = system.linear().renewal_cost() + 1.0;
       const double left = std::pow(std::min(rate, 1.0), solutions) * report.change;
       const bool is_slow =
@@ -101,8 +103,8 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     if (options.single_solution || k == 0) continue;  // nothing follows from the first: predictions err in other ways
     rate = previous > 0.0 ? report.change / previous : 0.0;
     if (k == 1 || report.change > least_change) contraction = rate;
-    // What the solution leaves need not be looked at where changes and residuals shrink on as they did. Gaps have to be seen closed: rows that
-    // contradict each other stay open while changes vanish.
+    // What the solution leaves need not be looked at where changes and residuals shrink on as they did. Gaps have to
+    // be seen closed: rows that contradict each other stay open while changes vanish.
     const double share = unseen_growth * std::max({rate, shrunk, is_own ? 0.0 : system.linear().last_contraction()});
     expected = share * size;
     const double error = share * report.change;

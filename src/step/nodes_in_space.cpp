@@ -29,7 +29,8 @@ struct Start {
 constexpr int start_numbers = sizeof(plan::PlanarNode) / sizeof(double);
 static_assert(sizeof(Start) == start_numbers * sizeof(Pack));
 
-/// A motion of a node in the plane as one in space, its own axes: columns of B along the plane, along the plane, normal.
+/// A motion of a node in the plane as one in space, its own axes: columns of B along the plane, along the plane,
+/// normal.
 Vec6<Pack> in_space(const Mat3<Pack>& B, const Vec3<Pack>& z) {
   Vec6<Pack> v;
   for (int i = 0; i < 3; ++i) {

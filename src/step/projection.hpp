@@ -1,6 +1,6 @@
 #pragma once
-/// Elements in fewer than six unknowns a node: residuals P f and tangents P K P^T, P of each node and the rows of joints that are unknowns.
-/// Internal to step.
+/// Elements in fewer than six unknowns a node: residuals P f and tangents P K P^T, P of each node and the rows of
+/// joints that are unknowns. Internal to step.
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -76,8 +76,8 @@ double speed_scale(const System& system, const State& state) {
   });
 }
 
-/// Velocities that satisfy the constraints (plus `offset` by multiplier when given), nearest in the mass metric. Mass matrix factored. Says
-/// in `report` how much they changed.
+/// Velocities that satisfy the constraints (plus `offset` by multiplier when given), nearest in the mass metric. Mass
+/// matrix factored. Says in `report` how much they changed.
 std::optional<Trouble> project_velocities(System& system, State& state, const std::vector<double>* offset,
                                           StartReport* report) {
   std::vector<double> rhs(system.num_unknowns(), 0.0), x(system.num_unknowns());
@@ -214,8 +214,8 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
 StartReport start_alpha(System& system, State& state, const StepOptions& options, double h) {
   const AlphaCoefficients c = make_alpha_coefficients(options.spectral_radius);
   set_unmoved(state, false);
-  // (M + O(h^2) K) jerk + G^T lambda' = -(residual)',  G jerk = -Phi'''|_{jerk = 0}, with the step's own matrix: modes faster than the step
-  // are filtered, smooth ones change by O(h) only.
+  // (M + O(h^2) K) jerk + G^T lambda' = -(residual)',  G jerk = -Phi'''|_{jerk = 0}, with the step's own matrix:
+  // modes faster than the step are filtered, smooth ones change by O(h) only.
   const double acceleration = (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h);
   const elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false};
   std::vector<double> rate, rhs(system.num_unknowns()), x(system.num_unknowns());
@@ -227,7 +227,8 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -acceleration * rate[i];
   set_rows(system, rhs, [&](std::size_t m) { return -6.0 * series[m].c[3]; });
   if (const auto t = system.linear().solve(rhs.data(), x.data())) return failed(t->text);
-  // Steady velocity error of the index-3 scheme in the constraints' normals: local error of dq against the Magnus series of the motion,
+  // Steady velocity error of the index-3 scheme in the constraints' normals: local error of dq against the Magnus
+  // series of the motion,
   //   G delta = -h^2 G ((beta + shift/2 - 1/6) jerk - ad(v) a / 12).
   std::vector<double>& steady_error = rhs;
   state.change_all([&]<class G>(NodesOn<G>& nodes) {

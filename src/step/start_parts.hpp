@@ -4,8 +4,8 @@
 
 namespace bough::step {
 
-/// Velocities that meet the constraints up to G d by row (d a motion in the unknowns; null: exactly), nearest in the mass metric. The matrix
-/// [M G^T; G 0] is factored at this state. Laws of its time are set.
+/// Velocities that meet the constraints up to G d by row (d a motion in the unknowns; null: exactly), nearest in the
+/// mass metric. The matrix [M G^T; G 0] is factored at this state. Laws of its time are set.
 [[nodiscard]] std::optional<Trouble> set_normal_velocities(System& system, State& state, const std::vector<double>* d);
 
 /// dv/dt and multipliers of the equations of motion at positions and velocities, with that matrix factored.

@@ -35,8 +35,8 @@ class FirstBad {
 
 inline constexpr double too_far = 1e100;  ///< a change whose square may not be finite: the iteration is lost
 
-/// Calls f(block, size, node) for every part of an element's unknowns, in their order: its nodes, then, with node -1, the rows of a joint
-/// (index in Plan::joints, or -1). block -1: no unknowns of the system.
+/// Calls f(block, size, node) for every part of an element's unknowns, in their order: its nodes, then, with node -1,
+/// the rows of a joint (index in Plan::joints, or -1). block -1: no unknowns of the system.
 template <class F>
 void for_each_part(const plan::Plan& plan, std::size_t element, int joint, F&& f) {
   plan::with_element(plan.elements, plan.directory[element], [&](const auto& e) {
@@ -49,7 +49,8 @@ void for_each_part(const plan::Plan& plan, std::size_t element, int joint, F&& f
   if (!j.rows.empty()) f(j.block, static_cast<int>(j.rows.size()), -1);
 }
 
-/// Entries of an element's residual and of its magnitude in the order of System::parts_: for its nodes, of `node_unknowns` each, and its rows.
+/// Entries of an element's residual and of its magnitude in the order of System::parts_: for its nodes, of
+/// `node_unknowns` each, and its rows.
 template <class S>
 void join_parts(int node_unknowns, int num_unknowns, int num_rows, const S* residual, const S* magnitude, S* parts) {
   const int forces = num_unknowns - num_rows;
@@ -60,8 +61,8 @@ void join_parts(int node_unknowns, int num_unknowns, int num_rows, const S* resi
   }
 }
 
-/// The multipliers that an element on the group G of a joint takes: in space of all rows, in a plane of those that are kept
-/// there, which `scratch` takes.
+/// The multipliers that an element on the group G of a joint takes: in space of all rows, in a plane of those that
+/// are kept there, which `scratch` takes.
 template <class G>
 const double* multipliers_on(const plan::JointPlan& joint, const State& state, double* scratch) {
   const double* from = state.multipliers.data() + joint.multiplier_begin;
@@ -70,8 +71,8 @@ const double* multipliers_on(const plan::JointPlan& joint, const State& state, d
   return scratch;
 }
 
-/// Calls f(joint, multiplier, unknown, row) for every multiplier that is an unknown: its place in State::multipliers and in the solver's
-/// vectors, and its number among the rows of the joint.
+/// Calls f(joint, multiplier, unknown, row) for every multiplier that is an unknown: its place in State::multipliers
+/// and in the solver's vectors, and its number among the rows of the joint.
 template <class F>
 void for_each_multiplier(const System& system, F&& f) {
   const plan::Plan& plan = system.plan();

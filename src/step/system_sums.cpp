@@ -14,7 +14,8 @@ namespace bough::step {
 
 namespace {
 
-/// The bits of sizes are ordered as the sizes are, with those of what is not finite above all others, and no trap minds to compare them.
+/// The bits of sizes are ordered as the sizes are, with those of what is not finite above all others, and no trap
+/// minds to compare them.
 constexpr std::int64_t all_but_sign = 0x7fffffffffffffff, bits_of_infinity = 0x7ff0000000000000;
 inline std::int64_t size_bits(double a) { return std::bit_cast<std::int64_t>(a) & all_but_sign; }
 

@@ -80,8 +80,9 @@ std::optional<Trouble> VariationalOn<G>::set_momenta(State& state, double h) {
   return std::nullopt;
 }
 
-/// D = h v_n + (h^2/2) a_n, with a_n of the last step's own motion, 2 (v_n - D_n / h_n) / h_n, once there is one: the accelerations of the
-/// equations of motion may hold vibrations faster than the step, which mean nothing for the next.
+/// D = h v_n + (h^2/2) a_n, with a_n of the last step's own motion, 2 (v_n - D_n / h_n) / h_n, once there is one: the
+/// accelerations of the equations of motion may hold vibrations faster than the step, which mean nothing for the
+/// next.
 template <class G>
 void VariationalOn<G>::predict(double h) {
   const double last = base_.last_step;
@@ -108,9 +109,9 @@ std::optional<Trouble> VariationalOn<G>::place_nodes(State& next, double h) {
   return std::nullopt;
 }
 
-/// residual_ = (2/h) B (-D_1 L_d - p_n + (h/2) G_n^T lambda) by node, and the rows at the end of the step. B = T(-D/2)^-T T(-D)^T =
-/// (1 + Ad(exp(D/2))^T)/2 carries wrenches from the start to the middle such that forces of the middle are in it as they are: stiff ones
-/// then meet their own tangent in the iteration.
+/// residual_ = (2/h) B (-D_1 L_d - p_n + (h/2) G_n^T lambda) by node, and the rows at the end of the step. B =
+/// T(-D/2)^-T T(-D)^T = (1 + Ad(exp(D/2))^T)/2 carries wrenches from the start to the middle such that forces of the
+/// middle are in it as they are: stiff ones then meet their own tangent in the iteration.
 template <class G>
 std::optional<Trouble> VariationalOn<G>::evaluate_step(const State& next, double h, ResidualSize& size) {
   PhaseTimer timer{system_.clock(), system_.counts().assemble};
@@ -177,8 +178,8 @@ ResidualSize VariationalOn<G>::round_off_floor(double h) const {
   return floor;
 }
 
-/// (2/h) T(-D/2)^-T P + F of the elastic inertia, F = ad(v)^T P at each node but for rates of strain: stiffness between the axes of the
-/// nodes, which h omega times it would spoil if it were left out.
+/// (2/h) T(-D/2)^-T P + F of the elastic inertia, F = ad(v)^T P at each node but for rates of strain: stiffness
+/// between the axes of the nodes, which h omega times it would spoil if it were left out.
 template <class G>
 template <class E>
 void VariationalOn<G>::add_elastic_tangent(const E& e, const Field& field, double h, double* matrix) const {
@@ -203,9 +204,10 @@ void VariationalOn<G>::add_elastic_tangent(const E& e, const Field& field, doubl
   }
 }
 
-/// Increments of the iteration are those of the middle, xi. There the residual's derivative is the tangent of the equations of motion with
-/// dv = (2/h) T(D/2)^-1 xi, da = (4/h^2) T(D/2)^-1 xi, a = 0, plus ad(v)^T M / h, but for terms of the order of (h omega)^2 and of h times
-/// the rates of relative motion, both in the inertia alone. Rows and forces of constraints are exact:  eta_{n+1} = (1 + Ad(exp(D/2))^-1) xi.
+/// Increments of the iteration are those of the middle, xi. There the residual's derivative is the tangent of the
+/// equations of motion with dv = (2/h) T(D/2)^-1 xi, da = (4/h^2) T(D/2)^-1 xi, a = 0, plus ad(v)^T M / h, but for
+/// terms of the order of (h omega)^2 and of h times the rates of relative motion, both in the inertia alone. Rows and
+/// forces of constraints are exact:  eta_{n+1} = (1 + Ad(exp(D/2))^-1) xi.
 template <class G>
 void VariationalOn<G>::evaluate_tangent(const elements::Slopes& slopes, double h) {
   PhaseTimer timer{system_.clock(), system_.counts().assemble};
@@ -234,7 +236,8 @@ void VariationalOn<G>::evaluate_tangent(const elements::Slopes& slopes, double h
                                   tree::make_chunk(by_element));
 }
 
-/// Gradients of a joint's rows in its matrix: of forces at the start of the step, of rows at its end, carried to the middle.
+/// Gradients of a joint's rows in its matrix: of forces at the start of the step, of rows at its end, carried to the
+/// middle.
 template <class G>
 void VariationalOn<G>::set_rows_of(int element, double* matrix) const {
   const Place* const p = after_.place_of(element);

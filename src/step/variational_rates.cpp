@@ -1,5 +1,5 @@
-/// Velocities that belong to momenta, and the accelerations and multipliers that belong to a state: linear problems in [M G^T; G 0],
-/// solved with an old factor and refined.
+/// Velocities that belong to momenta, and the accelerations and multipliers that belong to a state: linear problems
+/// in [M G^T; G 0], solved with an old factor and refined.
 #include <algorithm>
 #include <cmath>
 
@@ -51,8 +51,9 @@ std::optional<Trouble> VariationalOn<G>::factor_mass(const State& state, double 
   return std::nullopt;
 }
 
-/// P(q, x) + G^T mu = goal_, G dx = row_goals_ for changes dx of the guess, x the velocities of `moving`, mu `multipliers`: solved with the
-/// factor at hand and refined until the change is below `target`. A factor that no longer serves is made anew.
+/// P(q, x) + G^T mu = goal_, G dx = row_goals_ for changes dx of the guess, x the velocities of `moving`, mu
+/// `multipliers`: solved with the factor at hand and refined until the change is below `target`. A factor that no
+/// longer serves is made anew.
 template <class G>
 std::optional<Trouble> VariationalOn<G>::solve_mass(State& moving, std::vector<double>& multipliers, double h,
                                                     double target) {
@@ -88,8 +89,8 @@ std::optional<Trouble> VariationalOn<G>::solve_mass(State& moving, std::vector<d
   return std::nullopt;
 }
 
-/// Adds x_ to velocities and multipliers, and what it closes to the rows. Returns the largest change: of motion relative to the motion, of
-/// multipliers to their largest or `scale`.
+/// Adds x_ to velocities and multipliers, and what it closes to the rows. Returns the largest change: of motion
+/// relative to the motion, of multipliers to their largest or `scale`.
 template <class G>
 double VariationalOn<G>::add_solution(State& moving, std::vector<double>& multipliers, double scale) {
   Nodes& moved = change(moving);
@@ -133,11 +134,12 @@ std::optional<Trouble> VariationalOn<G>::solve_velocities(State& state, double h
   return std::nullopt;
 }
 
-/// Equations of motion with the elastic inertia of steps of h, and Phi''(q, v, a) = 0: what is faster than the step is held back, what is
-/// slower changes by O(h^2).
+/// Equations of motion with the elastic inertia of steps of h, and Phi''(q, v, a) = 0: what is faster than the step
+/// is held back, what is slower changes by O(h^2).
 template <class G>
 std::optional<Trouble> VariationalOn<G>::solve_accelerations(State& state, double h) {
-  // Of dependent rows the multipliers of least norm are wanted: corrections of none have it, those of former ones do not.
+  // Of dependent rows the multipliers of least norm are wanted: corrections of none have it, those of former ones do
+  // not.
   if (mass_step_ > 0.0 && mass_.linear().solver().last_status().deficiency != 0)
     std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
   system_.constraint_series(state, nullptr, 0.0, series_);

@@ -1,5 +1,6 @@
 #pragma once
-/// An independent reference: planar geometrically exact rods as boundary value problems, by shooting. Shares nothing with the elements.
+/// An independent reference: planar geometrically exact rods as boundary value problems, by shooting. Shares nothing
+/// with the elements.
 #include <functional>
 #include <vector>
 
@@ -13,8 +14,8 @@ struct RodPiece {
   double kink = 0.0;                    ///< turn at its start [rad]
 };
 
-/// One section: place [m], direction of the section's normal [rad], and what the part beyond exerts on the part before: moment [N m], force
-/// along x and y [N].
+/// One section: place [m], direction of the section's normal [rad], and what the part beyond exerts on the part
+/// before: moment [N m], force along x and y [N].
 struct RodSection {
   double x = 0.0, y = 0.0, theta = 0.0, moment = 0.0, fx = 0.0, fy = 0.0;
   double normal_force() const;
@@ -22,17 +23,19 @@ struct RodSection {
 };
 
 /// Takes a section from the start of a piece to its end (Reissner 1972):
-///   x' = (1 + N/EA) cos(theta) - Q/GA sin(theta),  y' = (1 + N/EA) sin(theta) + Q/GA cos(theta),  theta' = curvature + M/EI,
+///   x' = (1 + N/EA) cos(theta) - Q/GA sin(theta),  y' = (1 + N/EA) sin(theta) + Q/GA cos(theta),  theta' = curvature
+///     + M/EI,
 ///   M' = y' Fx - x' Fy,  N = Fx cos + Fy sin,  Q = Fy cos - Fx sin
 /// by the classical Runge-Kutta rule in `steps` steps; its error is that of order four.
 RodSection along(const RodPiece& piece, RodSection start, int steps = 4000);
 
-/// Unknowns for which all residuals vanish, by Newton with differences, from a guess. Throws std::runtime_error where it does not converge to
-/// `tolerance` (of the residuals, which the caller makes free of units).
+/// Unknowns for which all residuals vanish, by Newton with differences, from a guess. Throws std::runtime_error where
+/// it does not converge to `tolerance` (of the residuals, which the caller makes free of units).
 std::vector<double> shoot(const std::function<std::vector<double>(const std::vector<double>&)>& residuals,
                           std::vector<double> guess, double tolerance = 1e-12);
 
-/// Cantilever along x from a clamp at the origin under a dead force (fx, fy) on its tip; sections at the ends of the pieces, the clamp first.
+/// Cantilever along x from a clamp at the origin under a dead force (fx, fy) on its tip; sections at the ends of the
+/// pieces, the clamp first.
 std::vector<RodSection> cantilever_rod(const std::vector<RodPiece>& pieces, double fx, double fy);
 
 }  // namespace bough::stress

@@ -15,8 +15,9 @@ namespace {
 
 constexpr double tip_force = 2.0;  // P L^2 / EI of the soft half
 
-/// Two halves of a cantilever, the junction a node of the interface mesh of two sub-domains. The half that hardly bends is one element: each more
-/// would add springs of 1e12 times 1e3 in a row, and where it hangs on the soft half, what holds it is below their round-off.
+/// Two halves of a cantilever, the junction a node of the interface mesh of two sub-domains. The half that hardly
+/// bends is one element: each more would add springs of 1e12 times 1e3 in a row, and where it hangs on the soft half,
+/// what holds it is below their round-off.
 scene::Scene halves(double first, double second) {
   const auto elements = [](double own, double other) { return own > other ? 1 : 8; };
   scene::Scene s;

@@ -19,9 +19,10 @@ RodPiece rod_of(double slenderness) {
   return {1.0, EA, shear_ratio * EA, 1.0, 0.0, 0.0};
 }
 
-/// Ten elements of order 3 are near the elastica by 1e-9. More are not better where the beam is slender: shear and extension are GA L^2 / EI times
-/// as stiff as bending, n elements in a row give way n^2 times as easily as one, and the tangent's condition is about the product. At L/h = 1e6 it
-/// is 6e15 here; from 20 elements on it passes 1/u, bending cannot be told from free motion, and the run says that nothing holds the beam.
+/// Ten elements of order 3 are near the elastica by 1e-9. More are not better where the beam is slender: shear and
+/// extension are GA L^2 / EI times as stiff as bending, n elements in a row give way n^2 times as easily as one, and
+/// the tangent's condition is about the product. At L/h = 1e6 it is 6e15 here; from 20 elements on it passes 1/u,
+/// bending cannot be told from free motion, and the run says that nothing holds the beam.
 scene::Scene cantilever(double slenderness) {
   const RodPiece r = rod_of(slenderness);
   scene::Scene s = scene::make_cantilever(scene::make_section("s", r.EA, r.GA, r.GA, 0.8, 1.0, 1.0), 1.0, 10, 3);

@@ -26,7 +26,8 @@ constexpr double start_angle = -0.7;
 /// Rate after a swing from rest at the horizontal.
 double rate_at(double angle) { return -std::sqrt(-2.0 * gravity * std::sin(angle)); }
 
-/// Let go at the horizontal; here it is met on its way, where no component of place, rate and force is zero: these would have no round-off.
+/// Let go at the horizontal; here it is met on its way, where no component of place, rate and force is zero: these
+/// would have no round-off.
 scene::Scene pendulum(double h, int steps) {
   const Vec3 place{{std::cos(start_angle), std::sin(start_angle), 0.0}};
   const double rate = rate_at(start_angle);
@@ -76,8 +77,8 @@ Errors errors_of(Bench& bench, double h, int steps, int watched) {
   return worst;
 }
 
-/// What places that are off by e each may do to rates and forces: at most rate e / h and force m e / h^2. Sums over the answers of generalized-alpha to a
-/// single place that is off by one, where places are given by a constraint.
+/// What places that are off by e each may do to rates and forces: at most rate e / h and force m e / h^2. Sums over
+/// the answers of generalized-alpha to a single place that is off by one, where places are given by a constraint.
 struct Amplification {
   double rate = 0.0, force = 0.0;
 };
@@ -98,8 +99,8 @@ Amplification amplification(double rho) {
   return sum;
 }
 
-/// Truncation is C (h/T)^2, round-off of a place x leaves u |x| / h in velocities and u m |x| / h^2 in forces: C from steps where only it
-/// shows, the floors from steps so small that they alone show.
+/// Truncation is C (h/T)^2, round-off of a place x leaves u |x| / h in velocities and u m |x| / h^2 in forces: C from
+/// steps where only it shows, the floors from steps so small that they alone show.
 void floors(Bench& bench) {
   const double T = swing;
   const Errors resolved = errors_of(bench, 1e-2 * T, 50, 20);
@@ -129,8 +130,8 @@ void floors(Bench& bench) {
              std::pow(force_floor * unit_round_off / (3.0 * gravity) / (C_force * T * T), 0.25));
 }
 
-/// The same pendulum on a stiff spring, which vibrates along it: steps below and above the smallest period, far below the swing's. The
-/// spring starts longer than it would swing, so that there is a vibration which could grow.
+/// The same pendulum on a stiff spring, which vibrates along it: steps below and above the smallest period, far below
+/// the swing's. The spring starts longer than it would swing, so that there is a vibration which could grow.
 void large_steps(Bench& bench) {
   const double w = 1e4, stretch = 1e-6, period = 2.0 * M_PI / w;  // m = 1 kg
   const int steps = bench.shorten(20000, 2000);
@@ -162,7 +163,8 @@ void large_steps(Bench& bench) {
   }
 }
 
-/// A swing in steps of its own period and more cannot be followed. Places stay on the circle all the same, and the run says so.
+/// A swing in steps of its own period and more cannot be followed. Places stay on the circle all the same, and the
+/// run says so.
 void unresolved_swing(Bench& bench) {
   for (const double ratio : {1.0, 3.0, 10.0}) {
     const run::MemoryRun run = bench.try_run(pendulum(ratio * swing, bench.shorten(2000, 300)));
@@ -176,11 +178,13 @@ void unresolved_swing(Bench& bench) {
   }
 }
 
-/// Largest magnitude of an eigenvalue of generalized-alpha for x'' = -w^2 x, by its definition (Chung, Hulbert 1993), in (x, h v, h^2 a).
+/// Largest magnitude of an eigenvalue of generalized-alpha for x'' = -w^2 x, by its definition (Chung, Hulbert 1993),
+/// in (x, h v, h^2 a).
 double spectral_radius_of(double rho, double w_h) {
   const step::AlphaCoefficients k = step::make_alpha_coefficients(rho);
   const double w2 = w_h * w_h;
-  // (1 - am) a+ + am a = (1 - af) x''+ + af x'',  x'' = -w2 x;  x+ = x + v + (1/2 - beta) a + beta a+,  v+ = v + (1 - gamma) a + gamma a+
+  // (1 - am) a+ + am a = (1 - af) x''+ + af x'',  x'' = -w2 x;  x+ = x + v + (1/2 - beta) a + beta a+,  v+ = v + (1 -
+  // gamma) a + gamma a+
   Eigen::Matrix3d left = Eigen::Matrix3d::Identity(), right;
   left << 1.0, 0.0, -k.beta, 0.0, 1.0, -k.gamma, (1.0 - k.alpha_f) * w2, 0.0, 1.0 - k.alpha_m;
   right << 1.0, 1.0, 0.5 - k.beta, 0.0, 1.0, 1.0 - k.gamma, -k.alpha_f * w2, 0.0, -k.alpha_m;
@@ -188,8 +192,9 @@ double spectral_radius_of(double rho, double w_h) {
   return step.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-/// Largest root of the recursion x_{k+3} = c_2 x_{k+2} + c_1 x_{k+1} + c_0 x_k that a history obeys, by least squares over rows of equal weight. (Its
-/// decay over many steps tells less: where the step is long all three roots meet, and x_k goes as k^2 rho^k.)
+/// Largest root of the recursion x_{k+3} = c_2 x_{k+2} + c_1 x_{k+1} + c_0 x_k that a history obeys, by least squares
+/// over rows of equal weight. (Its decay over many steps tells less: where the step is long all three roots meet, and
+/// x_k goes as k^2 rho^k.)
 double measured_radius(const std::vector<double>& x, std::size_t first, std::size_t rows) {
   Eigen::MatrixXd A(static_cast<Eigen::Index>(rows), 3);
   Eigen::VectorXd b(A.rows());
@@ -206,7 +211,8 @@ double measured_radius(const std::vector<double>& x, std::size_t first, std::siz
   return companion.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-/// A mass on a linear spring, pushed and let go: what its places obey from step to step has the largest eigenvalue of the scheme as its root.
+/// A mass on a linear spring, pushed and let go: what its places obey from step to step has the largest eigenvalue of
+/// the scheme as its root.
 void spectral_radius(Bench& bench) {
   const double w = 100.0, period = 2.0 * M_PI / w;
   for (const double rho : {0.0, 0.5, 0.8, 0.95, 1.0})

@@ -11,7 +11,8 @@ namespace bough::stress {
 
 namespace {
 
-/// A slider on a spring and damper as in the governor of the IFToMM library: 8e5 N/m, 4e4 N s/m, rates of 20 and 1e5 per second.
+/// A slider on a spring and damper as in the governor of the IFToMM library: 8e5 N/m, 4e4 N s/m, rates of 20 and 1e5
+/// per second.
 void governor(Bench& bench) {
   const double m = 0.4, k = 8e5, c = 4e4, x0 = 0.1, end = 0.1;
   const double root = std::sqrt(c * c - 4.0 * m * k), fast = -(c + root) / (2.0 * m), slow = k / (m * fast);

@@ -18,7 +18,8 @@ Features features_of(const solve::VisitShape& v) {
   return {static_cast<double>(v.num_fronts), v.flops, static_cast<double>(v.factor_bytes + v.element_bytes)};
 }
 
-/// Solves the normal equations for the features in `set` alone; false where they are dependent or a coefficient would be negative.
+/// Solves the normal equations for the features in `set` alone; false where they are dependent or a coefficient would
+/// be negative.
 bool fit_set(const std::vector<Features>& rows, const std::vector<double>& seconds, unsigned set, Features& result) {
   std::vector<std::size_t> used;
   for (std::size_t k = 0; k < num_features; ++k)

@@ -9,7 +9,8 @@
 
 namespace bough::study {
 
-/// By sub-domain: entries that the assembled matrix has (dense blocks) in the rows and columns eliminated there, less those eliminated before.
+/// By sub-domain: entries that the assembled matrix has (dense blocks) in the rows and columns eliminated there, less
+/// those eliminated before.
 std::vector<std::int64_t> count_matrix_entries(const blocks::BlockGraph& graph, const tree::Tree& tree);
 
 /// Elements of the structure as it is given, with their leaves, and the nodes that stand in separators.

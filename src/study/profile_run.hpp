@@ -28,8 +28,9 @@ struct WatchedRunOptions {
   bool want_motion = false;
 };
 
-/// Runs a scene. Visits are watched in the first 16 steps, and in every seventh after them: what a watch costs is a share of small steps, and medians ask
-/// for no more. (An odd number, as factors are often renewed in every second step.) `look` is called once after the last step.
+/// Runs a scene. Visits are watched in the first 16 steps, and in every seventh after them: what a watch costs is a
+/// share of small steps, and medians ask for no more. (An odd number, as factors are often renewed in every second
+/// step.) `look` is called once after the last step.
 WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, records::Recorder& recorder,
                      const run::ProgressCallback& progress, const std::function<void(step::System&)>& look = {});
 
@@ -42,7 +43,8 @@ class NullRecorder final : public records::Recorder {
   void end(const records::Summary&) override {}
 };
 
-/// The tree of visits that a run spent most of its factorizations on, among those with so many visits; null where none was walked.
+/// The tree of visits that a run spent most of its factorizations on, among those with so many visits; null where
+/// none was walked.
 const schedule::TreeTimes* walked_tree(const schedule::WalkTimes& times, std::size_t num_visits);
 
 }  // namespace bough::study

@@ -11,8 +11,9 @@ double critical_path(const tree::Tree& walk, const std::vector<double>& seconds)
 
 enum class Direction { up, down };
 
-/// Duration of one walk by greedy list scheduling, longest remaining path first, of the tasks that schedule::Threads makes: subtrees below
-/// `grain_flops` whole, all others visit by visit. Hand-over between threads costs nothing here. One thread: the sum.
+/// Duration of one walk by greedy list scheduling, longest remaining path first, of the tasks that schedule::Threads
+/// makes: subtrees below `grain_flops` whole, all others visit by visit. Hand-over between threads costs nothing
+/// here. One thread: the sum.
 double eval_walk(const tree::Tree& walk, const std::vector<double>& seconds, Direction direction, int threads,
                  double grain_flops);
 

@@ -77,7 +77,8 @@ Bisector::Pieces Bisector::find_pieces(const std::vector<int>& elements) const {
 }
 
 bool Bisector::piece_is_tree(const std::vector<int>& elements, const Pieces& pieces, int piece) const {
-  // A connected graph is a tree if and only if edges = vertices - 1. Each connecting block has touches_ edges and is one vertex.
+  // A connected graph is a tree if and only if edges = vertices - 1. Each connecting block has touches_ edges and is
+  // one vertex.
   double edges = 0.0, vertices = 0.0;
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (pieces.of_element[i] != piece) continue;
@@ -120,8 +121,8 @@ bool Bisector::is_path(const std::vector<int>& elements) {
 }
 
 int Bisector::centroid_block(const std::vector<int>& elements, const Pieces& pieces, int piece) {
-  // Weight below every vertex of the tree (elements weigh, blocks do not), rooted at the piece's first element; then for every block
-  // the heaviest part that its removal leaves.
+  // Weight below every vertex of the tree (elements weigh, blocks do not), rooted at the piece's first element; then
+  // for every block the heaviest part that its removal leaves.
   struct Step {
     int element, parent_block;
   };
@@ -173,8 +174,9 @@ int Bisector::centroid_block(const std::vector<int>& elements, const Pieces& pie
   return best;
 }
 
-/// What the separator of a cut and those of its two sides will cost: E(s, b) flops for s unknowns to eliminate and b on the boundary. The separators
-/// of the sides are not known yet: as a guess smaller by the ratio of the weights to the power 1/2.
+/// What the separator of a cut and those of its two sides will cost: E(s, b) flops for s unknowns to eliminate and b
+/// on the boundary. The separators of the sides are not known yet: as a guess smaller by the ratio of the weights to
+/// the power 1/2.
 double Bisector::predict_flops(const Cut& cut) {
   double own = 0.0, sides = 0.0, weight[2] = {0.0, 0.0};
   int separator = 0, boundary = 0, held[2] = {0, 0};
@@ -207,7 +209,8 @@ double Bisector::predict_flops(const Cut& cut) {
 
 Cut Bisector::cut_by_separator(const std::vector<int>& elements, const Pieces& pieces, int piece) {
   used_separator_ = true;
-  // Vertices: connecting blocks of the piece; a joint's multipliers (one element each) weigh on its first connecting block.
+  // Vertices: connecting blocks of the piece; a joint's multipliers (one element each) weigh on its first connecting
+  // block.
   std::vector<int> vertices, weights;
   std::vector<std::vector<int>> neighbours;
   for (std::size_t i = 0; i < elements.size(); ++i) {

@@ -10,21 +10,23 @@ struct Cut {
   std::vector<int> side[2];  ///< element ids, in the order they were given.
 };
 
-/// Scratch and rules of cutting. The set is seen as a bipartite graph of elements and *interior* blocks (all of whose elements are in the
-/// set): blocks on the boundary are shared anyway and connect nothing.
+/// Scratch and rules of cutting. The set is seen as a bipartite graph of elements and *interior* blocks (all of whose
+/// elements are in the set): blocks on the boundary are shared anyway and connect nothing.
 class Bisector {
  public:
   Bisector(const Adjacency& adjacency, unsigned seed);
 
-  /// True if the bipartite graph of the set has no cycle: then a sweep from the ends fills nothing and needs no dissection.
+  /// True if the bipartite graph of the set has no cycle: then a sweep from the ends fills nothing and needs no
+  /// dissection.
   bool is_forest(const std::vector<int>& elements);
 
-  /// True if the set is one chain: every element joins at most two motion blocks, every block at most two others, and no loop is closed.
+  /// True if the set is one chain: every element joins at most two motion blocks, every block at most two others, and
+  /// no loop is closed.
   bool is_path(const std::vector<int>& elements);
 
-  /// Two non-empty sides (precondition: at least two elements). Unconnected pieces are dealt out, the largest first; a piece above
-  /// two thirds of the weight is cut before: a tree exactly at one block (centroid), others at the vertex separator of least predicted
-  /// cost among several.
+  /// Two non-empty sides (precondition: at least two elements). Unconnected pieces are dealt out, the largest first;
+  /// a piece above two thirds of the weight is cut before: a tree exactly at one block (centroid), others at the
+  /// vertex separator of least predicted cost among several.
   Cut cut(const std::vector<int>& elements);
 
   bool used_separator() const { return used_separator_; }
@@ -62,8 +64,8 @@ struct VertexGraph {
   std::vector<int> row_begin, columns, weights;
 };
 
-/// Vertex separator of a graph: part 0, 1, or 2 (the separator). METIS where it was built in and the graph is large enough, otherwise
-/// breadth-first levels from a far vertex, whatever the seed.
+/// Vertex separator of a graph: part 0, 1, or 2 (the separator). METIS where it was built in and the graph is large
+/// enough, otherwise breadth-first levels from a far vertex, whatever the seed.
 std::vector<int> separate_vertices(const VertexGraph& graph, unsigned seed);
 
 }  // namespace bough::tree

@@ -12,8 +12,8 @@ namespace {
 /// Below this many elements a cyclic leaf is ordered by minimum degree alone.
 constexpr std::size_t terminal_elements = 48;
 
-/// Elements of a leaf from the mean cost of an element's elimination: a beam element of n unknowns leaves a front of 1.5 n with n/2
-/// eliminated, about 1.6 n^3 flops.
+/// Elements of a leaf from the mean cost of an element's elimination: a beam element of n unknowns leaves a front of
+/// 1.5 n with n/2 eliminated, about 1.6 n^3 flops.
 std::size_t choose_leaf_size(const Adjacency& adjacency, const std::vector<int>& elements, const TreeOptions& options) {
   const auto count = static_cast<double>(elements.size());
   double flops = 0.0;

@@ -126,9 +126,10 @@ class Builder {
     return path;
   }
 
-  /// Leaves of a chain are swept from their first block to their last, the two at its ends as if they lay in the middle: then all are alike
-  /// and can be factored in lockstep, where a few operations more in two of them cost nothing. For that the free end of the chain is
-  /// eliminated with the separator above. Where most leaves are held at one end (arms of a star), minimum degree sweeps them without fill.
+  /// Leaves of a chain are swept from their first block to their last, the two at its ends as if they lay in the
+  /// middle: then all are alike and can be factored in lockstep, where a few operations more in two of them cost
+  /// nothing. For that the free end of the chain is eliminated with the separator above. Where most leaves are held
+  /// at one end (arms of a star), minimum degree sweeps them without fill.
   void choose_sweeps() {
     constexpr std::size_t shortest = 3;
     constexpr int least_leaves = 6;
@@ -196,7 +197,8 @@ class Builder {
       std::sort(open.begin(), open.end());
       quotient_.eliminate({}, open);
     }
-    // Sub-domains of chains and trees are alike more often than not, and eight fronts in lockstep share what a visit costs.
+    // Sub-domains of chains and trees are alike more often than not, and eight fronts in lockstep share what a visit
+    // costs.
     constexpr double visit_alone = 12e3, visit_in_lockstep = 1200.0;  // [flop]
     // The leaf at the end of a swept chain is merged as if it were held at both ends, so that it stays like the others.
     const std::vector<int>& boundary = quotient_.groups.back().boundary;
@@ -316,7 +318,8 @@ class Builder {
     return id;
   }
 
-  /// Boundaries in the order of elimination: what goes first comes first, and children scatter into their parents without crossing.
+  /// Boundaries in the order of elimination: what goes first comes first, and children scatter into their parents
+  /// without crossing.
   void sort_boundaries() {
     std::vector<std::int64_t> rank(at(graph_.num_blocks()), 0);
     for (const Front& f : tree_.fronts)

@@ -16,19 +16,21 @@ struct Group {
   bool alive = true;            ///< false once merged into its parent
 };
 
-/// The matrix as a set of cliques: first the elements, then, as blocks are eliminated, the groups that replace them. Each live clique is a
-/// list of blocks; eliminating blocks merges all cliques that hold them into one new clique without them.
+/// The matrix as a set of cliques: first the elements, then, as blocks are eliminated, the groups that replace them.
+/// Each live clique is a list of blocks; eliminating blocks merges all cliques that hold them into one new clique
+/// without them.
 class Quotient {
  public:
   explicit Quotient(const Adjacency& adjacency);
 
-  /// Eliminates motion blocks and the multipliers that may go with them: those that one of these blocks can carry (a block of n unknowns
-  /// carries n multipliers, so the pivots exist), and those all of whose motion blocks are gone. `forced`: live cliques that are assembled
-  /// here in any case (numbers as from live_clique_of_*). Returns the new group's id.
+  /// Eliminates motion blocks and the multipliers that may go with them: those that one of these blocks can carry (a
+  /// block of n unknowns carries n multipliers, so the pivots exist), and those all of whose motion blocks are gone.
+  /// `forced`: live cliques that are assembled here in any case (numbers as from live_clique_of_*). Returns the new
+  /// group's id.
   int eliminate(const std::vector<int>& motion_blocks, const std::vector<int>& forced = {});
 
-  /// Eliminates the motion blocks of a set one by one, always the one with the fewest unknowns left in its front (minimum degree; ties to
-  /// the smaller id). Groups are appended.
+  /// Eliminates the motion blocks of a set one by one, always the one with the fewest unknowns left in its front
+  /// (minimum degree; ties to the smaller id). Groups are appended.
   void eliminate_by_minimum_degree(const std::vector<int>& motion_blocks);
 
   /// Eliminates everything left, whatever it is, in one group that assembles the live cliques given.
@@ -65,8 +67,9 @@ class Quotient {
 /// Flops of eliminating e of e + b unknowns in a dense unsymmetric front.
 double elimination_flops(int e, int b);
 
-/// Merges groups [first, end) of one leaf into their parents where the fill is free or cheaper than visiting one more front [flop].
-/// missing: unknowns by which their boundaries are counted too few. largest: unknowns that no front is to exceed by that.
+/// Merges groups [first, end) of one leaf into their parents where the fill is free or cheaper than visiting one more
+/// front [flop]. missing: unknowns by which their boundaries are counted too few. largest: unknowns that no front is
+/// to exceed by that.
 void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing,
                 int largest);
 

@@ -90,8 +90,8 @@ TEST(ConstraintRow, angle_is_smooth_where_an_angle_within_half_a_turn_jumps) {
   }
 }
 
-/// The joint's nodes on the curves H exp(q(t)), q a cubic: twist, acceleration and jerk from T(q) q' in time series, and
-/// the rows on the same curves, which never pass through the recursion under test.
+/// The joint's nodes on the curves H exp(q(t)), q a cubic: twist, acceleration and jerk from T(q) q' in time series,
+/// and the rows on the same curves, which never pass through the recursion under test.
 struct Curves {
   std::vector<NodeMotion> nodes;
   std::vector<Vec6<double>> jerk;

@@ -55,7 +55,8 @@ S lagrangian_of(const Spring& e, const PortMotion<S>* p, const Surroundings<S>&)
   return -eval_strain_energy(e, p);
 }
 
-/// h L at the middle of a step from H_n by D, the ports of node k moved by the complex step eta at the step's start or end.
+/// h L at the middle of a step from H_n by D, the ports of node k moved by the complex step eta at the step's start
+/// or end.
 template <class E>
 Complex action_of(const Sample<E>& s, const std::vector<Vec6<double>>& D, double h, int node,
                   const Vec6<Complex>& before, const Vec6<Complex>& after) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Residual and tangent of an element in a plane, from its kernel run on jets through a driver of its own. The library's closed
-/// tangents and its driver are checked against it.
+/// Residual and tangent of an element in a plane, from its kernel run on jets through a driver of its own. The
+/// library's closed tangents and its driver are checked against it.
 #include <vector>
 
 #include "bough/elements/evaluate_lanes.hpp"
@@ -43,8 +43,8 @@ struct PlanarResult {
   std::vector<double> residual, tangent;
 };
 
-/// Columns: the nodes' increments, then the multipliers. With `mass_only` the unknowns are accelerations: rows keep the gradient by poses, and
-/// of forces only what follows the acceleration is left.
+/// Columns: the nodes' increments, then the multipliers. With `mass_only` the unknowns are accelerations: rows keep
+/// the gradient by poses, and of forces only what follows the acceleration is left.
 template <class E>
 PlanarResult evaluate_on_jets(const E& e, const planar::Field& field, const double* multipliers, double turns) {
   using G = motion::Se2;

@@ -1,4 +1,5 @@
-/// Elements in a plane: closed-form tangents against the derivatives of their residual carried through its own source, alone and in lanes.
+/// Elements in a plane: closed-form tangents against the derivatives of their residual carried through its own
+/// source, alone and in lanes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-/// Elements of every type in general position: curved and twisted references, coupled sections, offsets, ports on the ground.
-/// All magnitudes are near one, so that one tolerance holds for forces and moments alike.
+/// Elements of every type in general position: curved and twisted references, coupled sections, offsets, ports on the
+/// ground. All magnitudes are near one, so that one tolerance holds for forces and moments alike.
 #include <random>
 #include <string>
 #include <vector>
@@ -256,7 +256,8 @@ inline Sample<Joint> joint_sample(const std::string& name, const std::vector<Con
   return s;
 }
 
-/// Every joint worth a test: each row kind alone, all along and across rows, full joints, efforts with and without rows.
+/// Every joint worth a test: each row kind alone, all along and across rows, full joints, efforts with and without
+/// rows.
 inline std::vector<Sample<Joint>> joint_samples() {
   using K = RowKind;
   std::vector<Sample<Joint>> r;

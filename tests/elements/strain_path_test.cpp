@@ -14,7 +14,8 @@ constexpr double length = 2.0;
 template <int N>
 constexpr int reference = Beam<N>::reference;
 
-/// Poses of a beam that is bent, twisted, sheared and stretched, and corrections of its sections of the size of `size` rad.
+/// Poses of a beam that is bent, twisted, sheared and stretched, and corrections of its sections of the size of
+/// `size` rad.
 template <int N>
 struct Bent {
   PortMotion<double> ports[N];

@@ -1,4 +1,5 @@
-// libFuzzer target of the scene reader: clang++ -fsanitize=fuzzer,address,undefined. Any text may be refused; none may crash or hang.
+// libFuzzer target of the scene reader: clang++ -fsanitize=fuzzer,address,undefined. Any text may be refused; none
+// may crash or hang.
 #include <cstddef>
 #include <cstdint>
 #include <string>

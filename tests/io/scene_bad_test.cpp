@@ -1,4 +1,5 @@
-// Every case spoils the base scene in one place. '@' marks where the problem has to be reported; it is taken out before reading.
+// Every case spoils the base scene in one place. '@' marks where the problem has to be reported; it is taken out
+// before reading.
 #include <gtest/gtest.h>
 
 #include "bough/io/json_value.hpp"

@@ -1,5 +1,5 @@
-// The reader of JSON texts against the grammar of RFC 8259: what has to be taken, what has to be refused, and what was decided
-// where the grammar leaves it open.
+// The reader of JSON texts against the grammar of RFC 8259: what has to be taken, what has to be refused, and what
+// was decided where the grammar leaves it open.
 #include <gtest/gtest.h>
 
 #include <algorithm>

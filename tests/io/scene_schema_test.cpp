@@ -1,5 +1,5 @@
-// The published schema and the reader come from one table. Written here: the schema and the files for tests/io/check_schema.py, which
-// asks an independent validator whether it agrees.
+// The published schema and the reader come from one table. Written here: the schema and the files for
+// tests/io/check_schema.py, which asks an independent validator whether it agrees.
 #include <gtest/gtest.h>
 
 #include <set>

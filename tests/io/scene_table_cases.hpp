@@ -1,5 +1,6 @@
 #pragma once
-/// Ways to break a rule of the table in the base scene. '@' marks where the problem has to be reported; it is taken out before reading.
+/// Ways to break a rule of the table in the base scene. '@' marks where the problem has to be reported; it is taken
+/// out before reading.
 
 namespace bough::io::test {
 

@@ -1,5 +1,5 @@
-// Writes schema.json and the base scene, each broken in one place, into a directory: the cases of scene_bad_test that a schema can see. The
-// same for chains of frames and for studies, in folders of their own.
+// Writes schema.json and the base scene, each broken in one place, into a directory: the cases of scene_bad_test that
+// a schema can see. The same for chains of frames and for studies, in folders of their own.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
-/// Runs small scenes, with and without one feature each, and has callgrind count the instructions of some steps of each. Run by left_out.py
-/// under valgrind; without it the requests to callgrind do nothing.
+/// Runs small scenes, with and without one feature each, and has callgrind count the instructions of some steps of
+/// each. Run by left_out.py under valgrind; without it the requests to callgrind do nothing.
 #include <valgrind/callgrind.h>
 
 #include <cstdio>
@@ -21,8 +21,8 @@ struct Discard : records::Recorder {
 
 constexpr int first_counted = 2, num_counted = 2;  ///< attempts of steps
 
-/// Counts steps `first_counted` to `first_counted + num_counted` of a run and has callgrind write them under the scene's
-/// name. Factors are made anew, so that each step has a tangent to be counted.
+/// Counts steps `first_counted` to `first_counted + num_counted` of a run and has callgrind write them under the
+/// scene's name. Factors are made anew, so that each step has a tangent to be counted.
 bool count_steps(scene::Scene scene) {
   scene.without.push_back("reuse");
   for (const scene::SceneProblem& problem : scene::problems_in(scene)) {

@@ -47,7 +47,8 @@ void add_bodies(scene::Scene& s, const Links& l) {
   }
 }
 
-/// Links hang on each other by revolute joints with a spring about the axis, or by bushings; the first one on the ground.
+/// Links hang on each other by revolute joints with a spring about the axis, or by bushings; the first one on the
+/// ground.
 void add_couplings(scene::Scene& s, const Links& l) {
   for (int k = 0; k < l.count; ++k) {
     const scene::Attachment first = k == 0 ? at("", 0.0) : at(link_name(k - 1), 0.5 * length),

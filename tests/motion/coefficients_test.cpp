@@ -93,8 +93,8 @@ TEST(Coefficients, the_limits_at_zero_are_exact_to_one_rounding) {
   for (int i = 0; i < 12; ++i) EXPECT_NEAR(values[i], limits[i], 4.0 * test::epsilon * std::abs(limits[i])) << i;
 }
 
-// c_0 .. c_7 against their defining series, at 250 digits: no cancellation is left at any angle. c_0 ends the recurrence
-// 1 - x c_2 and takes up its rounding, twice that of the others.
+// c_0 .. c_7 against their defining series, at 250 digits: no cancellation is left at any angle. c_0 ends the
+// recurrence 1 - x c_2 and takes up its rounding, twice that of the others.
 TEST(Coefficients, stumpff_functions_match_their_series_within_4_ulps_of_their_maximum) {
   for (const double phi : angles()) {
     const double x = phi * phi;

@@ -63,10 +63,11 @@ TEST(Derivatives, products_of_dual_matrices_are_those_of_operators_on_motions) {
   EXPECT_LT(test::largest(on_wrenches(skew(y)) - hat6(wrench_vector(y))), bound);
 }
 
-// Both take x from the same b and c: the same bits. R differs by a = sin(phi)/phi, which exp has and T's coefficients give
-// as 1 - x c. Below phi = 4 exp computes it so itself: the same bits. Beyond, c = (1 - a)/x: six roundings of values up to
-// |1 - a| <= 1.22 (difference, 1/x, its product, x c) and |a| <= 0.22 (1 - x c), which is 1.22 * 2 + 0.11 = 2.6 epsilon;
-// an entry of a ~psi then differs by phi times that, and two sums round it by epsilon more.
+// Both take x from the same b and c: the same bits. R differs by a = sin(phi)/phi, which exp has and T's coefficients
+// give as 1 - x c. Below phi = 4 exp computes it so itself: the same bits. Beyond, c = (1 - a)/x: six roundings of
+// values up to
+// |1 - a| <= 1.22 (difference, 1/x, its product, x c) and |a| <= 0.22 (1 - x c), which is 1.22 * 2 + 0.11 = 2.6
+// epsilon; an entry of a ~psi then differs by phi times that, and two sums round it by epsilon more.
 TEST(Derivatives, exp_from_the_tangents_coefficients_is_exp) {
   test::Random random(22);
   for (const double phi : test::angles_beyond_pi())

@@ -1,5 +1,6 @@
 #pragma once
-/// Motions at 50 digits for tests: textbook closed forms, which share nothing with the library, and cases over all angles.
+/// Motions at 50 digits for tests: textbook closed forms, which share nothing with the library, and cases over all
+/// angles.
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

@@ -1,7 +1,7 @@
 #pragma once
-/// Chains of frames as functions of time, for tests: every pose a truncated Taylor series of an extended scalar, so that
-/// angular velocities and derivatives come from differentiating rotation matrices and positions, by no formula of nested
-/// frames. All quantities at t = 0.
+/// Chains of frames as functions of time, for tests: every pose a truncated Taylor series of an extended scalar, so
+/// that angular velocities and derivatives come from differentiating rotation matrices and positions, by no formula
+/// of nested frames. All quantities at t = 0.
 #include <vector>
 
 #include "bough/lanes/taylor.hpp"

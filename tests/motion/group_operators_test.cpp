@@ -1,5 +1,5 @@
-/// Operators of a group (operators.hpp) against the 6x6 forms of se3.hpp, in space and for motions within a plane, and their second
-/// derivatives against the complex step of the first.
+/// Operators of a group (operators.hpp) against the 6x6 forms of se3.hpp, in space and for motions within a plane,
+/// and their second derivatives against the complex step of the first.
 #include <gtest/gtest.h>
 
 #include <complex>
@@ -107,7 +107,8 @@ void expect_operators(unsigned seed) {
     EXPECT_LT(difference<G>(on_wrenches<G>(hessian(T, G::wrench(v.n), G::motion(v.y))),
                             test::complex_step<6>(gradient, in_space<G>(v.d))),
               bound);
-    // near 2 pi the inverse has a pole: entries grow with k and its first derivative, which lose digits to the distance from it
+    // near 2 pi the inverse has a pole: entries grow with k and its first derivative, which lose digits to the
+    // distance from it
     const auto k = eval_inverse_coefficients(phi * phi);
     const double size = (1.0 + std::abs(k.k) + std::abs(k.dk)) / (1.0 - phi / (2.0 * std::numbers::pi));
     expect_like_six_by_six<G>(

@@ -1,5 +1,5 @@
-// Exponential, logarithm, tangent operators and their derivatives on SE(3), each over 1000 random motions and more at all
-// angles: against closed forms at 50 digits and derivatives of those by differences.
+// Exponential, logarithm, tangent operators and their derivatives on SE(3), each over 1000 random motions and more at
+// all angles: against closed forms at 50 digits and derivatives of those by differences.
 #include "bough/motion/so3.hpp"
 #include "exact.hpp"
 

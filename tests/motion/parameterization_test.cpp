@@ -1,6 +1,6 @@
-// Three parameterizations of rotations and motions behind one interface, each against 50 digits: the map by its angle law
-// and Rodrigues' formula, motions by their screw p N [1.73], tangent operators by differentiating those. 1000 random
-// motions and more for each law, over all angles of its range.
+// Three parameterizations of rotations and motions behind one interface, each against 50 digits: the map by its angle
+// law and Rodrigues' formula, motions by their screw p N [1.73], tangent operators by differentiating those. 1000
+// random motions and more for each law, over all angles of its range.
 #include "bough/motion/parameterization.hpp"
 
 #include "bough/motion/screw.hpp"
@@ -113,7 +113,8 @@ TYPED_TEST_SUITE(Parameterizations, Oracles, OracleNames);
 TYPED_TEST(Parameterizations, give_the_exact_rotation_and_motion) {
   TestFixture::for_samples(131, [](const Case& c, const auto& s, test::Random&) {
     using Law = typename TestFixture::Map;
-    // R has the rounding of p.p, which moves the angle by epsilon phi. It is the motion of the rounded parameters that is asked for.
+    // R has the rounding of p.p, which moves the angle by epsilon phi. It is the motion of the rounded parameters
+    // that is asked for.
     const Vec6<Real> P = cast<Real>(s.rounded);
     const Frame<Real> exact = TestFixture::motion(P);
     const Frame<double> H = Law::motion(s.rounded);

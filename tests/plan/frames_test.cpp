@@ -1,4 +1,5 @@
-// Motions of nested frames in series of time against the chain of frames of motion/, which composes velocities and accelerations by vectors.
+// Motions of nested frames in series of time against the chain of frames of motion/, which composes velocities and
+// accelerations by vectors.
 #include "bough/plan/frames.hpp"
 
 #include <gtest/gtest.h>

@@ -43,7 +43,8 @@ scene::Sensor reaction_of(const std::string& joint) {
   return s;
 }
 
-/// Three links one after the other, in space: a hinge to the ground, then two fixed joints; a lump below the end, fixed to it.
+/// Three links one after the other, in space: a hinge to the ground, then two fixed joints; a lump below the end,
+/// fixed to it.
 Scene frame() {
   Scene s = test::make_chain(3);
   s.without = {"planar"};

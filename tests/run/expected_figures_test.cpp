@@ -65,7 +65,8 @@ std::vector<ExpectedResult> figures_of(const scene::Scene& scene) {
   return run.summary.expected;
 }
 
-// Steps of 4 ms: a figure of the nearest step would be off by up to 0.1 rad; the step's own error is 2e-3 rad at the end.
+// Steps of 4 ms: a figure of the nearest step would be off by up to 0.1 rad; the step's own error is 2e-3 rad at the
+// end.
 TEST(ExpectedFigures, a_time_within_a_step_is_met_as_well_as_the_ends_of_steps) {
   std::vector<std::string> list;
   std::vector<double> times;
@@ -171,7 +172,8 @@ TEST(ExpectedFigures, extremes_range_and_period_take_all_steps_and_what_is_betwe
               whole("rate", "max", 50, 1e-2), whole("rim.alz", "max", 100, 1e-2)})));
   for (const ExpectedResult& f : found)
     EXPECT_TRUE(f.holds) << f.name << " " << f.value << ", expected " << f.reference << ", " << f.taken;
-  // The end of a step alone would be lower by up to 25 (2 h / 2)^2 / 2 = 1.2e-3; the mean of three periods is what counts.
+  // The end of a step alone would be lower by up to 25 (2 h / 2)^2 / 2 = 1.2e-3; the mean of three periods is what
+  // counts.
   EXPECT_EQ(found[3].taken, "mean of 2 between upward crossings of 0");
 }
 
@@ -256,7 +258,8 @@ TEST(ExpectedFigures, load_steps_that_are_cut_end_there_as_well) {
   }
 }
 
-// Two springs and a block between them (verify_arc_length): the load passes 0.01 on the way up, back down, and up again.
+// Two springs and a block between them (verify_arc_length): the load passes 0.01 on the way up, back down, and up
+// again.
 TEST(ExpectedFigures, a_path_is_met_where_it_passes_the_load_factor) {
   const double base = 0.9, height = std::sqrt(1.0 - base * base);
   const auto load = [&](double y) { return 2000.0 * y * (1.0 / std::hypot(base, y) - 1.0) / 200.0; };

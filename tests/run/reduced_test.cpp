@@ -258,8 +258,8 @@ TEST(Unknowns, are_six_with_a_reason_where_something_leaves_the_plane) {
             "'mount': its stiffness or damping couples motions in the plane with others");
 }
 
-/// Two systems of one scene, the second in space: motions after 20 steps. Both see rounded places, to which stiff elements
-/// answer by EA / L eps |x| = 7.5e-7 N.
+/// Two systems of one scene, the second in space: motions after 20 steps. Both see rounded places, to which stiff
+/// elements answer by EA / L eps |x| = 7.5e-7 N.
 void expect_same_steps(scene::Scene scene, double h, double tolerance) {
   scene.analysis.tolerance = 1e-12;
   Rig flat(scene);

@@ -236,8 +236,9 @@ TEST(Trust, springs_that_pass_through_length_0_are_named_and_those_that_turn_rou
   for (const int stride : {1, 3, 20, 50, 78, 79, 80}) EXPECT_FALSE(is_told(6.3, 0.0, stride)) << stride;
 }
 
-/// Reactions of three cranks on two couplers have a pole where they are flat, which steps do not resolve: how large they
-/// are there hangs on when the motion comes by. Errors are those against reactions of the closed form, of the range.
+/// Reactions of three cranks on two couplers have a pole where they are flat, which steps do not resolve: how large
+/// they are there hangs on when the motion comes by. Errors are those against reactions of the closed form, of the
+/// range.
 TEST(Trust, reactions_at_a_pole_that_the_motion_comes_to_late_are_doubted) {
   struct Case {
     int windows;
@@ -305,7 +306,8 @@ TEST(Trust, a_mechanism_that_passes_a_singular_position_is_not_called_unique) {
   EXPECT_FALSE(run.says("the motion is unique")) << run.text();
 }
 
-/// A tolerance of fewer digits than there are is reached at the floor and no reason for doubt, unless what is left unbalanced is.
+/// A tolerance of fewer digits than there are is reached at the floor and no reason for doubt, unless what is left
+/// unbalanced is.
 TEST(Trust, forces_that_round_off_leaves_unbalanced_are_told) {
   scene::Scene s = cantilever(10);
   s.analysis.tolerance = 1e-15;

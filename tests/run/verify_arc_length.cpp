@@ -1,4 +1,5 @@
-// Statics past limit points: a truss in closed form, the deep arch against its published limit load and against the driven crown.
+// Statics past limit points: a truss in closed form, the deep arch against its published limit load and against the
+// driven crown.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +10,8 @@
 namespace bough::verify {
 namespace {
 
-/// Two springs of rest length 1 from (-b, 0) and (b, 0) to a block that slides along y, h above the line between them; pushed down by `load`.
+/// Two springs of rest length 1 from (-b, 0) and (b, 0) to a block that slides along y, h above the line between
+/// them; pushed down by `load`.
 ///   P(y) = 2 k y (1 / l - 1),  l = sqrt(b^2 + y^2);  limit loads where l^3 = b^2
 constexpr double base = 0.9, stiffness = 1000.0;
 

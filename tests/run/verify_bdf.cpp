@@ -1,4 +1,5 @@
-// Backward differences of second and third order on the group: orders of positions, velocities and multipliers, stiff parts, moving frames, failures.
+// Backward differences of second and third order on the group: orders of positions, velocities and multipliers, stiff
+// parts, moving frames, failures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +37,8 @@ void expect_order(const std::string& what, const Difference& coarse, const Diffe
   EXPECT_GT(m, least) << what;
 }
 
-/// The reference: the rule of third order at h / 16, and generalized-alpha extrapolated from much smaller steps says that it is right.
+/// The reference: the rule of third order at h / 16, and generalized-alpha extrapolated from much smaller steps says
+/// that it is right.
 void check_orders(const std::string& name, const scene::Scene& scene, double h, int order = 3) {
   const std::vector<Sample> reference = march(by_bdf(scene, 3), h / 16.0, h / 2.0, 80),
                             coarse = march(by_bdf(scene, order), h, h, 40),

@@ -26,7 +26,8 @@ std::vector<std::string> gallery_stems() {
   return stems;
 }
 
-/// The scene with places and velocities off by about one part in 1e15, each by its own; within a plane or a line, if they were.
+/// The scene with places and velocities off by about one part in 1e15, each by its own; within a plane or a line, if
+/// they were.
 scene::Scene twin_of(scene::Scene s, int k) {
   const auto shake = [&k](scene::Vec3& v) {
     const double factor = 1.0 + (++k % 3 - 1) * 1e-15;
@@ -60,8 +61,8 @@ double size_of_sensor(const support::Table& t, const std::string& column) {
   return most;
 }
 
-/// What round-off alone leaves: eps |x| in positions, eps |x| / h in velocities, eps |x| / h^2 in accelerations, eps m |x| / h^2 in forces and eps of the terms of
-/// energies, whatever their sum is.
+/// What round-off alone leaves: eps |x| in positions, eps |x| / h in velocities, eps |x| / h^2 in accelerations, eps
+/// m |x| / h^2 in forces and eps of the terms of energies, whatever their sum is.
 double floor_of(const scene::Scene& s, const plan::Plan& plan, const Outcome& run, const std::string& column) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const double h = s.analysis.kind == scene::AnalysisKind::dynamics ? s.analysis.step_size : 1.0;
@@ -104,7 +105,8 @@ struct Runs {
   }
 };
 
-/// The same results without a decision. Returns the run that is without. others: with twins of their own, where the round-off of what is left out counts.
+/// The same results without a decision. Returns the run that is without. others: with twins of their own, where the
+/// round-off of what is left out counts.
 Outcome expect_the_same_without(const Runs& all, const std::string& decision, const Runs* others = nullptr) {
   scene::Scene s = all.scene;
   s.without.push_back(decision);
@@ -131,7 +133,8 @@ TEST_P(EveryScene, has_the_same_results_with_and_without_each_decision) {
   const scene::Scene given = support::gallery(GetParam());
   const Runs as_given(given);
   ASSERT_TRUE(as_given.run.ok()) << as_given.run.summary.cause;
-  // Iterations with old factors, or in other unknowns, end elsewhere within the tolerance: these are compared at one near round-off.
+  // Iterations with old factors, or in other unknowns, end elsewhere within the tolerance: these are compared at one
+  // near round-off.
   scene::Scene tight = given;
   tight.analysis.tolerance = 1e-12;
   const Runs at_round_off(tight);
@@ -177,7 +180,8 @@ TEST_P(EveryWeldedScene, has_the_same_results_without_the_decision) {
 INSTANTIATE_TEST_SUITE_P(Welded, EveryWeldedScene, testing::ValuesIn(welded_scenes()),
                          [](const auto& given) { return given.param.name; });
 
-/// Two bodies fixed to each other, the second turned by a right angle, are one with their mass, centre and inertia: by the parallel axis theorem.
+/// Two bodies fixed to each other, the second turned by a right angle, are one with their mass, centre and inertia:
+/// by the parallel axis theorem.
 TEST(WeldedBodies, tumble_as_the_one_body_they_are) {
   const auto scene_with = [](const std::string& bodies, const std::string& joints, const std::string& second) {
     return support::scene_of(R"json({"bodies": [)json" + bodies + R"json(], "joints": [)json" + joints + R"json(],

@@ -1,4 +1,5 @@
-/// A scene that can not be computed ends with a cause that names what is wrong with it, and one that can ends without a false alarm.
+/// A scene that can not be computed ends with a cause that names what is wrong with it, and one that can ends without
+/// a false alarm.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,8 +61,8 @@ TEST(VerifyDiagnosis, no_false_alarm_on_the_gallery) {
     EXPECT_TRUE(o.ok()) << name << ": " << o.text();
     const bool redundant =
         name == "bricard" || name == "andrews_squeezer" || name == "four_bar_planar" || name == "four_bar_windows";
-    // A known defect: rods without inertia about their own axes. Ten of them in space, not in the plane that the plan chooses, are at some
-    // instants taken for singular.
+    // A known defect: rods without inertia about their own axes. Ten of them in space, not in the plane that the plan
+    // chooses, are at some instants taken for singular.
     if (name != "rod_chain") {
       EXPECT_EQ(o.says("depend on others"), redundant) << name << ": " << o.text();
     }

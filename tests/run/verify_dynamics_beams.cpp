@@ -66,7 +66,8 @@ TEST(VerifyBeams, spin_up_follows_the_converged_planar_beam_with_second_order) {
 }
 
 TEST(VerifyBeams, a_damped_beam_in_steady_rotation_is_as_long_as_the_closed_form) {
-  // tan(k L)/k - L with k = Omega sqrt(m / EA); damping ends the vibrations left by the start and does not act on a rigid rotation.
+  // tan(k L)/k - L with k = Omega sqrt(m / EA); damping ends the vibrations left by the start and does not act on a
+  // rigid rotation.
   scene::Scene scene = support::gallery("spin_up", {R"(/sections/0/damping={"time": 0.5})", "/analysis/end_time=20",
                                                     "/analysis/step_size=0.02", "/expected=[]"});
   const std::array<double, 2> tip = tip_in_hub(history(scene), 20.0);
@@ -76,8 +77,9 @@ TEST(VerifyBeams, a_damped_beam_in_steady_rotation_is_as_long_as_the_closed_form
   EXPECT_NEAR(tip[1], 0.0, 1e-6);
 }
 
-/// Planar shear-deformable beam by linear elements with one point each and lumped masses, Runge-Kutta of fourth order: shares nothing
-/// with the program but the equations of Reissner's beam. Returns (x, y) of the lower and upper end at time 10.
+/// Planar shear-deformable beam by linear elements with one point each and lumped masses, Runge-Kutta of fourth
+/// order: shares nothing with the program but the equations of Reissner's beam. Returns (x, y) of the lower and upper
+/// end at time 10.
 std::array<double, 4> explicit_planar_beam(int num_elements, int steps) {
   const double length = 10.0, dx = length / num_elements, EA = 1e4, GA = 1e4, EI = 500.0, m = 1.0, J = 10.0,
                dt = 10.0 / steps;
@@ -227,7 +229,8 @@ double out_of_plane(int order, int elements, double h, const std::vector<std::st
   return history(scene).last("C.z");
 }
 
-/// A drive that sets in with its full rate leaves vibrations, whose phase at one instant short steps resolve anew each; a smooth one does not.
+/// A drive that sets in with its full rate leaves vibrations, whose phase at one instant short steps resolve anew
+/// each; a smooth one does not.
 TEST(VerifyBeams, misaligned_four_bar_converges_in_the_step_where_the_drive_sets_in_smoothly) {
   const std::vector<std::string> smooth = {
       R"(/joints/0/drives=[{"law": {"kind": "smooth_ramp", "start_time": 0, "end_time": 0.5, "from": 0, "to": -0.6}, "rate": true}])"};
@@ -252,7 +255,8 @@ TEST(VerifyBeams, misaligned_four_bar_converges_in_elements_of_both_orders_to_on
   EXPECT_GT(order_2, 3.0);
   EXPECT_NEAR(limit_1, limit_2, 1e-4 * std::abs(limit_2)) << "elements of order 1 and 2 have one limit";
   EXPECT_NEAR(step_8, quadratic[1], 2e-3 * std::abs(limit_2));
-  // Published: -4.1277e-3 m with 8 elements a bar, whose own error in elements is said to be about 0.2 %; the converged figure is 0.34 % away.
+  // Published: -4.1277e-3 m with 8 elements a bar, whose own error in elements is said to be about 0.2 %; the
+  // converged figure is 0.34 % away.
   EXPECT_NEAR(linear[1], -4.1277e-3, 3e-3 * 4.1277e-3);
   EXPECT_NEAR(limit_2, -4.1277e-3, 5e-3 * 4.1277e-3);
 }

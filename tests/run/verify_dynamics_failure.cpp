@@ -16,8 +16,8 @@ using support::Table;
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(StepFailure, halved_steps_grow_back_and_the_result_is_that_of_the_run_without_failures) {
-  // A rotor braked from 100 rad/s: 5 rad a step are asked for at first, but a node must not turn by pi in one step. Its angle is
-  // 100 J/c (1 - exp(-c t / J)) with J = c.
+  // A rotor braked from 100 rad/s: 5 rad a step are asked for at first, but a node must not turn by pi in one step.
+  // Its angle is 100 J/c (1 - exp(-c t / J)) with J = c.
   scene::Scene scene = support::scene_of(R"({
     "bodies": [{"name": "rotor", "mass": 1, "inertia": [1, 1, 2]}],
     "joints": [{"name": "axle", "kind": "revolute", "first": "ground", "second": "rotor", "position": [0, 0, 0], "axis": [0, 0, 1],

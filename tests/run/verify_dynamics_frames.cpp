@@ -1,5 +1,5 @@
-// Frames of prescribed motion: a scene described in one against the same scene carried by it, steady frames in statics, loads, sensors and
-// splits of accelerations in frames, balances.
+// Frames of prescribed motion: a scene described in one against the same scene carried by it, steady frames in
+// statics, loads, sensors and splits of accelerations in frames, balances.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,8 @@ Outcome run_of(const scene::Scene& scene) {
   return r;
 }
 
-/// Largest difference of a column over its largest magnitude, and that of its extrapolations from h and h / 2, both of second order.
+/// Largest difference of a column over its largest magnitude, and that of its extrapolations from h and h / 2, both
+/// of second order.
 struct Agreement {
   double coarse = 0.0, fine = 0.0, extrapolated = 0.0;
 };
@@ -59,7 +60,8 @@ Agreement agreement(const std::string& stem, const std::string& column, const st
                       ground, end, h);
 }
 
-/// Second order: halving the step takes the difference to a quarter, and extrapolation takes away what is of second order.
+/// Second order: halving the step takes the difference to a quarter, and extrapolation takes away what is of second
+/// order.
 void expect_same_motion(const Agreement& a, double size) {
   EXPECT_GT(a.coarse, 0.0) << "two descriptions, two discretizations";
   EXPECT_LT(a.coarse, size);
@@ -167,7 +169,8 @@ TEST(MovingFrame, holds_a_turning_beam_in_its_steady_state) {
   EXPECT_LE(r.summary.steps.newton_iterations, 12) << "two steps by Newton with the exact tangent";
 }
 
-/// A bent beam turning steadily, off the axis and under a load: statics in the frame is where a motion in the frame comes to rest.
+/// A bent beam turning steadily, off the axis and under a load: statics in the frame is where a motion in the frame
+/// comes to rest.
 TEST(MovingFrame, in_statics_is_where_a_damped_motion_comes_to_rest) {
   const auto scene_of = [](const std::string& analysis) {
     return support::scene_of(R"({
@@ -193,7 +196,8 @@ TEST(MovingFrame, in_statics_is_where_a_damped_motion_comes_to_rest) {
     EXPECT_NEAR(still.history.last(c), moving.history.last(c), 1e-6 * std::max(1.0, still.history.largest(c))) << c;
 }
 
-/// A frame that speeds up evenly is a frame at rest under gravity the other way; half of the load is half of the acceleration.
+/// A frame that speeds up evenly is a frame at rest under gravity the other way; half of the load is half of the
+/// acceleration.
 TEST(MovingFrame, that_speeds_up_evenly_is_in_statics_as_gravity_is) {
   const auto scene_of = [](const std::string& head, const std::string& frame) {
     return support::scene_of("{" + head + R"(
@@ -288,7 +292,8 @@ TEST(AccelerationSplit, of_a_precessing_top_adds_up_to_the_integrators_accelerat
   EXPECT_LT(worst, 1e-13 * size);
 }
 
-/// In a scene that is described in a moving frame the split is still that of the inertial acceleration, and beams have points, too.
+/// In a scene that is described in a moving frame the split is still that of the inertial acceleration, and beams
+/// have points, too.
 TEST(AccelerationSplit, in_a_moving_frame_is_that_of_the_inertial_acceleration) {
   scene::Scene scene = gallery("rotor_on_vehicle", {"/analysis/end_time=0.05"});
   scene::Sensor split;

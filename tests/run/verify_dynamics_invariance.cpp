@@ -94,8 +94,9 @@ void expect_drift_of_second_order(const std::string& name, const std::string& te
   EXPECT_NEAR(support::order_of(b.angular, c.angular), 2.0, 0.2);
   EXPECT_NEAR(support::order_of(a.linear, b.linear), 2.0, 0.3);
   EXPECT_NEAR(support::order_of(a.angular, b.angular), 2.0, 0.3);
-  // Velocities are carried in turning axes: the drift of a steady rotation has one sign and grows with time, not faster; angular momentum
-  // about the inertial origin holds the path of the mass centre times that drift, and grows with the square of time.
+  // Velocities are carried in turning axes: the drift of a steady rotation has one sign and grows with time, not
+  // faster; angular momentum about the inertial origin holds the path of the mass centre times that drift, and grows
+  // with the square of time.
   EXPECT_LT(longer.linear, 4.4 * b.linear);
   EXPECT_LT(longer.angular, 17.0 * b.angular);
 }
@@ -148,7 +149,8 @@ const std::string mechanism_text = R"({
       {"name": "strain", "kind": "strain_energy"}],
     "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 2e-3, "tolerance": 1e-11}})";
 
-/// Largest difference of two runs by sensor, each relative to the sensor's largest value; positions transformed back by `place`.
+/// Largest difference of two runs by sensor, each relative to the sensor's largest value; positions transformed back
+/// by `place`.
 double largest_difference(const Table& here, const Table& there, const scene::Frame& place) {
   double most = 0.0;
   for (std::size_t first = 0; first < here.columns.size();) {
@@ -229,8 +231,8 @@ TEST(Balances, shrink_with_h_squared_where_nothing_is_lost) {
   expect_balances_of_second_order("mechanism with beams", mechanism, 1e-3);
 }
 
-/// Gravity is a potential; the same weights as dead loads at the mass centres are work. Where work is summed exactly, both leave the integrator
-/// the same, although its own error is far larger than the difference.
+/// Gravity is a potential; the same weights as dead loads at the mass centres are work. Where work is summed exactly,
+/// both leave the integrator the same, although its own error is far larger than the difference.
 TEST(Balances, tell_the_work_of_constant_loads_like_a_potential) {
   scene::Scene heavy = support::gallery("double_pendulum", {"/analysis/end_time=1", "/analysis/step_size=0.004"});
   heavy.expected.clear();
@@ -254,7 +256,8 @@ TEST(Balances, tell_the_work_of_constant_loads_like_a_potential) {
   EXPECT_NEAR(x.momentum_balance, y.momentum_balance, 1e-6 * x.momentum_balance);
 }
 
-/// A crank held to a steady rate by a drive lifts a weight: all energy comes through the drive, whose work is its torque over its angle.
+/// A crank held to a steady rate by a drive lifts a weight: all energy comes through the drive, whose work is its
+/// torque over its angle.
 TEST(Balances, tell_the_work_of_drives_over_their_way) {
   double error[2];
   for (int k = 0; k < 2; ++k) {
@@ -283,7 +286,8 @@ TEST(Balances, are_left_out_when_not_asked_for_and_change_no_result) {
   EXPECT_EQ(with.history.rows, without.history.rows);
 }
 
-/// Whoever looks at a state in space changes nothing of it: at rows, at a load's end, at the end of the run and where steps fail.
+/// Whoever looks at a state in space changes nothing of it: at rows, at a load's end, at the end of the run and where
+/// steps fail.
 TEST(Rows, that_nobody_asks_for_change_no_other) {
   const std::string spun = R"({
     "sections": [{"name": "section", "stiffness": {"EA": 1e6, "GA2": 4e5, "GA3": 4e5, "GJ": 500, "EI2": 600, "EI3": 600},

@@ -39,7 +39,8 @@ scene::Scene block_on(const std::string& kind, const std::string& axis, const st
 // Motions of constant acceleration are exact for the integrator: x is a parabola in t.
 
 TEST(Joints, prismatic_slides_down_an_incline_and_carries_the_moment) {
-  // Axis (3, 0, -4)/5: a = g 4/5 along it; the reaction is m g cos across the incline and holds the offset weight in moment.
+  // Axis (3, 0, -4)/5: a = g 4/5 along it; the reaction is m g cos across the incline and holds the offset weight in
+  // moment.
   scene::Scene scene = block_on("prismatic", "[3, 0, -4]");
   scene.sensors.push_back(support::joint_sensor("s", scene::SensorKind::joint_displacement, "joint"));
   scene.sensors.push_back(support::joint_sensor("rate", scene::SensorKind::joint_rate, "joint"));
@@ -86,7 +87,8 @@ TEST(Joints, screw_falls_slower_by_the_inertia_it_turns) {
 }
 
 TEST(Joints, planar_is_a_frictionless_table_on_a_slope) {
-  // Gravity within the plane: g - n (n . g), n = (0, 3, 4)/5. It slides and spins: of second order, as turning axes carry the velocity.
+  // Gravity within the plane: g - n (n . g), n = (0, 3, 4)/5. It slides and spins: of second order, as turning axes
+  // carry the velocity.
   const double ay = g * 0.8 * 0.6, az = -g + g * 0.8 * 0.8;
   Table runs[2];
   double error[2] = {0.0, 0.0}, extrapolated = 0.0;
@@ -116,7 +118,8 @@ TEST(Joints, planar_is_a_frictionless_table_on_a_slope) {
   EXPECT_NEAR(runs[1].last("f.fz"), 2.0 * g * 0.8 * 0.8, 1e-3);
 }
 
-/// A point mass on a ball joint has a spin about the line to it that nothing feels; it is kept at zero and changes nothing.
+/// A point mass on a ball joint has a spin about the line to it that nothing feels; it is kept at zero and changes
+/// nothing.
 void expect_conical_pendulum(const std::string& joint) {
   // L = 1, half angle acos(0.8): the speed of the cone is omega = sqrt(g / (L cos)).
   const double omega = std::sqrt(g / 0.8);
@@ -157,8 +160,9 @@ TEST(Joints, a_point_mass_on_a_ball_joint_at_a_distance_runs_as_on_a_universal_j
 }
 
 TEST(Joints, two_universal_joints_transmit_a_constant_speed_one_alone_does_not) {
-  // Shafts along x, at 0.4 rad in the x-y plane, along x again; the middle shaft's two yokes lie in one plane. The first joint's axis on
-  // the driving shaft is z (out of the shafts' plane), so tan(middle) = tan(driving) / cos(beta) counted from there.
+  // Shafts along x, at 0.4 rad in the x-y plane, along x again; the middle shaft's two yokes lie in one plane. The
+  // first joint's axis on the driving shaft is z (out of the shafts' plane), so tan(middle) = tan(driving) /
+  // cos(beta) counted from there.
   const double beta = 0.4, c = std::cos(beta), s = std::sin(beta);
   scene::Scene scene =
       support::scene_of(R"({
@@ -186,7 +190,8 @@ TEST(Joints, two_universal_joints_transmit_a_constant_speed_one_alone_does_not) 
   for (double t : run.times) {
     EXPECT_NEAR(run.at("out", t), run.at("in", t), 1e-9);
     const double angle = 4.0 * t + t * t, rate = 4.0 + 2.0 * t;
-    // Of the middle shaft: cos(beta) where the driving fork's axis is normal to the shafts' plane, as at the start, 1 / cos(beta) a quarter turn on.
+    // Of the middle shaft: cos(beta) where the driving fork's axis is normal to the shafts' plane, as at the start, 1
+    // / cos(beta) a quarter turn on.
     const double exact = rate * c / (1.0 - s * s * std::pow(std::sin(angle), 2));
     ripple = std::max(ripple, std::abs(run.at("middle.wx", t) - exact));
   }
@@ -248,7 +253,8 @@ TEST(Joints, a_driven_joint_counts_turns) {
 }
 
 TEST(Joints, a_torsion_spring_remembers_its_turns) {
-  // Spring 2 N m/rad, J = 0.5 kg m^2 about the axis: omega = 2 rad/s; from 50 rad/s the amplitude is 25 rad, four turns.
+  // Spring 2 N m/rad, J = 0.5 kg m^2 about the axis: omega = 2 rad/s; from 50 rad/s the amplitude is 25 rad, four
+  // turns.
   double error[2], fine = 0.0;
   double angle[2];
   for (int k = 0; k < 2; ++k) {

@@ -1,5 +1,5 @@
-// Order of the time integrator in positions, velocities and multipliers, each shown by itself: from the first step on, where the
-// step size changes, with driven joints, across jumps of loads.
+// Order of the time integrator in positions, velocities and multipliers, each shown by itself: from the first step
+// on, where the step size changes, with driven joints, across jumps of loads.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,8 +35,8 @@ void expect_order(const std::string& what, const Difference& coarse, const Diffe
 
 class Orders : public testing::TestWithParam<double> {};
 
-/// Errors of the first step, and the largest of the first 20 steps, at h and h / 2, against steps of h / fineness by the same rule with a
-/// spectral radius of 0.8.
+/// Errors of the first step, and the largest of the first 20 steps, at h and h / 2, against steps of h / fineness by
+/// the same rule with a spectral radius of 0.8.
 void check_start(const std::string& name, const scene::Scene& scene, double radius, double h, double fineness = 64.0) {
   const std::vector<Sample> reference = march(with_radius(scene, 0.8), h / fineness, h / 2.0, 40);
   const std::vector<Sample> coarse = march(with_radius(scene, radius), h, h, 20),
@@ -57,7 +57,8 @@ TEST_P(Orders, second_from_the_first_step_with_a_driven_joint) {
   check_start("driven hinge", driven_pendulum(), GetParam(), 0.004);
 }
 TEST_P(Orders, second_from_the_first_step_with_a_driven_beam) {
-  // A reference in steps of h / 32 would have multipliers with 6e-7 of round-off, more than the first step's error at h / 2.
+  // A reference in steps of h / 32 would have multipliers with 6e-7 of round-off, more than the first step's error at
+  // h / 2.
   check_start("driven beam", driven_beam(), GetParam(), 0.0004, 8.0);
 }
 
@@ -114,7 +115,8 @@ TEST_P(Orders, second_where_the_step_size_changes_with_a_driven_joint) {
 INSTANTIATE_TEST_SUITE_P(Radii, Orders, testing::Values(0.0, 0.5, 0.8));
 
 TEST(OrdersOfRuns, second_across_jumps_of_a_force_and_of_a_driven_acceleration) {
-  // The force on b jumps at 0.2 s and 0.3 s, the motor's angular acceleration at 0.1 s. The rows at a jump are the left limits.
+  // The force on b jumps at 0.2 s and 0.3 s, the motor's angular acceleration at 0.1 s. The rows at a jump are the
+  // left limits.
   const std::vector<std::string> jumps = {
       R"(/loads=[{"at": "b", "force": [3, -5, 4], "moment": [0.1, 0.2, 0.3], "axes": "body", "law": {"kind": "piecewise", "pieces": [)"
       R"({"start": 0, "law": 0}, {"start": 0.2, "law": 1}, {"start": 0.3, "law": {"expression": "-t"}}]}}])",

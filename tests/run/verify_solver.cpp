@@ -3,10 +3,13 @@
 ///
 /// Per quantity the difference has to be at most the largest of
 ///   1e-9 of the quantity's maximum,
-///   its round-off floor: 1e-12 of the largest component of the same sensor and kind (lengths, angles, forces, moments); energies, which
+///   its round-off floor: 1e-12 of the largest component of the same sensor and kind (lengths, angles, forces,
+///     moments); energies, which
 ///   nearly cancel in conservative scenes, 1e-12 of the largest sum of their parts' magnitudes,
-///   ten times what the largest of three twins does whose initial positions, velocities, loads and gravity differ by 1e-15.
-/// The third clause is for scenes that amplify round-off by themselves (chaos, near-singular poses, reactions that are not unique).
+///   ten times what the largest of three twins does whose initial positions, velocities, loads and gravity differ by
+///     1e-15.
+/// The third clause is for scenes that amplify round-off by themselves (chaos, near-singular poses, reactions that
+/// are not unique).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +66,8 @@ bool equal_bits(const Outcome& a, const Outcome& b) {
   return true;
 }
 
-/// Largest |a - b| of each column; rows are matched by time, and a run that cut steps differently counts where the times agree.
+/// Largest |a - b| of each column; rows are matched by time, and a run that cut steps differently counts where the
+/// times agree.
 std::vector<double> differences(const Outcome& a, const Outcome& b) {
   std::vector<double> most(a.header.columns.size(), 0.0);
   std::size_t k = 0;

@@ -24,8 +24,8 @@ void expect_same_motion(const Case& c, const std::function<void(scene::Scene&)>&
   s.analysis.end_time = c.end;
   s.analysis.tolerance =
       1e-11;  // below, what Newton leaves would show: 1e-14 of a length is 1e-8 of a force at these steps
-  // A new factor for each solution, so that gaps close far below round-off: an old one leaves 1e-16 of a length, 1e-8 of a
-  // force at steps of 0.1 ms, and rounding decides when it is renewed.
+  // A new factor for each solution, so that gaps close far below round-off: an old one leaves 1e-16 of a length, 1e-8
+  // of a force at steps of 0.1 ms, and rounding decides when it is renewed.
   s.without = {"reuse"};
   const Outcome base = run(s);
   change(s);
@@ -50,7 +50,8 @@ void expect_same_motion(const Case& c, const std::function<void(scene::Scene&)>&
   std::printf("  %s, %s: %.1e\n", c.name, what, worst);
 }
 
-/// 1e-9; 1e-8 where a reaction is measured: round-off of a position, 2e-16, over h^2 = 1e-6 is 1e-10 of a force in each step, and rings.
+/// 1e-9; 1e-8 where a reaction is measured: round-off of a position, 2e-16, over h^2 = 1e-6 is 1e-10 of a force in
+/// each step, and rings.
 const Case cases[] = {{"pendulum", 0.5, 1e-8},     {"double_pendulum", 0.5, 1e-9}, {"heavy_top", 0.02, 1e-8},
                       {"free_body", 0.5, 1e-9},    {"bricard", 0.1, 1e-9},         {"four_bar_planar", 0.3, 1e-9},
                       {"slider_crank", 0.05, 1e-8}};

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// R = 100, EI = 1e6, EA = GA = 1e8; clamped left, hinged right; the crown goes down by `depth` at factor 1, as far as it likes sideways.
+/// R = 100, EI = 1e6, EA = GA = 1e8; clamped left, hinged right; the crown goes down by `depth` at factor 1, as far
+/// as it likes sideways.
 scene::Scene arch(double depth, int elements_a_half, int order) {
   const double R = 100.0, half = 0.5 * 215.0 * pi / 180.0;
   scene::Scene s;
@@ -50,7 +51,8 @@ scene::Scene arch(double depth, int elements_a_half, int order) {
   return s;
 }
 
-/// Load on the crown, positive downward, once equilibrium is found; the multiplier of the driven row is the force of the drive along y.
+/// Load on the crown, positive downward, once equilibrium is found; the multiplier of the driven row is the force of
+/// the drive along y.
 struct Path {
   Direct direct;
   double depth, reached = 0.0;

@@ -1,5 +1,6 @@
-/// Beams in statics against closed forms and boundary value problems solved to 12 digits or better: 1e-6 of the largest value, and the order
-/// at which elements of one, two and three intervals converge: 2, 4, 6. A jib of them against a truss computed by hand.
+/// Beams in statics against closed forms and boundary value problems solved to 12 digits or better: 1e-6 of the
+/// largest value, and the order at which elements of one, two and three intervals converge: 2, 4, 6. A jib of them
+/// against a truss computed by hand.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -96,7 +97,8 @@ Vec3<double> elastica(double load, double axial, int elements, int order) {
   return o.ok() ? final_point(o, "tip") : Vec3<double>::zero();
 }
 
-/// The reference is the limit without shear and extension; both add a part proportional to EI/(EA L^2), taken out by two stiffnesses.
+/// The reference is the limit without shear and extension; both add a part proportional to EI/(EA L^2), taken out by
+/// two stiffnesses.
 TEST(VerifyStatics, elastica_at_loads_1_5_10) {
   struct Row {
     double load, v, u;
@@ -225,7 +227,8 @@ TEST(VerifyStatics, princeton_beam_every_five_degrees_at_both_loads) {
 
 /// Of the jib in the gallery, under the load at rest: chords bend it, braces shear it,
 ///   I = h^2 A_t A_b / (A_t + A_b),   w = P L^3 / (3 E I) + n 4 N^2 l / (P E A_brace),   N = P l / (2 h),
-/// n bays with four braces of length l; the chord at the tower carries P (L - x) / h. Stiff connections and the ends of the top chord make 1 % of it.
+/// n bays with four braces of length l; the chord at the tower carries P (L - x) / h. Stiff connections and the ends
+/// of the top chord make 1 % of it.
 TEST(VerifyStatics, a_jib_sinks_as_its_chords_and_braces_say) {
   scene::Scene s = gallery("tower_crane_jib");
   s.expected.clear();

@@ -33,7 +33,8 @@ scene::Scene soft_cantilever(int elements = 8, int order = 3) {
 }
 
 /// All six resultants by the convention that what lies beyond the section acts on what lies before it:
-///   N = F1, Q = (F2, F3), T = M1 and M2 = M2tip - (L - x) F3, M3 = M3tip + (L - x) F2, with q on the rest of the length.
+///   N = F1, Q = (F2, F3), T = M1 and M2 = M2tip - (L - x) F3, M3 = M3tip + (L - x) F2, with q on the rest of the
+///     length.
 TEST(VerifyStatics, section_forces_at_the_nodes_under_tip_and_line_loads) {
   const double L = 2.0, tiny = 1e-6;
   const Vec3<double> F = tiny * Vec3<double>{{3, 2, -5}}, M = tiny * Vec3<double>{{0.7, 0.3, -0.4}},
@@ -196,8 +197,8 @@ TEST(VerifyStatics, prescribed_displacement_returns_the_load_that_causes_it) {
   EXPECT_NEAR(force(driven, "clamp")[1], -10.0, 1e-6);
 }
 
-/// Turning the tip twice around rolls the beam up twice; the torque is EI 4 pi / L. The other bending stiffness has to differ: after one turn
-/// of a round rod any axis across it would do as well, and the tangent is truly singular.
+/// Turning the tip twice around rolls the beam up twice; the torque is EI 4 pi / L. The other bending stiffness has
+/// to differ: after one turn of a round rod any axis across it would do as well, and the tangent is truly singular.
 TEST(VerifyStatics, prescribed_rotation_counts_turns) {
   scene::Scene s = scene::make_cantilever(scene::make_section("s", 1e4, 1e4, 1e4, 20, 20, 2), 1.0, 10, 1);
   s.analysis.load_steps = 8;
@@ -213,7 +214,8 @@ TEST(VerifyStatics, prescribed_rotation_counts_turns) {
   EXPECT_NEAR(moment(o, "clamp")[2], -2 * 4 * pi, 1e-7);
 }
 
-/// Simply supported beam under its uniform load: half of it at each end, q L^2 / 8 in the middle, 5 q L^4 / (384 EI) + q L^2 / (8 GA).
+/// Simply supported beam under its uniform load: half of it at each end, q L^2 / 8 in the middle, 5 q L^4 / (384 EI)
+/// + q L^2 / (8 GA).
 TEST(VerifyStatics, a_beam_on_a_hinge_and_a_slider) {
   const double q = 1e-5, L = 2.0;
   scene::Scene s = soft_cantilever(4, 3);

@@ -20,7 +20,8 @@ scene::Scene timoshenko(int elements, int order) {
   return s;
 }
 
-/// Sum of the element matrices over the nodes' unknowns (multipliers left out), clamped unknowns of the root struck out.
+/// Sum of the element matrices over the nodes' unknowns (multipliers left out), clamped unknowns of the root struck
+/// out.
 Eigen::MatrixXd assemble(Direct& run, const elements::Slopes& slopes) {
   EXPECT_FALSE(run.system.set_time(0.0).has_value());
   EXPECT_FALSE(run.system.evaluate(run.state, slopes, true).has_value());

@@ -1,4 +1,5 @@
-/// Newton in statics: the tangent is the exact derivative, so changes shrink quadratically; steps that are too long are cut.
+/// Newton in statics: the tangent is the exact derivative, so changes shrink quadratically; steps that are too long
+/// are cut.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,8 +11,8 @@
 namespace bough::verify {
 namespace {
 
-/// Changes obey d_{k+1} <= 4 d_k^2 once below 2e-2, down to round-off, whatever the slenderness. A slow linear rate would break the bound at the
-/// small end.
+/// Changes obey d_{k+1} <= 4 d_k^2 once below 2e-2, down to round-off, whatever the slenderness. A slow linear rate
+/// would break the bound at the small end.
 void expect_quadratic(const scene::Scene& scene, double from, double to) {
   constexpr double C = 4.0, round_off = 1e-13;
   Direct run(scene);
@@ -54,7 +55,8 @@ TEST(VerifyStatics, newton_converges_quadratically) {
   expect_quadratic(s, 0.2, 0.4);
 }
 
-/// Relative motions take increments exactly, so a constant moment winds a beam up in one correction; the next finds nothing left to do.
+/// Relative motions take increments exactly, so a constant moment winds a beam up in one correction; the next finds
+/// nothing left to do.
 TEST(VerifyStatics, a_moment_bends_a_beam_by_two_turns_in_one_correction) {
   for (const char* name : {"helix", "roll_up"}) {
     const Outcome r = run(gallery(name, {"/analysis/load_steps=1"}));
@@ -77,8 +79,8 @@ TEST(VerifyStatics, the_gallery_takes_its_load_steps_without_a_rejection) {
     }
 }
 
-/// Four slender beams welded to each other, EA L^2 / EI = 2e7: the loop closes in a beam, where the tree leaves a mismatch. (With nodes that
-/// move alone up to 18 of 23 load steps are rejected.)
+/// Four slender beams welded to each other, EA L^2 / EI = 2e7: the loop closes in a beam, where the tree leaves a
+/// mismatch. (With nodes that move alone up to 18 of 23 load steps are rejected.)
 TEST(VerifyStatics, a_closed_frame_of_slender_beams_takes_long_load_steps) {
   for (const int order : {1, 2, 3})
     for (const double pull : {-3.0, 20.0}) {
@@ -106,8 +108,8 @@ TEST(VerifyStatics, a_closed_frame_of_slender_beams_takes_long_load_steps) {
     }
 }
 
-/// Elastica with a tip force P L^2 / EI = 10, one load step from the straight shape: a correction bends every element without
-/// stretching its axis, so no stiffness of the axis is seen, whatever the order of the elements.
+/// Elastica with a tip force P L^2 / EI = 10, one load step from the straight shape: a correction bends every element
+/// without stretching its axis, so no stiffness of the axis is seen, whatever the order of the elements.
 TEST(VerifyStatics, iterations_do_not_grow_with_slenderness) {
   for (const auto& [order, elements] : {std::pair{1, 16}, {2, 4}, {2, 16}, {3, 3}, {3, 16}})
     for (const double slenderness : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {

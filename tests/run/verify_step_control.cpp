@@ -1,4 +1,5 @@
-// Step control: errors follow the tolerance, their estimate is honest, jumps are met, orders hold across changes of size.
+// Step control: errors follow the tolerance, their estimate is honest, jumps are met, orders hold across changes of
+// size.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +52,8 @@ struct Group {
   std::vector<std::string> columns;
 };
 
-/// Tolerances two decades apart: errors fall in proportion, slope 1, where positions decide the step, with tolerance^(2/3) where velocities do.
+/// Tolerances two decades apart: errors fall in proportion, slope 1, where positions decide the step, with
+/// tolerance^(2/3) where velocities do.
 void expect_slopes(const std::string& what, const scene::Scene& scene, double fixed_step, double coarsest,
                    const std::vector<Group>& groups, double least) {
   const double end = scene.analysis.end_time;
@@ -265,8 +267,8 @@ scene::Sensor sensor_of(scene::SensorKind kind) {
   return sensor;
 }
 
-/// The same crank, of which sensors show a force, an acceleration or energies. Where errors count at every node, each of
-/// these runs takes some 65 000 steps.
+/// The same crank, of which sensors show a force, an acceleration or energies. Where errors count at every node, each
+/// of these runs takes some 65 000 steps.
 TEST(StepControl, forces_and_energies_do_not_ask_for_every_vibration) {
   using Kind = scene::SensorKind;
   struct Case {

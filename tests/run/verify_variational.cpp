@@ -1,5 +1,5 @@
-// The variational integrator: order in positions, velocities and multipliers against another integrator, momentum to round-off, energy
-// within a bound, the gallery's figures.
+// The variational integrator: order in positions, velocities and multipliers against another integrator, momentum to
+// round-off, energy within a bound, the gallery's figures.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -88,7 +88,8 @@ Drift drift_of(const char* text, double h, int steps) {
   return d;
 }
 
-/// Velocities such that the centre moves slowly: positions stay of order one, and so does the round-off of angular momentum.
+/// Velocities such that the centre moves slowly: positions stay of order one, and so does the round-off of angular
+/// momentum.
 constexpr const char* tumbling_body = R"json({
   "bodies": [{"name": "body", "mass": 2, "center_of_mass": [0.3, -0.2, 0.1], "inertia": [1, 2, 3]}],
   "initial_velocities": [{"of": "body", "axes": "body", "velocity": [-0.7, -0.45, 1.1], "angular_velocity": [1, 3, 2]}],

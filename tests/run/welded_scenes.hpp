@@ -6,8 +6,8 @@
 
 namespace bough::run {
 
-/// Two beams that meet at a corner, a lump with a bead at the end of the second and a knob at the corner, tied by fixed joints, three of them in a loop. In the
-/// plane of x and z, or bent out of it.
+/// Two beams that meet at a corner, a lump with a bead at the end of the second and a knob at the corner, tied by
+/// fixed joints, three of them in a loop. In the plane of x and z, or bent out of it.
 inline std::string frame_scene(bool bends, const std::string& held, const std::string& rest) {
   const std::string y = bends ? "0.3" : "0", out = bends ? "1" : "0";
   const std::string joint = held.find("hinge") != std::string::npos ? "hinge" : "clamp";

@@ -112,7 +112,8 @@ TEST(Walks, BesideAnotherProgramAreHelpedByTheSecondThread) {
   EXPECT_TRUE(is_helped(threads, t, true));
 }
 
-/// oneTBB may have one thread for all objects of the process: whoever has walked beside another program must not keep it.
+/// oneTBB may have one thread for all objects of the process: whoever has walked beside another program must not keep
+/// it.
 TEST(Walks, BesideAnotherProgramLeaveTheSecondThreadToOthers) {
   const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
   schedule::Threads first(2, 0.0), second(2, 0.0);

@@ -1,4 +1,5 @@
-/// Dependent constraint rows: least multipliers against a complete orthogonal decomposition, what is reported, and what is refused.
+/// Dependent constraint rows: least multipliers against a complete orthogonal decomposition, what is reported, and
+/// what is refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +9,8 @@
 namespace bough::test {
 namespace {
 
-/// Beams between joints; some joints are said twice or three times. `again` receives the multiplier blocks that are not unique.
+/// Beams between joints; some joints are said twice or three times. `again` receives the multiplier blocks that are
+/// not unique.
 Scene make_redundant(unsigned seed, int links, std::vector<int>& again, double step = 1e-3) {
   SceneMaker m(seed, step);
   int end = m.add_node();
@@ -58,8 +60,9 @@ TEST(DependentRows, SolutionHasLeastMultipliersAndUniqueMotion) {
       const Eigen::VectorXd b = consistent_rhs(s, seed + 50), x = s.solve(b);
       EXPECT_LE(s.report.backward_error, 1e-14);
       EXPECT_LE(s.report.inconsistency, 1e-12);
-      // Oracle: the null vectors have no motion part, so the least solution of all unknowns is the one of least multipliers; the
-      // multipliers are measured against exact row norms, the scales are rounded: put the rounding back before taking the least.
+      // Oracle: the null vectors have no motion part, so the least solution of all unknowns is the one of least
+      // multipliers; the multipliers are measured against exact row norms, the scales are rounded: put the rounding
+      // back before taking the least.
       const Eigen::VectorXd row = Eigen::Map<const Eigen::VectorXd>(s.solver.row_scale().data(), A.rows());
       const Eigen::VectorXd column = Eigen::Map<const Eigen::VectorXd>(s.solver.column_scale().data(), A.rows());
       const Eigen::VectorXd exact = exact_column_scale(s);
@@ -118,7 +121,8 @@ TEST(DependentRows, ThatDependOnlyNearlyLeaveNoErrorInTheSolution) {
 TEST(DependentRows, LeastMultipliersDoNotDependOnUnits) {
   std::vector<int> again;
   const Scene scene = make_redundant(9, 5, again);
-  // The same scene in other units of length: unknowns of one kind times c, multipliers' rows times d (not powers of two).
+  // The same scene in other units of length: unknowns of one kind times c, multipliers' rows times d (not powers of
+  // two).
   Scene other = scene;
   const auto first = scene.first_unknown();
   Eigen::VectorXd unit(scene.num_unknowns());

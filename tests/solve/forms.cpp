@@ -1,4 +1,5 @@
-/// The forms with global multipliers and the hybrid one give the hierarchical solution, floating sub-domains and dependent rows included.
+/// The forms with global multipliers and the hybrid one give the hierarchical solution, floating sub-domains and
+/// dependent rows included.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-/// Places of Schur complements: what is still to be read is never written over, in whatever order sub-domains are visited.
+/// Places of Schur complements: what is still to be read is never written over, in whatever order sub-domains are
+/// visited.
 #include "../../src/solve/front_storage.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-/// Right-hand sides are read where they are and solutions written where they are asked for: the same bits whether these are one array or two, and
-/// whatever the solver looks at afterwards.
+/// Right-hand sides are read where they are and solutions written where they are asked for: the same bits whether
+/// these are one array or two, and whatever the solver looks at afterwards.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -68,7 +68,8 @@ TEST(InPlace, SolutionsAndReportsAreTheSame) {
                 {.lanes = lanes, .check = check, .refinement_steps = refinements, .refinement_above = 0.0});
 }
 
-/// Springs in a row that are held by a very soft one alone: the root's pivots are so small that the matrix is looked at for dependence and found good.
+/// Springs in a row that are held by a very soft one alone: the root's pivots are so small that the matrix is looked
+/// at for dependence and found good.
 TEST(InPlace, SolutionsAreTheSameWhereSmallPivotsHaveBeenLookedAt) {
   SceneMaker m(9);
   int end = m.add_node();

@@ -1,4 +1,5 @@
-/// Sub-domains in lockstep: the kernels of eight fronts against one front at a time, and whole solutions with and without lanes.
+/// Sub-domains in lockstep: the kernels of eight fronts against one front at a time, and whole solutions with and
+/// without lanes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

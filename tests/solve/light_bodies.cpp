@@ -1,5 +1,5 @@
-/// Chains of rigid bodies whose masses differ by up to 1e12: no row depends, and the solution is that of extended precision. Rows that do depend
-/// are found among them.
+/// Chains of rigid bodies whose masses differ by up to 1e12: no row depends, and the solution is that of extended
+/// precision. Rows that do depend are found among them.
 #include <gtest/gtest.h>
 
 #include <cstdio>

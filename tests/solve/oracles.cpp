@@ -1,4 +1,5 @@
-/// The monolithic oracles beside KLU give the hierarchical solution, say what they cannot do, and agree where rows depend.
+/// The monolithic oracles beside KLU give the hierarchical solution, say what they cannot do, and agree where rows
+/// depend.
 #include <gtest/gtest.h>
 
 #include "bough/solve/any_solver.hpp"

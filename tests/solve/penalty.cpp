@@ -1,4 +1,5 @@
-/// The promise of the method: the condition of the interface flexibility tends to one as the penalty grows, and no digit is paid for it.
+/// The promise of the method: the condition of the interface flexibility tends to one as the penalty grows, and no
+/// digit is paid for it.
 #include <gtest/gtest.h>
 
 #include "solving.hpp"
@@ -58,8 +59,9 @@ TEST(Penalty, PlainEliminationIsTheSameOnPaperAndLosesADigitPerDecade) {
 }
 
 TEST(Penalty, LocalMultipliersAreTheForcesBetweenSubdomains) {
-  // At every node of the interface mesh the local multipliers of all sub-domains that meet there and the loads that were applied
-  // above balance: sum_i L_i^T l_i = 0 for an interior load. Here: the two children of the root, loads inside the leaves only.
+  // At every node of the interface mesh the local multipliers of all sub-domains that meet there and the loads that
+  // were applied above balance: sum_i L_i^T l_i = 0 for an interior load. Here: the two children of the root, loads
+  // inside the leaves only.
   const Scene scene = make_chain(5, 1, 24);
   Solved s(scene, {.depth = 1}, {.multiplier_scale = 4.0});
   ASSERT_TRUE(s.factor().ok());

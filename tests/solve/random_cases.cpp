@@ -32,8 +32,9 @@ Scene make_joints_everywhere(unsigned seed, int links, double step) {
   return m.finish("joints everywhere");
 }
 
-/// Equal arms on a hub: beams, and in the middle a node between two joints (or a pair of nodes with two constraints). One arm is told apart
-/// by its numbers alone: no mass on that node, or a second constraint that repeats part of the first.
+/// Equal arms on a hub: beams, and in the middle a node between two joints (or a pair of nodes with two constraints).
+/// One arm is told apart by its numbers alone: no mass on that node, or a second constraint that repeats part of the
+/// first.
 Case make_equal_arms(unsigned seed, int arms, int length, double step, bool is_massless) {
   SceneMaker m(seed, step);
   Case c;

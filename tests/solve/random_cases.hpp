@@ -20,9 +20,10 @@ struct Case {
   Eigen::MatrixXd null_vectors() const;
 };
 
-/// Case `number`: family number mod 10 (chain, tree, loop, star, lattice, parts, rigid chain, joints everywhere; equal arms of which one has
-/// a node without mass between joints; equal arms of which one has a dependent constraint), about `unknowns` unknowns, stiffness ratios of
-/// 1 to 1e12 between beams, time steps of 1e-6 to 1e-2 s; in four of ten, some joints twice.
+/// Case `number`: family number mod 10 (chain, tree, loop, star, lattice, parts, rigid chain, joints everywhere;
+/// equal arms of which one has a node without mass between joints; equal arms of which one has a dependent
+/// constraint), about `unknowns` unknowns, stiffness ratios of 1 to 1e12 between beams, time steps of 1e-6 to 1e-2 s;
+/// in four of ten, some joints twice.
 Case make_case(int number, int unknowns);
 
 /// Sizes from 1 to 1500, evenly by their logarithm; number 249: 2500, number 499: 5000. Scenes come out near that.

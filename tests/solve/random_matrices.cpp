@@ -1,12 +1,14 @@
-/// Random matrices shaped like scenes, none left out: the hierarchical solver, lanes on and off, and KLU, against dense LU; and their symmetric
-/// parts, factored as such.
+/// Random matrices shaped like scenes, none left out: the hierarchical solver, lanes on and off, and KLU, against
+/// dense LU; and their symmetric parts, factored as such.
 ///
 /// In scaled variables, u = 2^-53, every solution has
-///   ratio       |b - A x| / (|A| |x| n u) < 30                             as LAPACK's own tests ask [Anderson et al. 1999, LAWN 41]
+///   ratio       |b - A x| / (|A| |x| n u) < 30                             as LAPACK's own tests ask [Anderson et
+///     al. 1999, LAWN 41]
 ///   difference  |x - y| / |y| <= 30 n u cond(A),  cond = | |A^-1| |A| |, maximum norm    [Skeel 1979]
-/// y: LU with partial pivoting, refined. cond is estimated from below [Hager 1984], so the bar is rather low than high. Dependent rows: y
-/// from A bordered by its null vectors, which are known from how the case is made; solutions are compared without their share in them. KLU solves those
-/// with a diagonal on the multipliers and refines; where it tells itself a backward error above 1e-14 it is no oracle, which is counted.
+/// y: LU with partial pivoting, refined. cond is estimated from below [Hager 1984], so the bar is rather low than
+/// high. Dependent rows: y from A bordered by its null vectors, which are known from how the case is made; solutions
+/// are compared without their share in them. KLU solves those with a diagonal on the multipliers and refines; where
+/// it tells itself a backward error above 1e-14 it is no oracle, which is counted.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #pragma once
-/// Random matrices shaped like those of flexible multibody scenes: beams, rigid bodies and joints on SE(3)-like nodes. Test data only.
+/// Random matrices shaped like those of flexible multibody scenes: beams, rigid bodies and joints on SE(3)-like
+/// nodes. Test data only.
 #include <Eigen/Dense>
 #include <random>
 #include <string>
@@ -28,15 +29,17 @@ class SceneMaker {
   SceneMaker(unsigned seed, double step, Scene scene) : random_(seed), step_(step), scene_(std::move(scene)) {}
 
   int add_node(int size = 6);
-  /// K + M / h^2 of a beam between nodes: K = B^T C B with B = [-Ad, I] (rigid motions are its null space), M positive definite;
-  /// unsymmetric: a few per cent of a skew part, structure symmetric. step <= 0: no mass (statics).
+  /// K + M / h^2 of a beam between nodes: K = B^T C B with B = [-Ad, I] (rigid motions are its null space), M
+  /// positive definite; unsymmetric: a few per cent of a skew part, structure symmetric. step <= 0: no mass
+  /// (statics).
   void add_beam(const std::vector<int>& nodes, double unsymmetry = 0.05);
   /// Inertia of a rigid body or a point load's tangent: one block.
   void add_body(int node, double size = 1.0);
-  /// rows multipliers between one or two nodes: [0 G^T; G 0] with G = W [-Ad, I] (or W on one node), W of full row rank.
-  /// Returns the multiplier block.
+  /// rows multipliers between one or two nodes: [0 G^T; G 0] with G = W [-Ad, I] (or W on one node), W of full row
+  /// rank. Returns the multiplier block.
   int add_joint(const std::vector<int>& nodes, int rows, double row_scale = 1.0);
-  /// The same constraint once more (rows of W combined anew), consistent with the first: dependent rows; as many as it has, or `rows`.
+  /// The same constraint once more (rows of W combined anew), consistent with the first: dependent rows; as many as
+  /// it has, or `rows`.
   int add_joint_again(int joint_element, int rows = 0);
 
   Scene finish(std::string name);
@@ -53,12 +56,15 @@ class SceneMaker {
   Scene scene_;
 };
 
-/// The same graph with every element matrix Q |L| Q^T instead of its symmetric part Q L Q^T: positive definite. Multipliers become motion.
+/// The same graph with every element matrix Q |L| Q^T instead of its symmetric part Q L Q^T: positive definite.
+/// Multipliers become motion.
 Scene make_definite(Scene scene);
 
-/// Scenes of the families: chain, tree, loop, star, lattice, parts (several unconnected), rigid chain, with joints sprinkled in.
+/// Scenes of the families: chain, tree, loop, star, lattice, parts (several unconnected), rigid chain, with joints
+/// sprinkled in.
 Scene make_chain(unsigned seed, int links, int beams_per_link, double step = 1e-3);
-/// Beams with light bodies at their ends, on hinges; every `again`-th hinge is said twice, so that rows depend (0: none).
+/// Beams with light bodies at their ends, on hinges; every `again`-th hinge is said twice, so that rows depend (0:
+/// none).
 Scene make_hinged_beams(unsigned seed, int beams, int again);
 Scene make_tree_of_bodies(unsigned seed, int bodies, double step = 1e-3);
 Scene make_loop(unsigned seed, int links, double step = 1e-3);

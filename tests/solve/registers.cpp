@@ -226,7 +226,8 @@ TEST(Registers, LeavesThatBranchGiveTheSameBitsInEveryVisit) {
     }
 }
 
-/// Reports look at whole Schur complements; symmetric fronts in registers keep one triangle of them. Two eliminations of well-conditioned matrices: round-off.
+/// Reports look at whole Schur complements; symmetric fronts in registers keep one triangle of them. Two eliminations
+/// of well-conditioned matrices: round-off.
 TEST(Registers, InterfacesAreReportedAsFromTheScalarPath) {
   for (const auto symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric})
     for (const bool partial : {false, true}) {
@@ -250,7 +251,8 @@ TEST(Registers, InterfacesAreReportedAsFromTheScalarPath) {
     }
 }
 
-/// A node without stiffness of its own leaves pivots that cannot stand: its half goes the pivoted way, the other one stays, and back when it is mended.
+/// A node without stiffness of its own leaves pivots that cannot stand: its half goes the pivoted way, the other one
+/// stays, and back when it is mended.
 TEST(Registers, ALeafWithoutAPivotGoesThePivotedWayAndComesBack) {
   const Scene scene = make_chain(4, 40, 4);
   Solved s(scene, {.for_one_solution = true}, {.refinement_steps = 0});

@@ -26,7 +26,8 @@ TEST(Scaling, ConditionIsConstantBelowTheSmallestPeriod) {
   EXPECT_LE(reference, 1e4);
 }
 
-/// All families, nodes between joints alone among them (the root of the tree of seed 42). At 1e-2 s stiffness rules, below 1e-5 s inertia.
+/// All families, nodes between joints alone among them (the root of the tree of seed 42). At 1e-2 s stiffness rules,
+/// below 1e-5 s inertia.
 TEST(Scaling, ConditionDoesNotGrowAsTheStepFallsInAnyFamily) {
   for (unsigned seed : {2u, 41u, 60u}) {
     std::vector<double> most;  // at longer steps
@@ -96,8 +97,8 @@ TEST(Scaling, ScalesArePowersOfTwoAndLeaveDiagonalsAndRowsNearOne) {
   }
 }
 
-/// A hinge on the ground whose axes are a little out of line with those of its node must not look like a lever of its unknowns: scaled by what they
-/// drag on, pivots would fail that are as good as those of an exact one.
+/// A hinge on the ground whose axes are a little out of line with those of its node must not look like a lever of its
+/// unknowns: scaled by what they drag on, pivots would fail that are as good as those of an exact one.
 TEST(Scaling, AJointToTheGroundOutOfLineScalesItsNodeLikeOneInLine) {
   const auto scales = [](double angle) {
     SceneMaker m(4);

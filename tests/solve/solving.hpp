@@ -58,8 +58,8 @@ double condition_of(const Eigen::MatrixXd& A);
 /// Column scales before they are rounded to powers of two, from the definition (dense).
 Eigen::VectorXd exact_column_scale(const Solved& s);
 
-/// Factor, solve, and compare with Eigen's fully pivoted LU in scaled variables: the backward error stays below the bar, the difference of
-/// the solutions below condition times it.
+/// Factor, solve, and compare with Eigen's fully pivoted LU in scaled variables: the backward error stays below the
+/// bar, the difference of the solutions below condition times it.
 void expect_matches_dense(const Scene& scene, const tree::TreeOptions& tree_options, double backward_bar,
                           const solve::SolveOptions& options = {.refinement_steps = 0});
 

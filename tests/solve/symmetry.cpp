@@ -1,4 +1,5 @@
-/// Values that are declared symmetric: factored as such, looked at in every factorization, given up by name where they are not.
+/// Values that are declared symmetric: factored as such, looked at in every factorization, given up by name where
+/// they are not.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -67,7 +68,8 @@ TEST(Symmetry, DeclaredValuesAreFactoredAsSuchInLessMemory) {
   // Schur complements stand in the places of factors, of which half are left.
   EXPECT_LT(static_cast<double>(s.solver.counters().memory_bytes),
             0.92 * static_cast<double>(general.solver.counters().memory_bytes));
-  // Where all Schur complements last, only factors differ: U12 is left out, a block diagonal of two numbers a row comes in.
+  // Where all Schur complements last, only factors differ: U12 is left out, a block diagonal of two numbers a row
+  // comes in.
   Solved s_all(lattice, {}, {.symmetry = Symmetry::symmetric, .partial = true, .lanes = false}),
       all(lattice, {}, {.partial = true, .lanes = false});
   double left_out = 0.0;

@@ -8,7 +8,8 @@
 namespace bough::step {
 namespace {
 
-/// Largest |eigenvalue| of one step on x'' + omega^2 x = 0 at h omega = w, from the recursion of (x, h v, h^2 a, h^2 x'').
+/// Largest |eigenvalue| of one step on x'' + omega^2 x = 0 at h omega = w, from the recursion of (x, h v, h^2 a, h^2
+/// x'').
 double spectral_radius_at(const AlphaCoefficients& c, double w) {
   // Power iteration on the 3-state map (x, h v, h^2 a); h^2 x'' = -w^2 x at both ends.
   const auto apply = [&](const std::array<double, 3>& s) {

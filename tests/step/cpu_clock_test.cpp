@@ -25,7 +25,8 @@ void work_until(clockid_t clock, double end) {
 // A reading is too large by 0.2 ms of waiting at most; the rest is for what the readings themselves take.
 constexpr double slack = 0.4e-3;
 
-/// Seconds of the tested clock and of the kernel's. A thread may have to wait between two readings, so the kernel's clock is read on both sides.
+/// Seconds of the tested clock and of the kernel's. A thread may have to wait between two readings, so the kernel's
+/// clock is read on both sides.
 class Comparison {
  public:
   explicit Comparison(CpuClock& clock) : clock_(clock) {

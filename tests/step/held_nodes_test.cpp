@@ -20,8 +20,8 @@ using test::rounding_of_forces;
 using test::stir;
 using test::take_steps;
 
-/// Three links, the first clamped; a block fixed to the ground beside its own origin, which carries an arm on a hinge, a spring, a rope to the links
-/// and a load.
+/// Three links, the first clamped; a block fixed to the ground beside its own origin, which carries an arm on a
+/// hinge, a spring, a rope to the links and a load.
 scene::Scene varied(int order) {
   scene::Scene s = test::make_chain(3, order);
   s.without = {"planar"};

@@ -1,4 +1,5 @@
-/// Moving nodes along the motion tree: a path that starts like that of nodes moving alone, and whose power is told truly.
+/// Moving nodes along the motion tree: a path that starts like that of nodes moving alone, and whose power is told
+/// truly.
 #include <gtest/gtest.h>
 
 #include <cmath>

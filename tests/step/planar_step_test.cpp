@@ -62,7 +62,8 @@ TEST(PlanarStep, agrees_with_steps_in_space_in_any_plane) {
       acceleration[1].push_back(b[n].a);
       algorithmic.push_back(plane.plan.unknowns.expanded(&plane.state.on<motion::Se2>().algorithmic[n][0], n));
     }
-    // Where the plane is inclined, places in it are rounded, by up to EA/L eps |x| = 1.5e-7 N of forces: 1e-3 rad/s^2 of a node's own inertia.
+    // Where the plane is inclined, places in it are rounded, by up to EA/L eps |x| = 1.5e-7 N of forces: 1e-3 rad/s^2
+    // of a node's own inertia.
     const double noise = is_inclined ? 1e-6 : 1e-9;
     const std::vector<motion::Vec6<double>> still(a.size(), motion::Vec6<double>::zero());
     EXPECT_LT(largest_difference(velocity[0], velocity[1]), noise * largest_difference(velocity[1], still));

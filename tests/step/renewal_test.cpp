@@ -21,8 +21,8 @@ scene::Scene make_bar(double share) {
   return s;
 }
 
-/// Places rounded to eps leave forces of eps EA over the length of an element, 1e-6 N, beside 3e-3 and 3e-5 N of weight: the tolerance cannot be met.
-/// Nodes that lie still ask for neither more solutions nor new factors.
+/// Places rounded to eps leave forces of eps EA over the length of an element, 1e-6 N, beside 3e-3 and 3e-5 N of
+/// weight: the tolerance cannot be met. Nodes that lie still ask for neither more solutions nor new factors.
 TEST(Renewal, none_for_forces_that_round_off_leaves) {
   constexpr int steps = 100;
   for (const double share : {1e-4, 1e-6}) {
@@ -42,7 +42,8 @@ TEST(Renewal, none_for_forces_that_round_off_leaves) {
   }
 }
 
-/// Most elements of a lattice have hardly any equals that are factored in lockstep with theirs, and are evaluated eight at a time all the same.
+/// Most elements of a lattice have hardly any equals that are factored in lockstep with theirs, and are evaluated
+/// eight at a time all the same.
 TEST(StepCost, counts_elements_as_they_are_evaluated) {
   const test::Rig rig(test::make_lattice(scene::AnalysisKind::dynamics));
   int alone = 0;

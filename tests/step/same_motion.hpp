@@ -65,8 +65,9 @@ inline double largest(const std::vector<double>& v) {
   return most;
 }
 
-/// Places are rounded by eps |x| / 2 at both ends of an element, in each of the two runs that are compared, and the stiffest element answers with
-/// EA / L times that: forces that kernels with other arithmetic (planar, in lanes) give at the same state differ by as much.
+/// Places are rounded by eps |x| / 2 at both ends of an element, in each of the two runs that are compared, and the
+/// stiffest element answers with EA / L times that: forces that kernels with other arithmetic (planar, in lanes) give
+/// at the same state differ by as much.
 inline double rounding_of_forces(const Rig& rig) {
   return rig.scene.sections.empty() ? 0.0 : 8.4e7 / 0.5 * 2.0 * 2.2e-16 * rig.plan.length_scale;
 }

@@ -10,8 +10,8 @@
 namespace bough::step {
 namespace {
 
-/// One step of the rule in one coordinate whose acceleration is `rate`, from exact values of q and v = `speed` at t and the algorithmic
-/// acceleration of a motion in which the rule has settled. Writes the errors of q and v over h^3.
+/// One step of the rule in one coordinate whose acceleration is `rate`, from exact values of q and v = `speed` at t
+/// and the algorithmic acceleration of a motion in which the rule has settled. Writes the errors of q and v over h^3.
 template <class Speed, class Rate>
 std::pair<double, double> errors_of_a_step(double radius, Speed speed, Rate rate, double place_change) {
   const AlphaCoefficients c = make_alpha_coefficients(radius);

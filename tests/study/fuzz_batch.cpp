@@ -1,6 +1,6 @@
 // libFuzzer target of what batches read: sweeps, journals, stores, records of shards, lists of cases. Anything may be
-// refused; nothing may crash, hang or be taken for what it is not. The first byte says what the rest is. Lines of journals
-// and records get the checksums that they need to be looked into.
+// refused; nothing may crash, hang or be taken for what it is not. The first byte says what the rest is. Lines of
+// journals and records get the checksums that they need to be looked into.
 #include <sys/mman.h>
 #include <unistd.h>
 

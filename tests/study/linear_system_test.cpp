@@ -44,8 +44,8 @@ scene::Scene make_lifted() {
   return s;
 }
 
-/// max_i |b - A x|_i / (|A| y + |b|)_i, y: of every unknown the largest of its kind (displacement, rotation, multiplier), so that a row of a
-/// motion that does not occur is measured by what it would be.
+/// max_i |b - A x|_i / (|A| y + |b|)_i, y: of every unknown the largest of its kind (displacement, rotation,
+/// multiplier), so that a row of a motion that does not occur is measured by what it would be.
 double row_wise_error(const LinearSystem& s) {
   std::vector<int> kind(s.rhs.size());
   double largest[3] = {0.0, 0.0, 0.0};

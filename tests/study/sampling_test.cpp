@@ -68,8 +68,8 @@ TEST(Sampling, sobol_points_are_those_of_the_published_sequence) {
     for (std::size_t d = 0; d < 3; ++d) EXPECT_EQ(sobol_point(r, d), points[r][d]) << r << " " << d;
 }
 
-/// Of 2^m points each of 2^m intervals holds one, in every dimension; and of pairs of dimensions the first 2^m points meet
-/// every box of 2^a by 2^b at most 2^t times, with the t of a (t, m, 2)-net that stays small.
+/// Of 2^m points each of 2^m intervals holds one, in every dimension; and of pairs of dimensions the first 2^m points
+/// meet every box of 2^a by 2^b at most 2^t times, with the t of a (t, m, 2)-net that stays small.
 TEST(Sampling, sobol_points_are_stratified_in_every_dimension) {
   for (std::size_t d = 0; d < most_sobol_dimensions; ++d) {
     std::set<int> intervals;

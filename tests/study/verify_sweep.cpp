@@ -13,7 +13,8 @@
 namespace bough::study {
 namespace {
 
-/// The gallery's pendulum to 0.5 s against the table of its closed form (place), and against itself in much finer steps (force).
+/// The gallery's pendulum to 0.5 s against the table of its closed form (place), and against itself in much finer
+/// steps (force).
 io::StudySpec pendulum_study(const std::string& steps = "[0.02, 0.01, 0.005]", const std::string& extra = "") {
   const std::string text = R"({
     "schema_version": 1, "scene": "pendulum.json",

@@ -37,8 +37,9 @@ inline void fill_table(int n) {
   if (sum < 0.0) throw std::logic_error("a sum of squares is negative");
 }
 
-/// How much sixteen times the size costs, 16 where cost is linear, 256 where it is quadratic. Large things leave the caches, the more so the busier
-/// the machine is, so the growth is counted against that of something linear of the same sizes.
+/// How much sixteen times the size costs, 16 where cost is linear, 256 where it is quadratic. Large things leave the
+/// caches, the more so the busier the machine is, so the growth is counted against that of something linear of the
+/// same sizes.
 inline double growth_by_sixteen(const std::function<std::function<void()>(int)>& prepare, int size) {
   const double small = least_seconds(prepare(size)), small_table = least_seconds([=] { fill_table(size); });
   const double large = least_seconds(prepare(16 * size)), large_table = least_seconds([=] { fill_table(16 * size); });

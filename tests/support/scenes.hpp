@@ -8,7 +8,8 @@
 
 namespace bough::support {
 
-/// A scene of data/scenarios by its stem, with overrides "/pointer=value". Throws std::runtime_error with all its problems.
+/// A scene of data/scenarios by its stem, with overrides "/pointer=value". Throws std::runtime_error with all its
+/// problems.
 scene::Scene gallery(const std::string& stem, const std::vector<std::string>& overrides = {});
 
 /// A scene from JSON text; "schema_version" is added. Throws as above.
@@ -48,14 +49,15 @@ struct Outcome {
   bool ok() const { return summary.status == records::RunStatus::ok; }
 };
 
-/// The whole scene in another place: positions, ground, gravity, dead loads and velocities turned and moved by `to`. Scenes without fixed
-/// frames and prescribed motions only.
+/// The whole scene in another place: positions, ground, gravity, dead loads and velocities turned and moved by `to`.
+/// Scenes without fixed frames and prescribed motions only.
 scene::Scene moved(scene::Scene scene, const scene::Frame& to);
 
 /// Expects LAPACK's ratio of linear solutions, |r| / (|A| |x| n u), to be at most 30.
 void expect_sound_solutions(double backward_error, double unknowns);
 
-/// Runs a scene in memory on one thread, and expects the linear solutions to be sound. Does not throw where the run fails: ask ok() and summary.cause.
+/// Runs a scene in memory on one thread, and expects the linear solutions to be sound. Does not throw where the run
+/// fails: ask ok() and summary.cause.
 Outcome run(const scene::Scene& scene, const run::ProgressCallback& progress = {});
 
 /// Order p from errors at step sizes h and h / ratio: e = C h^p.

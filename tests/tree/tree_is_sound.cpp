@@ -294,7 +294,8 @@ TEST(Tree, CutsOfACubeAreChosenByWhatTheyCost) {
     most = std::max(most, flops);
   }
   EXPECT_LT(most, 1.25 * least);
-  // Straight planes: the middle one alone, and of the two halves one each that holds half as much, take this much without all below.
+  // Straight planes: the middle one alone, and of the two halves one each that holds half as much, take this much
+  // without all below.
   const auto eliminate = [](double e, double b) {  // sum of 2 m^2 + m over the rows m that are left
     const auto sum = [](double n) { return n * (n + 1.0) / 2.0 + n * (n + 1.0) * (2.0 * n + 1.0) / 3.0; };
     return sum(e + b - 1.0) - (b > 0.0 ? sum(b - 1.0) : 0.0);

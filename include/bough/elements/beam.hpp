@@ -1,8 +1,10 @@
 #pragma once
-/// Geometrically exact beam of N nodes on a motion group: relative motions of the nodes are interpolated about a reference node,
+/// Geometrically exact beam of N nodes on a motion group: relative motions of the nodes are interpolated about a
+/// reference node,
 ///   H(s) = H_r exp(d(s)),  d(s) = sum_i N_i(s) d_i,  d_i = log(H_r^-1 H_i),
 /// so strains are frame-invariant and path-independent, and a helix is represented exactly.
-/// Sources: Sonneville, Cardona, Bruls 2014 (two nodes); Sonneville, Bruls, Bauchau 2017; Crisfield, Jelenic 1999 (invariance).
+/// Sources: Sonneville, Cardona, Bruls 2014 (two nodes); Sonneville, Bruls, Bauchau 2017; Crisfield, Jelenic 1999
+/// (invariance).
 #include "bough/elements/port.hpp"
 #include "bough/elements/quadrature.hpp"
 

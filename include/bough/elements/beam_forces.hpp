@@ -1,5 +1,6 @@
 #pragma once
-/// Forces of beams of three and four nodes, and of line loads, on their nodes, from BeamRates. Derivation: README.md, "Beam".
+/// Forces of beams of three and four nodes, and of line loads, on their nodes, from BeamRates. Derivation: README.md,
+/// "Beam".
 #include "bough/elements/screw_beam.hpp"
 
 namespace bough::elements {
@@ -86,7 +87,8 @@ void eval_internal_forces(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>&
   }
 }
 
-/// What all nodes bear together of forces conjugate to d_i: sum_i ad(d_i)^T p_i, as ad(d_i)^T p_i = F_i - Ad(H_ri^-1)^T F_i.
+/// What all nodes bear together of forces conjugate to d_i: sum_i ad(d_i)^T p_i, as ad(d_i)^T p_i = F_i -
+/// Ad(H_ri^-1)^T F_i.
 template <class G, class S, int N>
 typename G::template Wrench<S> sum_relative_forces(const BeamRates<G, S, N>& b,
                                                    const typename G::template Wrench<S>* p) {
@@ -97,7 +99,8 @@ typename G::template Wrench<S> sum_relative_forces(const BeamRates<G, S, N>& b,
   return sum;
 }
 
-/// Wrenches on the nodes in the ports' own axes:  F_i = T(d_i)^-T p_i,  F_r = sum - sum_i F_i, where `sum` is what all nodes bear together.
+/// Wrenches on the nodes in the ports' own axes:  F_i = T(d_i)^-T p_i,  F_r = sum - sum_i F_i, where `sum` is what
+/// all nodes bear together.
 template <class G, class S, int N>
 void eval_nodal_wrenches(const BeamRates<G, S, N>& b, const typename G::template Wrench<S>* p,
                          typename G::template Wrench<S> sum, S* out) {

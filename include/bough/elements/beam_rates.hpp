@@ -2,7 +2,8 @@
 /// What forces of beams look at, in differences of the nodes' motions. With D = ad(d), T(d) D = 1 - exp(-D) and
 /// Ad(exp d)^-1 = exp(-D) turn the velocity field of a beam, Ad(exp d)^-1 v_r + T(d) d', into
 ///   v(s) = v_r + T(d) z,   z = sum_i N_i z_i,   z_i = T(d_i)^-1 (v_i - v_r),   d_i' = z_i + ad(d_i) v_r,
-/// and the same for virtual motions and for the weight (R^T g; 0). No adjoint of a relative pose is left. Derivation: README.md, "Beam".
+/// and the same for virtual motions and for the weight (R^T g; 0). No adjoint of a relative pose is left. Derivation:
+/// README.md, "Beam".
 #include "bough/elements/beam.hpp"
 #include "bough/motion/operators.hpp"
 

@@ -4,8 +4,9 @@
 
 namespace bough::elements {
 
-/// Rigid body about its node's frame.  F = M (a - (R^T g; 0)) - ad(v)^T M v,  M the mass matrix about the node [kg, kg m, kg m^2].
-/// A point at the node's origin, M = m (1, 0; 0, 0), v = (u; w), bears no moment:  f = m (u' - R^T g) + w x m u.
+/// Rigid body about its node's frame.  F = M (a - (R^T g; 0)) - ad(v)^T M v,  M the mass matrix about the node [kg,
+/// kg m, kg m^2]. A point at the node's origin, M = m (1, 0; 0, 0), v = (u; w), bears no moment:  f = m (u' - R^T g)
+/// + w x m u.
 template <class G, class C = double>
 struct RigidBodyOn {
   using Group = G;

@@ -1,8 +1,8 @@
 #pragma once
 /// What can be done with the data of any element once it has declared them. An element declares its data by
 ///   template <class A, class B, class Visit> static void visit_data(A& a, B& b, Visit& visit)
-/// which hands each datum of a, with that of b, to the function of its kind. a and b are the element itself, in the same or in other
-/// numbers (double or packs), on the same or on another group:
+/// which hands each datum of a, with that of b, to the function of its kind. a and b are the element itself, in the
+/// same or in other numbers (double or packs), on the same or on another group:
 ///   number(x, y)         a scalar
 ///   matrix(x, y)         of a section or a body, in the axes of the first port
 ///   vector(x, y)         a strain or a twist, in the axes of the first port

@@ -4,8 +4,8 @@
 
 namespace bough::elements {
 
-/// Seen from the inertial frame, in the axes of the frame in which nodes are described; moments about the inertial origin.
-/// The potential of gravity g is -g . mass_moment, its resultant (mass g; mass_moment x g).
+/// Seen from the inertial frame, in the axes of the frame in which nodes are described; moments about the inertial
+/// origin. The potential of gravity g is -g . mass_moment, its resultant (mass g; mass_moment x g).
 template <class S>
 struct EnergiesOf {
   S kinetic = S(0.0);                     ///< [J]; 0 in statics

@@ -1,6 +1,7 @@
 #pragma once
-/// From node kinematics to an element's residual and tangent in the unknowns of its nodes: one driver for all element types.
-/// Tangents are exact: the residual's own source run on jets, or closed forms checked against its complex step.
+/// From node kinematics to an element's residual and tangent in the unknowns of its nodes: one driver for all element
+/// types. Tangents are exact: the residual's own source run on jets, or closed forms checked against its complex
+/// step.
 #include <type_traits>
 #include <vector>
 
@@ -12,8 +13,8 @@
 
 namespace bough::elements {
 
-/// Motion of a node on the group G: rotation, position as a compensated pair, twist and its derivative in the node's axes, and the increment
-/// `dq` since the last accepted step (H = H_n exp(dq)).
+/// Motion of a node on the group G: rotation, position as a compensated pair, twist and its derivative in the node's
+/// axes, and the increment `dq` since the last accepted step (H = H_n exp(dq)).
 template <class G, class S>
 struct NodeMotionOn {
   typename G::template Rotation<S> R;
@@ -24,8 +25,9 @@ template <class S>
 using NodeMotionOf = NodeMotionOn<motion::Se3, S>;
 using NodeMotion = NodeMotionOf<double>;
 
-/// How velocity and acceleration follow a position increment eta of the iteration:  dv = velocity T(dq)^-1 eta, da = acceleration T(dq)^-1 eta.
-/// `mass_only`: the unknown is the acceleration itself (a consistent start): dv = 0, da = eta; constraint rows keep their gradient.
+/// How velocity and acceleration follow a position increment eta of the iteration:  dv = velocity T(dq)^-1 eta, da =
+/// acceleration T(dq)^-1 eta. `mass_only`: the unknown is the acceleration itself (a consistent start): dv = 0, da =
+/// eta; constraint rows keep their gradient.
 struct Slopes {
   double velocity = 0.0;      ///< gamma / (beta h) [1/s]
   double acceleration = 0.0;  ///< (1 - alpha_m) / ((1 - alpha_f) beta h^2) [1/s^2]
@@ -33,9 +35,9 @@ struct Slopes {
 };
 
 /// Node motions and what surrounds them, as read by all elements of a model.
-/// observer: the frame in which nodes, ground, carriers and gravity are described, where that moves (its motion in the inertial frame); null:
-/// they are described in the inertial frame. Only elements with mass look at it: all others see relative motions.
-/// Frames move in space alone.
+/// observer: the frame in which nodes, ground, carriers and gravity are described, where that moves (its motion in
+/// the inertial frame); null: they are described in the inertial frame. Only elements with mass look at it: all
+/// others see relative motions. Frames move in space alone.
 template <class G, class S>
 struct FieldOn {
   const NodeMotionOn<G, S>* nodes = nullptr;
@@ -120,14 +122,15 @@ int num_unknowns(const E& e) {
   return n;
 }
 
-/// Residual in the unknowns of the nodes (and constraint rows), and the tangent dR/d(eta, lambda), row-major, when `tangent` is given.
-/// `multipliers` and `turns` are looked at by joints only. No allocation.
+/// Residual in the unknowns of the nodes (and constraint rows), and the tangent dR/d(eta, lambda), row-major, when
+/// `tangent` is given. `multipliers` and `turns` are looked at by joints only. No allocation.
 template <class E>
 void evaluate(const E& e, const FieldOn<typename E::Group, double>& field, const double* multipliers, double turns,
               double* residual, double* tangent);
 
-/// Sum of the magnitudes of the terms behind each entry of a residual, against which its smallness is measured. Elements between nodes push
-/// and pull on several; a body's own terms balance within it and are told apart:  |M a| + |M g| + |ad(v)^T M v|.
+/// Sum of the magnitudes of the terms behind each entry of a residual, against which its smallness is measured.
+/// Elements between nodes push and pull on several; a body's own terms balance within it and are told apart:  |M a| +
+/// |M g| + |ad(v)^T M v|.
 template <class E, class G, class S>
 void eval_magnitude(const E& e, const FieldOn<G, S>&, const S* residual, S* magnitude) {
   using std::abs;
@@ -163,19 +166,21 @@ void eval_magnitude(const RigidBodyOn<G, C>& e, const FieldOn<G, S>& field, cons
   G::put(G::dual_bracket(v, G::matrix_times(e.mass, v)), term.v), add();
 }
 
-/// Energies, powers and momentum of one element, all of them those of the inertial frame, momentum and load in the axes of the frame in which
-/// nodes are described. Without energies, those of joints, springs and bushings are left out: what is watched in every step are powers and loads.
+/// Energies, powers and momentum of one element, all of them those of the inertial frame, momentum and load in the
+/// axes of the frame in which nodes are described. Without energies, those of joints, springs and bushings are left
+/// out: what is watched in every step are powers and loads.
 template <class E>
 Measures measure(const E& e, const Field& field, const double* multipliers, double turns, bool with_energies = true);
 
-/// d(residual)/dt along the motion with accelerations held: positions, velocities, multipliers' frames and laws move on. Laws come as value
-/// and rate. Joints: forces only.
+/// d(residual)/dt along the motion with accelerations held: positions, velocities, multipliers' frames and laws move
+/// on. Laws come as value and rate. Joints: forces only.
 template <class E>
 void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Taylor<double, 1>>& around,
                    const double* multipliers, double turns, double* residual_rate);
 
-/// Constraint rows of a joint as Taylor coefficients in time up to order 3, along the motion given by twist, acceleration and jerk (the
-/// derivative of the acceleration's components) of its nodes.  out[row] = {Phi, Phi', Phi''/2, Phi'''/6}.
+/// Constraint rows of a joint as Taylor coefficients in time up to order 3, along the motion given by twist,
+/// acceleration and jerk (the derivative of the acceleration's components) of its nodes.  out[row] = {Phi, Phi',
+/// Phi''/2, Phi'''/6}.
 void evaluate_constraint_series(const Joint& joint, const Field& field, const Vec6<double>* jerk,
                                 const lanes::Taylor<double, 3>* laws, double turns, lanes::Taylor<double, 3>* out);
 /// The rows and their first time derivatives alone.

@@ -1,15 +1,17 @@
 #pragma once
-/// Eight elements of one type and kind in lockstep, one to a lane: the kernels and the driver of evaluate.hpp over packs. A lane holds
-/// the bits of the same element evaluated alone, whoever sits in the other lanes.
+/// Eight elements of one type and kind in lockstep, one to a lane: the kernels and the driver of evaluate.hpp over
+/// packs. A lane holds the bits of the same element evaluated alone, whoever sits in the other lanes.
 ///
 /// A solver that runs up to eight equal sub-domains in lockstep
-///   1. once, for each element position: checks `may_share_lanes` and makes a `LaneElement` (make_lane_element), whose ports and
+///   1. once, for each element position: checks `may_share_lanes` and makes a `LaneElement` (make_lane_element),
+///     whose ports and
 ///      laws carry the numbers of the sub-domain's own nodes and laws, the same in all lanes;
 ///   2. at each evaluation: fills one NodeLanes per node (set_lanes) and one pack per law and multiplier; where frames
 ///      move, one CarrierLanes for each of them and for the observer (set_all_lanes), which are common to all lanes;
-///   3. calls `evaluate_lanes` for each element; entry k of lane l of a result is out[k * num_lanes + l], k as in `evaluate`.
-/// Lanes that are not needed repeat a valid element and its nodes; what they yield is ignored. Nothing allocates. All arrays of packs are
-/// aligned to 64 bytes.
+///   3. calls `evaluate_lanes` for each element; entry k of lane l of a result is out[k * num_lanes + l], k as in
+///     `evaluate`.
+/// Lanes that are not needed repeat a valid element and its nodes; what they yield is ignored. Nothing allocates. All
+/// arrays of packs are aligned to 64 bytes.
 #include "bough/elements/element_data.hpp"
 #include "bough/elements/evaluate.hpp"
 #include "bough/lanes/transpose.hpp"
@@ -20,8 +22,8 @@ inline constexpr int num_lanes = 8;
 using LanePack = lanes::Pack<num_lanes>;
 using NodeLanes = NodeMotionOf<LanePack>;
 using CarrierLanes = CarrierMotionOf<LanePack>;
-/// `nodes` are indexed by the ports of lane elements, `around.laws` by their laws; `slopes` are common to all lanes. `carriers` have
-/// the indices of Field::carriers; they and the `observer` hold the same motion in all lanes.
+/// `nodes` are indexed by the ports of lane elements, `around.laws` by their laws; `slopes` are common to all lanes.
+/// `carriers` have the indices of Field::carriers; they and the `observer` hold the same motion in all lanes.
 using FieldLanes = FieldOf<LanePack>;
 
 namespace detail {
@@ -50,16 +52,19 @@ int list_laws(const E& e, int* laws) {
   return lister.count;
 }
 
-/// Whether two elements differ in numbers only: ports on the ground and ports with offsets are the same ones, so are the frames of
-/// prescribed motion that ports stand in, and the terms that are present (mass, damping, rows, efforts, laws, dead or follower loads).
+/// Whether two elements differ in numbers only: ports on the ground and ports with offsets are the same ones, so are
+/// the frames of prescribed motion that ports stand in, and the terms that are present (mass, damping, rows, efforts,
+/// laws, dead or follower loads).
 template <class E>
 bool may_share_lanes(const E& a, const E& b);
 /// Whether they do not even differ in these: all but nodes and laws are the same.
 template <class E>
 bool has_same_numbers(const E& a, const E& b);
 
-/// Constants of `count` elements, 1 <= count <= num_lanes, that may share lanes; the remaining lanes repeat the last one.
-///   nodes: for each port off the ground, the index its node will have in FieldLanes::nodes; first_law: the index of the first of the
+/// Constants of `count` elements, 1 <= count <= num_lanes, that may share lanes; the remaining lanes repeat the last
+/// one.
+///   nodes: for each port off the ground, the index its node will have in FieldLanes::nodes; first_law: the index of
+///     the first of the
 ///   element's laws (list_laws) in FieldLanes::around.laws, the others follow.
 template <class E>
 LaneElement<E> make_lane_element(const E* const* elements, int count, const int* nodes, int first_law);
@@ -85,8 +90,8 @@ inline void set_all_lanes(CarrierLanes& to, const CarrierMotion& from) {
   to.twist_second = lanes::cast<LanePack>(from.twist_second);
 }
 
-/// Residual and, where asked for (not nullptr), its magnitude (eval_magnitude) and tangent, of num_unknowns(e) = n entries, n, n x n row-major.
-/// `multipliers` (num_multipliers(e) packs) and `turns` are looked at by joints only.
+/// Residual and, where asked for (not nullptr), its magnitude (eval_magnitude) and tangent, of num_unknowns(e) = n
+/// entries, n, n x n row-major. `multipliers` (num_multipliers(e) packs) and `turns` are looked at by joints only.
 template <class E>
 void evaluate_lanes(const E& e, const FieldOn<typename E::Group, LanePack>& field, const LanePack* multipliers,
                     const LanePack& turns, LanePack* residual, LanePack* magnitude, LanePack* tangent);

@@ -1,6 +1,6 @@
 #pragma once
-/// Kinematic constraints between two frames, each row a scalar function of the relative motion H = H_a^-1 H_b alone, with one
-/// multiplier; and efforts (springs, dampers, torques) along the joint's free coordinates.
+/// Kinematic constraints between two frames, each row a scalar function of the relative motion H = H_a^-1 H_b alone,
+/// with one multiplier; and efforts (springs, dampers, torques) along the joint's free coordinates.
 ///   residual: F_b = G^T lambda + efforts,  F_a = -Ad(H^-1)^T F_b,  and the rows Phi(H, t) themselves.
 /// G holds the rows' gradients with respect to the right increment zeta of the second frame, H <- H exp(zeta).
 #include "bough/elements/port.hpp"
@@ -14,7 +14,8 @@ enum class RowKind : std::uint8_t {
   screw,   ///< u_3 - pitch theta - law = 0
 };
 
-/// A row, and the directions that it compares: in space axes i of the first and j of the second frame, in a plane one direction d.
+/// A row, and the directions that it compares: in space axes i of the first and j of the second frame, in a plane one
+/// direction d.
 template <class G, class C>
 struct ConstraintRowOn : G::template Direction<C> {
   RowKind kind = RowKind::along;
@@ -42,8 +43,8 @@ using Effort = EffortOf<double>;
 constexpr int max_rows = 6;
 constexpr int max_efforts = 4;
 
-/// A joint of `num_rows` rows, the first of the array. The angle at the last accepted step, from which the present one is unwrapped, belongs to
-/// the state of a run and is handed to the kernel as `turns`.
+/// A joint of `num_rows` rows, the first of the array. The angle at the last accepted step, from which the present
+/// one is unwrapped, belongs to the state of a run and is handed to the kernel as `turns`.
 template <class G, class C = double>
 struct JointOn {
   using Group = G;
@@ -107,15 +108,15 @@ bool exchanges_energy(const JointOn<G, C>& joint) {
   return is_driven(joint) || joint.num_efforts > 0;
 }
 
-/// Whether rows k to k + 2 of a joint hold all axes of its second frame along those of its first: e_1 . R e_2 = e_2 . R e_3 =
-/// e_3 . R e_1 = 0, which half a turn off about any of them would meet as well.
+/// Whether rows k to k + 2 of a joint hold all axes of its second frame along those of its first: e_1 . R e_2 = e_2 .
+/// R e_3 = e_3 . R e_1 = 0, which half a turn off about any of them would meet as well.
 inline bool aligns_all_axes(const Joint& e, int k) {
   return k + 2 < e.num_rows && e.rows[k].i == 0 && e.rows[k].j == 1 && e.rows[k + 1].kind == RowKind::across &&
          e.rows[k + 1].i == 1 && e.rows[k + 1].j == 2 && e.rows[k + 2].kind == RowKind::across;
 }
 
-/// theta = turns + atan2(s', c'), (c', s') the rotation about axis 3 seen from the last accepted angle: smooth over any number of turns.
-/// turn: (c, s) of the rotation, times any positive factor.
+/// theta = turns + atan2(s', c'), (c', s') the rotation about axis 3 seen from the last accepted angle: smooth over
+/// any number of turns. turn: (c, s) of the rotation, times any positive factor.
 template <class G, class S, class C>
 BOUGH_INLINE S eval_axial_angle(const lanes::Vec<S, 2>& turn, const C& turns) {
   using std::cos;
@@ -183,8 +184,8 @@ BOUGH_INLINE S eval_coordinate(const EffortOn<G, C>& e, const typename G::templa
   return eval_coordinate<G, S, C>(kind, e.direction, C(0.0), H, turns, gradient);
 }
 
-/// Effort of the springs, dampers and drives without constraint along one coordinate, on the second body, against the motion. rate: of the
-/// coordinate, nullptr where nothing damps it.
+/// Effort of the springs, dampers and drives without constraint along one coordinate, on the second body, against the
+/// motion. rate: of the coordinate, nullptr where nothing damps it.
 template <class G, class S, class C>
 BOUGH_INLINE S eval_effort(const EffortOn<G, C>& e, const S& coordinate, const S* rate, const Constant<S>* laws) {
   S f = e.stiffness * (coordinate - e.rest);

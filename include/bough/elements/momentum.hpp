@@ -7,12 +7,13 @@
 
 namespace bough::elements {
 
-/// Momentum of each port, P = dL/dv, and force F = -dL/dq - loads + damping, by right increments of the ports, in their own axes; the
-/// forces resist the motion, as residuals do. d/dt P - ad(v)^T P + F is the residual of the equations of motion. force == nullptr: P only.
-/// `elastic_inertia` tau [s^2] adds tau/2 times the strain energy with rates of strain for strains, of beams and bushings, to L: no rigid
-/// motion has any of it. For linear elasticity tau = (beta - 1/4) h^2 makes the midpoint rule that of Newmark
-/// with beta (Kane, Marsden, Ortiz, West 2000). Surroundings of dynamics; accelerations are not looked at.
-/// Here: elements without inertia, whose force is their residual.
+/// Momentum of each port, P = dL/dv, and force F = -dL/dq - loads + damping, by right increments of the ports, in
+/// their own axes; the forces resist the motion, as residuals do. d/dt P - ad(v)^T P + F is the residual of the
+/// equations of motion. force == nullptr: P only. `elastic_inertia` tau [s^2] adds tau/2 times the strain energy with
+/// rates of strain for strains, of beams and bushings, to L: no rigid motion has any of it. For linear elasticity tau
+/// = (beta - 1/4) h^2 makes the midpoint rule that of Newmark with beta (Kane, Marsden, Ortiz, West 2000).
+/// Surroundings of dynamics; accelerations are not looked at. Here: elements without inertia, whose force is their
+/// residual.
 template <class E, class G, class S>
 void eval_momentum(const E& e, const PortMotionOn<G, S>* p, const SurroundingsOn<G, S>& around,
                    double /*elastic_inertia*/, S* momentum, S* force) {
@@ -54,8 +55,9 @@ struct RateMomenta {
   }
 };
 
-/// Momenta of the ports,  P_i = U_i^T (by_z_i + by_rate_i),  P_r = by_r + sum_i ad(d_i)^T by_rate_i - sum_i P_i,  and what z_i = U_i(d_i) (v_i - v_r),
-/// d_i' = z_i + ad(d_i) v_r do at fixed twists to the forces p_i conjugate to d_i (if any):
+/// Momenta of the ports,  P_i = U_i^T (by_z_i + by_rate_i),  P_r = by_r + sum_i ad(d_i)^T by_rate_i - sum_i P_i,  and
+/// what z_i = U_i(d_i) (v_i - v_r), d_i' = z_i + ad(d_i) v_r do at fixed twists to the forces p_i conjugate to d_i
+/// (if any):
 ///   p_i -= J_i^T (by_z_i + by_rate_i) - ad(v_r)^T by_rate_i,   J_i = d(U_i (v_i - v_r))/dd_i.
 template <class G, class S, int N>
 void eval_port_momenta(const BeamRates<G, S, N>& b, const RateMomenta<G, S, N>& m, S* momentum,
@@ -89,9 +91,10 @@ void eval_momentum(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* por
   for (int k = 0; k < 2 * G::dof; ++k) force[k] = force[k] + inertial[k];
 }
 
-/// The elastic inertia tau/2 e'^T C e' of the strain rates e' = (T y' + A d')/L, y = dd/ds, A = d(T y)/dd: momenta by d_i', and, with
-/// m = tau w C e', what it does to the forces p_i (if any):
-///   by_rate_i += N_i' T^T m + N_i A^T m,   p_i -= (N_i d(T y' + T' y)/dd + N_i' T')^T m,   T' the derivative of T along d'.
+/// The elastic inertia tau/2 e'^T C e' of the strain rates e' = (T y' + A d')/L, y = dd/ds, A = d(T y)/dd: momenta by
+/// d_i', and, with m = tau w C e', what it does to the forces p_i (if any):
+///   by_rate_i += N_i' T^T m + N_i A^T m,   p_i -= (N_i d(T y' + T' y)/dd + N_i' T')^T m,   T' the derivative of T
+///     along d'.
 template <class G, class S, int N, class C>
 void add_elastic_momentum(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>& b, double elastic_inertia,
                           typename G::template Wrench<S>* by_rate, typename G::template Wrench<S>* p) {
@@ -120,8 +123,8 @@ void add_elastic_momentum(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>&
   }
 }
 
-/// With pi = w L m v at a mass point, v = v_r + T z:  by_z_i = sum N_i T^T pi,  by_r = sum pi,  dK/dd_i = sum N_i (d(T z)/dd)^T pi. The weight
-/// acts on the section's own virtual motions, as in the residual.
+/// With pi = w L m v at a mass point, v = v_r + T z:  by_z_i = sum N_i T^T pi,  by_r = sum pi,  dK/dd_i = sum N_i
+/// (d(T z)/dd)^T pi. The weight acts on the section's own virtual motions, as in the residual.
 template <class G, class S, int N, class C>
 void eval_momentum(const BeamOn<G, N, C>& beam, const PortMotionOn<G, S>* ports, const SurroundingsOn<G, S>& around,
                    double elastic_inertia, S* momentum, S* force) {
@@ -170,8 +173,8 @@ void eval_momentum(const BeamOn<G, N, C>& beam, const PortMotionOn<G, S>* ports,
   eval_nodal_wrenches<G, S, N>(b, p, sum, force);
 }
 
-/// The step of the midpoint rule on the group, H_{n+1} = H_n exp(D), with P and F at the pose H_n exp(D/2) and the twist D/h: momenta at
-/// both ends, in the axes there, from the discrete Lagrangian L_d = h L(H_n exp(D/2), D/h):
+/// The step of the midpoint rule on the group, H_{n+1} = H_n exp(D), with P and F at the pose H_n exp(D/2) and the
+/// twist D/h: momenta at both ends, in the axes there, from the discrete Lagrangian L_d = h L(H_n exp(D/2), D/h):
 ///   p_n = -D_1 L_d = T(-D)^-T (P + (h/2) T(-D/2)^T F),   p_{n+1} = D_2 L_d = T(D)^-T (P - (h/2) T(D/2)^T F).
 /// This is the latter; the former is the same backwards, at -D and -h.
 template <class G, class S>
@@ -188,7 +191,8 @@ typename G::template Vector<S> eval_momentum_after(const typename G::template Ve
 template <class E>
 using FieldFor = FieldOn<typename E::Group, double>;
 
-/// Momentum and force of an element in the axes of its nodes, G::dof each per port off the ground; accelerations are not looked at.
+/// Momentum and force of an element in the axes of its nodes, G::dof each per port off the ground; accelerations are
+/// not looked at.
 template <class E>
 void evaluate_momentum(const E& e, const FieldFor<E>& field, double turns, double elastic_inertia, double* momentum,
                        double* force);
@@ -197,11 +201,13 @@ void evaluate_momentum(const E& e, const FieldFor<E>& field, double turns, doubl
 template <class E>
 void add_elastic_mass(const E& e, const FieldFor<E>& field, double factor, double* matrix);
 
-/// matrix += factor ad(v)^T M on the diagonal blocks of the nodes, M that of a body, or of a beam's mass shared out among its nodes.
+/// matrix += factor ad(v)^T M on the diagonal blocks of the nodes, M that of a body, or of a beam's mass shared out
+/// among its nodes.
 template <class E>
 void add_gyroscopic(const E& e, const FieldFor<E>& field, double factor, double* matrix);
 
-/// Values of a joint's rows, and their gradients by right increments of its nodes off the ground, row-major, num_rows x dof (nodes).
+/// Values of a joint's rows, and their gradients by right increments of its nodes off the ground, row-major, num_rows
+/// x dof (nodes).
 template <class G>
 void evaluate_rows(const JointOn<G>& joint, const FieldOn<G, double>& field, double turns, double* rows,
                    double* gradient);

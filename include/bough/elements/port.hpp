@@ -17,9 +17,9 @@ using motion::Vec6;
 
 constexpr int ground = -1;  ///< node index of what is fixed in space
 
-/// A frame fixed to a node, at `offset` in the node's axes; node == ground: `offset` is the pose in the ground, or in the frame of prescribed
-/// motion that stands for it there.
-/// Constants of elements are numbers C: double, or a pack that holds those of several elements, one to a lane.
+/// A frame fixed to a node, at `offset` in the node's axes; node == ground: `offset` is the pose in the ground, or in
+/// the frame of prescribed motion that stands for it there. Constants of elements are numbers C: double, or a pack
+/// that holds those of several elements, one to a lane.
 template <class G, class C>
 struct PortOn {
   int node = ground;
@@ -50,14 +50,16 @@ enum class DataAxes : std::uint8_t {
   section,  ///< the same, and axis 1 is the reference axis
 };
 
-/// Whether a constant is worth its terms: in packs if it is to one lane, to the others a zero times something finite adds nothing.
+/// Whether a constant is worth its terms: in packs if it is to one lane, to the others a zero times something finite
+/// adds nothing.
 inline bool is_present(double x) { return x != 0.0; }
 template <class C>
 bool is_present(const C& x) {
   return any(less(C(0.0), abs(x)));
 }
 
-/// Prescribed motion of a frame at one instant: pose, twist in its own axes and the twist's first two derivatives, component by component.
+/// Prescribed motion of a frame at one instant: pose, twist in its own axes and the twist's first two derivatives,
+/// component by component.
 template <class S>
 struct CarrierMotionOf {
   Frame<S> pose = Frame<S>::identity();
@@ -78,10 +80,11 @@ struct PortMotionOn {
 template <class S>
 using PortMotion = PortMotionOn<motion::Se3, S>;
 
-/// Motion seen from the inertial frame, of a port whose motion p is known in a frame that moves with twist V (own axes) itself:
+/// Motion seen from the inertial frame, of a port whose motion p is known in a frame that moves with twist V (own
+/// axes) itself:
 ///   v + c,  a + Ad(H^-1) V' - ad(v) c,  c = Ad(H^-1) V                    (the middle of ad(v) c is the Coriolis term)
-/// The pose stays that in the frame: elements look at relative poses, and at the direction of gravity, which is turned into the frame.
-/// anchor: what p.H.x is relative to [m].
+/// The pose stays that in the frame: elements look at relative poses, and at the direction of gravity, which is
+/// turned into the frame. anchor: what p.H.x is relative to [m].
 template <class S>
 void add_observer_motion(PortMotion<S>& p, const Vec3<S>& anchor, const Vec6<S>& twist, const Vec6<S>& twist_rate) {
   const Frame<S> H{p.H.R, p.H.x + anchor};
@@ -122,8 +125,8 @@ struct PortSlopesOn {
   typename G::template Map<S> velocity, acceleration;
 };
 
-/// Of elements that say nothing else: whether they have mass, and how much [kg]; whether they take energy, what looks at velocities being a
-/// damper where there is no mass; whether they take or give any, as loads do.
+/// Of elements that say nothing else: whether they have mass, and how much [kg]; whether they take energy, what looks
+/// at velocities being a damper where there is no mass; whether they take or give any, as loads do.
 template <class E>
 bool has_mass(const E&) {
   return false;

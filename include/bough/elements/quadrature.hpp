@@ -1,5 +1,6 @@
 #pragma once
-/// Lagrange interpolation on N equidistant nodes over s in [0, 1], tabulated at Gauss points: values, slopes d/ds, weights.
+/// Lagrange interpolation on N equidistant nodes over s in [0, 1], tabulated at Gauss points: values, slopes d/ds,
+/// weights.
 namespace bough::elements {
 
 template <int N, int P>

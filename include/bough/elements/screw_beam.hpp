@@ -1,6 +1,7 @@
 #pragma once
-/// Forces of the two-node beam. With one relative motion d all operators on a section are functions of D = ad(d) alone, so (7) of
-/// README.md becomes (8), an interpolation of the nodes' own motions by P(s) (motion/screw_blend.hpp):
+/// Forces of the two-node beam. With one relative motion d all operators on a section are functions of D = ad(d)
+/// alone, so (7) of README.md becomes (8), an interpolation of the nodes' own motions by P(s)
+/// (motion/screw_blend.hpp):
 ///   v(s) = v_r + P (v_1 - v_r),   F_1 = T^-T n + sum_g w_g P^T f,   F_r + F_1 = ad(d)^T n + sum_g w_g f.
 /// D is applied once to what it meets, and polynomials of it by Horner's rule.
 #include "bough/elements/beam_rates.hpp"

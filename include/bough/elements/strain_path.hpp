@@ -1,6 +1,6 @@
 #pragma once
-/// A way from one shape of a beam to another along which its strains change in proportion, for large corrections in statics.
-/// In lanes: a lane's bits do not depend on its neighbours.
+/// A way from one shape of a beam to another along which its strains change in proportion, for large corrections in
+/// statics. In lanes: a lane's bits do not depend on its neighbours.
 #include "bough/elements/beam.hpp"
 #include "bough/elements/evaluate_lanes.hpp"
 #include "bough/motion/quaternion.hpp"
@@ -20,13 +20,14 @@ struct SectionWay {
 ///
 ///   e_g(end) = e_g(d) + factor (de_g/dd) T(d)^-1 (eta_i - Ad(H_ri)^-1 eta_r),     g = 1 ... N - 1 strain points.
 ///
-/// A beam of N nodes has as many strains as relative motions, 6 (N - 1), so the shape follows from the strains. A slender
-/// beam answers to a strain of its axis with EA and to bending with EI. A correction that is linear in d bends the beam
-/// with an axial strain of second order, and the false axial force EA (correction)^2 spoils the next tangent of Newton's
-/// method; here strains have no second order. With two nodes e = d / L, and the path is linear in d.
+/// A beam of N nodes has as many strains as relative motions, 6 (N - 1), so the shape follows from the strains. A
+/// slender beam answers to a strain of its axis with EA and to bending with EI. A correction that is linear in d
+/// bends the beam with an axial strain of second order, and the false axial force EA (correction)^2 spoils the next
+/// tangent of Newton's method; here strains have no second order. With two nodes e = d / L, and the path is linear in
+/// d.
 ///
-/// The slopes of d at the strain points solve d'_g = T(d_g)^-1 L e_g, by substitution; no stiffness enters. Where that does
-/// not converge (corrections that bend an element by more than a turn) the path is linear in d.
+/// The slopes of d at the strain points solve d'_g = T(d_g)^-1 L e_g, by substitution; no stiffness enters. Where
+/// that does not converge (corrections that bend an element by more than a turn) the path is linear in d.
 ///   ports: poses of the sections at the nodes, relative to the element's anchor; eta: their corrections (linear [m];
 ///   angular [rad]) in their own axes; length: of the beam [m].
 ///   ways: of the N - 1 nodes other than r, in order.  strain_rates: L de_g/d(factor) at its end, at the N - 1
@@ -36,8 +37,8 @@ template <int N>
 void eval_strain_path(const PortMotion<LanePack>* ports, const Vec6<LanePack>* eta, const LanePack& factor,
                       SectionWay<LanePack>* ways, Vec6<LanePack>* strain_rates);
 
-/// Twists of the sections relative to that at the reference node at the end of the path, by unit of the factor, in their
-/// own axes. ends: SectionWay::end and strain_rates as eval_strain_path gives them; twists: N - 1.
+/// Twists of the sections relative to that at the reference node at the end of the path, by unit of the factor, in
+/// their own axes. ends: SectionWay::end and strain_rates as eval_strain_path gives them; twists: N - 1.
 template <int N>
 void eval_strain_path_twists(const Vec6<LanePack>* ends, const Vec6<LanePack>* strain_rates, Vec6<LanePack>* twists);
 

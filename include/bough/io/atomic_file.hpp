@@ -12,10 +12,11 @@ namespace bough::io {
 /// the disk begins to take the content; later: neither.
 enum class Durability { now, content, soon, later };
 
-/// Writes to `<name>.partial` beside the final name; `commit` makes it durable and renames it. A former file of the final name stays
-/// untouched until then. Without `commit` the destructor removes the partial file; after a crash the next writer takes it over.
-/// A name that is taken by anything but a file (a device, a pipe, a folder) is refused and left as it is; a link to a file is replaced, not
-/// followed. Every failure (no space, no permission, a second writer) is a std::runtime_error that names the file and the system's reason.
+/// Writes to `<name>.partial` beside the final name; `commit` makes it durable and renames it. A former file of the
+/// final name stays untouched until then. Without `commit` the destructor removes the partial file; after a crash the
+/// next writer takes it over. A name that is taken by anything but a file (a device, a pipe, a folder) is refused and
+/// left as it is; a link to a file is replaced, not followed. Every failure (no space, no permission, a second
+/// writer) is a std::runtime_error that names the file and the system's reason.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path final_path);
@@ -26,8 +27,8 @@ class AtomicFile {
   /// Appends to a buffer that is handed to the system when it is large.
   void write(std::string_view bytes);
 
-  /// Hands the buffer to the system. On failure the file is cut back to the end of the last flush that went through and the buffer is
-  /// dropped, so that what is in the file is always a sequence of whole flushes.
+  /// Hands the buffer to the system. On failure the file is cut back to the end of the last flush that went through
+  /// and the buffer is dropped, so that what is in the file is always a sequence of whole flushes.
   void flush();
 
   /// Flush, then other bytes in the place of as many first ones. The hash is taken anew, by reading the file.
@@ -38,8 +39,8 @@ class AtomicFile {
   void start_writing_out();
 
   /// Flush, fsync of the file, rename, fsync of the directory. On failure the final name keeps its former content.
-  /// content: without the fsync of the directory; soon, later: without both. Whoever writes many files calls `sync_file`
-  /// on each that lacks it and `sync_directory` once when all are written.
+  /// content: without the fsync of the directory; soon, later: without both. Whoever writes many files calls
+  /// `sync_file` on each that lacks it and `sync_directory` once when all are written.
   void commit(Durability durability = Durability::now);
 
   /// False after `commit`, and where a failed write could not be undone.

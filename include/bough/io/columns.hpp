@@ -14,8 +14,8 @@ struct ColumnName {
 };
 ColumnName split_column(std::string_view column);
 
-/// Columns of one sensor that share a unit and so one scale and one plot. Six components are two groups of three: forces
-/// and moments, displacements and rotations; of more, those with one word before their underscore are a group.
+/// Columns of one sensor that share a unit and so one scale and one plot. Six components are two groups of three:
+/// forces and moments, displacements and rotations; of more, those with one word before their underscore are a group.
 struct ColumnGroup {
   std::string sensor;
   std::vector<std::size_t> columns;  ///< indices

@@ -14,8 +14,8 @@ struct CompareOptions {
 
 /// Largest differences of one column:
 ///   absolute = max_i |a_i - b_i|,   relative = absolute / scale.
-/// scale: the range max - min in A, the largest among the components of the sensor that share its unit (a coordinate that stays at zero is
-/// measured by how far the point moves); the largest magnitude where nothing moves. 0/0 is 0.
+/// scale: the range max - min in A, the largest among the components of the sensor that share its unit (a coordinate
+/// that stays at zero is measured by how far the point moves); the largest magnitude where nothing moves. 0/0 is 0.
 struct ColumnDifference {
   std::string name;
   double absolute = 0.0, relative = 0.0, scale = 0.0;

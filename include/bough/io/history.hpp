@@ -15,8 +15,8 @@ namespace bough::io {
 std::string history_head(const records::HistoryHeader& header);
 void append_history_row(std::string& text, const records::HistoryRow& row);
 
-/// Writes rows as they come. The rows that were handed to the system can be kept after a failure: a failed write loses the rows since the
-/// last flush (at most half a second or 64 KiB) and nothing else.
+/// Writes rows as they come. The rows that were handed to the system can be kept after a failure: a failed write
+/// loses the rows since the last flush (at most half a second or 64 KiB) and nothing else.
 class HistoryWriter {
  public:
   HistoryWriter(const std::filesystem::path& path, const records::HistoryHeader& header);

@@ -6,8 +6,8 @@
 
 namespace bough::io {
 
-/// Builds one JSON text. Numbers are shortest round trip; JSON has no words for NaN and infinity, so those become the strings "nan", "inf"
-/// and "-inf" (never null). Strings that are not UTF-8 have the offending bytes replaced.
+/// Builds one JSON text. Numbers are shortest round trip; JSON has no words for NaN and infinity, so those become the
+/// strings "nan", "inf" and "-inf" (never null). Strings that are not UTF-8 have the offending bytes replaced.
 class JsonText {
  public:
   void begin_object() { open('{'); }

@@ -134,7 +134,8 @@ struct JsonFault {
   std::string pointer, value, rule, hint;
 };
 
-/// Reads a text. Returns nothing where the text is not JSON; duplicate keys are faults too, but reading goes on (the first one counts).
+/// Reads a text. Returns nothing where the text is not JSON; duplicate keys are faults too, but reading goes on (the
+/// first one counts).
 std::optional<JsonValue> parse_json(std::string_view text, std::int16_t source, std::vector<JsonFault>& faults);
 
 /// Appends a token to a JSON pointer, escaping ~ and /.

@@ -6,7 +6,8 @@
 
 namespace bough::io {
 
-/// Compressed sparse columns, rows ascending in each. Symmetric: the lower triangle with the diagonal stands for the whole.
+/// Compressed sparse columns, rows ascending in each. Symmetric: the lower triangle with the diagonal stands for the
+/// whole.
 struct SparseMatrix {
   int size = 0;
   bool is_symmetric = false;
@@ -15,8 +16,8 @@ struct SparseMatrix {
   std::vector<double> value;
 };
 
-/// Text of a matrix: "coordinate real general" or "symmetric", comments (one line each, without '%'), entries column by column with indices
-/// from 1. Numbers read back to the same doubles.
+/// Text of a matrix: "coordinate real general" or "symmetric", comments (one line each, without '%'), entries column
+/// by column with indices from 1. Numbers read back to the same doubles.
 std::string matrix_market_text(const SparseMatrix& matrix, const std::vector<std::string>& comments);
 /// Text of a column: "array real general".
 std::string matrix_market_text(const std::vector<double>& column, const std::vector<std::string>& comments);

@@ -1,14 +1,17 @@
 #pragma once
-/// `motion.bin`: the moving structure, for pictures. A header, one line of JSON that spaces fill to a multiple of 8 bytes:
+/// `motion.bin`: the moving structure, for pictures. A header, one line of JSON that spaces fill to a multiple of 8
+/// bytes:
 ///   {"format":"bough motion 3","frame_floats":n,"curves":[{"name","points","outline","subdomains"}],
 ///    "bodies":[{"name","attachments","mesh"}],"links":[{"name","kind"}],"frames":[name],"arrows":[{"name","kind"}],
 ///    "outlines":[[[x2,x3,x2,x3,...] per loop]],"meshes":[{"points":[x,y,z,...],"triangles":[a,b,c,...]}]}
 /// then numbers as they stand in memory, little-endian, without gaps. First the start, float64:
-///   curve point: position 3, axes 9 (row-major, columns are axes) | body: centre 3, axes 9, position 3, attachments 3 each
+///   curve point: position 3, axes 9 (row-major, columns are axes) | body: centre 3, axes 9, position 3, attachments
+///     3 each
 ///   link: first 3, second 3, axes 9 | frame: position 3, axes 9 | arrow: position 3
-/// then the frames, each:  time, float64 | number m of packed bytes, uint64 | m bytes: n float32 compressed by zlib, the
-/// lowest bytes of all first, then the next ones up to the highest:
-///   curve point: displacement 3, rotation 3, velocity 3, force 6, strain 6 | body: displacement 3, rotation 3, velocity 3
+/// then the frames, each:  time, float64 | number m of packed bytes, uint64 | m bytes: n float32 compressed by zlib,
+/// the lowest bytes of all first, then the next ones up to the highest:
+///   curve point: displacement 3, rotation 3, velocity 3, force 6, strain 6 | body: displacement 3, rotation 3,
+///     velocity 3
 ///   link: displacement of first 3, of second 3, rotation 3 | frame: displacement 3, rotation 3
 ///   arrow: displacement 3, force 3, moment 3 (of kind "line load" per length)
 /// Displacements are those from the start, so that small ones keep their digits far from the origin; a rotation r turns
@@ -60,8 +63,8 @@ struct Motion {
   std::size_t num_recorded = 0;  ///< frames in the file; those here are chosen from them
 };
 
-/// Reads at most `max_frames` frames (>= 2), evenly chosen, always the first and the last. Throws std::runtime_error naming the file and what
-/// is wrong.
+/// Reads at most `max_frames` frames (>= 2), evenly chosen, always the first and the last. Throws std::runtime_error
+/// naming the file and what is wrong.
 Motion read_motion_file(const std::filesystem::path& path, std::size_t max_frames);
 
 }  // namespace bough::io

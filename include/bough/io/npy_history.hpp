@@ -1,7 +1,8 @@
 #pragma once
-/// `history.npy`: the numbers of a long history as an array of NumPy, format 1.0: float64, one row of the history after the
-/// other, columns as in columns.json (time, step_size, iterations, sensors). It stands beside history.csv and holds the
-/// same bits. While it is written its head tells of no rows; how many there are follows from its size, also after a crash.
+/// `history.npy`: the numbers of a long history as an array of NumPy, format 1.0: float64, one row of the history
+/// after the other, columns as in columns.json (time, step_size, iterations, sensors). It stands beside history.csv
+/// and holds the same bits. While it is written its head tells of no rows; how many there are follows from its size,
+/// also after a crash.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -16,7 +17,8 @@ namespace bough::io {
 /// Head of such a file, a multiple of 64 bytes, the same length for any number of rows.
 std::string npy_head(std::size_t rows, std::size_t columns);
 
-/// The bytes of a file that a crash left, cut to whole rows and with their number in its head; empty where there are none.
+/// The bytes of a file that a crash left, cut to whole rows and with their number in its head; empty where there are
+/// none.
 std::string repaired_npy(std::string bytes, std::size_t columns);
 
 /// Begins the file when there are more rows than `long_history`; until then it keeps them.

@@ -15,7 +15,8 @@ namespace bough::io {
 ///   - What is there and is not bough's (`foreign_entries`), or is read by the same process, is never touched: the
 ///     constructor refuses.
 ///   - Files are written into `staging()`. Until `publish` the former results stand whole under the final name, and
-///     after it the new ones: one rename, or one exchange of two names, parts them. Where the folder cannot be renamed (a
+///     after it the new ones: one rename, or one exchange of two names, parts them. Where the folder cannot be
+///       renamed (a
 ///     mount point, a parent that cannot be written, the folder that the process stands in) or the file system cannot
 ///     exchange names, entries are moved one by one, the manifest last; what a kill leaves half-way is put back by the
 ///     next writer, and told from whole results by its missing manifest.
@@ -49,7 +50,8 @@ class OutputFolder {
   /// The same of a file that tells of all others: where one of them cannot be made durable, it is taken away, too.
   void write_index(const std::string& name, std::string_view text);
 
-  /// Makes all that is listed durable, together, and gives the results their name. Without a summary to trust, say after a full disk, they are marked as failed.
+  /// Makes all that is listed durable, together, and gives the results their name. Without a summary to trust, say
+  /// after a full disk, they are marked as failed.
   void publish(FolderState state);
 
  private:

@@ -13,8 +13,8 @@ struct FrameFile {
   bool ok() const { return problems.empty(); }
 };
 
-/// Reads and checks a chain. Never throws on bad input (only std::bad_alloc may pass). FrameStudy::name is the file's name
-/// without its ending.
+/// Reads and checks a chain. Never throws on bad input (only std::bad_alloc may pass). FrameStudy::name is the file's
+/// name without its ending.
 FrameFile read_frames(const std::filesystem::path& file);
 
 /// The same from a text in memory. name: becomes FrameStudy::name.

@@ -30,8 +30,8 @@ struct MotionFile {
 MotionFile read_motion(const std::filesystem::path& file);
 MotionFile read_motion_text(std::string_view text);
 
-/// A pose from 3 numbers (position [m]), 6 (position, rotation vector [rad]) or 7 (position, quaternion, scalar first, within 1e-3 of unit
-/// length). Returns what is wrong, empty where nothing is.
+/// A pose from 3 numbers (position [m]), 6 (position, rotation vector [rad]) or 7 (position, quaternion, scalar
+/// first, within 1e-3 of unit length). Returns what is wrong, empty where nothing is.
 std::string read_pose(std::span<const double> numbers, motion::Frame<double>& pose);
 
 /// The JSON Schema (draft-07) of such files, made from the table that checks them.

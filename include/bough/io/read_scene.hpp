@@ -39,10 +39,10 @@ inline constexpr std::size_t max_file_bytes = 32u << 20u;  ///< larger files are
 inline constexpr std::size_t max_json_depth = 64;          ///< of arrays and objects in each other
 inline constexpr std::size_t max_json_values = 2'000'000;  ///< numbers, strings, arrays and objects together
 
-/// Reads and checks a scene. Never throws on bad input (only std::bad_alloc may pass), never returns a half-checked scene as good.
-/// set_overrides: "/pointer=value", applied before the check; the value is JSON, or a bare word taken as a string; an array item may
-/// be given by its number or by its "name". Scene::name is that of the file (name_of_file). The file "-" is
-/// standard input, and its scene is named "scene".
+/// Reads and checks a scene. Never throws on bad input (only std::bad_alloc may pass), never returns a half-checked
+/// scene as good. set_overrides: "/pointer=value", applied before the check; the value is JSON, or a bare word taken
+/// as a string; an array item may be given by its number or by its "name". Scene::name is that of the file
+/// (name_of_file). The file "-" is standard input, and its scene is named "scene".
 SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides = {});
 
 /// The name that a file gives to what it holds, and to folders of its results: its own without the last ending; the

@@ -29,15 +29,15 @@ struct StoredPlace {
 /// then their bytes: what a kill cuts off is told from what is whole, and nobody is led there.
 class RunStore {
  public:
-  /// The first store of the folder, store_000.pack, store_001.pack and so on, that no other process holds; it is held until this
-  /// process ends. Records are appended. Throws std::runtime_error where none can be opened.
+  /// The first store of the folder, store_000.pack, store_001.pack and so on, that no other process holds; it is held
+  /// until this process ends. Records are appended. Throws std::runtime_error where none can be opened.
   explicit RunStore(const std::filesystem::path& folder);
   ~RunStore();
   RunStore(const RunStore&) = delete;
   RunStore& operator=(const RunStore&) = delete;
 
-  /// The system has the record when this returns; the disk takes it in its own time. Throws std::runtime_error where it cannot be
-  /// written; the store is then as before.
+  /// The system has the record when this returns; the disk takes it in its own time. Throws std::runtime_error where
+  /// it cannot be written; the store is then as before.
   StoredPlace add(const std::vector<StoredFile>& files);
 
  private:
@@ -58,8 +58,8 @@ void remove_stores(const std::filesystem::path& folder);
 std::filesystem::path unpack_run(const std::vector<StoredFile>& files, FolderState state,
                                  const std::filesystem::path& folder);
 
-/// A run that is recorded in memory, to be stored: history.csv, columns.json, motion.bin and summary.json of RunDirectory, to the byte but for
-/// what the summary says of VTU files, which are not made.
+/// A run that is recorded in memory, to be stored: history.csv, columns.json, motion.bin and summary.json of
+/// RunDirectory, to the byte but for what the summary says of VTU files, which are not made.
 class RunInMemory final : public records::Recorder {
  public:
   RunInMemory(std::string version, RunOrigin origin) : version_(std::move(version)), origin_(std::move(origin)) {}

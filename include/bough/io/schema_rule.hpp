@@ -85,8 +85,8 @@ struct RuleTable {
 /// The table of scene files.
 const RuleTable& scene_rules();
 
-/// What is asked of a name: 1 to 100 characters, no control characters, no '.' or '/', no space at an end, not "ground".
-/// Empty where the name is good, else the rule it breaks.
+/// What is asked of a name: 1 to 100 characters, no control characters, no '.' or '/', no space at an end, not
+/// "ground". Empty where the name is good, else the rule it breaks.
 std::string name_fault(const std::string& name);
 
 struct CheckFault {

@@ -38,8 +38,8 @@ struct SplitTable {
   std::vector<SplitSeries> series;
 };
 
-/// `<abscissa>,<part>,...`: magnitudes [m/s^2], shortest numbers that read back to the same bits. With several series their parameters
-/// stand in the first columns.
+/// `<abscissa>,<part>,...`: magnitudes [m/s^2], shortest numbers that read back to the same bits. With several series
+/// their parameters stand in the first columns.
 std::string split_csv(const SplitTable& table);
 
 /// Magnitudes and vectors with the observer and the axes; one object a series, one array a column.

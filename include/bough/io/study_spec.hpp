@@ -34,8 +34,8 @@ struct StudyOrder {
 /// A reference that is computed: settings of the reference, and of the run that its own error is estimated with.
 struct StudyReference {
   std::vector<std::string> overrides, check_overrides;
-  /// Order p > 0: the check takes `ratio` times the step of a method of order p, and the difference is (ratio^p - 1) errors. 0: the difference
-  /// is taken whole.
+  /// Order p > 0: the check takes `ratio` times the step of a method of order p, and the difference is (ratio^p - 1)
+  /// errors. 0: the difference is taken whole.
   double order = 0.0, ratio = 2.0;
   std::string about;
   std::string at;  ///< JSON pointer in the spec

@@ -1,5 +1,6 @@
 #pragma once
-/// `summary.json`: how a run ended, what it cost and whether its laws held. Written last: a directory that holds one is whole.
+/// `summary.json`: how a run ended, what it cost and whether its laws held. Written last: a directory that holds one
+/// is whole.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -23,8 +24,8 @@ struct RunOrigin {
 /// "ok", "failed", "interrupted".
 std::string_view status_text(records::RunStatus status);
 
-/// The file's text. NaN and infinity appear as the strings "nan", "inf", "-inf", never as null. Options are keyed by their JSON pointer, as
-/// `--set` takes them. files: all that belong to the run, each with its hash.
+/// The file's text. NaN and infinity appear as the strings "nan", "inf", "-inf", never as null. Options are keyed by
+/// their JSON pointer, as `--set` takes them. files: all that belong to the run, each with its hash.
 std::string summary_text(const records::Summary& summary, std::string_view version, const RunOrigin& origin = {},
                          const std::vector<FileRecord>& files = {});
 

@@ -1,6 +1,7 @@
 #pragma once
-/// What the library that is loaded was compiled for. Asked of the library, since a program compiled once may be given libraries of several
-/// instruction sets by the loader (BOUGH_DISPATCH): its own macros would tell what the program was compiled for.
+/// What the library that is loaded was compiled for. Asked of the library, since a program compiled once may be given
+/// libraries of several instruction sets by the loader (BOUGH_DISPATCH): its own macros would tell what the program
+/// was compiled for.
 #include <string_view>
 
 namespace bough::lanes {

@@ -3,9 +3,9 @@
 /// lane by lane. A lane's value is the value that double arithmetic gives for it, bit for bit, whatever sits in its
 /// neighbours and however wide the registers are (needs -ffp-contract=off, as the whole project).
 ///
-/// A pack is made of register-sized vectors (8 doubles on AVX-512, 4 on AVX, 2 on SSE2; single doubles elsewhere), since
-/// compilers handle vectors wider than the registers badly. Size and alignment are the same on all of them. The inline
-/// namespace carries the register width into symbol names, so that the linker never mixes instruction sets.
+/// A pack is made of register-sized vectors (8 doubles on AVX-512, 4 on AVX, 2 on SSE2; single doubles elsewhere),
+/// since compilers handle vectors wider than the registers badly. Size and alignment are the same on all of them. The
+/// inline namespace carries the register width into symbol names, so that the linker never mixes instruction sets.
 #include "bough/lanes/jet.hpp"
 #include "bough/lanes/small.hpp"
 #include "bough/lanes/taylor.hpp"
@@ -68,7 +68,8 @@ inline Register<8>::Real root(const Register<8>::Real& x) { return Register<8>::
 #endif
 inline double root(double x) { return std::sqrt(x); }
 
-// Whether a flag is set. By tests of the instruction set: compilers take registers apart through memory, and wait for what they stored in parts.
+// Whether a flag is set. By tests of the instruction set: compilers take registers apart through memory, and wait for
+// what they stored in parts.
 #if BOUGH_REGISTER_DOUBLES >= 8
 inline bool is_set(const Register<8>::Flag& f) { return _mm512_test_epi64_mask(__m512i(f), __m512i(f)) != 0; }
 #endif

@@ -1,11 +1,13 @@
 #pragma once
-/// Scalar vocabulary shared by every kernel scalar: double, std::complex (derivative checks), Jet (forward derivatives),
-/// Taylor (time derivatives) and Pack (lanes in lockstep). A kernel written on these names runs on all of them.
+/// Scalar vocabulary shared by every kernel scalar: double, std::complex (derivative checks), Jet (forward
+/// derivatives), Taylor (time derivatives) and Pack (lanes in lockstep). A kernel written on these names runs on all
+/// of them.
 #include <cmath>
 #include <complex>
 #include <concepts>
 
-/// For the few-line functions on 3-vectors that kernels are made of: inlined whatever the compiler thinks of its caller's size.
+/// For the few-line functions on 3-vectors that kernels are made of: inlined whatever the compiler thinks of its
+/// caller's size.
 #if defined(__GNUC__)
 #define BOUGH_INLINE inline __attribute__((always_inline))
 #else
@@ -37,7 +39,8 @@ S select(bool take_first, const S& a, const S& b) {
 inline bool less(double a, double b) { return a < b; }
 inline bool less(const std::complex<double>& a, const std::complex<double>& b) { return a.real() < b.real(); }
 
-/// The same for long double, which checks kernels; a template, so that other arithmetic types keep converting to double.
+/// The same for long double, which checks kernels; a template, so that other arithmetic types keep converting to
+/// double.
 template <std::same_as<long double> T>
 double decide(T x) {
   return static_cast<double>(x);
@@ -48,14 +51,16 @@ bool less(T a, T b) {
 }
 
 /// Choice between two costly sides, given as functions without arguments: one flag runs one side only. Packs run both
-/// where their lanes disagree (pack.hpp), so the side not taken must still be free of traps. Values are those of select.
+/// where their lanes disagree (pack.hpp), so the side not taken must still be free of traps. Values are those of
+/// select.
 template <class First, class Second>
 auto choose(bool take_first, const First& first, const Second& second) {
   return take_first ? first() : second();
 }
 
-/// a b + c. Rounded once for doubles and packs where the instruction set has it (every lane as a double), as two operations
-/// elsewhere and for all other scalars. The compiler itself never fuses (-ffp-contract=off): only what is written so is.
+/// a b + c. Rounded once for doubles and packs where the instruction set has it (every lane as a double), as two
+/// operations elsewhere and for all other scalars. The compiler itself never fuses (-ffp-contract=off): only what is
+/// written so is.
 template <class S>
 S multiply_add(const S& a, const S& b, const S& c) {
   return a * b + c;

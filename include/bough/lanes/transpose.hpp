@@ -1,6 +1,7 @@
 #pragma once
-/// Between W plain arrays and one array of packs, entry by entry: to[i] lane l = from[l][i] and back. Registers of eight or four doubles are
-/// turned as square blocks, since single lanes that are written and then read as a whole stall the processor.
+/// Between W plain arrays and one array of packs, entry by entry: to[i] lane l = from[l][i] and back. Registers of
+/// eight or four doubles are turned as square blocks, since single lanes that are written and then read as a whole
+/// stall the processor.
 #include <cstddef>
 #include <utility>
 
@@ -55,7 +56,8 @@ inline void transpose_square(Real8 (&r)[8]) {
 }
 #endif
 
-/// A register at any address. Not by memcpy, which compilers take apart into narrower moves: a register loaded from what two narrower stores wrote waits.
+/// A register at any address. Not by memcpy, which compilers take apart into narrower moves: a register loaded from
+/// what two narrower stores wrote waits.
 template <int N>
 struct Anywhere {
   typedef double Real __attribute__((vector_size(8 * N), aligned(8), may_alias));
@@ -118,7 +120,8 @@ inline void store_eight(double* to, const Real8& x, int count) {
     _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1 << count) - 1), __m512d(x));
 }
 
-/// Squares of eight; row(l): where the numbers of lane l are. The last square of a count that is no multiple overlaps the one before.
+/// Squares of eight; row(l): where the numbers of lane l are. The last square of a count that is no multiple overlaps
+/// the one before.
 template <int W, class Row>
 BOUGH_INLINE void gather_by_eights(const Row& row, int count, Pack<W>* to) {
   const int some = count < 8 ? count : 8;

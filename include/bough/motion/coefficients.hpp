@@ -14,7 +14,8 @@ namespace bough::motion {
 
 namespace detail {
 
-/// Polynomial sum_k table[k] x^k, Horner in x^2 for even and odd terms side by side: two short chains instead of a long one.
+/// Polynomial sum_k table[k] x^k, Horner in x^2 for even and odd terms side by side: two short chains instead of a
+/// long one.
 template <class S, class L, std::size_t N>
 S horner(const std::array<L, N>& table, const S& x) {
   const S xx = x * x;
@@ -117,7 +118,8 @@ inline constexpr double switch_x = 16.0;
 }  // namespace detail
 
 /// c_0 .. c_7 at x = phi^2 >= 0. Two polynomials for c_6 and c_7 and the stable recurrence c_n = 1/n! - x c_{n+2} below
-/// phi = 4, shorter ones below phi = 1/2; half-angle sine and cosine and the recurrence upwards beyond. Round-off relative to the largest value.
+/// phi = 4, shorter ones below phi = 1/2; half-angle sine and cosine and the recurrence upwards beyond. Round-off
+/// relative to the largest value.
 template <class S>
 lanes::Vec<S, 8> eval_stumpff(const S& x) {
   using L = Literal<S>;
@@ -239,7 +241,8 @@ AngleCoefficients<S> eval_angle_coefficients(const S& x) {
 
 /// k = (1 - (phi/2) cot(phi/2))/phi^2 with derivatives up to the third by x = phi^2; not at phi = 2 pi, 4 pi, ...
 /// Below phi = 4 from the partial fractions of the cotangent, k = sum_m 2/((2 pi m)^2 - x): two poles and a polynomial,
-/// all terms positive, no trigonometric function; below phi = 1/2 its own series. Beyond, with y = (phi/2) cot(phi/2): 2 x y' = y - y^2 - x/4.
+/// all terms positive, no trigonometric function; below phi = 1/2 its own series. Beyond, with y = (phi/2)
+/// cot(phi/2): 2 x y' = y - y^2 - x/4.
 template <class S>
 struct InverseCoefficients {
   S k, dk, ddk, dddk;

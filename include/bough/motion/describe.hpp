@@ -1,6 +1,7 @@
 #pragma once
-/// Everything about one motion, gathered for a reader: the representations of its rotation, its screw, its parameters and
-/// its motion tensor. Equation numbers are those of src/motion/README.md. Lengths in the unit of the input, angles [rad].
+/// Everything about one motion, gathered for a reader: the representations of its rotation, its screw, its parameters
+/// and its motion tensor. Equation numbers are those of src/motion/README.md. Lengths in the unit of the input,
+/// angles [rad].
 #include <array>
 #include <optional>
 #include <string_view>
@@ -46,7 +47,8 @@ struct MotionReport {
 
 /// Report of a motion. A rotation of at most smallest_angle [rad] counts as none in `intrinsic` and all that follows
 /// from it (intrinsic_motion). R is taken as it is; what is not a rotation is refused.
-/// Throws std::invalid_argument where a number is not finite, |R^T R - I| exceeds 1e-6 or det R < 0. No allocation else.
+/// Throws std::invalid_argument where a number is not finite, |R^T R - I| exceeds 1e-6 or det R < 0. No allocation
+/// else.
 MotionReport describe_motion(const Frame<double>& motion, double smallest_angle = 1e-150);
 
 /// Axes of a relative motion.

@@ -1,12 +1,13 @@
 #pragma once
-/// Nested frames: frame i rotates and translates in frame i-1, i = 1 .. n; frame 0 is the base, the inertial frame where
-/// the chain starts in it. Everything is at one time, from numbers: laws of time stand above this layer.
+/// Nested frames: frame i rotates and translates in frame i-1, i = 1 .. n; frame 0 is the base, the inertial frame
+/// where the chain starts in it. Everything is at one time, from numbers: laws of time stand above this layer.
 ///   w_i      angular velocity of frame i in frame i-1 [rad/s];  W_ab = sum of the w_i between: of b relative to a
 ///   a_i      derivative of w_i from frame i, which is that from frame i-1 [rad/s^2]
 ///   d_g x    derivative of the vector x as seen from frame g
 /// Any frame of the chain may be the observer, also one beyond the point: sums then run backwards with a minus.
 /// Doubles; pure; no allocation; a frame that is not in the chain is std::invalid_argument. Errors are a few round-off
-/// of the sum of the magnitudes of the terms. Equation numbers: Harithuddin, Trivailo, Jazar 2015 (src/motion/README.md).
+/// of the sum of the magnitudes of the terms. Equation numbers: Harithuddin, Trivailo, Jazar 2015
+/// (src/motion/README.md).
 #include <vector>
 
 #include "bough/motion/resolved.hpp"
@@ -67,8 +68,8 @@ Resolved resolve(const FrameChain& chain, const Resolved& x, In axes);
 /// Kinematic chain rule W_ab = w_{a+1} + ... + w_b, for b < a minus the sum from b+1 to a [2.23-2.24].
 Resolved angular_velocity(const FrameChain& chain, Of b, RelativeTo a, In axes);
 
-/// d_g W_ab = sum_i ( a_i + W_gi x w_i ), i = a+1 .. b [2.29]; a = g = 0, b = 3: a_1 + a_2 + a_3 + W_2 x w_2 + W_3 x w_3
-/// [2.31].
+/// d_g W_ab = sum_i ( a_i + W_gi x w_i ), i = a+1 .. b [2.29]; a = g = 0, b = 3: a_1 + a_2 + a_3 + W_2 x w_2 + W_3 x
+/// w_3 [2.31].
 struct AngularAcceleration {
   Resolved local;      ///< sum of the a_i
   Resolved transport;  ///< sum of the W_gi x w_i: axes that turn
@@ -93,7 +94,8 @@ struct MixedAcceleration {
   Resolved centripetal;  ///< W_AC x (W_BC x r), the mixed centripetal acceleration
   Resolved total() const { return local + coriolis + tangential + razi + centripetal; }
 };
-/// first: A, from which the derivative is taken first; second: B. The origins of the frames play no part: r is a vector.
+/// first: A, from which the derivative is taken first; second: B. The origins of the frames play no part: r is a
+/// vector.
 MixedAcceleration mixed_acceleration(const FrameChain& chain, const PointMotion& r, From first, From second, In axes);
 
 /// Velocity of a point of frame n seen from frame g.

@@ -1,7 +1,8 @@
 #pragma once
-/// The group SE(2) as elements see it: the names of group_se3.hpp for motions of a plane, (u; theta), whose displacements are complex
-/// numbers. Brackets are displacements without rotation, so what maps to them is kept without its last row; numbers that
-/// commute with ad(d) are plain, since <x, y> = x_theta y_theta; no structural zero is stored or multiplied.
+/// The group SE(2) as elements see it: the names of group_se3.hpp for motions of a plane, (u; theta), whose
+/// displacements are complex numbers. Brackets are displacements without rotation, so what maps to them is kept
+/// without its last row; numbers that commute with ad(d) are plain, since <x, y> = x_theta y_theta; no structural
+/// zero is stored or multiplied.
 #include "bough/motion/group_se2_blocks.hpp"
 
 namespace bough::motion {

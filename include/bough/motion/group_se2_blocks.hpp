@@ -5,8 +5,8 @@
 namespace bough::motion {
 
 struct Se2Blocks : Se2Maps {
-  // ---- directions that two frames compare, H the pose of the second in the first; s = e^(-i theta) d is a direction of the first frame as
-  // seen from the second. A row of cosines is d . (cos, sin), of an angle d_1 theta.
+  // ---- directions that two frames compare, H the pose of the second in the first; s = e^(-i theta) d is a direction
+  // of the first frame as seen from the second. A row of cosines is d . (cos, sin), of an angle d_1 theta.
 
   template <class S>
   using Seen = Vec2<S>;

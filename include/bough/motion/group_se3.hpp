@@ -1,7 +1,7 @@
 #pragma once
-/// The group SE(3) as elements see it: poses, plain vectors and matrices (dof = 6), and the algebra in its compact form. By
-/// transference motions are dual vectors and operators on motions dual 3x3 matrices (dual.hpp), so what a formula says about
-/// rotations holds for motions. The operations that elements are written in, with D = ad(d):
+/// The group SE(3) as elements see it: poses, plain vectors and matrices (dof = 6), and the algebra in its compact
+/// form. By transference motions are dual vectors and operators on motions dual 3x3 matrices (dual.hpp), so what a
+/// formula says about rotations holds for motions. The operations that elements are written in, with D = ad(d):
 ///
 ///   motion, wrench     vectors (linear; angular) and (force; moment) in compact form
 ///   bracket            ad(x) y                    dual_bracket       ad(x)^T n
@@ -9,7 +9,8 @@
 ///   power              n . y, a number like X     covector           the wrench f <x, .>
 ///   number             a function of X            real               the value X itself
 ///   Map                motions to motions         BracketMap         motions to brackets, which may be a smaller space
-///   WrenchMap          motions to wrenches, the derivative of a transposed operator; symmetric blocks are full matrices
+///   WrenchMap          motions to wrenches, the derivative of a transposed operator; symmetric blocks are full
+///     matrices
 ///
 /// The same names exist in every group, so an element is written once. All functions are pure and do not allocate.
 #include "bough/motion/group_se3_blocks.hpp"

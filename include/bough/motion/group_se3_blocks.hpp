@@ -22,8 +22,8 @@ struct AxialTurn {
 }  // namespace detail
 
 struct Se3Blocks : Se3Maps {
-  // ---- directions that two frames compare, H the pose of the second in the first; s = R^T e_i is axis i of the first frame as seen from
-  // the second. Derivatives are by the rotation of the right increment of H.
+  // ---- directions that two frames compare, H the pose of the second in the first; s = R^T e_i is axis i of the
+  // first frame as seen from the second. Derivatives are by the rotation of the right increment of H.
 
   template <class S>
   using Seen = Vec3<S>;
@@ -58,7 +58,8 @@ struct Se3Blocks : Se3Maps {
     for (int k = 0; k < 3; ++k) m(k, k) = m(k, k) - s[d.j];
     return m;
   }
-  /// Sine and cosine, times a positive factor, of the rotation theta about axis 3, the projection of R; theta = atan2(sine, cosine).
+  /// Sine and cosine, times a positive factor, of the rotation theta about axis 3, the projection of R; theta =
+  /// atan2(sine, cosine).
   template <class S, class C>
   static BOUGH_INLINE lanes::Vec<S, 2> axial_turn(const Frame<S>& H, const Direction<C>&) {
     return {{H.R(0, 0) + H.R(1, 1), H.R(1, 0) - H.R(0, 1)}};
@@ -259,7 +260,8 @@ struct Se3Blocks : Se3Maps {
     add_wrench_map(x, skew(DualVec<S>{-momentum.a, -momentum.b}));
     return x;
   }
-  /// How R^T u of a direction u = H.R at_rest, given by its components in the frame, follows the frame's increment: m -= that, as a motion.
+  /// How R^T u of a direction u = H.R at_rest, given by its components in the frame, follows the frame's increment: m
+  /// -= that, as a motion.
   template <class S>
   static BOUGH_INLINE void subtract_turned_back(DualMat<S>& m, const Vec3<S>& components) {
     m.b = m.b - skew(components);

@@ -37,7 +37,8 @@ Frame<double> frame_of(const IntrinsicMotion& m);
 /// Displacement of the body point at r [m]: d n + 2 sin(phi/2) G w + (R - I) r [1.11].
 Vec3<double> displacement_at(const IntrinsicMotion& m, const Vec3<double>& r);
 
-/// Plücker coordinates (moment; direction) of the Mozzi-Chasles axis [1.9]; unit eigenvalue of the motion tensor [1.25].
+/// Plücker coordinates (moment; direction) of the Mozzi-Chasles axis [1.9]; unit eigenvalue of the motion tensor
+/// [1.25].
 Vec6<double> mozzi_chasles_axis(const IntrinsicMotion& m);
 
 /// Point of the axis nearest the reference point, r_Q = n x w [1.5].
@@ -57,9 +58,9 @@ Mat6<double> rotation_factor(const Frame<double>& motion);
 /// is one.
 Vec6<double> first_eigenvector(const IntrinsicMotion& m);
 
-/// N = (alpha d / (2 sin(phi/2)) n + w; n), the unit-eigenvalue vectors of the motion tensor [1.22-1.24]: alpha = 0 is the
-/// Mozzi-Chasles axis [1.25], alpha = 1 is N2 [1.21]. Translation: (0; n) for alpha = 0; otherwise the direction part
-/// vanishes beside the moment as phi -> 0 and what is left is N1. None: zero.
+/// N = (alpha d / (2 sin(phi/2)) n + w; n), the unit-eigenvalue vectors of the motion tensor [1.22-1.24]: alpha = 0
+/// is the Mozzi-Chasles axis [1.25], alpha = 1 is N2 [1.21]. Translation: (0; n) for alpha = 0; otherwise the
+/// direction part vanishes beside the moment as phi -> 0 and what is left is N1. None: zero.
 Vec6<double> screw_vector(const IntrinsicMotion& m, double alpha);
 
 /// lambda = n.m = alpha d / (2 sin(phi/2)) of that vector [1.24], [m]; no value for translations with alpha != 0,

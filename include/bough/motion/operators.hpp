@@ -1,8 +1,10 @@
 #pragma once
-/// Operators f(D) = I + p D + q D^2 of D = ad(d) on any group of group.hpp, with their derivatives by d up to the second: the tangent
-/// operator T(d) and its inverse. Since D^3 = -X D every analytic function of D has this form, with p and q functions of X = <d, d>:
+/// Operators f(D) = I + p D + q D^2 of D = ad(d) on any group of group.hpp, with their derivatives by d up to the
+/// second: the tangent operator T(d) and its inverse. Since D^3 = -X D every analytic function of D has this form,
+/// with p and q functions of X = <d, d>:
 ///   T(d) = (1 - exp(-D)) / D:  p = -c_2(X), q = c_3(X);        T(d)^-1:  p = 1/2, q = k(X)        (coefficients.hpp)
-/// exp(d)^-1 (d/dt) exp(d) = T(d) d'. With E = ad(e) and a prime for derivatives by X, dX[e] = 2 <d, e> and dD[e] = E give all the rest.
+/// exp(d)^-1 (d/dt) exp(d) = T(d) d'. With E = ad(e) and a prime for derivatives by X, dX[e] = 2 <d, e> and dD[e] = E
+/// give all the rest.
 #include "bough/motion/group.hpp"
 
 namespace bough::motion {
@@ -197,7 +199,8 @@ typename G::template WrenchMap<S> transpose_jacobian(const F<G, S>& f, const typ
   G::add_dual_second(m, detail::doubled(detail::slopes_of(f, n1, n2)), f.d, G::times(f.q, n));
   return m;
 }
-/// d^2(n . T y)/dd^2, symmetric. With k = -ad(y)^T n and g = -ad(D y)^T n - ad(y)^T D^T n, the derivatives of n . D y and n . D^2 y.
+/// d^2(n . T y)/dd^2, symmetric. With k = -ad(y)^T n and g = -ad(D y)^T n - ad(y)^T D^T n, the derivatives of n . D y
+/// and n . D^2 y.
 template <class G, class S>
 typename G::template WrenchMap<S> hessian(const Tangent<G, S>& f, const typename G::template Wrench<S>& n,
                                           const typename G::template Motion<S>& y) {

@@ -1,7 +1,9 @@
 #pragma once
-/// The operators of operators.hpp on SE(2), where they are complex numbers: f(d) y = (c y_u + k u y_theta; y_theta) of d = (u; theta),
+/// The operators of operators.hpp on SE(2), where they are complex numbers: f(d) y = (c y_u + k u y_theta; y_theta)
+/// of d = (u; theta),
 ///   c = 1 - theta^2 q + i theta p,   k = theta q - i p,
-/// and a prime below is the derivative by theta, p' = 2 theta dp/dX and so on. What the general forms alone use of a group SE(2) does without.
+/// and a prime below is the derivative by theta, p' = 2 theta dp/dX and so on. What the general forms alone use of a
+/// group SE(2) does without.
 #include "bough/motion/operators.hpp"
 
 namespace bough::motion {

@@ -56,8 +56,9 @@ struct ExponentialLaw {
 };
 
 /// p = 2 tan(phi/2) n, rational. Infinite at phi = pi: there, and only there, the modulus stops at 2e50, which still
-/// gives the rotation back to round-off, so that no infinity or NaN appears. Near pi the two parts of a motion's u, p' d along
-/// the axis and p w across it, differ by the factor p/4: the pose comes back to epsilon |p| |x|, and not at pi itself.
+/// gives the rotation back to round-off, so that no infinity or NaN appears. Near pi the two parts of a motion's u,
+/// p' d along the axis and p w across it, differ by the factor p/4: the pose comes back to epsilon |p| |x|, and not
+/// at pi itself.
 struct CayleyLaw {
   static constexpr std::string_view name = "cayley";
   static constexpr double smallest_cosine = 1e-50;  ///< of phi/2; a double rotation has 0 or more than 1e-20
@@ -84,7 +85,8 @@ struct CayleyLaw {
   }
 };
 
-/// p = 4 tan(phi/4) n (conformal rotation vector, modified Rodrigues parameters times 4). With t = tan(phi/4), t^2 = x/16:
+/// p = 4 tan(phi/4) n (conformal rotation vector, modified Rodrigues parameters times 4). With t = tan(phi/4), t^2 =
+/// x/16:
 ///   R = I + (1 - t^2)/(1 + t^2)^2 ~p + ~p~p/(2 (1 + t^2)^2),
 ///   T = I/(1 + t^2) + (-~p/2 + ~p~p/8)/(1 + t^2)^2,   T^-1 = (1 + t^2) I + ~p/2 + ~p~p/8, polynomial.
 /// Infinite at 2 pi; p and -16 p/x are the same rotation, so rescaling when |p| > 4 (phi > pi) keeps |p| <= 4 for

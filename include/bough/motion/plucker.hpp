@@ -1,7 +1,8 @@
 #pragma once
-/// Lines by Plücker coordinates Q = (moment about the origin [m]; direction [-]), m = r x l for any point r of the line.
-/// A line has m.l = 0; coordinates scale with |l|, which need not be 1. Lines move as C Q* [1.15]. A direction of zero is
-/// the line at infinity of the planes across m: it moves as well, but has no nearest point. Pure, no allocation.
+/// Lines by Plücker coordinates Q = (moment about the origin [m]; direction [-]), m = r x l for any point r of the
+/// line. A line has m.l = 0; coordinates scale with |l|, which need not be 1. Lines move as C Q* [1.15]. A direction
+/// of zero is the line at infinity of the planes across m: it moves as well, but has no nearest point. Pure, no
+/// allocation.
 #include <optional>
 
 #include "bough/motion/se3.hpp"
@@ -11,13 +12,15 @@ namespace bough::motion {
 /// Line through a point along a direction, of unit direction; none where the direction is zero.
 std::optional<Vec6<double>> line_along(const Vec3<double>& point, const Vec3<double>& direction);
 
-/// Line from a to b, of unit direction; none where the points coincide. Error in the moment: round-off of |a| |b|/|b - a|.
+/// Line from a to b, of unit direction; none where the points coincide. Error in the moment: round-off of |a| |b|/|b
+/// - a|.
 std::optional<Vec6<double>> line_through(const Vec3<double>& a, const Vec3<double>& b);
 
 /// Point nearest the origin, l x m/l^2; none for a line at infinity.
 std::optional<Vec3<double>> nearest_point(const Vec6<double>& line);
 
-/// Distance of a point from the line, |m - p x l|/|l| [m]; none for a line at infinity. Error: round-off of |m|/|l| + |p|.
+/// Distance of a point from the line, |m - p x l|/|l| [m]; none for a line at infinity. Error: round-off of |m|/|l| +
+/// |p|.
 std::optional<double> distance_from(const Vec6<double>& line, const Vec3<double>& point);
 
 /// The same line with its moment taken about p: (m - p x l; l).

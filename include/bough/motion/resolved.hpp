@@ -46,8 +46,8 @@ class Resolved {
   int axes_;
 };
 
-/// The derivative of a vector in time with the frame it is taken from: d_from x. Derivatives taken from different frames
-/// are different vectors; value() hands one out only to who names its frame.
+/// The derivative of a vector in time with the frame it is taken from: d_from x. Derivatives taken from different
+/// frames are different vectors; value() hands one out only to who names its frame.
 class Rate {
  public:
   Rate(const Resolved& value, From observer) : value_(value), observer_(observer.frame) {}

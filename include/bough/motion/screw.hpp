@@ -1,7 +1,8 @@
 #pragma once
 /// Screws: a 6-vector as a line with a pitch and a magnitude, S = p (s0 x n + h n; n) [1.68]. The magnitude p is an odd
-/// function of the angle for the screw of a motion (the parameterization), h = n.m stands for the alpha d of the source.
-/// Under a change of frame S = C S* the line moves; p and h do not change [1.69-1.71]. Doubles, pure, no allocation.
+/// function of the angle for the screw of a motion (the parameterization), h = n.m stands for the alpha d of the
+/// source. Under a change of frame S = C S* the line moves; p and h do not change [1.69-1.71]. Doubles, pure, no
+/// allocation.
 #include "bough/motion/motion_tensor.hpp"
 
 namespace bough::motion {

@@ -1,7 +1,7 @@
 #pragma once
-/// The blend P(s) = s T(s d) T(d)^-1 = (1 - exp(-s D)) / (1 - exp(-D)) of the motions at both ends of a screw motion d, D = ad(d): a
-/// section at s moves by (1 - P) of the one and P of the other. At the two Gauss points s = 1/2 -+ t, P = 1/2 + p D -+ (t + q D^2):
-/// one odd and one even part serve both, with
+/// The blend P(s) = s T(s d) T(d)^-1 = (1 - exp(-s D)) / (1 - exp(-D)) of the motions at both ends of a screw motion
+/// d, D = ad(d): a section at s moves by (1 - P) of the one and P of the other. At the two Gauss points s = 1/2 -+ t,
+/// P = 1/2 + p D -+ (t + q D^2): one odd and one even part serve both, with
 ///   p = (cos(t phi) - cos(phi/2)) / (2 phi sin(phi/2)),   q = (t - sin(t phi) / (2 sin(phi/2))) / phi^2,   X = phi^2.
 #include "bough/motion/operators.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Complex numbers and angles, of which motions of a plane are made (group_se2.hpp): displacements are u = u_1 + i u_2, rotations e^(i theta).
+/// Complex numbers and angles, of which motions of a plane are made (group_se2.hpp): displacements are u = u_1 + i
+/// u_2, rotations e^(i theta).
 #include "bough/motion/coefficients.hpp"
 #include "bough/motion/quaternion.hpp"
 
@@ -43,7 +44,8 @@ BOUGH_INLINE Vec3<S> join(const Vec2<S>& u, const S& w) {
   return {{u[0], u[1], w}};
 }
 
-/// theta of e^(i theta) = c + i s, |theta| <= pi: the arctangent of s/c where that is below 1/4, else by halving the angle three times.
+/// theta of e^(i theta) = c + i s, |theta| <= pi: the arctangent of s/c where that is below 1/4, else by halving the
+/// angle three times.
 template <class S>
 S angle_of(const S& c, const S& s) {
   using L = Literal<S>;

@@ -1,7 +1,8 @@
 #pragma once
-/// Operators that are analytic functions of a rotation or motion vector: f(psi) = I + p(x) ~psi + q(x) ~psi ~psi, x = phi^2.
-/// The tangent operator, its inverse and their transposes differ in (p, q) only; a transpose flips the sign of p. On
-/// SE(3) the same function of the dual vector psi + e u (e^2 = 0) gives [f(psi), D f(psi)[u]; 0, f(psi)] (transference).
+/// Operators that are analytic functions of a rotation or motion vector: f(psi) = I + p(x) ~psi + q(x) ~psi ~psi, x =
+/// phi^2. The tangent operator, its inverse and their transposes differ in (p, q) only; a transpose flips the sign of
+/// p. On SE(3) the same function of the dual vector psi + e u (e^2 = 0) gives [f(psi), D f(psi)[u]; 0, f(psi)]
+/// (transference).
 #include "bough/motion/coefficients.hpp"
 
 namespace bough::motion {

@@ -1,8 +1,9 @@
 #pragma once
-/// Velocities and differential motions of a rigid body, and the relations between the two. V = (v; omega), inertial frame:
-/// v is the velocity of the body point now at the inertial origin. V* = C^-1 V, body frame: v* is that of the frame's own
-/// origin. A variation dU or dU* is to the parameters of a motion what V or V* is to time, and no U exists [1.63-1.65].
-/// Templates on the scalar; pure, no allocation, no failure. Units: [m/s], [rad/s]; of variations [m], [rad].
+/// Velocities and differential motions of a rigid body, and the relations between the two. V = (v; omega), inertial
+/// frame: v is the velocity of the body point now at the inertial origin. V* = C^-1 V, body frame: v* is that of the
+/// frame's own origin. A variation dU or dU* is to the parameters of a motion what V or V* is to time, and no U
+/// exists [1.63-1.65]. Templates on the scalar; pure, no allocation, no failure. Units: [m/s], [rad/s]; of variations
+/// [m], [rad].
 #include "bough/motion/se3.hpp"
 
 namespace bough::motion {

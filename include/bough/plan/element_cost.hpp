@@ -1,5 +1,6 @@
 #pragma once
-/// What elements cost, for decisions and outlooks: bench_elements on the machine of src/elements/README.md; ratios count, not seconds.
+/// What elements cost, for decisions and outlooks: bench_elements on the machine of src/elements/README.md; ratios
+/// count, not seconds.
 #include "bough/elements/evaluate.hpp"
 
 namespace bough::plan {

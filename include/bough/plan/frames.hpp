@@ -21,8 +21,8 @@ struct FrameMotions {
   std::vector<FrameCourse> courses;  ///< of each frame: scratch of eval_frames
 };
 
-/// Poses, twists and their first two derivatives from the laws' series in time (value, rate, half the acceleration, a sixth of the third
-/// derivative; by index of Plan::laws), frame by frame in series arithmetic:
+/// Poses, twists and their first two derivatives from the laws' series in time (value, rate, half the acceleration, a
+/// sixth of the third derivative; by index of Plan::laws), frame by frame in series arithmetic:
 ///   X = X_parent Q,  V = Ad(Q^-1) V_parent + V_Q,  Q = (R_0 exp(angle_1 ~axis_1) ..., x)
 /// and for frames that the observer's frame stands in  H = X_o^-1 X,  V - Ad(H^-1) V_o.
 void eval_frames(const Plan& plan, const lanes::Taylor<double, 3>* laws, FrameMotions& motions);

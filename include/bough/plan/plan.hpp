@@ -1,5 +1,6 @@
 #pragma once
-/// What a scene is made of once it is understood: nodes, elements, time functions, block graph. Immutable after make_plan.
+/// What a scene is made of once it is understood: nodes, elements, time functions, block graph. Immutable after
+/// make_plan.
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,7 +37,8 @@ struct JointPlan {
   int element = 0;           ///< global element id
   int block = -1;            ///< multiplier block; -1: no row is an unknown, or the joint holds a node of Plan::held;
   int multiplier_begin = 0;  ///< in the array of all multipliers
-  /// Its rows that are unknowns, in order; the others hold by themselves in the motions that the scene has, their multipliers are zero.
+  /// Its rows that are unknowns, in order; the others hold by themselves in the motions that the scene has, their
+  /// multipliers are zero.
   std::vector<int> rows;
   bool counts_turns = false;
   std::string what;  ///< "joint", "prescribed motion", "held rotation"
@@ -44,8 +46,8 @@ struct JointPlan {
   double length = 1.0;
 };
 
-/// A node that joints hold at rest, in the ground or in the observer's frame: it has no unknowns, and these joints have no multipliers among
-/// them. They follow from the balance of the node, W multipliers + (all other forces) = 0.
+/// A node that joints hold at rest, in the ground or in the observer's frame: it has no unknowns, and these joints
+/// have no multipliers among them. They follow from the balance of the node, W multipliers + (all other forces) = 0.
 struct HeldNode {
   int node = 0;
   std::vector<int> joints;  ///< in Plan::joints; of their `rows` there are as many as a node has unknowns
@@ -86,7 +88,8 @@ struct LawPlan {
 };
 
 /// A frame of prescribed motion, or a fixed one that such a motion passes through. Parents stand before their children.
-///   pose in the parent:  x_i = laws[position_i] or constant,  R = R_0 exp(laws[angle_1] ~axis_1) exp(laws[angle_2] ~axis_2) ...
+///   pose in the parent:  x_i = laws[position_i] or constant,  R = R_0 exp(laws[angle_1] ~axis_1) exp(laws[angle_2]
+///     ~axis_2) ...
 struct FramePlan {
   struct Turn {
     motion::Vec3<double> axis;  ///< unit, in the axes reached before it

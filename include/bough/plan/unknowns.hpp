@@ -17,7 +17,8 @@ enum class Motions : std::uint8_t {
 };
 
 /// x = P eta of an increment eta of a node, (linear; angular) in its own axes, and eta = P^T x:
-///   P: `count` rows of [B^T 0; 0 B^T], B a rotation that belongs to the node (planar: columns along the plane, along the plane, normal;
+///   P: `count` rows of [B^T 0; 0 B^T], B a rotation that belongs to the node (planar: columns along the plane, along
+///     the plane, normal;
 ///   line: the first column along the line). The motions lie in the range of P^T, so nothing is lost.
 struct NodeUnknowns {
   Motions motions = Motions::spatial;
@@ -28,8 +29,8 @@ struct NodeUnknowns {
   bool is_whole() const { return count == 6; }
   bool is_length(int unknown) const { return component[static_cast<std::size_t>(unknown)] < 3; }
 
-  /// P^T x. The planar case, which is met most, is written out: a loop that puts components in places one by one makes what reads
-  /// them next wait for every store.
+  /// P^T x. The planar case, which is met most, is written out: a loop that puts components in places one by one
+  /// makes what reads them next wait for every store.
   motion::Vec6<double> expanded(const double* x, std::size_t node) const {
     if (motions == Motions::planar) {
       if (basis.empty())

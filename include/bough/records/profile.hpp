@@ -8,8 +8,8 @@
 
 namespace bough::records {
 
-/// Seconds in one sub-domain, by what was done; medians over the walks of a run. Sub-domains factored in lockstep share the time of their
-/// visit equally.
+/// Seconds in one sub-domain, by what was done; medians over the walks of a run. Sub-domains factored in lockstep
+/// share the time of their visit equally.
 struct SubdomainTimes {
   double evaluate = 0.0;  ///< its elements' residuals and tangents, mean of one evaluation
   double assemble = 0.0;  ///< elements and children into fronts

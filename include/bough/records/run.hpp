@@ -106,7 +106,8 @@ struct StepTimes {
   double total = 0.0;                                                            ///< wall [s]
   double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0, output = 0.0;  ///< CPU seconds summed over threads
 };
-/// Balances and violations: largest values at the times of history rows; not evaluated when the scene asks for no checks.
+/// Balances and violations: largest values at the times of history rows; not evaluated when the scene asks for no
+/// checks.
 struct Checks {
   bool evaluated = true;
   double energy_balance = 0.0;         ///< largest |kinetic + strain + potential - work + dissipation - start| [J]
@@ -118,8 +119,9 @@ struct Checks {
   double constraint_violation_velocity = 0.0;  ///< [m/s] or [rad/s]
   double linear_backward_error_max = 0.0;
   double linear_rank_error_max = 0.0;  ///< what taking dependent rows for such has cost: solve::SolveReport::rank_error
-  /// Local errors of the steps in time (at fixed steps: of some) [-]: of positions and rotations, relative to the size of the structure and
-  /// 1 rad, the largest and all added up over the run; of velocities, relative to the largest speeds so far.
+  /// Local errors of the steps in time (at fixed steps: of some) [-]: of positions and rotations, relative to the
+  /// size of the structure and 1 rad, the largest and all added up over the run; of velocities, relative to the
+  /// largest speeds so far.
   bool local_error_known = false;
   double local_error_max = 0.0, local_error_sum = 0.0, local_error_max_velocity = 0.0;
   bool round_off_floor_reached = false;
@@ -250,7 +252,8 @@ struct Summary {
       solver;  ///< figures of the tree: sub-domains, levels, interface unknowns, condition, ...
 };
 
-/// Receives a run as it goes. A writer throws std::runtime_error where it cannot write; the run then fails with that cause.
+/// Receives a run as it goes. A writer throws std::runtime_error where it cannot write; the run then fails with that
+/// cause.
 class Recorder {
  public:
   virtual ~Recorder() = default;

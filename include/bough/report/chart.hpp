@@ -46,9 +46,9 @@ struct Chart {
   double width = 468.0, plot_height = 250.0;  ///< of the drawing; of the plot area [px]
 };
 
-/// One <svg> element, styled by classes (style_text). A legend follows below the plot. Points that are not finite are left out and
-/// interrupt the line; a y that is zero or negative on a logarithmic axis stands hollow on the lower edge; such an x is left out. Lines of more
-/// than a few hundred points without marks are thinned as histories are.
+/// One <svg> element, styled by classes (style_text). A legend follows below the plot. Points that are not finite are
+/// left out and interrupt the line; a y that is zero or negative on a logarithmic axis stands hollow on the lower
+/// edge; such an x is left out. Lines of more than a few hundred points without marks are thinned as histories are.
 std::string chart_svg(const Chart& chart);
 
 /// Where a chart's plot area lies and what it spans, for tests and overlays.

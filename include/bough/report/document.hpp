@@ -32,7 +32,8 @@ struct Table {
 /// A page in the order of the calls.
 class Document {
  public:
-  /// lead: one or two sentences under the title. data: name of the JSON file beside the page to which `source` pointers refer; may be empty.
+  /// lead: one or two sentences under the title. data: name of the JSON file beside the page to which `source`
+  /// pointers refer; may be empty.
   explicit Document(std::string title, std::string_view lead = {}, std::string_view data = {});
 
   void section(std::string_view heading, std::string_view anchor = {});
@@ -48,8 +49,8 @@ class Document {
   void markup(std::string_view html);  ///< of one's own, taken as it is
 
   void figures(const std::vector<std::string>& svgs);  ///< drawings of one's own beside each other
-  /// Data and a script that reads them from the element of this id, at the end of the page. The page lets in this script
-  /// alone, by its hash.
+  /// Data and a script that reads them from the element of this id, at the end of the page. The page lets in this
+  /// script alone, by its hash.
   void program(std::string_view id, std::string_view json, std::string_view script);
 
   std::string html() const;  ///< the whole page

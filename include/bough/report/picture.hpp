@@ -24,7 +24,8 @@ struct Picture {
   View view = View::iso;  ///< as resolved
 };
 
-/// Equal axes, scale bar, axis triad, colour ramp of time and a legend of what occurs. frames: at least one; non-finite points are skipped.
+/// Equal axes, scale bar, axis triad, colour ramp of time and a legend of what occurs. frames: at least one;
+/// non-finite points are skipped.
 Picture make_picture(const std::vector<records::MotionFrame>& frames, const PictureOptions& options);
 
 /// The drawing as a file of its own, with the styles for light and dark.

@@ -12,14 +12,15 @@ struct Plot {
   std::string svg;
 };
 
-/// columns: indices into the header, of one unit. At most two points per pixel column and curve are drawn: the smallest and the largest
-/// value, so that no peak is lost. Non-finite values leave a gap.
+/// columns: indices into the header, of one unit. At most two points per pixel column and curve are drawn: the
+/// smallest and the largest value, so that no peak is lost. Non-finite values leave a gap.
 Plot make_plot(const io::History& history, const std::string& title, const std::vector<std::size_t>& columns,
                std::string_view time_label);
 
 /// Round numbers, about `wanted` of them, that cover [low, high] from inside; low < high, both finite.
 std::vector<double> round_ticks(double low, double high, int wanted);
-/// Their texts, six digits. Where neighbours would read alike all but the roundest tell by how much they differ from it.
+/// Their texts, six digits. Where neighbours would read alike all but the roundest tell by how much they differ from
+/// it.
 std::vector<std::string> tick_labels(const std::vector<double>& ticks);
 
 }  // namespace bough::report

@@ -9,8 +9,8 @@
 
 namespace bough::report {
 
-/// xy, xz, yz: first axis to the right, second up. iso: seen from (1, -1, 1), x to the right and down, y to the right and up, z up.
-/// automatic: the plane of a planar motion, else iso.
+/// xy, xz, yz: first axis to the right, second up. iso: seen from (1, -1, 1), x to the right and down, y to the right
+/// and up, z up. automatic: the plane of a planar motion, else iso.
 enum class View { automatic, xy, xz, yz, iso };
 
 std::optional<View> view_named(std::string_view name);  ///< "auto", "xy", "xz", "yz", "iso"

@@ -7,8 +7,8 @@
 
 namespace bough::report {
 
-/// A self-contained page: what fails first, a table of all cases, and per case its promise, figures and work. Numbers name their places
-/// in stress.json, which is to lie beside it.
+/// A self-contained page: what fails first, a table of all cases, and per case its promise, figures and work. Numbers
+/// name their places in stress.json, which is to lie beside it.
 std::string stress_page(const std::vector<stress::StressCase>& cases, const stress::StressOptions& options);
 
 }  // namespace bough::report

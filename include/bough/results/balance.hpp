@@ -1,5 +1,6 @@
 #pragma once
-/// Balances of energy and momentum over a run: what the integrator makes of them, apart from the work of loads and drives.
+/// Balances of energy and momentum over a run: what the integrator makes of them, apart from the work of loads and
+/// drives.
 #include <vector>
 
 #include "bough/results/energies.hpp"
@@ -14,9 +15,10 @@ struct Supply {
       motion::Vec3<double>::zero();  ///< of gravity, loads and the ground, inertial axes [N s]
 };
 
-/// Sums work, dissipation and impulse over the steps. Looks only at elements that do work, take energy or hold on to the ground: these have to
-/// be seen in every step, energies and momentum only where results are wanted.
-///   loads    W = sum of 1/2 (F_n + F_{n+1}) . (the way from n to n+1), forces that keep their direction in inertial axes, others in
+/// Sums work, dissipation and impulse over the steps. Looks only at elements that do work, take energy or hold on to
+/// the ground: these have to be seen in every step, energies and momentum only where results are wanted.
+///   loads    W = sum of 1/2 (F_n + F_{n+1}) . (the way from n to n+1), forces that keep their direction in inertial
+///     axes, others in
 ///            those of the body with log(H_n^-1 H_{n+1}): exact where they are constant
 ///   drives   W = -1/2 (lambda_n + lambda_{n+1}) (law_{n+1} - law_n),   efforts alike over their coordinate
 ///   grounds  that move as prescribed: of their wrenches on the structure, as of loads that follow
@@ -33,7 +35,8 @@ class WorkMeter {
   double mass() const { return mass_; }  ///< of everything [kg]
 
  private:
-  /// A force or multiplier and what it works on: a port's pose with its wrench in the port's axes, or a number with its conjugate.
+  /// A force or multiplier and what it works on: a port's pose with its wrench in the port's axes, or a number with
+  /// its conjugate.
   struct Port {
     motion::Frame<double> pose = motion::Frame<double>::identity();
     motion::Vec6<double> wrench = motion::Vec6<double>::zero();

@@ -17,8 +17,8 @@ struct Energies {
   double total() const { return kinetic + strain + potential; }
 };
 
-/// What of a plan stores energy or carries momentum, sorted into lanes once. Sums go over fixed chunks: the same bits for any number of threads.
-/// Where frames move, elements are looked at one by one.
+/// What of a plan stores energy or carries momentum, sorted into lanes once. Sums go over fixed chunks: the same bits
+/// for any number of threads. Where frames move, elements are looked at one by one.
 class EnergyMeter {
  public:
   explicit EnergyMeter(const plan::Plan& plan);

@@ -17,8 +17,9 @@ void eval_sensors(const step::System& system, const step::State& state, EnergyMe
 void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
                   std::span<const int> sensors, std::vector<double>& values);
 
-/// Whether a sensor shows places, rotations and velocities alone: between two steps these follow from step::eval_between. Forces, strains,
-/// energies and accelerations do not: a stiff part answers to the smallest error of a place.
+/// Whether a sensor shows places, rotations and velocities alone: between two steps these follow from
+/// step::eval_between. Forces, strains, energies and accelerations do not: a stiff part answers to the smallest error
+/// of a place.
 bool shows_motion(scene::SensorKind kind);
 /// Adds the nodes that a sensor of motion looks at.
 void append_nodes_of(const plan::Plan& plan, const plan::SensorPlan& sensor, std::vector<int>& nodes);

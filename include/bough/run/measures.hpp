@@ -1,6 +1,7 @@
 #pragma once
-/// What is measured of a run: figures of one quantity over time, as columns of batches and sweeps. All take the quantity at
-/// the start and at the end of every accepted step, and straight lines between (times ascending, equal ones allowed).
+/// What is measured of a run: figures of one quantity over time, as columns of batches and sweeps. All take the
+/// quantity at the start and at the end of every accepted step, and straight lines between (times ascending, equal
+/// ones allowed).
 #include <functional>
 #include <optional>
 #include <span>
@@ -26,9 +27,9 @@ double rms_of(const Series& s);
 double percentile_of(const Series& s, double percent);
 /// Time after which |x - target| <= band to the end; nothing where it is outside at the end.
 std::optional<double> settling_time_of(const Series& s, double target, double band);
-/// Frequency [1/s] of the largest peak of the amplitude spectrum: mean taken out, Hann window, 2^k equal intervals of at
-/// least two a step, a parabola through the logarithms of the peak and its neighbours. Nothing where there are fewer
-/// than 8 steps or the quantity is constant.
+/// Frequency [1/s] of the largest peak of the amplitude spectrum: mean taken out, Hann window, 2^k equal intervals of
+/// at least two a step, a parabola through the logarithms of the peak and its neighbours. Nothing where there are
+/// fewer than 8 steps or the quantity is constant.
 std::optional<double> dominant_frequency_of(const Series& s);
 
 /// A cycle or half a cycle of a load history.

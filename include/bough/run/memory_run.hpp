@@ -33,7 +33,8 @@ struct MemoryRun {
 /// What problems_in has against a scene, warnings left out, in one line; empty when nothing.
 std::string refusal_of(const scene::Scene& scene);
 
-/// Runs a scene, as simulate() does. One with problems does not run: it is failed, and the cause starts with "refused: ".
+/// Runs a scene, as simulate() does. One with problems does not run: it is failed, and the cause starts with
+/// "refused: ".
 MemoryRun run_in_memory(const scene::Scene& scene, int threads = 1);
 MemoryRun run_in_memory(const scene::Scene& scene, const SimulateOptions& options,
                         const ProgressCallback& progress = {});

@@ -9,8 +9,8 @@
 
 namespace bough::run {
 
-/// What one step costs, by a model with costs of one machine (step/step_cost.hpp): for comparisons of a scene with itself; on another
-/// machine, or busy ones, all seconds are off by one factor.
+/// What one step costs, by a model with costs of one machine (step/step_cost.hpp): for comparisons of a scene with
+/// itself; on another machine, or busy ones, all seconds are off by one factor.
 struct Effort {
   std::int64_t unknowns = 0;
   double factor_flops = 0.0;      ///< of one factorization [flop]
@@ -45,7 +45,8 @@ struct Outlook {
   std::vector<std::string> notes;
 };
 
-/// Builds plan, tree and solver of a scene, once as it is and once without each decision. Precondition: problems_in(scene) is empty.
+/// Builds plan, tree and solver of a scene, once as it is and once without each decision. Precondition:
+/// problems_in(scene) is empty.
 Outlook look_ahead(const scene::Scene& scene);
 
 }  // namespace bough::run

@@ -10,7 +10,8 @@
 namespace bough::scene {
 
 /// Components of a sensor in the order of its columns; empty for a scalar, whose column is the sensor's name alone.
-///   position x y z | rotation rx ry rz | quaternion q0 q1 q2 q3 | velocity vx vy vz wx wy wz | acceleration ax ay az alx aly alz
+///   position x y z | rotation rx ry rz | quaternion q0 q1 q2 q3 | velocity vx vy vz wx wy wz | acceleration ax ay az
+///     alx aly alz
 ///   section_force N Q2 Q3 T M2 M3 | section_strain e1 g2 g3 k1 k2 k3 | joint_reaction fx fy fz mx my mz
 const std::vector<std::string>& components_of(SensorKind kind);
 
@@ -20,8 +21,9 @@ std::string unit_of(const Sensor& sensor, std::size_t component);
 /// Columns "<sensor>.<component>", or "<sensor>".
 std::vector<std::string> columns_of(const Sensor& sensor);
 
-/// Coordinates of a joint that can be driven, measured or sprung: "angle" (about axis 3), "displacement" (along axis 3).
-/// revolute and planar: angle; prismatic: displacement; cylindrical and screw: both (of a screw they depend on each other); others none.
+/// Coordinates of a joint that can be driven, measured or sprung: "angle" (about axis 3), "displacement" (along axis
+/// 3). revolute and planar: angle; prismatic: displacement; cylindrical and screw: both (of a screw they depend on
+/// each other); others none.
 const std::vector<std::string>& coordinates_of(JointKind kind);
 
 /// What a plan may leave out (plan::Decision), as in Scene::without.

@@ -1,6 +1,6 @@
 #pragma once
-/// Frames that move in each other by prescribed laws, and a point watched in them. Positions, speeds and accelerations at
-/// one time are those of motion::FrameChain.
+/// Frames that move in each other by prescribed laws, and a point watched in them. Positions, speeds and
+/// accelerations at one time are those of motion::FrameChain.
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,8 +24,8 @@ struct MovingFrame {
   std::vector<Turn> turns;
 };
 
-/// Pose, velocity and acceleration in the parent at t [s]; at a jump, from `side`. The angular velocity and acceleration
-/// of several turns are those of nested frames,
+/// Pose, velocity and acceleration in the parent at t [s]; at a jump, from `side`. The angular velocity and
+/// acceleration of several turns are those of nested frames,
 ///   w = sum_k u_k,  dw/dt = sum_k ( angle_k'' axis_k + w_k x u_k ),  u_k = angle_k' axis_k in the parent's axes,
 /// w_k the sum up to k. Does not allocate. Not finite where a law is not: see non_finite_law.
 motion::FrameMotion motion_at(const MovingFrame& frame, double t, laws::Side side = laws::Side::right);

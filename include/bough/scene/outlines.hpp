@@ -6,8 +6,8 @@
 
 namespace bough::scene {
 
-/// Round parts are polygons of so many sides and of the same area, so that areas and volumes of pictures are those of the
-/// scene. The centroid stands in the origin.
+/// Round parts are polygons of so many sides and of the same area, so that areas and volumes of pictures are those of
+/// the scene. The centroid stands in the origin.
 Outline outline_of(const SectionShape& shape, int sides = 24);
 
 /// Of a section that has no shape the rectangle with its radii of gyration:  width^2 = 12 EI3/EA, height^2 = 12 EI2/EA.

@@ -29,23 +29,25 @@ scene::Sensor make_section_sensor(const std::string& name, const std::string& be
 scene::Sensor make_joint_sensor(const std::string& name, const std::string& joint,
                                 scene::SensorKind kind = scene::SensorKind::joint_reaction);
 
-/// Straight static cantilever from the origin along x, axis 2 along y: nodes "root" and "tip", beam "beam", joint "clamp", sensors "tip" (position),
-/// "turn" (rotation), "clamp" (reaction).
+/// Straight static cantilever from the origin along x, axis 2 along y: nodes "root" and "tip", beam "beam", joint
+/// "clamp", sensors "tip" (position), "turn" (rotation), "clamp" (reaction).
 scene::Scene make_cantilever(const scene::Section& section, double length, int elements, int order);
 
-/// N windows of planar four-bars side by side, each bar 1 kg and 1 m, gravity along -y, upright, the upper corners at 1 m/s along x
-/// (IFToMM benchmark A02): 2 N + 1 bodies, 3 N + 1 hinges about z, whose rows in part depend on each other. Sensor "B0": the first corner.
+/// N windows of planar four-bars side by side, each bar 1 kg and 1 m, gravity along -y, upright, the upper corners at
+/// 1 m/s along x (IFToMM benchmark A02): 2 N + 1 bodies, 3 N + 1 hinges about z, whose rows in part depend on each
+/// other. Sensor "B0": the first corner.
 scene::Scene make_four_bars(int windows);
 
-/// All masses, and beams' and joints' stiffness with them so that frequencies stay: forces grow by `factor`, motions do not change.
-/// Joints' efforts by laws are not handled: throws std::invalid_argument.
+/// All masses, and beams' and joints' stiffness with them so that frequencies stay: forces grow by `factor`, motions
+/// do not change. Joints' efforts by laws are not handled: throws std::invalid_argument.
 void scale_masses(scene::Scene& scene, double factor);
 
-/// Millimetres and tonnes: forces stay newtons, moments become N mm. Scenes of bodies, beams, joints without forces, gravity and initial
-/// velocities; others throw std::invalid_argument.
+/// Millimetres and tonnes: forces stay newtons, moments become N mm. Scenes of bodies, beams, joints without forces,
+/// gravity and initial velocities; others throw std::invalid_argument.
 void to_millimetres(scene::Scene& scene);
 
-/// What a column of the history grows by when lengths grow by `length` and forces by `force`: moments and energies by both, angles by nothing.
+/// What a column of the history grows by when lengths grow by `length` and forces by `force`: moments and energies by
+/// both, angles by nothing.
 double column_factor(const scene::Scene& scene, const std::string& column, double length, double force);
 
 }  // namespace bough::scene

@@ -1,5 +1,6 @@
 #pragma once
-/// Poses at the start in the ground, through any depth of frames. The ground is the inertial frame, or the frame the analysis is described in.
+/// Poses at the start in the ground, through any depth of frames. The ground is the inertial frame, or the frame the
+/// analysis is described in.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,14 +12,16 @@
 
 namespace bough::scene {
 
-/// Pose of a placement in the ground. A frame that is not there, or a circle of frames, ends the chain: `problems_in` tells of those.
+/// Pose of a placement in the ground. A frame that is not there, or a circle of frames, ends the chain: `problems_in`
+/// tells of those.
 Frame resolve(const Scene& scene, const Placement& placement);
 
-/// Pose at the start of a node or body, of the ground ("" or "ground"), of a fixed frame or of an inner node of a beam; nothing when
-/// there is no such name. Searches: for many names make a Poses.
+/// Pose at the start of a node or body, of the ground ("" or "ground"), of a fixed frame or of an inner node of a
+/// beam; nothing when there is no such name. Searches: for many names make a Poses.
 std::optional<Frame> initial_pose(const Scene& scene, const std::string& name);
 
-/// What a name stands for. Frames, nodes, bodies, beams, joints, springs, bushings, loads and motions share one set of names.
+/// What a name stands for. Frames, nodes, bodies, beams, joints, springs, bushings, loads and motions share one set
+/// of names.
 enum class ThingKind : std::uint8_t { frame, node, body, beam, joint, other };
 struct Thing {
   ThingKind kind;
@@ -33,8 +36,9 @@ class Poses {
   /// Nothing where no thing has the name; the first one where several have.
   std::optional<Thing> find(std::string_view name) const;
 
-  /// Initial pose of a frame, node, body or inner node of a beam ("<beam>.<k>", k = 0 .. elements * order) in the ground.
-  /// "" and "ground" are the ground itself. Nothing where there is no such thing, or a frame stands in itself.
+  /// Initial pose of a frame, node, body or inner node of a beam ("<beam>.<k>", k = 0 .. elements * order) in the
+  /// ground. "" and "ground" are the ground itself. Nothing where there is no such thing, or a frame stands in
+  /// itself.
   std::optional<Frame> of(std::string_view name) const;
   std::optional<Frame> of(const Placement& placement) const;
   std::optional<Frame> of(const Attachment& attachment) const;
@@ -45,10 +49,10 @@ class Poses {
   bool is_moving(const std::string& frame_name) const;
   const FrameTree& frames() const { return frames_; }
 
-  /// Pose of the section axes of the undeformed beam at a fraction of its length [0, 1]: origin on the axis, axis 1 along it.
-  /// Straight: from start to end, turned about axis 1 by fraction * twist. Curved: H(0) exp(s (1, 0, 0; k)), s = fraction * length.
-  /// Section axis 2 at the start is `axis_2` made perpendicular to axis 1; where axis_2 is zero, see default_axis_2.
-  /// Nothing where an end is not found, the length is 0 or axis_2 runs along axis 1.
+  /// Pose of the section axes of the undeformed beam at a fraction of its length [0, 1]: origin on the axis, axis 1
+  /// along it. Straight: from start to end, turned about axis 1 by fraction * twist. Curved: H(0) exp(s (1, 0, 0;
+  /// k)), s = fraction * length. Section axis 2 at the start is `axis_2` made perpendicular to axis 1; where axis_2
+  /// is zero, see default_axis_2. Nothing where an end is not found, the length is 0 or axis_2 runs along axis 1.
   std::optional<Frame> of_section(const Beam& beam, double fraction) const;
 
   /// Length of the undeformed axis [m]; 0 where an end is not found.
@@ -62,11 +66,12 @@ class Poses {
   FrameTree frames_;
 };
 
-/// Section axis 2 where none is given: such that axis 3 lies nearest to inertial z; for a beam along z, inertial y. Not normalised.
+/// Section axis 2 where none is given: such that axis 3 lies nearest to inertial z; for a beam along z, inertial y.
+/// Not normalised.
 Vec3 default_axis_2(const Vec3& axis_1);
 
-/// Rotation with axis number k (1, 2, 3) along `main` and the one after it (cyclic) nearest to `next`. Nothing where main is zero or next
-/// runs along it.
+/// Rotation with axis number k (1, 2, 3) along `main` and the one after it (cyclic) nearest to `next`. Nothing where
+/// main is zero or next runs along it.
 std::optional<Mat3> axes_from(int k, const Vec3& main, const Vec3& next);
 
 }  // namespace bough::scene

@@ -20,8 +20,8 @@ struct SceneProblem {
   std::size_t more = 0;  ///< of the last problem and the last warning: how many more there are, which are only counted
 };
 
-/// All of them. defective: names of things that were left out of the scene because they are wrong already; references to
-/// them are not reported, nor what can not be judged without them. "/analysis" stands for the analysis.
+/// All of them. defective: names of things that were left out of the scene because they are wrong already; references
+/// to them are not reported, nor what can not be judged without them. "/analysis" stands for the analysis.
 std::vector<SceneProblem> problems_in(const Scene& scene, std::span<const std::string> defective = {});
 
 }  // namespace bough::scene

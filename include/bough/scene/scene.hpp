@@ -1,6 +1,6 @@
 #pragma once
-/// A scene: what the user says, in SI units and radians, as plain data. Things are named and refer to each other by name
-/// (empty name = absent). Nothing is derived here; `plan` turns a scene into elements.
+/// A scene: what the user says, in SI units and radians, as plain data. Things are named and refer to each other by
+/// name (empty name = absent). Nothing is derived here; `plan` turns a scene into elements.
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -28,7 +28,8 @@ struct Placement {
   std::string frame;
 };
 
-/// Frame posed in another one; fixed there, or moving by laws of time. The placement is the pose at time 0 in either case.
+/// Frame posed in another one; fixed there, or moving by laws of time. The placement is the pose at time 0 in either
+/// case.
 struct FrameDef {
   std::string name;
   Placement placement;
@@ -68,8 +69,9 @@ struct Body {
   std::shared_ptr<const Mesh> looks = {};  ///< drawn instead of the shape; nothing is computed from it
 };
 
-/// Something fixed to a node, a body, a frame or the ground: the pose `offset` in the frame of `to`; `to` empty = ground. Named "ground" in
-/// files. The ground is the frame in which the scene is described: the inertial one, or Analysis::frame.
+/// Something fixed to a node, a body, a frame or the ground: the pose `offset` in the frame of `to`; `to` empty =
+/// ground. Named "ground" in files. The ground is the frame in which the scene is described: the inertial one, or
+/// Analysis::frame.
 struct Attachment {
   std::string to;
   Frame offset = Frame::identity();
@@ -80,7 +82,8 @@ enum class BeamCurve : std::uint8_t {
   curvature,  ///< constant body curvature over a given length: circles and helices, exactly
 };
 
-/// A beam from one attachment to another. Its inner nodes are made by the plan and named `<beam>.<k>` (k = 0 at the start).
+/// A beam from one attachment to another. Its inner nodes are made by the plan and named `<beam>.<k>` (k = 0 at the
+/// start).
 struct Beam {
   std::string name;
   std::string section;
@@ -117,8 +120,8 @@ struct JointDrive {
   laws::Law law;
 };
 
-/// Joint frame axes: 3 is the axis of revolute, prismatic, cylindrical, screw and the normal of planar; universal: axis 1 of the first body is
-/// perpendicular to axis 2 of the second.
+/// Joint frame axes: 3 is the axis of revolute, prismatic, cylindrical, screw and the normal of planar; universal:
+/// axis 1 of the first body is perpendicular to axis 2 of the second.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::fixed;
@@ -167,7 +170,8 @@ struct LineLoad {
   laws::Law law;
 };
 
-/// Prescribed motion of a node or body along and about the ground's axes from its initial pose: a joint to the ground for the components chosen.
+/// Prescribed motion of a node or body along and about the ground's axes from its initial pose: a joint to the ground
+/// for the components chosen.
 struct PrescribedMotion {
   std::string name;
   Attachment at;
@@ -227,7 +231,8 @@ enum class Integrator : std::uint8_t { generalized_alpha, variational, bdf };
 
 /// Step sizes chosen so that local errors stay within a tolerance (generalized-alpha).
 struct StepControl {
-  /// Of the sum of local errors over the run, relative to sizes: that of the structure, 1 rad, the largest speeds so far [-].
+  /// Of the sum of local errors over the run, relative to sizes: that of the structure, 1 rad, the largest speeds so
+  /// far [-].
   double tolerance = 1e-4;
   double position_tolerance = 0.0;          ///< allowed beside [m]
   double rotation_tolerance = 0.0;          ///< [rad]
@@ -251,8 +256,9 @@ struct ArcLength {
 
 struct Analysis {
   AnalysisKind kind = AnalysisKind::dynamics;
-  /// The frame in which the scene is described: what is "ground" to everything that names no frame. Empty: the inertial frame. Gravity stays
-  /// inertial. Statics: the frame moves steadily, its laws are taken at time 0 and its inertial loads grow with the load factor.
+  /// The frame in which the scene is described: what is "ground" to everything that names no frame. Empty: the
+  /// inertial frame. Gravity stays inertial. Statics: the frame moves steadily, its laws are taken at time 0 and its
+  /// inertial loads grow with the load factor.
   std::string frame;
   // statics
   int load_steps = 1;
@@ -294,8 +300,8 @@ struct Output {
   bool checks = true;     ///< balances and constraint violations, at the times of history rows
 };
 
-/// What is taken of a quantity: its value at the end or at a time; the extremes of the whole run and when they are met first; how far they are apart;
-/// the mean time between upward crossings of a level.
+/// What is taken of a quantity: its value at the end or at a time; the extremes of the whole run and when they are
+/// met first; how far they are apart; the mean time between upward crossings of a level.
 enum class FigureKind : std::uint8_t { value, max, min, time_of_max, time_of_min, range, period };
 
 struct Expected {

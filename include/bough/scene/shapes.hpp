@@ -24,13 +24,15 @@ struct AreaFigures {
 AreaFigures area_figures(const SectionShape& shape);
 
 /// Saint-Venant's torsion constant of an a x b rectangle, a >= b [m^4], by its series to round-off:
-///   J = a b^3 (1/3 - 64/pi^5 (b/a) sum_{n odd} tanh(n pi a / 2b) / n^5)                 [Timoshenko, Goodier, Theory of elasticity, 109]
+///   J = a b^3 (1/3 - 64/pi^5 (b/a) sum_{n odd} tanh(n pi a / 2b) / n^5)                 [Timoshenko, Goodier, Theory
+///     of elasticity, 109]
 double rectangle_torsion_constant(double a, double b);
 
 /// Stiffness and mass about the centroid; no damping. With the shear centre at (e2, e3) the strains of shear are those
 /// there, g2 - e3 k1 and g3 + e2 k1:
 ///   (Q2; Q3) = G A [k2 k23; k23 k3] (g2 - e3 k1; g3 + e2 k1),  T = G J k1 - e3 Q2 + e2 Q3,  N = E A e1
-///   M2 = E (I2 k2 - I23 k3),  M3 = E (I3 k3 - I23 k2);  mass per length rho A, inertia rho [I2 + I3, 0, 0; 0, I2, -I23; 0, -I23, I3]
+///   M2 = E (I2 k2 - I23 k3),  M3 = E (I3 k3 - I23 k2);  mass per length rho A, inertia rho [I2 + I3, 0, 0; 0, I2,
+///     -I23; 0, -I23, I3]
 Section make_section(const std::string& name, const SectionShape& shape, const AreaFigures& figures,
                      const Material& material);
 

@@ -7,8 +7,9 @@
 
 namespace bough::schedule {
 
-/// A fixed number of threads and the walk that uses them. Subtrees above a grain of work become tasks, the others run whole in one task.
-/// Results do not depend on the number of threads: a task only decides when a sub-domain is visited, never what is added to what.
+/// A fixed number of threads and the walk that uses them. Subtrees above a grain of work become tasks, the others run
+/// whole in one task. Results do not depend on the number of threads: a task only decides when a sub-domain is
+/// visited, never what is added to what.
 class Threads {
  public:
   static constexpr double usual_grain_flops = 2e5;
@@ -23,8 +24,8 @@ class Threads {
   /// Valid while this object lives and stays where it is (moving keeps it valid: the state is on the heap).
   tree::Walker walker() const;
 
-  /// Runs `body()` so that the threads stay together between its walks. Without it every walk calls them anew, which takes some microseconds: as long
-  /// as a walk over a hundred bodies.
+  /// Runs `body()` so that the threads stay together between its walks. Without it every walk calls them anew, which
+  /// takes some microseconds: as long as a walk over a hundred bodies.
   void keep_together(const std::function<void()>& body) const;
 
   /// For tests: every task and chunk first spins for a pseudo-random time below `microseconds`. 0 turns it off.

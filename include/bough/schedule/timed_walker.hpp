@@ -62,8 +62,9 @@ struct TimedWalkerOptions {
   std::int64_t most_events = 50000;
 };
 
-/// Times every visit whose Visit::work is named, and every chunk that is not part of a visit. Costs two readings of the clock a visit and
-/// one a stage (some 30 instructions each), and a row of numbers per sampled walk. Visits of one walk may run on any thread; walks must not overlap.
+/// Times every visit whose Visit::work is named, and every chunk that is not part of a visit. Costs two readings of
+/// the clock a visit and one a stage (some 30 instructions each), and a row of numbers per sampled walk. Visits of
+/// one walk may run on any thread; walks must not overlap.
 class TimedWalker {
  public:
   explicit TimedWalker(const tree::Walker& inner, const TimedWalkerOptions& options = {});

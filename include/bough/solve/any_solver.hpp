@@ -62,7 +62,8 @@ class AnySolver {
         },
         solver_);
   }
-  /// check: false: without a backward error (NaN) where the solver can do without and SolveReport's refinement is not needed.
+  /// check: false: without a backward error (NaN) where the solver can do without and SolveReport's refinement is not
+  /// needed.
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x, bool check = true) {
     return std::visit(
         [&](auto& s) {

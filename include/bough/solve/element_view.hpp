@@ -6,8 +6,9 @@
 
 namespace bough::solve {
 
-/// One element matrix, row-major in the element's block order, SI units: entry (i, j) of an n x n matrix is view[i * n + j]. Equal elements
-/// of sub-domains that are factored in lockstep lie interleaved, so consecutive entries are `stride` doubles apart.
+/// One element matrix, row-major in the element's block order, SI units: entry (i, j) of an n x n matrix is view[i *
+/// n + j]. Equal elements of sub-domains that are factored in lockstep lie interleaved, so consecutive entries are
+/// `stride` doubles apart.
 template <class Real>
 struct BasicElementView {
   Real* first = nullptr;

@@ -12,9 +12,10 @@
 
 namespace bough::solve {
 
-/// Same contract as Hierarchical, serial. Dependent constraint rows: if the factorization is singular or nearly so, the multipliers get a
-/// diagonal -d^2 (d^2 = 1e-4 in scaled variables, 1e-7 where rows nearly depend) and the solution is refined with the true matrix; the limit is the
-/// solution with least multipliers. The deficiency is then not counted (-1).
+/// Same contract as Hierarchical, serial. Dependent constraint rows: if the factorization is singular or nearly so,
+/// the multipliers get a diagonal -d^2 (d^2 = 1e-4 in scaled variables, 1e-7 where rows nearly depend) and the
+/// solution is refined with the true matrix; the limit is the solution with least multipliers. The deficiency is then
+/// not counted (-1).
 class Monolithic {
  public:
   static bool

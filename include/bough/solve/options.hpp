@@ -28,9 +28,10 @@ enum class Symmetry {
 
 struct SolveOptions {
   Elimination elimination = Elimination::flat;
-  /// Symmetric: half the work, less memory (flat elimination only). Every factorization looks at every element matrix (unless
-  /// Hierarchical::trust_symmetry()); where one differs from its transpose the solver goes over to general for good and says so in Hierarchical::symmetry(). Definite: a front with a pivot that is
-  /// not positive, or below tiny_pivot, is factored as a symmetric one; the declaration stays (SolverCounters::indefinite_fronts).
+  /// Symmetric: half the work, less memory (flat elimination only). Every factorization looks at every element matrix
+  /// (unless Hierarchical::trust_symmetry()); where one differs from its transpose the solver goes over to general
+  /// for good and says so in Hierarchical::symmetry(). Definite: a front with a pivot that is not positive, or below
+  /// tiny_pivot, is factored as a symmetric one; the declaration stays (SolverCounters::indefinite_fronts).
   Symmetry symmetry = Symmetry::general;
   /// Schur complements of all sub-domains last, so that factor() may leave alone what has not changed; more memory.
   bool partial = false;
@@ -38,8 +39,9 @@ struct SolveOptions {
   bool inertia = false;
   bool lanes =
       true;  ///< equal sub-domains are factored in lockstep, eight to a pack, small leaves alone in registers (flat elimination only).
-  /// Bytes of matrices and factors in lanes and registers above which a factorization asks for what it reads before it needs it, and
-  /// writes factors past the caches. Bits are the same. 0: an eighth of the last cache, which others use as well, but 16 MB at least.
+  /// Bytes of matrices and factors in lanes and registers above which a factorization asks for what it reads before
+  /// it needs it, and writes factors past the caches. Bits are the same. 0: an eighth of the last cache, which others
+  /// use as well, but 16 MB at least.
   std::int64_t near_bytes = 0;
   double penalty_factor =
       1.0;  ///< P = factor x the interface's own stiffness diagonal [-], > 0. Flat: only in what is reported.

@@ -78,7 +78,8 @@ struct Inertia {
   int determinant = 0;
 };
 
-/// Interface of one sub-domain, or the one interface problem of a form with global multipliers, after factor(). Scaled variables.
+/// Interface of one sub-domain, or the one interface problem of a form with global multipliers, after factor().
+/// Scaled variables.
 struct InterfaceReport {
   tree::SubdomainId subdomain = tree::none;
   int level = 0;
@@ -111,7 +112,8 @@ struct SolverCounters {
   std::int64_t fronts_in_registers = 0;    ///< fronts of leaves that go alone, row by row in registers.
   std::int64_t registers_left = 0;  ///< leaves of those that went the pivoted way as a whole, over all factorizations.
   std::int64_t lanes_left = 0;      ///< fronts that left their lane for the pivoted path, over all factorizations.
-  /// Declared definite: fronts with a pivot that was not positive or too small, factored by pivoting instead, over all factorizations.
+  /// Declared definite: fronts with a pivot that was not positive or too small, factored by pivoting instead, over
+  /// all factorizations.
   std::int64_t indefinite_fronts = 0;
 };
 

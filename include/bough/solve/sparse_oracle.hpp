@@ -22,10 +22,11 @@ enum class Library {
 
 /// Same contract as Hierarchical, serial; allocates in factor().
 ///
-/// Dependent constraint rows: where two inverse iterations find a vector of multipliers alone that the matrix all but removes, they get a diagonal
-/// -d^2 (d^2 = 1e-7 in scaled variables, 1e-10 for CHOLMOD) and the solution is refined with the true matrix; the limit is the solution with least multipliers.
-/// The deficiency is then not counted (-1). CHOLMOD always factors that quasi-definite matrix, which needs no pivoting
-/// [Vanderbei 1995]; a matrix that is not symmetric to 1e-9 is refused with FactorOutcome::unsymmetric.
+/// Dependent constraint rows: where two inverse iterations find a vector of multipliers alone that the matrix all but
+/// removes, they get a diagonal -d^2 (d^2 = 1e-7 in scaled variables, 1e-10 for CHOLMOD) and the solution is refined
+/// with the true matrix; the limit is the solution with least multipliers. The deficiency is then not counted (-1).
+/// CHOLMOD always factors that quasi-definite matrix, which needs no pivoting [Vanderbei 1995]; a matrix that is not
+/// symmetric to 1e-9 is refused with FactorOutcome::unsymmetric.
 class SparseOracle {
  public:
   /// False when this build does not hold the library; then factor() answers FactorOutcome::backend.

@@ -9,7 +9,8 @@
 
 namespace bough::solve {
 
-/// One visit: several sub-domains in lockstep, or a single one. Costs are those of one lane; in lockstep all lanes take the time of one.
+/// One visit: several sub-domains in lockstep, or a single one. Costs are those of one lane; in lockstep all lanes
+/// take the time of one.
 struct VisitShape {
   std::vector<tree::SubdomainId> subdomains;
   bool in_lanes = false;

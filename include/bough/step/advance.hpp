@@ -44,21 +44,23 @@ struct StartReport {
 ///   positions   [M G^T; G 0] (eta, mu) = (0, -Phi)      repeated
 ///   velocities  [M G^T; G 0] (dv, mu)  = (0, -Phi')
 ///   accelerations and multipliers  [M G^T; G 0] (a, lambda) = (-(forces), -Phi''|_{a = 0})
-/// M may be singular where constraints hold. Fails where constraints contradict each other: a gap above 1e-9 of the size of the
-/// parts that meet in a joint (or rad) is left, or a rate above 1e-8 of the largest speed and above what opens 1e-12 in
-/// one step of `step_size` [s].
+/// M may be singular where constraints hold. Fails where constraints contradict each other: a gap above 1e-9 of the
+/// size of the parts that meet in a joint (or rad) is left, or a rate above 1e-8 of the largest speed and above what
+/// opens 1e-12 in one step of `step_size` [s].
 StartReport make_consistent(System& system, State& state, bool fix_positions, double step_size);
 
-/// Prepares generalized-alpha for step size h from a consistent state: a_n = dv/dt + shift h (d2v/dt2), and velocities moved along the
-/// constraints' normals by the steady error of the index-3 scheme, so that positions, velocities and multipliers are of second
-/// order from the first step on (Arnold, Bruls, Cardona 2015, sect. 5).
+/// Prepares generalized-alpha for step size h from a consistent state: a_n = dv/dt + shift h (d2v/dt2), and
+/// velocities moved along the constraints' normals by the steady error of the index-3 scheme, so that positions,
+/// velocities and multipliers are of second order from the first step on (Arnold, Bruls, Cardona 2015, sect. 5).
 StartReport start_alpha(System& system, State& state, const StepOptions& options, double step_size);
 
-/// The same when only the step size changes: dv/dt and multipliers stay, d2v/dt2 is solved for anew. (a_n - dv/dt holds it, too, but with the
-/// slowly fading oscillations of earlier changes, which a few changes in a row would amplify.)
+/// The same when only the step size changes: dv/dt and multipliers stay, d2v/dt2 is solved for anew. (a_n - dv/dt
+/// holds it, too, but with the slowly fading oscillations of earlier changes, which a few changes in a row would
+/// amplify.)
 StartReport change_step_size(System& system, State& state, const StepOptions& options, double step_size);
 
-/// Takes `state` to where Newton starts for a step to `end_time`: dv/dt stays, all else follows. `slopes`: those of the iteration.
+/// Takes `state` to where Newton starts for a step to `end_time`: dv/dt stays, all else follows. `slopes`: those of
+/// the iteration.
 [[nodiscard]] std::optional<Trouble> predict(System& system, State& state, const StepOptions& options, double end_time,
                                              elements::Slopes& slopes);
 

@@ -1,14 +1,15 @@
 #pragma once
 /// Statics along the path of equilibria (shape, load factor), past limit points of the load.
 ///
-/// A step looks for the equilibrium at a given distance from the last one. With D = log(H_start^-1 H) of each of n nodes, L the size of the
-/// structure,
+/// A step looks for the equilibrium at a given distance from the last one. With D = log(H_start^-1 H) of each of n
+/// nodes, L the size of the structure,
 ///   R(q, f) = 0,   |D|^2 = s^2,   |D|^2 = (1/n) sum (|D_linear|^2 / L^2 + |D_angular|^2)
-/// by Newton in q and the load factor f. The matrix K of the shape alone is factored as always and solved for two right-hand sides,
+/// by Newton in q and the load factor f. The matrix K of the shape alone is factored as always and solved for two
+/// right-hand sides,
 ///   K x_R = -R,  K x_f = -dR/df,   eta = x_R + df x_f,   df = ((s^2 - |D|^2)/2 - <D, T(D)^-1 x_R>) / <D, T(D)^-1 x_f>,
-/// so that the solver need not know of the bordered system, which stays regular where K is not: at limit points. Where K has
-/// no factor a spring k e e^T on one unknown gives it one, and is taken out of the solution again by one equation more.
-/// Sources: Riks 1979; Crisfield 1981; Ramm 1981.
+/// so that the solver need not know of the bordered system, which stays regular where K is not: at limit points.
+/// Where K has no factor a spring k e e^T on one unknown gives it one, and is taken out of the solution again by one
+/// equation more. Sources: Riks 1979; Crisfield 1981; Ramm 1981.
 #include "bough/step/advance.hpp"
 
 namespace bough::step {
@@ -18,13 +19,14 @@ class ArcLengthPath {
   using Vectors = std::vector<motion::Vec6<double>>;
   ArcLengthPath(System& system, const StepOptions& options);
 
-  /// The tangent of the path at an equilibrium (the first: with the load factor growing). Keeps the direction of the step before.
+  /// The tangent of the path at an equilibrium (the first: with the load factor growing). Keeps the direction of the
+  /// step before.
   [[nodiscard]] std::optional<Trouble> set_tangent(const State& state);
   /// df/ds at the equilibrium of the last set_tangent, in the sense of the path [-].
   double slope() const { return slope_; }
 
-  /// From the equilibrium of the last set_tangent to the next one at a distance of `length`. Not converged: `state` is as it was, and the tangent
-  /// may serve again. The tangent there is not set.
+  /// From the equilibrium of the last set_tangent to the next one at a distance of `length`. Not converged: `state`
+  /// is as it was, and the tangent may serve again. The tangent there is not set.
   StepReport advance(State& state, double length);
 
   /// How long the first step may be, by how the path bends at an equilibrium at which set_tangent was called last:

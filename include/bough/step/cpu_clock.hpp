@@ -1,13 +1,14 @@
 #pragma once
-/// CPU seconds by phase of a run. The kernel's own clocks of CPU time cost some 200 ns a reading, a good part of what a phase of a small scene
-/// takes, so where one thread does all the work they are read rarely.
+/// CPU seconds by phase of a run. The kernel's own clocks of CPU time cost some 200 ns a reading, a good part of what
+/// a phase of a small scene takes, so where one thread does all the work they are read rarely.
 #include <cstdint>
 
 namespace bough::step {
 
-/// CPU seconds: of the whole process where a run has several threads; of the calling thread, which has to stay the same one, where it has one.
-/// There they go on with the steady clock for up to 0.2 ms, and are read again when that has passed: a reading is too large by what the
-/// thread had to wait within that time, and stays as it is until that is made up for. Errors do not add up.
+/// CPU seconds: of the whole process where a run has several threads; of the calling thread, which has to stay the
+/// same one, where it has one. There they go on with the steady clock for up to 0.2 ms, and are read again when that
+/// has passed: a reading is too large by what the thread had to wait within that time, and stays as it is until that
+/// is made up for. Errors do not add up.
 class CpuClock {
  public:
   explicit CpuClock(bool has_one_thread) : has_one_thread_(has_one_thread) {}

@@ -21,14 +21,15 @@ class Instant {
   [[nodiscard]] std::optional<Trouble> set(double time, laws::Side side);
 
   const std::vector<double>& law_values() const { return values_; }
-  /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame itself.
+  /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame
+  /// itself.
   const elements::CarrierMotion* observer() const { return plan_.observer < 0 ? nullptr : &frames_.observer; }
   const plan::FrameMotions& frames() const { return frames_; }
   /// Gravity, laws and frames: all of a field but the nodes.
   elements::Field surroundings(const elements::Slopes& slopes, bool with_inertia) const;
 
-  /// Laws with their first derivative, and with three. They tell two: the third is a one-sided difference over a step to come,
-  /// 0 where `step_size` is, since it enters terms of order h^2 alone. Kept until asked for again.
+  /// Laws with their first derivative, and with three. They tell two: the third is a one-sided difference over a step
+  /// to come, 0 where `step_size` is, since it enters terms of order h^2 alone. Kept until asked for again.
   const std::vector<lanes::Taylor<double, 1>>& rate_series() const;
   const Series& series(double step_size) const;
   /// Frames whose laws have that third derivative.

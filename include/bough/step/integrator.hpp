@@ -1,5 +1,6 @@
 #pragma once
-/// Rules that take a consistent state from step to step in time: generalized-alpha, backward differences, the variational integrator.
+/// Rules that take a consistent state from step to step in time: generalized-alpha, backward differences, the
+/// variational integrator.
 #include <memory>
 
 #include "bough/step/advance.hpp"
@@ -17,10 +18,12 @@ class Integrator {
   /// The steps to come have another size. Nothing happens where it is the present one.
   virtual StartReport change_step_size(State& state, const StepOptions& options, double step_size) = 0;
 
-  /// One step of the present size to `end_time`, which is given so that no round-off of sizes adds up. Not converged: `state` is as it was.
+  /// One step of the present size to `end_time`, which is given so that no round-off of sizes adds up. Not converged:
+  /// `state` is as it was.
   virtual StepReport advance(State& state, const StepOptions& options, double end_time) = 0;
 
-  /// How much of the last step's motion vibrates faster than the step, from 0 to 1: of rules that do not damp such vibrations, else 0.
+  /// How much of the last step's motion vibrates faster than the step, from 0 to 1: of rules that do not damp such
+  /// vibrations, else 0.
   virtual double unresolved() const { return 0.0; }
 
   /// What a rule keeps of earlier steps. Factors are none of it: they change how a solution is found, not which one.

@@ -1,6 +1,6 @@
 #pragma once
-/// The linear solution of a step: tree, solver, and the policy by which a factor serves again. Newton's iterations ask it whether
-/// the factor at hand will do; how much of a solution is checked is its own affair.
+/// The linear solution of a step: tree, solver, and the policy by which a factor serves again. Newton's iterations
+/// ask it whether the factor at hand will do; how much of a solution is checked is its own affair.
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,8 +46,8 @@ class LinearSolution {
   solve::AnySolver& solver() { return *solver_; }
   const solve::AnySolver& solver() const { return *solver_; }
 
-  /// To be called before element matrices are written: what is known of those present holds no longer. are_symmetric: they
-  /// will be, to the last bit.
+  /// To be called before element matrices are written: what is known of those present holds no longer. are_symmetric:
+  /// they will be, to the last bit.
   void begin_matrices(bool are_symmetric);
   /// Factors the element matrices now present, made with these slopes.
   [[nodiscard]] std::optional<Trouble> factor(bool rescale, const elements::Slopes& slopes);
@@ -63,7 +63,8 @@ class LinearSolution {
   /// y <- A x with the element matrices now present.
   void multiply(const double* x, double* y) { solver_->multiply(walker_, x, y); }
 
-  /// Whether tangents are replaced by their symmetric parts (plan decision "symmetric"); drop_symmetry: not from now on.
+  /// Whether tangents are replaced by their symmetric parts (plan decision "symmetric"); drop_symmetry: not from now
+  /// on.
   bool takes_symmetric_parts() const { return takes_symmetric_parts_; }
   void drop_symmetry() { takes_symmetric_parts_ = is_factored_ = false; }
 
@@ -73,16 +74,17 @@ class LinearSolution {
   /// Solutions that a tangent and its factor cost, by estimate_step_cost.
   double renewal_cost() const { return renewal_cost_; }
   void set_renewal_cost(double solutions) { renewal_cost_ = solutions; }
-  /// To be called when an iteration has ended that took `solutions` with the present factor. A factor is worn once the last
-  /// iteration took at least as many solutions as the steps since it was made cost on average, the factor included: to go
-  /// on would raise that average.
+  /// To be called when an iteration has ended that took `solutions` with the present factor. A factor is worn once
+  /// the last iteration took at least as many solutions as the steps since it was made cost on average, the factor
+  /// included: to go on would raise that average.
   void note_service(int solutions);
   bool is_factor_worn() const { return is_worn_; }
 
  private:
   std::string explain_singular(const solve::FactorStatus& status) const;
 
-  /// Solutions from one check of the backward error to the next: on chains a check takes as long as the solution itself.
+  /// Solutions from one check of the backward error to the next: on chains a check takes as long as the solution
+  /// itself.
   static constexpr int check_every = 32;
   /// Backward error of a solution that needed no refinement, and one with a digit to spare: the next factor of the same
   /// scales and slopes is then trusted before it was checked.

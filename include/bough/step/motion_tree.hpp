@@ -13,8 +13,9 @@ struct RigidMotion {
   motion::Vec3<double> shift;
 };
 
-/// Parents before children. Beams are taken up first, then joints, those that leave the least freedom before others, then springs and
-/// bushings: a loop closes where a mismatch makes the least force, at best in constraint rows, which the next iteration closes.
+/// Parents before children. Beams are taken up first, then joints, those that leave the least freedom before others,
+/// then springs and bushings: a loop closes where a mismatch makes the least force, at best in constraint rows, which
+/// the next iteration closes.
 struct MotionTree {
   struct Link {
     int parent = -1;  ///< node, or -1: the inertial frame
@@ -22,8 +23,8 @@ struct MotionTree {
     int section = -1;           ///< in `sections`, where a beam lies between the two; -1: something else does
     bool to_reference = false;  ///< of a beam: `node` is the one that the beam measures from, `parent` the other
   };
-  /// Up to eight beams of one kind that are moved in lockstep. Each has an entry in `sections` for every node but that from
-  /// which it measures, in order.
+  /// Up to eight beams of one kind that are moved in lockstep. Each has an entry in `sections` for every node but
+  /// that from which it measures, in order.
   struct BeamGroup {
     int num_nodes = 0;
     int first_beam = 0, count = 0;  ///< in the plan's array of beams of so many nodes

@@ -27,7 +27,8 @@ StepOptions make_step_options(const scene::Analysis& analysis);
 std::vector<std::string> problems_in(const StepOptions& options);
 
 /// Coefficients of generalized-alpha (Chung, Hulbert 1993), functions of the spectral radius alone.
-///   alpha_m = (2 rho - 1)/(rho + 1), alpha_f = rho/(rho + 1), gamma = 1/2 + alpha_f - alpha_m, beta = (gamma + 1/2)^2 / 4
+///   alpha_m = (2 rho - 1)/(rho + 1), alpha_f = rho/(rho + 1), gamma = 1/2 + alpha_f - alpha_m, beta = (gamma +
+///     1/2)^2 / 4
 struct AlphaCoefficients {
   double alpha_m, alpha_f, beta, gamma;
   double shift() const {

@@ -1,6 +1,6 @@
 #pragma once
-/// Everything that changes during a run, as plain data: two equal states continue equally. Nodes move on one group: on SE(3), or on
-/// SE(2) where the scene moves in a plane. Whoever looks at a scene in space asks for nodes_in_space.
+/// Everything that changes during a run, as plain data: two equal states continue equally. Nodes move on one group:
+/// on SE(3), or on SE(2) where the scene moves in a plane. Whoever looks at a scene in space asks for nodes_in_space.
 #include <span>
 #include <utility>
 #include <variant>
@@ -41,8 +41,8 @@ struct State {
   double step_size = 0.0;  ///< h that NodesOn::algorithmic belongs to [s]; 0 before the start
   /// Order of the polynomial through past dv/dt that would have been nearest to the last step: 0, 1 or 2.
   int predictor_order = 0;
-  /// Of the last step of generalized-alpha, the largest over all nodes, lengths over the size of the structure: its local
-  /// error without the filter of stiff parts (step_control.hpp), 0 after a start; and dq.
+  /// Of the last step of generalized-alpha, the largest over all nodes, lengths over the size of the structure: its
+  /// local error without the filter of stiff parts (step_control.hpp), 0 after a start; and dq.
   double local_error = 0.0, increment = 0.0;
   double last_step = 0.0;  ///< h that dq spans, of the variational integrator [s]; 0 at a start
   /// Statics: increments in space that nodes still lack and their digits cannot hold; else empty.
@@ -120,8 +120,8 @@ State make_initial_state(const plan::Plan& plan);
 
 /// R, x, v, dv/dt and dq of all nodes in space, own axes of the nodes as the scene places them:
 ///   R = R_0 exp(theta n),  x = x_0 + A (p - p_0),  v = B (v_1, v_2, 0; 0, 0, w)
-/// theta and p - p_0 turn and displacement in the plane since the start, A the plane's axes, n and B normal and axes of the
-/// plane in those of the node (PlanarModel). Made once for a state, which keeps them until it is changed.
+/// theta and p - p_0 turn and displacement in the plane since the start, A the plane's axes, n and B normal and axes
+/// of the plane in those of the node (PlanarModel). Made once for a state, which keeps them until it is changed.
 const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, const State& state);
 /// Some of them alone, in their places of `to`, which has room for all.
 void copy_nodes_in_space(const plan::Plan& plan, const State& state, std::span<const int> nodes,
@@ -130,8 +130,8 @@ void copy_nodes_in_space(const plan::Plan& plan, const State& state, std::span<c
 /// The poses, twists, multipliers and turns of a state for steps in space.
 State make_spatial(const plan::Plan& plan, const State& state);
 
-/// H <- H exp(eta) of one node, and dq <- log(exp(dq) exp(eta)). Vectors are those of space, own axes; what leaves a plane in
-/// which the scene moves is left out.
+/// H <- H exp(eta) of one node, and dq <- log(exp(dq) exp(eta)). Vectors are those of space, own axes; what leaves a
+/// plane in which the scene moves is left out.
 void move_node(const plan::Plan& plan, State& state, std::size_t node, const motion::Vec6<double>& eta);
 void set_velocity(const plan::Plan& plan, State& state, std::size_t node, const motion::Vec6<double>& v);
 void set_acceleration(const plan::Plan& plan, State& state, std::size_t node, const motion::Vec6<double>& a);

@@ -1,15 +1,16 @@
 #pragma once
 /// Local error of a step of generalized-alpha, and the control of the step size to a tolerance.
 ///
-/// What a step leaves of the exact motion through its start, in a node's own axes (rule's terms against the Magnus series of the motion):
+/// What a step leaves of the exact motion through its start, in a node's own axes (rule's terms against the Magnus
+/// series of the motion):
 ///   e_q = h^3 (C_q v'' - ad(v) v' / 12),  e_v = h^3 C_v v''',   d = alpha_m - alpha_f
 ///   C_q = beta + d/2 - 1/6,   C_v = kappa - d^2/2 + 1/12,   kappa = (1 - alpha_f - (1 - alpha_m)(1 + 2 d) - d^2) / 2
-/// v'' is the change of v' over the step. Where constraints or stiff parts hold the motion, this is not what comes of it: the step's own matrix
-/// S = K + c1 C + c2 M with its constraints carries it to where the step does,
+/// v'' is the change of v' over the step. Where constraints or stiff parts hold the motion, this is not what comes of
+/// it: the step's own matrix S = K + c1 C + c2 M with its constraints carries it to where the step does,
 ///   [S G^T; G 0] (e, mu) = (c2 M e_q, 0),
-/// so that vibrations which the step filters and directions which constraints fix count no more than they move. v''' is the change of
-/// e / (C_q h^3) from step to step.
-/// Sources: Zienkiewicz, Xie 1991 (error from the change of accelerations); Hairer, Wanner 1996, IV.8 (error filtered by the step's matrix).
+/// so that vibrations which the step filters and directions which constraints fix count no more than they move. v'''
+/// is the change of e / (C_q h^3) from step to step. Sources: Zienkiewicz, Xie 1991 (error from the change of
+/// accelerations); Hairer, Wanner 1996, IV.8 (error filtered by the step's matrix).
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,11 +46,11 @@ struct ErrorLimit {
 /// Local errors along a run. Allocates when made, not afterwards.
 class LocalError {
  public:
-  /// `absolute`: allowances beside the tolerance, 0: none. Sizes that errors are compared with: the size of the structure, 1 rad, the largest speeds
-  /// so far, and these at the least: the size of the structure and 1 rad in `duration` [s].
-  /// Where step control is on, errors count where sensors look: a vibration faster than the step that no sensor sees
-  /// would otherwise ask for steps that resolve it, although the scheme filters it. Without sensors they count
-  /// everywhere. What each kind of sensor watches stands in src/step/README.md.
+  /// `absolute`: allowances beside the tolerance, 0: none. Sizes that errors are compared with: the size of the
+  /// structure, 1 rad, the largest speeds so far, and these at the least: the size of the structure and 1 rad in
+  /// `duration` [s]. Where step control is on, errors count where sensors look: a vibration faster than the step that
+  /// no sensor sees would otherwise ask for steps that resolve it, although the scheme filters it. Without sensors
+  /// they count everywhere. What each kind of sensor watches stands in src/step/README.md.
   LocalError(const System& system, const StepOptions& options, double duration);
 
   /// A start, or the far side of a jump: v''' is not known in the first step.

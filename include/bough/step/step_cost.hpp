@@ -1,5 +1,6 @@
 #pragma once
-/// What the parts of a step cost, by a model with costs of one machine: for decisions and outlooks, in which ratios count.
+/// What the parts of a step cost, by a model with costs of one machine: for decisions and outlooks, in which ratios
+/// count.
 #include "bough/step/system.hpp"
 
 namespace bough::step {

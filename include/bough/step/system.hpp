@@ -1,6 +1,6 @@
 #pragma once
-/// A plan with its tree, its linear solver and the buffers to evaluate it: residuals, tangents, linear solutions. Allocates when made,
-/// not afterwards.
+/// A plan with its tree, its linear solver and the buffers to evaluate it: residuals, tangents, linear solutions.
+/// Allocates when made, not afterwards.
 #include <array>
 #include <memory>
 #include <optional>
@@ -43,7 +43,8 @@ class RoundOffMemory {
   int age_ = 0;
 };
 
-/// Largest |Phi| and |Phi'| over all rows of joints, and the same in no unit of length: lengths relative to Plan::length_scale.
+/// Largest |Phi| and |Phi'| over all rows of joints, and the same in no unit of length: lengths relative to
+/// Plan::length_scale.
 struct Violations {
   double position = 0.0, relative_position = 0.0;  ///< [m] or [rad], [-]
   double velocity = 0.0, relative_velocity = 0.0;  ///< [m/s] or [rad/s], [1/s]
@@ -90,7 +91,8 @@ class System {
   CpuClock& clock() { return clock_; }
   Workspace& work() { return work_; }
 
-  /// Values of all time functions at t (right or left limit). A value that is not finite is told with its owner and the time.
+  /// Values of all time functions at t (right or left limit). A value that is not finite is told with its owner and
+  /// the time.
   [[nodiscard]] std::optional<Trouble> set_time(double time, laws::Side side = laws::Side::left);
   /// A state in space, whatever the scene's group: for whom reads results, not for steps.
   elements::Field field(const State& state, const elements::Slopes& slopes = {}, bool with_inertia = true) const;
@@ -107,8 +109,8 @@ class System {
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
   /// By block, in the order of the solver.
   const std::vector<double>& residual() const { return residual_; }
-  /// To be called before matrices are set or added to, which several threads may then do: what is known of those present holds no longer.
-  /// are_symmetric: they will be, to the last bit.
+  /// To be called before matrices are set or added to, which several threads may then do: what is known of those
+  /// present holds no longer. are_symmetric: they will be, to the last bit.
   void begin_matrices(bool are_symmetric = false);
   /// Puts an element's matrix, row-major in all of its unknowns, in the place of its tangent, or adds it there.
   void set_matrix(int element, int num_unknowns, const double* entries);
@@ -116,7 +118,8 @@ class System {
   /// Of the residual last evaluated, without the worst nodes and joint: name_worst looks for these, for messages.
   ResidualSize residual_size() const;
   void name_worst(ResidualSize& size) const;
-  /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment, K the element matrices now present.
+  /// What round-off alone leaves in the residual: sum |K| eps |coordinates|, by force and moment, K the element
+  /// matrices now present.
   const ResidualSize& round_off_floor() const;
   /// The same of elements between two ports alone, which answer to differences of rounded poses. Inertia of a body
   /// answers to the increment of a step, which is rounded much less.
@@ -132,32 +135,38 @@ class System {
   /// An element's matrix now present, row-major, and the unknowns of its rows.
   solve::ConstElementView matrix_of(int element, std::vector<std::int64_t>& unknowns) const;
 
-  /// Size of an increment: the largest change of relative motions, of elements' nodes with respect to each other, lengths relative to the
-  /// element [-] and angles [rad], which no rigid motion of the whole changes:
-  ///   |R_b w_b - R_a w_a|,  |R_b u_b - R_a u_a - (R_a w_a) x (x_b - x_a)| / length          for increments (u; w) of nodes a and b
+  /// Size of an increment: the largest change of relative motions, of elements' nodes with respect to each other,
+  /// lengths relative to the element [-] and angles [rad], which no rigid motion of the whole changes:
+  ///   |R_b w_b - R_a w_a|,  |R_b u_b - R_a u_a - (R_a w_a) x (x_b - x_a)| / length          for increments (u; w) of
+  ///     nodes a and b
   double relative_size(const State& state, const double* x) const;
-  /// Applies a solution: each node moves by its own increment, H <- H exp(eta), multipliers grow by theirs. Returns relative_size.
+  /// Applies a solution: each node moves by its own increment, H <- H exp(eta), multipliers grow by theirs. Returns
+  /// relative_size.
   double apply(State& state, const double* x);
-  /// Applies `factor` of a solution, nodes carrying each other along the motion tree; statics only (State's dq is left alone).
+  /// Applies `factor` of a solution, nodes carrying each other along the motion tree; statics only (State's dq is
+  /// left alone).
   ///   S_b = (H_ab^-1 S_a H_ab) exp(factor (eta_b - Ad(H_ab)^-1 eta_a)),  H_b <- H_b S_b   for a node b that a carries
-  /// Agrees with apply to first order, but relative motions take their increments exactly: a beam that bends far in one go is not
-  /// stretched, as it is where nodes move alone, along their tangents.
+  /// Agrees with apply to first order, but relative motions take their increments exactly: a beam that bends far in
+  /// one go is not stretched, as it is where nodes move alone, along their tangents.
   void apply_along_tree(State& state, const double* x, double factor);
-  /// Solves once more at an equilibrium, with the matrix that led there. A node's place is rounded, by u |x|, and a stiff element answers with forces of
-  /// EA u |x| / L that no load balances; with the eta found here, kept apart in State::unsettled, forces f + K eta are in equilibrium to
-  /// round-off of their own size. Multipliers take their part. Says nothing where the solution fails: then there is no `unsettled`.
+  /// Solves once more at an equilibrium, with the matrix that led there. A node's place is rounded, by u |x|, and a
+  /// stiff element answers with forces of EA u |x| / L that no load balances; with the eta found here, kept apart in
+  /// State::unsettled, forces f + K eta are in equilibrium to round-off of their own size. Multipliers take their
+  /// part. Says nothing where the solution fails: then there is no `unsettled`.
   void settle(State& state);
-  /// Power of the present residual at the end of the path that apply_along_tree took last with `x`:  sum of residual . d(increment)/d(factor).
+  /// Power of the present residual at the end of the path that apply_along_tree took last with `x`:  sum of residual
+  /// . d(increment)/d(factor).
   double power_along_tree(const double* x);
 
-  /// Multipliers of joints that hold nodes without unknowns (Plan::held), from the balance of these nodes as they are now; laws of its time are set.
-  /// To be called for every state that is accepted. more: forces by node, own axes, beside those of elements.
+  /// Multipliers of joints that hold nodes without unknowns (Plan::held), from the balance of these nodes as they are
+  /// now; laws of its time are set. To be called for every state that is accepted. more: forces by node, own axes,
+  /// beside those of elements.
   void recover_multipliers(State& state, const std::vector<motion::Vec6<double>>* more = nullptr) const;
   /// The largest of these multipliers that inertia asks for where velocities jump by a solution x of [M G^T; G 0].
   double largest_held_impulse(const State& state, const double* x) const;
 
-  /// d(residual)/dt with accelerations and multipliers held. step_size: over which third derivatives of prescribed frames are differenced, 0: they
-  /// are left out.
+  /// d(residual)/dt with accelerations and multipliers held. step_size: over which third derivatives of prescribed
+  /// frames are differenced, 0: they are left out.
   void evaluate_rate(const State& state, std::vector<double>& rate, double step_size = 0.0);
   /// Constraint rows and their first three time derivatives (jerk may be null: then 0), by multiplier.
   void constraint_series(const State& state, const motion::Vec6<double>* jerk, double step_size,
@@ -170,7 +179,8 @@ class System {
   /// angles as they are [-] (order 0), [1/s] (order 1).
   double relative_violation(const State& state, int order, int* joint = nullptr) const;
 
-  /// Arm that turns the scale of forces into one of moments [m]: the longest element, or the whole where none has a length.
+  /// Arm that turns the scale of forces into one of moments [m]: the longest element, or the whole where none has a
+  /// length.
   double moment_arm() const { return moment_arm_; }
   /// Index in plan().joints, or -1.
   int joint_of_element(int element) const { return joint_of_element_[static_cast<std::size_t>(element)]; }
@@ -206,7 +216,8 @@ class System {
   int block_size(int block) const { return static_cast<int>(block_begin(block + 1) - block_begin(block)); }
   std::size_t num_unknowns() const { return static_cast<std::size_t>(linear_.tree().unknown_begin.back()); }
   const std::vector<double>& law_values() const { return instant_.law_values(); }
-  /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame itself.
+  /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame
+  /// itself.
   const elements::CarrierMotion* observer() const { return instant_.observer(); }
 
  private:
@@ -269,8 +280,8 @@ class System {
   mutable Instant::Series row_series_;  ///< scratch of constraint_violation
   mutable std::vector<Violations> violation_parts_;
   std::vector<std::int64_t> element_begin_;  ///< unknowns of the elements before it
-  /// Parts of an element, from 2 element_begin_ on: of each of its nodes, then of its rows, entries of the residual and then the sums of |terms| of
-  /// these.
+  /// Parts of an element, from 2 element_begin_ on: of each of its nodes, then of its rows, entries of the residual
+  /// and then the sums of |terms| of these.
   std::vector<double> parts_;
   std::vector<int> joint_of_element_;     ///< index in plan.joints or -1
   std::vector<std::int64_t> node_begin_;  ///< first unknown of each node, or -1

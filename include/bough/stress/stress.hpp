@@ -14,7 +14,8 @@ enum class StressStatus {
 };
 const char* text_of(StressStatus status);
 
-/// One number that was measured. It holds where value <= limit; a limit of infinity: told, nothing promised. NaN never holds.
+/// One number that was measured. It holds where value <= limit; a limit of infinity: told, nothing promised. NaN
+/// never holds.
 struct StressFigure {
   std::string name;
   double value = 0.0;
@@ -68,8 +69,8 @@ std::vector<std::string> problems_in(const StressOptions& options);
 std::vector<std::string> stress_names();
 
 /// Runs the table. on_case is called as cases end, one at a time, from any thread; is_stopped is asked before each case
-/// and after every step, from any thread; cases that it cuts short are left out. What a case throws is its failure, never thrown on. The
-/// answer is in the order of the table.
+/// and after every step, from any thread; cases that it cuts short are left out. What a case throws is its failure,
+/// never thrown on. The answer is in the order of the table.
 std::vector<StressCase> run_stress(
     const StressOptions& options,
     const std::function<void(const StressCase&, std::size_t done, std::size_t all)>& on_case = {},

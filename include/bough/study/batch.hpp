@@ -1,6 +1,6 @@
 #pragma once
-/// Many cases, each a run of its own: one thread a case, one row of `batch.csv` a case. Scenes of a folder and the cases of a
-/// sweep are run by the same engine.
+/// Many cases, each a run of its own: one thread a case, one row of `batch.csv` a case. Scenes of a folder and the
+/// cases of a sweep are run by the same engine.
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -64,7 +64,8 @@ struct CaseResult {
   CaseCost cost;
 };
 
-/// How a case is run, in another process than that which collects: the exit status of `bough run` (0 done, 1 failed, 2 bad input).
+/// How a case is run, in another process than that which collects: the exit status of `bough run` (0 done, 1 failed,
+/// 2 bad input).
 using RunCase = std::function<int(const BatchCase&, CaseReport& report)>;
 
 /// Told after every case: how many are done, of how many.
@@ -74,19 +75,19 @@ using CaseDone = std::function<void(const CaseResult&, std::size_t done, std::si
 /// std::runtime_error where the folder cannot be read or holds none.
 std::vector<BatchCase> cases_in(const std::filesystem::path& folder, const std::filesystem::path& out);
 
-/// Runs all cases; results are in the order of the cases whatever finishes first. Cases run in worker processes, one at a
-/// time in each and many one after the other, so that one that crashes, hangs or takes all memory harms no other: its worker
-/// is replaced. All workers end with this process, however it ends. Where no process can be started a case has failed.
-/// `stop` is asked between cases; once true no further case starts and those running are told to stop (SIGTERM). A case
-/// past its time limit is told so, too, and is killed where it does not end by itself; one whose worker holds more memory
-/// than its limit is killed, by a look every fiftieth of a second. Call it while the process has one
-/// thread.
+/// Runs all cases; results are in the order of the cases whatever finishes first. Cases run in worker processes, one
+/// at a time in each and many one after the other, so that one that crashes, hangs or takes all memory harms no
+/// other: its worker is replaced. All workers end with this process, however it ends. Where no process can be started
+/// a case has failed. `stop` is asked between cases; once true no further case starts and those running are told to
+/// stop (SIGTERM). A case past its time limit is told so, too, and is killed where it does not end by itself; one
+/// whose worker holds more memory than its limit is killed, by a look every fiftieth of a second. Call it while the
+/// process has one thread.
 std::vector<CaseResult> run_batch(const std::vector<BatchCase>& cases, const BatchOptions& options,
                                   const RunCase& run_case, const CaseDone& done, const std::function<bool()>& stop);
 
-/// The table, a row a case: case, status, cause, counts of steps and figures, doubts, checks, then inputs, then measures, each by
-/// name; empty cells where a case has none. Holds nothing that a clock gave, so that equal results give equal files. Text
-/// that a spreadsheet would take for a formula begins with an apostrophe.
+/// The table, a row a case: case, status, cause, counts of steps and figures, doubts, checks, then inputs, then
+/// measures, each by name; empty cells where a case has none. Holds nothing that a clock gave, so that equal results
+/// give equal files. Text that a spreadsheet would take for a formula begins with an apostrophe.
 std::string batch_csv(const std::vector<CaseResult>& results);
 /// The same as JSON, with inputs and measures as numbers, and how much inputs decide each measure.
 std::string batch_json(const std::vector<CaseResult>& results, const std::string& title,

@@ -48,10 +48,10 @@ struct Collected {
   std::vector<std::size_t> machine_of;  ///< of each case, into `machines`
 };
 
-/// Reads shards: folders that hold one, or folders of such folders; the list of all cases lies in the folder of a shard's
-/// folder. Rows are found by case, so any mixture of partitions will do. Throws std::runtime_error in words: no shard, no
-/// list, shards of another list, scene, options or program, and two rows of one case that differ though they were made
-/// alike.
+/// Reads shards: folders that hold one, or folders of such folders; the list of all cases lies in the folder of a
+/// shard's folder. Rows are found by case, so any mixture of partitions will do. Throws std::runtime_error in words:
+/// no shard, no list, shards of another list, scene, options or program, and two rows of one case that differ though
+/// they were made alike.
 Collected collect_shards(const std::vector<std::filesystem::path>& folders);
 
 /// batch_csv with a column `machine` at its end where several machines have computed the rows.

@@ -32,9 +32,9 @@ using Records = std::unordered_map<std::string, CaseResult>;  ///< by key
 /// The whole records of a journal that this process does not write: none where there is no file. whole: their text.
 Records read_records(const std::filesystem::path& file, std::string& whole);
 
-/// One line a case: a hash, a blank, the record as JSON. A record counts when its line is whole and its hash fits, so that
-/// what a kill or a full disk cut off is as if it had not been written. Children that are forked hold the file, too, and so
-/// the folder is free only when the last worker of a batch that was killed has ended.
+/// One line a case: a hash, a blank, the record as JSON. A record counts when its line is whole and its hash fits, so
+/// that what a kill or a full disk cut off is as if it had not been written. Children that are forked hold the file,
+/// too, and so the folder is free only when the last worker of a batch that was killed has ended.
 class Journal {
  public:
   /// resumes: takes over the records that are there, and drops what is damaged; else starts empty. Throws
@@ -48,9 +48,9 @@ class Journal {
   const CaseResult* find(const std::string& key) const;
   std::size_t size() const { return records_.size(); }
 
-  /// Returns when the system has the record, so that no kill loses it; it is on the disk within a fifth of a second, for
-  /// waiting for the disk after every case would be most of the time of small ones. What a power failure takes runs again.
-  /// Throws std::runtime_error where it cannot be written.
+  /// Returns when the system has the record, so that no kill loses it; it is on the disk within a fifth of a second,
+  /// for waiting for the disk after every case would be most of the time of small ones. What a power failure takes
+  /// runs again. Throws std::runtime_error where it cannot be written.
   void add(const std::string& key, const CaseResult& result);
 
  private:

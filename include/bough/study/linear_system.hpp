@@ -15,15 +15,16 @@ struct StepChoice {
   std::optional<double> time = {};  ///< [s]: the first step that ends at this time or later
 };
 
-/// Consecutive unknowns of one owner: the increment eta of a node's frame (H <- H exp(eta)), or the multipliers of a joint.
+/// Consecutive unknowns of one owner: the increment eta of a node's frame (H <- H exp(eta)), or the multipliers of a
+/// joint.
 struct UnknownBlock {
   std::string owner;  ///< "'bob'", "joint 'hinge'"
   std::string components;
   int first = 0, count = 0;
 };
 
-/// A x = b of the first Newton iteration of a step: A the tangent at the predicted state, b minus the residual there. SI units, increments in
-/// the nodes' own axes.
+/// A x = b of the first Newton iteration of a step: A the tangent at the predicted state, b minus the residual there.
+/// SI units, increments in the nodes' own axes.
 struct LinearSystem {
   io::SparseMatrix matrix;  ///< entries that are exactly zero left out
   std::vector<double> rhs;
@@ -40,8 +41,8 @@ struct LinearSystem {
 };
 
 /// Runs the scene up to the chosen step and makes its linear system. Precondition: problems_in(scene) is empty.
-/// No such step, or the run fails before it: nothing, and `cause` says why. Symmetric: entries agree with their mirrors within
-/// 1e-14 of the largest entry of their rows; then the mean of both is stored.
+/// No such step, or the run fails before it: nothing, and `cause` says why. Symmetric: entries agree with their
+/// mirrors within 1e-14 of the largest entry of their rows; then the mean of both is stored.
 std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const StepChoice& choice, int threads,
                                                std::string& cause);
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The tree of sub-domains as it runs: sizes, times, critical path, what other numbers of threads and other trees would take.
+/// The tree of sub-domains as it runs: sizes, times, critical path, what other numbers of threads and other trees
+/// would take.
 #include <string>
 
 #include "bough/records/profile.hpp"
@@ -15,9 +16,9 @@ struct ProfileOptions {
       120;  ///< conditions are computed of interfaces with at most so many unknowns (dense singular values)
 };
 
-/// Runs a scene for some steps with a watched walker, then again with 1, 2, 4 ... threads up to those of the machine. Rows, motion and summary go
-/// to `recorder`, bitwise those of simulate() with the same number of steps. Precondition: problems_in(scene) is empty, the solver is hierarchical
-/// (cannot_profile is empty).
+/// Runs a scene for some steps with a watched walker, then again with 1, 2, 4 ... threads up to those of the machine.
+/// Rows, motion and summary go to `recorder`, bitwise those of simulate() with the same number of steps.
+/// Precondition: problems_in(scene) is empty, the solver is hierarchical (cannot_profile is empty).
 records::Profile profile(const scene::Scene& scene, const ProfileOptions& options, records::Recorder& recorder,
                          const run::ProgressCallback& progress = {});
 

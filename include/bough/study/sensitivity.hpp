@@ -21,8 +21,8 @@ struct Sensitivity {
   std::vector<std::string> indices;        ///< their names
   std::vector<std::vector<Index>> values;  ///< by index, then by variable
   std::size_t rows = 0;                    ///< cases that the indices are made of
-  /// Of regressions: the share of the variance that a linear function explains, of values and of ranks; low ones say that the
-  /// indices tell little.
+  /// Of regressions: the share of the variance that a linear function explains, of values and of ranks; low ones say
+  /// that the indices tell little.
   std::optional<double> explained, explained_ranks;
 };
 
@@ -33,15 +33,16 @@ struct MeasureSensitivity {
   Sensitivity of;
 };
 
-/// Of a design that draws: morris by its own design; Sobol's indices of saltelli; standardised regression of the others.
+/// Of a design that draws: morris by its own design; Sobol's indices of saltelli; standardised regression of the
+/// others.
 ///   values: what was measured, by the rows of the design; none: the case has no value
 /// Nothing where the design allows no indices, too few rows have values, or the measure does not vary.
 std::optional<Sensitivity> sensitivity_of(const io::SweepDesign& design, std::uint32_t number,
                                           std::span<const std::optional<double>> values);
 
 /// Elementary effects along trajectories (Morris 1991, Factorial sampling plans for preliminary computational
-/// experiments): differences over those of the unit cube; mean, mean of magnitudes (mu_star, Campolongo et al. 2007) and
-/// standard deviation.
+/// experiments): differences over those of the unit cube; mean, mean of magnitudes (mu_star, Campolongo et al. 2007)
+/// and standard deviation.
 std::optional<Sensitivity> morris_effects(const std::vector<std::vector<double>>& unit_rows,
                                           std::span<const std::optional<double>> values);
 
@@ -49,8 +50,8 @@ std::optional<Sensitivity> morris_effects(const std::vector<std::vector<double>>
 std::optional<Sensitivity> regression(const std::vector<std::vector<double>>& inputs,
                                       std::span<const std::optional<double>> values);
 
-/// Sobol's indices from samples of `variables` + 2 cases a, b, a with one variable of b (Saltelli et al. 2010, Variance based
-/// sensitivity analysis of model output):
+/// Sobol's indices from samples of `variables` + 2 cases a, b, a with one variable of b (Saltelli et al. 2010,
+/// Variance based sensitivity analysis of model output):
 ///   S_i = mean(f(b) (f(ab_i) - f(a))) / V,   ST_i = mean((f(a) - f(ab_i))^2) / (2 V)   (Jansen 1999)
 /// with f less its mean, V the variance of all f(a) and f(b), and percentile intervals of 1000 resamples.
 std::optional<Sensitivity> sobol_indices(std::size_t variables, std::span<const std::optional<double>> values,

@@ -33,7 +33,8 @@ Shard read_shard(std::string_view text, const Environment& environment);
 std::vector<std::size_t> shards_of(const std::vector<double>& work, std::size_t count);
 
 /// Predicted work of every row: unknowns times steps, or any other count. Variables that do not change it, as far as
-/// probing each of them alone tells, are not looked at again: `look` is called once for all rows that agree in the others.
+/// probing each of them alone tells, are not looked at again: `look` is called once for all rows that agree in the
+/// others.
 std::vector<double> predicted_work(const std::vector<std::vector<io::SweepValue>>& rows,
                                    const std::function<double(const std::vector<io::SweepValue>&)>& look);
 

@@ -14,8 +14,8 @@ namespace bough::study {
 
 inline constexpr double unmeasured = std::numeric_limits<double>::quiet_NaN();
 
-/// Error of one quantity over the sample times: the largest, the root of the mean square, that at the end. Relative to the largest norm of
-/// the reference [-]; rotations: [rad]. NaN: not measured.
+/// Error of one quantity over the sample times: the largest, the root of the mean square, that at the end. Relative
+/// to the largest norm of the reference [-]; rotations: [rad]. NaN: not measured.
 struct ErrorNorms {
   double max = unmeasured, rms = unmeasured, end = unmeasured;
 };
@@ -82,8 +82,8 @@ struct SweepSeries {
 struct SweepReference {
   std::vector<std::string> kinds;    ///< by quantity: "formula", "table", "computed"
   std::vector<std::string> sources;  ///< by quantity, in words
-  /// By quantity, what an error holds: "all" of a run (formula, table), or only what the computed reference does otherwise: "time" (steps,
-  /// integrator), "space" (meshes), "time and space", "solver".
+  /// By quantity, what an error holds: "all" of a run (formula, table), or only what the computed reference does
+  /// otherwise: "time" (steps, integrator), "space" (meshes), "time and space", "solver".
   std::vector<std::string> errors_of;
   std::vector<double> uncertainties;  ///< by quantity, in units of its error
   std::vector<double> scales;         ///< by quantity: largest norm, in its unit
@@ -135,8 +135,9 @@ struct SweepOptions {
 /// Precondition: the study was read without problems.
 std::string refusal(const io::StudySpec& spec, const SweepOptions& options);
 
-/// Precondition: the study was read without problems. A run that fails is kept with its cause; a reference that cannot be computed leaves the
-/// errors of its grid unmeasured. Throws std::runtime_error where the cache cannot be written.
+/// Precondition: the study was read without problems. A run that fails is kept with its cause; a reference that
+/// cannot be computed leaves the errors of its grid unmeasured. Throws std::runtime_error where the cache cannot be
+/// written.
 SweepResult run_sweep(const io::StudySpec& spec, const SweepOptions& options);
 
 /// One row a run and quantity.

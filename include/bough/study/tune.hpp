@@ -35,9 +35,10 @@ struct TuneResult {
   double gain = 0.0;  ///< 1 - median ratio of best to present over the rounds [-]
 };
 
-/// Runs all candidates in turn, round after round, each for a few steps; those that take more than 2.5 times the fastest are not run again.
-/// Candidates: the scene's own options, trees of other leaf sizes and depths, without tasks, and the monolithic libraries that are there.
-/// `progress(done, all)` is called after each run and returns false to stop early. Precondition: problems_in(scene) is empty.
+/// Runs all candidates in turn, round after round, each for a few steps; those that take more than 2.5 times the
+/// fastest are not run again. Candidates: the scene's own options, trees of other leaf sizes and depths, without
+/// tasks, and the monolithic libraries that are there. `progress(done, all)` is called after each run and returns
+/// false to stop early. Precondition: problems_in(scene) is empty.
 TuneResult tune(const scene::Scene& scene, const TuneOptions& options,
                 const std::function<bool(int done, int all)>& progress = {});
 

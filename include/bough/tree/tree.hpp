@@ -1,10 +1,12 @@
 #pragma once
-/// Sub-domain tree and elimination fronts of a block graph: all symbolic work of the solver, done once. Immutable after make_tree.
+/// Sub-domain tree and elimination fronts of a block graph: all symbolic work of the solver, done once. Immutable
+/// after make_tree.
 ///
-/// The elements are cut into non-overlapping sub-domains, recursively (sub-domain tree, binary, one root). Each sub-domain owns a run
-/// of fronts: a leaf the fronts that eliminate its interior, an inner sub-domain the one front of its separator. The last front of a
-/// sub-domain is its top: the boundary blocks of that front are the interface of the sub-domain.
-/// Sub-domains and fronts are numbered in postorder, so every subtree is a contiguous range that ends at its top.
+/// The elements are cut into non-overlapping sub-domains, recursively (sub-domain tree, binary, one root). Each
+/// sub-domain owns a run of fronts: a leaf the fronts that eliminate its interior, an inner sub-domain the one front
+/// of its separator. The last front of a sub-domain is its top: the boundary blocks of that front are the interface
+/// of the sub-domain. Sub-domains and fronts are numbered in postorder, so every subtree is a contiguous range that
+/// ends at its top.
 #include <cstdint>
 #include <span>
 #include <string>
@@ -29,9 +31,10 @@ struct TreeOptions {
       1e5;  ///< flops of a leaf when leaf_size is 0: some tens of microseconds, well above a task's cost.
   bool in_lockstep =
       true;  ///< whether equal leaves are to be visited eight at a time, which leaf sizes that are not given leave room for.
-  /// Every factorization will serve one solution, of values that are not symmetric. A chain is then cut once, where sizes are not given, and both halves
-  /// are swept from their free ends: a third of the flops and less than two thirds of the memory of leaves in lockstep, for two threads at most.
-  /// Other structures are cut as ever. With more solutions, or symmetric values, leaves in lockstep take less time.
+  /// Every factorization will serve one solution, of values that are not symmetric. A chain is then cut once, where
+  /// sizes are not given, and both halves are swept from their free ends: a third of the flops and less than two
+  /// thirds of the memory of leaves in lockstep, for two threads at most. Other structures are cut as ever. With more
+  /// solutions, or symmetric values, leaves in lockstep take less time.
   bool for_one_solution = false;
   unsigned seed = 1;  ///< seed of the general partitioner; the tree is a function of the graph and these options alone.
 };
@@ -39,7 +42,8 @@ struct TreeOptions {
 /// What is wrong with the options; empty when nothing is.
 std::vector<std::string> problems_in(const TreeOptions& options);
 
-/// One dense elimination step: assemble the elements and the children, eliminate the first blocks, hand the rest to the parent.
+/// One dense elimination step: assemble the elements and the children, eliminate the first blocks, hand the rest to
+/// the parent.
 struct Front {
   FrontId parent = none;
   SubdomainId subdomain = none;
@@ -107,11 +111,12 @@ struct Tree {
   std::span<const int> elements(const Subdomain& s) const;  ///< element ids of the whole sub-domain.
 };
 
-/// Cut the elements into sub-domains and lay out all fronts. Chains and trees of bodies are cut exactly (one block a cut); other graphs
-/// with METIS if it was built in, otherwise by breadth-first levels. Unconnected parts and loops are fine.
-/// A motion block is eliminated in the lowest front that holds all its elements; a multiplier block where a motion block that it
-/// constrains is eliminated at or below, otherwise it moves up. Elements without blocks are assembled with the first front.
-/// Preconditions: problems_in(options) is empty; the graph is consistent (checked by require, O(size)). Deterministic. Allocates.
+/// Cut the elements into sub-domains and lay out all fronts. Chains and trees of bodies are cut exactly (one block a
+/// cut); other graphs with METIS if it was built in, otherwise by breadth-first levels. Unconnected parts and loops
+/// are fine. A motion block is eliminated in the lowest front that holds all its elements; a multiplier block where a
+/// motion block that it constrains is eliminated at or below, otherwise it moves up. Elements without blocks are
+/// assembled with the first front. Preconditions: problems_in(options) is empty; the graph is consistent (checked by
+/// require, O(size)). Deterministic. Allocates.
 Tree make_tree(const blocks::BlockGraph& graph, const TreeOptions& options = {});
 
 }  // namespace bough::tree

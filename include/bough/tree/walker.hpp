@@ -35,9 +35,9 @@ struct Chunk {
   Work work = Work::other;
 };
 
-/// A way to walk the tree: `up` visits every child before its parent, `down` every parent before its children, `each` cuts [0, count) into
-/// chunks of `grain` items (the last may be shorter; the cuts do not depend on the number of threads); visits may call it.
-/// All return when all is done.
+/// A way to walk the tree: `up` visits every child before its parent, `down` every parent before its children, `each`
+/// cuts [0, count) into chunks of `grain` items (the last may be shorter; the cuts do not depend on the number of
+/// threads); visits may call it. All return when all is done.
 struct Walker {
   void (*up)(void* context, const Tree& tree, Visit visit) = nullptr;
   void (*down)(void* context, const Tree& tree, Visit visit) = nullptr;

@@ -18,8 +18,8 @@ struct WorkerAnswer {
   std::string report;
 };
 
-/// The parent's side of a worker. The process is forked from the parent, which then has one thread; it ends with the parent,
-/// however that ends, and where its pipe is closed.
+/// The parent's side of a worker. The process is forked from the parent, which then has one thread; it ends with the
+/// parent, however that ends, and where its pipe is closed.
 class Worker {
  public:
   /// others: whose pipes the new process is not to hold open. Throws std::system_error where no process can be started.
@@ -42,7 +42,8 @@ class Worker {
 
   void ask_to_stop();
   void kill();
-  /// Kills it where it holds more memory in the machine than this [bytes]. killed_for_memory: how much it held; 0: it was not killed for that.
+  /// Kills it where it holds more memory in the machine than this [bytes]. killed_for_memory: how much it held; 0: it
+  /// was not killed for that.
   void kill_above(double bytes);
   double killed_for_memory() const { return resident_; }
   /// Whether it was asked to: what it runs is cut off, and what it would run after that may be, too.

@@ -39,7 +39,8 @@ struct ReferenceRun {
   bool is_cached = false;
 };
 
-/// Those that the grids need, each once; `which[g]` are the two of grid g, none where its quantities have formulas and tables.
+/// Those that the grids need, each once; `which[g]` are the two of grid g, none where its quantities have formulas
+/// and tables.
 struct ReferenceRuns {
   std::vector<ReferenceRun> runs;
   std::vector<std::vector<std::size_t>> which;

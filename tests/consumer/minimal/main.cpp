@@ -21,7 +21,8 @@ struct KeepLastRow : records::Recorder {
   void end(const records::Summary&) override {}
 };
 
-// A point mass on a massless bar of 1 m, released from the horizontal: position after 1 s by Jacobi's elliptic functions.
+// A point mass on a massless bar of 1 m, released from the horizontal: position after 1 s by Jacobi's elliptic
+// functions.
 scene::Scene make_pendulum() {
   scene::Scene s;
   s.name = "pendulum";
@@ -44,8 +45,8 @@ scene::Scene make_pendulum() {
   return s;
 }
 
-// A cantilever of 1 m bent by a moment (pi/2) EI / L to a quarter of a circle of radius 2 L / pi: constant strain, so any number of elements
-// is exact. 64 elements in leaves of 8: the tree is cut, by the library's own dissection.
+// A cantilever of 1 m bent by a moment (pi/2) EI / L to a quarter of a circle of radius 2 L / pi: constant strain, so
+// any number of elements is exact. 64 elements in leaves of 8: the tree is cut, by the library's own dissection.
 scene::Scene make_quarter_circle() {
   constexpr double stiffness = 100.0;
   scene::Scene s;
@@ -101,7 +102,8 @@ bool meets(scene::Scene scene, const char* sensed, double x, double y, double to
   return error <= tolerance;
 }
 
-// The pendulum swings in a plane: one node of three unknowns and the two rows of its hinge that are left, of 6 + 5 in space.
+// The pendulum swings in a plane: one node of three unknowns and the two rows of its hinge that are left, of 6 + 5 in
+// space.
 bool is_planned_in_a_plane() {
   const run::Outlook outlook = run::look_ahead(make_pendulum());
   std::printf("pendulum: motion %s, %d unknowns of %d\n", outlook.motions.c_str(),
