@@ -85,7 +85,7 @@ set(BOUGH_LAYER_PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON CXX_V
 # makes the target bough_NAME (alias and export bough::NAME) with the headers of include/bough/NAME (HEADERS: only
 # these of them). Without SOURCES the layer is header-only. Each layer is a library of its own, so that the algebra can be used without the
 # mechanics; BUILD_SHARED_LIBS makes all of them static or all of them shared. Symbols are hidden in static archives
-# and visible in shared libraries: an export macro on every type of fifteen layers would buy little here.
+# and visible in shared libraries: an export macro on every public type would buy little here.
 # With BOUGH_DISPATCH a layer is built again for each of BOUGH_VARIANTS, as bough_NAME-VARIANT; nobody links these but one another.
 function(bough_add_layer name)
   cmake_parse_arguments(PARSE_ARGV 1 LAYER "" "" "SOURCES;USES;LIBS;PRIVATE_LIBS;PRIVATE_DEFS;PRIVATE_INCLUDES;HEADERS")

@@ -67,13 +67,11 @@ void Run::choose_bdf_order(double step_size) {
       summary_.instability = cause + ": take \"bdf_order\": 2 or generalized_alpha";
       note(summary_.instability);
     } else {
-      step::StepOptions of_order_2 = options_;
-      of_order_2.bdf_order = 2;
-      integrator_ = step::make_integrator(system_, scene_.solver, of_order_2);
       note("backward differences of order 2 are taken: " + cause);
     }
   }
   options_.bdf_order = vibration && summary_.instability.empty() ? 2 : 3;
+  if (options_.bdf_order == 2) integrator_ = step::make_integrator(system_, scene_.solver, options_);
   summary_.options = effective_options(scene_, options_);
 }
 

@@ -35,9 +35,8 @@ StepReport failed(StepReport report, const std::string& cause) {
 
 Bdf::Bdf(System& system, int order)
     : system_(system), order_(order), c_(order == 2 ? second : third), begin_(make_initial_state(system.plan())) {
-  past_.alpha = past_.first = past_.second = begin_;
-  begin_.visit(
-      [&]<class G>(const NodesOn<G>& nodes) { past_.history.emplace<HistoryOn<G>>().resize(nodes.motion.size()); });
+  alpha_ = first_ = second_ = begin_;
+  begin_.visit([&]<class G>(const NodesOn<G>& nodes) { history_.emplace<HistoryOn<G>>().resize(nodes.motion.size()); });
   steady_error_.assign(system.num_unknowns(), 0.0);
 }
 
@@ -48,42 +47,38 @@ void Bdf::HistoryOn<G>::resize(std::size_t num_nodes) {
 }
 
 StartReport Bdf::start(State& /*state*/, const StepOptions& /*options*/, double step_size) {
-  past_.h = step_size;
-  past_.done = 0;
+  h_ = step_size;
+  done_ = 0;
   StartReport report;
   report.ok = true;
   return report;
 }
 
 StartReport Bdf::change_step_size(State& state, const StepOptions& options, double step_size) {
-  if (step_size != past_.h) return start(state, options, step_size);
+  if (step_size != h_) return start(state, options, step_size);
   StartReport report;
   report.ok = true;
   return report;
 }
 
-std::unique_ptr<Integrator::Memory> Bdf::remember() const { return std::make_unique<Past>(past_); }
-
-void Bdf::recall(const Memory* memory) { past_ = dynamic_cast<const Past&>(*memory); }
-
 StepReport Bdf::advance(State& state, const StepOptions& options, double end_time) {
   begin_ = state;
   StepReport report =
-      past_.done < start_steps ? take_start_step(state, options, end_time) : take_step(state, options, end_time);
+      done_ < start_steps ? take_start_step(state, options, end_time) : take_step(state, options, end_time);
   if (!report.converged) state = begin_;
   return report;
 }
 
 StepReport Bdf::take_start_step(State& state, const StepOptions& options, double end_time) {
-  const double part = past_.h / parts;
+  const double part = h_ / parts;
   StepReport total;
-  if (past_.done == 0) {
-    past_.first = past_.alpha = state;
+  if (done_ == 0) {
+    first_ = alpha_ = state;
     if (const auto t = system_.set_time(state.time, laws::Side::right)) return failed(total, t->text);
-    const StartReport started = start_alpha(system_, past_.alpha, options, part);
+    const StartReport started = start_alpha(system_, alpha_, options, part);
     if (!started.ok) return failed(total, started.cause);
   }
-  State next = past_.alpha;
+  State next = alpha_;
   next.turns = state.turns;
   for (int i = 1; i <= parts; ++i) {
     const StepReport report =
@@ -92,7 +87,7 @@ StepReport Bdf::take_start_step(State& state, const StepOptions& options, double
     total = report;
     total.iterations = iterations;
     if (!report.converged) return total;
-    const int sample = past_.done * parts + i - 2;  // 0, 3, 6 are wanted
+    const int sample = done_ * parts + i - 2;  // 0, 3, 6 are wanted
     if (sample % 3 == 0 && sample >= 0)
       next.visit([&]<class G>(const NodesOn<G>& nodes) {
         for (std::size_t n = 0; n < nodes.motion.size(); ++n) history<G>().samples[sample / 3][n] = nodes.motion[n].a;
@@ -104,20 +99,20 @@ StepReport Bdf::take_start_step(State& state, const StepOptions& options, double
     if (const auto t = set_normal_velocities(system_, state, nullptr)) return failed(total, t->text);
     if (const auto t = solve_accelerations(system_, state)) return failed(total, t->text);
   }
-  past_.alpha = std::move(next);
-  if (++past_.done == 1) {
-    past_.second = state;
+  alpha_ = std::move(next);
+  if (++done_ == 1) {
+    second_ = state;
     return total;
   }
   if (const auto t = finish_start(state)) {
-    past_.done = 0;
+    done_ = 0;
     return failed(total, t->text);
   }
   return total;
 }
 
 void Bdf::eval_steady_error(const State& point) {
-  const double apart = 3.0 * past_.h / parts;
+  const double apart = 3.0 * h_ / parts;
   std::fill(steady_error_.begin(), steady_error_.end(), 0.0);
   point.visit([&]<class G>(const NodesOn<G>& nodes) {
     using Vector = typename NodesOn<G>::Vector;
@@ -128,10 +123,10 @@ void Bdf::eval_steady_error(const State& point) {
       const Vector jerk = (0.5 / apart) * (c - a);
       Vector error;
       if (order_ == 2) {
-        error = (-past_.h * past_.h / 3.0) * (jerk + 0.5 * On::template bracket<double>(v, b));
+        error = (-h_ * h_ / 3.0) * (jerk + 0.5 * On::template bracket<double>(v, b));
       } else {
         const Vector snap = (1.0 / (apart * apart)) * (c - b - (b - a));
-        error = (-0.25 * past_.h * past_.h * past_.h) * (snap + On::template bracket<double>(v, jerk));
+        error = (-0.25 * h_ * h_ * h_) * (snap + On::template bracket<double>(v, jerk));
       }
       system_.set_node_part(steady_error_.data(), static_cast<int>(n), error);
     }
@@ -141,17 +136,16 @@ void Bdf::eval_steady_error(const State& point) {
 /// Increments and velocities of the starting steps, these with the steady error of the scheme.
 std::optional<Trouble> Bdf::finish_start(const State& state) {
   State last = state;
-  State* const points[] = {&past_.first, &past_.second, &last};
+  State* const points[] = {&first_, &second_, &last};
   if (system_.plan().num_multipliers > 0)
     for (State* point : points) {
       eval_steady_error(*point);
-      if (auto t = system_.set_time(point->time, point == &past_.first ? laws::Side::right : laws::Side::left))
-        return t;
+      if (auto t = system_.set_time(point->time, point == &first_ ? laws::Side::right : laws::Side::left)) return t;
       if (auto t = set_normal_velocities(system_, *point, &steady_error_)) return t;
     }
   last.visit([&]<class G>(const NodesOn<G>& now) {
     HistoryOn<G>& past = history<G>();
-    const NodesOn<G>&begin = past_.first.on<G>(), &middle = past_.second.on<G>();
+    const NodesOn<G>&begin = first_.on<G>(), &middle = second_.on<G>();
     for (std::size_t n = 0; n < now.motion.size(); ++n) {
       past.v_earlier[n] = begin.motion[n].v;
       past.v_last[n] = middle.motion[n].v;
@@ -173,13 +167,13 @@ void Bdf::predict(State& state) {
       past.rates[n] = c_.c1 * past.v_now[n] + c_.c2 * past.v_last[n];
       if (order_ == 2) {
         past.y[n] = c_.c2 * y1;
-        move_node(nodes, n, Vector((2.0 * past_.h) * past.v_now[n] + y1));
+        move_node(nodes, n, Vector((2.0 * h_) * past.v_now[n] + y1));
         continue;
       }
       const Vector y2 = G::log(G::compose(G::exp(y1), G::exp(Vector(-1.0 * past.earlier[n]))));
       past.y[n] = c_.c2 * y1 + c_.c3 * y2;
       past.rates[n] = past.rates[n] + c_.c3 * past.v_earlier[n];
-      move_node(nodes, n, Vector((3.0 * past_.h) * past.v_now[n] + 3.0 * y1 - 0.5 * y2));
+      move_node(nodes, n, Vector((3.0 * h_) * past.v_now[n] + 3.0 * y1 - 0.5 * y2));
     }
   });
 }
@@ -195,8 +189,8 @@ std::optional<Trouble> Bdf::follow(State& state) const {
       const Vector D = increment(begin_.on<G>(), nodes, n);
       if (!(On::template angular_square<double>(D) <= largest_turn * largest_turn))
         return Trouble{"'" + system_.plan().nodes[n].name + "' turns by nearly a quarter of a turn in one step"};
-      node.v = On::template tangent_times<double>(D, Vector((1.0 / past_.h) * (c_.c0 * D + past.y[n])));
-      node.a = (1.0 / past_.h) * (c_.c0 * node.v + past.rates[n]);
+      node.v = On::template tangent_times<double>(D, Vector((1.0 / h_) * (c_.c0 * D + past.y[n])));
+      node.a = (1.0 / h_) * (c_.c0 * node.v + past.rates[n]);
       node.dq = (1.0 / c_.c0) * D;
     }
     return std::nullopt;
@@ -209,7 +203,7 @@ StepReport Bdf::take_step(State& state, const StepOptions& options, double end_t
   state.time = end_time;
   predict(state);
   if (const auto t = follow(state)) return failed(report, t->text);
-  const elements::Slopes slopes{c_.c0 / past_.h, (c_.c0 / past_.h) * (c_.c0 / past_.h), false};
+  const elements::Slopes slopes{c_.c0 / h_, (c_.c0 / h_) * (c_.c0 / h_), false};
   report = iterate(system_, state, options, {}, slopes, [&](State& s) { return follow(s); });
   if (!report.converged) return report;
   if (const auto t = check_shape(system_, state)) return failed(report, t->text);

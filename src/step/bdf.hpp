@@ -33,8 +33,6 @@ class Bdf final : public Integrator {
   StartReport start(State& state, const StepOptions& options, double step_size) override;
   StartReport change_step_size(State& state, const StepOptions& options, double step_size) override;
   StepReport advance(State& state, const StepOptions& options, double end_time) override;
-  std::unique_ptr<Memory> remember() const override;
-  void recall(const Memory* memory) override;
 
  private:
   /// What is kept of earlier steps, on the scene's group.
@@ -49,11 +47,11 @@ class Bdf final : public Integrator {
   };
   template <class G>
   HistoryOn<G>& history() {
-    return std::get<HistoryOn<G>>(past_.history);
+    return std::get<HistoryOn<G>>(history_);
   }
   template <class G>
   const HistoryOn<G>& history() const {
-    return std::get<HistoryOn<G>>(past_.history);
+    return std::get<HistoryOn<G>>(history_);
   }
   static constexpr int start_steps = 2, parts = 4;
   struct Rule {
@@ -68,20 +66,15 @@ class Bdf final : public Integrator {
   /// Over h: what the rule's velocities are off by in steady motion, in the unknowns.
   void eval_steady_error(const State& point);
 
-  /// What steps to come need of earlier ones.
-  struct Past final : Memory {
-    double h = 0.0;
-    int done = 0;         ///< starting steps
-    State alpha;          ///< of the start, between its steps
-    State first, second;  ///< states at the start and after its first step
-    std::variant<HistoryOn<motion::Se3>, HistoryOn<motion::Se2>> history;
-  };
-
   System& system_;
   int order_;
   Rule c_;
-  State begin_;  ///< of the present step
-  Past past_;
+  double h_ = 0.0;
+  int done_ = 0;          ///< starting steps
+  State begin_;           ///< of the present step
+  State alpha_;           ///< of the start, between its steps
+  State first_, second_;  ///< states at the start and after its first step
+  std::variant<HistoryOn<motion::Se3>, HistoryOn<motion::Se2>> history_;
   std::vector<double> steady_error_;  ///< in the unknowns
 };
 

@@ -25,16 +25,6 @@ class Integrator {
   /// How much of the last step's motion vibrates faster than the step, from 0 to 1: of rules that do not damp such
   /// vibrations, else 0.
   virtual double unresolved() const { return 0.0; }
-
-  /// What a rule keeps of earlier steps. Factors are none of it: they change how a solution is found, not which one.
-  class Memory {
-   public:
-    virtual ~Memory() = default;
-  };
-  /// A copy of it, to go on later from a copy of the state; null where the state holds everything.
-  virtual std::unique_ptr<Memory> remember() const { return nullptr; }
-  /// Goes back to what `remember` of this integrator has returned.
-  virtual void recall(const Memory* /*memory*/) {}
 };
 
 /// The rule that the options name, for a system, which outlives it.
