@@ -94,7 +94,8 @@ class Piecewise final : public Node {
     }
   }
 
-  /// From the segment that holds t0 outwards, each taking over the value of its neighbour at the start between them.
+  /// Integrates from the segment that holds t0 outwards; each segment continues the value of its neighbour at their
+  /// common start.
   Law integral(double t0) const override {
     std::vector<Segment> result = segments_;
     const std::size_t home = segment_of(t0, Side::right);
@@ -113,7 +114,7 @@ class Piecewise final : public Node {
   }
 
  private:
-  /// A value met on the way may be infinite (a pole); it is reported when the law is asked, not here.
+  /// A value on the way may be infinite (a pole). It is reported when the law is evaluated, not here.
   static Law make_constant_unchecked(double value) {
     return Law{std::make_shared<PolynomialPieces>(std::vector<PolynomialPieces::Knot>{},
                                                   std::vector<PolynomialPieces::Piece>{{0.0, 1.0, {value}}})};

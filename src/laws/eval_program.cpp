@@ -129,7 +129,7 @@ Jet<double> not_a_number() {
   return {nan, nan, nan};
 }
 
-/// Switches for numbers: one branch, chosen by its sign (-1, 0, 1). A number that is none stays none.
+/// Switches on numbers: one branch is taken, by its sign (-1, 0, 1). NaN stays NaN.
 Jet<double> eval_switch(Op op, int branch, const Jet<double>& a, const Jet<double>& b) {
   if (std::isnan(a.value) || std::isnan(b.value)) return not_a_number();
   switch (op) {
@@ -147,11 +147,11 @@ Jet<double> eval_switch(Op op, int branch, const Jet<double>& a, const Jet<doubl
 }
 
 Jet<Interval> hull(const Jet<Interval>& a, const Jet<Interval>& b, bool is_jump) {
-  // A kink leaves no bound on the acceleration, a jump none on the rate.
+  // At a kink the acceleration has no bound, at a jump the rate has none.
   return {laws::hull(a.value, b.value), is_jump ? everything() : laws::hull(a.rate, b.rate), everything()};
 }
 
-/// Switches for ranges: both branches where the sign is not known.
+/// Switches on ranges: the hull of both branches where the sign of the argument is not known.
 Jet<Interval> eval_switch(Op op, const Interval& sign, const Jet<Interval>& a, const Jet<Interval>& b) {
   const bool may_be_low = !(sign.lo > 0.0);
   const bool may_be_high = !(sign.hi < 0.0);
@@ -209,7 +209,7 @@ void apply(const Instruction& instruction, int branch, const Jet<S>& t, Stack<S>
   }
 }
 
-/// What decides the branch of a switch, from the stack just before it.
+/// The argument that decides the branch of a switch, taken from the stack just before the switch.
 template <class S>
 Jet<S> switch_argument(Op op, const Stack<S>& stack, std::size_t height) {
   if (has_two_arguments(op)) return stack[height - 2] - stack[height - 1];

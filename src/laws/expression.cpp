@@ -54,7 +54,8 @@ class SwitchFinder {
         boxes.push_back({box.lo, middle});
       }
     }
-    // A few: roots of higher order, and jumps of g. Many: g is round-off around zero, and so are its changes of sign.
+    // A few boxes without a verdict hold roots of higher order or jumps of g. Many mean that g is round-off around
+    // zero, and so are its changes of sign.
     if (unsettled.size() <= max_unsettled)
       for (const Interval& box : unsettled) cross(box.lo, box.hi);
   }
@@ -71,12 +72,12 @@ class SwitchFinder {
     return eval_switch_argument(program_, index_, t);
   }
 
-  /// True where all roots in the box are found.
+  /// True if all roots in the box have been found.
   bool settle(const Interval& box) {
     found_.work += 4.0 * length_;  // intervals, with their ends
     const Jet<Interval> g = eval_switch_range(program_, index_, box);
     if (!g.value.holds_zero()) return true;
-    if (g.value.lo >= 0.0 || g.value.hi <= 0.0) {  // touches zero at most; a crossing can only sit at an end
+    if (g.value.lo >= 0.0 || g.value.hi <= 0.0) {  // g touches zero at most; a sign change can only be at an end
       offer(box.lo);
       offer(box.hi);
       return true;
@@ -94,7 +95,8 @@ class SwitchFinder {
     return false;
   }
 
-  /// First double after a (found by bisection) at which the sign differs from that at a; b where it does not change.
+  /// First double after a, found by bisection, at which the sign differs from the sign at a; b where it does not
+  /// change.
   template <class F>
   static double first_change(const F& f, double a, double b) {
     const int sign_a = sign_of(f(a));
@@ -114,7 +116,7 @@ class SwitchFinder {
     }
   }
 
-  /// Keeps t where the two sides really take different branches, as the evaluation sees them.
+  /// Records t if the evaluation of the formula takes different branches on its two sides.
   void offer(double t) {
     if (std::abs(t) < tiny_time) t = 0.0;
     if (eval_branch(program_, index_, t, Side::left) != eval_branch(program_, index_, t, Side::right)) {
@@ -143,7 +145,7 @@ class Expression final : public Node {
     const TrapsMasked traps_masked;
     BreakList found;
     found.most = breaks.most;
-    // From the time before, so that a root exactly at t_begin is seen as a change of sign.
+    // The search starts one double earlier, so that a root exactly at t_begin is seen as a change of sign.
     const double from = previous_time(t_begin);
     for (std::size_t i = 0; i < program_->code.size(); ++i) {
       const Op op = program_->code[i].op;

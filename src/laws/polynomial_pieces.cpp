@@ -58,7 +58,8 @@ Law PolynomialPieces::integral(double t0) const {
   std::vector<Knot> knots = knots_;
   for (Knot& knot : knots) ++knot.order;
   std::vector<Piece> pieces(pieces_.size());
-  // From the piece that holds t0 outwards, each taking over the value of its neighbour at the knot between them.
+  // Integrates from the piece that holds t0 outwards; each piece continues the value of its neighbour at their common
+  // knot.
   const std::size_t home = piece_of(t0, Side::right);
   pieces[home] = integrate(pieces_[home], t0, 0.0);
   for (std::size_t i = home + 1; i < pieces.size(); ++i) {

@@ -18,7 +18,7 @@ namespace {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr int max_depth = 48;
 constexpr int max_halvings = 2000;
-constexpr double given_up = 1e-6;  // error of a stretch, against int |f|, that is no result any more
+constexpr double given_up = 1e-6;  // relative error of a stretch, against int |f|, above which the integral is NaN
 
 // Nodes in (0, 1), outermost first; the odd ones (and 0) are those of Gauss.
 constexpr std::array<double, 7> node_x{0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
@@ -90,7 +90,8 @@ struct Adaptive {
     ++halvings;
     const Estimate left = eval_rule(f, a, middle);
     const Estimate right = eval_rule(f, middle, b);
-    // Halving a smooth stretch shrinks the gap by orders of magnitude; where it does not, f is at its own round-off.
+    // Halving a stretch where f is smooth shrinks the gap by orders of magnitude. If it does not, the gap consists of
+    // round-off of f.
     const bool is_noise = whole.gap < 1e-9 * whole.magnitude && left.gap + right.gap > 0.5 * whole.gap;
     if (is_noise) return left.value + right.value;
     const double left_value = refine(a, middle, left, depth + 1);
@@ -130,7 +131,7 @@ class QuadratureIntegral final : public Node {
     if (!(distance < max_distance)) return {std::numeric_limits<double>::quiet_NaN(), f.value, f.rate};
     const double direction = t < t0_ ? -1.0 : 1.0;
     const std::size_t k = panel_of(distance);
-    std::size_t evaluations = 0;  // of a part of a panel
+    std::size_t evaluations = 0;  // spent on a part of a panel
     const double before = sum_before(k, direction);
     const double value =
         std::isnan(before) ? before : before + integrate(t0_ + direction * begin_of(k), t, evaluations);
@@ -145,9 +146,10 @@ class QuadratureIntegral final : public Node {
   std::optional<Law> integrand() const override { return integrand_; }
 
  private:
-  static constexpr double max_distance = 1e15;  // [s]; beyond, panels have no digits left
+  static constexpr double max_distance = 1e15;  // [s]; beyond it the width of a panel is below the round-off of its
+                                                // time
 
-  /// evaluations: counted up. NaN where they would pass max_evaluations.
+  /// Adds the number of evaluations to `evaluations`; NaN where it would exceed max_evaluations.
   double integrate(double a, double b, std::size_t& evaluations) const {
     if (a == b) return 0.0;
     Breaks breaks = sorted_breaks(integrand_, std::min(a, b), std::max(a, b), any_order, max_breaks);
@@ -177,7 +179,7 @@ class QuadratureIntegral final : public Node {
     Sums& sums = direction < 0.0 ? before_ : after_;
     while (sums.at_panel.size() <= k) {
       const std::size_t next = sums.at_panel.size();                      // panel next - 1 is missing
-      if (std::isnan(sums.at_panel.back())) return sums.at_panel.back();  // and so is all that follows
+      if (std::isnan(sums.at_panel.back())) return sums.at_panel.back();  // and so are all later panels
       const double panel =
           integrate(t0_ + direction * begin_of(next - 1), t0_ + direction * begin_of(next), sums.evaluations);
       const double old = sums.at_panel.back();
@@ -192,7 +194,7 @@ class QuadratureIntegral final : public Node {
   struct Sums {
     std::vector<double> at_panel{0.0};
     double lost = 0.0;
-    std::size_t evaluations = 0;  ///< by the panels so far
+    std::size_t evaluations = 0;  ///< spent on the panels so far
   };
 
   Law integrand_;

@@ -71,7 +71,7 @@ std::array<double, 3> turned(int axis, double along, double second, double third
   return x;
 }
 
-/// Rings of equal numbers of points, joined from each to the next.
+/// Triangles between consecutive rings of equally many points.
 Mesh lofted(int axis, const Rings& rings) {
   Mesh mesh;
   const int n = static_cast<int>(rings.front().second.size()), m = static_cast<int>(rings.size());
@@ -86,7 +86,7 @@ Mesh lofted(int axis, const Rings& rings) {
   return mesh;
 }
 
-/// The same, closed by fans around the middles of the first ring and the last.
+/// As lofted(), closed by fans around the centres of the first and the last ring.
 Mesh closed(int axis, const Rings& rings) {
   Mesh mesh = lofted(axis, rings);
   const int n = static_cast<int>(rings.front().second.size()), last = static_cast<int>(rings.size()) - 1;
@@ -127,7 +127,7 @@ Mesh mesh(const Cylinder& s) { return prism(s.axis, s.length, round_loop(s.radiu
 Mesh mesh(const Sphere& s) {
   Rings rings;
   add_round(rings, 0.0, s.radius, 0.0, 0.5 * pi);
-  rings.pop_back();  // the equator stands in both halves
+  rings.pop_back();  // the equator belongs to both halves
   add_round(rings, 0.0, s.radius, 0.5 * pi, pi);
   return with_volume(closed(1, rings), volume_of(BodyShape(s)));
 }

@@ -52,7 +52,8 @@ bool is_inside(const Point& x, const Point& a, const Point& b, const Point& c) {
   return cross(a, b, x) >= 0.0 && cross(b, c, x) >= 0.0 && cross(c, a, x) >= 0.0;
 }
 
-/// The loops as one, each hole joined to what is there by a bridge to a corner that is seen from its rightmost corner.
+/// Joins all loops to one: each hole is connected by a bridge from its rightmost corner to a visible corner of the
+/// loops joined so far.
 std::vector<int> joined_loops(const Outline& outline, const std::vector<Point>& points) {
   std::vector<int> joined;
   int first = 0;
@@ -112,7 +113,7 @@ PolygonMoments moments_of(const Outline& outline) {
 }
 
 Outline centered(Outline outline) {
-  for (int pass = 0; pass < 2; ++pass) {  // the second takes away the round-off of an outline far from the origin
+  for (int pass = 0; pass < 2; ++pass) {  // the second pass removes the round-off of an outline far from the origin
     const PolygonMoments m = moments_of(outline);
     for (Loop& loop : outline.loops)
       for (Point& p : loop) p = {p[0] - m.first_2 / m.area, p[1] - m.first_3 / m.area};
@@ -165,7 +166,7 @@ Triangulation triangles_of(const Outline& outline) {
       has_cut = true;
     }
     if (has_cut) continue;
-    // What is left is flat: corners on a line enclose nothing.
+    // The remaining polygon has no area: corners on one line.
     const auto flat = std::find_if(left.begin(), left.end(), [&](const int& p) {
       const auto k = static_cast<std::size_t>(&p - left.data());
       return cross(at(left[(k + n - 1) % n]), at(p), at(left[(k + 1) % n])) == 0.0;

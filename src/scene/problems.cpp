@@ -13,11 +13,11 @@
 namespace bough::scene {
 namespace {
 
-constexpr std::size_t most_kept = 400;  // of problems, and of warnings: twice what is shown of them
+constexpr std::size_t most_kept = 400;  // of problems and of warnings each: twice the number that is shown
 constexpr double most_break_work =
     2e7;  // instructions of formulas in searches for breakpoints, some tenths of a second: the run finds the rest
 constexpr double most_letters =
-    1e7;  // compared in searches for nearest names: beyond, some tenths of a second, none are searched
+    1e7;  // letters compared in searches for nearest names; beyond that (some tenths of a second) no name is suggested
 
 template <class List>
 std::vector<std::string> names_of(const List& list) {
@@ -42,7 +42,7 @@ double model_size(const Scene& scene, const Poses& poses) {
   };
   for (const Node& n : scene.nodes) include(n.placement);
   for (const Body& b : scene.bodies) include(b.placement);
-  if (low[0] > high[0]) return 1.0;  // nothing there
+  if (low[0] > high[0]) return 1.0;  // the scene has no nodes or bodies
   double size = 0.0;
   for (int k = 0; k < 3; ++k) size = std::max(size, high[k] - low[k]);
   return std::isfinite(size) && size > 0.0 ? size : 1.0;
@@ -116,7 +116,7 @@ void ProblemList::put(SceneProblem problem) {
 
 bool ProblemList::is_defective(const std::string& name) const {
   if (defective.count(name) > 0) return true;
-  const std::size_t dot_at = name.rfind('.');  // an inner node of a defective beam
+  const std::size_t dot_at = name.rfind('.');  // an inner node of a beam that is itself at fault
   return dot_at != std::string::npos && defective.count(name.substr(0, dot_at)) > 0;
 }
 
@@ -157,7 +157,7 @@ bool ProblemList::check_place(const char* section, std::size_t index, const std:
   }
   if (const auto thing = poses.find(name)) {
     if (thing->kind == ThingKind::node || thing->kind == ThingKind::body ||
-        (thing->kind == ThingKind::frame && ground_allowed))  // what may hold on to the ground may hold on to a frame
+        (thing->kind == ThingKind::frame && ground_allowed))  // frames are allowed wherever the ground is
       return poses.of(std::string_view(name)).has_value();
     std::string hint;
     if (thing->kind == ThingKind::beam)
@@ -188,8 +188,8 @@ bool ProblemList::check_place(const char* section, std::size_t index, const std:
 
 void ProblemList::check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law,
                             bool with_derivatives) {
-  // The value of an integral by quadrature takes all of the way to it: its derivatives are looked at, which are what
-  // is summed up.
+  // The value of an integral by quadrature costs the whole way to that time. Its derivatives, which are the integrand,
+  // are checked instead.
   const std::optional<laws::Law> integrand = law.integrand();
   const auto value_at = [&](double t) {
     if (!integrand) return law.at(t);

@@ -10,9 +10,10 @@
 namespace bough::scene {
 namespace {
 
-constexpr double gap_tolerance = 1e-6;    // of the size of what meets there
-constexpr double typed_tolerance = 1e-6;  // of the distance from the origin: places typed with 7 digits close, but
-constexpr double typed_at_most = 1e-3;    // no more than this of what meets there
+constexpr double gap_tolerance = 1e-6;    // relative to the length of the parts that the joint connects
+constexpr double typed_tolerance = 1e-6;  // relative to the distance from the origin: places typed with 7 digits are
+                                          // accepted, but
+constexpr double typed_at_most = 1e-3;    // with a gap of no more than this part of the length of the connected parts
 constexpr double angle_tolerance = 1e-6;  // [rad]
 
 std::string in_metres(double x) { return text_of(x) + " m"; }
@@ -20,7 +21,8 @@ std::string in_radians(double x) { return text_of(x) + " rad"; }
 
 double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm_of(cross(a, b)), dot(a, b)); }
 
-/// What keeps the two joint frames from being joined at the start. H: pose of the second's in the first's.
+/// Describes why the two joint frames cannot coincide at the start; empty where they do. H: pose of the second in the
+/// first.
 std::string closure_fault(JointKind kind, const Frame& H, double allowed) {
   const double off_axis = std::hypot(H.x[0], H.x[1]), along = std::abs(H.x[2]), all = norm_of(H.x);
   const double tilt = angle_between(column(H.R, 2), Vec3::unit(2));
@@ -84,7 +86,7 @@ void check_drives(ProblemList& list, std::size_t i, const Frame* H) {
   }
 }
 
-/// Both sides are places and not the same one.
+/// Checks that both sides are places, and not the same one.
 template <class Pair>
 bool check_pair(ProblemList& list, const char* section, std::size_t i, const Pair& p) {
   bool sound = list.check_place(section, i, "first", p.first.to, true);
@@ -105,7 +107,7 @@ bool check_pair(ProblemList& list, const char* section, std::size_t i, const Pai
   return false;
 }
 
-/// Fixed joints that hold the same two things to each other: one of them is enough.
+/// Warns of several fixed joints between the same two parts, of which one is enough.
 void check_twins(ProblemList& list) {
   std::map<std::pair<std::string, std::string>, std::string> first;
   for (std::size_t i = 0; i < list.scene.joints.size(); ++i) {

@@ -15,8 +15,8 @@ void check_frame_laws(ProblemList& list, std::size_t i) {
     list.check_law("frames", i, "turns/" + std::to_string(k) + "/angle", f.motion->turns[k].angle, true);
 }
 
-/// What the inertial loads of a frame depend on, in its own axes: angular velocity and acceleration, acceleration of
-/// the origin, gravity.
+/// The quantities that determine the inertial loads in a frame, in its own axes: angular velocity and acceleration,
+/// acceleration of the origin, gravity.
 struct Loading {
   Vec3 turning, angular, origin, gravity;
 };
@@ -35,7 +35,7 @@ Loading loading_at(const Scene& scene, const std::vector<std::size_t>& way, doub
   return {own(m.angular_velocity), own(m.angular_acceleration), own(m.acceleration), own(scene.gravity)};
 }
 
-/// Statics needs inertial loads that do not change: told from samples over a second, the units' own time.
+/// Statics needs inertial loads that are constant in time. This is judged by samples over one second.
 void check_steady(ProblemList& list, const std::vector<std::size_t>& way) {
   constexpr int samples = 8;
   constexpr double tolerance = 1e-9;
@@ -73,7 +73,7 @@ void check_frames(ProblemList& list) {
   if (!list.check_reference("analysis", 0, "frame", name, list.frames, "frame")) return;
   const std::vector<std::size_t>& way = list.poses.frames().above_ground();
   const std::string& last = s.frames[way.back()].placement.frame;
-  const bool is_whole = last.empty() || last == "ground";  // else another problem is told already
+  const bool is_whole = last.empty() || last == "ground";  // otherwise another problem has been reported already
   if (is_whole && s.analysis.kind == AnalysisKind::statics) check_steady(list, way);
 }
 

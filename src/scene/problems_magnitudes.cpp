@@ -1,4 +1,4 @@
-/// Numbers that no scene in SI units has: other units in disguise, or beyond what can be computed with.
+/// Numbers that are unlikely in SI units and probably given in other units, or too large to compute with.
 #include <algorithm>
 #include <cmath>
 
@@ -7,13 +7,13 @@
 namespace bough::scene {
 namespace {
 
-/// Squares and products of larger numbers are not finite.
+/// Above this, squares and products overflow.
 constexpr double computable = 1e100;
 
 struct Quantity {
   const char* what;
   const char* unit;
-  double odd;  ///< more is hardly meant
+  double odd;  ///< values above this are probably not meant
 };
 
 constexpr Quantity force{"a force", "N", 1e15}, line_force{"a line load", "N/m", 1e15}, moment{"a moment", "N m", 1e15},
@@ -37,14 +37,14 @@ double largest_entry(const Mat6& a) {
   return most;
 }
 
-/// Largest magnitude of a law over the analysis, at samples; 1 where there is none.
+/// Largest magnitude of a law over the analysis, by samples; 1 where no law is given.
 double largest_factor(const ProblemList& list, const laws::Law& law) {
   if (law.node() == nullptr) return 1.0;
   constexpr int samples = 16;
   double most = 0.0;
   for (int k = 0; k <= samples; ++k) {
     const double value = std::abs(law.at(std::isfinite(list.last_time) ? list.last_time * k / samples : 0.0).value);
-    if (std::isfinite(value)) most = std::max(most, value);  // others are told of as such
+    if (std::isfinite(value)) most = std::max(most, value);  // infinite values are reported by another check
   }
   return most;
 }
@@ -110,7 +110,7 @@ void check_places(ProblemList& list) {
   }
 }
 
-/// A body whose mass would have to stand far beyond everything that takes hold of it.
+/// Finds bodies whose radius of gyration is far larger than the distance to anything attached to them.
 void check_gyration(ProblemList& list, std::size_t i) {
   constexpr double far_beyond = 50.0, least = 10.0;
   const Body& b = list.scene.bodies[i];
@@ -124,7 +124,7 @@ void check_gyration(ProblemList& list, std::size_t i) {
               "units are SI: kg m^2");
 }
 
-/// Axial stiffness holds so much more than bending that no digit of bending is left.
+/// Finds sections whose axial stiffness exceeds the bending stiffness so much that bending is lost in round-off.
 void check_slenderness(ProblemList& list, std::size_t i) {
   constexpr double digits = 1e18;  // twice those of a number: slender to 1e9
   const Beam& b = list.scene.beams[i];

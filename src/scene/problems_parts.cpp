@@ -91,8 +91,8 @@ void check_body(ProblemList& list, std::size_t i) {
              "is it given about the centre of mass, in the body's axes?");
 }
 
-/// A beam element cannot tell a turn from one of the other sense beyond half a turn; the solver refuses it shortly
-/// before.
+/// Relative rotations of the nodes of an element have to stay below half a turn, where their sense becomes ambiguous.
+/// The solver refuses an element shortly before.
 void check_turn_of_elements(ProblemList& list, std::size_t i, double length) {
   constexpr double most = 2.8;  // [rad], the angle whose cosine is -0.94
   const Beam& b = list.scene.beams[i];

@@ -14,7 +14,8 @@ std::string list_of(const std::vector<std::string>& words) {
   return r;
 }
 
-/// Frames of a split: each moves in the one before, so none stands there twice, and the ground has no place in it.
+/// Checks the frames of an acceleration split: each moves in the previous one, so none may occur twice, nor the ground
+/// at all.
 void check_chain(ProblemList& list, std::size_t i) {
   const Sensor& s = list.scene.sensors[i];
   if (!s.frame.empty()) list.check_place("sensors", i, "frame", s.frame, true);
@@ -31,7 +32,7 @@ void check_chain(ProblemList& list, std::size_t i) {
   }
 }
 
-/// The rate of a coordinate that the joint has; where it has two, the sensor says which.
+/// Checks that a joint has the coordinate whose rate is measured; if it has two, the sensor has to name one.
 void check_rate(ProblemList& list, std::size_t i, JointKind kind) {
   const Sensor& s = list.scene.sensors[i];
   const auto& known = coordinates_of(kind);
@@ -98,7 +99,7 @@ void check_sensor(ProblemList& list, std::size_t i) {
     list.add("sensors", i, "station", text_of(s.station), "a station is a fraction of the beam's length, 0 to 1");
 }
 
-/// Tolerances that nothing could meet.
+/// Finds tolerances that no result could meet.
 void check_tolerance(ProblemList& list, const char* part, std::size_t i, const Expected& e) {
   if (e.tolerance == 0.0 && e.relative_tolerance == 0.0)
     list.add(part, i, "", "", "needs a tolerance", "give \"tolerance\", \"relative_tolerance\" or both");
@@ -107,7 +108,7 @@ void check_tolerance(ProblemList& list, const char* part, std::size_t i, const E
              "give a \"tolerance\", which is absolute");
 }
 
-/// Members that do not go together.
+/// Finds members that contradict each other.
 void check_figure(ProblemList& list, std::size_t i) {
   const Expected& e = list.scene.expected[i];
   const std::string figure = to_string(e.figure);
@@ -120,8 +121,8 @@ void check_figure(ProblemList& list, std::size_t i) {
   if (is_static && e.figure == FigureKind::period)
     list.add("expected", i, "figure", figure, "a period is one of time, and the analysis is static");
   check_tolerance(list, "expected", i, e);
-  // A run in time may be made shorter than a figure asks for, which is then reported as not reached; a load factor
-  // ends at 1.
+  // A dynamic run may be shortened below the time of a figure, which is then reported as not reached. In statics the
+  // load factor always ends at 1.
   if (!e.time || !(*e.time > list.last_time * (1.0 + 1e-12))) return;
   const std::string rule = "the analysis ends at " + text_of(list.last_time);
   if (is_static)
@@ -203,8 +204,8 @@ std::size_t place_number(const ProblemList& list, const std::string& name) {
   }
 }
 
-/// Steps of `size` [s], given by `key` of the analysis, up to `end_time` have to be so few that the time can still
-/// tell them apart.
+/// Checks that the number of steps of `size` [s] (key `key` of the analysis) up to `end_time` is small enough for
+/// consecutive times to differ in double precision.
 void check_number_of_steps(ProblemList& list, double end_time, double size, const char* key) {
   constexpr double most_steps = 1e15, many_steps = 1e8;
   if (!(size > 0.0)) return;
@@ -218,7 +219,7 @@ void check_number_of_steps(ProblemList& list, double end_time, double size, cons
     list.warn("analysis", 0, key, text_of(size), "this makes " + text_of(steps) + " steps");
 }
 
-/// Holds a thing at rest in the ground: its constraint forces have nothing to oscillate with.
+/// True for a joint that holds a part at rest in the ground: its constraint forces cannot oscillate.
 bool is_clamp(const Joint& j) {
   const auto is_ground = [](const std::string& name) { return name.empty() || name == "ground"; };
   return j.kind == JointKind::fixed && (is_ground(j.first.to) || is_ground(j.second.to));
@@ -250,7 +251,7 @@ void check_analysis(ProblemList& list) {
       std::any_of(s.frames.begin(), s.frames.end(), [](const FrameDef& f) { return f.motion.has_value(); }))
     list.add("analysis", 0, "arc_length", "", "paths by arc length do not know frames that move",
              "inertial loads grow with the square of the speed and have no negative factor: take load_steps");
-  if (!list.is_dynamic) return;  // or the analysis itself is at fault
+  if (!list.is_dynamic) return;  // no dynamics, or the analysis itself is at fault
   if (!(a.end_time > 0.0)) list.add("analysis", 0, "end_time", text_of(a.end_time), "has to be above 0");
   if (!(a.step_size > 0.0)) list.add("analysis", 0, "step_size", text_of(a.step_size), "has to be above 0");
   if (a.step_size > a.end_time)

@@ -9,7 +9,7 @@
 namespace bough::scene {
 namespace {
 
-/// Of a given speed: what joints may be left by without a word.
+/// Relative tolerance, of the given speeds, of the velocity that a joint suppresses.
 constexpr double allowed = 1e-3;
 
 /// Velocity of a rigid part in the ground's axes, linear of the point x.
@@ -26,7 +26,7 @@ class GivenVelocities {
 
   bool empty() const { return of_.empty(); }
 
-  /// Of the ground, of a frame at rest, or of what has a velocity in the scene.
+  /// Velocity of the ground, of a frame at rest, or of a part whose velocity the scene gives.
   std::optional<Velocity> of(const std::string& place) const {
     if (place.empty() || place == "ground") return Velocity{};
     auto known = of_.find(place);
@@ -55,7 +55,7 @@ class GivenVelocities {
   std::unordered_map<std::string, Velocity> of_;
 };
 
-/// Rates of what a joint holds: of places [m/s] and of rotations [rad/s].
+/// Relative velocities in the directions that a joint holds: of points [m/s] and of rotations [rad/s].
 struct JointRates {
   double linear = 0.0, angular = 0.0;
 };
@@ -103,7 +103,7 @@ void check_joint(ProblemList& list, std::size_t i, const GivenVelocities& veloci
               "the run changes them by impulses until the joint holds: give velocities that it allows");
 }
 
-/// Things that fixed joints tie to each other, by name.
+/// Sets of parts that fixed joints connect, by name.
 class RigidParts {
  public:
   explicit RigidParts(const Scene& scene) {

@@ -13,7 +13,7 @@ struct Sums {
 
 double length_of(const Wall& w) { return std::hypot(w.end[0] - w.begin[0], w.end[1] - w.begin[1]); }
 
-/// Of the middle lines: what the shear flow is in balance with.
+/// Area moments of the middle lines: the integrals that balance the shear flow.
 Sums sums_of(const std::vector<Wall>& walls) {
   Sums s;
   for (const Wall& w : walls) {
@@ -88,7 +88,7 @@ std::vector<Wall> walls_of(const IProfile& s) {
   return {{{-a, h}, {0, h}, s.flange, {}},
           {{a, h}, {0, h}, s.flange, {}},
           {{0, h}, {0, -h}, s.web, {0, 1}},
-          // The flow parts into the lower flange: each half is followed from its free edge, against the flow.
+          // The flow divides in the lower flange: each half is followed from its free edge, against the flow.
           {{-a, -h}, {0, -h}, s.flange, {}},
           {{a, -h}, {0, -h}, s.flange, {}}};
 }

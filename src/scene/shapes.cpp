@@ -87,7 +87,7 @@ AreaFigures open_figures(const Profile& s) {
   return f;
 }
 AreaFigures figures(const IProfile& s) {
-  AreaFigures f = open_figures(s);  // what symmetry makes zero is so, whatever is rounded
+  AreaFigures f = open_figures(s);  // entries that vanish by symmetry are set to exactly 0, free of round-off
   f.shear_center_2 = f.shear_center_3 = f.shear_factor_23 = f.product_moment = 0.0;
   return f;
 }
