@@ -1,7 +1,7 @@
 #pragma once
-/// Tangents of beams of three and four nodes and of line loads in closed form. All that moves a section, from the
-/// nodes' increments on, is a map of motions in the group's compact form, so only masses, stiffnesses and what they
-/// multiply are full blocks. Derivation: README.md, "Tangent".
+/// Tangents of beams of three and four nodes and of line loads in closed form. The motion of a section follows from the
+/// nodes' increments by maps of motions in the group's compact form, so only masses, stiffnesses and their products are
+/// full blocks. Derivation: README.md, "Tangent".
 #include "bough/elements/beam_forces.hpp"
 #include "screw_tangent.hpp"
 
@@ -21,8 +21,8 @@ struct BeamColumns {
 };
 
 /// z_i = U w_i, d_i' = z_i + ad(d_i) v_r, z_i' = U c_i + (D U[d_i']) w_i, with dd_i = U eta_i - (U - ad(d_i)) eta_r.
-/// What z_i' follows of d_i', J_i dd_i' with J_i = d(U w_i)/dd_i, is put to what it follows of z_i and d_i: dd_i' =
-/// dz_i - ad(v_r) dd_i + ad(d_i) dv_r.
+/// The dependence of z_i' on d_i', J_i dd_i' with J_i = d(U w_i)/dd_i, is added to its dependence on z_i and d_i by
+/// substituting dd_i' = dz_i - ad(v_r) dd_i + ad(d_i) dv_r.
 template <class G, class S, int N>
 void eval_node_columns(const BeamRates<G, S, N>& b, const PortSlopesOn<G, S>* ports, bool has_mass,
                        const BeamTerms& terms, int i, BeamColumns<G, S, N>& columns) {
@@ -180,7 +180,7 @@ void eval_internal_blocks(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>&
       }
     }
 }
-/// What the nodes bear together of it: sum_i ad(d_i)^T p_i.
+/// Derivative of the sum over all nodes, sum_i ad(d_i)^T p_i.
 template <class G, class S, int N>
 void sum_internal_blocks(const BeamRates<G, S, N>& b, const typename G::template Wrench<S>* p,
                          const BeamColumns<G, S, N>& columns, BeamBlocks<G, S, N>& out) {
@@ -222,7 +222,8 @@ void add_mass_point(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>& b, co
     f_v = G::gyroscopic(mass, m.v);
   }
   for (int j = 0; j < N; ++j) {
-    const double factor = j == r ? 1.0 : shape[j];  // of other nodes without it, which the blocks take at the end
+    const double factor = j == r ? 1.0 : shape[j];  // blocks of other nodes omit the factor, which is applied at the
+                                                    // end
     auto a = G::product(T, section_column<G, S, N>(shape, columns, &Rates::zz, j));
     if (j == r) a = G::plus(a, columns.b[r]);
     typename G::template Map<S> d;
@@ -274,7 +275,7 @@ void carry_to_nodes(const BeamRates<G, S, N>& b, bool moves, const typename G::t
   for (int j = 0; j < N; ++j) put(r, j, blocks.sum_by[j]);
 }
 
-/// No derivatives yet.
+/// Sets all derivatives to zero.
 template <class G, class S, int N>
 void clear(BeamBlocks<G, S, N>& blocks) {
   for (int j = 0; j < N; ++j) {
@@ -316,7 +317,7 @@ requires(N > 2) void eval_tangent(const BeamOn<G, N, C>& beam, const PortMotionO
   carry_to_nodes<G, S, N>(b, terms.moves, force, columns, blocks, put);
 }
 
-/// The same of a line load. A dead load turns against the section, which moves by eta_r + T (dd - ad(d) eta_r).
+/// As above for a line load. A dead load turns against the section, which moves by eta_r + T (dd - ad(d) eta_r).
 template <class G, class S, int N, class C, class Put>
 void eval_tangent(const LineLoadOn<G, N, C>& load, const PortMotionOn<G, S>* p, const PortSlopesOn<G, S>* ports,
                   const SurroundingsOn<G, S>& around, S* residual, const Put& put) {

@@ -1,10 +1,10 @@
 #pragma once
-/// What tangents of beams have in common.
+/// Functions that tangents of beams share.
 #include "bough/elements/port.hpp"
 
 namespace bough::elements {
 
-/// What the terms of a beam's tangent are derived by.
+/// Which terms of a beam's tangent are present.
 struct BeamTerms {
   bool moves;    ///< poses: all but a consistent start, whose unknowns are accelerations
   bool rates;    ///< velocities too

@@ -28,7 +28,7 @@ BOUGH_INLINE void eval_tangent(const RigidBodyOn<G, C>& body, const PortMotionOn
   put(0, 0, block);
 }
 
-/// A dead load turns against the port.
+/// The components of a dead load in the axes of the port turn against the port's rotation.
 template <class G, class S, class C, class Put>
 BOUGH_INLINE void eval_tangent(const PointLoadOn<G, C>& load, const PortMotionOn<G, S>* p,
                                const PortSlopesOn<G, S>* ports, const SurroundingsOn<G, S>& around, S* residual,

@@ -1,6 +1,6 @@
 #pragma once
-/// From nodes to ports, and from what elements say at their ports to the unknowns of nodes: once for all groups and
-/// elements. Internal.
+/// Maps motions of nodes to ports, and wrenches and tangents at the ports to the unknowns of nodes; written once for
+/// all groups and elements. Internal.
 #include "beam_tangent.hpp"
 #include "body_tangent.hpp"
 #include "bough/elements/evaluate.hpp"
@@ -8,7 +8,7 @@
 
 namespace bough::elements {
 
-/// How the ports of an element follow the unknowns of their nodes.
+/// Derivatives of the motions of an element's ports by the unknowns of their nodes.
 template <class E, class G, class S>
 void eval_port_slopes(const E& e, const FieldOn<G, S>& field, PortSlopesOn<G, S>* ports) {
   using Map = typename G::template Map<S>;
@@ -29,10 +29,10 @@ void eval_port_slopes(const E& e, const FieldOn<G, S>& field, PortSlopesOn<G, S>
   }
 }
 
-/// Motions of an element with mass as seen from the inertial frame, where nodes are described in a frame that moves;
-/// and with slopes how they follow the port's increment eta, since Ad((H exp(eta))^-1) V = c + ad(c) eta:
+/// Motions of an element with mass with respect to the inertial frame, where nodes are described in a moving frame.
+/// With slopes, also their derivatives by the port's increment eta, since Ad((H exp(eta))^-1) V = c + ad(c) eta:
 ///   dv_s = dv + ad(c) eta,   da_s = da + ad(c) dv + (ad(Ad(H^-1) V') - ad(v) ad(c)) eta
-/// All of these are operators on motions, as the kernels take them. Precondition: there is an observer.
+/// All of these are operators on motions, as the kernels expect them. Precondition: there is an observer.
 template <class E, class S>
 BOUGH_INLINE void see_from_inertial(const E&, const FieldOf<S>& field, const motion::PositionPair<S>& anchor,
                                     PortMotion<S>* p, PortSlopesOn<motion::Se3, S>* slopes) {
@@ -58,12 +58,13 @@ BOUGH_INLINE void see_from_inertial(const E&, const FieldOf<S>& field, const mot
 }
 // ---- nodes
 
-/// Where an element's ports stand among its unknowns: dof for each port off the ground, then its multipliers.
+/// Offsets of an element's ports among its unknowns: dof unknowns for each port that is not on the ground, then the
+/// multipliers.
 template <class E>
 struct Places {
   static constexpr int dof = E::Group::dof;
   int of[E::num_ports];  ///< first unknown of the port's node; -1: on the ground
-  int forces = 0;        ///< unknowns of nodes
+  int forces = 0;        ///< number of unknowns of nodes
   explicit Places(const E& e) {
     for (int k = 0; k < E::num_ports; ++k) {
       of[k] = e.ports[k].node == ground ? -1 : forces;
@@ -72,7 +73,7 @@ struct Places {
   }
 };
 
-/// Wrenches at the ports, `out`, as those at the nodes:  F_node = Ad(offset)^-T F.
+/// Transforms wrenches at the ports, `out`, to wrenches at the nodes: F_node = Ad(offset)^-T F.
 template <class E, class S>
 BOUGH_INLINE void carry_wrenches(const E& e, const Places<E>& places, const S* out, S* residual) {
   using G = typename E::Group;
@@ -85,7 +86,7 @@ BOUGH_INLINE void carry_wrenches(const E& e, const Places<E>& places, const S* o
   }
 }
 
-/// Takes what elements say of their ports' increments to the rows and columns of nodes.
+/// Adds the derivatives by the ports' increments to the rows and columns of the nodes' unknowns.
 template <class E, class S>
 class TangentWriter {
   using G = typename E::Group;
@@ -104,14 +105,14 @@ class TangentWriter {
     if (left) moved = G::transposed_product(G::inverse_adjoint_map(e_.ports[i].offset), moved);
     write(places_.of[i], places_.of[j], moved);
   }
-  /// The gradient of a joint's row: a row and, since forces are G^T lambda, a column.
+  /// The gradient of a joint's row: a row of the tangent and, since forces are G^T lambda, also a column.
   BOUGH_INLINE void row(int k, int port, typename G::template Vector<S> gradient) const {
     if (places_.of[port] < 0) return;
     if (e_.ports[port].has_offset) gradient = G::inverse_adjoint_transpose_times(e_.ports[port].offset, gradient);
     const int at = places_.forces + k, to = places_.of[port];
     for (int j = 0; j < G::dof; ++j) tangent_[at * size_ + to + j] = tangent_[(to + j) * size_ + at] = gradient[j];
   }
-  /// Rows do not follow multipliers.
+  /// Rows do not depend on multipliers: that block is zero.
   void clear_rows() const {
     for (int i = places_.forces; i < size_; ++i)
       for (int j = places_.forces; j < size_; ++j) tangent_[i * size_ + j] = S(0.0);
@@ -129,7 +130,7 @@ class TangentWriter {
   S* tangent_;
 };
 
-/// The kernel of an element, with the values of its constraints where it has any.
+/// Calls the kernel of an element; joints also return the values of their constraints.
 template <class E, class G, class S, class M, class C>
 BOUGH_INLINE void eval_kernel(const E& e, const PortMotionOn<G, S>* p, const M* multipliers,
                               const SurroundingsOn<G, S>& around, const C& turns, S* out, S* rows) {

@@ -5,7 +5,7 @@
 
 namespace bough::elements {
 
-/// How the gradient of a coordinate follows the rotation: its force and its moment.
+/// Derivatives of the gradient of a coordinate, its force and its moment, by the rotation.
 template <class G, class S>
 struct GradientSlope {
   bool has_force = false, has_moment = false;

@@ -5,7 +5,7 @@
 
 namespace bough::elements {
 
-/// Flags that all lanes must share; whether a law is there is one.
+/// Compares flags, which all lanes must have in common; whether a law is present counts as one.
 class SameKind {
  public:
   template <class X>
@@ -18,7 +18,7 @@ class SameKind {
  private:
   bool same_ = true;
 };
-/// Flags of the first, and its laws renumbered from `law` on.
+/// Copies the flags of the first element, and numbers its laws from `law` on.
 class SetKind {
  public:
   explicit SetKind(int law) : law_(law) {}

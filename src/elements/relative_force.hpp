@@ -6,8 +6,8 @@
 
 namespace bough::elements {
 
-/// The force on the second port and its derivatives by zeta and, if it `has_twist`, by xi; else `by_twist` is not
-/// looked at.
+/// The force on the second port and its derivatives by zeta and, if it `has_twist`, by xi; otherwise `by_twist` is not
+/// used.
 template <class G, class S>
 struct RelativeForce {
   typename G::template Map<S> Q;  ///< Ad(H)^-1

@@ -9,12 +9,12 @@
 
 namespace bough::laws {
 
-/// Breaks as they are found, in any order, possibly twice; no more than asked for.
+/// Collects breakpoints in any order, possibly twice, up to the number asked for.
 struct BreakList {
   std::vector<double> times;
   std::size_t most = std::numeric_limits<std::size_t>::max();
-  bool is_cut = false;  ///< there are more, or the search was given up
-  double work = 0.0;    ///< instructions of formulas
+  bool is_cut = false;  ///< there are more breakpoints, or the search was given up
+  double work = 0.0;    ///< number of formula instructions executed by the search
 
   bool is_limited() const { return most != std::numeric_limits<std::size_t>::max(); }
   void add(double t) {

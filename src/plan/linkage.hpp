@@ -1,5 +1,5 @@
 #pragma once
-/// Rigid parts that joints connect, and the motions that these leave them at the start: internal to plan.
+/// Rigid parts connected by joints, and the motions that the joints allow at the start. Internal to plan.
 #include <Eigen/Core>
 #include <map>
 #include <string>
@@ -10,34 +10,34 @@
 namespace bough::plan {
 
 using Vec3d = motion::Vec3<double>;
-/// Velocity of a rigid part in the ground's axes: (v, w), v that of the point at the linkage's center, in lengths of
-/// its size a second.
+/// Velocity of a rigid part in the ground's axes: (v, w), where v is the velocity of the point at the linkage's center,
+/// in units of the linkage's size per second.
 using Twist = Eigen::Matrix<double, 6, 1>;
 
-/// What holds the second part to the first: rows . (twist of the second - twist of the first) = 0.
+/// A connection of two parts: rows . (twist of the second - twist of the first) = 0.
 struct LinkEdge {
   int first = 0, second = 0;
   std::string name;
   std::vector<Twist> rows;
-  Vec3d axis = Vec3d::zero();  ///< of a joint, in the ground; zero: none
-  bool is_joint = true;        ///< of the scene; else something that holds like one
-  bool is_beam = false;        ///< taken as rigid
+  Vec3d axis = Vec3d::zero();  ///< axis of a joint, in the ground; zero: none
+  bool is_joint = true;        ///< a joint of the scene; false: another part that constrains like a joint
+  bool is_beam = false;        ///< a beam taken to be rigid
 };
 
-/// Parts that edges connect, the ground not counted as one.
+/// A set of connected parts, where the ground does not count as a connection.
 struct LinkComponent {
   std::vector<int> parts;  ///< parents before their children
-  std::vector<int> edges;  ///< all at these parts
-  int freedoms = 0;        ///< left by the edges of a spanning tree, 6 more where nothing ties the parts to the ground
-  int closing_rows = 0;    ///< of the edges that close loops
-  int rank = 0;            ///< of these
-  bool is_rank_known = true;  ///< false: too large to find it; it is then taken to be full
+  std::vector<int> edges;  ///< all edges between these parts
+  int freedoms = 0;      ///< left by the edges of a spanning tree, 6 more if the parts are not connected to the ground
+  int closing_rows = 0;  ///< rows of the edges that close loops
+  int rank = 0;          ///< rank of the closing rows
+  bool is_rank_known = true;  ///< false: the component is too large to compute the rank, which is taken to be full
   bool reaches_ground = false;
   int mobility() const { return freedoms - rank; }
-  /// Twists of all parts for each independent motion that is left, [6 * parts.size() x mobility]. Empty where the
+  /// Twists of all parts for each independent motion that remains, [6 * parts.size() x mobility]. Empty if the
   /// component is too large.
   Eigen::MatrixXd motions;
-  std::map<int, int> place;  ///< of a part in `parts`
+  std::map<int, int> place;  ///< index of a part in `parts`
   Twist twist_of(int part, Eigen::Index motion) const;
 };
 
@@ -49,12 +49,14 @@ class Linkage {
   int add_part() { return num_parts_++; }
   void add(LinkEdge edge) { edges_.push_back(std::move(edge)); }
 
-  /// Rows of the velocity, along a direction, of the point x of a part, and of its rotation about a direction.
+  /// Rows for the velocity of the point x of a part along a direction, and for the rotation of the part about a
+  /// direction.
   Twist along(const Vec3d& direction, const Vec3d& x) const;
   static Twist about(const Vec3d& direction);
 
   const std::vector<LinkEdge>& edges() const { return edges_; }
-  /// Motions of every component; `relaxed`: an edge that lets its two sides turn against each other, -1: none.
+  /// Motions of every component. `relaxed`: an edge that is modified to let its sides rotate relative to each other;
+  /// -1: none.
   std::vector<LinkComponent> solve(int relaxed = -1) const;
 
   const Vec3d& center() const { return center_; }

@@ -1,5 +1,5 @@
 #pragma once
-/// A scene as rigid parts and what holds them to each other: internal to plan.
+/// Translates a scene to rigid parts and their connections. Internal to plan.
 #include <map>
 #include <set>
 #include <string>
@@ -12,25 +12,25 @@
 
 namespace bough::plan {
 
-/// What counts as holding, and what as one part.
+/// Which parts of a scene count as rigid connections.
 struct LinkageChoice {
-  bool beams_are_rigid = true;   ///< false: beams hold nothing, they bend
-  bool drives_hold = false;      ///< prescribed coordinates and motions that vary
-  bool stiffness_holds = false;  ///< springs, bushings, springs in joints
-  bool mass_holds = false;       ///< every motion that some inertia resists: what is left is without
+  bool beams_are_rigid = true;   ///< false: beams are flexible and connect nothing
+  bool drives_hold = false;      ///< prescribed coordinates and motions that vary count as fixed
+  bool stiffness_holds = false;  ///< springs, bushings and springs in joints count as rigid
+  bool mass_holds = false;       ///< every motion with inertia counts as held, so that motions without inertia remain
 };
 
 class SceneLinkage {
  public:
   SceneLinkage(const scene::Scene& scene, const scene::Poses& poses, const LinkageChoice& choice);
 
-  /// Holds all parts to the motions that a scene in a plane, without rotation or on a line has. normal: of the plane.
+  /// Restricts all parts to the motions of a scene in a plane, without rotation or on a line. normal: of the plane.
   void restrict_to(Motions motions, const Vec3d& normal);
 
   Linkage linkage;
-  std::vector<std::string> names;         ///< by part; the ground's is empty
+  std::vector<std::string> names;         ///< by part; that of the ground is empty
   std::vector<bool> has_beam;             ///< by part
-  int part_of(const std::string& place);  ///< the ground for frames
+  int part_of(const std::string& place);  ///< part of a place; frames belong to the ground
 
  private:
   void add_joint(const scene::Joint& j);

@@ -1,5 +1,5 @@
 #pragma once
-/// Working state of make_plan: one method per kind of thing in a scene.
+/// Working state of make_plan, with one method for each kind of entry in a scene.
 #include <map>
 #include <string>
 #include <tuple>
@@ -30,7 +30,7 @@ inline const elements::Joint& joint_of(const Plan& plan, const JointPlan& j) {
       plan.elements)[static_cast<std::size_t>(plan.directory[static_cast<std::size_t>(j.element)].index)];
 }
 
-/// A load in the ground's axes or following: its wrench and law.
+/// A dead load in the ground's axes or a follower load: its wrench and its law.
 struct SpaceLoad {
   motion::Vec6<double> wrench;
   bool follows = false;
@@ -51,8 +51,10 @@ struct Builder {
   std::map<std::string, int> carrier_of;                     ///< frames that move in the ground, in Plan::frames
   std::map<std::string, motion::Frame<double>> frame_start;  ///< pose of every frame in the ground
   FrameMotions start_motions;
-  std::map<std::string, motion::Frame<double>> part_offset;    ///< from the node that a thing of this name is part of
-  std::vector<std::pair<int, motion::Vec3<double>>> spinless;  ///< nodes and the line they do not spin about, own axes
+  std::map<std::string, motion::Frame<double>> part_offset;  ///< pose of a named part relative to the node to which it
+                                                             ///< is welded
+  std::vector<std::pair<int, motion::Vec3<double>>> spinless;  ///< nodes that do not spin about a line of their own
+                                                               ///< axes
 
   template <class E>
   std::vector<std::string>& owners() {
@@ -87,14 +89,14 @@ struct Builder {
   void stop_spins();
   void list_attachments();
   void weld_nodes();
-  /// Tells bodies that are points at their origins by the mass that they have in the end.
+  /// Marks bodies that are points at their origins, judged by their final mass matrix.
   void mark_points();
   void number_elements();
   double size_of_structure() const;
-  /// Lengths of the parts that meet in joints; length_scale is known.
+  /// Computes the lengths of the parts that joints connect; needs length_scale.
   void measure_joints();
   bool is_barred(const std::string& decision) const;  ///< by Scene::without
-  /// Notes a decision: taken where it holds and is not barred.
+  /// Records a decision: it is taken if its condition holds and the scene does not bar it.
   void decide(const std::string& name, const std::string& what, bool holds, const std::string& reason);
   void settle();
   void say_idle_parts();

@@ -1,5 +1,5 @@
 #pragma once
-/// Which nodes belong together: internal to plan.
+/// Disjoint sets of nodes that become one. Internal to plan.
 #include <numeric>
 #include <vector>
 
@@ -7,17 +7,17 @@
 
 namespace bough::plan {
 
-/// Disjoint sets of nodes; the ground is the last one.
+/// Union-find over the nodes; the ground is the last member.
 class Sets {
  public:
   explicit Sets(std::size_t nodes) : parent_(nodes + 1) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
   std::size_t ground() const { return parent_.size() - 1; }
-  /// The member that stands for a node's set.
+  /// The representative of a node's set.
   std::size_t of(std::size_t node) {
     while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
     return node;
   }
-  /// What stood for the set of b stands for both.
+  /// Merges two sets; the representative of b becomes that of both.
   void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
   std::size_t index(const elements::Port& port) const {
     return port.node == elements::ground ? ground() : static_cast<std::size_t>(port.node);

@@ -15,7 +15,7 @@ struct PointMotion {
 
 PointMotion motion_of_port(const elements::Port& port, const elements::Field& field);
 
-/// Position, rotation, velocity or acceleration as the sensor's frame sees it.
+/// Appends position, rotation, velocity or acceleration relative to the sensor's frame.
 void append_point(const plan::SensorPlan& s, const elements::Field& field, const PointMotion& point,
                   std::vector<double>& values);
 
@@ -33,17 +33,17 @@ inline std::pair<int, double> locate(const plan::BeamPlan& beam, double station)
   return {k, at - k};
 }
 
-/// Both halves of a 6-vector in other axes.
+/// Transforms both halves of a 6-vector to other axes.
 inline motion::Vec6<double> turned(const motion::Mat3<double>& R, const motion::Vec6<double>& v) {
   return lanes::join(R * lanes::linear_part(v), R * lanes::angular_part(v));
 }
-/// Twist or wrench (own axes) in space or own axes.
+/// A twist or wrench given in its own axes, resolved in space axes or in its own.
 inline motion::Vec6<double> resolve(const motion::Mat3<double>& R, const motion::Vec6<double>& v,
                                     scene::LoadAxes axes) {
   return axes == scene::LoadAxes::body ? v : turned(R, v);
 }
 
-/// Where a port is, in the frame of the scene.
+/// Position of a port in the frame of the scene.
 inline motion::Vec3<double> position_of(const elements::Field& f, const elements::Port& port) {
   if (port.carrier >= 0) return motion::transform(f.carriers[port.carrier].pose, port.offset.x);
   if (port.node == elements::ground) return port.offset.x;

@@ -11,7 +11,7 @@
 
 namespace bough::scene {
 
-/// What the checks share.
+/// State and functions shared by all checks of a scene.
 struct ProblemList {
   ProblemList(const Scene& scene_in, std::span<const std::string> defective_in);
 
@@ -32,20 +32,21 @@ struct ProblemList {
             std::string hint = {});
   bool is_defective(const std::string& name) const;
 
-  /// A reference to a place: node, body, inner node; ground where allowed. True where the place can be used.
+  /// Checks a reference to a place: a node, a body, an inner node, or the ground where allowed. True if the place can
+  /// be used.
   bool check_place(const char* section, std::size_t index, const std::string& key, const std::string& name,
                    bool ground_allowed);
-  /// A reference into a list of names. True where it is there.
+  /// Checks a reference into a list of names. True if the name exists.
   bool check_reference(const char* section, std::size_t index, const std::string& key, const std::string& name,
                        const std::vector<std::string>& known, const char* what);
-  /// A frame by name, or the ground.
+  /// Checks the name of a frame; the ground is allowed.
   bool check_frame(const char* section, std::size_t index, const std::string& frame);
-  /// A law that is finite over the analysis; with derivatives where it prescribes a motion.
+  /// Checks that a law is finite over the analysis, with its derivatives if it prescribes a motion.
   void check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law,
                  bool with_derivatives);
 
-  /// The nearest of some names, while the search for such names has not cost much: it goes over all names for every
-  /// fault.
+  /// The nearest of some names. Each search compares with all names, so searches end once they have cost too much in
+  /// total.
   std::string nearest(const std::string& name, const std::vector<std::string>& known);
 
   std::optional<Thing> body_of(const std::string& place) const;  ///< the body of that name, if it is one
@@ -54,9 +55,10 @@ struct ProblemList {
   void put(SceneProblem problem);
   void check_breaks(const char* section, std::size_t index, const std::string& key, const laws::Law& law);
 
-  std::size_t num_kept_[2] = {0, 0}, last_kept_[2] = {0, 0};  ///< of problems, of warnings; the last ones
-  double break_work_ = 0.0;                                   ///< instructions of formulas
-  double letters_compared_ = 0.0;                             ///< by nearest()
+  std::size_t num_kept_[2] = {0, 0}, last_kept_[2] = {0, 0};  ///< of problems and of warnings: the number kept, and the
+                                                              ///< index of the last one
+  double break_work_ = 0.0;        ///< number of formula instructions executed in searches for breakpoints
+  double letters_compared_ = 0.0;  ///< number of letters compared by nearest()
 };
 
 std::string text_of(double x);

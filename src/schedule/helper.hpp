@@ -1,5 +1,5 @@
 #pragma once
-/// A second thread that may lose its processor at any time, and how one thread works on beside it.
+/// A second thread that may lose its processor at any time, and the division of work with it.
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -11,16 +11,17 @@
 
 namespace bough::schedule {
 
-/// One thread, the owner, works; another serves. A walk is cut in two; the helper goes through the second half while
-/// the owner does the first, and the owner then does what the helper has left, however little that one has done.
-/// Nobody waits for a thread without a processor, unless it loses it in the middle of a visit, which costs a clock
-/// tick or two.
+/// One thread, the owner, works, and another one, the helper, assists. A walk is divided into two halves. The helper
+/// processes the second half while the owner processes the first, and then the owner completes the part of the second
+/// half that the helper has not reached. The owner never waits for a thread without a processor, except when the helper
+/// loses its processor in the middle of a visit, which costs one or two clock ticks.
 ///
-/// A scheduler that is fair takes the processor from whoever had more than his share, and gives it at once to whoever
-/// wakes up and had less. So the helper works in bursts shorter than a scheduler's slice, sleeps between them, and is
-/// woken only while it has had less than its share of the time. To give a processor up instead of sleeping (as idle
-/// threads of oneTBB do, a hundred times before they sleep) is to get it back with a clock tick, milliseconds later.
-/// The helper is kept off the owner's processor: whoever is woken up may else be put beside his waker.
+/// A fair scheduler takes the processor from a thread that had more than its share, and gives it at once to a thread
+/// that wakes up and had less. The helper therefore works in bursts that are shorter than a scheduler's slice, sleeps
+/// between them, and is woken only while it has had less than its share of the time. If a thread yields its processor
+/// instead of sleeping (as idle threads of oneTBB do a hundred times before they sleep), it gets the processor back
+/// only with a clock tick, milliseconds later. The helper is kept off the owner's processor, since the system may
+/// otherwise place a woken thread there.
 class Helper {
  public:
   Helper();
@@ -28,26 +29,27 @@ class Helper {
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
 
-  /// Serves after a `call`, until `dismiss` or until nothing was offered for 5 ms and no part of a walk is being
-  /// shared: the thread may be the only one that others of the process could have. The owner's own call returns at
-  /// once, as does one that was not asked for.
+  /// Run by the helper's thread after `call`, until `dismiss`, or until no work was offered for 5 ms and no part of a
+  /// walk is being shared: the thread may be the only one available to other objects of the process. Returns at once if
+  /// the owner's own thread calls it or if nobody called for help.
   void serve();
 
-  // All that follows is for the owner, except `run_chunks`.
+  // All following functions are for the owner, except `run_chunks`.
 
-  /// Whether another thread has to be sent to `serve`, because none is there or on its way. The caller is the owner
-  /// from then on.
+  /// Whether another thread has to be sent to `serve`, because none is there or on its way. The caller becomes the
+  /// owner.
   bool call();
 
-  /// Whoever serves returns soon.
+  /// Makes the serving thread return soon.
   void dismiss();
 
-  /// Bursts without regard to the helper's share of the time: for tests.
+  /// For tests: bursts do not regard the helper's share of the time.
   void set_tireless(bool yes) { is_tireless_ = yes; }
 
   void walk_up(const tree::Tree& tree, tree::Visit visit);
   void walk_down(const tree::Tree& tree, tree::Visit visit);
-  /// Visits may call it. They, whoever makes them, do all chunks themselves; outside of walks they are shared.
+  /// May be called inside visits, where the calling thread does all chunks itself; outside of walks the chunks are
+  /// shared.
   void run_chunks(std::int64_t count, std::int64_t grain, tree::Chunk chunk);
 
  private:
@@ -61,11 +63,11 @@ class Helper {
     std::int64_t begin = 0, end = 0;
   };
 
-  /// Both parts, which do not depend on one another.
+  /// Runs both parts, which must be independent of each other.
   void share(const Part& mine, const Part& other);
-  /// Offers the other part, or what is left of it, if the helper is there and has time to spend.
+  /// Offers the other part, or the rest of it, if the helper is present and within its share of the time.
   void offer();
-  /// Until the helper no longer works on the other part.
+  /// Waits until the helper no longer works on the other part.
   void recall();
   void count_burst();
   void burst();

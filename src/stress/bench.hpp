@@ -1,5 +1,5 @@
 #pragma once
-/// What a case of the stress table is written with: it runs scenes and puts down figures.
+/// The interface with which the cases of the stress table are written: it runs scenes and records figures.
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -13,7 +13,7 @@ namespace bough::stress {
 
 using scene::Vec3;
 
-/// Where a case writes what it measures.
+/// Receives the figures that a case measures.
 class Bench {
  public:
   /// is_stopped is asked after every step of a run; memory_limit is that of one run [bytes].
@@ -22,25 +22,25 @@ class Bench {
       : result_(result), is_quick_(is_quick), is_stopped_(std::move(is_stopped)), memory_limit_(memory_limit) {}
 
   bool is_quick() const { return is_quick_; }
-  /// `whole`, or `part` of it in a quick table, which is marked as shortened.
+  /// Returns `whole`, or `part` of it in a quick table, which is then marked as shortened.
   template <class T>
   T shorten(T whole, T part) {
     if (is_quick_) result_.is_shortened = true;
     return is_quick_ ? part : whole;
   }
 
-  /// Runs a scene and counts its work, backward errors and violations. A run that breaks off ends the case as failed.
+  /// Runs a scene and accumulates its work, backward errors and violations. If the run ends early, the case has failed.
   run::MemoryRun run(const scene::Scene& scene, const std::string& what = {});
-  /// The same for a run that may break off.
+  /// As run(), for a run that may end early.
   run::MemoryRun try_run(const scene::Scene& scene);
 
-  /// Ends the case as failed, with the numbers, where a run of the scene would take more memory than there is. All
-  /// runs of the bench ask this by themselves.
+  /// Ends the case as failed, with the amounts, if a run of the scene would need more memory than is available. All
+  /// runs of the bench do this by themselves.
   void require_memory(const scene::Scene& scene) const;
 
   /// An error relative to a reference, promised to be at most `limit` [-].
   void error(const std::string& name, double value, double limit);
-  /// The same, made by round-off alone: tells the digits lost.
+  /// An error caused by round-off alone; the digits lost are recorded as well.
   void round_off_error(const std::string& name, double value, double limit);
   /// Any other number that is promised to be at most `limit`.
   void figure(const std::string& name, double value, double limit);
@@ -50,9 +50,9 @@ class Bench {
   void condition(double value);
   /// A normwise backward error of a solution with n unknowns.
   void backward_error(double value, double unknowns);
-  /// Words behind the figures.
+  /// Adds words to the report of the figures.
   void say(const std::string& text) { result_.measured += (result_.measured.empty() ? "" : "; ") + text; }
-  /// A run that has to be refused: its cause, or the problems of its scene, has to hold all `words`.
+  /// Expects a run to be refused: its cause, or the problems of its scene, must contain all `words`.
   void expect_refusal(const scene::Scene& scene, const std::vector<std::string>& words);
 
  private:
@@ -70,10 +70,10 @@ struct Definition {
   void (*body)(Bench&);
   StressStatus expected = StressStatus::holds;
   const char* reason = "";  ///< of an expected failure
-  bool is_long = false;     ///< begun before the others, so that no thread is left alone with it at the end
+  bool is_long = false;     ///< started before the others, so that it does not run alone at the end
 };
 
-/// Rows by file; `table.cpp` puts them together.
+/// Rows of the table, by file; `table.cpp` collects them.
 void add_slenderness(std::vector<Definition>& table);
 void add_ratios(std::vector<Definition>& table);
 void add_units(std::vector<Definition>& table);
@@ -87,7 +87,7 @@ void add_spin(std::vector<Definition>& table);
 void add_gravity(std::vector<Definition>& table);
 void add_long(std::vector<Definition>& table);
 
-/// Text of a file of data/ that the program carries along: "scenarios/andrews_squeezer.json". Throws std::out_of_range.
+/// Text of a file of data/ that is compiled in: "scenarios/andrews_squeezer.json". Throws std::out_of_range.
 const std::string& data_file(const std::string& name);
 
 /// A table of data/reference: time and columns by name.
@@ -99,7 +99,7 @@ struct ReferenceTable {
 };
 ReferenceTable reference_table(const std::string& file);
 
-/// A scene of the gallery that the program carries along, without expected figures.
+/// A scene of the gallery that is compiled in, without expected figures.
 scene::Scene gallery_scene(const std::string& stem);
 
 /// Value of a run's column at a time that is in the history, within 1e-9 of the step.

@@ -1,6 +1,6 @@
 #pragma once
-/// An independent reference: planar geometrically exact rods as boundary value problems, by shooting. Shares nothing
-/// with the elements.
+/// An independent reference: planar geometrically exact rods as boundary value problems, solved by shooting. It has no
+/// code in common with the elements.
 #include <functional>
 #include <vector>
 
@@ -29,8 +29,9 @@ struct RodSection {
 /// by the classical Runge-Kutta rule in `steps` steps; its error is that of order four.
 RodSection along(const RodPiece& piece, RodSection start, int steps = 4000);
 
-/// Unknowns for which all residuals vanish, by Newton with differences, from a guess. Throws std::runtime_error where
-/// it does not converge to `tolerance` (of the residuals, which the caller makes free of units).
+/// Solves for unknowns at which all residuals vanish, by Newton's method with difference quotients, from a guess.
+/// Throws std::runtime_error where it does not converge to `tolerance` (of the residuals, which the caller makes
+/// dimensionless).
 std::vector<double> shoot(const std::function<std::vector<double>(const std::vector<double>&)>& residuals,
                           std::vector<double> guess, double tolerance = 1e-12);
 

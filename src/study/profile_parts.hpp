@@ -1,5 +1,5 @@
 #pragma once
-/// What a profile needs of plan and tree besides times. Internal to study.
+/// Data of a profile that come from the plan and the tree instead of measurements. Internal to study.
 #include <vector>
 
 #include "bough/blocks/block_graph.hpp"
@@ -9,11 +9,11 @@
 
 namespace bough::study {
 
-/// By sub-domain: entries that the assembled matrix has (dense blocks) in the rows and columns eliminated there, less
-/// those eliminated before.
+/// For each sub-domain the number of entries of the assembled matrix (dense blocks) in the rows and columns eliminated
+/// there, without those eliminated before.
 std::vector<std::int64_t> count_matrix_entries(const blocks::BlockGraph& graph, const tree::Tree& tree);
 
-/// Elements of the structure as it is given, with their leaves, and the nodes that stand in separators.
+/// The elements of the structure in its initial shape, with their leaves, and the nodes in separators.
 void draw_parts(const plan::Plan& plan, const tree::Tree& tree, records::Profile& out);
 
 }  // namespace bough::study

@@ -1,12 +1,12 @@
 #pragma once
-/// What a walk takes on any number of threads, given what its visits take. Internal to study.
+/// Predicts the duration of a walk on any number of threads from the durations of its visits. Internal to study.
 #include <vector>
 
 #include "bough/tree/tree.hpp"
 
 namespace bough::study {
 
-/// Longest sum of `seconds` (by sub-domain) from a leaf to the root: no number of threads walks faster.
+/// Longest sum of `seconds` (by sub-domain) from a leaf to the root. No number of threads can walk faster.
 double critical_path(const tree::Tree& walk, const std::vector<double>& seconds);
 
 enum class Direction { up, down };
@@ -17,7 +17,7 @@ enum class Direction { up, down };
 double eval_walk(const tree::Tree& walk, const std::vector<double>& seconds, Direction direction, int threads,
                  double grain_flops);
 
-/// eval_walk for each of `threads` (ascending); never more than with fewer, since threads may idle.
+/// eval_walk for each of `threads` (ascending). More threads never take longer, since the additional ones may idle.
 std::vector<double> eval_walks(const tree::Tree& walk, const std::vector<double>& seconds, Direction direction,
                                const std::vector<int>& threads, double grain_flops);
 

@@ -10,23 +10,24 @@ struct Cut {
   std::vector<int> side[2];  ///< element ids, in the order they were given.
 };
 
-/// Scratch and rules of cutting. The set is seen as a bipartite graph of elements and *interior* blocks (all of whose
-/// elements are in the set): blocks on the boundary are shared anyway and connect nothing.
+/// Algorithm and work space for cutting a set of elements. The set is treated as a bipartite graph of elements and
+/// *interior* blocks (those whose elements are all in the set). Blocks on the boundary are shared in any case and
+/// connect nothing.
 class Bisector {
  public:
   Bisector(const Adjacency& adjacency, unsigned seed);
 
-  /// True if the bipartite graph of the set has no cycle: then a sweep from the ends fills nothing and needs no
-  /// dissection.
+  /// True if the bipartite graph of the set has no cycle. A sweep from its ends then causes no fill, and dissection is
+  /// not needed.
   bool is_forest(const std::vector<int>& elements);
 
   /// True if the set is one chain: every element joins at most two motion blocks, every block at most two others, and
   /// no loop is closed.
   bool is_path(const std::vector<int>& elements);
 
-  /// Two non-empty sides (precondition: at least two elements). Unconnected pieces are dealt out, the largest first;
-  /// a piece above two thirds of the weight is cut before: a tree exactly at one block (centroid), others at the
-  /// vertex separator of least predicted cost among several.
+  /// Divides a set of at least two elements into two non-empty sides. Unconnected pieces are distributed over the
+  /// sides, the largest first. If one piece holds more than two thirds of the weight, it is split first: a tree at one
+  /// block (its centroid), any other graph at the vertex separator of least predicted cost among several.
   Cut cut(const std::vector<int>& elements);
 
   bool used_separator() const { return used_separator_; }
@@ -53,10 +54,10 @@ class Bisector {
   std::vector<double> weight_;         ///< by element: unknowns squared, a measure of assembly and evaluation
   std::vector<int> touches_;           ///< by block: elements of the loaded set that hold it
   std::vector<int> loaded_;            ///< blocks with touches_ > 0
-  mutable std::vector<int> position_;  ///< by element: position in the set at hand, or -1 (scratch)
+  mutable std::vector<int> position_;  ///< by element: position in the present set, or -1 (scratch)
   std::vector<char> removed_;          ///< by block: separator of the present cut
   std::vector<int> local_;             ///< by block: vertex number in a separator graph, or -1
-  std::vector<int> side_touches_;      ///< by block: elements of the side at hand that hold it (scratch)
+  std::vector<int> side_touches_;      ///< by block: elements of the present side that hold it (scratch)
 };
 
 /// A graph in compressed rows.
@@ -64,8 +65,8 @@ struct VertexGraph {
   std::vector<int> row_begin, columns, weights;
 };
 
-/// Vertex separator of a graph: part 0, 1, or 2 (the separator). METIS where it was built in and the graph is large
-/// enough, otherwise breadth-first levels from a far vertex, whatever the seed.
+/// Vertex separator of a graph: part 0, 1, or 2 (the separator) of each vertex. Uses METIS if it was built in and the
+/// graph is large enough, otherwise breadth-first levels from a far vertex, which do not depend on the seed.
 std::vector<int> separate_vertices(const VertexGraph& graph, unsigned seed);
 
 }  // namespace bough::tree

@@ -13,19 +13,19 @@ struct Part {
   int parent = -1;
   std::vector<int> children;
   std::vector<int> elements;  ///< of terminal parts only
-  bool is_subdomain = false;  ///< upper levels; inside a leaf sub-domain the recursion goes on without
-  bool is_forest = false;     ///< of leaf sub-domains and below: whether the elements close no loop
+  bool is_subdomain = false;  ///< on upper levels; the parts inside a leaf sub-domain are not sub-domains
+  bool is_forest = false;     ///< for leaf sub-domains and parts below: the elements close no loop
   int level = 0;              ///< depth in the recursion
   bool is_terminal() const { return children.empty(); }
 };
 
 struct Dissection {
-  bool is_path = false;  ///< a chain, cut once: its halves are swept from their free ends
+  bool is_path = false;  ///< a chain that is cut once; its halves are swept from their free ends
   std::vector<Part> parts;
   std::string method;
 };
 
-/// sweeps_paths: where sizes are not given, a chain is cut once into halves that are swept.
+/// sweeps_paths: if sizes are not given, a chain is cut once, into two halves that are swept.
 Dissection dissect(const Adjacency& adjacency, const TreeOptions& options, bool sweeps_paths);
 
 }  // namespace bough::tree

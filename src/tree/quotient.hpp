@@ -7,7 +7,7 @@
 
 namespace bough::tree {
 
-/// A front in the making: what is eliminated, what is left, and what it is assembled from.
+/// A front under construction: its eliminated blocks, its boundary, and the elements and children assembled in it.
 struct Group {
   std::vector<int> eliminated;  ///< block ids, in order
   std::vector<int> boundary;    ///< block ids
@@ -16,24 +16,24 @@ struct Group {
   bool alive = true;            ///< false once merged into its parent
 };
 
-/// The matrix as a set of cliques: first the elements, then, as blocks are eliminated, the groups that replace them.
-/// Each live clique is a list of blocks; eliminating blocks merges all cliques that hold them into one new clique
-/// without them.
+/// The matrix as a set of cliques: at first the elements, later, as blocks are eliminated, the groups that replace
+/// them. Each live clique is a list of blocks. Eliminating blocks merges all cliques that contain them into one new
+/// clique without them.
 class Quotient {
  public:
   explicit Quotient(const Adjacency& adjacency);
 
-  /// Eliminates motion blocks and the multipliers that may go with them: those that one of these blocks can carry (a
-  /// block of n unknowns carries n multipliers, so the pivots exist), and those all of whose motion blocks are gone.
-  /// `forced`: live cliques that are assembled here in any case (numbers as from live_clique_of_*). Returns the new
-  /// group's id.
+  /// Eliminates motion blocks, and with them the multipliers that one of these blocks can carry (a block of n unknowns
+  /// carries n multipliers, so that the pivots exist) and the multipliers whose motion blocks are all eliminated.
+  /// `forced`: live cliques that are assembled here in any case (numbers as from live_clique_of_*). Returns the id of
+  /// the new group.
   int eliminate(const std::vector<int>& motion_blocks, const std::vector<int>& forced = {});
 
   /// Eliminates the motion blocks of a set one by one, always the one with the fewest unknowns left in its front
   /// (minimum degree; ties to the smaller id). Groups are appended.
   void eliminate_by_minimum_degree(const std::vector<int>& motion_blocks);
 
-  /// Eliminates everything left, whatever it is, in one group that assembles the live cliques given.
+  /// Eliminates all remaining blocks in one group, which assembles the given live cliques.
   int eliminate_rest(const std::vector<int>& rest, const std::vector<int>& forced);
 
   int clique_of_element(int element) const { return element; }
@@ -56,9 +56,10 @@ class Quotient {
   int num_elements_;
   std::vector<char> live_;                 ///< by clique
   std::vector<char> eliminated_;           ///< by block
-  std::vector<int> capacity_;              ///< by block: multipliers that it can still carry
-  std::vector<std::vector<int>> cliques_;  ///< by block: cliques that hold it (dead ones are dropped when seen)
-  std::vector<int> absorbed_;              ///< cliques of the elimination at hand
+  std::vector<int> capacity_;              ///< by block: number of multipliers that it can still carry
+  std::vector<std::vector<int>> cliques_;  ///< by block: cliques that contain it (dead ones are removed when they are
+                                           ///< met)
+  std::vector<int> absorbed_;              ///< cliques merged by the present elimination
   std::vector<int> united_;                ///< their blocks
   std::vector<int> block_stamp_, clique_stamp_;
   int stamp_ = 0;
@@ -67,9 +68,9 @@ class Quotient {
 /// Flops of eliminating e of e + b unknowns in a dense unsymmetric front.
 double elimination_flops(int e, int b);
 
-/// Merges groups [first, end) of one leaf into their parents where the fill is free or cheaper than visiting one more
-/// front [flop]. missing: unknowns by which their boundaries are counted too few. largest: unknowns that no front is
-/// to exceed by that.
+/// Merges groups [first, end) of one leaf into their parents where the merger causes no fill, or where the fill is
+/// cheaper than visiting one more front [flop]. missing: number of unknowns by which the counted boundaries are too
+/// small. largest: limit of the unknowns of a front, including the missing ones.
 void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing,
                 int largest);
 

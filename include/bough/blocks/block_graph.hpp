@@ -1,22 +1,24 @@
 #pragma once
-/// Unknowns in blocks and the elements that couple them: all that the algebra tower knows of a model. Plain data.
+/// The sparsity of a model for the linear solver: blocks of unknowns, and the elements that couple them. The tree of
+/// sub-domains and the solver know nothing else of a model. Plain data.
 #include <cstdint>
 #include <vector>
 
 namespace bough::blocks {
 
 enum class BlockKind : std::uint8_t {
-  motion,      ///< increments of a node: may be eliminated at once
-  multiplier,  ///< multipliers of a constraint: zero on the diagonal, to be eliminated after an unknown it constrains
+  motion,      ///< increments of a node: their diagonal block may be eliminated at any time
+  multiplier,  ///< multipliers of a constraint: their diagonal block is zero, so an unknown that they constrain is
+               ///< eliminated first
 };
 
 struct BlockGraph {
-  std::vector<int> block_size;        ///< unknowns of each block, >= 1
-  std::vector<BlockKind> block_kind;  ///< same length
+  std::vector<int> block_size;        ///< number of unknowns of each block, >= 1
+  std::vector<BlockKind> block_kind;  ///< kind of each block, as many as block_size
   std::vector<std::int64_t> element_begin{
       0};  ///< element e couples element_blocks[element_begin[e] .. element_begin[e+1])
   std::vector<int>
-      element_blocks;  ///< block ids, in the order of the element's own unknowns, no repeats in one element
+      element_blocks;  ///< block ids, in the order of the element's own unknowns; none twice in one element
 
   int num_blocks() const { return static_cast<int>(block_size.size()); }
   int num_elements() const { return static_cast<int>(element_begin.size()) - 1; }

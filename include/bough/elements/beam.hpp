@@ -54,7 +54,8 @@ bool looks_at_rates(const BeamOn<G, N, C>& e) {
   return e.has_mass || e.has_damping;
 }
 
-/// Whether it has mass, how much, whether it takes energy, and whether it takes or gives any.
+/// Whether the element has mass, its mass, whether it can take up energy, and whether it exchanges energy with the
+/// outside.
 template <class G, int N, class C>
 bool has_mass(const BeamOn<G, N, C>& e) {
   return e.has_mass;
@@ -72,7 +73,7 @@ bool exchanges_energy(const BeamOn<G, N, C>& e) {
   return dissipates(e);
 }
 
-/// Motions of the nodes relative to the reference node: the only positions that a beam looks at.
+/// Motions of the nodes relative to the reference node. The forces of a beam depend on no other positions.
 template <class S, int N>
 struct BeamShape {
   Frame<S> relative[N];                  ///< H_r^-1 H_i

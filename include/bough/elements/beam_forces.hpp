@@ -5,7 +5,7 @@
 
 namespace bough::elements {
 
-/// Section at a mass point: what its force f per length times `weight` is made of.
+/// Section at a mass point: the terms of its force f per length, times `weight`.
 template <class G, class S>
 struct MassPoint {
   Tangent<G, S> T;                             ///< T(d)
@@ -87,8 +87,8 @@ void eval_internal_forces(const BeamOn<G, N, C>& beam, const BeamRates<G, S, N>&
   }
 }
 
-/// What all nodes bear together of forces conjugate to d_i: sum_i ad(d_i)^T p_i, as ad(d_i)^T p_i = F_i -
-/// Ad(H_ri^-1)^T F_i.
+/// Sum over all nodes of the wrenches that follow from forces conjugate to d_i: sum_i ad(d_i)^T p_i, since ad(d_i)^T
+/// p_i = F_i - Ad(H_ri^-1)^T F_i.
 template <class G, class S, int N>
 typename G::template Wrench<S> sum_relative_forces(const BeamRates<G, S, N>& b,
                                                    const typename G::template Wrench<S>* p) {
@@ -99,8 +99,8 @@ typename G::template Wrench<S> sum_relative_forces(const BeamRates<G, S, N>& b,
   return sum;
 }
 
-/// Wrenches on the nodes in the ports' own axes:  F_i = T(d_i)^-T p_i,  F_r = sum - sum_i F_i, where `sum` is what
-/// all nodes bear together.
+/// Wrenches on the nodes in the ports' own axes: F_i = T(d_i)^-T p_i, F_r = sum - sum_i F_i, where `sum` is the total
+/// over all nodes.
 template <class G, class S, int N>
 void eval_nodal_wrenches(const BeamRates<G, S, N>& b, const typename G::template Wrench<S>* p,
                          typename G::template Wrench<S> sum, S* out) {
@@ -134,7 +134,7 @@ requires(N > 2) void eval_residual(const BeamOn<G, N, C>& beam, const PortMotion
   eval_internal_forces<G, S, N, C>(beam, b, around.has_inertia && beam.has_damping, p);
   auto sum = sum_relative_forces<G, S, N>(b, p);
   if (beam.has_mass) {
-    const auto& rule = mass_rule<N>();  // a call, which empties the registers: once
+    const auto& rule = mass_rule<N>();  // one call outside the loop: a call spills the vector registers
     for (int g = 0; g < N; ++g) {
       MassPoint<G, S> m;
       eval_mass_point<G, S, N, C>(beam, b, around.has_inertia, rule, g, m);

@@ -1,8 +1,8 @@
 #pragma once
-/// What forces of beams look at, in differences of the nodes' motions. With D = ad(d), T(d) D = 1 - exp(-D) and
-/// Ad(exp d)^-1 = exp(-D) turn the velocity field of a beam, Ad(exp d)^-1 v_r + T(d) d', into
+/// Kinematics of beams in terms of differences of the nodes' motions. With D = ad(d), the identities T(d) D = 1 -
+/// exp(-D) and Ad(exp d)^-1 = exp(-D) turn the velocity field of a beam, Ad(exp d)^-1 v_r + T(d) d', into
 ///   v(s) = v_r + T(d) z,   z = sum_i N_i z_i,   z_i = T(d_i)^-1 (v_i - v_r),   d_i' = z_i + ad(d_i) v_r,
-/// and the same for virtual motions and for the weight (R^T g; 0). No adjoint of a relative pose is left. Derivation:
+/// and likewise the virtual motions and the weight (R^T g; 0). No adjoint of a relative pose remains. Derivation:
 /// README.md, "Beam".
 #include "bough/elements/beam.hpp"
 #include "bough/motion/operators.hpp"
@@ -12,7 +12,7 @@ namespace bough::elements {
 using motion::InverseTangent;
 using motion::Tangent;
 
-/// Relative motions of the nodes i != r and their rates, as far as they are looked at.
+/// Relative motions of the nodes i != r and their rates. Members that the analysis does not need are left unset.
 template <class G, class S, int N>
 struct BeamRates {
   using Motion = typename G::template Motion<S>;
@@ -22,10 +22,10 @@ struct BeamRates {
   Motion z[N];                      ///< T(d_i)^-1 w_i
   Motion rate[N];                   ///< d_i'
   Motion zz[N];                     ///< T(d_i)^-1 c_i + (T(d_i)^-1)' w_i = z_i'
-  Motion v, b;                      ///< twist of the reference; its acceleration less that of gravity
+  Motion v, b;                      ///< twist of the reference node; its acceleration minus gravity
 };
 
-/// What masses look at: b = a - (R^T g; 0); in statics the weight alone.
+/// The acceleration that multiplies the mass: b = a - (R^T g; 0); in statics only the weight.
 template <class G, class S>
 typename G::template Motion<S> eval_weighed_acceleration(const PortMotionOn<G, S>& p,
                                                          const SurroundingsOn<G, S>& around) {
@@ -34,7 +34,7 @@ typename G::template Motion<S> eval_weighed_acceleration(const PortMotionOn<G, S
   return G::add_translation(G::motion(p.a), lift);
 }
 
-/// Relative motions alone.
+/// Computes the relative motions only.
 template <class G, class S, int N>
 void eval_relative_motions(const PortMotionOn<G, S>* p, BeamRates<G, S, N>& b) {
   constexpr int r = beam_reference<N>;
@@ -45,7 +45,7 @@ void eval_relative_motions(const PortMotionOn<G, S>* p, BeamRates<G, S, N>& b) {
   }
 }
 
-/// Rates and accelerations too, as far as they are looked at.
+/// Computes rates and accelerations as well, where the analysis needs them.
 template <class G, class S, int N>
 void eval_beam_rates(const PortMotionOn<G, S>* p, const SurroundingsOn<G, S>& around, bool has_mass, bool has_damping,
                      BeamRates<G, S, N>& b) {
@@ -66,7 +66,7 @@ void eval_beam_rates(const PortMotionOn<G, S>* p, const SurroundingsOn<G, S>& ar
   for (int i = 0; i < N; ++i) {
     if (i == r) continue;
     b.c[i] = eval_weighed_acceleration(p[i], around) - b.b;
-    if (N == 2) continue;  // screw_beam.hpp does without
+    if (N == 2) continue;  // screw_beam.hpp does not need these
     b.zz[i] = times(b.inverse[i], b.c[i]);
     if (moves) b.zz[i] = G::add(b.zz[i], 1.0, slope_times(b.inverse[i], b.rate[i], b.w[i]));
   }

@@ -144,13 +144,14 @@ bool looks_at_rates(const SpringOn<G, C>& e) {
   return is_present(e.damping);
 }
 
-/// What a spring sees: its line n = (x_b - x_a) / l in inertial axes, its force and how this follows the line.
+/// Kinematics and force of a spring: the unit vector n = (x_b - x_a) / l in inertial axes, the force along it, and the
+/// derivative of the force by the length.
 template <class G, class S>
 struct SpringLine {
   typename G::template Translation<S> n;
-  typename G::template Translation<S> w;  ///< relative velocity of the points; where it damps
+  typename G::template Translation<S> w;  ///< relative velocity of the points; set if the spring has a damper
   S inverse;                              ///< 1/l
-  S along;                                ///< l' = n . w; where it damps
+  S along;                                ///< l' = n . w; set if the spring has a damper
   S tension;
 };
 template <class G, class S, class C>
@@ -189,7 +190,7 @@ S eval_strain_energy(const SpringOn<G, C>& spring, const PortMotionOn<G, S>* p) 
 
 /// Elastic and viscous coupling of all relative motions of two frames:  d = log(H_a^-1 H_b),
 ///   F_b = T(d)^-T (K (d - d0) + D d'),  F_a = -Ad(H_ab^-1)^T F_b.
-/// The same as a two-node beam of length 1 without mass.
+/// Equivalent to a two-node beam of length 1 without mass.
 template <class G, class C = double>
 struct BushingOn {
   using Group = G;
@@ -228,7 +229,7 @@ BOUGH_INLINE C inverse_length(const BushingOn<G, C>&) {
   return C(1.0);
 }
 
-/// Wrenches F_b = T(d)^-T n and F_a = ad(d)^T n - F_b of what resists d; returns F_b.
+/// Wrenches F_b = T(d)^-T n and F_a = ad(d)^T n - F_b of a coupling with the force n conjugate to d; returns F_b.
 template <class G, class S>
 BOUGH_INLINE typename G::template Wrench<S> put_screw_wrenches(const ScrewRates<G, S>& r,
                                                                const typename G::template Wrench<S>& n, S* out) {

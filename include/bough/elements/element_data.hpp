@@ -1,21 +1,21 @@
 #pragma once
-/// What can be done with the data of any element once it has declared them. An element declares its data by
+/// Operations on the data of any element, once the element has declared them. An element declares its data by
 ///   template <class A, class B, class Visit> static void visit_data(A& a, B& b, Visit& visit)
-/// which hands each datum of a, with that of b, to the function of its kind. a and b are the element itself, in the
-/// same or in other numbers (double or packs), on the same or on another group:
+/// which passes each datum of a, together with that of b, to the visitor's function for its kind. a and b are the same
+/// element, with constants of the same or of another type (double or packs), on the same or on another group:
 ///   number(x, y)         a scalar
 ///   matrix(x, y)         of a section or a body, in the axes of the first port
 ///   vector(x, y)         a strain or a twist, in the axes of the first port
 ///   wrench(x, y, follows)  in the axes of the first port, or, of dead loads, in inertial axes
 ///   direction(x, y)      of a row or an effort of a joint
-///   flag(x, y)           what a kernel branches on: the same in all lanes
-///   law(x, y)            the index of a time function, -1: none; whether there is one is a flag
-/// Ports are common to all elements and not handed over; `data_axes` tells in which axes the data are.
+///  flag(x, y)           a value on which a kernel branches: equal in all lanes
+///  law(x, y)            the index of a time function, -1: none; whether it is -1 counts as a flag
+/// Ports are common to all elements and are not visited; `data_axes` says in which axes the data are given.
 #include "bough/elements/port.hpp"
 
 namespace bough::elements {
 
-/// A visitor of numbers alone: every number of a datum is handed to `each`, whatever its kind.
+/// A visitor of numbers: every number of a datum is passed to `each`, whatever the kind of the datum.
 template <class Each>
 class NumbersOf {
  public:
@@ -57,7 +57,7 @@ class NumbersOf {
   Each& each_;
 };
 
-/// A visitor of what a kernel branches on: flags are handed to kind.flag, laws to kind.law.
+/// A visitor of branch conditions: flags are passed to kind.flag, laws to kind.law.
 template <class Kind>
 class KindOf {
  public:
@@ -90,7 +90,7 @@ class KindOf {
   Kind& kind_;
 };
 
-/// The laws that an element has, in the order in which it declares them.
+/// Lists the laws of an element, in the order in which the element declares them.
 struct LawLister {
   int* laws;
   int count = 0;

@@ -4,8 +4,9 @@
 
 namespace bough::elements {
 
-/// Seen from the inertial frame, in the axes of the frame in which nodes are described; moments about the inertial
-/// origin. The potential of gravity g is -g . mass_moment, its resultant (mass g; mass_moment x g).
+/// Energies and momenta with respect to the inertial frame, in the axes of the frame in which nodes are described;
+/// moments are about the inertial origin. The potential of gravity g is -g . mass_moment, its resultant (mass g;
+/// mass_moment x g).
 template <class S>
 struct EnergiesOf {
   S kinetic = S(0.0);                     ///< [J]; 0 in statics
@@ -20,7 +21,7 @@ using Energies = EnergiesOf<double>;
 template <class E>
 Energies eval_energies(const E& e, const Field& field, double turns);
 
-/// Entry of lane l: those of the element alone, to round-off. As evaluate_lanes.
+/// Lane l agrees with eval_energies of that element alone to round-off. Arguments as for evaluate_lanes.
 template <class E>
 void eval_energies_lanes(const LaneElement<E>& e, const FieldLanes& field, const LanePack& turns,
                          EnergiesOf<LanePack>& out);

@@ -34,10 +34,10 @@ struct Slopes {
   bool mass_only = false;
 };
 
-/// Node motions and what surrounds them, as read by all elements of a model.
-/// observer: the frame in which nodes, ground, carriers and gravity are described, where that moves (its motion in
-/// the inertial frame); null: they are described in the inertial frame. Only elements with mass look at it: all
-/// others see relative motions. Frames move in space alone.
+/// Motions of all nodes, and the quantities common to all elements of a model.
+/// observer: the motion, in the inertial frame, of the frame in which nodes, ground, carriers and gravity are
+/// described; null if that is the inertial frame itself. Only elements with mass use it: the forces of all others
+/// depend on relative motions. Moving frames are supported in space only.
 template <class G, class S>
 struct FieldOn {
   const NodeMotionOn<G, S>* nodes = nullptr;
@@ -50,13 +50,13 @@ template <class S>
 using FieldOf = FieldOn<motion::Se3, S>;
 using Field = FieldOf<double>;
 
-/// Elements whose forces depend on motions in the inertial frame.
+/// True for elements whose forces depend on motions with respect to the inertial frame.
 template <class E>
 constexpr bool has_mass_matrix = requires(const E& e) {
   e.mass;
 };
 
-/// Position of the element's first node off the ground: kernels see positions relative to it.
+/// Position of the first node of an element that is not the ground. Kernels receive positions relative to it.
 template <class E, class G, class S>
 BOUGH_INLINE motion::PositionPair<S, G::translations> anchor_of(const E& e, const NodeMotionOn<G, S>* nodes) {
   for (const auto& port : e.ports)
@@ -64,7 +64,7 @@ BOUGH_INLINE motion::PositionPair<S, G::translations> anchor_of(const E& e, cons
   return motion::PositionPair<S, G::translations>::from(G::template Translation<S>::zero());
 }
 
-/// Motion of one port; `anchor` is subtracted from its position. carriers: looked at by ports that name one.
+/// Motion of one port, with `anchor` subtracted from its position. carriers: used by ports that name one.
 template <class S>
 PortMotion<S> eval_carried_port(const PortOf<S>& port, const motion::PositionPair<S>& anchor,
                                 const CarrierMotionOf<S>& c) {
@@ -92,7 +92,7 @@ BOUGH_INLINE PortMotionOn<G, S> eval_port(const PortOn<G, S>& port, const NodeMo
           G::inverse_adjoint_times(port.offset, n.a)};
 }
 
-/// The rotation of a port alone, for what is asked of every element after every step.
+/// The rotation of a port only: it is needed for every joint after every step.
 inline motion::Mat3<double> eval_port_rotation(const Port& port, const Field& field) {
   if (port.node == ground)
     return port.carrier >= 0 ? field.carriers[port.carrier].pose.R * port.offset.R : port.offset.R;
@@ -107,7 +107,7 @@ inline motion::Vec2<double> eval_port_rotation(const PortOn<motion::Se2, double>
   return port.has_offset ? motion::complex_times(node, port.offset.R) : node;
 }
 
-/// Unknowns of an element: those of its group per port off the ground, then its multipliers.
+/// Number of unknowns of an element: G::dof for each port that is not on the ground, and its multipliers.
 template <class E>
 int num_multipliers(const E& e) {
   if constexpr (E::num_multipliers > 0)
@@ -122,15 +122,15 @@ int num_unknowns(const E& e) {
   return n;
 }
 
-/// Residual in the unknowns of the nodes (and constraint rows), and the tangent dR/d(eta, lambda), row-major, when
-/// `tangent` is given. `multipliers` and `turns` are looked at by joints only. No allocation.
+/// Residual in the unknowns of the nodes (and constraint rows), and, if `tangent` is given, the tangent dR/d(eta,
+/// lambda), row-major. Only joints use `multipliers` and `turns`. No allocation.
 template <class E>
 void evaluate(const E& e, const FieldOn<typename E::Group, double>& field, const double* multipliers, double turns,
               double* residual, double* tangent);
 
-/// Sum of the magnitudes of the terms behind each entry of a residual, against which its smallness is measured.
-/// Elements between nodes push and pull on several; a body's own terms balance within it and are told apart:  |M a| +
-/// |M g| + |ad(v)^T M v|.
+/// Sum of the magnitudes of the terms in each entry of a residual: the scale of its round-off and of the test for
+/// convergence. Elements between nodes contribute their forces on each node. The terms of a body balance within the
+/// element and are added separately: |M a| + |M g| + |ad(v)^T M v|.
 template <class E, class G, class S>
 void eval_magnitude(const E& e, const FieldOn<G, S>&, const S* residual, S* magnitude) {
   using std::abs;
@@ -166,14 +166,14 @@ void eval_magnitude(const RigidBodyOn<G, C>& e, const FieldOn<G, S>& field, cons
   G::put(G::dual_bracket(v, G::matrix_times(e.mass, v)), term.v), add();
 }
 
-/// Energies, powers and momentum of one element, all of them those of the inertial frame, momentum and load in the
-/// axes of the frame in which nodes are described. Without energies, those of joints, springs and bushings are left
-/// out: what is watched in every step are powers and loads.
+/// Energies, powers and momentum of one element with respect to the inertial frame; momentum and load are in the axes
+/// of the frame in which nodes are described. Without `energies`, those of joints, springs and bushings are omitted:
+/// the checks made in every step need only powers and loads.
 template <class E>
 Measures measure(const E& e, const Field& field, const double* multipliers, double turns, bool with_energies = true);
 
-/// d(residual)/dt along the motion with accelerations held: positions, velocities, multipliers' frames and laws move
-/// on. Laws come as value and rate. Joints: forces only.
+/// Time derivative of the residual along the motion with accelerations held constant: positions, velocities, frames of
+/// multipliers and laws advance. Laws are given as value and rate. Of joints only the forces are differentiated.
 template <class E>
 void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Taylor<double, 1>>& around,
                    const double* multipliers, double turns, double* residual_rate);
@@ -183,11 +183,11 @@ void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Tay
 /// Phi''/2, Phi'''/6}.
 void evaluate_constraint_series(const Joint& joint, const Field& field, const Vec6<double>* jerk,
                                 const lanes::Taylor<double, 3>* laws, double turns, lanes::Taylor<double, 3>* out);
-/// The rows and their first time derivatives alone.
+/// Only the rows and their first time derivatives.
 void evaluate_constraint_rates(const Joint& joint, const Field& field, const lanes::Taylor<double, 1>* laws,
                                double turns, lanes::Taylor<double, 1>* out);
 
-/// Relative motion of a joint's frames, for sensors and the state's count of turns.
+/// Relative motion of the two frames of a joint, for sensors and for the count of turns in the state.
 struct JointMotion {
   Frame<double> relative;  ///< H_a^-1 H_b
   Vec6<double> twist;      ///< of b relative to a, in the axes of b
@@ -195,7 +195,7 @@ struct JointMotion {
   double angle_rate = 0.0;
 };
 JointMotion eval_joint_motion(const Joint& joint, const Field& field, double turns);
-/// Its angle alone.
+/// Only the angle of eval_joint_motion.
 double eval_joint_angle(const Joint& joint, const Field& field, double turns);
 
 /// Wrench of the first body on the second at the second's joint frame, in that frame's axes [N, N m].

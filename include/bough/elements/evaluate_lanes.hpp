@@ -1,6 +1,6 @@
 #pragma once
-/// Eight elements of one type and kind in lockstep, one to a lane: the kernels and the driver of evaluate.hpp over
-/// packs. A lane holds the bits of the same element evaluated alone, whoever sits in the other lanes.
+/// Evaluation of eight elements of one type in lockstep, one to a lane: the kernels and the driver of evaluate.hpp over
+/// packs. A lane gives the bits of the same element evaluated alone, whatever the other lanes contain.
 ///
 /// A solver that runs up to eight equal sub-domains in lockstep
 ///   1. once, for each element position: checks `may_share_lanes` and makes a `LaneElement` (make_lane_element),
@@ -10,8 +10,8 @@
 ///      move, one CarrierLanes for each of them and for the observer (set_all_lanes), which are common to all lanes;
 ///   3. calls `evaluate_lanes` for each element; entry k of lane l of a result is out[k * num_lanes + l], k as in
 ///     `evaluate`.
-/// Lanes that are not needed repeat a valid element and its nodes; what they yield is ignored. Nothing allocates. All
-/// arrays of packs are aligned to 64 bytes.
+/// Unused lanes repeat a valid element and its nodes, and their results are ignored. Nothing allocates. All arrays of
+/// packs are aligned to 64 bytes.
 #include "bough/elements/element_data.hpp"
 #include "bough/elements/evaluate.hpp"
 #include "bough/lanes/transpose.hpp"
@@ -42,7 +42,7 @@ struct OverLanes<E<G, N, double>> {
 template <class E>
 using LaneElement = typename detail::OverLanes<E>::Type;
 
-/// Laws an element looks at, in the order of its rows, then efforts; returns their number.
+/// Largest number of laws of one element: those of its rows, then those of its efforts.
 constexpr int max_laws = max_rows + max_efforts;
 template <class E>
 int list_laws(const E& e, int* laws) {
@@ -52,12 +52,12 @@ int list_laws(const E& e, int* laws) {
   return lister.count;
 }
 
-/// Whether two elements differ in numbers only: ports on the ground and ports with offsets are the same ones, so are
-/// the frames of prescribed motion that ports stand in, and the terms that are present (mass, damping, rows, efforts,
-/// laws, dead or follower loads).
+/// Whether two elements differ in numbers only. Equal are: which ports are on the ground and which have offsets, the
+/// frames of prescribed motion that carry ports, and the terms that are present (mass, damping, rows, efforts, laws,
+/// dead or follower loads).
 template <class E>
 bool may_share_lanes(const E& a, const E& b);
-/// Whether they do not even differ in these: all but nodes and laws are the same.
+/// Whether two elements have equal constants as well: they differ in nodes and laws only.
 template <class E>
 bool has_same_numbers(const E& a, const E& b);
 
@@ -69,7 +69,7 @@ bool has_same_numbers(const E& a, const E& b);
 template <class E>
 LaneElement<E> make_lane_element(const E* const* elements, int count, const int* nodes, int first_law);
 
-/// A node's motion as plain numbers, in the order of its members.
+/// The motion of a node as a plain array of numbers, in the order of its members.
 template <class G>
 inline constexpr int numbers_of_node = sizeof(NodeMotionOn<G, double>) / sizeof(double);
 static_assert(numbers_of_node<motion::Se3> == 33 && sizeof(NodeLanes) == 33 * sizeof(LanePack));
@@ -82,7 +82,7 @@ inline void set_lanes(NodeLanes& to, const double* const (&from)[num_lanes]) {
   lanes::gather_lanes(from, numbers_of_node<motion::Se3>, reinterpret_cast<LanePack*>(&to));
 }
 
-/// A frame of prescribed motion as all lanes see it.
+/// Copies the motion of a frame of prescribed motion into all lanes.
 inline void set_all_lanes(CarrierLanes& to, const CarrierMotion& from) {
   to.pose = {lanes::cast<LanePack>(from.pose.R), lanes::cast<LanePack>(from.pose.x)};
   to.twist = lanes::cast<LanePack>(from.twist);

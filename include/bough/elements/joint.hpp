@@ -14,8 +14,8 @@ enum class RowKind : std::uint8_t {
   screw,   ///< u_3 - pitch theta - law = 0
 };
 
-/// A row, and the directions that it compares: in space axes i of the first and j of the second frame, in a plane one
-/// direction d.
+/// A row and the directions that it compares: in space axis i of the first and axis j of the second frame, in a plane
+/// one direction d.
 template <class G, class C>
 struct ConstraintRowOn : G::template Direction<C> {
   RowKind kind = RowKind::along;
@@ -43,8 +43,8 @@ using Effort = EffortOf<double>;
 constexpr int max_rows = 6;
 constexpr int max_efforts = 4;
 
-/// A joint of `num_rows` rows, the first of the array. The angle at the last accepted step, from which the present
-/// one is unwrapped, belongs to the state of a run and is handed to the kernel as `turns`.
+/// A joint with `num_rows` constraint rows, at the begin of the array. The angle at the last accepted step belongs to
+/// the state of a run. It is passed to the kernel as `turns`, and the present angle is unwrapped from it.
 template <class G, class C = double>
 struct JointOn {
   using Group = G;
@@ -85,7 +85,7 @@ template <class C>
 using JointOf = JointOn<motion::Se3, C>;
 using Joint = JointOf<double>;
 
-/// Whether an effort damps; else nothing looks at velocities.
+/// Whether an effort has a damper; if none has, no velocities are needed.
 template <class G, class C>
 bool is_damped(const JointOn<G, C>& joint) {
   bool damped = false;
@@ -108,8 +108,8 @@ bool exchanges_energy(const JointOn<G, C>& joint) {
   return is_driven(joint) || joint.num_efforts > 0;
 }
 
-/// Whether rows k to k + 2 of a joint hold all axes of its second frame along those of its first: e_1 . R e_2 = e_2 .
-/// R e_3 = e_3 . R e_1 = 0, which half a turn off about any of them would meet as well.
+/// Whether rows k to k + 2 of a joint align all axes of its frames: e_1 . R e_2 = e_2 . R e_3 = e_3 . R e_1 = 0. These
+/// equations are also satisfied after half a turn about any of the axes.
 inline bool aligns_all_axes(const Joint& e, int k) {
   return k + 2 < e.num_rows && e.rows[k].i == 0 && e.rows[k].j == 1 && e.rows[k + 1].kind == RowKind::across &&
          e.rows[k + 1].i == 1 && e.rows[k + 1].j == 2 && e.rows[k + 2].kind == RowKind::across;
@@ -184,8 +184,8 @@ BOUGH_INLINE S eval_coordinate(const EffortOn<G, C>& e, const typename G::templa
   return eval_coordinate<G, S, C>(kind, e.direction, C(0.0), H, turns, gradient);
 }
 
-/// Effort of the springs, dampers and drives without constraint along one coordinate, on the second body, against the
-/// motion. rate: of the coordinate, nullptr where nothing damps it.
+/// Force of the spring, the damper and the given effort along one coordinate, on the second body, counted against the
+/// motion. rate: that of the coordinate, nullptr where no damper needs it.
 template <class G, class S, class C>
 BOUGH_INLINE S eval_effort(const EffortOn<G, C>& e, const S& coordinate, const S* rate, const Constant<S>* laws) {
   S f = e.stiffness * (coordinate - e.rest);
@@ -216,7 +216,7 @@ BOUGH_INLINE void add_efforts(const JointOn<G, C>& joint, const typename G::temp
   }
 }
 
-/// Wrenches on both ports from that on the second.
+/// Wrenches on both ports, computed from the wrench on the second.
 template <class G, class S>
 BOUGH_INLINE void put_relative_wrench(const typename G::template Pose<S>& H, const typename G::template Wrench<S>& f,
                                       S* out) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a variational integrator asks of an element: the momenta and forces of its Lagrangian
+/// The terms that a variational integrator needs of an element: momenta and forces of its Lagrangian
 ///   L(q, v) = kinetic energy - strain energy - potential of gravity,
 /// at a pose q and a twist v of its ports. Sources: Marsden, West 2001; Bou-Rabee, Marsden 2009 (Lie groups).
 #include "bough/elements/evaluate.hpp"
@@ -11,9 +11,9 @@ namespace bough::elements {
 /// their own axes; the forces resist the motion, as residuals do. d/dt P - ad(v)^T P + F is the residual of the
 /// equations of motion. force == nullptr: P only. `elastic_inertia` tau [s^2] adds tau/2 times the strain energy with
 /// rates of strain for strains, of beams and bushings, to L: no rigid motion has any of it. For linear elasticity tau
-/// = (beta - 1/4) h^2 makes the midpoint rule that of Newmark with beta (Kane, Marsden, Ortiz, West 2000).
-/// Surroundings of dynamics; accelerations are not looked at. Here: elements without inertia, whose force is their
-/// residual.
+/// tau = (beta - 1/4) h^2 makes the midpoint rule that of Newmark with beta (Kane, Marsden, Ortiz, West 2000).
+/// Surroundings are those of dynamics; accelerations are not used. This overload: elements without inertia, whose force
+/// is their residual.
 template <class E, class G, class S>
 void eval_momentum(const E& e, const PortMotionOn<G, S>* p, const SurroundingsOn<G, S>& around,
                    double /*elastic_inertia*/, S* momentum, S* force) {
@@ -21,7 +21,7 @@ void eval_momentum(const E& e, const PortMotionOn<G, S>* p, const SurroundingsOn
   if (force != nullptr) eval_residual(e, p, around, force);
 }
 
-/// The efforts of a joint; its constraints are the integrator's (evaluate_rows).
+/// The efforts of a joint; the integrator treats its constraints itself (evaluate_rows).
 template <class G, class S, class C>
 void eval_momentum(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const SurroundingsOn<G, S>& around,
                    double turns, S* momentum, S* force) {
@@ -73,7 +73,7 @@ void eval_port_momenta(const BeamRates<G, S, N>& b, const RateMomenta<G, S, N>& 
   eval_nodal_wrenches<G, S, N>(b, q, sum, momentum);
 }
 
-/// With the elastic inertia's momentum tau K d', d = log(H_a^-1 H_b).
+/// Includes the momentum tau K d' of the elastic inertia, d = log(H_a^-1 H_b).
 template <class G, class S, class C>
 void eval_momentum(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* ports, const SurroundingsOn<G, S>& around,
                    double elastic_inertia, S* momentum, S* force) {
@@ -187,12 +187,12 @@ typename G::template Vector<S> eval_momentum_after(const typename G::template Ve
   return On::template inverse_tangent_transpose_times<S>(D, V(P - (0.5 * h) * forces));
 }
 
-/// What an element of a group looks at.
+/// The members of a field that an element of a group uses.
 template <class E>
 using FieldFor = FieldOn<typename E::Group, double>;
 
-/// Momentum and force of an element in the axes of its nodes, G::dof each per port off the ground; accelerations are
-/// not looked at.
+/// Momentum and force of an element in the axes of its nodes, G::dof entries for each port that is not on the ground;
+/// accelerations are not used.
 template <class E>
 void evaluate_momentum(const E& e, const FieldFor<E>& field, double turns, double elastic_inertia, double* momentum,
                        double* force);

@@ -1,5 +1,6 @@
 #pragma once
-/// Where an element meets the structure, and what it sees there.
+/// A port is the frame at which an element is attached to the structure. This file defines ports and the motions that
+/// an element receives at them.
 #include <cstdint>
 
 #include "bough/lanes/jet.hpp"
@@ -15,11 +16,11 @@ using motion::Mat6;
 using motion::Vec3;
 using motion::Vec6;
 
-constexpr int ground = -1;  ///< node index of what is fixed in space
+constexpr int ground = -1;  ///< node index of the ground, which is fixed in space
 
-/// A frame fixed to a node, at `offset` in the node's axes; node == ground: `offset` is the pose in the ground, or in
-/// the frame of prescribed motion that stands for it there. Constants of elements are numbers C: double, or a pack
-/// that holds those of several elements, one to a lane.
+/// A frame fixed to a node, at `offset` in the node's axes. With node == ground, `offset` is the pose in the ground, or
+/// in a frame of prescribed motion (carrier). The constants of elements have type C: double, or a pack that holds the
+/// constants of several elements, one to a lane.
 template <class G, class C>
 struct PortOn {
   int node = ground;
@@ -32,7 +33,7 @@ template <class C>
 using PortOf = PortOn<motion::Se3, C>;
 using Port = PortOf<double>;
 
-/// What an element is to the rest of the library, which asks for this and never for its type.
+/// The role of an element in a model. The rest of the library asks for the role and never for the element's type.
 enum class Role : std::uint8_t {
   body,      ///< mass at one frame
   beam,      ///< material along a reference axis between nodes
@@ -40,7 +41,7 @@ enum class Role : std::uint8_t {
   joint,     ///< rows of constraints between two frames, and efforts along what they leave free
   load,      ///< given forces
 };
-/// Whether an element goes from one frame to another.
+/// Whether an element connects two frames.
 constexpr bool joins_two_frames(Role role) { return role == Role::coupling || role == Role::joint; }
 
 /// Axes in which the data of an element are given.
@@ -50,8 +51,8 @@ enum class DataAxes : std::uint8_t {
   section,  ///< the same, and axis 1 is the reference axis
 };
 
-/// Whether a constant is worth its terms: in packs if it is to one lane, to the others a zero times something finite
-/// adds nothing.
+/// Whether a constant contributes, so that its terms have to be computed. A pack contributes if one of its lanes does:
+/// for the other lanes the terms are zero times a finite number and add nothing.
 inline bool is_present(double x) { return x != 0.0; }
 template <class C>
 bool is_present(const C& x) {
@@ -65,7 +66,7 @@ struct CarrierMotionOf {
   Frame<S> pose = Frame<S>::identity();
   Vec6<S> twist = Vec6<S>::zero();
   Vec6<S> twist_rate = Vec6<S>::zero();
-  Vec6<S> twist_second = Vec6<S>::zero();  ///< looked at by constraint series and rates only
+  Vec6<S> twist_second = Vec6<S>::zero();  ///< used by constraint series and rates only
 };
 using CarrierMotion = CarrierMotionOf<double>;
 
@@ -80,11 +81,11 @@ struct PortMotionOn {
 template <class S>
 using PortMotion = PortMotionOn<motion::Se3, S>;
 
-/// Motion seen from the inertial frame, of a port whose motion p is known in a frame that moves with twist V (own
-/// axes) itself:
+/// Motion with respect to the inertial frame of a port whose motion p is known in a frame that itself moves with the
+/// twist V (in its own axes):
 ///   v + c,  a + Ad(H^-1) V' - ad(v) c,  c = Ad(H^-1) V                    (the middle of ad(v) c is the Coriolis term)
-/// The pose stays that in the frame: elements look at relative poses, and at the direction of gravity, which is
-/// turned into the frame. anchor: what p.H.x is relative to [m].
+/// The pose remains the one in the moving frame: forces depend on relative poses and on the direction of gravity, which
+/// is transformed to that frame. anchor: the origin of p.H.x [m].
 template <class S>
 void add_observer_motion(PortMotion<S>& p, const Vec3<S>& anchor, const Vec6<S>& twist, const Vec6<S>& twist_rate) {
   const Frame<S> H{p.H.R, p.H.x + anchor};
@@ -93,7 +94,7 @@ void add_observer_motion(PortMotion<S>& p, const Vec3<S>& anchor, const Vec6<S>&
   p.v += carried;
 }
 
-/// Scalar of what an element's forces are not differentiated by: its constants, the laws, multipliers.
+/// Scalar type of quantities by which an element's forces are never differentiated: constants, laws, multipliers.
 template <class S>
 struct ConstantOf {
   using Type = S;
@@ -105,14 +106,15 @@ struct ConstantOf<lanes::Jet<S, N>> {
 template <class S>
 using Constant = typename ConstantOf<S>::Type;
 
-/// What all elements share at one instant.
+/// Quantities that are common to all elements at one instant.
 template <class G, class S>
 struct SurroundingsOn {
   typename G::template Translation<S> gravity;  ///< acceleration in inertial axes [m/s^2]
   const Constant<S>* laws = nullptr;            ///< value of each time function
-  bool has_inertia = true;                      ///< false in statics: velocities and accelerations are not looked at
+  bool has_inertia = true;                      ///< false in statics, where velocities and accelerations are not used
   bool nodes_turn =
-      true;  ///< false: only origins of nodes move and only they feel forces, so bodies are points without gyroscopic forces
+      true;  ///< false: nodes have no rotations; only their origins move and take forces, so bodies are points without
+             ///< gyroscopic forces
 };
 template <class S>
 using Surroundings = SurroundingsOn<motion::Se3, S>;
@@ -125,8 +127,9 @@ struct PortSlopesOn {
   typename G::template Map<S> velocity, acceleration;
 };
 
-/// Of elements that say nothing else: whether they have mass, and how much [kg]; whether they take energy, what looks
-/// at velocities being a damper where there is no mass; whether they take or give any, as loads do.
+/// Defaults for elements that declare nothing else: whether they have mass, and how much [kg]; whether they dissipate
+/// energy (an element without mass whose forces depend on velocities is a damper); whether they exchange energy with
+/// the outside, as loads do.
 template <class E>
 bool has_mass(const E&) {
   return false;

@@ -1,5 +1,5 @@
 #pragma once
-/// What rows of joints measure.
+/// The quantities that the rows of joints measure: lengths, or angles and cosines.
 #include "bough/elements/joint.hpp"
 
 namespace bough::elements {

@@ -3,7 +3,7 @@
 /// alone, so (7) of README.md becomes (8), an interpolation of the nodes' own motions by P(s)
 /// (motion/screw_blend.hpp):
 ///   v(s) = v_r + P (v_1 - v_r),   F_1 = T^-T n + sum_g w_g P^T f,   F_r + F_1 = ad(d)^T n + sum_g w_g f.
-/// D is applied once to what it meets, and polynomials of it by Horner's rule.
+/// D is applied to each vector once, and polynomials of D are evaluated by Horner's rule.
 #include "bough/elements/beam_rates.hpp"
 #include "bough/motion/screw_blend.hpp"
 
@@ -11,7 +11,7 @@ namespace bough::elements {
 
 using motion::ScrewBlend;
 
-/// Relative motion d of the nodes and its rates, as far as they are looked at.
+/// Relative motion d of the nodes and its rates. Members that the analysis does not need are left unset.
 template <class G, class S>
 struct ScrewRates {
   InverseTangent<G, S> inverse;                     ///< at d
@@ -74,7 +74,7 @@ BOUGH_INLINE void eval_gauss_forces(const typename G::template Matrix<C>& mass, 
   g.difference = second - first;
 }
 
-/// Rest e0 and 1/L of what resists the relative motion d by  n = K (d/L - e0) + D d'/L.
+/// Stress-free strain e0 and 1/L of an element that resists the relative motion d by n = K (d/L - e0) + D d'/L.
 template <class G, class C>
 BOUGH_INLINE const typename G::template Vector<C>& rest_of(const BeamOn<G, 2, C>& beam) {
   return beam.reference_strain[0];
@@ -83,7 +83,7 @@ template <class G, class C>
 BOUGH_INLINE C inverse_length(const BeamOn<G, 2, C>& beam) {
   return 1.0 / beam.length;
 }
-/// n of a two-node beam or a bushing.
+/// The force n conjugate to d of a two-node beam or of a bushing.
 template <class G, class S, class E>
 BOUGH_INLINE typename G::template Wrench<S> eval_screw_resultant(const E& e, const ScrewRates<G, S>& r, bool viscous) {
   const auto inverse = inverse_length(e);

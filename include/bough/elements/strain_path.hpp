@@ -1,6 +1,6 @@
 #pragma once
-/// A way from one shape of a beam to another along which its strains change in proportion, for large corrections in
-/// statics. In lanes: a lane's bits do not depend on its neighbours.
+/// A path from one shape of a beam to another along which its strains change in proportion. It is used for large Newton
+/// corrections in statics. In lanes, the bits of a lane do not depend on its neighbours.
 #include "bough/elements/beam.hpp"
 #include "bough/elements/evaluate_lanes.hpp"
 #include "bough/motion/quaternion.hpp"
@@ -20,11 +20,11 @@ struct SectionWay {
 ///
 ///   e_g(end) = e_g(d) + factor (de_g/dd) T(d)^-1 (eta_i - Ad(H_ri)^-1 eta_r),     g = 1 ... N - 1 strain points.
 ///
-/// A beam of N nodes has as many strains as relative motions, 6 (N - 1), so the shape follows from the strains. A
-/// slender beam answers to a strain of its axis with EA and to bending with EI. A correction that is linear in d
-/// bends the beam with an axial strain of second order, and the false axial force EA (correction)^2 spoils the next
-/// tangent of Newton's method; here strains have no second order. With two nodes e = d / L, and the path is linear in
-/// d.
+/// A beam of N nodes has as many strains as relative motions, 6 (N - 1), so the strains determine the shape. A slender
+/// beam resists axial strain with EA, which is far larger than EI in bending. A correction that is linear in d bends
+/// the beam with an axial strain of second order, and the spurious axial force EA (correction)^2 spoils the next
+/// tangent of Newton's method. Along this path strains have no second order. With two nodes e = d / L, and the path is
+/// linear in d.
 ///
 /// The slopes of d at the strain points solve d'_g = T(d_g)^-1 L e_g, by substitution; no stiffness enters. Where
 /// that does not converge (corrections that bend an element by more than a turn) the path is linear in d.

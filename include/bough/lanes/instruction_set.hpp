@@ -1,14 +1,14 @@
 #pragma once
-/// What the library that is loaded was compiled for. Asked of the library, since a program compiled once may be given
-/// libraries of several instruction sets by the loader (BOUGH_DISPATCH): its own macros would tell what the program
-/// was compiled for.
+/// The instruction set that the loaded library was compiled for. With BOUGH_DISPATCH the loader gives a program, itself
+/// compiled once, the library that suits the processor. The library is therefore asked: preprocessor macros of the
+/// program would tell what the program was compiled for.
 #include <string_view>
 
 namespace bough::lanes {
 
 struct InstructionSet {
   std::string_view name;     ///< "AVX-512", "AVX2", "AVX" or "SSE2"
-  int register_doubles = 1;  ///< that one register of a kernel holds
+  int register_doubles = 1;  ///< number of doubles that one register of a kernel holds
 };
 
 InstructionSet instruction_set();

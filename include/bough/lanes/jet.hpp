@@ -1,6 +1,6 @@
 #pragma once
-/// Forward derivative: a value with its derivatives along N directions, carried through a kernel in one pass.
-/// Exact tangents come from the residual's own source, so the two cannot drift apart.
+/// Forward differentiation: a jet is a value with its derivatives along N directions, which a kernel carries along in
+/// one pass. The exact tangent is computed by the source of the residual, so the two cannot contradict each other.
 #include "bough/lanes/scalar.hpp"
 
 namespace bough::lanes {
@@ -66,7 +66,7 @@ template <class S, int N>
 Jet<S, N> operator/(const Jet<S, N>& x, const Jet<S, N>& y) {
   Jet<S, N> r;
   const S inv = S(1.0) / y.a;
-  r.a = x.a / y.a;  // the bits of the plain quotient
+  r.a = x.a / y.a;  // the value is rounded as a quotient of doubles is
   for (int i = 0; i < N; ++i) r.d[i] = (x.d[i] - r.a * y.d[i]) * inv;
   return r;
 }
@@ -110,7 +110,7 @@ Jet<S, N> operator/(double k, const Jet<S, N>& x) {
   const S value = S(k) / x.a;
   return chain(x, value, S(-value / x.a));
 }
-/// With a plain scalar that is not a double: a constant of the kernel.
+/// Mixed arithmetic with a plain scalar S that is not a double: a constant of the kernel, without derivatives.
 template <class S, int N>
 requires(!std::same_as<S, double>) Jet<S, N>
 operator*(const S& k, const Jet<S, N>& x) {

@@ -1,11 +1,12 @@
 #pragma once
 /// W doubles in lockstep: one arithmetic operation acts on every lane, a comparison gives a mask, and select chooses
-/// lane by lane. A lane's value is the value that double arithmetic gives for it, bit for bit, whatever sits in its
-/// neighbours and however wide the registers are (needs -ffp-contract=off, as the whole project).
+/// lane by lane. The value of a lane is the value that double arithmetic gives, bit for bit. It depends neither on the
+/// values in the other lanes nor on the width of the registers (this needs -ffp-contract=off, as in the whole project).
 ///
-/// A pack is made of register-sized vectors (8 doubles on AVX-512, 4 on AVX, 2 on SSE2; single doubles elsewhere),
-/// since compilers handle vectors wider than the registers badly. Size and alignment are the same on all of them. The
-/// inline namespace carries the register width into symbol names, so that the linker never mixes instruction sets.
+/// A pack is an array of register-sized vectors (8 doubles on AVX-512, 4 on AVX, 2 on SSE2, single doubles elsewhere),
+/// since compilers generate poor code for vectors wider than a register. The size and the alignment of a pack are the
+/// same on all of them. The inline namespace carries the register width into symbol names, so that the linker never
+/// mixes instruction sets.
 #include "bough/lanes/jet.hpp"
 #include "bough/lanes/small.hpp"
 #include "bough/lanes/taylor.hpp"
@@ -31,7 +32,7 @@
 namespace bough::lanes {
 inline namespace BOUGH_REGISTER_NAMESPACE {
 
-/// Doubles in one register of this build.
+/// Number of doubles in one register of this build.
 inline constexpr int register_doubles = BOUGH_REGISTER_DOUBLES;
 
 namespace detail {
@@ -68,8 +69,8 @@ inline Register<8>::Real root(const Register<8>::Real& x) { return Register<8>::
 #endif
 inline double root(double x) { return std::sqrt(x); }
 
-// Whether a flag is set. By tests of the instruction set: compilers take registers apart through memory, and wait for
-// what they stored in parts.
+// Whether all or any flags are set, by instructions that test a whole register. Code that reads flags one by one makes
+// compilers store the register and load its parts, and the processor stalls until the store has completed.
 #if BOUGH_REGISTER_DOUBLES >= 8
 inline bool is_set(const Register<8>::Flag& f) { return _mm512_test_epi64_mask(__m512i(f), __m512i(f)) != 0; }
 #endif
@@ -81,7 +82,7 @@ inline bool is_set(const Register<2>::Flag& f) { return _mm_movemask_epi8(__m128
 #endif
 inline bool is_set(long long f) { return f != 0; }
 
-// a b + c, each lane the bits of lanes::multiply_add on doubles.
+// a b + c; every lane has the bits of lanes::multiply_add on doubles.
 #if BOUGH_REGISTER_DOUBLES >= 8
 inline Register<8>::Real fused(const Register<8>::Real& a, const Register<8>::Real& b, const Register<8>::Real& c) {
   return Register<8>::Real(_mm512_fmadd_pd(a, b, c));
@@ -109,7 +110,7 @@ template <int W>
 struct alignas(8 * W) Mask {
   static constexpr int chunk = W < register_doubles ? W : register_doubles, chunks = W / chunk;
   using Flag = typename detail::Register<chunk>::Flag;
-  Flag f[chunks];  ///< every lane 0 or -1
+  Flag f[chunks];  ///< every lane is 0 (false) or -1 (true)
   bool operator[](int lane) const {
     if constexpr (chunk == 1)
       return f[lane] != 0;
@@ -142,7 +143,7 @@ struct alignas(8 * W) Pack {
     else
       r[lane / chunk][lane % chunk] = x;
   }
-  /// W consecutive doubles, any alignment.
+  /// Loads W consecutive doubles of any alignment.
   static Pack load(const double* from) {
     Pack p;
     __builtin_memcpy(&p.r, from, sizeof(double) * W);
@@ -151,7 +152,7 @@ struct alignas(8 * W) Pack {
   void store(double* to) const { __builtin_memcpy(to, &r, sizeof(double) * W); }
 };
 
-// Arithmetic, chunk by chunk; a double stands for the same number in every lane.
+// Arithmetic, register by register; a double is the same number in every lane.
 #define BOUGH_PACK_OPERATOR(op)                                          \
   template <int W>                                                       \
   inline Pack<W> operator op(const Pack<W>& a, const Pack<W>& b) {       \
@@ -195,7 +196,7 @@ Pack<W> multiply_add(double a, const Pack<W>& b, const Pack<W>& c) {
   return multiply_add(Pack<W>(a), b, c);
 }
 
-/// f applied to each lane: functions of the standard library, the same bits as for a double.
+/// Applies f to each lane: functions of the standard library, with the bits that they give for a double.
 template <int W, class F>
 Pack<W> lane_by_lane(const F& f, const Pack<W>& a) {
   Pack<W> c;
@@ -216,7 +217,7 @@ Pack<W> abs(const Pack<W>& a) {
       c.r[i] = std::abs(a.r[i]);
     } else {
       using Flag = typename Mask<W>::Flag;
-      c.r[i] = typename Pack<W>::Real(Flag(a.r[i]) & (Flag{} + 0x7fffffffffffffffLL));  // the sign bit off
+      c.r[i] = typename Pack<W>::Real(Flag(a.r[i]) & (Flag{} + 0x7fffffffffffffffLL));  // clear the sign bit
     }
   }
   return c;
@@ -236,7 +237,7 @@ Pack<W> atan2(const Pack<W>& y, const Pack<W>& x) {
   return c;
 }
 
-/// a < b lane by lane; false where one is not a number.
+/// a < b lane by lane; false in lanes where a or b is not a number.
 template <int W>
 Mask<W> less(const Pack<W>& a, const Pack<W>& b) {
   Mask<W> m;
@@ -277,7 +278,7 @@ bool all(const Mask<W>& m) {
   return !any(!m);
 }
 
-/// Choice lane by lane, of packs and of everything made of packs.
+/// Choice lane by lane, between packs and between aggregates of packs.
 template <int W>
 Pack<W> select(const Mask<W>& take_first, const Pack<W>& a, const Pack<W>& b) {
   Pack<W> c;
@@ -304,7 +305,8 @@ Vec<S, N> select(const Mask<W>& take_first, const Vec<S, N>& a, const Vec<S, N>&
   return c;
 }
 
-/// Both sides where the lanes disagree, one where they agree: saves time, changes no lane's value.
+/// Evaluates both sides where the lanes disagree, otherwise only the side that all lanes take. This saves time and
+/// changes no value.
 template <int W, class First, class Second>
 auto choose(const Mask<W>& take_first, const First& first, const Second& second) -> decltype(first()) {
   if (all(take_first)) return first();
@@ -312,7 +314,7 @@ auto choose(const Mask<W>& take_first, const First& first, const Second& second)
   return select(take_first, first(), second());
 }
 
-/// One lane of a vector or matrix of packs, read and written.
+/// Reads and writes one lane of a vector or matrix of packs.
 template <int W, int N>
 Vec<double, N> get_lane(const Vec<Pack<W>, N>& a, int lane) {
   Vec<double, N> r;

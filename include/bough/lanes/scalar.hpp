@@ -1,20 +1,20 @@
 #pragma once
-/// Scalar vocabulary shared by every kernel scalar: double, std::complex (derivative checks), Jet (forward
-/// derivatives), Taylor (time derivatives) and Pack (lanes in lockstep). A kernel written on these names runs on all
-/// of them.
+/// Functions that every scalar of a kernel provides: double, std::complex (derivative checks), Jet (forward
+/// derivatives), Taylor (time derivatives) and Pack (lanes in lockstep). A kernel that uses no others runs on all of
+/// them.
 #include <cmath>
 #include <complex>
 #include <concepts>
 
-/// For the few-line functions on 3-vectors that kernels are made of: inlined whatever the compiler thinks of its
-/// caller's size.
+/// For the functions of a few lines on 3-vectors that kernels are made of: they are inlined even where the compiler's
+/// heuristic finds the caller too large.
 #if defined(__GNUC__)
 #define BOUGH_INLINE inline __attribute__((always_inline))
 #else
 #define BOUGH_INLINE inline
 #endif
 
-// Before a short loop of fixed length over registers, which stay in registers only where it is written out.
+// Put before a short loop of fixed length over registers: the variables stay in registers only if the loop is unrolled.
 #if defined(__clang__)
 #define BOUGH_UNROLL _Pragma("clang loop unroll(full)")
 #elif defined(__GNUC__)
@@ -25,22 +25,24 @@
 
 namespace bough::lanes {
 
-/// Value that decides a branch: the scalar itself, the real part of a complex, the value of a derivative type.
+/// The real number that decides a branch: a double itself, the real part of a complex number, the value of a derivative
+/// type.
 inline double decide(double x) { return x; }
 inline double decide(const std::complex<double>& x) { return x.real(); }
 
-/// Choice without a jump: both sides are evaluated, so a denominator in the side not taken must be made safe.
+/// Choice without a jump. Both sides are evaluated, so a denominator in the side that is not taken must be made safe.
 template <class S>
 S select(bool take_first, const S& a, const S& b) {
   return take_first ? a : b;
 }
 
-/// Order by the deciding part; found by argument-dependent look-up for the library's own scalars.
+/// Order by the deciding value (see decide). The library's own scalars have overloads found by argument-dependent
+/// look-up.
 inline bool less(double a, double b) { return a < b; }
 inline bool less(const std::complex<double>& a, const std::complex<double>& b) { return a.real() < b.real(); }
 
-/// The same for long double, which checks kernels; a template, so that other arithmetic types keep converting to
-/// double.
+/// As above for long double, which is used to check kernels. It is a template so that other arithmetic types still
+/// convert to double.
 template <std::same_as<long double> T>
 double decide(T x) {
   return static_cast<double>(x);
@@ -50,17 +52,17 @@ bool less(T a, T b) {
   return a < b;
 }
 
-/// Choice between two costly sides, given as functions without arguments: one flag runs one side only. Packs run both
-/// where their lanes disagree (pack.hpp), so the side not taken must still be free of traps. Values are those of
-/// select.
+/// Choice between two costly sides, given as functions without arguments. A flag that is a bool runs one side only.
+/// Packs run both sides where their lanes disagree (pack.hpp), so the side that is not taken must still be free of
+/// floating-point traps. The values are those of select.
 template <class First, class Second>
 auto choose(bool take_first, const First& first, const Second& second) {
   return take_first ? first() : second();
 }
 
-/// a b + c. Rounded once for doubles and packs where the instruction set has it (every lane as a double), as two
-/// operations elsewhere and for all other scalars. The compiler itself never fuses (-ffp-contract=off): only what is
-/// written so is.
+/// a b + c. For doubles and packs it is rounded once where the instruction set has a fused operation, with the same
+/// bits in every lane as for a double; elsewhere, and for all other scalars, it is two operations. The compiler never
+/// fuses operations by itself (-ffp-contract=off), so only what calls this function is fused.
 template <class S>
 S multiply_add(const S& a, const S& b, const S& c) {
   return a * b + c;
@@ -72,7 +74,7 @@ inline double multiply_add(double a, double b, double c) {
   return a * b + c;
 #endif
 }
-/// a b + c and c - a b with a plain number beside a derivative type or a complex number.
+/// a b + c and c - a b where a is a plain number and the others are of a derivative type or complex.
 template <class A, class S>
 requires(!std::same_as<A, S>) S multiply_add(const A& a, const S& b, const S& c) { return a * b + c; }
 template <class A, class S>
@@ -80,13 +82,13 @@ S negative_multiply_add(const A& a, const S& b, const S& c) {
   return multiply_add(A(-a), b, c);
 }
 
-/// A scalar made from a plain number.
+/// Makes a scalar from a plain number.
 template <class S>
 S constant(double x) {
   return S(x);
 }
 
-/// atan2 of complex arguments, analytic: the complex step of atan2 [needs |y|,|x| not both 0].
+/// atan2 of complex arguments, analytic, so that the complex step works through it; |y| and |x| must not both be 0.
 inline std::complex<double> atan2(const std::complex<double>& y, const std::complex<double>& x) {
   const double r2 = x.real() * x.real() + y.real() * y.real();
   return {std::atan2(y.real(), x.real()), (x.real() * y.imag() - y.real() * x.imag()) / r2};

@@ -1,7 +1,7 @@
 #pragma once
-/// Small fixed vectors and matrices of any kernel scalar. Plain aggregates, row-major, value semantics, no allocation:
-/// over lanes and derivative types they keep a kernel close to hand-written loops, which general libraries do not.
-/// Sums of products are chains of lanes::multiply_add.
+/// Small vectors and matrices of fixed size over any kernel scalar. They are plain row-major aggregates with value
+/// semantics and without allocation. Over packs and derivative types they compile to code close to hand-written loops,
+/// which general libraries do not reach. Sums of products are chains of lanes::multiply_add.
 #include "bough/lanes/scalar.hpp"
 
 namespace bough::lanes {
@@ -75,7 +75,8 @@ BOUGH_INLINE Vec<S, N> operator-(const Vec<S, N>& a) {
   for (int i = 0; i < N; ++i) r.v[i] = -a.v[i];
   return r;
 }
-/// Scaling; A may be a plain double while S is a derivative type (cheaper than a product of two such).
+/// Scaling. The factor may be a plain double while S is a derivative type, which is cheaper than a product of two
+/// derivative types.
 template <class A, class S, int N>
 BOUGH_INLINE Vec<S, N> operator*(const A& a, const Vec<S, N>& b) {
   Vec<S, N> r;
@@ -127,7 +128,7 @@ Mat<S, R, C> operator*(const Mat<S, R, K>& a, const Mat<S, K, C>& b) {
     }
   return r;
 }
-/// Matrix times vector; the matrix may be of plain doubles while the vector is of a derivative type.
+/// Matrix times vector. The matrix may hold plain doubles while the vector is of a derivative type.
 template <class A, class S, int R, int C>
 Vec<S, R> operator*(const Mat<A, R, C>& a, const Vec<S, C>& b) {
   Vec<S, R> r;
@@ -191,7 +192,7 @@ template <class S>
 BOUGH_INLINE Vec<S, 3> column(const Mat<S, 3, 3>& a, int j) {
   return {{a(0, j), a(1, j), a(2, j)}};
 }
-/// The same numbers in another scalar.
+/// Conversion of every entry to another scalar.
 template <class T, class S, int N>
 Vec<T, N> cast(const Vec<S, N>& a) {
   Vec<T, N> r;

@@ -1,6 +1,6 @@
 #pragma once
-/// Truncated Taylor series in time, x(t) = c[0] + c[1] t + ... + c[K] t^K: a kernel evaluated on it yields exact time
-/// derivatives along a motion (constraint rates, jerk) without differencing.
+/// Truncated Taylor series in time, x(t) = c[0] + c[1] t + ... + c[K] t^K. A kernel evaluated on them yields exact time
+/// derivatives along a motion (rates of constraints, jerk) without difference quotients.
 #include "bough/lanes/scalar.hpp"
 
 namespace bough::lanes {

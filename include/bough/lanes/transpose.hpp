@@ -1,7 +1,7 @@
 #pragma once
-/// Between W plain arrays and one array of packs, entry by entry: to[i] lane l = from[l][i] and back. Registers of
-/// eight or four doubles are turned as square blocks, since single lanes that are written and then read as a whole
-/// stall the processor.
+/// Conversion between W plain arrays and one array of packs, entry by entry: lane l of to[i] = from[l][i], and back.
+/// Registers of eight or four doubles are transposed as square blocks: writing single lanes and then reading the whole
+/// register stalls the processor.
 #include <cstddef>
 #include <utility>
 
@@ -11,7 +11,7 @@ namespace bough::lanes {
 inline namespace BOUGH_REGISTER_NAMESPACE {
 
 namespace detail {
-/// rows[i][j] <-> rows[j][i] of N registers of N doubles.
+/// Transposes N registers of N doubles: rows[i][j] <-> rows[j][i].
 template <class Real, int N>
 void transpose_square(Real (&r)[N]) {
   for (int i = 0; i < N; ++i)
@@ -34,7 +34,7 @@ inline void transpose_square(Real4 (&r)[4]) {
 #endif
 #if BOUGH_REGISTER_DOUBLES >= 8
 using Real8 = Register<8>::Real;
-/// Pairs of rows interleaved, then the 4 x 4 blocks of pairs.
+/// Interleaves pairs of rows, then exchanges the 4 x 4 blocks of pairs.
 inline void transpose_square(Real8 (&r)[8]) {
   Real8 even[4], odd[4];
   for (int k = 0; k < 4; ++k) {
@@ -56,15 +56,15 @@ inline void transpose_square(Real8 (&r)[8]) {
 }
 #endif
 
-/// A register at any address. Not by memcpy, which compilers take apart into narrower moves: a register loaded from
-/// what two narrower stores wrote waits.
+/// A register at any address. Not by memcpy, which compilers split into narrower moves: loading a register from memory
+/// just written by two narrower stores stalls.
 template <int N>
 struct Anywhere {
   typedef double Real __attribute__((vector_size(8 * N), aligned(8), may_alias));
 };
 
 #if BOUGH_REGISTER_DOUBLES >= 4
-/// The first `count` of four doubles, 1 <= count <= 4; what lies behind them is not read.
+/// Loads the first `count` of four doubles, 1 <= count <= 4; the memory behind them is not read.
 inline Real4 load_some(const double* from, int count) {
   if (count == 4) return *reinterpret_cast<const Anywhere<4>::Real*>(from);
   static constexpr long long wanted[8] = {-1, -1, -1, -1, 0, 0, 0, 0};
@@ -72,7 +72,8 @@ inline Real4 load_some(const double* from, int count) {
   return Real4(_mm256_maskload_pd(from, mask));
 }
 
-/// Squares of four. The last of a count that is no multiple overlaps the one before.
+/// Works through the array in squares of four. If the count is no multiple of four, the last square overlaps the one
+/// before.
 template <int W>
 void gather_by_fours(const double* const (&from)[W], int count, Pack<W>* to) {
   constexpr int groups = W / 4;
@@ -108,7 +109,8 @@ void scatter_by_fours(const Pack<W>* from, int count, double* const (&to)[W]) {
 }
 #endif
 #if BOUGH_REGISTER_DOUBLES >= 8
-/// The first `count` of eight doubles, the others 0; what lies behind them is neither read nor written.
+/// Loads or stores the first `count` of eight doubles, the others being 0; the memory behind them is neither read nor
+/// written.
 inline Real8 load_eight(const double* from, int count) {
   if (count == 8) return *reinterpret_cast<const Anywhere<8>::Real*>(from);
   return Real8(_mm512_maskz_loadu_pd(static_cast<__mmask8>((1 << count) - 1), from));
@@ -120,8 +122,8 @@ inline void store_eight(double* to, const Real8& x, int count) {
     _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1 << count) - 1), __m512d(x));
 }
 
-/// Squares of eight; row(l): where the numbers of lane l are. The last square of a count that is no multiple overlaps
-/// the one before.
+/// Works through the array in squares of eight; row(l) is the address of the numbers of lane l. If the count is no
+/// multiple of eight, the last square overlaps the one before.
 template <int W, class Row>
 BOUGH_INLINE void gather_by_eights(const Row& row, int count, Pack<W>* to) {
   const int some = count < 8 ? count : 8;
@@ -158,7 +160,7 @@ BOUGH_INLINE void scatter_by_eights(const Pack<W>* from, int count, const Row& r
 #endif
 }  // namespace detail
 
-/// to[i] lane l <- from[l][i] for i < count.
+/// Lane l of to[i] <- from[l][i] for i < count.
 template <int W>
 void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
   constexpr int side = Pack<W>::chunk;
@@ -172,7 +174,7 @@ void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
     for (int l = 0; l < W; ++l) to[i].set(l, from[l][i]);
 }
 
-/// to[l][i] <- from[i] lane l for i < count; the arrays must not overlap.
+/// to[l][i] <- lane l of from[i] for i < count; the arrays must not overlap.
 template <int W>
 void scatter_lanes(const Pack<W>* from, int count, double* const (&to)[W]) {
   constexpr int side = Pack<W>::chunk;
@@ -187,7 +189,7 @@ void scatter_lanes(const Pack<W>* from, int count, double* const (&to)[W]) {
     for (int l = 0; l < W; ++l) to[l][i] = from[i][l];
 }
 
-/// The same of arrays `stride` numbers apart, with all counts known to the compiler.
+/// As above for arrays `stride` numbers apart, with all counts known at compile time.
 template <int count, int stride, int W>
 void gather_rows(const double* from, Pack<W>* to) {
 #if BOUGH_REGISTER_DOUBLES >= 8
@@ -218,7 +220,7 @@ Pack<W> load_lanes(const double* from, const Place* at, std::index_sequence<I...
   return p;
 }
 }  // namespace detail
-/// Lane l <- from[at[l]], no lane through memory.
+/// Lane l <- from[at[l]], without a detour of single lanes through memory.
 template <int W, class Place>
 Pack<W> load_lanes(const double* from, const Place* at) {
   return detail::load_lanes<W>(from, at, std::make_index_sequence<static_cast<std::size_t>(Pack<W>::chunk)>());

@@ -1,5 +1,6 @@
 #pragma once
-/// What files ask of formulas beside the laws that these make: the names in them, and their value where it is a number.
+/// What readers of files need of formulas beside laws: the names that occur in a formula, and its value where it is a
+/// constant.
 
 #include <cstddef>
 #include <memory>
@@ -18,27 +19,28 @@ struct NamePlace {
   std::size_t position = 0, length = 0;
 };
 
-/// All names in a formula, known or not, in the order of the text. Numbers end where the reader of formulas ends them,
-/// so 1e3 holds no name and 2ex holds "ex". Does not fail, whatever the text is.
+/// All names in a formula, known or not, in the order of the text. A number ends where the parser ends it: 1e3 contains
+/// no name, 2ex contains "ex". Never fails, whatever the text is.
 std::vector<NamePlace> names_in(std::string_view formula);
 
 /// True for a letter or _, then letters, digits and _.
 bool is_formula_name(std::string_view text);
 
-/// A formula of numbers that are given by name when it is evaluated. An immutable value; copies share data.
+/// A formula in named variables, whose values are given when it is evaluated. An immutable value; copies share data.
 class Formula {
  public:
-  /// Throws LawError where make_expression does, and at a t. names: none of formula_words().
+  /// Throws LawError where make_expression does, and where the formula contains t. None of the names may be among
+  /// formula_words().
   Formula(const std::string& text, std::span<const std::string> names);
-  /// values: by names. May give infinities and NaN. Does not allocate.
+  /// The values are in the order of the names. The result may be infinite or NaN. Does not allocate.
   double operator()(std::span<const double> values) const;
 
  private:
   std::shared_ptr<const struct Program> program_;
 };
 
-/// The number that a formula without t stands for; it may be infinite or NaN. Throws LawError where make_expression
-/// does, and at a t.
+/// The value of a formula without t; it may be infinite or NaN. Throws LawError where make_expression does, and where
+/// the formula contains t.
 double eval_constant(const std::string& formula);
 
 }  // namespace bough::laws

@@ -63,7 +63,7 @@ class Law {
   /// (make_law.hpp, limits).
   std::optional<Law> integrand() const;
 
-  /// The kind of law behind this value, null for zero. For the layer itself.
+  /// The implementation behind this value, null for zero. For use within this layer only.
   const Node* node() const { return node_.get(); }
 
  private:

@@ -8,9 +8,10 @@
 
 namespace bough::laws {
 
-/// Limits of integrals by quadrature: beyond, an integral is NaN, for the law moves too fast to be summed up.
-/// Breakpoints of one of the panels that the way is summed in, of 1/64 s and more, and evaluations on the way from
-/// the start: a smooth law takes 2000 a second of the first minute, fewer later.
+/// Limits of integrals by quadrature; an integral that exceeds one of them is NaN, because the law varies too fast to
+/// be integrated. max_breaks: breakpoints within one panel (panels are 1/64 s long or longer). max_evaluations:
+/// evaluations of the integrand from the start to the time asked for; a smooth law takes 2000 per second of the first
+/// minute, fewer later.
 inline constexpr std::size_t max_breaks = 20'000, max_evaluations = 10'000'000;
 
 // All factories throw LawError where a number is not finite or a precondition fails. u is the unit of the law.

@@ -1,6 +1,6 @@
 #pragma once
-/// What elements cost, for decisions and outlooks: bench_elements on the machine of src/elements/README.md; ratios
-/// count, not seconds.
+/// Cost of evaluating elements, for decisions and predictions of run times: measured by bench_elements on the machine
+/// of src/elements/README.md. Only ratios matter, not the seconds themselves.
 #include "bough/elements/evaluate.hpp"
 
 namespace bough::plan {
@@ -22,7 +22,8 @@ inline constexpr ElementCost cost<elements::Joint>{250e-9, 900e-9, 40e-9, 190e-9
 template <int N>
 inline constexpr ElementCost cost<elements::LineLoad<N>>{200e-9 * N, 800e-9 * N, 30e-9 * N, 250e-9 * N};
 
-/// Share of these for a residual in a plane, fitted by hand to steps of chains and lattices (bench_step, bench_lean).
+/// Cost of a residual in a plane relative to one in space, fitted by hand to steps of chains and lattices (bench_step,
+/// bench_lean).
 inline constexpr double planar_residual = 0.37;
 
 }  // namespace bough::plan

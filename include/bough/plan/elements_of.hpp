@@ -1,5 +1,5 @@
 #pragma once
-/// All elements of a model: one contiguous array per type, and the one place where code goes over the types.
+/// All elements of a model in one contiguous array per type, and the only place that iterates over the types.
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace bough::plan {
 
-/// Of the elements that move on the group G.
+/// The arrays of elements on the group G.
 template <class G>
 using ArraysOn = std::tuple<
     std::vector<elements::BeamOn<G, 2>>, std::vector<elements::BeamOn<G, 3>>, std::vector<elements::BeamOn<G, 4>>,
@@ -27,7 +27,7 @@ const std::vector<E>& array_of(const ElementArrays& all) {
   return std::get<std::vector<E>>(all);
 }
 
-/// Elements in one global order: array after array. `directory[id]` tells array and index.
+/// Elements have one global order, array after array. `directory[id]` gives the array and the index in it.
 struct ElementPlace {
   std::uint8_t array = 0;
   std::int32_t index = 0;

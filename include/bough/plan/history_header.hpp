@@ -1,5 +1,5 @@
 #pragma once
-/// What the history of a scene shows: a column for each component of each sensor.
+/// The columns of a scene's history: one for each component of each sensor.
 #include "bough/plan/plan.hpp"
 #include "bough/records/run.hpp"
 

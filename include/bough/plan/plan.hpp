@@ -1,6 +1,6 @@
 #pragma once
-/// What a scene is made of once it is understood: nodes, elements, time functions, block graph. Immutable after
-/// make_plan.
+/// A plan is a scene translated to the model that is computed: nodes, elements, time functions, block graph. It does
+/// not change after make_plan.
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,53 +17,55 @@
 namespace bough::plan {
 
 struct NodePlan {
-  std::string name;            ///< of the scene's node or body, or `<beam>.<k>`; of a rigid part: of one of its nodes
+  std::string name;  ///< of the scene's node or body, or `<beam>.<k>`; of several welded nodes, the name of one of them
   motion::Frame<double> pose;  ///< at the start
   motion::Vec6<double> twist;  ///< at the start, own axes, as given (not yet consistent)
 };
 
-/// A node whose velocity at the start the scene gives, by the name of a node or a body, or of a beam for each of its
-/// nodes. NodePlan::twist is that velocity.
+/// A node whose initial velocity is given in the scene, by the name of a node, of a body, or of a beam (then for each
+/// of its nodes). NodePlan::twist holds that velocity.
 struct GivenVelocity {
   std::string of;
   int node = 0;
   motion::Frame<double> offset =
-      motion::Frame<double>::identity();  ///< of the named thing in the node, where welds made them one
+      motion::Frame<double>::identity();  ///< pose of the named part relative to the node, where several were welded to
+                                          ///< one node
 };
 
-/// A constraint element and where it comes from.
+/// A constraint element and its origin in the scene.
 struct JointPlan {
   std::string name;
   int element = 0;           ///< global element id
   int block = -1;            ///< multiplier block; -1: no row is an unknown, or the joint holds a node of Plan::held;
   int multiplier_begin = 0;  ///< in the array of all multipliers
-  /// Its rows that are unknowns, in order; the others hold by themselves in the motions that the scene has, their
-  /// multipliers are zero.
+  /// Numbers of its rows that are unknowns, in order. All other rows are satisfied by every motion that the scene has,
+  /// and their multipliers are zero.
   std::vector<int> rows;
   bool counts_turns = false;
   std::string what;  ///< "joint", "prescribed motion", "held rotation"
-  /// Of the parts that meet in it, which gaps are compared with [m] (scene::PartLengths).
+  /// Length of the larger of the two parts that it connects, for judging gaps [m] (scene::PartLengths).
   double length = 1.0;
 };
 
-/// A node that joints hold at rest, in the ground or in the observer's frame: it has no unknowns, and these joints
-/// have no multipliers among them. They follow from the balance of the node, W multipliers + (all other forces) = 0.
+/// A node that joints hold at rest, in the ground or in the observer's frame. It has no unknowns, and the multipliers
+/// of these joints are no unknowns either: they follow from the equilibrium of the node, W multipliers + (all other
+/// forces) = 0.
 struct HeldNode {
   int node = 0;
-  std::vector<int> joints;  ///< in Plan::joints; of their `rows` there are as many as a node has unknowns
-  /// W^-1, row-major: from a wrench in the unknowns of the node to the multipliers of `rows`, joint after joint.
+  std::vector<int> joints;  ///< indices in Plan::joints; the joints have together as many `rows` as a node has unknowns
+  /// W^-1, row-major: maps a wrench in the unknowns of the node to the multipliers of `rows`, joint after joint.
   std::vector<double> inverse;
 };
 
-/// A body of the scene: its frame is that of a node, or stands at an offset from one that it is part of.
+/// A body of the scene. Its frame is the frame of a node, or has an offset from the node to which it is welded.
 struct BodyPlan {
   std::string name;
   elements::Port frame;
   motion::Vec3<double> center;              ///< of mass, in the body's frame [m]
-  std::vector<elements::Port> attachments;  ///< ends of beams, joints, springs and bushings at it, for pictures
+  std::vector<elements::Port> attachments;  ///< attachment points of beams, joints, springs and bushings, for pictures
 };
 
-/// A fixed joint whose two sides are one node (decision "welded"): no element, but pictures show it.
+/// A fixed joint whose two sides became one node (decision "welded"). It is no element, but pictures show it.
 struct WeldPlan {
   std::string name;
   elements::Port first, second;
@@ -79,15 +81,15 @@ struct BeamPlan {
   std::vector<int> nodes;               ///< of the whole axis, start to end
 };
 
-/// A time function with its place in Surroundings::laws.
+/// A time function, and where the scene uses it.
 struct LawPlan {
   laws::Law law;
   std::string user;  ///< "/loads/2" style owner in words, for messages
   bool at_start =
-      false;  ///< taken at time 0 whatever the load factor: motion of the frame in which statics is described
+      false;  ///< evaluated at time 0 whatever the load factor: motion of the frame in which statics is described
 };
 
-/// A frame of prescribed motion, or a fixed one that such a motion passes through. Parents stand before their children.
+/// A frame of prescribed motion, or a fixed frame between such frames. Parents come before their children.
 ///   pose in the parent:  x_i = laws[position_i] or constant,  R = R_0 exp(laws[angle_1] ~axis_1) exp(laws[angle_2]
 ///     ~axis_2) ...
 struct FramePlan {
@@ -97,23 +99,24 @@ struct FramePlan {
   };
   std::string name;
   int parent = -1;           ///< in Plan::frames; -1: the inertial frame
-  bool in_observer = false;  ///< stands in Plan::observer, directly or through others
+  bool in_observer = false;  ///< placed in Plan::observer, directly or through other frames
   motion::Frame<double> pose = motion::Frame<double>::identity();  ///< (R_0, constant x)
   int position[3] = {-1, -1, -1};                                  ///< laws; -1: constant
   std::vector<Turn> turns;
 };
 
-/// A simplification that a scene allows, or does not: what was settled before anything is allocated.
+/// A simplification of the model, whether it was taken, and why. All decisions are made before memory is allocated.
 struct Decision {
   std::string name;
-  std::string what;    ///< it means, and when exactly it is taken
-  std::string reason;  ///< why it was taken, or the first thing that stands against it
+  std::string what;    ///< what the decision means, and the exact condition for taking it
+  std::string reason;  ///< why it was taken, or the first reason against it
   bool taken = false;
-  bool barred = false;         ///< by Scene::without
-  bool can_be_barred = false;  ///< is one of scene::decision_names(); the others follow from the scene alone
+  bool barred = false;         ///< excluded by Scene::without
+  bool can_be_barred = false;  ///< is one of scene::decision_names(); all others follow from the scene and cannot be
+                               ///< excluded
 };
 
-/// A law made from another: one component, in the ground's axes, of a vector fixed in a frame times a factor.
+/// A law derived from another one: a component, in the ground's axes, of a vector fixed in a frame, times a factor.
 ///   laws[law] = laws[factor] (R vector)_row
 struct TurnedLawPlan {
   int law = 0, factor = 0, frame = 0, row = 0;
@@ -125,29 +128,29 @@ struct SensorPlan {
   elements::Port port;                  ///< of point sensors
   int beam = -1;                        ///< index in Plan::beams
   int joint = -1;                       ///< index in Plan::joints (reaction, angle)
-  elements::Port frame;                 ///< of the frame it is seen from or resolved in
+  elements::Port frame;                 ///< port of the frame of the observer, or in whose axes the result is resolved
   std::vector<elements::Port> chain;    ///< acceleration_split
   std::vector<std::string> components;  ///< "" for a scalar
 };
 
-/// A node of a scene that moves in a plane, as it stands at the start, there and in space.
+/// Initial position of a node whose scene moves in a plane, in the plane and in space.
 struct PlanarNode {
-  motion::Mat3<double> basis;           ///< plane's axes and normal in those of the node
+  motion::Mat3<double> basis;           ///< axes of the plane and its normal, in the axes of the node
   motion::Quaternion<double> rotation;  ///< in space
-  motion::PositionPair<double> place;   ///< in space [m]
-  motion::Vec2<double> turn;            ///< of its first axis of `basis` in the plane: (cos, sin)
-  motion::PositionPair<double, 2> x;    ///< in the plane [m]
+  motion::PositionPair<double> place;   ///< position in space [m]
+  motion::Vec2<double> turn;            ///< direction in the plane of the first axis of `basis`: (cos, sin)
+  motion::PositionPair<double, 2> x;    ///< position in the plane [m]
 };
 
-/// A scene that moves in a plane, in three unknowns a node.
+/// Model of a scene that moves in a plane, with three unknowns per node.
 struct PlanarModel {
-  motion::Mat3<double> axes;      ///< columns: two along the plane, its normal; in the ground
-  motion::Vec3<double> origin;    ///< where coordinates in the plane are counted from
-  PlanarArrays elements;          ///< with the places of Plan::elements
-  std::vector<PlanarNode> nodes;  ///< by node
-  /// By joint: the sign of its angle in the plane, 0 where its axis lies in the plane.
+  motion::Mat3<double> axes;      ///< columns: two axes along the plane, then its normal; in the ground
+  motion::Vec3<double> origin;    ///< origin of the coordinates in the plane
+  PlanarArrays elements;          ///< at the indices of Plan::elements
+  std::vector<PlanarNode> nodes;  ///< in the order of Plan::nodes
+  /// For each joint the sign of its angle in the plane; 0 where its axis lies in the plane.
   std::vector<double> turn_sign;
-  /// By joint: whether its rows hold an angle in the plane that they would also let be half a turn off.
+  /// For each joint whether its rows hold an angle in the plane that would also satisfy them after half a turn.
   std::vector<char> has_branch;
 };
 
@@ -166,25 +169,26 @@ struct Plan {
   std::vector<BeamPlan> beams;
   std::vector<LawPlan> laws;
   std::vector<FramePlan> frames;
-  int observer = -1;  ///< in frames: where nodes, ground and results are described; -1: the inertial frame
+  int observer = -1;  ///< index in frames of the frame in which nodes, ground and results are described; -1: the
+                      ///< inertial frame
   std::vector<TurnedLawPlan> turned_laws;
   std::vector<SensorPlan> sensors;
   std::vector<BodyPlan> bodies;  ///< in the scene's order
   std::vector<WeldPlan> welds;   ///< empty unless the decision "welded" was taken
   NodeUnknowns unknowns;
-  std::optional<PlanarModel> planar;  ///< where unknowns.motions is planar
+  std::optional<PlanarModel> planar;  ///< present if unknowns.motions is planar
   std::vector<Decision> decisions;
   bool took(const std::string& decision) const;
-  std::string not_conservative;    ///< what keeps the loads from having a potential, in words; empty: they have one
+  std::string not_conservative;    ///< why the loads have no potential, in words; empty: they have one
   std::vector<HeldNode> held;      ///< empty unless the decision "held" was taken
   blocks::BlockGraph graph;        ///< blocks: nodes with unknowns, then one per joint that has rows which are unknowns
   std::vector<int> block_of_node;  ///< -1: held
   double length_scale = 1.0;       ///< [m], size of the structure
   Mobility mobility;
-  std::vector<std::string> notes;  ///< what the plan chose where the scene leaves it open, in words
+  std::vector<std::string> notes;  ///< choices that the plan made where the scene leaves them open, in words
 };
 
-/// The elements on the group G; those in space are always there.
+/// The elements on the group G. Those in space always exist.
 template <class G>
 const ArraysOn<G>& arrays_on(const Plan& plan);
 template <>

@@ -1,5 +1,5 @@
 #pragma once
-/// Inverses of the rows that joints hold a node by.
+/// Inversion of the small matrices of rows by which joints hold a node.
 
 namespace bough::plan {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Which increments of a node are unknowns: all six, or those in which a scene can move.
+/// Unknowns of a node: all six components of its increment, or only those in which the scene can move.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace bough::plan {
 
-/// A set of motions that every element of a scene leaves alone: from a state within it no force leads out of it.
+/// A set of motions that is invariant for a scene: from a state within it, no force leads out of it.
 enum class Motions : std::uint8_t {
   spatial,      ///< all
   planar,       ///< displacements in a plane, rotation about its normal: 3 unknowns a node
@@ -29,8 +29,8 @@ struct NodeUnknowns {
   bool is_whole() const { return count == 6; }
   bool is_length(int unknown) const { return component[static_cast<std::size_t>(unknown)] < 3; }
 
-  /// P^T x. The planar case, which is met most, is written out: a loop that puts components in places one by one
-  /// makes what reads them next wait for every store.
+  /// P^T x. The most frequent case, planar, is written out: a loop that stores components one by one makes later reads
+  /// of the whole vector wait for every store.
   motion::Vec6<double> expanded(const double* x, std::size_t node) const {
     if (motions == Motions::planar) {
       if (basis.empty())
@@ -48,7 +48,7 @@ struct NodeUnknowns {
     if (basis.empty()) return eta;
     return lanes::join(basis[node] * lanes::linear_part(eta), basis[node] * lanes::angular_part(eta));
   }
-  /// P eta, of increments and of wrenches alike.
+  /// P eta, for increments as well as wrenches.
   void project(const motion::Vec6<double>& eta, std::size_t node, double* x) const {
     motion::Vec6<double> turned = eta;
     if (!basis.empty())

@@ -1,5 +1,5 @@
 #pragma once
-/// The tree of sub-domains of one scene, as it is and as it ran: plain data.
+/// Profile of the tree of sub-domains of one scene: its sizes and its measured times. Plain data.
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -8,8 +8,8 @@
 
 namespace bough::records {
 
-/// Seconds in one sub-domain, by what was done; medians over the walks of a run. Sub-domains factored in lockstep
-/// share the time of their visit equally.
+/// Seconds spent in one sub-domain, by kind of work; medians over the walks of a run. Sub-domains that are factored in
+/// lockstep share the time of their visit equally.
 struct SubdomainTimes {
   double evaluate = 0.0;  ///< its elements' residuals and tangents, mean of one evaluation
   double assemble = 0.0;  ///< elements and children into fronts
@@ -18,8 +18,8 @@ struct SubdomainTimes {
   double forward = 0.0;   ///< right-hand side on the way up
   double backward = 0.0;  ///< solution on the way down
   double residual = 0.0;  ///< check of the solution
-  double wait = 0.0;      ///< from when its children were factored until its own turn; not part of the sums
-  /// One factorization and one solution; evaluation apart.
+  double wait = 0.0;      ///< from the end of its children's factorization to its own start; not part of the sums
+  /// One factorization and one solution, without the evaluation of elements.
   double solver() const { return assemble + factor + condense + forward + backward + residual; }
 };
 
@@ -27,24 +27,25 @@ struct SubdomainProfile {
   int id = 0;
   int parent = -1;
   int level = 0;
-  int visit = 0;         ///< walkers visit it with others in lockstep
-  int num_in_visit = 1;  ///< of sub-domains in that visit
+  int visit = 0;         ///< number of the visit, which sub-domains factored in lockstep have in common
+  int num_in_visit = 1;  ///< number of sub-domains in that visit
   bool is_leaf = true;
-  int num_elements = 0;  ///< of the subtree
+  int num_elements = 0;  ///< in the subtree
   int num_fronts = 0;
-  int num_unknowns = 0;               ///< eliminated here
-  std::int64_t subtree_unknowns = 0;  ///< with descendants
-  int interface_unknowns = 0;         ///< of the boundary that is handed up
+  int num_unknowns = 0;               ///< eliminated in this sub-domain
+  std::int64_t subtree_unknowns = 0;  ///< including those of descendants
+  int interface_unknowns = 0;         ///< on the boundary that is passed to the parent
   std::int64_t factor_entries = 0;    ///< of L and U: e^2 + 2 e b for each front
-  std::int64_t fill = 0;              ///< of these, where the matrix itself has none
-  double flops = 0.0;                 ///< own fronts [flop]
+  std::int64_t fill = 0;              ///< those of the factor entries that are zero in the matrix itself
+  double flops = 0.0;                 ///< of its own fronts [flop]
   double subtree_flops = 0.0;         ///< [flop]
-  double bytes = 0.0;                 ///< factor and element matrices, its share of a visit
-  int thread = 0;                     ///< that visited it most often in the walks that were kept
-  SubdomainTimes times;               ///< own
+  double bytes = 0.0;                 ///< factor and element matrices; its share of a visit in lockstep
+  int thread = 0;                     ///< thread that visited it most often in the sampled walks
+  SubdomainTimes times;               ///< of this sub-domain only
   double subtree_seconds = 0.0;       ///< SubdomainTimes::solver with descendants
   double condition =
-      std::numeric_limits<double>::quiet_NaN();  ///< of the scaled flexibility of its interface; NaN: not computed
+      std::numeric_limits<double>::quiet_NaN();  ///< condition of the scaled flexibility of its interface; NaN: not
+                                                 ///< computed
   double digits_lost() const;                    ///< log10 of condition
 };
 
@@ -55,7 +56,7 @@ struct LevelProfile {
   int interface_unknowns_most = 0;
   std::int64_t fill = 0;
   double flops = 0.0, bytes = 0.0;
-  SubdomainTimes times;  ///< sums; wait: largest
+  SubdomainTimes times;  ///< sums over the sub-domains; wait: the largest
   double condition_most = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -68,35 +69,36 @@ struct ThreadsProfile {
   double measured_step = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Another way to cut the same scene, with the time that the cost model predicts.
+/// Another tree for the same scene, with the time that the cost model predicts.
 struct Alternative {
-  int leaf_size = 0;  ///< as in the scene's solver block
+  int leaf_size = 0;  ///< option of the scene's solver block
   int depth = -1;
-  bool is_present = false;  ///< the tree that was profiled
+  bool is_present = false;  ///< this is the tree that was profiled
   int num_subdomains = 0, num_leaves = 0, num_levels = 0;
   double flops = 0.0;
   double predicted = 0.0;          ///< one factorization and solution on one thread [s]
   double predicted_threads = 0.0;  ///< on the threads of the profile [s]
 };
 
-/// Seconds = fronts * per_front + flops * per_flop + bytes * per_byte of a visit, fitted to the visits of the run.
+/// Cost model of a visit: seconds = fronts * per_front + flops * per_flop + bytes * per_byte, fitted to the visits of
+/// the run.
 struct CostFit {
   bool in_lanes = false;
-  int num_visits = 0;  ///< that it was fitted to; 0: taken over from the other kind
+  int num_visits = 0;  ///< number of visits in the fit; 0: taken from the other kind
   double per_front = 0.0, per_flop = 0.0, per_byte = 0.0;
-  double median_error = 0.0;  ///< of a visit, relative
+  double median_error = 0.0;  ///< median relative error of a visit
 };
 
-/// Mean of one step of the run [s].
+/// Mean times of one step of the run [s].
 struct StepProfile {
   double total = 0.0;                                                                  ///< median
   double evaluate = 0.0, factor = 0.0, forward = 0.0, backward = 0.0, residual = 0.0;  ///< wall time
-  double other_chunks = 0.0;                                        ///< other loops over elements and nodes, wall time
-  double rest = 0.0;                                                ///< total less all of these: serial
-  double factorizations = 0.0, solutions = 0.0, evaluations = 0.0;  ///< a step
+  double other_chunks = 0.0;  ///< wall time of other loops over elements and nodes
+  double rest = 0.0;          ///< total minus all of these: serial work
+  double factorizations = 0.0, solutions = 0.0, evaluations = 0.0;  ///< number per step
 };
 
-/// A visit or chunk of elements as it ran.
+/// One timed visit, or one chunk of elements.
 struct ProfileEvent {
   const char* work = "";  ///< "factor", "forward", "backward", "residual", "evaluate", "step" ...
   int visit = -1;         ///< -1: a chunk
@@ -105,44 +107,44 @@ struct ProfileEvent {
   double begin = 0.0, seconds = 0.0;  ///< [s] since the run began
 };
 
-/// Part of the structure for a drawing: one element.
+/// One element of the structure, for a drawing.
 struct ProfilePart {
   enum class Kind : std::uint8_t { beam, body, joint };
   Kind kind = Kind::beam;
   int leaf = 0;  ///< sub-domain
   std::vector<std::array<double, 3>> points;
 };
-/// A node that stands in a separator.
+/// A node that lies in a separator.
 struct ProfileNode {
   std::array<double, 3> position{};
-  int subdomain = 0;  ///< that eliminates it
+  int subdomain = 0;  ///< sub-domain that eliminates it
 };
 
 struct Profile {
   std::string scene, title, cut;  ///< cut: how the tree was made, in words
-  std::string trouble;            ///< why the run ended early, where it failed
+  std::string trouble;            ///< if the run ended early: why
   int threads = 1, machine_threads = 1;
   long steps = 0, factorizations = 0, solutions = 0;
   bool is_dynamic = true;
   std::vector<SubdomainProfile> subdomains;  ///< postorder: children before parents, the root last
   std::vector<LevelProfile> levels;
   int num_visits = 0;
-  int num_in_lanes = 0;  ///< sub-domains factored in lockstep
+  int num_in_lanes = 0;  ///< number of sub-domains factored in lockstep
   StepProfile step;
   double total = 0.0;          ///< one factorization and solution: sum over all visits [s]
-  double critical_path = 0.0;  ///< longest chain of visits that wait for each other [s]
+  double critical_path = 0.0;  ///< longest chain of visits that depend on each other [s]
   std::vector<ThreadsProfile> speed;
-  std::vector<double> thread_busy;  ///< seconds of the whole run in visits and chunks, by thread
-  double load_balance = 1.0;        ///< mean over most busy
-  double efficiency = 1.0;          ///< busy over threads x wall time of walks and chunks
+  std::vector<double> thread_busy;  ///< seconds of the whole run spent in visits and chunks, by thread
+  double load_balance = 1.0;        ///< mean busy time of the threads over the largest
+  double efficiency = 1.0;          ///< busy time over (number of threads x wall time of walks and chunks)
   std::int64_t solver_bytes = 0, element_bytes = 0, factor_bytes = 0, peak_bytes = 0;
   std::vector<CostFit> costs;
-  std::vector<Alternative> alternatives;  ///< the present first, then by predicted_threads
+  std::vector<Alternative> alternatives;  ///< the profiled tree first, then by predicted_threads
   std::vector<ProfilePart> parts;
   std::vector<ProfileNode> separator_nodes;
   std::vector<ProfileEvent> events;
   std::int64_t events_left_out = 0;
-  int widest_condition = 0;  ///< interfaces above this many unknowns have no condition
+  int widest_condition = 0;  ///< for interfaces with more unknowns no condition is computed
 };
 
 /// Sums over the sub-domains of each level; the levels from the root down.

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run hands to whoever records it: plain data, no file formats.
+/// Results of a run as it passes them to a recorder: plain data, independent of file formats.
 #include <array>
 #include <cstdint>
 #include <map>
@@ -14,14 +14,14 @@ namespace bough::records {
 /// One row of the history: the values follow the columns of `HistoryHeader`.
 struct HistoryHeader {
   std::vector<std::string> columns;  ///< "<sensor>.<component>" or "<sensor>"
-  /// What a column shows, in the order of `columns`; empty where nobody knows.
+  /// What a column shows, in the order of `columns`; empty if not known.
   struct About {
     std::string unit;      ///< "m", "rad/s", ...; empty: a pure number
     std::string quantity;  ///< the kind of its sensor
-    std::string part;      ///< node, body, beam or joint that it looks at; empty: the whole structure
+    std::string part;      ///< node, body, beam or joint that is measured; empty: the whole structure
   };
   std::vector<About> about = {};
-  bool runs_over_load = false;  ///< rows are told apart by the load factor
+  bool runs_over_load = false;  ///< the independent variable is the load factor instead of time
 };
 struct HistoryRow {
   double time = 0.0;  ///< [s], or the load factor
@@ -48,21 +48,21 @@ struct BodyPose {
   double axes[9];
   double center[3];  ///< centre of mass
   std::vector<std::array<double, 3>> attachments =
-      {};                   ///< where joints, springs and beams hold it; drawn as spokes from the centre
+      {};                   ///< attachment points of joints, springs and beams, drawn as spokes from the centre
   double velocity[3] = {};  ///< of the centre of mass [m/s]
 };
 struct Link {
   std::string name;  ///< joint or spring, drawn as a segment (a joint may have length 0)
   double first[3];
   double second[3];
-  double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< joint frame of the first side; springs: of no meaning
+  double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< joint frame on the first side; unused for springs
 };
 struct FramePose {
   std::string name;
   double position[3];
   double axes[9];
 };
-/// A load at a point, or at a point of a line load: what acts now, in the axes of the ground.
+/// A point load, or one point of a line load: its present value in the axes of the ground.
 struct Arrow {
   std::string name;
   double position[3];
@@ -77,9 +77,9 @@ struct MotionFrame {
   std::vector<Link> links;
   std::vector<FramePose> frames = {};
   std::vector<Arrow> arrows = {};
-  bool for_others = true;  ///< is to be written for other programs, too: files for these are the larger ones
+  bool for_others = true;  ///< frame is also written to files for other programs, which are larger
 };
-/// What the parts of all frames of a motion are, in their order there: told once.
+/// Properties of the parts in all frames of a motion, in the order of the frames' lists; given once.
 struct MotionParts {
   struct Curve {
     int outline = -1;             ///< of its section, in `outlines`; -1: the section has no shape
@@ -106,8 +106,8 @@ struct StepTimes {
   double total = 0.0;                                                            ///< wall [s]
   double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0, output = 0.0;  ///< CPU seconds summed over threads
 };
-/// Balances and violations: largest values at the times of history rows; not evaluated when the scene asks for no
-/// checks.
+/// Balances and violations of constraints: the largest values at the times of history rows. Not evaluated if the scene
+/// switches checks off.
 struct Checks {
   bool evaluated = true;
   double energy_balance = 0.0;         ///< largest |kinetic + strain + potential - work + dissipation - start| [J]
@@ -118,85 +118,95 @@ struct Checks {
   double constraint_violation_position = 0.0;  ///< [m] or [rad]
   double constraint_violation_velocity = 0.0;  ///< [m/s] or [rad/s]
   double linear_backward_error_max = 0.0;
-  double linear_rank_error_max = 0.0;  ///< what taking dependent rows for such has cost: solve::SolveReport::rank_error
-  /// Local errors of the steps in time (at fixed steps: of some) [-]: of positions and rotations, relative to the
-  /// size of the structure and 1 rad, the largest and all added up over the run; of velocities, relative to the
-  /// largest speeds so far.
+  double linear_rank_error_max = 0.0;  ///< error caused by treating constraint rows as dependent:
+                                       ///< solve::SolveReport::rank_error
+  /// Local errors of the time steps (at fixed step sizes: of some of them) [-]. For positions and rotations, relative
+  /// to the size of the structure and 1 rad: the largest, and the sum over the run. For velocities, relative to the
+  /// largest speeds so far: the largest.
   bool local_error_known = false;
   double local_error_max = 0.0, local_error_sum = 0.0, local_error_max_velocity = 0.0;
   bool round_off_floor_reached = false;
-  long steps_at_floor = 0;           ///< accepted at the round-off floor of the residual, above the tolerance
-  double unbalanced_at_floor = 0.0;  ///< largest force or moment these steps left, over the largest of the run [-]
+  long steps_at_floor = 0;           ///< steps accepted at the round-off floor of the residual, above the tolerance
+  double unbalanced_at_floor = 0.0;  ///< largest residual force or moment of these steps, over the largest force or
+                                     ///< moment of the run [-]
   double energy_gained =
-      0.0;  ///< of energy_balance, what the integrator had added at the end [J]; 0 where it took some
-  /// Over the size of the parts that meet in the joint, angles as they are [-]; and the joint.
+      0.0;  ///< energy that the integrator had added by the end, as a part of energy_balance [J]; 0 where it removed
+            ///< some
+  /// Largest violation of positions relative to the length of the connected parts, of angles in radians [-], and its
+  /// joint.
   double relative_violation_position = 0.0;
   std::string open_joint;
-  /// Of rates, times the step: what opens in one step, over the size of the parts that meet there [-]; and the joint.
+  /// Largest violation of velocities times the step size, i.e. the gap that opens within one step, relative to the
+  /// length of the connected parts [-], and its joint.
   double relative_violation_step = 0.0;
   std::string fast_joint;
 };
-/// One level of the tree of sub-domains, looked at with the last factorization of a run.
+/// Figures of one level of the tree of sub-domains, evaluated with the last factorization of a run.
 struct LevelFigures {
   int level = 0;  ///< 0 at the root
   int subdomains = 0;
-  int interface_unknowns = 0;   ///< of the widest interface to the level above; 0 at the root
+  int interface_unknowns = 0;   ///< of the largest interface to the level above; 0 at the root
   double condition = 0.0;       ///< of the worst interface, in scaled variables [-]; 0: not computed
   double backward_error = 0.0;  ///< of the unknowns eliminated there, normwise [-]
 };
-/// What the steps in time are estimated to have left in a column of the history by the end of a run.
+/// Estimate of the error that the time steps leave in a column of the history at the end of a run.
 struct SensorError {
   std::string column;
-  double of_steps = 0.0;   ///< from their local errors, in the unit of the column
-  double of_energy = 0.0;  ///< from the energy that the integrator took, which slows motions down
-  double range = 0.0;      ///< of what the sensor's columns of this unit show
+  double of_steps = 0.0;   ///< due to the local errors of the steps, in the unit of the column
+  double of_energy = 0.0;  ///< due to the energy that the integrator dissipates, which slows motions down
+  double range = 0.0;      ///< range of the values of the sensor's columns that have this unit
   double relative() const { return (of_steps + of_energy) / range; }
 };
-/// An initial velocity that the scene gives and that joints, drives or other given velocities do not allow.
+/// An initial velocity given in the scene that is incompatible with joints, drives or other given velocities.
 struct ChangedVelocity {
   std::string of;                    ///< node, body or beam
   bool is_angular = false;           ///< the angular velocity, else the velocity
-  std::array<double, 3> asked, got;  ///< in the scene, and at the start; axes of the ground [m/s] or [rad/s]
-  double change = 0.0;               ///< of it, over the largest speed of the structure [-]
+  std::array<double, 3> asked, got;  ///< given in the scene, and consistent one at the start; axes of the ground [m/s]
+                                     ///< or [rad/s]
+  double change = 0.0;               ///< magnitude of the change, over the largest speed of the structure [-]
 };
-/// What one more correction would change of a joint's reaction where that was largest.
+/// The change of a joint's reaction that one more Newton correction would cause, at the time when this change is
+/// largest.
 struct UnsureReaction {
   std::string joint;
   double time = 0.0;
-  double size = 0.0, error = 0.0;  ///< the reaction then, and the change [N]; moments over the size of an element
-  double largest = 0.0;            ///< of the run [N]
+  double size = 0.0, error = 0.0;  ///< the reaction at that time, and the change [N]; moments are divided by the size
+                                   ///< of an element
+  double largest = 0.0;            ///< largest reaction of the run [N]
 };
-/// A reason not to trust a run without a closer look.
+/// A reason to examine a run before its results are used.
 struct Doubt {
   std::string about;  ///< "run", "initial velocities", "energy", "error", "linear solutions", "condition", ...
   std::string text;
 };
-/// Where the load factor turns along the path of equilibria.
+/// A limit point: the load factor has an extremum along the path of equilibria.
 struct LimitPoint {
-  double load_factor = 0.0;  ///< not located: by a parabola through both sides
+  double load_factor = 0.0;  ///< if not located: from a parabola through points on both sides
   bool is_maximum = true;
   bool is_located = true;
 };
-/// Where other branches cross the path of equilibria: unstable directions come or go though the load does not turn.
+/// A bifurcation: another branch crosses the path of equilibria. The number of unstable directions changes although the
+/// load factor has no extremum.
 struct Bifurcation {
   double load_factor = 0.0;
-  std::string mode;     ///< what moves most in the direction of the other branch, in words
-  bool is_lost = true;  ///< stability is, along the path; else regained
+  std::string mode;     ///< the part that moves most in the direction of the other branch, in words
+  bool is_lost = true;  ///< stability is lost along the path; otherwise it is regained
 };
-/// Stability of the equilibria of statics under loads that stay as they are; under loads without a potential an even
-/// number of unstable directions, and flutter, are not seen.
+/// Stability of static equilibria under loads that are held constant. Under loads without a potential, an even number
+/// of unstable directions and flutter are not detected.
 struct Stability {
   struct Between {
     double before = 0.0, after = 0.0;  ///< load factors of neighbouring equilibria
   };
   bool is_known = false;              ///< at the end
-  bool is_declared = false;           ///< the scene says that equilibria may be unstable
+  bool is_declared = false;           ///< the scene states that equilibria may be unstable
   std::string not_conservative;       ///< why the loads have no potential; empty: they have one
-  int unstable_directions = 0;        ///< at the end; loads without a potential: 1 where their number is odd
-  std::optional<Between> first_lost;  ///< where the first unstable equilibrium was met
-  std::string mode;          ///< what moves most in an unstable direction, in words: at the end, or where it was lost
-  std::string hidden;        ///< which motions the plan left out, where the last equilibrium is unstable in one of them
-  std::string hidden_mode;   ///< what moves most then
+  int unstable_directions = 0;        ///< at the end; for loads without a potential: 1 if their number is odd
+  std::optional<Between> first_lost;  ///< between which equilibria the first unstable one was found
+  std::string mode;          ///< the part that moves most in an unstable direction, in words: at the end, or where
+                             ///< stability was lost
+  std::string hidden;        ///< which motions the plan excluded, if the last equilibrium is unstable in one of them
+  std::string hidden_mode;   ///< the part that moves most in that motion
   std::string largest_load;  ///< at the end, in words; empty: there is none
 };
 struct ExpectedResult {
@@ -204,19 +214,21 @@ struct ExpectedResult {
   double value = 0.0, reference = 0.0, tolerance = 0.0;
   bool holds = false;
   std::string source;
-  bool reached = true;     ///< false: the run ends before the time of the figure, which is then no figure of it
-  bool has_value = true;   ///< false: the run shows none, a period without crossings say; it then does not hold
+  bool reached = true;     ///< false: the run ended before the time of the figure, so the figure cannot be judged
+  bool has_value = true;   ///< false: the history does not define the figure (a period without crossings, say); the
+                           ///< expectation then fails
   std::string taken = {};  ///< how the value was taken from the run, in words: at the end of a step, interpolated ...
   /// "holds", "fails" or "not reached".
   const char* verdict() const { return !reached ? "not reached" : holds ? "holds" : "fails"; }
 };
-/// A measure of the scene; no value: the run ended before its time, a quantity is not finite, or it has none (a period
-/// without crossings).
+/// Value of a measure of the scene. There is none if the run ended too early, if a quantity is not finite, or if the
+/// history does not define it (a period without crossings).
 struct MeasureResult {
   std::string name;
   std::optional<double> value;
 };
-/// Nested plain options as they were used: JSON pointer (without the leading slash) to text of a JSON value.
+/// The options as they were used, defaults included: JSON pointer (without the leading slash) and JSON text of each
+/// value.
 using EffectiveOptions = std::vector<std::pair<std::string, std::string>>;
 
 struct Summary {

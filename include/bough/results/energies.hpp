@@ -8,7 +8,7 @@
 
 namespace bough::results {
 
-/// Seen from the inertial frame, in its axes.
+/// Energies and momentum with respect to the inertial frame, in its axes.
 struct Energies {
   double kinetic = 0.0;                                          ///< [J]
   double strain = 0.0;                                           ///< [J]
@@ -17,12 +17,13 @@ struct Energies {
   double total() const { return kinetic + strain + potential; }
 };
 
-/// What of a plan stores energy or carries momentum, sorted into lanes once. Sums go over fixed chunks: the same bits
-/// for any number of threads. Where frames move, elements are looked at one by one.
+/// Evaluates the elements of a plan that store energy or carry momentum, which are sorted into lanes once. Sums go over
+/// fixed chunks, so the bits do not depend on the number of threads. In scenes with moving frames, elements are
+/// evaluated one by one.
 class EnergyMeter {
  public:
   explicit EnergyMeter(const plan::Plan& plan);
-  /// Laws of the system must stand at the state's time. No allocation after the first call.
+  /// The laws of the system have to be evaluated at the state's time. No allocation after the first call.
   Energies eval(const step::System& system, const step::State& state);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run looks at in a state: sensors, the moving structure. Reads states, changes none.
+/// Results of a state: values of sensors, and the moving structure for pictures. States are read, never changed.
 #include <span>
 #include <vector>
 
@@ -9,29 +9,29 @@
 
 namespace bough::results {
 
-/// Values of all sensors, in the order of the header. Laws of the system must stand at the state's time.
+/// Values of all sensors, in the order of the header. The laws of the system have to be evaluated at the state's time.
 void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
                   std::vector<double>& values);
 
-/// The same of some sensors, by their places in Plan::sensors, one after the other.
+/// Values of the sensors with the given indices in Plan::sensors, in that order.
 void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
                   std::span<const int> sensors, std::vector<double>& values);
 
-/// Whether a sensor shows places, rotations and velocities alone: between two steps these follow from
-/// step::eval_between. Forces, strains, energies and accelerations do not: a stiff part answers to the smallest error
-/// of a place.
+/// Whether a sensor shows positions, rotations and velocities only. Such sensors can be interpolated between two steps
+/// with step::eval_between. Forces, strains, energies and accelerations cannot: in a stiff part, they respond to the
+/// smallest error of a position.
 bool shows_motion(scene::SensorKind kind);
-/// Adds the nodes that a sensor of motion looks at.
+/// Appends the nodes from which a sensor of motion is evaluated.
 void append_nodes_of(const plan::Plan& plan, const plan::SensorPlan& sensor, std::vector<int>& nodes);
 
-/// Values of the sensors that show motions, in their places; 0 for the others.
+/// Values of the sensors that show motions, at their indices; 0 for all others.
 void eval_motion_sensors(const step::System& system, const step::State& state, std::vector<double>& values);
 
-/// Sections, surfaces, kinds and sub-domains of what eval_motion shows, in the same order.
+/// Sections, surfaces, kinds and sub-domains of the parts in eval_motion's frames, in the same order.
 records::MotionParts make_parts(const scene::Scene& scene, const step::System& system);
 
-/// The moving structure, with section resultants along the beams: four intervals an element, since the axis is curved
-/// within it; of structures of more than a thousand elements two, of more than four thousand one.
+/// The moving structure, with section resultants along the beams. An element is drawn with four intervals, since its
+/// axis is curved; structures of more than a thousand elements with two, of more than four thousand with one.
 records::MotionFrame eval_motion(const step::System& system, const step::State& state);
 
 }  // namespace bough::results

@@ -1,5 +1,5 @@
 #pragma once
-/// Springs that pass through length 0, where the direction of their force is not defined and turns round.
+/// Detects springs that pass through length 0, where the direction of their force is undefined and reverses.
 #include <string>
 #include <vector>
 
@@ -7,17 +7,17 @@
 
 namespace bough::results {
 
-/// Compares the springs of a scene from look to look. A spring with a rest length has passed through length 0 where
-/// its ends approached each other along its line at the last look, move apart along it now, and its direction has
-/// turned round: turning alone does not look so.
+/// Compares the springs of a scene between consecutive calls. A spring with a rest length has passed through length 0
+/// if its ends approached each other along its line at the last call, move apart along it now, and its direction has
+/// reversed. A rotation without a passage does not satisfy these conditions.
 class SpringWatch {
  public:
   explicit SpringWatch(const plan::Plan& plan);
 
-  /// At the rows of a history; takes no memory.
+  /// Call it at the rows of a history. Does not allocate.
   void look(const step::System& system, const step::State& state);
 
-  /// The first spring that passed, with the time, in words; empty: none did.
+  /// Describes the first spring that passed through length 0, with the time; empty if none did.
   std::string text() const;
 
  private:
@@ -26,7 +26,8 @@ class SpringWatch {
     std::string name;
     motion::Vec3<double> span = motion::Vec3<double>::zero();
     motion::Vec3<double> approach =
-        motion::Vec3<double>::zero();  ///< its change since the look before; at first its rate
+        motion::Vec3<double>::zero();  ///< change of the vector between its ends since the previous call; at first its
+                                       ///< rate
   };
   static motion::Vec3<double> rate_of(const elements::Spring& spring, const elements::Field& field);
 

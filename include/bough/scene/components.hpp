@@ -1,5 +1,5 @@
 #pragma once
-/// Names of what sensors give and what joints leave free.
+/// Names of the components of sensors and of the free coordinates of joints.
 #include <array>
 #include <optional>
 #include <string>
@@ -26,11 +26,11 @@ std::vector<std::string> columns_of(const Sensor& sensor);
 /// each other); others none.
 const std::vector<std::string>& coordinates_of(JointKind kind);
 
-/// What a plan may leave out (plan::Decision), as in Scene::without.
+/// Names of the decisions of the plan (plan::Decision) that Scene::without can bar.
 const std::vector<std::string>& decision_names();
-/// Names of former decisions, which scenes may still bar: nothing follows from them but a note.
+/// Names of decisions that no longer exist. A scene may still bar them; it gets a note and nothing else follows.
 const std::vector<std::string>& retired_decision_names();
-/// What a scene may bar: both of the above.
+/// All names accepted in Scene::without: both lists above.
 std::vector<std::string> names_in_without();
 
 /// All kinds of joints, in the order of the schema.
@@ -41,7 +41,8 @@ inline constexpr std::array<JointKind, 8> joint_kinds{
 /// The kind of this name in files; nothing where none has it.
 std::optional<JointKind> joint_kind_named(const std::string& name);
 
-/// The coordinate whose rate a sensor measures: the one that it names, or else the first that the joint has.
+/// The coordinate whose rate a sensor measures: the one that the sensor names, otherwise the first coordinate of the
+/// joint.
 std::string rate_coordinate(const Sensor& sensor, JointKind kind);
 
 /// Names as in files.
@@ -50,7 +51,7 @@ std::string to_string(SensorKind kind);
 std::string to_string(FigureKind kind);
 std::string to_string(MeasureKind kind);
 
-/// Figures that FigureKind and MeasureKind share come first in both, in the same order.
+/// The figures that FigureKind and MeasureKind have in common come first in both enumerations, in the same order.
 static_assert(static_cast<int>(MeasureKind::period) == static_cast<int>(FigureKind::period));
 
 }  // namespace bough::scene

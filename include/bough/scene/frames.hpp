@@ -1,5 +1,5 @@
 #pragma once
-/// Frames that stand in each other, fixed or moving by laws of time.
+/// Tree of frames: each frame is placed in a parent frame, fixed there or moving by laws of time.
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -11,28 +11,29 @@
 
 namespace bough::scene {
 
-/// Index in scene.frames by name; nothing where there is no such frame.
+/// Returns the index of a frame in scene.frames by its name; none where there is no such frame.
 using FindFrame = std::function<std::optional<std::size_t>(const std::string&)>;
 
-/// All frames of a scene: parents, poses at the start, what of them moves. Made by one walk over the frames without
-/// recursion, so that a scene may nest them as deep as it likes. The ground is the inertial frame, or the frame the
-/// analysis is described in; a frame that no other frame names as the ground's own, or as one that the ground stands
-/// in, stands in the ground.
+/// The frames of a scene as a tree: parents, poses at the start, and which of them move. It is built by one pass over
+/// the frames without recursion, so that frames may be nested to any depth. The ground is the inertial frame, or the
+/// frame in which the analysis is described (Analysis::frame). A frame without a named parent is placed in the ground,
+/// unless the ground is described, directly or through other frames, in it.
 class FrameTree {
  public:
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
   FrameTree(const Scene& scene, const FindFrame& find);
 
-  /// The frame that a frame stands in; none for the ground, and where there is no such frame.
+  /// Index of the parent frame; none where the parent is the ground or does not exist.
   std::size_t parent(std::size_t frame) const { return parent_[frame]; }
-  /// From the analysis' frame up to the one that stands in nothing; ends where a name is not found or comes again.
+  /// The frames from the analysis' frame up to the one without a parent. The list ends early where a name is not found
+  /// or where the frames form a circle.
   const std::vector<std::size_t>& above_ground() const { return ground_; }
-  /// At the start, in the ground. Nothing where it stands in a frame that is not there, or in itself.
+  /// Pose at the start, relative to the ground. None where an ancestor does not exist or the frame is its own ancestor.
   const std::optional<Frame>& pose(std::size_t frame) const { return frames_[frame].pose; }
-  /// Whether it moves in the ground, itself or by a frame that it stands in.
+  /// Whether the frame moves relative to the ground, by its own laws or by those of an ancestor.
   bool is_moving(std::size_t frame) const { return frames_[frame].moves; }
-  /// Whether the way up from it never ends.
+  /// Whether the frame is its own ancestor, directly or through other frames.
   bool stands_in_itself(std::size_t frame) const { return frames_[frame].circles; }
 
  private:
@@ -44,7 +45,7 @@ class FrameTree {
   void settle(const Scene& scene, const std::vector<std::size_t>& way);
 
   std::vector<std::size_t> parent_, ground_;
-  std::vector<bool> is_lost_;  ///< stands in a frame that is not there
+  std::vector<bool> is_lost_;  ///< an ancestor does not exist
   std::vector<OfFrame> frames_;
 };
 

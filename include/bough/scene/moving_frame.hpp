@@ -1,6 +1,6 @@
 #pragma once
-/// Frames that move in each other by prescribed laws, and a point watched in them. Positions, speeds and
-/// accelerations at one time are those of motion::FrameChain.
+/// Frames that move in each other by prescribed laws, and a point observed in them. The state of all frames at one time
+/// is a motion::FrameChain.
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,25 +30,25 @@ struct MovingFrame {
 /// w_k the sum up to k. Does not allocate. Not finite where a law is not: see non_finite_law.
 motion::FrameMotion motion_at(const MovingFrame& frame, double t, laws::Side side = laws::Side::right);
 
-/// Names the law of the frame that is not finite at t and says what is not, or nothing where all are.
+/// Names the law of the frame that is not finite at t and says which of its values is not; none where all are finite.
 std::optional<std::string> non_finite_law(const MovingFrame& frame, double t);
 
-/// A point of one frame of a chain, and who watches it. Frames count from 1 in the order of `frames`, each in the one
-/// before; 0 is the inertial frame.
+/// A point of one frame of a chain, and the frame of the observer. Frames are numbered from 1 in the order of `frames`,
+/// each moving in the one before; 0 is the inertial frame.
 struct FrameStudy {
   std::string name;  ///< file name without ending
   std::string title;
   std::vector<MovingFrame> frames;
   int point_frame = 0;
   laws::Law point[3];       ///< position in the axes of point_frame [m]
-  int from = 0;             ///< observer
-  int in = 0;               ///< axes of the results
+  int from = 0;             ///< frame of the observer
+  int in = 0;               ///< frame in whose axes the results are resolved
   double start_time = 0.0;  ///< [s]
   double end_time = 1.0;    ///< [s], not before the start
-  int num_points = 2;       ///< times, the two ends among them
+  int num_points = 2;       ///< number of times, both ends included
 };
 
-/// The k-th of its times [s], k = 0 .. num_points - 1; both ends exactly.
+/// Time number k [s], k = 0 .. num_points - 1; the first and the last are exactly the two ends.
 double time_of(const FrameStudy& study, int k);
 
 }  // namespace bough::scene

@@ -6,11 +6,12 @@
 
 namespace bough::scene {
 
-/// Round parts are polygons of so many sides and of the same area, so that areas and volumes of pictures are those of
-/// the scene. The centroid stands in the origin.
+/// Polygon of a cross-section's shape, with its centroid at the origin. A round contour becomes a polygon of `sides`
+/// sides and of the same area, so that areas and volumes in pictures are those of the scene.
 Outline outline_of(const SectionShape& shape, int sides = 24);
 
-/// Of a section that has no shape the rectangle with its radii of gyration:  width^2 = 12 EI3/EA, height^2 = 12 EI2/EA.
+/// Rectangle that draws a section without a shape. It has the section's radii of gyration: width^2 = 12 EI3/EA,
+/// height^2 = 12 EI2/EA.
 Rectangle equivalent_rectangle(const motion::Mat6<double>& stiffness);
 
 /// Moments of a plane area, exactly, by sums over the edges of its polygons, axes of the coordinates:
@@ -24,7 +25,7 @@ struct PolygonMoments {
 };
 PolygonMoments moments_of(const Outline& outline);
 
-/// The same outline with its centroid in the origin.
+/// The outline moved so that its centroid is at the origin.
 Outline centered(Outline outline);
 
 /// What is wrong with an outline, in words: fewer than three corners, corners that are not finite or repeat, an outer
@@ -39,8 +40,8 @@ struct Triangulation {
 };
 Triangulation triangles_of(const Outline& outline);
 
-/// Surface of a shape; of a rod, which has no thickness, a bar of a fiftieth of its length. Round parts have 24 sides
-/// and the volume of the shape.
+/// Surface of a body's shape. A rod has no thickness and is drawn as a bar of a fiftieth of its length. Round parts
+/// have 24 sides and the volume of the shape.
 Mesh mesh_of(const BodyShape& shape);
 
 /// Height of the centre of mass of a cone above the middle of its large end [m].

@@ -22,8 +22,8 @@ class PartLengths {
   /// point.
   double of(const std::string& place) const;
 
-  /// Of the larger of two parts that a joint holds together. Two points have no length: then the size of the whole
-  /// takes its place. Never below a millionth of that size, where differences of places are round-off.
+  /// Length of the larger of the two parts that a joint connects. If both are points, the size of the whole scene is
+  /// used instead. The result is at least a millionth of that size, below which differences of positions are round-off.
   double of_joint(const Attachment& first, const Attachment& second, double size) const;
 
  private:

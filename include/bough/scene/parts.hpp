@@ -1,5 +1,6 @@
 #pragma once
-/// Parts of scenes in a few lines, for studies that build their scenes in code, and the same scene in other units.
+/// Functions that build parts of scenes in a few lines of code, for studies and tests, and that convert a scene to
+/// other units.
 #include <string>
 
 #include "bough/scene/scene.hpp"
@@ -12,12 +13,12 @@ scene::Section make_section(const std::string& name, double EA, double GA2, doub
 void set_mass(scene::Section& section, double mass, double rotary_1, double rotary_2, double rotary_3);
 
 scene::Node make_node(const std::string& name, const Vec3& position);
-/// Straight, axis 2 along y.
+/// Straight beam, with section axis 2 along y.
 scene::Beam make_beam(const std::string& name, const std::string& section, const std::string& start,
                       const std::string& end, int elements, int order);
-/// Node or body fixed to the ground at the origin.
+/// Joint that fixes a node or body to the ground at the origin.
 scene::Joint make_weld(const std::string& name, const std::string& node);
-/// A joint of two things (empty: the ground) whose frames have the pose `offset` in each.
+/// Joint between two parts (empty name: the ground); the joint frame has the pose `offset` in each.
 scene::Joint make_joint(const std::string& name, scene::JointKind kind, const std::string& first,
                         const Vec3& first_offset, const std::string& second, const Vec3& second_offset);
 /// Body with inertia about its centre, which is its reference point.
@@ -38,16 +39,17 @@ scene::Scene make_cantilever(const scene::Section& section, double length, int e
 /// other. Sensor "B0": the first corner.
 scene::Scene make_four_bars(int windows);
 
-/// All masses, and beams' and joints' stiffness with them so that frequencies stay: forces grow by `factor`, motions
-/// do not change. Joints' efforts by laws are not handled: throws std::invalid_argument.
+/// Multiplies all masses and, to keep the frequencies, all stiffnesses of beams and joints by `factor`. Forces grow by
+/// this factor and motions do not change. Efforts in joints given by laws are not supported: throws
+/// std::invalid_argument.
 void scale_masses(scene::Scene& scene, double factor);
 
 /// Millimetres and tonnes: forces stay newtons, moments become N mm. Scenes of bodies, beams, joints without forces,
 /// gravity and initial velocities; others throw std::invalid_argument.
 void to_millimetres(scene::Scene& scene);
 
-/// What a column of the history grows by when lengths grow by `length` and forces by `force`: moments and energies by
-/// both, angles by nothing.
+/// Factor by which a column of the history grows when lengths grow by `length` and forces by `force`: moments and
+/// energies grow by their product, angles do not change.
 double column_factor(const scene::Scene& scene, const std::string& column, double length, double force);
 
 }  // namespace bough::scene

@@ -12,16 +12,16 @@
 
 namespace bough::scene {
 
-/// Pose of a placement in the ground. A frame that is not there, or a circle of frames, ends the chain: `problems_in`
-/// tells of those.
+/// Pose of a placement in the ground. The result is not meaningful where a frame does not exist or frames form a
+/// circle; `problems_in` reports such scenes.
 Frame resolve(const Scene& scene, const Placement& placement);
 
-/// Pose at the start of a node or body, of the ground ("" or "ground"), of a fixed frame or of an inner node of a
-/// beam; nothing when there is no such name. Searches: for many names make a Poses.
+/// Pose at the start of a node or body, of the ground ("" or "ground"), of a fixed frame or of an inner node of a beam;
+/// none when there is no such name. Each call searches the scene: for many names make a Poses.
 std::optional<Frame> initial_pose(const Scene& scene, const std::string& name);
 
-/// What a name stands for. Frames, nodes, bodies, beams, joints, springs, bushings, loads and motions share one set
-/// of names.
+/// Kind of the part that a name refers to. Frames, nodes, bodies, beams, joints, springs, bushings, loads and motions
+/// share one set of names.
 enum class ThingKind : std::uint8_t { frame, node, body, beam, joint, other };
 struct Thing {
   ThingKind kind;
@@ -33,12 +33,12 @@ class Poses {
  public:
   explicit Poses(const Scene& scene);
 
-  /// Nothing where no thing has the name; the first one where several have.
+  /// The part with this name, the first one where several have it; none where no part has it.
   std::optional<Thing> find(std::string_view name) const;
 
   /// Initial pose of a frame, node, body or inner node of a beam ("<beam>.<k>", k = 0 .. elements * order) in the
-  /// ground. "" and "ground" are the ground itself. Nothing where there is no such thing, or a frame stands in
-  /// itself.
+  /// ground. "" and "ground" are the ground itself. None where there is no such part, or where a frame is its own
+  /// ancestor.
   std::optional<Frame> of(std::string_view name) const;
   std::optional<Frame> of(const Placement& placement) const;
   std::optional<Frame> of(const Attachment& attachment) const;

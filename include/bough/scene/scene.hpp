@@ -1,6 +1,6 @@
 #pragma once
-/// A scene: what the user says, in SI units and radians, as plain data. Things are named and refer to each other by
-/// name (empty name = absent). Nothing is derived here; `plan` turns a scene into elements.
+/// A scene is the user's description of a model: plain data in SI units and radians. Parts have names and refer to each
+/// other by name (an empty name means absent). Nothing is derived here; `plan` turns a scene into elements.
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -22,14 +22,14 @@ using Mat3 = motion::Mat3<double>;
 using Mat6 = motion::Mat6<double>;
 using Frame = motion::Frame<double>;
 
-/// Pose in a named frame (empty: the ground). In a frame that moves: at the start.
+/// Pose in a named frame (empty: the ground). In a moving frame it is the pose at the start.
 struct Placement {
   Frame pose = Frame::identity();
   std::string frame;
 };
 
-/// Frame posed in another one; fixed there, or moving by laws of time. The placement is the pose at time 0 in either
-/// case.
+/// A frame placed in another one, fixed there or moving by laws of time. In either case the placement is the pose at
+/// time 0.
 struct FrameDef {
   std::string name;
   Placement placement;
@@ -49,7 +49,7 @@ struct Section {
   Mat6 stiffness;                          ///< [N, N m, N m^2], symmetric positive definite
   Mat6 mass;                               ///< per length [kg/m, kg, kg m], symmetric positive semi-definite
   Mat6 damping;                            ///< of strain rates [N s, N m s, N m^2 s]; zero when absent
-  std::optional<SectionShape> shape = {};  ///< for pictures: stiffness and mass stand above
+  std::optional<SectionShape> shape = {};  ///< for pictures only: stiffness and mass are those given above
 };
 
 struct Node {
@@ -60,17 +60,18 @@ struct Node {
 /// Rigid body or point mass. Its frame is a node of its own name.
 struct Body {
   std::string name;
-  Placement placement;                     ///< of the body's reference frame
-  double mass = 0.0;                       ///< [kg]
-  Mat3 inertia = Mat3::zero();             ///< about the centre of mass, in the body's axes [kg m^2]
-  Vec3 center_of_mass = Vec3::zero();      ///< in the body's frame [m]
-  bool is_point_mass = false;              ///< three unknowns would do; rotation is held where nothing else holds it
-  std::optional<BodyShape> shape = {};     ///< about the centre of mass, for pictures: the inertia stands above
-  std::shared_ptr<const Mesh> looks = {};  ///< drawn instead of the shape; nothing is computed from it
+  Placement placement;                  ///< of the body's reference frame
+  double mass = 0.0;                    ///< [kg]
+  Mat3 inertia = Mat3::zero();          ///< about the centre of mass, in the body's axes [kg m^2]
+  Vec3 center_of_mass = Vec3::zero();   ///< in the body's frame [m]
+  bool is_point_mass = false;           ///< its rotation has no inertia, and is held unless another part holds it
+  std::optional<BodyShape> shape = {};  ///< shape about the centre of mass, for pictures only: the inertia is the one
+                                        ///< given above
+  std::shared_ptr<const Mesh> looks = {};  ///< drawn instead of the shape; not used in the computation
 };
 
-/// Something fixed to a node, a body, a frame or the ground: the pose `offset` in the frame of `to`; `to` empty =
-/// ground. Named "ground" in files. The ground is the frame in which the scene is described: the inertial one, or
+/// A frame fixed to a node, a body, a frame or the ground: the pose `offset` in the frame of `to`. An empty `to` is the
+/// ground, named "ground" in files. The ground is the frame in which the scene is described: the inertial frame, or
 /// Analysis::frame.
 struct Attachment {
   std::string to;
@@ -92,7 +93,8 @@ struct Beam {
   std::optional<Vec3> end_offset;
   BeamCurve curve = BeamCurve::straight;
   Vec3 axis_2 = Vec3::
-      zero();  ///< a vector (of the ground or in `frame`) that section axis 2 at the start lies nearest to; zero: chosen
+      zero();  ///< vector, of the ground or of `frame`, to which section axis 2 at the start is as close as possible;
+               ///< zero: chosen
   std::string frame;              ///< frame in which axis_2 and curvature start are given
   double twist = 0.0;             ///< rotation of the section about axis 1 from start to end [rad] (straight)
   Vec3 curvature = Vec3::zero();  ///< body components (k1, k2, k3) [1/m] (curvature)
@@ -104,7 +106,7 @@ struct Beam {
 
 enum class JointKind : std::uint8_t { fixed, revolute, spherical, prismatic, cylindrical, universal, planar, screw };
 
-/// What acts along a joint's free coordinate `coordinate` ("angle" or "displacement").
+/// Spring, damper and effort along a joint's free coordinate `coordinate` ("angle" or "displacement").
 struct JointForce {
   std::string coordinate;
   double stiffness = 0.0;  ///< [N m/rad] or [N/m]
@@ -113,7 +115,7 @@ struct JointForce {
   laws::Law effort;  ///< torque [N m] or force [N] on the second body along the axis
 };
 
-/// What prescribes a joint's coordinate.
+/// Prescribes a coordinate of a joint as a function of time.
 struct JointDrive {
   std::string coordinate;
   bool is_rate = false;  ///< the law gives the rate; it is integrated exactly from the initial value
@@ -148,7 +150,8 @@ struct Bushing {
   Mat6 damping = Mat6::zero();
 };
 
-enum class LoadAxes : std::uint8_t { space, body };  ///< dead (fixed in space) or follower (turns with what it acts on)
+enum class LoadAxes : std::uint8_t { space, body };  ///< space: dead load, fixed in space; body: follower load, which
+                                                     ///< turns with the part
 
 struct PointLoad {
   std::string name;
@@ -186,7 +189,8 @@ struct PrescribedMotion {
 struct InitialVelocity {
   std::string of;  ///< node, body, or beam (then all its nodes, as a rigid motion about its start)
   LoadAxes axes = LoadAxes::space;
-  std::string frame;  ///< velocities are relative to this frame, whose own is added; axes space: components in its axes
+  std::string frame;  ///< velocities are relative to this frame, whose own velocity is added; with axes space,
+                      ///< components are in its axes
   Vec3 velocity = Vec3::zero();  ///< of the frame's origin [m/s]
   Vec3 angular_velocity = Vec3::zero();
 };
@@ -219,10 +223,10 @@ struct Sensor {
   std::string joint;
   std::string coordinate;           ///< joint_rate: "angle" or "displacement"; empty: the only one the joint has
   LoadAxes axes = LoadAxes::space;  ///< resolved in the ground's axes, or those of `frame`, or in the body's own
-  /// The frame from which a point's motion is seen, and in whose axes it and reactions are resolved; empty: the ground.
-  /// acceleration_split: its axes only.
+  /// The frame of the observer of a point's motion, in whose axes it and reactions are resolved; empty: the ground. For
+  /// an acceleration_split only the axes.
   std::string frame;
-  std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the one before
+  std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the previous one
 };
 
 enum class AnalysisKind : std::uint8_t { statics, dynamics };
@@ -231,10 +235,10 @@ enum class Integrator : std::uint8_t { generalized_alpha, variational, bdf };
 
 /// Step sizes chosen so that local errors stay within a tolerance (generalized-alpha).
 struct StepControl {
-  /// Of the sum of local errors over the run, relative to sizes: that of the structure, 1 rad, the largest speeds so
-  /// far [-].
+  /// Tolerance of the sum of local errors over the run, relative to reference magnitudes: the size of the structure, 1
+  /// rad, and the largest speeds so far [-].
   double tolerance = 1e-4;
-  double position_tolerance = 0.0;          ///< allowed beside [m]
+  double position_tolerance = 0.0;          ///< absolute tolerance that is added to the relative one [m]
   double rotation_tolerance = 0.0;          ///< [rad]
   double velocity_tolerance = 0.0;          ///< [m/s]
   double angular_velocity_tolerance = 0.0;  ///< [rad/s]
@@ -243,27 +247,28 @@ struct StepControl {
 
 /// Statics along the path of equilibria, past limit points of the load.
 struct ArcLength {
-  /// First step [-]: root mean square over nodes of displacements over the size of the structure and of rotations
-  /// [rad]. 0: chosen by how the path bends at its start.
+  /// Size of the first step [-]: root mean square over the nodes of displacements, divided by the size of the
+  /// structure, and of rotations [rad]. 0: chosen from the curvature of the path at its start.
   double step = 0.0;
-  double largest_step = 0.0;  ///< [-]; 0: four times the first, or 0.2 where that was chosen
+  double largest_step = 0.0;  ///< [-]; 0: four times the first step if that is given, otherwise 0.2
   int max_steps = 1000;
-  /// The run ends where the load factor passes this value, limit points counted before.
+  /// The run ends where the load factor passes this value, after the number of limit points given below.
   double end_load_factor = 1.0;
   int after_limit_points = 0;
-  int end_at_limit_point = 0;  ///< the run ends at the limit point of this number instead; 0: it does not
+  int end_at_limit_point = 0;  ///< the run ends at the limit point of this number instead; 0: it does not end at limit
+                               ///< points
 };
 
 struct Analysis {
   AnalysisKind kind = AnalysisKind::dynamics;
-  /// The frame in which the scene is described: what is "ground" to everything that names no frame. Empty: the
-  /// inertial frame. Gravity stays inertial. Statics: the frame moves steadily, its laws are taken at time 0 and its
-  /// inertial loads grow with the load factor.
+  /// The frame in which the scene is described, which is the "ground" of all parts that name no frame. Empty: the
+  /// inertial frame. Gravity is always given in the inertial frame. In statics the frame has to move steadily: its laws
+  /// are evaluated at time 0, and its inertial loads grow with the load factor.
   std::string frame;
   // statics
   int load_steps = 1;
   std::optional<ArcLength> arc_length;  ///< instead of load steps
-  bool unstable = false;                ///< unstable equilibria are what is looked for: they are not doubted
+  bool unstable = false;                ///< unstable equilibria are expected: the run casts no doubt on them
   // dynamics
   double end_time = 0.0;    ///< [s]
   double step_size = 1e-3;  ///< h [s]; of the first step where sizes are controlled
@@ -290,7 +295,7 @@ struct Solver {
   int depth = -1;                              ///< -1 = chosen
   double penalty_factor = 1.0;                 ///< times the interface's own stiffness
   bool tasks = true;
-  int threads = 1;  ///< that it asks for where several scenes share them; results do not depend on it
+  int threads = 1;  ///< threads for this scene where several scenes share the machine; results do not depend on it
 };
 
 struct Output {
@@ -300,8 +305,9 @@ struct Output {
   bool checks = true;     ///< balances and constraint violations, at the times of history rows
 };
 
-/// What is taken of a quantity: its value at the end or at a time; the extremes of the whole run and when they are
-/// met first; how far they are apart; the mean time between upward crossings of a level.
+/// How a figure is derived from a quantity: its value at the end or at a given time, the extremes over the run and the
+/// times at which they are first reached, the range between the extremes, or the mean time between upward crossings of
+/// a level.
 enum class FigureKind : std::uint8_t { value, max, min, time_of_max, time_of_min, range, period };
 
 struct Expected {
@@ -318,7 +324,8 @@ struct Expected {
   double allowed() const { return tolerance + relative_tolerance * std::abs(value); }
 };
 
-/// What is measured of a quantity over a run: the figures of FigureKind and more, which take the whole of it.
+/// How a measure is derived from a quantity over a run: the figures of FigureKind, and further ones that need the whole
+/// history.
 enum class MeasureKind : std::uint8_t {
   value,
   max,
@@ -329,11 +336,12 @@ enum class MeasureKind : std::uint8_t {
   period,
   mean,                ///< over time
   rms,                 ///< root mean square over time
-  percentile,          ///< at or below it for `percent` of the time
-  settling_time,       ///< after it no further from `target` than `band`
+  percentile,          ///< the value that the quantity does not exceed for `percent` of the time
+  settling_time,       ///< time after which the quantity differs from `target` by no more than `band`
   dominant_frequency,  ///< [1/s]
   cycles,              ///< number of rainflow cycles of a range of at least `range`
-  equivalent_range     ///< of `cycles` equal cycles of the same damage, with exponent m: the damage-equivalent load
+  equivalent_range  ///< range of `cycles` equal cycles that do the same damage, with exponent m: the damage-equivalent
+                    ///< load
 };
 
 /// A figure of a run: a column of batches and sweeps.
@@ -351,7 +359,7 @@ struct Measure {
   double range = 0.0;            ///< of `cycles`
   double exponent = 10.0;        ///< of `equivalent_range`: m, of the S-N line
   std::optional<double> cycles;  ///< of `equivalent_range`; none: one a second
-  /// What it has to be: value, tolerances and source are those of the measure, all else is not used.
+  /// Expected value of the measure. Only value, tolerances and source are used; the rest is given by the measure.
   std::optional<Expected> expected;
 };
 
@@ -377,7 +385,7 @@ struct Scene {
   Analysis analysis;
   Solver solver;
   Output output;
-  std::vector<std::string> without;  ///< decisions of the plan that are not to be taken ("planar", ...)
+  std::vector<std::string> without;  ///< decisions of the plan that must not be taken ("planar", ...)
   std::vector<Expected> expected;
   std::vector<Measure> measures;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Shapes of cross-sections and bodies, as a scene names them, and polygons and triangles that draw them.
+/// Shapes of cross-sections and bodies, as a scene names them, and the polygons and triangles by which they are drawn.
 #include <array>
 #include <variant>
 #include <vector>
@@ -50,7 +50,7 @@ struct CProfile {
 struct LProfile {
   double width = 0.0, height = 0.0, thickness = 0.0;
 };
-/// Any outline; its centroid is put on the axis.
+/// Any polygon; it is moved so that its centroid is on the reference axis.
 struct Polygon {
   Outline outline;
 };

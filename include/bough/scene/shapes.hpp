@@ -1,12 +1,12 @@
 #pragma once
-/// Sections and bodies from their shapes.
+/// Stiffness, mass and inertia of sections and bodies from their shapes.
 #include <optional>
 
 #include "bough/scene/scene.hpp"
 
 namespace bough::scene {
 
-/// Figures of a plane area, axes through its centroid.
+/// Properties of a plane area, for axes through its centroid.
 struct AreaFigures {
   double area = 0.0;                                  ///< A [m^2]
   double second_moment_2 = 0.0;                       ///< I2, int x3^2 dA: bending about axis 2 [m^4]

@@ -1,6 +1,6 @@
 #pragma once
-/// Many cases, each a run of its own: one thread a case, one row of `batch.csv` a case. Scenes of a folder and the
-/// cases of a sweep are run by the same engine.
+/// Runs many cases, one thread and one row of `batch.csv` for each. Scenes of a folder and the cases of a sweep use the
+/// same engine.
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -15,42 +15,44 @@
 namespace bough::study {
 
 struct BatchOptions {
-  int threads = 1;                 ///< of all cases that run at a time, >= 1
+  int threads = 1;                 ///< total number of threads of the cases that run at a time, >= 1
   double time_limit = 0.0;         ///< wall time of one case [s]; 0: none
   double resident_limit = 0.0;     ///< memory that one worker may hold in the machine [bytes]; 0: any
-  std::vector<std::size_t> order;  ///< in which cases are started; empty: as they come. Rows do not depend on it
+  std::vector<std::size_t> order;  ///< order in which cases are started; empty: as given. The order of rows does not
+                                   ///< depend on it
 };
 
 struct BatchCase {
   std::string name;
-  std::filesystem::path scene, directory;  ///< directory: of its results
+  std::filesystem::path scene, directory;  ///< directory: of the case's results
   std::vector<std::string> overrides = {};
-  std::vector<std::pair<std::string, std::string>> inputs = {};  ///< what varies and its value as JSON, for tables
-  int threads = 1;                                               ///< that it asks for; it gets no more than there are
+  std::vector<std::pair<std::string, std::string>> inputs = {};  ///< the varied inputs and their values as JSON, for
+                                                                 ///< tables
+  int threads = 1;  ///< number of threads that the case asks for; it gets no more than there are
 };
 
 /// figures_fail: the run is complete, and an expected figure of its scene does not hold.
 enum class CaseStatus { ok, figures_fail, failed, interrupted, bad_input, crashed, timed_out };
 
-/// What a case tells of itself when it ends; it is handed from its process to the one that collects.
+/// Report of a case at its end. It is passed from the process of the case to the process that collects results.
 struct CaseReport {
   std::string cause;                ///< what to report
-  std::filesystem::path directory;  ///< where its results stand; empty: it left none, or it is stored
+  std::filesystem::path directory;  ///< directory of its results; empty: it left none, or they are stored
   std::optional<io::StoredPlace> stored;
   bool was_interrupted = false;
-  bool is_unwritten = false;  ///< its results could not be written: it may end otherwise when there is room
+  bool is_unwritten = false;  ///< its results could not be written; the case may succeed when there is space
   long accepted = 0, rejected = 0, newton_iterations = 0;
   int expected_holds = 0, expected_fails = 0;
   std::string failing;              ///< the first expected figures that do not hold, in words
-  std::vector<std::string> doubts;  ///< what they are about
+  std::vector<std::string> doubts;  ///< subjects of the doubts
   std::vector<records::MeasureResult> measures;
   std::optional<double> energy_error,
-      constraint_error;  ///< largest, over the largest energy; over the size of the parts
-  /// Counts, figures and measures of a run.
+      constraint_error;  ///< largest energy error over the largest energy; largest violation over the size of the parts
+  /// Copies counts, figures and measures from the summary of a run.
   void take(const records::Summary& summary);
 };
 
-/// What it took: measured by clocks, and so not the same twice.
+/// Measured times and memory of a case. They differ from run to run.
 struct CaseCost {
   double wall_seconds = 0.0, cpu_seconds = 0.0;
   double peak_bytes = 0.0;
@@ -64,32 +66,32 @@ struct CaseResult {
   CaseCost cost;
 };
 
-/// How a case is run, in another process than that which collects: the exit status of `bough run` (0 done, 1 failed,
-/// 2 bad input).
+/// Runs a case, in another process than the one that collects. Returns the exit status of `bough run` (0 done, 1
+/// failed, 2 bad input).
 using RunCase = std::function<int(const BatchCase&, CaseReport& report)>;
 
-/// Told after every case: how many are done, of how many.
+/// Called after every case with the number of finished cases and the total.
 using CaseDone = std::function<void(const CaseResult&, std::size_t done, std::size_t all)>;
 
-/// Every *.json of a folder is a case, by name; not searched deeper; case NAME writes to out/NAME. Throws
-/// std::runtime_error where the folder cannot be read or holds none.
+/// Every *.json file directly in a folder is a case, ordered by name; case NAME writes to out/NAME. Throws
+/// std::runtime_error where the folder cannot be read or has no such file.
 std::vector<BatchCase> cases_in(const std::filesystem::path& folder, const std::filesystem::path& out);
 
-/// Runs all cases; results are in the order of the cases whatever finishes first. Cases run in worker processes, one
-/// at a time in each and many one after the other, so that one that crashes, hangs or takes all memory harms no
-/// other: its worker is replaced. All workers end with this process, however it ends. Where no process can be started
-/// a case has failed. `stop` is asked between cases; once true no further case starts and those running are told to
-/// stop (SIGTERM). A case past its time limit is told so, too, and is killed where it does not end by itself; one
-/// whose worker holds more memory than its limit is killed, by a look every fiftieth of a second. Call it while the
-/// process has one thread.
+/// Runs all cases; results are in the order of the cases, whichever finishes first. Worker processes run the cases,
+/// each worker one after the other, so that a case that crashes, hangs or exhausts memory harms no other: its worker is
+/// replaced. All workers end with this process, however it ends. If no process can be started, the case has failed.
+/// `stop` is asked between cases; once it returns true, no further case starts, and running cases are told to stop
+/// (SIGTERM). A case beyond its time limit is told to stop as well, and is killed if it does not end. A case whose
+/// worker holds more memory than its limit is killed; this is checked every fiftieth of a second. Call this function
+/// while the process has one thread.
 std::vector<CaseResult> run_batch(const std::vector<BatchCase>& cases, const BatchOptions& options,
                                   const RunCase& run_case, const CaseDone& done, const std::function<bool()>& stop);
 
-/// The table, a row a case: case, status, cause, counts of steps and figures, doubts, checks, then inputs, then
-/// measures, each by name; empty cells where a case has none. Holds nothing that a clock gave, so that equal results
-/// give equal files. Text that a spreadsheet would take for a formula begins with an apostrophe.
+/// The table with one row per case: case, status, cause, counts of steps and figures, doubts, checks, then inputs and
+/// measures by name; cells without a value are empty. It contains no measured times, so that equal results give equal
+/// files. Text that a spreadsheet would take for a formula begins with an apostrophe.
 std::string batch_csv(const std::vector<CaseResult>& results);
-/// The same as JSON, with inputs and measures as numbers, and how much inputs decide each measure.
+/// The table as JSON, with inputs and measures as numbers, and the sensitivities of each measure to the inputs.
 std::string batch_json(const std::vector<CaseResult>& results, const std::string& title,
                        const std::vector<MeasureSensitivity>& sensitivities = {});
 /// measure,method,index,variable,value,low,high,cases

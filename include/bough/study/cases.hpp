@@ -1,5 +1,5 @@
 #pragma once
-/// The cases of a sweep: what each changes in its scene.
+/// The cases of a sweep, and the changes of the scene that define each.
 #include <string>
 #include <vector>
 
@@ -9,32 +9,32 @@
 namespace bough::study {
 
 struct SweepCase {
-  std::string name;                    ///< its number in all combinations, from 1, with leading zeros
+  std::string name;                    ///< its number among all combinations, from 1, with leading zeros
   std::vector<io::SweepValue> inputs;  ///< by variable
 };
 
 struct SweepCases {
-  std::vector<std::string> variables;  ///< of all designs, in their order
+  std::vector<std::string> variables;  ///< variables of all designs, in their order
   std::vector<SweepCase> cases;
-  std::size_t left_out = 0;  ///< by conditions
+  std::size_t left_out = 0;  ///< number of combinations that conditions excluded
 };
 
-/// All cases in order. What is drawn has 12 significant digits, is a function of the seed, the place of its variable
-/// and the row, and is the same whichever cases are made before. Throws std::runtime_error above
-/// io::most_sweep_cases.
+/// Makes all cases in order. A random value has 12 significant digits. It depends only on the seed, the index of its
+/// variable and the row, not on the cases made before. Throws std::runtime_error above io::most_sweep_cases.
 SweepCases make_cases(const io::SweepSpec& spec);
 
-/// "/pointer=value" for all that a case changes.
+/// "/pointer=value" for every value that the case changes.
 std::vector<std::string> overrides_of(const io::SweepSpec& spec, const SweepCase& which);
 
-/// How much what varies decides each measure: of a sweep with one design that draws, no other. Cases that conditions
-/// left out, or that failed, have no value.
+/// Sensitivities of each measure to the varied inputs, for sweeps with a single design that draws at random. Cases that
+/// conditions excluded, or that failed, have no value.
 std::vector<MeasureSensitivity> sensitivities_of(const io::SweepSpec& spec, const std::vector<CaseResult>& results);
 
-/// The rows of one design, each with a value a variable. number: of the design in its sweep, from 0.
+/// The rows of one design, with one value per variable. number: index of the design in its sweep, from 0.
 std::vector<std::vector<io::SweepValue>> rows_of(const io::SweepDesign& design, std::uint32_t number);
 
-/// In the unit cube, by row and variable: what designs that draw put through the quantiles of their distributions.
+/// Points of a random design in the unit cube, by row and variable, before the quantiles of the distributions are
+/// applied.
 std::vector<std::vector<double>> unit_rows_of(const io::SweepDesign& design, std::uint32_t number);
 
 }  // namespace bough::study

@@ -1,5 +1,5 @@
 #pragma once
-/// What a batch has done so far, in a file that survives kills and power failures.
+/// A record of the finished cases of a batch, in a file that survives kills and power failures.
 #include <chrono>
 #include <filesystem>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace bough::study {
 
-/// What results depend on besides the scene.
+/// Everything besides the scene on which results depend.
 struct Machine {
   std::string program;          ///< hash of its build IDs (io::program_hash)
   std::string instruction_set;  ///< that the library was compiled for
@@ -19,38 +19,38 @@ struct Machine {
 };
 const Machine& this_machine();
 
-/// What a case is: a hash of its scene, of what is still to be changed there, and of the machine. Equal keys give equal
-/// results.
+/// Identity of a case: a hash of its scene, of the overrides to be applied to it, and of the machine. Equal keys give
+/// equal results.
 std::string key_of(const std::string& scene, std::span<const std::string> overrides = {});
 
-/// Whether a case that ended so is done for good: it would end so again. Cases that were stopped, by a user or by a
-/// limit of time, are not, nor are those whose results could not be written.
+/// Whether a result is final, because the case would end in the same way again. Cases that were stopped by the user or
+/// by a time limit are not final, nor are those whose results could not be written.
 bool is_final(const CaseResult& result);
 
 using Records = std::unordered_map<std::string, CaseResult>;  ///< by key
 
-/// The whole records of a journal that this process does not write: none where there is no file. whole: their text.
+/// The complete records of a journal that another process wrote; none if there is no file. whole: their text.
 Records read_records(const std::filesystem::path& file, std::string& whole);
 
-/// One line a case: a hash, a blank, the record as JSON. A record counts when its line is whole and its hash fits, so
-/// that what a kill or a full disk cut off is as if it had not been written. Children that are forked hold the file,
-/// too, and so the folder is free only when the last worker of a batch that was killed has ended.
+/// The file has one line per case: a hash, a blank, and the record as JSON. A record counts only if its line is
+/// complete and its hash matches, so a line cut off by a kill or a full disk is ignored. Forked child processes hold
+/// the file as well, so the folder is free only when the last worker of a killed batch has ended.
 class Journal {
  public:
-  /// resumes: takes over the records that are there, and drops what is damaged; else starts empty. Throws
+  /// resumes: keeps the existing records and drops damaged ones; otherwise the journal starts empty. Throws
   /// std::runtime_error where the file cannot be written, io::OutputRefused where another process has it open.
   Journal(std::filesystem::path file, bool resumes);
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// The result of a case of this key, with `which` as it is asked for; nothing where there is none.
+  /// The result of a case with this key; null if there is none.
   const CaseResult* find(const std::string& key) const;
   std::size_t size() const { return records_.size(); }
 
-  /// Returns when the system has the record, so that no kill loses it; it is on the disk within a fifth of a second,
-  /// for waiting for the disk after every case would be most of the time of small ones. What a power failure takes
-  /// runs again. Throws std::runtime_error where it cannot be written.
+  /// Returns when the operating system has the record, so that no kill can lose it. It is on the disk within a fifth of
+  /// a second: waiting for the disk after every case would dominate the time of small cases. Cases lost in a power
+  /// failure run again. Throws std::runtime_error where the record cannot be written.
   void add(const std::string& key, const CaseResult& result);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// The linear system of one step of a run, for use elsewhere.
+/// The linear system of one step of a run, for use by other programs.
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +28,7 @@ struct UnknownBlock {
 struct LinearSystem {
   io::SparseMatrix matrix;  ///< entries that are exactly zero left out
   std::vector<double> rhs;
-  std::vector<double> solution;  ///< by the scene's solver; empty where the matrix is singular (see trouble)
+  std::vector<double> solution;  ///< by the scene's solver; empty if the matrix is singular (see trouble)
   double backward_error = 0.0;   ///< of the solution, in scaled variables [-]
   std::vector<UnknownBlock> blocks;
   bool is_dynamic = true;
@@ -36,13 +36,14 @@ struct LinearSystem {
   double begin = 0.0, end = 0.0;  ///< of the step [s], or load factors
   std::string trouble;            ///< why there is no solution
 
-  /// What the unknowns are, and where the system comes from: lines for the head of a file.
+  /// Description of the unknowns and of the system's origin: comment lines at the head of a file.
   std::vector<std::string> comments(const std::string& scene_name) const;
 };
 
-/// Runs the scene up to the chosen step and makes its linear system. Precondition: problems_in(scene) is empty.
-/// No such step, or the run fails before it: nothing, and `cause` says why. Symmetric: entries agree with their
-/// mirrors within 1e-14 of the largest entry of their rows; then the mean of both is stored.
+/// Runs the scene up to the chosen step and makes its linear system. Precondition: problems_in(scene) is empty. Returns
+/// none if there is no such step or if the run fails before it; `cause` then says why. The matrix counts as symmetric
+/// if entries agree with their mirror images within 1e-14 of the largest entry of their rows; the mean of both is then
+/// stored.
 std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const StepChoice& choice, int threads,
                                                std::string& cause);
 

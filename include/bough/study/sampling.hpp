@@ -26,7 +26,7 @@ inline constexpr std::size_t most_sobol_dimensions = 21;
 
 using Distribution = io::SweepDistribution;
 
-/// The x that a number of the distribution is at or below with probability u, 0 < u < 1.
+/// The value of x that a number of the distribution does not exceed with probability u, 0 < u < 1.
 double quantile(const Distribution& d, double u);
 
 /// Quantile of the standard normal distribution: A. and S. 26.2.23, made exact by Halley's steps on erfc.

@@ -1,5 +1,5 @@
 #pragma once
-/// How much what varies decides what is measured, by what the design of a sweep allows.
+/// Sensitivities of measures to the varied inputs, by the method that the design of the sweep allows.
 #include <optional>
 #include <span>
 #include <string>
@@ -9,34 +9,34 @@
 
 namespace bough::study {
 
-/// A number with the ends of its confidence interval, 95 %, where one is known.
+/// A number with its 95 % confidence interval, where one is known.
 struct Index {
   double value = 0.0;
   std::optional<double> low, high;
 };
 
-/// Of one measure: indices by variable.
+/// Sensitivities of one measure: indices by variable.
 struct Sensitivity {
   std::string method;                      ///< "morris", "regression" or "sobol_indices"
   std::vector<std::string> indices;        ///< their names
   std::vector<std::vector<Index>> values;  ///< by index, then by variable
-  std::size_t rows = 0;                    ///< cases that the indices are made of
-  /// Of regressions: the share of the variance that a linear function explains, of values and of ranks; low ones say
-  /// that the indices tell little.
+  std::size_t rows = 0;                    ///< number of cases used
+  /// For regressions: the share of the variance explained by a linear function, of values and of ranks. If it is low,
+  /// the indices mean little.
   std::optional<double> explained, explained_ranks;
 };
 
-/// The same with names, for tables.
+/// The sensitivity with names, for tables.
 struct MeasureSensitivity {
   std::string measure;
   std::vector<std::string> variables;
   Sensitivity of;
 };
 
-/// Of a design that draws: morris by its own design; Sobol's indices of saltelli; standardised regression of the
-/// others.
-///   values: what was measured, by the rows of the design; none: the case has no value
-/// Nothing where the design allows no indices, too few rows have values, or the measure does not vary.
+/// Sensitivity for a random design: elementary effects for morris, Sobol's indices for saltelli, and standardised
+/// regression for all others.
+///  values: the measured values by the rows of the design; none: the case has no value
+/// Returns none if the design allows no indices, if too few rows have values, or if the measure does not vary.
 std::optional<Sensitivity> sensitivity_of(const io::SweepDesign& design, std::uint32_t number,
                                           std::span<const std::optional<double>> values);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A batch in parts that run by themselves, on machines that know nothing of each other: which cases a part has.
+/// Divides a batch into shards that run independently on machines that do not communicate.
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -10,31 +10,31 @@
 
 namespace bough::study {
 
-/// One part of a batch: number of count, from 1.
+/// One shard of a batch: its number, from 1, and the count of shards.
 struct Shard {
   std::size_t number = 1, count = 1;
   std::string origin;  ///< where the numbers come from: "the command line", "SLURM_ARRAY_TASK_ID"
 };
 
-/// "shard_003_of_020": below the folder that all shards are given.
+/// "shard_003_of_020": name of the shard's folder within the folder common to all shards.
 std::string folder_name(const Shard& shard);
 
-/// A variable of the environment; nullptr: it is not set.
+/// Returns a variable of the environment; nullptr if it is not set.
 using Environment = std::function<const char*(const char*)>;
 
-/// "3/20"; "auto": both numbers from the environment of Slurm arrays, Open MPI ranks; "auto/20": the number from these
-/// or from indexed jobs of Kubernetes, which do not tell how many there are. Throws std::runtime_error in words where
-/// the text is neither, where two of these engines are there, and where a number is not known for sure: an array that
-/// does not begin at 0 or 1, or leaves numbers out, may be a part of another one that is run again.
+/// Reads "3/20"; "auto": both numbers from the environment of Slurm arrays or Open MPI ranks; "auto/20": the number
+/// from these or from indexed jobs of Kubernetes, which do not give the count. Throws std::runtime_error with an
+/// explanation where the text is none of these, where two of these engines are present, and where a number is
+/// uncertain: a Slurm array that does not begin at 0 or 1, or that omits numbers, may be part of another one that is
+/// run again.
 Shard read_shard(std::string_view text, const Environment& environment);
 
-/// The shard of each case, from 0: the largest work first, each to the shard that has least so far, the first of
-/// equals. A function of the counts alone, so that all shards find the same.
+/// The shard of each case, from 0. Cases are assigned by decreasing work, each to the shard with the least work so far,
+/// the first of equals. The result depends on the arguments alone, so that all shards agree on it.
 std::vector<std::size_t> shards_of(const std::vector<double>& work, std::size_t count);
 
-/// Predicted work of every row: unknowns times steps, or any other count. Variables that do not change it, as far as
-/// probing each of them alone tells, are not looked at again: `look` is called once for all rows that agree in the
-/// others.
+/// Predicted work of every row: unknowns times steps, or any other count. Each variable is first varied alone to find
+/// out whether it changes the work. `look` is called once for all rows that agree in the variables that do.
 std::vector<double> predicted_work(const std::vector<std::vector<io::SweepValue>>& rows,
                                    const std::function<double(const std::vector<io::SweepValue>&)>& look);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Error against run time: one scene over grids of choices, compared with references, timed in turns.
+/// Studies of error against run time: one scene over grids of choices, compared with references and timed in turns.
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -14,8 +14,8 @@ namespace bough::study {
 
 inline constexpr double unmeasured = std::numeric_limits<double>::quiet_NaN();
 
-/// Error of one quantity over the sample times: the largest, the root of the mean square, that at the end. Relative
-/// to the largest norm of the reference [-]; rotations: [rad]. NaN: not measured.
+/// Norms of the error of one quantity over the sample times: the largest, the root mean square, and the error at the
+/// end. Relative to the largest norm of the reference [-]; rotations in [rad]. NaN: not measured.
 struct ErrorNorms {
   double max = unmeasured, rms = unmeasured, end = unmeasured;
 };
@@ -35,11 +35,12 @@ struct SweepRun {
   records::RunStatus status = records::RunStatus::failed;
   std::string cause;               ///< why it failed
   std::vector<ErrorNorms> errors;  ///< by quantity
-  std::size_t num_samples = 0;     ///< sample times that the run came to
+  std::size_t num_samples = 0;     ///< number of sample times that the run reached
   records::StepCounts steps;
   double flops_per_factorization = 0.0;
   std::optional<double>
-      instructions;               ///< of one run, in user space; none: the machine does not tell, or several threads
+      instructions;  ///< of one run, in user space; none: the machine does not count them, or the run has several
+                     ///< threads
   std::vector<double> wall, cpu;  ///< of the repetitions, in the order of the rounds [s]; without plan, tree and output
   std::vector<double> final_values;  ///< of all sensors
   bool is_repeatable = true;         ///< all repetitions ended with the same bits
@@ -57,20 +58,21 @@ const char* text_of(Verdict verdict);
 
 /// The largest difference of an order found from that of theory.
 inline constexpr double order_tolerance = 0.1;
-/// The reference's own error may change an order found by this much.
+/// Largest change of a measured order that the error of the reference may cause.
 inline constexpr double largest_doubt = 0.05;
-/// Orders are fitted to this many errors in a row, the finest that the reference is accurate enough for.
+/// Number of consecutive errors to which an order is fitted: the finest ones for which the reference is accurate
+/// enough.
 inline constexpr std::size_t fitted_points = 3;
 
 struct OrderFit {
   double order = unmeasured;      ///< slope of log error over log step, least squares
-  std::vector<std::size_t> runs;  ///< that it is fitted to
+  std::vector<std::size_t> runs;  ///< runs in the fit
   double expected = unmeasured;
   std::string theory, explanation;
   Verdict verdict = Verdict::not_stated;
 };
 
-/// Runs that differ along the abscissa alone, from coarse to fine.
+/// Runs that differ along the abscissa only, from coarse to fine.
 struct SweepSeries {
   std::size_t grid = 0;
   std::string label;  ///< its choices along the other axes; the grid's name where there are none
@@ -78,25 +80,25 @@ struct SweepSeries {
   std::vector<OrderFit> fits;  ///< by quantity
 };
 
-/// What runs of one grid are compared with.
+/// The reference with which the runs of one grid are compared.
 struct SweepReference {
   std::vector<std::string> kinds;    ///< by quantity: "formula", "table", "computed"
   std::vector<std::string> sources;  ///< by quantity, in words
-  /// By quantity, what an error holds: "all" of a run (formula, table), or only what the computed reference does
-  /// otherwise: "time" (steps, integrator), "space" (meshes), "time and space", "solver".
+  /// By quantity, the parts of the error that the comparison shows: "all" (formula, table), or only those in which the
+  /// computed reference differs: "time" (steps, integrator), "space" (meshes), "time and space", "solver".
   std::vector<std::string> errors_of;
   std::vector<double> uncertainties;  ///< by quantity, in units of its error
   std::vector<double> scales;         ///< by quantity: largest norm, in its unit
-  std::string trouble;                ///< why there is none
-  bool is_cached = false;             ///< was there from before
+  std::string trouble;                ///< why there is no reference
+  bool is_cached = false;             ///< it was read from the cache
 };
 
-/// The quickest choice that keeps an error, among runs whose errors hold the same.
+/// The fastest choice that meets an error bound, among runs whose errors have the same parts.
 struct SweepAdvice {
   std::size_t quantity = 0;
-  std::string errors_of;  ///< as SweepReference has it
+  std::string errors_of;  ///< as in SweepReference::errors_of
   double wanted = 0.0;
-  std::optional<std::size_t> run;  ///< none: no run keeps it
+  std::optional<std::size_t> run;  ///< none: no run meets the bound
 };
 
 struct SweepMachine {
@@ -121,26 +123,26 @@ struct SweepResult {
 };
 
 struct SweepOptions {
-  int threads = 1;                   ///< runs at a time while errors are measured; timed runs go one at a time
+  int threads = 1;                   ///< runs at a time while errors are measured; timed runs are run one by one
   std::filesystem::path cache = {};  ///< folder of computed references; empty: none are kept
-  int repetitions = 0;               ///< timed runs of every choice; 0: as the study says
+  int repetitions = 0;               ///< timed runs of every choice; 0: as the study specifies
   double memory_limit = std::numeric_limits<double>::infinity();  ///< of all runs side by side [bytes], see refusal()
   std::function<bool()> stop = {};
   std::function<void(const std::string& what, std::size_t done, std::size_t all)> progress = {};
 };
 
-/// Empty where no run of the study, references that are not in the cache included, would take more than its share of
-/// `memory_limit`: all of it, over the runs that go side by side. Otherwise the largest such run by its choices and
-/// grid, how many more there are, the numbers and what to do, in words. Allocates nothing but scenes, one at a time.
+/// Empty if no run of the study, including references that are not in the cache, needs more than its share of
+/// `memory_limit`: the limit divided by the number of runs side by side. Otherwise describes the largest such run by
+/// its choices and grid, how many more there are, the amounts and what to do. Allocates only scenes, one at a time.
 /// Precondition: the study was read without problems.
 std::string refusal(const io::StudySpec& spec, const SweepOptions& options);
 
-/// Precondition: the study was read without problems. A run that fails is kept with its cause; a reference that
-/// cannot be computed leaves the errors of its grid unmeasured. Throws std::runtime_error where the cache cannot be
+/// Runs a study. Precondition: it was read without problems. A run that fails is kept with its cause. If a reference
+/// cannot be computed, the errors of its grid are not measured. Throws std::runtime_error where the cache cannot be
 /// written.
 SweepResult run_sweep(const io::StudySpec& spec, const SweepOptions& options);
 
-/// One row a run and quantity.
+/// One row for each run and quantity.
 std::string sweep_csv(const SweepResult& result);
 std::string sweep_json(const SweepResult& result);
 

@@ -20,30 +20,33 @@ using FrontId = std::int32_t;
 using SubdomainId = std::int32_t;
 constexpr std::int32_t none = -1;
 
-/// Unknowns of the largest front that is swept row by row in registers: a leaf alone is, whose fronts have no more.
+/// Largest number of unknowns of a front that is eliminated row by row in registers. A leaf that is not in lockstep with
+/// others is eliminated in this way if none of its fronts is larger.
 constexpr int largest_swept_front = 23;
 
-/// How the elements are cut.
+/// Options for the division of the elements into sub-domains.
 struct TreeOptions {
-  int leaf_size = 0;  ///< most elements of a leaf sub-domain, >= 1; 0: from a cost estimate (see target_leaf_flops).
-  int depth = -1;     ///< levels of sub-domains below the root, >= 0 (0: one sub-domain); -1: as leaf_size asks.
+  int leaf_size = 0;  ///< largest number of elements of a leaf sub-domain, >= 1; 0: from a cost estimate (see
+                      ///< target_leaf_flops).
+  int depth = -1;     ///< levels of sub-domains below the root, >= 0 (0: one sub-domain); -1: determined by leaf_size.
   double target_leaf_flops =
-      1e5;  ///< flops of a leaf when leaf_size is 0: some tens of microseconds, well above a task's cost.
+      1e5;  ///< flops of a leaf when leaf_size is 0: some tens of microseconds, well above the cost of a task.
   bool in_lockstep =
-      true;  ///< whether equal leaves are to be visited eight at a time, which leaf sizes that are not given leave room for.
-  /// Every factorization will serve one solution, of values that are not symmetric. A chain is then cut once, where
-  /// sizes are not given, and both halves are swept from their free ends: a third of the flops and less than two
-  /// thirds of the memory of leaves in lockstep, for two threads at most. Other structures are cut as ever. With more
-  /// solutions, or symmetric values, leaves in lockstep take less time.
+      true;  ///< whether equal leaves are visited eight at a time; leaf sizes that are not given are then chosen to
+             ///< allow it.
+  /// Set where every factorization serves a single solution and the matrix is unsymmetric. If sizes are not given, a
+  /// chain is then cut once, and both halves are swept from their free ends. This takes a third of the flops and less
+  /// than two thirds of the memory of leaves in lockstep, but occupies at most two threads. Other structures are cut as
+  /// usual. With several solutions per factorization, or with symmetric matrices, leaves in lockstep are faster.
   bool for_one_solution = false;
   unsigned seed = 1;  ///< seed of the general partitioner; the tree is a function of the graph and these options alone.
 };
 
-/// What is wrong with the options; empty when nothing is.
+/// Describes what is wrong with the options; empty if nothing is.
 std::vector<std::string> problems_in(const TreeOptions& options);
 
-/// One dense elimination step: assemble the elements and the children, eliminate the first blocks, hand the rest to
-/// the parent.
+/// One dense elimination step: elements and children are assembled, the first blocks are eliminated, and the rest is
+/// passed to the parent.
 struct Front {
   FrontId parent = none;
   SubdomainId subdomain = none;
@@ -52,16 +55,16 @@ struct Front {
   int num_eliminated_blocks = 0;
   std::int64_t block_begin = 0;  ///< blocks: eliminated ones first, then the boundary; range in Tree::front_blocks.
   std::int64_t block_end = 0;
-  std::int64_t child_begin = 0;  ///< range in Tree::front_children, fixed order of addition.
+  std::int64_t child_begin = 0;  ///< range in Tree::front_children; the order of addition is fixed.
   std::int64_t child_end = 0;
   int element_begin = 0;  ///< elements assembled here: range of positions in Tree::element_order.
   int element_end = 0;
   double flops = 0.0;          ///< estimate of the elimination [flop].
-  double subtree_flops = 0.0;  ///< the same with all descendants [flop].
+  double subtree_flops = 0.0;  ///< including all descendants [flop].
   int size() const { return num_eliminated + num_boundary; }
 };
 
-/// One sub-domain: a set of elements and what is eliminated once all of them are known.
+/// One sub-domain: a set of elements, and the blocks that are eliminated once all of these elements are assembled.
 struct Subdomain {
   SubdomainId parent = none;
   int level = 0;            ///< 0 at the root.
@@ -74,7 +77,7 @@ struct Subdomain {
   int element_begin = 0;  ///< elements of the subtree: range of positions in Tree::element_order.
   int element_end = 0;
   double flops = 0.0;          ///< own fronts [flop].
-  double subtree_flops = 0.0;  ///< with descendants [flop].
+  double subtree_flops = 0.0;  ///< including descendants [flop].
   FrontId top() const { return front_end - 1; }
   bool is_leaf() const { return child_begin == child_end; }
 };
@@ -89,7 +92,7 @@ struct Tree {
   std::vector<int>
       element_order;  ///< element ids by the leaf and front that assembles them: a leaf is a contiguous range.
   std::vector<SubdomainId> leaf_of_element;  ///< by element id.
-  std::vector<FrontId> front_of_block;       ///< where a block is eliminated, by block id.
+  std::vector<FrontId> front_of_block;       ///< front in which a block is eliminated, by block id.
   std::vector<std::int64_t>
       unknown_begin;  ///< first unknown of each block (prefix sums of block_size), size num_blocks + 1.
   std::vector<std::int64_t>
@@ -97,7 +100,7 @@ struct Tree {
   std::vector<int> scatter;  ///< first row of the element's block in its front.
   std::vector<int>
       parent_row;  ///< parallel to front_blocks: first row of a boundary block in the parent front (-1 for eliminated).
-  std::string method;  ///< how it was cut, in words, for reports.
+  std::string method;  ///< how the elements were cut, in words, for reports.
 
   int num_fronts() const { return static_cast<int>(fronts.size()); }
   int num_subdomains() const { return static_cast<int>(subdomains.size()); }
@@ -111,12 +114,12 @@ struct Tree {
   std::span<const int> elements(const Subdomain& s) const;  ///< element ids of the whole sub-domain.
 };
 
-/// Cut the elements into sub-domains and lay out all fronts. Chains and trees of bodies are cut exactly (one block a
-/// cut); other graphs with METIS if it was built in, otherwise by breadth-first levels. Unconnected parts and loops
-/// are fine. A motion block is eliminated in the lowest front that holds all its elements; a multiplier block where a
-/// motion block that it constrains is eliminated at or below, otherwise it moves up. Elements without blocks are
-/// assembled with the first front. Preconditions: problems_in(options) is empty; the graph is consistent (checked by
-/// require, O(size)). Deterministic. Allocates.
+/// Divides the elements into sub-domains and lays out all fronts. Chains and trees of bodies are cut at one block each;
+/// other graphs by METIS if it was built in, otherwise along breadth-first levels. Unconnected parts and loops are
+/// allowed. A motion block is eliminated in the lowest front that contains all its elements. A multiplier block is
+/// eliminated where a motion block that it constrains is eliminated in the same front or below; otherwise it moves up.
+/// Elements without blocks are assembled with the first front. Preconditions: problems_in(options) is empty; the graph
+/// is consistent (checked by require, O(size)). Deterministic. Allocates.
 Tree make_tree(const blocks::BlockGraph& graph, const TreeOptions& options = {});
 
 }  // namespace bough::tree

@@ -1,18 +1,19 @@
 #pragma once
-/// What the solver knows of scheduling: function pointers that visit every sub-domain, children first or parents first.
+/// The solver's interface to scheduling: function pointers that visit every sub-domain, children first or parents
+/// first.
 #include <cstdint>
 
 #include "bough/tree/tree.hpp"
 
 namespace bough::tree {
 
-/// What a walk is for: a name for whoever watches walks. Walkers ignore it.
+/// The purpose of a walk, for timing. It does not affect how a walk is done.
 enum class Work : std::uint8_t { other, evaluate, factor, forward, backward, residual };
 
 /// Part of one visit.
 enum class Stage : std::uint8_t { evaluate, assemble, eliminate, forward };
 
-/// Told by a visit that it has just done a stage; does nothing unless somebody watches.
+/// Called by a visit at the end of a stage; does nothing unless the walk is timed.
 struct Mark {
   void (*run)(void* context, Stage done) = nullptr;
   void* context = nullptr;
@@ -35,16 +36,16 @@ struct Chunk {
   Work work = Work::other;
 };
 
-/// A way to walk the tree: `up` visits every child before its parent, `down` every parent before its children, `each`
-/// cuts [0, count) into chunks of `grain` items (the last may be shorter; the cuts do not depend on the number of
-/// threads); visits may call it. All return when all is done.
+/// The three ways to walk a tree. `up` visits every child before its parent, `down` every parent before its children.
+/// `each` divides [0, count) into chunks of `grain` items (the last may be shorter; the division does not depend on the
+/// number of threads), and may be called inside visits. All return when the walk is complete.
 struct Walker {
   void (*up)(void* context, const Tree& tree, Visit visit) = nullptr;
   void (*down)(void* context, const Tree& tree, Visit visit) = nullptr;
   void (*each)(void* context, std::int64_t count, std::int64_t grain, Chunk chunk) = nullptr;
   void* context = nullptr;
-  Mark mark = {};   ///< for visits that have stages
-  int threads = 1;  ///< that may visit at once, at most
+  Mark mark = {};   ///< for visits that time their stages
+  int threads = 1;  ///< largest number of threads that may visit at the same time
 
   void walk_up(const Tree& tree, Visit visit) const { up(context, tree, visit); }
   void walk_down(const Tree& tree, Visit visit) const { down(context, tree, visit); }

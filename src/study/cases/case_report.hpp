@@ -6,9 +6,9 @@
 
 namespace bough::study {
 
-/// What a case tells, as it goes through a pipe or into a file; numbers keep their bits.
+/// The report of a case as text for a pipe or a file; numbers keep their bits.
 std::string text_of(const CaseReport& report);
-/// False where the text is not whole.
+/// False if the text is incomplete.
 bool report_of(std::string_view text, CaseReport& report);
 
 }  // namespace bough::study

@@ -1,5 +1,5 @@
 #pragma once
-/// A process that runs one case after the other and tells of each.
+/// A process that runs cases one after the other and reports each.
 #include <sys/types.h>
 
 #include <chrono>
@@ -11,18 +11,18 @@
 
 namespace bough::study {
 
-/// What a worker says of a case when it ends.
+/// Answer of a worker at the end of a case.
 struct WorkerAnswer {
   int code = 1;  ///< of run_case
   double cpu_seconds = 0.0, peak_bytes = 0.0;
   std::string report;
 };
 
-/// The parent's side of a worker. The process is forked from the parent, which then has one thread; it ends with the
-/// parent, however that ends, and where its pipe is closed.
+/// The parent's side of a worker. The process is forked from the parent, which has one thread at that time. It ends
+/// with the parent, however that ends, and when its pipe is closed.
 class Worker {
  public:
-  /// others: whose pipes the new process is not to hold open. Throws std::system_error where no process can be started.
+  /// others: the new process closes their pipes. Throws std::system_error where no process can be started.
   Worker(const std::vector<BatchCase>& cases, const RunCase& run_case, const std::vector<Worker>& others);
   Worker(Worker&& other) noexcept { *this = std::move(other); }
   Worker& operator=(Worker&& other) noexcept;
@@ -30,26 +30,26 @@ class Worker {
 
   bool is_busy() const { return case_.has_value(); }
   std::size_t which() const { return *case_; }
-  double seconds() const;  ///< since it got its case
-  /// False where it has died meanwhile, and did not take it.
+  double seconds() const;  ///< since it received its case
+  /// False if the worker has died and did not receive the case.
   [[nodiscard]] bool give(std::size_t which);
-  /// The answer to its case, with which it is idle again; nothing where it is not there yet.
+  /// The answer to its case, after which the worker is idle; none if it is not there yet.
   std::optional<WorkerAnswer> answer();
-  /// After `answer`: whether its pipe has ended, for it has.
+  /// After `answer`: whether its pipe has ended, because the process has.
   bool has_ended() const { return has_ended_; }
-  /// Waits for the process to end and returns its wait status; for one that has ended.
+  /// Waits for a process that has ended and returns its wait status.
   int reap();
 
   void ask_to_stop();
   void kill();
-  /// Kills it where it holds more memory in the machine than this [bytes]. killed_for_memory: how much it held; 0: it
-  /// was not killed for that.
+  /// Kills the worker if it holds more memory than this [bytes]. killed_for_memory: how much it held; 0: it was not
+  /// killed for that.
   void kill_above(double bytes);
   double killed_for_memory() const { return resident_; }
-  /// Whether it was asked to: what it runs is cut off, and what it would run after that may be, too.
+  /// Whether it was asked to stop: its present case is interrupted, and a following one may be, too.
   bool was_asked_to_stop() const { return asked_; }
   bool was_killed() const { return killed_; }
-  int pipe() const { return from_; }  ///< readable where there is something to be had
+  int pipe() const { return from_; }  ///< readable when there is data
 
  private:
   [[noreturn]] void serve(const std::vector<BatchCase>& cases, const RunCase& run_case);

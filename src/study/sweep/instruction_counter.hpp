@@ -1,5 +1,5 @@
 #pragma once
-/// Instructions that this thread executes in user space, where the system tells.
+/// Counts the instructions that this thread executes in user space, if the system supports it.
 #include <optional>
 
 namespace bough::study {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the runs of a study are compared with: formulas, tables, and runs of its own that are computed once and kept.
+/// The references of a study: formulas, tables, and computed runs that are kept in a cache.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,28 +10,28 @@
 
 namespace bough::study {
 
-/// All that a computed reference depends on: the scene with its defaults, the sample times, this program.
+/// Identity of a computed reference: the scene with its defaults, the sample times, this program.
 std::string made_from(const io::StudySpec& spec, const std::vector<std::string>& overrides);
 
-/// References in a folder, two files each: HASH.csv (a history) and HASH.txt (what it was made from, to the letter).
+/// Computed references in a folder, two files each: HASH.csv (a history) and HASH.txt (the full text of its identity).
 class ReferenceCache {
  public:
   explicit ReferenceCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  /// The history, if one is there that was made from the same.
+  /// The history with exactly this identity, if there is one.
   std::optional<io::History> find(const std::string& from) const;
   void keep(const std::string& from, const io::History& history) const;
 
  private:
-  std::filesystem::path folder_;  ///< empty: nothing is kept
+  std::filesystem::path folder_;  ///< empty: no cache
 };
 
-/// The references of a grid: what is told of them, and their values by quantity.
+/// The references of a grid: their description, and their values by quantity.
 struct GridReference {
   SweepReference told;
   std::vector<Samples> values;
 };
 
-/// A computed reference of a study: its run and the run of its check.
+/// A computed reference of a study: its run, and the run that checks it.
 struct ReferenceRun {
   std::vector<std::string> overrides;
   std::string from;
@@ -39,8 +39,8 @@ struct ReferenceRun {
   bool is_cached = false;
 };
 
-/// Those that the grids need, each once; `which[g]` are the two of grid g, none where its quantities have formulas
-/// and tables.
+/// The computed references that the grids need, each once; `which[g]` are the two runs of grid g, none if its
+/// quantities have formulas and tables.
 struct ReferenceRuns {
   std::vector<ReferenceRun> runs;
   std::vector<std::vector<std::size_t>> which;

@@ -16,10 +16,10 @@ struct RunLimits {
   const std::function<bool()>* stop = nullptr;
 };
 
-/// A run with what its sensors show at the sample times, by the rule of SimulateOptions::stops.
+/// A run with the values of its sensors at the sample times, taken as SimulateOptions::stops describes.
 struct SampledRun {
   records::Summary summary;
-  io::History samples;               ///< a row at each sample time that the run came to
+  io::History samples;               ///< one row for each sample time that the run reached
   std::vector<double> sample_times;  ///< all of them
   bool was_stopped = false;          ///< by RunLimits::stop
   bool ok() const { return summary.status == records::RunStatus::ok; }
@@ -28,7 +28,7 @@ struct SampledRun {
   std::vector<std::vector<double>> of(const std::vector<std::size_t>& columns) const;
 };
 
-/// Overrides must lead to a sound scene.
+/// Precondition: the overrides lead to a valid scene.
 scene::Scene study_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides);
 
 SampledRun run_sampled(scene::Scene scene, const std::vector<double>& sample_times, int threads,
@@ -41,7 +41,7 @@ struct TimedRun {
   bool was_stopped = false;
 };
 
-/// Without rows, checks and pictures; the same steps as of a sampled run.
+/// Without rows, checks and pictures; the steps are those of a sampled run.
 TimedRun run_timed(scene::Scene scene, const std::vector<double>& sample_times, int threads, const RunLimits& limits,
                    bool count_instructions);
 
