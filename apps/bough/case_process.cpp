@@ -123,9 +123,9 @@ io::RunStore& store_in(const std::filesystem::path& folder) {
 
 int run_into_store(const study::BatchCase& which, const CaseSettings& settings, const scene::Scene& scene,
                    const io::RunOrigin& origin, std::chrono::steady_clock::time_point start,
-                   FolderAllowance& failed_folders, study::CaseReport& report) {
+                   FolderAllowance& failed_folders, study::CaseReport& report, io::SharedText& rows) {
   records::Summary summary;
-  io::RunInMemory run(std::string(version), origin);
+  io::RunInMemory run(std::string(version), origin, &rows);
   try {
     summary = simulate(scene, settings, start, run);
     report.take(summary);
@@ -147,7 +147,7 @@ int run_into_store(const study::BatchCase& which, const CaseSettings& settings, 
 
 /// Runs in the case's own process.
 int run_case_within(const study::BatchCase& which, const CaseSettings& settings, const CaseSource& source,
-                    FolderAllowance& failed_folders, study::CaseReport& report) {
+                    FolderAllowance& failed_folders, study::CaseReport& report, io::SharedText& rows) {
   catch_interrupts(Repeated::ignored);
   const auto start = std::chrono::steady_clock::now();
   const io::SceneFile file = source.read(which);
@@ -163,7 +163,7 @@ int run_case_within(const study::BatchCase& which, const CaseSettings& settings,
       break;
     case Kept::store:
       if (!has_large_results(file.scene))
-        return run_into_store(which, settings, file.scene, origin, start, failed_folders, report);
+        return run_into_store(which, settings, file.scene, origin, start, failed_folders, report, rows);
       [[fallthrough]];
     case Kept::folder:
       return run_into_folder(which, settings, file.scene, origin, start, report);
@@ -191,17 +191,17 @@ std::string smaller_steps(const study::BatchCase& which, const CaseSource& sourc
 }  // namespace
 
 int run_case(const study::BatchCase& which, const CaseSettings& settings, const CaseSource& source,
-             FolderAllowance& failed_folders, study::CaseReport& report) {
+             FolderAllowance& failed_folders, study::CaseReport& report, io::SharedText& rows) {
   limit_memory(settings.memory_limit);
   try {
-    int code = run_case_within(which, settings, source, failed_folders, report);
+    int code = run_case_within(which, settings, source, failed_folders, report, rows);
     study::BatchCase again = which;
     for (int k = 0; k < settings.retries && code == exit_failed && !interrupted(); ++k) {
       const std::string change = smaller_steps(again, source);
       const std::string why = report.cause;
       again.overrides.push_back(change);
       report = {};
-      code = run_case_within(again, settings, source, failed_folders, report);
+      code = run_case_within(again, settings, source, failed_folders, report, rows);
       const std::string retried = "tried again with " + change;
       report.cause = code == exit_done ? retried + ", for it had failed: " + why : retried + ": " + report.cause;
     }

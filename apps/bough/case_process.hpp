@@ -20,8 +20,8 @@ class FolderAllowance {
 };
 
 /// Runs a case in the worker that it was handed to, and tries it again where it fails and `settings` say so. Returns
-/// the exit status of `bough run`.
+/// the exit status of `bough run`. rows: takes the history of a case that is stored, row by row.
 int run_case(const study::BatchCase& which, const CaseSettings& settings, const CaseSource& source,
-             FolderAllowance& failed_folders, study::CaseReport& report);
+             FolderAllowance& failed_folders, study::CaseReport& report, io::SharedText& rows);
 
 }  // namespace bough::app

@@ -231,8 +231,8 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
   for (const std::size_t i : left) key_of_name[cases[i].name] = keys[i];
   std::vector<study::CaseResult> run = study::run_batch(
       to_run, options,
-      [&](const study::BatchCase& which, study::CaseReport& report) {
-        return run_case(which, settings, source, failed_folders, report);
+      [&](const study::BatchCase& which, study::CaseReport& report, io::SharedText& rows) {
+        return run_case(which, settings, source, failed_folders, report, rows);
       },
       [&](const study::CaseResult& result, std::size_t done, std::size_t all) {
         if (study::is_final(result)) journal.add(key_of_name.at(result.which.name), result);

@@ -167,6 +167,13 @@ std::optional<fs::path> RunDirectory::keep_rows_of_killed(const fs::path& direct
   return folder.folder();
 }
 
+fs::path RunDirectory::keep_rows(const fs::path& directory, std::string_view rows) {
+  OutputFolder folder(directory, "run", all_names);
+  folder.write("history.csv", rows);
+  folder.publish(FolderState::failed);
+  return folder.folder();
+}
+
 void RunDirectory::end_as_failed(records::Summary summary, const std::string& cause) {
   if (!has_begun() || has_ended()) return;
   summary.status = records::RunStatus::failed;

@@ -153,10 +153,22 @@ fs::path unpack_run(const std::vector<StoredFile>& files, FolderState state, con
 
 void RunInMemory::begin(const records::HistoryHeader& header) {
   history_ = history_head(header);
+  if (twin_ != nullptr) {
+    twin_->clear();
+    keep_twin(0);
+  }
   columns_ = columns_text(header);
 }
 
-void RunInMemory::row(const records::HistoryRow& row) { append_history_row(history_, row); }
+void RunInMemory::row(const records::HistoryRow& row) {
+  const std::size_t begin = history_.size();
+  append_history_row(history_, row);
+  keep_twin(begin);
+}
+
+void RunInMemory::keep_twin(std::size_t begin) {
+  if (twin_ != nullptr && !twin_->append(std::string_view(history_).substr(begin))) twin_ = nullptr;  // without gaps
+}
 
 void RunInMemory::motion(const records::MotionFrame& frame) { motion_bytes_.append(motion_, frame); }
 

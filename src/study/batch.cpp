@@ -32,11 +32,13 @@ CaseStatus status_of(int code) {
   return code == 0 ? CaseStatus::ok : code == 2 ? CaseStatus::bad_input : CaseStatus::failed;
 }
 
-/// What is kept of a case that was killed, in words.
-std::string kept_rows(const BatchCase& which) {
+/// What is kept of a case that was killed, in words. rows: of its history, where it went to no folder.
+std::string kept_rows(const BatchCase& which, std::string_view rows) {
   try {
-    const std::optional<fs::path> kept = io::RunDirectory::keep_rows_of_killed(which.directory);
-    return kept ? "its rows to the last flush are in " + kept->string() : "there are no rows of it";
+    if (const std::optional<fs::path> kept = io::RunDirectory::keep_rows_of_killed(which.directory))
+      return "its rows to the last flush are in " + kept->string();
+    if (rows.empty()) return "there are no rows of it";
+    return "its rows are in " + io::RunDirectory::keep_rows(which.directory, rows).string();
   } catch (const std::exception& error) {
     return std::string("its rows are lost: ") + error.what();
   }
@@ -65,7 +67,8 @@ CaseResult result_of(const BatchCase& which, const WorkerAnswer& answer, double 
 }
 
 /// Of a case whose worker has ended without a word. resident: memory that it was killed for; 0: it was not.
-CaseResult result_of_ended(const BatchCase& which, int wait_status, double seconds, bool is_late, double resident) {
+CaseResult result_of_ended(const BatchCase& which, int wait_status, double seconds, bool is_late, double resident,
+                           std::string_view rows) {
   CaseResult result;
   result.which = which;
   result.status = resident > 0.0 ? CaseStatus::failed : is_late ? CaseStatus::timed_out : CaseStatus::crashed;
@@ -73,14 +76,14 @@ CaseResult result_of_ended(const BatchCase& which, int wait_status, double secon
   result.cost.peak_bytes = resident;
   if (resident > 0.0) {
     result.cause = "killed, since it held " + std::to_string(std::lround(1e-6 * resident)) +
-                   " MB of memory, which is more than it may; " + kept_rows(which);
+                   " MB of memory, which is more than it may; " + kept_rows(which, rows);
     return result;
   }
   result.report.is_unwritten = !WIFSIGNALED(wait_status) && !is_late;  // it could not tell of its end
   const std::string how = WIFSIGNALED(wait_status) ? "signal " + std::to_string(WTERMSIG(wait_status))
                                                    : "status " + std::to_string(WEXITSTATUS(wait_status));
   result.cause = (is_late ? "killed at the time limit, since it did not stop by itself; " : "ended by " + how + "; ") +
-                 kept_rows(which);
+                 kept_rows(which, rows);
   return result;
 }
 
@@ -190,6 +193,12 @@ class Batch {
     return true;
   }
 
+  /// Of so many cases and no more: what all of them die of is seen from these, and a folder holds no 1e5 others.
+  std::string_view rows_to_keep(const Worker& w) {
+    constexpr std::size_t most = 1000;
+    return w.rows().empty() || num_kept_++ >= most ? std::string_view() : w.rows();
+  }
+
   void finish(std::size_t which, CaseResult result) {
     results_[which] = std::move(result);
     done_(results_[which], ++num_done_, cases_.size());
@@ -211,7 +220,8 @@ class Batch {
         num_busy_threads_ -= threads_of(which);
         any_ended = true;
         finish(which, answer ? result_of(cases_[which], *answer, seconds, is_late)
-                             : result_of_ended(cases_[which], w.reap(), seconds, is_late, w.killed_for_memory()));
+                             : result_of_ended(cases_[which], w.reap(), seconds, is_late, w.killed_for_memory(),
+                                               rows_to_keep(w)));
       }
       // One that was told to stop would stop what it runs next, too.
       if (has_ended || (w.was_asked_to_stop() && !w.is_busy())) {
@@ -247,7 +257,7 @@ class Batch {
   std::vector<CaseResult> results_;
   std::vector<std::size_t> order_;
   std::vector<Worker> workers_;
-  std::size_t next_ = 0, num_busy_ = 0, num_done_ = 0;
+  std::size_t next_ = 0, num_busy_ = 0, num_done_ = 0, num_kept_ = 0;
   int num_busy_threads_ = 0;
   bool stopping_ = false;
 };

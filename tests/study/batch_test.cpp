@@ -34,7 +34,7 @@ class Batch : public testing::Test {
   }
   std::vector<BatchCase> cases() const { return cases_in(scratch_ / "in", scratch_ / "out"); }
 
-  static int run_case(const BatchCase& which, CaseReport& report) {
+  static int run_case(const BatchCase& which, CaseReport& report, io::SharedText&) {
     if (which.name.starts_with("bad")) {
       report.cause = "line 1: no bodies\nline 2: no joints";
       return 2;
@@ -223,6 +223,37 @@ TEST_F(Batch, a_case_that_crashes_keeps_the_rows_it_had_written) {
   EXPECT_EQ(io::read_history(scratch_ / "out/late crash/history.csv").header.columns.size(), 3u);
 }
 
+TEST_F(Batch, rows_of_a_case_without_a_folder_are_kept_when_its_process_dies) {
+  for (const char* name : {"a good one", "crashes", "dies before its first row", "large"}) add(name);
+  std::filesystem::create_directories(scratch_ / "out");
+  constexpr int many = 20'000;  // rows, of more than a megabyte
+  const auto results = run_batch(
+      cases(), options(1),
+      [](const BatchCase& which, CaseReport&, io::SharedText& rows) {
+        io::RunInMemory run("1", {}, &rows);
+        if (which.name.starts_with("dies")) std::raise(SIGABRT);
+        const records::Summary summary = io::sample_summary();
+        run.begin(summary.header);
+        for (int k = 0; k < (which.name == "large" ? many : 3); ++k)
+          run.row({0.1 * k, 0.1, 2, {1.0 / 3.0, k + 0.5, 7e-9}});
+        if (which.name != "a good one") std::raise(SIGABRT);
+        run.end(summary);
+        return 0;
+      },
+      [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+  ASSERT_EQ(results.size(), 4u);
+  EXPECT_EQ(results[0].status, CaseStatus::ok);
+  for (const std::size_t k : {1, 3}) {
+    EXPECT_EQ(results[k].status, CaseStatus::crashed);
+    EXPECT_NE(results[k].cause.find("signal 6; its rows are in "), std::string::npos) << results[k].cause;
+    const auto history = io::read_history(results[k].which.directory / "history.csv");
+    ASSERT_EQ(history.rows.size(), k == 1 ? 3u : static_cast<std::size_t>(many));
+    EXPECT_EQ(history.rows.back().values.at(0), 1.0 / 3.0);
+  }
+  EXPECT_NE(results[2].cause.find("there are no rows of it"), std::string::npos) << "not those of the case before it";
+  EXPECT_FALSE(std::filesystem::exists(results[2].which.directory));
+}
+
 /// Memory that all processes of a test share; it counts as resident, but not as data.
 template <class T>
 T* shared(std::size_t count) {
@@ -240,8 +271,8 @@ TEST_F(Batch, a_case_that_holds_more_memory_than_it_may_is_killed_alone) {
   limited.resident_limit = resident * static_cast<double>(sysconf(_SC_PAGESIZE)) + 100e6;
   const auto results = run_batch(
       cases(), limited,
-      [](const BatchCase& which, CaseReport& report) {
-        if (which.name != "greedy") return run_case(which, report);
+      [](const BatchCase& which, CaseReport& report, io::SharedText& rows) {
+        if (which.name != "greedy") return run_case(which, report, rows);
         std::memset(shared<char>(200'000'000), 1, 200'000'000);
         std::this_thread::sleep_for(std::chrono::seconds(60));
         return 0;
@@ -261,7 +292,7 @@ TEST_F(Batch, cases_that_ask_for_threads_never_have_more_than_there_are) {
   auto* counts = shared<std::atomic<int>>(2);  // threads in use, and the most of them
   const auto results = run_batch(
       asking, options(3),
-      [counts](const BatchCase& which, CaseReport&) {
+      [counts](const BatchCase& which, CaseReport&, io::SharedText&) {
         const int own = std::clamp(which.threads, 1, 3), now = counts[0] += own;
         for (int most = counts[1]; most < now && !counts[1].compare_exchange_weak(most, now);) {
         }
@@ -281,7 +312,7 @@ TEST_F(Batch, its_cases_end_with_it) {
   if (batch == 0) {
     (void)run_batch(
         cases(), options(1),
-        [&](const BatchCase&, CaseReport&) {
+        [&](const BatchCase&, CaseReport&, io::SharedText&) {
           io::write_file(mark, std::to_string(getpid()));
           std::this_thread::sleep_for(std::chrono::seconds(60));
           return 0;
@@ -314,8 +345,8 @@ TEST_F(Batch, a_worker_serves_many_cases_and_is_replaced_where_it_dies) {
   std::filesystem::create_directories(scratch_ / "out");
   const auto results = run_batch(
       cases(), options(1),
-      [](const BatchCase& which, CaseReport& report) {
-        const int code = run_case(which, report);
+      [](const BatchCase& which, CaseReport& report, io::SharedText& rows) {
+        const int code = run_case(which, report, rows);
         report.doubts = {std::to_string(getpid())};
         return code;
       },

@@ -60,8 +60,9 @@ class RunDirectory final : public records::Recorder {
 
   /// Gives the rows that a run which was killed had handed to the system their place: a history without a summary,
   /// marked as failed. Returns where it stands; nothing where there are no rows, or the run still goes on. Throws as
-  /// OutputFolder.
+  /// OutputFolder. keep_rows: the same for rows that stand in memory, the head of the history before them.
   static std::optional<std::filesystem::path> keep_rows_of_killed(const std::filesystem::path& directory);
+  static std::filesystem::path keep_rows(const std::filesystem::path& directory, std::string_view rows);
 
  private:
   /// Gives the files their names; returns the first failure.

@@ -9,6 +9,7 @@
 
 #include "bough/io/manifest.hpp"
 #include "bough/io/motion_frames.hpp"
+#include "bough/io/shared_text.hpp"
 #include "bough/io/summary.hpp"
 #include "bough/records/run.hpp"
 
@@ -59,10 +60,12 @@ std::filesystem::path unpack_run(const std::vector<StoredFile>& files, FolderSta
                                  const std::filesystem::path& folder);
 
 /// A run that is recorded in memory, to be stored: history.csv, columns.json, motion.bin and summary.json of
-/// RunDirectory, to the byte but for what the summary says of VTU files, which are not made.
+/// RunDirectory, to the byte but for what the summary says of VTU files, which are not made. twin: where given, takes
+/// the history row by row, so that it is not lost with the process.
 class RunInMemory final : public records::Recorder {
  public:
-  RunInMemory(std::string version, RunOrigin origin) : version_(std::move(version)), origin_(std::move(origin)) {}
+  RunInMemory(std::string version, RunOrigin origin, SharedText* twin = nullptr)
+      : version_(std::move(version)), origin_(std::move(origin)), twin_(twin) {}
   void begin(const records::HistoryHeader& header) override;
   void row(const records::HistoryRow& row) override;
   void motion(const records::MotionFrame& frame) override;
@@ -73,8 +76,11 @@ class RunInMemory final : public records::Recorder {
   [[nodiscard]] const std::vector<StoredFile>& files() const { return files_; }
 
  private:
+  void keep_twin(std::size_t begin);
+
   std::string version_;
   RunOrigin origin_;
+  SharedText* twin_;
   std::string history_, columns_, motion_;
   MotionBytes motion_bytes_;
   std::vector<StoredFile> files_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bough/io/run_store.hpp"
+#include "bough/io/shared_text.hpp"
 #include "bough/records/run.hpp"
 #include "bough/study/sensitivity.hpp"
 
@@ -67,8 +68,9 @@ struct CaseResult {
 };
 
 /// Runs a case, in another process than the one that collects. Returns the exit status of `bough run` (0 done, 1
-/// failed, 2 bad input).
-using RunCase = std::function<int(const BatchCase&, CaseReport& report)>;
+/// failed, 2 bad input). rows: receives the history, head and rows, of a case whose results are not written to a folder
+/// while it runs; if the process dies, they are kept.
+using RunCase = std::function<int(const BatchCase&, CaseReport& report, io::SharedText& rows)>;
 
 /// Called after every case with the number of finished cases and the total.
 using CaseDone = std::function<void(const CaseResult&, std::size_t done, std::size_t all)>;

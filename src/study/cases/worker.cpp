@@ -67,13 +67,13 @@ double peak_bytes() {
   return 0.0;
 }
 
-std::string answer_text(const BatchCase& which, const RunCase& run_case) {
+std::string answer_text(const BatchCase& which, const RunCase& run_case, io::SharedText& rows) {
   CaseReport report;
   int code = 1;
   const double start = cpu_seconds();
   forget_peak();
   try {
-    code = run_case(which, report);
+    code = run_case(which, report, rows);
   } catch (const std::exception& error) {
     report.cause = error.what();
   } catch (...) {
@@ -125,12 +125,13 @@ Worker::Worker(const std::vector<BatchCase>& cases, const RunCase& run_case, con
 
 void Worker::serve(const std::vector<BatchCase>& cases, const RunCase& run_case) {
   std::size_t which = 0;
-  while (read_case(to_, which) && write_all(from_, answer_text(cases[which], run_case))) {
+  while (read_case(to_, which) && write_all(from_, answer_text(cases[which], run_case, rows_))) {
   }
   ::_exit(0);  // nothing of the parent's is flushed or destroyed twice
 }
 
 Worker& Worker::operator=(Worker&& other) noexcept {
+  std::swap(rows_, other.rows_);
   std::swap(process_, other.process_);
   std::swap(to_, other.to_);
   std::swap(from_, other.from_);
@@ -149,6 +150,7 @@ double Worker::seconds() const {
 }
 
 bool Worker::give(std::size_t which) {
+  rows_.clear();
   if (!write_all(to_, {reinterpret_cast<const char*>(&which), sizeof which})) return false;
   case_ = which;
   given_at_ = std::chrono::steady_clock::now();

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bough/study/batch.hpp"
@@ -50,11 +51,16 @@ class Worker {
   bool was_asked_to_stop() const { return asked_; }
   bool was_killed() const { return killed_; }
   int pipe() const { return from_; }  ///< readable when there is data
+  /// The history that its present case has written so far.
+  std::string_view rows() const { return rows_.text(); }
 
  private:
   [[noreturn]] void serve(const std::vector<BatchCase>& cases, const RunCase& run_case);
   void end();
 
+  static constexpr std::size_t most_rows = 64 << 20;  ///< [bytes] of a history; more goes into folders as it comes
+
+  io::SharedText rows_{most_rows};
   pid_t process_ = -1;
   int to_ = -1, from_ = -1;
   std::optional<std::size_t> case_;
