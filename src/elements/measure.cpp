@@ -29,8 +29,8 @@ void add_ground_reaction(const E& e, const PortMotion<double>* p, const Vec3<dou
     if (e.ports[k].node != ground) continue;
     Vec6<double> f;
     for (int i = 0; i < 6; ++i) f[i] = out[6 * k + i];
-    m.load += to_inertial(p[k], anchor, f);  // what the element asks of the ground, the ground gives
-    m.work_rate += power(f, p[k].v);         // 0 where the ground stands still
+    m.load += to_inertial(p[k], anchor, f);  // a residual at the ground is the reaction of the ground
+    m.work_rate += power(f, p[k].v);         // 0 if the ground is at rest
   }
 }
 
@@ -71,7 +71,7 @@ Measures measure_coupling(const E& e, const Field& field, bool with_energies) {
   return m;
 }
 
-/// The ground's part in an element whose residual is not at hand otherwise.
+/// Contribution of the ground to an element whose residual is not evaluated otherwise.
 template <class E>
 void add_ground_reaction_if_any(const E& e, const PortMotion<double>* p, const Vec3<double>& anchor, const Field& field,
                                 Measures& m) {

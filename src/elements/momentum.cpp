@@ -69,7 +69,7 @@ RelativeRates<G> relative_rates(const BeamRates<G, double, N>& b, int i) {
   return {U, ad - U, i};
 }
 
-/// Adds factor times a block in the rows and columns of ports p, q; ports on the ground are left out.
+/// Adds factor times a block to the rows and columns of ports p, q; ports on the ground are omitted.
 template <class E, class G = typename E::Group>
 void add_block(const E& e, const Square<G>& block, int p, int q, double factor, int size, double* matrix) {
   if (e.ports[p].node == ground || e.ports[q].node == ground) return;
@@ -88,7 +88,7 @@ void add_block(const E& e, const Square<G>& block, int p, int q, double factor, 
     for (int j = 0; j < G::dof; ++j) matrix[(place(p) + i) * size + place(q) + j] += factor * b(i, j);
 }
 
-/// Adds factor times that of d_a'^T k d_b'.
+/// Adds factor times the matrix of d_a'^T k d_b'.
 template <class E, class G = typename E::Group>
 void add_pair(const E& e, const RelativeRates<G>& a, const RelativeRates<G>& b, const Square<G>& k, int r,
               double factor, int size, double* matrix) {

@@ -9,17 +9,17 @@ namespace {
 using Pack = LanePack;
 using Mask = lanes::Mask<num_lanes>;
 
-/// Corrections below this have no second order above round-off.
+/// The second-order terms of smaller corrections are round-off.
 constexpr double smallest_bend = 1e-9;
-/// A change of the slopes, relative to the length, that is round-off; below the second it may be where it no longer
-/// shrinks.
+/// Relative to the length: changes of the slopes below the first value are round-off; changes below the second may be,
+/// if they no longer shrink.
 constexpr double round_off = 1e-15, near_round_off = 1e-12;
 constexpr int most_sweeps = 40;
-constexpr double far_off = 100.0;  ///< a change that no shape on the way asks for: the sweeps diverge
-/// Below, exp(d)^-1 exp(d + c) is exp(T(d + c / 2) c) to round-off, and keeps all digits of c.
+constexpr double far_off = 100.0;  ///< larger than any change on the path: the iteration diverges
+/// For smaller c, exp(d)^-1 exp(d + c) equals exp(T(d + c / 2) c) to round-off, and this form keeps all digits of c.
 constexpr double small_change = 1e-5;
 
-/// Index of a node among those other than the reference.
+/// Index of a node among the nodes other than the reference node.
 template <int N>
 constexpr int place_of(int node) {
   return node < Beam<N>::reference ? node : node - 1;
@@ -61,7 +61,7 @@ Vec6<Pack> sum(const double (&weight)[N - 1], const Vec6<Pack>* x) {
   return r;
 }
 
-/// Values at the strain points, and slopes, of what has these values at the nodes.
+/// Values and slopes at the strain points of a field with these values at the nodes.
 template <int N>
 void at_strain_points(const Vec6<Pack>* nodes, Vec6<Pack>* values, Vec6<Pack>* slopes) {
   const auto& rule = strain_rule<N>();
@@ -75,7 +75,7 @@ void at_strain_points(const Vec6<Pack>* nodes, Vec6<Pack>* values, Vec6<Pack>* s
   }
 }
 
-/// Square of the largest size of vectors, lengths relative to a length whose inverse square is given.
+/// Square of the largest magnitude of vectors; lengths are divided by a length whose inverse square is given.
 template <int N>
 Pack square_of(const Vec6<Pack>* x, const Pack& by_length) {
   Pack most(0.0);
@@ -87,8 +87,8 @@ Pack square_of(const Vec6<Pack>* x, const Pack& by_length) {
   return most;
 }
 
-/// Repeats x <- next(x) in lanes that are active until their changes are round-off; returns those that do not come
-/// there.
+/// Repeats x <- next(x) in lanes that are active until their changes are round-off; returns the lanes that do not
+/// converge.
 template <int N, class Next>
 Mask substitute(Mask active, const Pack& by_length, Vec6<Pack>* x, Next&& next) {
   Pack last(1e300);
@@ -109,8 +109,8 @@ Mask substitute(Mask active, const Pack& by_length, Vec6<Pack>* x, Next&& next) 
   return lost | active;
 }
 
-/// Slopes of d at the strain points whose strains are given, from slopes near them, which lanes keep where there are
-/// none. Returns the active lanes that have them.
+/// Slopes of d at the strain points for given strains, starting from nearby slopes; lanes without a solution keep
+/// these. Returns the active lanes with a solution.
 template <int N>
 Mask solve_strains(const Vec6<Pack>* strains, const Mask& active, const Pack& by_length, Vec6<Pack>* slopes) {
   Vec6<Pack> near[N - 1];

@@ -13,14 +13,14 @@ using motion::Vec6;
 
 namespace {
 
-/// Helicoid of a beam's axis as seen from its start: H(s) = H_0 exp(s d), s in [0, 1].
+/// Vector d of the helicoid of a beam's axis, relative to its start: H(s) = H_0 exp(s d), s in [0, 1].
 Vec6<double> helicoid(const scene::Beam& beam, double length) {
   if (beam.curve == scene::BeamCurve::straight)
     return lanes::join(length * Vec3<double>::unit(0), beam.twist * Vec3<double>::unit(0));
   return length * lanes::join(Vec3<double>::unit(0), beam.curvature);
 }
 
-/// The port of a beam on a node that was given: the section's frame as seen from the node.
+/// The port of a beam on an existing node, with the section's frame relative to the node as its offset.
 Port section_port(int node, const Frame<double>& node_pose, const Frame<double>& section, double length) {
   Port port;
   port.node = node;
@@ -28,12 +28,12 @@ Port section_port(int node, const Frame<double>& node_pose, const Frame<double>&
   const Vec6<double> size = motion::Se3::log(offset);
   const double shift = std::sqrt(lanes::dot(lanes::linear_part(size), lanes::linear_part(size)));
   const double turn = std::sqrt(lanes::dot(lanes::angular_part(size), lanes::angular_part(size)));
-  port.has_offset = shift > 1e-14 * length || turn > 1e-14;  // below: the round-off of the axis
+  port.has_offset = shift > 1e-14 * length || turn > 1e-14;  // smaller offsets are round-off of the axis
   if (port.has_offset) port.offset = offset;
   return port;
 }
 
-/// An element has some kB: a list that grew with them would be copied several times.
+/// Reserves space for the elements: each has some kB, and a growing array would copy them several times.
 template <int N>
 void reserve_elements(Builder& b, int order) {
   std::size_t count = 0;
@@ -61,7 +61,8 @@ void add_elements(Builder& b, const scene::Beam& beam, BeamPlan& plan, const std
     for (int i = 0; i < N; ++i) {
       const int node = k * (N - 1) + i;
       e.ports[i] = ports[static_cast<std::size_t>(node)];
-      // Relative to the element's own start, so that the reference keeps its digits anywhere in space.
+      // Poses relative to the element's own start, so that the reference has no additional round-off far from the
+      // origin.
       reference[i].H = motion::Se3::exp((static_cast<double>(i) / ((N - 1) * beam.elements)) * d);
       reference[i].v = reference[i].a = Vec6<double>::zero();
     }
@@ -131,7 +132,7 @@ void Builder::add_beams() {
 void Builder::add_sensors() {
   std::unordered_map<std::string, int> beam_of, joint_of;
   for (std::size_t i = 0; i < plan.beams.size(); ++i) beam_of[plan.beams[i].name] = static_cast<int>(i);
-  for (std::size_t i = 0; i < plan.joints.size(); ++i)  // the first of a prescribed motion's
+  for (std::size_t i = 0; i < plan.joints.size(); ++i)  // the first joint of a prescribed motion
     if (plan.joints[i].what != "held rotation") joint_of.emplace(plan.joints[i].name, static_cast<int>(i));
   const auto index_in = [](const std::unordered_map<std::string, int>& list, const std::string& name) {
     const auto at = name.empty() ? list.end() : list.find(name);

@@ -1,4 +1,4 @@
-/// What a scene does not need, beside unknowns (reduce.cpp): each decision with its condition.
+/// Decisions of the plan apart from the reduction of unknowns (reduce.cpp), each with its condition.
 #include <algorithm>
 #include <cstdio>
 
@@ -29,25 +29,25 @@ void Builder::decide(const std::string& name, const std::string& what, bool hold
 
 namespace {
 
-/// Nanoseconds of residuals below which the start of a task costs more than a second thread saves: a chain of 64
-/// links of four beam elements takes 0.29 ms a step on one thread and 0.34 on two, one of 96 links 0.46 and 0.46; in
+/// Nanoseconds of residuals below which starting a task costs more than a second thread saves. Measured: a chain of 64
+/// links of four beam elements takes 0.29 ms per step on one thread and 0.34 on two, one of 96 links 0.46 and 0.46; in
 /// a plane 128 links take 0.22 and 0.245, 192 links 0.34 and 0.325.
 constexpr double task_break_even = 150e3;
 
-/// The same for sub-domains in lockstep, which leaves lanes empty where there are few: chains of 16 links gain a
-/// fifth or more, spin_up, four_bar_misaligned and flying_spaghetti of the gallery lose as much.
+/// Break-even for sub-domains in lockstep, where few sub-domains leave lanes empty: chains of 16 links gain a fifth or
+/// more, spin_up, four_bar_misaligned and flying_spaghetti of the gallery lose as much.
 constexpr double lanes_break_even = 25e3;
 
-/// Loops of the structure from which on a factorization outweighs the rest of a step, and symmetric parts pay for
-/// iterations that they may add: a lattice of 9 by 9 nodes.
+/// Number of loops of the structure above which the cost of a factorization dominates a step, so that factoring the
+/// symmetric part pays for additional iterations: a lattice of 9 by 9 nodes.
 constexpr int loops_of_lattices = 64;
 
 std::string count_of(std::size_t n, const std::string& one, const std::string& many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-/// What speaks against a matrix that is positive definite: rows of constraints, a node that neither has mass nor, in
-/// statics, any support.
+/// Why the matrix may not be positive definite: rows of constraints, or a node that has neither mass nor, in statics,
+/// any support.
 std::string obstacle_to_definite(const Plan& plan, std::size_t rows) {
   if (rows > 0) return "joints have multipliers: " + count_of(rows, "constraint row", "constraint rows");
   bool is_supported = !plan.held.empty();
@@ -66,14 +66,14 @@ std::string obstacle_to_definite(const Plan& plan, std::size_t rows) {
     }
   });
   if (!plan.is_dynamic) return is_supported ? "" : "no node is held and no spring leads to the ground";
-  for (const HeldNode& h : plan.held) bears_mass[static_cast<std::size_t>(h.node)] = true;  // not in the matrix
+  for (const HeldNode& h : plan.held) bears_mass[static_cast<std::size_t>(h.node)] = true;  // not part of the matrix
   for (std::size_t n = 0; n < plan.nodes.size(); ++n)
     if (!bears_mass[n]) return "'" + plan.nodes[n].name + "' has no mass";
   return "";
 }
 
-/// What has no potential: loads that follow rotations, moments that do not, and the Coriolis terms of a frame in which
-/// the scene is described. In a plane a moment has one, whatever it follows.
+/// Loads without a potential: loads that follow rotations, moments that do not, and the Coriolis terms of a moving
+/// frame in which the scene is described. In a plane a moment has a potential in either case.
 std::string obstacle_to_potential(const Plan& plan, bool in_plane) {
   for (std::size_t id = 0; id < plan.directory.size(); ++id) {
     std::string obstacle;
@@ -121,7 +121,7 @@ void Builder::settle() {
          !dynamic                                         ? "statics takes a new tangent each time"
          : scene.analysis.newton == scene::Newton::single ? "one solution a step is asked for, with its own tangent"
                                                           : "steps of one size give nearly the same matrix");
-  // Followers and dead moments are not conservative; frames that move bring Coriolis terms.
+  // Follower loads and dead moments are not conservative; moving frames cause Coriolis terms.
   std::string obstacle = obstacle_to_potential(plan, false);
   plan.not_conservative = obstacle_to_potential(plan, plan.unknowns.motions != Motions::spatial);
   int edges = 0;

@@ -123,7 +123,7 @@ FrameMotions frames_at_start(const Plan& plan) {
 
 namespace {
 
-/// Parents before their children, those above the ground first.
+/// Order of the frames: parents before their children, and the frames above the ground first.
 std::vector<std::size_t> from_the_top(const scene::FrameTree& frames, std::size_t count) {
   std::vector<std::size_t> order, way;
   std::vector<bool> is_placed(count, false);
@@ -142,7 +142,7 @@ std::vector<std::size_t> from_the_top(const scene::FrameTree& frames, std::size_
 
 }  // namespace
 
-/// Frames in the order parents, children. Nothing where no frame moves: then all are places in the ground.
+/// Adds frames, parents before children. Adds none if no frame moves: all placements are then in the ground.
 void Builder::add_frames() {
   const scene::FrameTree& frames = poses.frames();
   const bool any_moves = std::any_of(scene.frames.begin(), scene.frames.end(),

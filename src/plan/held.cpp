@@ -1,4 +1,4 @@
-/// Nodes that joints hold at rest: what is known of them beforehand needs no unknowns.
+/// Nodes that joints hold at rest: their motion is known, so they need no unknowns.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,14 +15,15 @@ using motion::Vec6;
 
 namespace {
 
-constexpr double closed = 1e-13;      ///< relative gap of a joint that a consistent start leaves as well
-constexpr double least_pivot = 1e-6;  ///< relative to the largest, rows of size 1: below, the rows hold the node hardly
+constexpr double closed = 1e-13;      ///< relative gap of a joint, as large as a consistent start leaves it
+constexpr double least_pivot = 1e-6;  ///< relative to the largest, with rows of size 1: below this, the rows hardly
+                                      ///< determine the node
 
 bool is_to_ground(const elements::Joint& e) {
   return e.ports[0].node == elements::ground || e.ports[1].node == elements::ground;
 }
 
-/// Looks at one node after the other.
+/// Examines the nodes one after the other.
 class Holder {
  public:
   explicit Holder(const Builder& b)
@@ -42,7 +43,7 @@ class Holder {
     count_groups();
   }
 
-  /// Joints between a node and the ground, where they have enough rows to hold it; else none.
+  /// Joints between a node and the ground, if they have enough rows to hold it; otherwise none.
   std::vector<int> joints_that_hold(std::size_t node) const {
     std::vector<int> list;
     int rows = 0;
@@ -55,7 +56,7 @@ class Holder {
     return list;
   }
 
-  /// Fills `held`, or says what stands against it.
+  /// Fills `held`, or returns the reason why the node cannot be held.
   std::optional<std::string> try_to_hold(std::size_t node, const std::vector<int>& joints, HeldNode& held) const {
     if (const char* way = mover_among(joints)) return way;
     if (const char* way = dependence_of(node, joints)) return way;
@@ -72,7 +73,7 @@ class Holder {
   const laws::Law& law(int i) const { return plan_.laws[static_cast<std::size_t>(i)].law; }
   int num_rows(int j) const { return static_cast<int>(plan_.joints[static_cast<std::size_t>(j)].rows.size()); }
 
-  /// What moves a node held by these joints, or gives it forces of their own; null: nothing.
+  /// What moves a node held by these joints, or adds forces: a moving frame, a law, an effort; null: nothing.
   const char* mover_among(const std::vector<int>& joints) const {
     for (int j : joints) {
       const elements::Joint& e = joint(j);
@@ -90,18 +91,17 @@ class Holder {
     return plan_.is_dynamic && lanes::dot(twist, twist) > 0.0;
   }
 
-  /// Why multipliers of the joints that hold a node may not be what they are by the node's balance alone; null: they
-  /// are.
+  /// Why the multipliers of the joints that hold a node may not follow from the balance of the node alone; null if they
+  /// do.
   const char* dependence_of(std::size_t node, const std::vector<int>& joints) const {
     int rows = 0;
     for (int j : joints) rows += num_rows(j);
     return rows > plan_.unknowns.count ? "it is held more than once" : loop_from(node, joints);
   }
 
-  /// Over joints other than those that hold the node. Where these lead to the ground or form a loop, rows may depend
-  /// on each other, and how their multipliers share a load, by least norm in scales that the node's unknowns take
-  /// part in, is a matter of all of them. In a tree that is held at this node alone no combination of rows is without
-  /// force.
+  /// Examines the joints other than those that hold the node. If they lead to the ground or form a loop, rows may be
+  /// linearly dependent. The solver then distributes a load over all of them by least norm, in scales that depend on
+  /// the node's unknowns. In a tree of joints that is held at this node only, rows are independent.
   const char* loop_from(std::size_t node, const std::vector<int>& holding) const {
     const Group& group = groups_[group_of_[node]];
     if (group.to_ground > holding.size())
@@ -110,7 +110,7 @@ class Holder {
                                             : "joints that it carries form a loop: their rows may depend on each other";
   }
 
-  /// Nodes that joints tie to each other, over the ground not counted.
+  /// Nodes that joints connect; the ground does not count as a connection.
   struct Group {
     std::size_t nodes = 0, between = 0, to_ground = 0;  ///< joints between two of the nodes, and from one to the ground
   };
@@ -132,7 +132,8 @@ class Holder {
     });
   }
 
-  /// Residual of a joint at the start, its rows after twelve entries of forces. multipliers: by row, max_rows of them.
+  /// Residual of a joint at the start, its rows after the twelve entries of forces. multipliers: max_rows values, by
+  /// row.
   void eval_at_start(int j, const double* multipliers, double* out) const {
     const elements::Joint& e = joint(j);
     elements::PortMotion<double> p[2];
@@ -141,7 +142,7 @@ class Holder {
     elements::eval_residual(e, p, multipliers, around, 0.0, out, out + 12);
   }
 
-  /// Rows of joints whose laws are constant.
+  /// Whether the rows of joints with constant laws are satisfied.
   bool are_closed(const std::vector<int>& joints) const {
     for (int j : joints) {
       const double none[elements::max_rows] = {};
@@ -155,8 +156,8 @@ class Holder {
     return true;
   }
 
-  /// W at the start, row-major: by column the wrench on the node of one multiplier of size 1, in the unknowns of the
-  /// node. Precondition: as many rows as these.
+  /// W at the start, row-major: each column is the wrench on the node of one unit multiplier, in the unknowns of the
+  /// node. Precondition: the joints have as many rows as the node has unknowns.
   std::vector<double> wrenches(std::size_t node, const std::vector<int>& joints) const {
     const auto n = static_cast<std::size_t>(plan_.unknowns.count);
     std::vector<double> W(n * n);
@@ -184,13 +185,13 @@ class Holder {
 
   const Builder& b_;
   const Plan& plan_;
-  std::vector<double> laws_;                 ///< values of those that are constant
-  std::vector<std::vector<int>> joints_at_;  ///< by node, those with rows
+  std::vector<double> laws_;                 ///< values of the constant laws
+  std::vector<std::vector<int>> joints_at_;  ///< by node, joints with rows
   std::vector<std::size_t> group_of_;        ///< by node
-  std::vector<Group> groups_;                ///< by the node that stands for one
+  std::vector<Group> groups_;                ///< by representative node
 };
 
-/// What the decision tells of nodes: the first that it is taken for, how many more, and why not for the first of the
+/// The text of the decision: the first node for which it is taken, how many more, and why not for the first of the
 /// others.
 struct Account {
   std::string first, obstacle;

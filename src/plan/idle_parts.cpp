@@ -1,4 +1,4 @@
-/// Parts of a scene that nothing moves, or that cannot move: recognised and said, for they cost as much as others.
+/// Finds parts of a scene that are never moved or cannot move, and notes them, since they cost as much as others.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace {
 
 bool is_zero(const motion::Vec6<double>& v) { return lanes::dot(v, v) == 0.0; }
 
-/// Six rows that hold two frames together, none of them driven.
+/// Whether six rows connect two frames rigidly, none of them driven.
 bool is_rigid(const elements::Joint& e) {
   int held = 0;
   for (int k = 0; k < e.num_rows; ++k) held += e.rows[k].law < 0 && e.rows[k].kind != elements::RowKind::screw ? 1 : 0;
@@ -31,7 +31,8 @@ std::string listed(const std::vector<std::string>& names) {
 void Builder::say_idle_parts() {
   const std::size_t count = plan.nodes.size();
   Sets parts(count), rigid(count);
-  std::vector<bool> is_moved(count + 1, false);  // by a load, a spring under tension, a drive, its weight, at the start
+  std::vector<bool> is_moved(count + 1, false);  // moved by a load, a spring under tension, a drive, its weight, or an
+                                                 // initial velocity
   const bool has_gravity = lanes::dot(plan.gravity, plan.gravity) > 0.0;
   for_each_array(plan.elements, [&](const auto& array) {
     using E = typename std::decay_t<decltype(array)>::value_type;
@@ -64,7 +65,8 @@ void Builder::say_idle_parts() {
     if (!is_zero(plan.nodes[n].twist) || plan.observer >= 0) is_moved[n] = true;
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t n = 0; n < count; ++n) members[parts.of(n)].push_back(n);
-  std::map<std::size_t, std::vector<std::string>> welded_to;  // names of what became part of others, by part
+  std::map<std::size_t, std::vector<std::string>> welded_to;  // by rigid part, names of the parts that were welded to
+                                                              // it
   for (const auto& [name, offset] : part_offset)
     welded_to[parts.of(static_cast<std::size_t>(node_of.at(name)))].push_back(name);
   for (const auto& [part, nodes] : members)
@@ -79,7 +81,7 @@ void Builder::say_idle_parts() {
           "be the same");
     }
   std::vector<std::string> held;
-  for (const BodyPlan& body : plan.bodies)  // bodies alone: a clamped node of a beam is how beams are held
+  for (const BodyPlan& body : plan.bodies)  // bodies only: a clamped node of a beam is its normal support
     if (rigid.of(static_cast<std::size_t>(body.frame.node)) == rigid.of(rigid.ground())) held.push_back(body.name);
   if (members.size() > 1)
     plan.notes.push_back("the scene falls into " + std::to_string(members.size()) +

@@ -10,12 +10,13 @@ namespace bough::plan {
 namespace {
 
 constexpr double least_pivot = 1e-9;  ///< relative: rows have lengths of about 1
-constexpr int most_columns = 300;     ///< of a component whose motions are found: some 10 ms
+constexpr int most_columns = 300;     ///< largest number of columns for which the motions of a component are computed:
+                                      ///< some 10 ms
 constexpr std::size_t most_parts = 1000;
 
 using Matrix = Eigen::MatrixXd;
 
-/// Relative twists that rows leave: 6 x (6 - rank).
+/// Basis of the relative twists that the rows allow: 6 x (6 - rank).
 Matrix freedoms_of(const std::vector<Twist>& rows) {
   if (rows.empty()) return Matrix::Identity(6, 6);
   Matrix A(static_cast<Eigen::Index>(rows.size()), 6);
@@ -26,7 +27,7 @@ Matrix freedoms_of(const std::vector<Twist>& rows) {
   return lu.kernel();
 }
 
-/// The tree over which twists add up: from the ground where edges lead there.
+/// The spanning tree over which twists are summed, rooted at the ground if edges lead there.
 struct SpanningTree {
   struct Step {
     int parent = -1, edge = -1;
@@ -36,7 +37,7 @@ struct SpanningTree {
     Matrix basis;   ///< of the relative twist
   };
   std::vector<Step> steps;  ///< by part
-  std::vector<int> order;   ///< parts, parents first, the ground left out
+  std::vector<int> order;   ///< parts, parents first, without the ground
   std::vector<bool> is_closing;
 };
 
@@ -72,7 +73,7 @@ SpanningTree make_spanning_tree(const std::vector<LinkEdge>& edges, std::size_t 
   return tree;
 }
 
-/// Adds factor * row . (twist of a part), by the freedoms on its way to the top.
+/// Adds factor * row . (twist of a part) as a function of the freedoms on the part's path to the root.
 void add_way(const SpanningTree& tree, int part, const Twist& row, double factor, Eigen::Ref<Eigen::RowVectorXd> out) {
   for (int p = part; p > Linkage::ground; p = tree.steps[static_cast<std::size_t>(p)].parent) {
     const SpanningTree::Step& s = tree.steps[static_cast<std::size_t>(p)];
@@ -110,7 +111,7 @@ Twist LinkComponent::twist_of(int part, Eigen::Index motion) const {
 
 namespace {
 
-/// Finds the rank of the rows that close loops, and the motions that are left.
+/// Computes the rank of the rows that close loops, and the remaining motions.
 void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<LinkEdge>& edges,
                   const std::vector<std::pair<int, Twist>>& rows) {
   Matrix kernel = Matrix::Identity(c.freedoms, c.freedoms);

@@ -37,7 +37,7 @@ Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses) {
   return Linkage(0.5 * (low + high), size > 0.0 ? size : 1.0);
 }
 
-/// Whether some motion of a body has no inertia against it.
+/// Whether every motion of a body has inertia.
 bool has_whole_inertia(const scene::Body& b) {
   const Mat3& J = b.inertia;
   const double trace = J(0, 0) + J(1, 1) + J(2, 2);
@@ -170,7 +170,7 @@ void SceneLinkage::add_motion(const scene::PrescribedMotion& m) {
   hold(m.at.to, std::move(rows));
 }
 
-/// A spring under tension or pressure holds across its line as well.
+/// A spring under tension or compression also resists motions across its line.
 void SceneLinkage::add_stiffness() {
   for (const scene::Spring& s : scene_.springs) {
     const auto a = poses_.of(s.first), b = poses_.of(s.second);
@@ -200,11 +200,11 @@ void SceneLinkage::add_stiffness() {
   }
 }
 
-/// The plan holds the rotation of a point mass where nothing feels it, and its spin about the line through all points
-/// where it is met.
+/// The plan holds the rotation of a point mass if it has no effect on other parts, and its spin about the line through
+/// all its attachment points.
 void SceneLinkage::add_point_masses() {
   struct Use {
-    bool feels = false;  // something turns with it
+    bool feels = false;  // another part turns with it
     std::vector<Vec3d> met;
   };
   std::unordered_map<std::string, Use> uses;

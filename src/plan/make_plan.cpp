@@ -28,11 +28,11 @@ int Builder::add_law(const laws::Law& law, const std::string& user) {
   return static_cast<int>(plan.laws.size()) - 1;
 }
 
-/// A factor left out: full from the start in dynamics, growing with the load factor in statics.
+/// The factor of a load without a law: 1 from the start in dynamics, the load factor in statics.
 int Builder::add_factor(const laws::Law& law, const std::string& user) {
   if (law.node() != nullptr) return add_law(law, user);
   if (plan.is_dynamic) return add_law(laws::make_constant(1.0), user);
-  // Along a path of equilibria the load factor may be negative or above 1.
+  // On a path followed by arc length, the load factor may be negative or above 1.
   return add_law(scene.analysis.arc_length ? laws::make_expression("t") : laws::make_ramp(0.0, 1.0, 0.0, 1.0), user);
 }
 
@@ -43,7 +43,7 @@ int Builder::add_node(const std::string& name, const Frame<double>& pose) {
   return id;
 }
 
-/// Elements are numbered array after array once all are known; until then an owner travels with each.
+/// Elements are numbered array after array once all are known; until then each keeps the name of its owner.
 template <class E>
 int Builder::add(const E& e, const std::string& owner) {
   array_of<E>(plan.elements).push_back(e);
@@ -115,7 +115,7 @@ int Builder::add_joint(elements::Joint& j, const std::string& name, const std::s
   return static_cast<int>(plan.joints.size()) - 1;
 }
 
-/// A driven rate becomes its integral from the coordinate's initial value.
+/// A drive that prescribes a rate gets the integral of its law from the coordinate's initial value.
 int Builder::add_drive(const laws::Law& law, bool is_rate, double initial, const std::string& user) {
   if (!is_rate) return add_law(law, user);
   return add_law(laws::make_sum({law.integral(0.0), laws::make_constant(initial)}), user);
@@ -240,7 +240,7 @@ void Builder::add_initial_velocities() {
   }
 }
 
-/// Nodes keep their numbers from here on.
+/// The nodes keep their numbers from here on.
 void Builder::list_given_velocities() {
   for (const scene::InitialVelocity& v : scene.initial_velocities) {
     const auto beam =
@@ -280,7 +280,7 @@ void Builder::number_elements() {
   }
 }
 
-/// By kind, as pictures have shown them: joints, springs and bushings, then the ends of beams.
+/// In the order in which pictures show them: joints, springs and bushings, then the ends of beams.
 void Builder::list_attachments() {
   std::vector<int> body_at(plan.nodes.size(), -1);
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)
@@ -308,8 +308,8 @@ void Builder::list_attachments() {
   }
 }
 
-/// Diagonal of the box around all nodes and all places where elements take hold [m]; radius of gyration of the
-/// largest body where that is larger; 1 where nothing has a size.
+/// Diagonal of the box around all nodes and attachment points [m], or the radius of gyration of the largest body if
+/// that is larger; 1 if both are zero.
 double Builder::size_of_structure() const {
   Vec3<double> low = Vec3<double>::zero(), high = low;
   bool is_first = true;

@@ -1,5 +1,5 @@
-/// Degrees of freedom, mechanisms that are locked, motions that nothing holds or that have no inertia: found at the
-/// start and told in words.
+/// Degrees of freedom, locked mechanisms, and motions without stiffness or without inertia, found at the start and
+/// described in words.
 #include "bough/plan/mobility.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace bough::plan {
 namespace {
 
 constexpr double still = 1e-7;          ///< relative: smaller twists are round-off of null vectors
-constexpr std::size_t told = 4;         ///< notes of one kind
-constexpr std::size_t most_tried = 40;  ///< joints that are tried as the one which locks a mechanism
+constexpr std::size_t told = 4;         ///< largest number of notes of one kind
+constexpr std::size_t most_tried = 40;  ///< largest number of joints that are tried as the cause of a locked mechanism
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -48,12 +48,12 @@ std::string motion_text(const Linkage& linkage, const Twist& t) {
   if (turning <= still * t.norm()) return "move along " + vector_text((1.0 / length_of(v)) * v, 1e-9);
   const Vec3d axis = (1.0 / turning) * w;
   const Vec3d x = linkage.center() + (linkage.size() / turning) * lanes::cross(axis, v);
-  const Vec3d nearest = x - lanes::dot(x, axis) * axis;  // to the origin
+  const Vec3d nearest = x - lanes::dot(x, axis) * axis;  // point of the axis closest to the origin
   return "turn about the axis " + vector_text(axis, 1e-9) + " through " + vector_text(nearest, 1e-9 * linkage.size()) +
          " m";
 }
 
-/// What moves in one motion, how, and at which joints.
+/// Describes a motion: which parts move, how, and at which joints.
 std::string describe(const SceneLinkage& s, const LinkComponent& c, Eigen::Index motion, const char* between) {
   double most = 0.0;
   int largest = c.parts.front();
@@ -70,7 +70,7 @@ std::string describe(const SceneLinkage& s, const LinkComponent& c, Eigen::Index
     const Twist relative = c.twist_of(edge.second, motion) - c.twist_of(edge.first, motion);
     if (edge.is_joint && relative.norm() > still * most) joints.push_back(edge.name);
   }
-  for (const int part : c.parts)  // nodes of beams go with these
+  for (const int part : c.parts)  // nodes of beams are included in these
     if (!s.has_beam[at(part)] && moves(part)) moving.push_back(s.names[at(part)]);
   std::string text = listed(moving) + between + motion_text(s.linkage, c.twist_of(largest, motion));
   if (!joints.empty()) text += " at joint" + std::string(joints.size() > 1 ? "s " : " ") + listed(joints);
@@ -86,7 +86,7 @@ std::vector<std::string> find_massless(const SceneLinkage& s) {
   return texts;
 }
 
-/// Beams, and nodes and bodies that belong to none.
+/// Names of the beams, and of the nodes and bodies that belong to no beam.
 std::vector<std::string> names_in(const SceneLinkage& s, const LinkComponent& c) {
   std::vector<std::string> names;
   for (const int e : c.edges)
@@ -124,7 +124,7 @@ MobilityPart part_of(const SceneLinkage& s, const LinkComponent& c, const std::m
   return p;
 }
 
-/// Joints that leave freedoms and still do not move.
+/// Joints that have freedoms but do not move.
 std::vector<int> locked_joints(const Linkage& linkage, const LinkComponent& c) {
   std::vector<int> locked;
   for (const int e : c.edges) {
@@ -138,7 +138,7 @@ std::vector<int> locked_joints(const Linkage& linkage, const LinkComponent& c) {
   return locked;
 }
 
-/// Angle between the axis of a joint and the nearest of those of others [rad].
+/// Smallest angle between the axis of a joint and those of the others [rad].
 double angle_to_others(const Linkage& linkage, int joint, const std::vector<int>& joints) {
   const Vec3d& axis = linkage.edges()[at(joint)].axis;
   double least = 2.0;
@@ -150,8 +150,8 @@ double angle_to_others(const Linkage& linkage, int joint, const std::vector<int>
   return least;
 }
 
-/// The joint which, were its two sides free to turn against each other, would let most of the others move; of equals
-/// the one whose axis stands farthest from those of the others. -1: none.
+/// The joint that locks a mechanism: the one which, if its sides could rotate freely, would let most of the others
+/// move; of several, the one whose axis is farthest from those of the others. -1: none.
 int joint_that_locks(const Linkage& linkage, const std::vector<int>& locked) {
   int best = -1;
   std::size_t fewest = locked.size();
@@ -165,7 +165,7 @@ int joint_that_locks(const Linkage& linkage, const std::vector<int>& locked) {
         still_locked += other != e && std::find(locked.begin(), locked.end(), other) != locked.end() ? 1 : 0;
     }
     const double angle = angle_to_others(linkage, e, locked);
-    if (still_locked + 1 >= locked.size()) continue;  // nothing else moves
+    if (still_locked + 1 >= locked.size()) continue;  // no other joint moves
     if (best >= 0 && (still_locked > fewest || (still_locked == fewest && angle <= farthest))) continue;
     best = e;
     fewest = still_locked;

@@ -1,4 +1,5 @@
-/// Elements of a scene that moves in a plane, from those in space: constants as seen along the plane.
+/// Makes the elements of a scene that moves in a plane from those in space, by restricting their constants to the
+/// plane.
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +21,7 @@ using PlanarJoint = elements::JointOn<motion::Se2>;
 
 constexpr int kept[3] = {0, 1, 5};
 
-/// [B^T 0; 0 B^T] M [B 0; 0 B], rows and columns in the plane.
+/// [B^T 0; 0 B^T] M [B 0; 0 B], restricted to rows and columns of the plane.
 Mat3<double> in_plane(const Mat6<double>& m, const Mat3<double>& B) {
   Mat3<double> r;
   for (int i = 0; i < 3; ++i)
@@ -42,7 +43,7 @@ Vec2<double> in_plane(const Vec3<double>& v, const Mat3<double>& B) {
   return motion::plane_part(lanes::transpose_times(B, v));
 }
 
-/// Data of an element in space as those of the same in the plane with axes B (those of dead loads: `inertial`).
+/// Restricts the data of an element in space to the plane with axes B (of dead loads: `inertial`).
 class Restriction {
  public:
   Restriction(const Mat3<double>& B, const Mat3<double>& inertial) : B_(B), inertial_(inertial) {}
@@ -72,7 +73,7 @@ class Flattener {
     E::visit_data(e, r, restriction);
     return r;
   }
-  /// Both frames keep their own axis 1 where axis 3 is the normal: angles are those of the joint.
+  /// If axis 3 is the normal, both frames keep their own axis 1, so that angles are those of the joint.
   PlanarJoint flattened(const elements::Joint& e, const std::vector<int>& rows) const {
     const Mat3<double> Ba = joint_axes(e.ports[0]), Bb = joint_axes(e.ports[1]);
     const Vec3<double> normal_a = lanes::column(Ba, 2);
@@ -127,7 +128,7 @@ class Flattener {
   }
 
  private:
-  /// Axes of the plane in those of a port's frame, the first two turned to it.
+  /// Axes of the plane in those of a port's frame, with the first two rotated to the port's own.
   Mat3<double> axes_at(const elements::Port& p) const {
     return lanes::transpose_times(b_.initial_pose(p).R, model_.axes);
   }
@@ -149,7 +150,7 @@ class Flattener {
     const Vec3<double> normal = lanes::column(B, 2);
     return std::abs(normal[2]) > 0.5 ? with_first(Vec3<double>::unit(0), normal) : B;
   }
-  /// Frame of a port with axes B (in the port's own), as seen from its node's planar frame.
+  /// A port with axes B (in the port's own), relative to its node's planar frame.
   PlanarPort port(const elements::Port& p, const Mat3<double>& B) const {
     constexpr double round_off = 4e-16;
     PlanarPort r;
@@ -176,8 +177,8 @@ class Flattener {
   const PlanarModel& model_;
 };
 
-/// Of the rows that are kept in the plane. A row for which half a turn off would be another pose of the joint that is
-/// meant, such as of one axis alone, has no branch that could be left.
+/// Whether the rows kept in the plane would also be satisfied after half a turn. A row for which the pose after half a
+/// turn is an admissible pose of the joint, such as a row of one axis only, has no wrong branch.
 bool has_branch(const elements::Joint& e, const std::vector<int>& rows) {
   const auto is_kept = [&rows](int row) { return std::find(rows.begin(), rows.end(), row) != rows.end(); };
   for (int k = 0; k < e.num_rows; ++k) {

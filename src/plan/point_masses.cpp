@@ -8,14 +8,14 @@ using elements::Port;
 using motion::Frame;
 using motion::Vec3;
 
-/// A point mass has no rotational inertia: its rotation is held where nothing that meets it feels it. Where it is met
-/// in points of one line through it only, nothing feels the spin about this line: it gets inertia there, m d^2 with
-/// the largest distance d, which changes no motion (no moment acts about the line, so a spin that starts at zero in
-/// the inertial frame stays zero: see stop_spins) and leaves no unknown undetermined. Not in statics, where inertia
-/// holds nothing and would be felt in a frame that turns.
+/// A point mass has no rotational inertia, so its rotation is held if no attached part depends on it. If all its
+/// attachment points lie on one line through it, only the spin about this line has no effect. In dynamics it then gets
+/// the inertia m d^2 about this line, with the largest distance d, so that no unknown remains undetermined. This does
+/// not change any motion: no moment acts about the line, and a spin that starts at zero in the inertial frame stays
+/// zero (see stop_spins). In statics inertia would not hold the spin, and it would act as a load in a rotating frame.
 void Builder::hold_point_masses() {
-  std::vector<bool> feels(plan.nodes.size(), false);              // more than forces at points
-  std::vector<std::vector<Vec3<double>>> met(plan.nodes.size());  // at points apart from the node
+  std::vector<bool> feels(plan.nodes.size(), false);  // a part acts on the node by more than forces at points
+  std::vector<std::vector<Vec3<double>>> met(plan.nodes.size());  // attachment points apart from the node
   const auto mark = [&](const auto& e, bool turns) {
     for (const Port& p : e.ports) {
       if (p.node == elements::ground) continue;
@@ -35,7 +35,7 @@ void Builder::hold_point_masses() {
         mark(e, e.follows || lanes::dot(e.wrench, e.wrench) !=
                                  lanes::dot(lanes::linear_part(e.wrench), lanes::linear_part(e.wrench)));
       else if constexpr (E::role == elements::Role::joint) {
-        // A row along an axis of the first frame turns with the first body; three of them meet in a point and do not.
+        // A row along an axis of the first frame turns with the first body; three such rows form a point and do not.
         bool turns = e.num_efforts > 0;
         int along = 0;
         for (int k = 0; k < e.num_rows; ++k) {
@@ -74,12 +74,16 @@ void Builder::keep_from_spinning(std::size_t body, const std::vector<Vec3<double
     if (lanes::dot(x, x) > lanes::dot(line, line)) line = x;
   for (const Vec3<double>& x : met) {
     const Vec3<double> beside = lanes::cross(line, x);
-    if (lanes::dot(beside, beside) > 1e-24 * lanes::dot(line, line) * lanes::dot(x, x)) return;  // held by its points
+    if (lanes::dot(beside, beside) > 1e-24 * lanes::dot(line, line) * lanes::dot(x, x))
+      return;  // its attachment
+               // points determine the
+               // spin
   }
   if (!plan.is_dynamic) return;
   const int node = plan.bodies[body].frame.node;
   spinless.emplace_back(node, (1.0 / std::sqrt(lanes::dot(line, line))) * line);
-  elements::RigidBody& e = array_of<elements::RigidBody>(plan.elements)[body];  // still one for each body of the scene
+  elements::RigidBody& e = array_of<elements::RigidBody>(plan.elements)[body];  // at this stage there is one for each
+                                                                                // body of the scene
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) e.mass(3 + i, 3 + j) += e.mass(0, 0) * line[i] * line[j];
   plan.notes.push_back(
@@ -87,9 +91,8 @@ void Builder::keep_from_spinning(std::size_t body, const std::vector<Vec3<double
       "' is held at one line through it: nothing feels its spin about that line, which is none from start to end");
 }
 
-/// A point that spins is the same as one that does not, but the inertia which its node was given would turn with it:
-/// the spin in the inertial frame, of initial velocities and of the frame the analysis is described in, is taken
-/// away.
+/// The spin of a point has no effect, except through the inertia that its node was given. The spin in the inertial
+/// frame, from initial velocities and from the frame in which the analysis is described, is therefore removed.
 void Builder::stop_spins() {
   for (const auto& [node, line] : spinless) {
     NodePlan& n = plan.nodes[static_cast<std::size_t>(node)];

@@ -1,4 +1,4 @@
-/// In which motions a scene stays once it is in them: the unknowns of its nodes.
+/// Finds the invariant set of motions of a scene, which determines the unknowns of its nodes.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -17,9 +17,9 @@ using motion::Vec6;
 
 namespace {
 
-using Obstacle = std::optional<std::string>;  ///< what stands against a set of motions, in words
+using Obstacle = std::optional<std::string>;  ///< reason against a set of motions, in words
 
-constexpr double small = 1e-12;  ///< relative: what directions and places that were computed may differ by
+constexpr double small = 1e-12;  ///< relative difference that computed directions and positions may have by round-off
 
 double length_of(const Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
 Vec3<double> linear(const Vec6<double>& v) { return lanes::linear_part(v); }
@@ -42,8 +42,8 @@ Mat3<double> axes_with(int which, const Vec3<double>& direction) {
   return axes;
 }
 
-/// Whether a matrix of sections or bodies couples motions in the plane with those out of it; axes: columns along,
-/// along, normal.
+/// Whether a matrix of a section or body couples motions in the plane with those out of it; columns of axes: two along
+/// the plane, then the normal.
 bool couples(const Mat6<double>& m, const Mat3<double>& axes) {
   double turned[6][6], largest[2] = {0.0, 0.0};
   for (int i = 0; i < 6; ++i)
@@ -63,7 +63,7 @@ bool couples(const Mat6<double>& m, const Mat3<double>& axes) {
   return false;
 }
 
-/// What is asked of every element: `against` gives the first thing that leads out of the motions.
+/// A set of motions, and the condition for elements to keep it: `against` returns the first reason against it.
 class Motion {
  public:
   explicit Motion(const Builder& builder) : b_(builder), size_(builder.plan.length_scale) {}
@@ -72,7 +72,7 @@ class Motion {
   virtual Motions kind() const = 0;
   virtual std::array<int, 6> components() const = 0;
   virtual int count() const = 0;
-  virtual Mat3<double> axes() const = 0;  ///< of B, in the ground
+  virtual Mat3<double> axes() const = 0;  ///< columns of B, in the ground
 
   virtual Obstacle against(const elements::RigidBody& e) const = 0;
   virtual Obstacle against(const elements::Joint& e) const = 0;
@@ -93,7 +93,7 @@ class Motion {
   virtual Obstacle against_gravity() const = 0;
   virtual Obstacle against_node(const NodePlan& node) const = 0;
 
-  /// Rows of a joint that are unknowns. Precondition: nothing stands against the joint.
+  /// Whether a row of a joint is an unknown. Precondition: there is no reason against the joint.
   virtual bool keeps(const elements::Joint& e, int row) const = 0;
 
  protected:
@@ -105,8 +105,8 @@ class Motion {
   double size_;  ///< of the structure [m]
 };
 
-/// Symmetry of reflection in a plane: geometry, masses and loads are their own mirror images, so forces out of the
-/// plane are zero.
+/// Mirror symmetry about a plane: geometry, masses and loads are their own mirror images, so all forces out of the
+/// plane vanish.
 class InPlane final : public Motion {
  public:
   InPlane(const Builder& builder, const Vec3<double>& normal)
@@ -220,7 +220,7 @@ class InPlane final : public Motion {
   double height_;
 };
 
-/// Forces at points that are the origins of their nodes: nothing turns. On a line besides, where one is given.
+/// All forces act at the origins of nodes, so that nothing rotates; optionally also along one line only.
 class OfPoints final : public Motion {
  public:
   OfPoints(const Builder& builder, std::optional<Vec3<double>> line) : Motion(builder), line_(line) {}
@@ -299,7 +299,7 @@ class OfPoints final : public Motion {
   std::optional<Vec3<double>> line_;
 };
 
-/// The first thing that stands against a set of motions, and how many things did not.
+/// The first reason against a set of motions, and the number of elements that passed before it.
 struct Verdict {
   Obstacle obstacle;
   std::size_t passed = 0;
@@ -321,8 +321,8 @@ Verdict judge(const Builder& b, const Motion& motion) {
   return v;
 }
 
-/// Normals that the plane of a scene may have: the ground's axes, the axes of its joints, the normal of its nodes and
-/// of what is at them.
+/// Candidates for the normal of the plane: the ground's axes, the axes of joints, and the normal of the nodes and their
+/// attachment points.
 std::vector<Vec3<double>> normals(const Builder& b) {
   std::vector<Vec3<double>> list;
   const auto add = [&list](const Vec3<double>& n) {
@@ -350,7 +350,7 @@ std::vector<Vec3<double>> normals(const Builder& b) {
   };
   for (const NodePlan& node : b.plan.nodes) places.push_back(node.pose.x);
   add_normal_of_places();
-  if (!b.plan.welds.empty()) {  // what is left of nodes that are parts of others
+  if (!b.plan.welds.empty()) {  // attachment points of nodes that became part of others
     for (const BodyPlan& body : b.plan.bodies) places.push_back(b.initial_pose(body.frame).x);
     for_each_array(b.plan.elements, [&](const auto& array) {
       for (const auto& e : array)
@@ -403,7 +403,7 @@ void take(Builder& b, const Motion& motion) {
   if (motion.kind() == Motions::planar) b.add_planar_elements(axes);
 }
 
-/// What no reduction goes with, whatever the elements are.
+/// Reasons against every reduction, whatever the elements are.
 Obstacle general_obstacle(const Builder& b) {
   if (b.plan.nodes.empty()) return "there are no nodes";
   if (!b.plan.frames.empty()) return "frames of prescribed motion move in six ways";
@@ -427,7 +427,8 @@ void Builder::choose_unknowns() {
       if (holds) {
         reason = why;
         if (!is_barred(name) && plan.unknowns.is_whole()) take(*this, motion);
-      } else if (k == 0 || v.passed > furthest) {  // the reason given is that of the direction which goes furthest
+      } else if (k == 0 || v.passed > furthest) {  // the reason reported is that of the direction that passed most
+                                                   // elements
         reason = *v.obstacle;
         furthest = v.passed;
       }

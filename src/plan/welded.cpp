@@ -1,5 +1,4 @@
-/// Rigid parts: nodes and bodies that fixed joints tie to each other become one node, whatever the part was put
-/// together from.
+/// Rigid parts: nodes and bodies that fixed joints connect become one node.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,16 +19,16 @@ using motion::Vec6;
 
 namespace {
 
-constexpr double closed = 1e-13;  ///< relative: what gaps and velocities of one part may be off by, as of nodes held
+constexpr double closed = 1e-13;  ///< relative gaps and velocities within a rigid part, as for held nodes
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-/// Before elements are numbered: joints of the plan are those of the array, one for one.
+/// Used before elements are numbered, when joints of the plan and of the array correspond one to one.
 const elements::Joint& joint_at(const Plan& plan, std::size_t j) { return array_of<elements::Joint>(plan.elements)[j]; }
 
 double length_of(const Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
 
-/// An offset without what is round-off of what it was computed from, places of size `reach`: where the nodes of a
-/// part are at one place elements at them need no offset, and equal parts stay equal for lanes.
+/// An offset in which round-off of the places it was computed from, of size `reach`, is set to zero. Elements at
+/// coincident nodes of a part then need no offset, and equal parts stay equal, so that they can share lanes.
 Frame<double> cleared(Frame<double> H, double reach) {
   constexpr double turns = 1e-14, places = 8.0 * std::numeric_limits<double>::epsilon();
   if (length_of(motion::log_so3(H.R)) <= turns) H.R = Mat3<double>::identity();
@@ -42,14 +41,14 @@ bool is_identity(const Frame<double>& H) {
   return lanes::dot(H.x, H.x) == 0.0 && std::equal(H.R.m, H.R.m + 9, one.m);
 }
 
-/// M about another frame, from which the body's own is seen at H: v_body = Ad(H)^-1 v.
+/// Mass matrix M transformed to another frame, in which the body's own frame has the pose H: v_body = Ad(H)^-1 v.
 Mat6<double> seen_from_node(const Frame<double>& H, const Mat6<double>& mass) {
   const Mat6<double> A = motion::inverse_adjoint(H), M = lanes::transpose_times(A, mass * A);
   return 0.5 * (M + lanes::transpose(M));
 }
 
-/// Nodes, and the ground, between which two ways or more lead over joints: rows of joints within one set may depend
-/// on each other.
+/// Sets of nodes, and the ground, that are connected by two or more paths over joints: the rows of joints within one
+/// set may be linearly dependent.
 Sets loops_of_joints(const Plan& plan) {
   const std::size_t count = plan.nodes.size() + 1;
   Sets loops(plan.nodes.size());
@@ -76,7 +75,7 @@ Sets loops_of_joints(const Plan& plan) {
     if (is_in_tree[j]) continue;
     const elements::Joint& e = joint_at(plan, j);
     std::size_t a = loops.of(e.ports[0]), b = loops.of(e.ports[1]);
-    while (a != b) {  // up the tree to where both ways meet
+    while (a != b) {  // up the tree to the common ancestor
       if (depth[a] < depth[b]) std::swap(a, b);
       loops.join(a, parent[a]);
       a = loops.of(a);
@@ -97,12 +96,12 @@ class Welder {
         asked_in_loop_.emplace(loops_.of(joint(j).ports[0]), plan_.joints[j].name);
   }
 
-  /// Finds the joints that can go, and the node that each node is part of.
+  /// Finds the joints that can be removed, and the node to which each node is welded.
   void find() {
     root_of_.resize(plan_.nodes.size());
     for (std::size_t n = 0; n < root_of_.size(); ++n) root_of_[n] = n;
     goes_.assign(plan_.joints.size(), false);
-    for (std::size_t j = 0; j < b_.scene.joints.size(); ++j) {  // the first of Plan::joints, one for one
+    for (std::size_t j = 0; j < b_.scene.joints.size(); ++j) {  // these come first in Plan::joints, one for one
       const scene::Joint& given = b_.scene.joints[j];
       const elements::Joint& e = joint(j);
       if (given.kind != scene::JointKind::fixed || e.ports[0].node == elements::ground ||
@@ -146,7 +145,7 @@ class Welder {
     if (obstacle_.empty()) obstacle_ = what + ": " + why;
   }
 
-  /// Why the sides of a fixed joint stay apart, if they do.
+  /// Why a fixed joint cannot be removed; empty if it can.
   std::optional<std::string> obstacle_to(const std::string& name, const elements::Joint& e) {
     if (b_.scene.analysis.arc_length) return "lengths along the path of equilibria are means over the nodes";
     if (plan_.is_dynamic && b_.scene.analysis.step_control) return "steps are controlled by the error of every node";
@@ -176,7 +175,7 @@ class Welder {
            length_of(lanes::angular_part(off)) <= closed * turning;
   }
 
-  /// Calls visit(element, its owner) for all but the joints that go.
+  /// Calls visit(element, its owner) for all elements except removed joints.
   template <class Visit>
   void for_each_other(Visit&& visit) {
     const auto each = [&](auto& array) {
@@ -190,8 +189,8 @@ class Welder {
     std::apply([&](auto&... arrays) { (each(arrays), ...); }, plan_.elements);
   }
 
-  /// An element with two ends at one node is none that the graph knows: a beam or spring between rigid parts, a joint
-  /// that closes a loop with a gap. Then the part stays as it was given.
+  /// The block graph allows no element with both ends at one node, such as a beam or spring within a rigid part, or a
+  /// joint that closes a loop with a gap. Such a part is left as given.
   void keep_parts_that_something_closes() {
     std::set<std::size_t> kept;
     for_each_other([&](const auto& e, const std::string& owner) {
@@ -210,8 +209,9 @@ class Welder {
       if (goes_[j]) tie(j);
   }
 
-  /// The node of a part where most elements and joints of it meet, the first of these: their ports stay as they are,
-  /// and hubs of one kind look alike to lanes. Bodies do not count, their masses become those of the node.
+  /// Chooses the node of a part to which most of its elements and joints are attached, the first of several. Their
+  /// ports need no offset, and equal hubs stay equal, so that they can share lanes. Bodies do not count, since their
+  /// masses are transferred to the node.
   void choose_roots() {
     std::vector<std::size_t> meets(plan_.nodes.size(), 0), best(plan_.nodes.size(), none);
     for_each_other([&](const auto& e, const std::string&) {
@@ -232,7 +232,7 @@ class Welder {
     }
   }
 
-  /// Poses as they are at the start, so that no element is strained by gaps of joints.
+  /// Uses the poses at the start as they are, so that gaps of joints strain no element.
   void place_nodes() {
     int next = 0;
     std::vector<int> number(root_of_.size(), -1);
@@ -289,7 +289,7 @@ class Welder {
     }
   }
 
-  /// One body a node, which keeps the name of the first.
+  /// Leaves one body per node, which keeps the name of the first.
   void condense_bodies() {
     std::vector<elements::RigidBody>& bodies = array_of<elements::RigidBody>(plan_.elements);
     std::vector<std::string>& owners = b_.owners<elements::RigidBody>();
@@ -335,12 +335,12 @@ class Welder {
   Plan& plan_;
   Sets parts_, loops_;
   std::set<std::string> asked_;                       ///< joints that sensors name
-  std::map<std::size_t, std::string> asked_in_loop_;  ///< the first of each set of loops_
-  std::vector<bool> goes_;                            ///< by joint
-  std::vector<std::size_t> root_of_;                  ///< by node: the one it becomes part of, or itself
-  std::vector<int> number_;                           ///< by node: that of its root afterwards
-  std::vector<Frame<double>> offset_;                 ///< by node, from its root
-  std::size_t num_nodes_ = 0;                         ///< that become part of others
+  std::map<std::size_t, std::string> asked_in_loop_;  ///< the first one of each set of loops_
+  std::vector<bool> goes_;                            ///< by joint: it is removed
+  std::vector<std::size_t> root_of_;                  ///< by node: the node to which it is welded, or itself
+  std::vector<int> number_;                           ///< by node: number of its root after renumbering
+  std::vector<Frame<double>> offset_;                 ///< by node: pose relative to its root
+  std::size_t num_nodes_ = 0;                         ///< number of nodes that are welded to others
   std::string first_, obstacle_;
 };
 

@@ -45,7 +45,7 @@ std::vector<LevelProfile> sum_levels(const std::vector<SubdomainProfile>& subdom
 
 void sum_subtrees(std::vector<SubdomainProfile>& subdomains) {
   for (SubdomainProfile& s : subdomains) s.subtree_seconds = s.times.solver();
-  for (SubdomainProfile& s : subdomains)  // children stand before their parents
+  for (SubdomainProfile& s : subdomains)  // children come before their parents
     if (s.parent >= 0) subdomains[at(s.parent)].subtree_seconds += s.subtree_seconds;
 }
 

@@ -20,29 +20,29 @@ bool holds_on_to_ground(const E& e) {
                      [](const elements::Port& p) { return p.node == elements::ground; });
 }
 
-/// Whether an element does work, takes energy or pulls at the ground in every step.
+/// Whether an element does work, dissipates energy or loads the ground in every step.
 template <class E>
 bool is_watched(const E& e) {
   return holds_on_to_ground(e) || exchanges_energy(e);
 }
 
-/// Whether a port is fixed to something that moves as prescribed, which does work through it.
+/// Whether a port is fixed to a frame of prescribed motion, which does work through the port.
 bool is_moved(const plan::Plan& plan, const elements::Port& port) {
   return port.node == elements::ground && (port.carrier >= 0 || plan.observer >= 0);
 }
 
-/// Ports as described, in the ground.
+/// Pose of a port in the ground.
 template <class E>
 void eval_ports(const E& e, const Field& f, elements::PortMotion<double>* ports) {
   const motion::Vec3Pair origin = motion::Vec3Pair::from(Vec3<double>::zero());
   for (int k = 0; k < E::num_ports; ++k) ports[k] = elements::eval_port(e.ports[k], f.nodes, origin, f.carriers);
 }
-/// The same place in the inertial frame.
+/// The same pose in the inertial frame.
 motion::Frame<double> inertial_pose(const Field& f, const motion::Frame<double>& pose) {
   return f.observer == nullptr ? pose : motion::compose(f.observer->pose, pose);
 }
 
-/// Work of what moves as prescribed through the ports fixed to it since `last`, one of each, which move on to now.
+/// Work of frames of prescribed motion through the ports fixed to them since `last`; `last` is updated to the present.
 template <class E, class P>
 double advance_grounds(const plan::Plan& plan, const E& e, const Field& f, const double* multipliers, double turns,
                        P* last) {
@@ -61,7 +61,7 @@ double advance_grounds(const plan::Plan& plan, const E& e, const Field& f, const
     P now;
     now.pose = inertial_pose(f, ports[k].H);
     for (int i = 0; i < 6; ++i)
-      now.wrench[i] = out[6 * k + i];  // what the element asks of the ground, the ground gives
+      now.wrench[i] = out[6 * k + i];  // a residual at the ground is the reaction of the ground
     work += lanes::dot(Vec6<double>(0.5 * (last->wrench + now.wrench)),
                        motion::Se3::log(motion::relative(last->pose, now.pose)));
     *last++ = now;
@@ -69,7 +69,7 @@ double advance_grounds(const plan::Plan& plan, const E& e, const Field& f, const
   return work;
 }
 
-/// Work of a load since `last`, which moves on to now.
+/// Work of a load since `last`, which is updated to the present.
 template <class E, class P>
 double advance_load(const E& e, const Field& f, P* last) {
   constexpr auto n = static_cast<std::size_t>(E::num_ports);
@@ -166,7 +166,7 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
     });
   }
   force_ += free_mass * f.around.gravity;
-  if (f.observer != nullptr) force_ = f.observer->pose.R * force_;  // elements tell forces in the ground's axes
+  if (f.observer != nullptr) force_ = f.observer->pose.R * force_;  // elements give forces in the ground's axes
   return work;
 }
 

@@ -64,7 +64,7 @@ void EnergyMeter::sort(const plan::Plan& plan, Kind<E>& kind) {
     first += group.count;
   }
   const auto takes_lanes = [](const Group<E>& group) { return group.count >= least_lanes; };
-  // Lanes have some ten kB each: a list that grew with them would be copied several times.
+  // Reserves space: lanes have some ten kB each, and a growing array would copy them several times.
   kind.lanes.reserve(static_cast<std::size_t>(std::count_if(kind.groups.begin(), kind.groups.end(), takes_lanes)));
   int nodes[E::num_ports];
   for (int p = 0; p < E::num_ports; ++p) nodes[p] = p;
@@ -81,7 +81,7 @@ template <class E>
 void EnergyMeter::add_group(const std::vector<E>& array, const Kind<E>& kind, const Group<E>& group,
                             const step::State& state, const elements::Field& field, elements::Energies& sum) const {
   const auto turns_of = [&turns_of_joints = state.turns](int i) {
-    // Joints of a plan stand in the order of their elements.
+    // Joints of a plan are in the order of their elements.
     return E::role == elements::Role::joint ? turns_of_joints[static_cast<std::size_t>(i)] : 0.0;
   };
   if (group.lanes < 0) {
@@ -135,7 +135,7 @@ Energies EnergyMeter::eval(const step::System& system, const step::State& state)
   e.kinetic = sum.kinetic;
   e.strain = sum.strain;
   e.potential = -lanes::dot(field.around.gravity, sum.mass_moment);
-  // Elements tell momentum in the axes of the frame in which nodes are described.
+  // Elements give momentum in the axes of the frame in which nodes are described.
   e.momentum = field.observer == nullptr ? sum.momentum : turned(field.observer->pose.R, sum.momentum);
   return e;
 }

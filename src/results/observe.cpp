@@ -29,8 +29,8 @@ struct BeamPoint {
 
 using Series = lanes::Taylor<double, 1>;  ///< value and change to first order
 
-/// A port's motion, and how it changes with the increment eta (own axes of the node) that the node still lacks:  R' =
-/// R ~w, x' = R v.
+/// Motion of a port and its first-order change with the increment eta (in the node's own axes) that Newton's method has
+/// not yet applied to the node: R' = R ~w, x' = R v.
 PortMotion<Series> with_unsettled(const PortMotion<double>& p, const Port& port, const step::State& state) {
   PortMotion<Series> r;
   r.H.R = lanes::cast<Series>(p.H.R);
@@ -50,8 +50,8 @@ PortMotion<Series> with_unsettled(const PortMotion<double>& p, const Port& port,
   return r;
 }
 
-/// Adds the residual of an element to `sum`; in statics with what it lacks to first order, f + K eta, see
-/// step::System::settle.
+/// Adds the residual of an element to `sum`. In statics, first-order terms of the increment not yet applied are
+/// included, f + K eta; see step::System::settle.
 template <class E>
 void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& f, const step::State& state,
                           double* sum) {
@@ -74,8 +74,9 @@ void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& 
   for (int k = 0; k < n; ++k) sum[k] += change[k].c[1];
 }
 
-/// Wrenches of a beam element and its line loads on its first and last node, in section axes; out-of-element ends see
-/// (-first, last) as the section resultants: nodal equilibrium, one order more accurate than the strains.
+/// Wrenches of a beam element and its line loads on its first and last node, in section axes. The section resultants at
+/// the two ends are (-first, last): they follow from nodal equilibrium, and are one order more accurate than those from
+/// strains.
 template <class E>
 void eval_end_wrenches(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f,
                        const step::State& state, Vec6<double>& first, Vec6<double>& last) {
@@ -136,7 +137,7 @@ void with_beam_element(const plan::Plan& plan, int id, F&& f) {
   });
 }
 
-/// Where a sensor's point is.
+/// Motion of a sensor's point.
 PointMotion eval_sensor_point(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
   const Field f = system.field(state);
   if (s.beam < 0) return motion_of_port(s.port, f);
@@ -150,9 +151,9 @@ PointMotion eval_sensor_point(const step::System& system, const step::State& sta
   return point;
 }
 
-/// Curvature of the sectional force over an element, 1/2 d2f/ds2, from its strains at the strain points: elements of
-/// four nodes have three and hence one; those of fewer nodes none. (Strains elsewhere than at these points are less
-/// accurate.)
+/// Second-order term of the sectional force over an element, 1/2 d2f/ds2, from its strains at the strain points.
+/// Elements of four nodes have three such points and therefore this term; those of fewer nodes do not. (Strains at
+/// other points are less accurate.)
 template <class E>
 Vec6<double> eval_force_curvature(const E& e, const Field& f, const step::State& state) {
   constexpr int N = E::num_ports, P = E::num_strain_points;
@@ -188,8 +189,8 @@ Vec6<double> eval_force_curvature(const E& e, const Field& f, const step::State&
   }
 }
 
-/// Sectional force of an element at s in [0, 1]: nodal equilibrium at the ends, between them straight or as curved as
-/// the strains are.
+/// Sectional force of an element at s in [0, 1]: nodal equilibrium at the ends, and between them a straight line or the
+/// parabola that the strains give.
 struct ElementForce {
   Vec6<double> first, last, curvature;
   template <class E>
@@ -229,7 +230,7 @@ void eval_joint_sensor(const step::System& system, const step::State& state, con
       });
 }
 
-/// What sensors show of one state; one sweep over the elements serves all sensors of energies.
+/// Evaluates sensors of one state; one pass over the elements serves all sensors of energies.
 struct SensorReader {
   const step::System& system;
   const step::State& state;
@@ -369,7 +370,7 @@ void for_each_link(const plan::Plan& plan, const Visit& visit) {
   for (const plan::WeldPlan& weld : plan.welds) visit(weld.name, weld.first, weld.second);
 }
 
-/// What a load's element gives at a port, in the axes of the ground.
+/// Force and moment of a load's element at a port, in the axes of the ground.
 template <class E>
 records::Arrow arrow_at(const E& e, int port, const std::string& name, const Field& f) {
   records::Arrow arrow{name, {}, {}, {}, E::num_ports > 1};
@@ -381,8 +382,8 @@ records::Arrow arrow_at(const E& e, int port, const std::string& name, const Fie
   return arrow;
 }
 
-/// Point loads; several elements of one load at one place (components in axes that turn) are one arrow. Of line loads
-/// the ends and inner nodes of their elements; a node that two elements share one after the other once.
+/// Point loads. Several elements of one load at one place (components in rotating axes) become one arrow. Of line
+/// loads, an arrow at each node of their elements; a node shared by consecutive elements gets one.
 void add_arrows(const plan::Plan& plan, const Field& f, std::vector<records::Arrow>& arrows) {
   int last_node = elements::ground;
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
@@ -437,8 +438,8 @@ records::MotionFrame eval_motion(const step::System& system, const step::State& 
 
 namespace {
 
-/// What stands for a body without a shape: the cuboid of its mass and inertia where its axes are principal ones, edge
-/// a1^2 = 6 (J2 + J3 - J1) / m; else the sphere with the mean of its principal values. Nothing of a point mass.
+/// Shape drawn for a body without one: the cuboid of its mass and inertia if its axes are principal axes, edge a1^2 = 6
+/// (J2 + J3 - J1) / m; otherwise the sphere with the mean of its principal values. None for a point mass.
 std::optional<scene::BodyShape> stand_in(const scene::Body& body) {
   const Mat3<double>& J = body.inertia;
   const double trace = J(0, 0) + J(1, 1) + J(2, 2);
@@ -446,7 +447,7 @@ std::optional<scene::BodyShape> stand_in(const scene::Body& body) {
   const double off = std::max({std::abs(J(0, 1)), std::abs(J(0, 2)), std::abs(J(1, 2))});
   if (off > 1e-9 * trace) return scene::Sphere{std::sqrt(2.5 * trace / (3.0 * body.mass))};
   scene::Box box{};
-  constexpr double thinnest = 0.01;  // of the largest edge: what has no thickness is still seen
+  constexpr double thinnest = 0.01;  // of the largest edge, so that flat bodies remain visible
   double largest = 0.0;
   for (int i = 0; i < 3; ++i) {
     box.size[i] = std::sqrt(std::max(0.0, 6.0 * (trace - 2.0 * J(i, i)) / body.mass));
@@ -461,7 +462,8 @@ std::optional<scene::BodyShape> stand_in(const scene::Body& body) {
 records::MotionParts make_parts(const scene::Scene& scene, const step::System& system) {
   records::MotionParts parts;
   std::map<std::string, int> outline_of, body_of;
-  const int sides = intervals_of(system.plan()) < 4 ? 8 : 24;  // of round sections; of many, coarse ones
+  const int sides = intervals_of(system.plan()) < 4 ? 8 : 24;  // sides of round sections; fewer where there are many
+                                                               // elements
   for (const scene::Section& s : scene.sections) {
     outline_of[s.name] = static_cast<int>(parts.outlines.size());
     parts.outlines.push_back(scene::outline_of(s.shape ? *s.shape : scene::equivalent_rectangle(s.stiffness), sides));
@@ -476,7 +478,7 @@ records::MotionParts make_parts(const scene::Scene& scene, const step::System& s
     for (const int e : beam.elements) curve.subdomains.push_back(leaves[static_cast<std::size_t>(e)]);
     parts.curves.push_back(std::move(curve));
   }
-  // Copies of one part are told apart by their surfaces alone: equal ones are one.
+  // Copies of one part have equal surfaces, which are stored once.
   std::map<std::pair<std::vector<std::array<double, 3>>, std::vector<std::array<int, 3>>>, int> known;
   for (const scene::Body& b : scene.bodies) {
     int& surface = body_of.emplace(b.name, -1).first->second;

@@ -11,7 +11,7 @@ using motion::Vec6;
 
 namespace {
 
-/// Motion of b as seen from a, both given in the same third frame:
+/// Motion of b relative to a, both given in the same third frame:
 ///   H = H_a^-1 H_b,  v = v_b - c,  v' = v_b' - Ad(H^-1) v_a' + ad(v) c,  c = Ad(H^-1) v_a.
 PointMotion seen_from(const PointMotion& a, const PointMotion& b) {
   PointMotion r;
@@ -85,7 +85,7 @@ void append_split(const plan::SensorPlan& s, const Field& field, const PointMoti
   const motion::FrameChain chain(std::move(links));
   const motion::PointMotion watched{chain.last(), m.pose.x, m.velocity, m.acceleration};
   const motion::AccelerationParts parts = motion::acceleration_split(chain, watched, motion::From(0), motion::In(0));
-  // Inertial components into the axes asked for.
+  // Inertial components are transformed to the requested axes.
   const motion::Mat3<double> R = in_inertial(field, motion_of_port(s.frame, field)).pose.R;
   for (const motion::Resolved& part :
        {parts.local, parts.tangential, parts.coriolis, parts.centripetal, parts.razi, parts.origin, parts.total()})

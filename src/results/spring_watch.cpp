@@ -38,7 +38,7 @@ Vec3<double> SpringWatch::rate_of(const elements::Spring& e, const elements::Fie
   return b.H.R * lanes::linear_part(b.v) - a.H.R * lanes::linear_part(a.v);
 }
 
-/// Places alone tell most of it: velocities are looked at where the line has turned round, and at first.
+/// Positions decide most cases. Velocities are used where the line has reversed, and in the first call.
 void SpringWatch::look(const step::System& system, const step::State& state) {
   if (seen_.empty() || passed_ != nullptr) return;
   const elements::Field f = system.field(state);

@@ -14,10 +14,10 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto between_looks = 8ms;
-constexpr auto window = 40ms;       // counts begin anew
-constexpr auto probe = 16ms;        // likewise, right after a while of crowding
-constexpr long many_switches = 14;  // within a window, 350 a second; bursts of 11 come in quiet
-constexpr long many_in_probe = 5;   // less is asked for where it has just been so
+constexpr auto window = 40ms;       // after this time the count starts again
+constexpr auto probe = 16ms;        // as `window`, directly after a period of crowding
+constexpr long many_switches = 14;  // within a window: 350 per second; without other programs bursts of 11 occur
+constexpr long many_in_probe = 5;   // a lower limit, since there was crowding a moment ago
 constexpr Clock::duration shortest_while = 250ms, longest_while = 2s;
 
 long count_switches() {
@@ -26,7 +26,7 @@ long count_switches() {
   return usage.ru_nivcsw;
 }
 
-/// Until when the processors are taken to be crowded, for the whole process.
+/// The time until which the processors are assumed to be crowded, for the whole process.
 class While {
  public:
   Clock::time_point end() const {
@@ -36,7 +36,7 @@ class While {
 
   void begin(Clock::time_point now) {
     const std::lock_guard lock(mutex_);
-    if (now < end_) return;  // somebody else has just found the same
+    if (now < end_) return;  // another thread has just found the same
     length_ = now - end_ < 2 * window ? std::min(2 * length_, longest_while) : shortest_while;
     end_ = now + length_;
   }
@@ -61,7 +61,7 @@ bool Crowding::look() {
   const long switches = count_switches();
   const bool is_probe = now - while_crowded().end() < window;
   const bool counts =
-      switches_ >= 0 && !is_crowded_ && now - begin_ <= window + between_looks;  // longer: nobody looked
+      switches_ >= 0 && !is_crowded_ && now - begin_ <= window + between_looks;  // longer: nobody asked in the meantime
   if (counts && switches - switches_ >= (is_probe ? many_in_probe : many_switches)) while_crowded().begin(now);
   const bool was_crowded = std::exchange(is_crowded_, now < while_crowded().end());
   if (switches_ < 0 || is_crowded_ || was_crowded || now - begin_ >= (is_probe ? probe : window)) {

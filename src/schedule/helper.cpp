@@ -16,10 +16,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double share_of_time = 0.45;  // a little less than the half that is the helper's beside one other program
+constexpr double share_of_time = 0.45;  // a little less than the half that the helper gets beside one other program
 constexpr std::chrono::steady_clock::duration longest_burst = 500us;  // Linux lets a thread run for 0.7 to 3 ms
 constexpr auto wait_awake = 50us;                                     // about what it takes to be woken up
-constexpr auto longest_rest = 5ms;                                    // a hundred times that
+constexpr auto longest_rest = 5ms;                                    // a hundred times wait_awake
 
 template <class Condition>
 bool spin(Condition&& is_there) {
@@ -33,8 +33,8 @@ const tree::Subdomain& subdomain(const tree::Tree& tree, std::int64_t id) {
   return tree.subdomains[static_cast<std::size_t>(id)];
 }
 
-/// First sub-domain of the helper's half of a tree, the later children of the root. Halves are ranges, since
-/// sub-domains are in postorder.
+/// First sub-domain of the helper's half of a tree: it gets the later children of the root. Both halves are ranges,
+/// since sub-domains are in postorder.
 std::int64_t first_of_helper(const tree::Tree& tree) {
   const auto children = tree.children(subdomain(tree, tree.root()));
   const std::size_t mine = (children.size() + 1) / 2;
@@ -50,11 +50,11 @@ void visit_one(void* visit, std::int64_t k) {
 
 }  // namespace
 
-/// Where the helper runs: on any processor that it may use but the owner's.
+/// Places the helper on any processor that it may use, except the owner's.
 struct Helper::Places {
   std::thread::id owner;
 #ifdef __linux__
-  pid_t helper = 0;  ///< 0: has no choice
+  pid_t helper = 0;  ///< 0: the helper cannot choose its processor
   cpu_set_t usual{};
   int apart_from = -1;
 
@@ -86,7 +86,7 @@ Helper::~Helper() = default;
 
 bool Helper::call() {
   if (stage_ != Stage::absent) return false;
-  const std::lock_guard lock(mutex_);  // nobody serves
+  const std::lock_guard lock(mutex_);  // no thread serves
   places_->owner = std::this_thread::get_id();
   stage_ = Stage::called;
   return true;
@@ -113,7 +113,7 @@ void Helper::serve() {
       to_owner_.notify_one();
     } else if (!is_wanted && !is_sharing_ && stage_.compare_exchange_strong(stage = Stage::ready, Stage::absent)) {
       break;
-    }  // else it was taken back
+    }  // otherwise the owner has taken the work back
   }
   places_->end();
 }
@@ -153,7 +153,7 @@ void Helper::offer() {
   is_recalled_.store(false, std::memory_order_relaxed);
   {
     const std::lock_guard lock(mutex_);
-    if (stage_ != Stage::ready) return;  // it has just left
+    if (stage_ != Stage::ready) return;  // the helper has just left
     places_->keep_apart();
     stage_ = Stage::offered;
   }

@@ -45,10 +45,10 @@ struct Threads::State {
   tbb::task_arena arena;
   std::once_flag is_started;
   bool outnumbers_processors = false;
-  std::unique_ptr<tbb::global_control> allowance;  ///< more threads than the machine has need a permission
+  std::unique_ptr<tbb::global_control> allowance;  ///< oneTBB needs it for more threads than the machine has
 
-  /// The arena, with its threads. TBB takes a third of a millisecond to look at the machine: a run without tasks does
-  /// not ask for it.
+  /// Starts the arena with its threads if necessary. TBB takes a third of a millisecond to examine the machine, so a
+  /// run without tasks does not start it.
   tbb::task_arena& started() {
     std::call_once(is_started, [this] {
       outnumbers_processors = count > tbb::info::default_concurrency();
@@ -66,8 +66,8 @@ struct Threads::State {
   std::optional<Helper> helper;  ///< while the processors are crowded
   tbb::task_group serving;       ///< the task in which the helper serves
 
-  /// Between walks: settles whether there is a helper. Only two threads work with one: of more, some go on while one
-  /// has no processor.
+  /// Called between walks: decides whether there is a helper. It is used with two threads only: with more, the others
+  /// continue while one has no processor.
   void look_around() {
     tbb::task_arena& threads = started();
     if (count != 2 || is_walking) return;
@@ -77,7 +77,7 @@ struct Threads::State {
     if (helper->call()) threads.enqueue(serving.defer([this] { helper->serve(); }));
   }
 
-  /// Waits for the helper to leave; who waits takes up the task himself where nobody has.
+  /// Waits for the helper to leave. If no thread has taken up its task yet, the waiting thread runs it.
   void dismiss_helper() {
     if (!helper) return;
     helper->dismiss();
@@ -107,7 +107,7 @@ struct Threads::State {
     is_walking = false;
   }
 
-  /// Outside of a walk or inside of a visit.
+  /// For calls outside of walks or inside a visit.
   void share_chunks(std::int64_t count_items, std::int64_t grain, tree::Chunk chunk) {
     look_around();
     if (helper)
@@ -141,7 +141,8 @@ struct Threads::State {
     const auto list = tree.children(s);
     for (std::size_t c = 1; c < list.size(); ++c)
       children.run([this, &tree, id = list[c], visit] { visit_up(tree, id, visit); });
-    visit_up(tree, list.front(), visit);  // the first, as of chunks: so data mostly stay with one processor
+    visit_up(tree, list.front(), visit);  // the first child stays on this thread, as for chunks, so that data mostly
+                                          // stay with one processor
     children.wait();
     delay();
     visit.run(visit.context, top);
@@ -165,7 +166,7 @@ struct Threads::State {
 
   void run_chunks(std::int64_t count_items, std::int64_t grain, tree::Chunk chunk) {
     const std::int64_t chunks = (count_items + grain - 1) / grain;
-    // Isolated: who waits here inside of a visit takes no other visit meanwhile.
+    // Isolated: a thread that waits here inside a visit must not take up another visit.
     tbb::this_task_arena::isolate([&] {
       const auto run = [&](const tbb::blocked_range<std::int64_t>& range) {
         for (std::int64_t c = range.begin(); c < range.end(); ++c) {

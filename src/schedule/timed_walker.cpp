@@ -16,7 +16,7 @@ constexpr int most_threads = 1024;
 
 using Clock = std::chrono::steady_clock;
 
-/// Ticks of whatever is read fastest; how long one is follows from the steady clock over the whole watch.
+/// The counter that is fastest to read. The length of a tick is calibrated with the steady clock over the whole timing.
 std::uint64_t ticks() {
 #if defined(__x86_64__)
   return __builtin_ia32_rdtsc();
@@ -25,7 +25,7 @@ std::uint64_t ticks() {
 #endif
 }
 
-/// One visit of the walk at hand.
+/// One visit of the present walk.
 struct Record {
   std::uint64_t begin, last, end;
   std::array<std::uint64_t, num_stages> stage;
@@ -40,7 +40,7 @@ struct Watched {
 
 thread_local Record* current = nullptr;
 
-/// Place of the calling thread among those that walk; workers come and go, places stay.
+/// Index of the calling thread among those that have walked. Worker threads come and go, indices remain.
 int thread_number() {
 #ifdef BOUGH_HAS_TBB
   return std::clamp(tbb::this_task_arena::current_thread_index(), 0, most_threads - 1);
@@ -227,8 +227,8 @@ struct TimedWalker::State {
   std::int64_t events_left_out = 0;
   bool is_on = true;
   bool keeps_events = false;
-  bool is_walking = false;  ///< chunks that visits share out are part of these visits: not watched on their own
-  // Of the walk at hand.
+  bool is_walking = false;  ///< chunks inside visits count as part of these visits and are not timed separately
+  // State of the present walk.
   tree::Visit visit;
   tree::Chunk chunk;
   std::int64_t chunk_grain = 1;

@@ -23,7 +23,7 @@ double solver_figure(const records::Summary& summary, const std::string& name) {
 
 run::MemoryRun Bench::try_run(const scene::Scene& scene) {
   scene::Scene in_space =
-      scene;  // a plane would take away the redundant rows and soft directions that cases are made of
+      scene;  // the planar decision would remove the redundant rows and soft directions that are tested
   in_space.without.insert(in_space.without.end(), {"line", "translation", "planar"});
   require_memory(in_space);
   run::MemoryRun run =
@@ -37,7 +37,7 @@ run::MemoryRun Bench::try_run(const scene::Scene& scene) {
   result_.factorizations += s.steps.factorizations;
   result_.constraint_violation = std::max(result_.constraint_violation, s.checks.constraint_violation_position);
   condition(solver_figure(s, "condition_estimate"));
-  // A run that broke off may have met a singular matrix, which is then what it says.
+  // If the run ended early, a singular matrix may have been the reason, which is then reported instead.
   if (const double n = solver_figure(s, "unknowns"); n > 0.0 && run.ok())
     backward_error(s.checks.linear_backward_error_max, n);
   result_.rank_error = std::max(result_.rank_error, s.checks.linear_rank_error_max);
@@ -56,7 +56,7 @@ run::MemoryRun Bench::run(const scene::Scene& scene, const std::string& what) {
 
 void Bench::error(const std::string& name, double value, double limit) {
   figure(name, value, limit);
-  if (!(value <= result_.largest_error)) result_.largest_error = value;  // NaN stays
+  if (!(value <= result_.largest_error)) result_.largest_error = value;  // NaN is kept
 }
 
 void Bench::round_off_error(const std::string& name, double value, double limit) {

@@ -1,4 +1,4 @@
-/// Penalty factors and depths of the tree: what one LU of the whole gives, whatever the penalty.
+/// Penalty factors and depths of the tree: results must equal one LU of the whole matrix, whatever the penalty.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,8 @@ scene::Scene links(int count) {
   return s;
 }
 
-/// The solution in extended precision, refined; errors are measured in variables scaled here, not by the solver.
+/// The reference is the solution in extended precision, refined. Errors are measured in variables scaled independently
+/// of the solver.
 void all_depths(Bench& bench) {
   using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
@@ -55,7 +56,7 @@ void all_depths(Bench& bench) {
       s.solver.penalty_factor = std::pow(10.0, decade);
       const TangentMatrix t = tangent_matrix(s);
       bench.backward_error(t.backward_error, static_cast<double>(t.matrix.rows()));
-      // Depth and penalty leave the matrix as it is; only its sums may round otherwise.
+      // Depth and penalty do not change the matrix; only its sums may be rounded differently.
       const Eigen::VectorXd b = row.asDiagonal() * t.rhs;
       const LongVector b_long = b.cast<long double>();
       LongVector x = lu_long.solve(b_long);
@@ -74,7 +75,7 @@ void all_depths(Bench& bench) {
   bench.tell("largest error of one LU of the whole", lu_worst);
 }
 
-/// Whole runs do not change a bit with the penalty, since it is never added.
+/// The bits of whole runs do not depend on the penalty, since it is never added.
 void runs_are_the_same(Bench& bench) {
   scene::Scene s = links(2);
   s.solver.leaf_size = 2;

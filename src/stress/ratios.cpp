@@ -15,9 +15,9 @@ namespace {
 
 constexpr double tip_force = 2.0;  // P L^2 / EI of the soft half
 
-/// Two halves of a cantilever, the junction a node of the interface mesh of two sub-domains. The half that hardly
-/// bends is one element: each more would add springs of 1e12 times 1e3 in a row, and where it hangs on the soft half,
-/// what holds it is below their round-off.
+/// Two halves of a cantilever; their junction is a node of the interface mesh of two sub-domains. The half that hardly
+/// bends is one element. With more elements there would be springs of 1e12 times 1e3 in a row, and the support by the
+/// soft half would be below their round-off.
 scene::Scene halves(double first, double second) {
   const auto elements = [](double own, double other) { return own > other ? 1 : 8; };
   scene::Scene s;
@@ -61,7 +61,7 @@ void stiffness(Bench& bench, int depth) {
 void stiffness_in_scene(Bench& bench) { stiffness(bench, 0); }
 void stiffness_across_interface(Bench& bench) { stiffness(bench, 1); }
 
-/// Eight elements 1e12 as stiff on a soft half: what holds them is less than the round-off of their own springs.
+/// Eight elements 1e12 times as stiff on a soft half: their support is less than the round-off of their own stiffness.
 void beyond_round_off(Bench& bench) {
   scene::Scene s = halves(1.0, 1e12);
   s.beams[1].elements = 8;
@@ -93,7 +93,7 @@ scene::Scene welded_pendulum(int bodies, double light) {
   return s;
 }
 
-/// Steps h and h / 2 tell the integrator's error, of second order, from that of the masses.
+/// Steps h and h / 2 separate the integrator's error, of second order, from that of the masses.
 void mass_ratios(Bench& bench) {
   const int bodies = 12;
   const double end = 0.5, h = 2e-3;

@@ -1,5 +1,5 @@
-/// Sub-domains of every size and hold: floating ones, of one element, a hub of a thousand, a chain of a hundred
-/// thousand, one body.
+/// Sub-domains of all sizes and supports: floating ones, one element each, a hub of a thousand, a chain of a hundred
+/// thousand, a single body.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -21,7 +21,7 @@ double largest_difference(const run::MemoryRun& a, const run::MemoryRun& b, doub
   return most;
 }
 
-/// A free beam, thrown and spun: every sub-domain of it floats.
+/// A free beam, thrown and spun: all its sub-domains float.
 scene::Scene free_beam(int elements) {
   scene::Scene s;
   s.name = "free beam";
@@ -114,9 +114,9 @@ void hub(Bench& bench) {
   bench.error("displacement across the load", std::abs(run.final("hub.y")) * stiffness / F, 1e-7);
 }
 
-/// A bar of many elements, pulled at one end by a force that rises and falls smoothly: until the wave comes back the
-/// end moves as on a bar without end, u(t) = c / (E A) int F (d'Alembert). The chain hangs from nothing; its far end
-/// does not know yet.
+/// A bar of many elements, pulled at one end by a force that rises and falls smoothly. Until the wave returns, the end
+/// moves as on an infinite bar, u(t) = c / (E A) int F (d'Alembert). The chain is not supported; the wave has not
+/// reached its far end yet.
 void long_chain(Bench& bench) {
   const int elements = bench.shorten(100000, 10000);
   const double EA = 1e6, mass = 1.0, c = std::sqrt(EA / mass), length = 0.1, F = 10.0, rise = 40.0 * length / c;
@@ -151,9 +151,9 @@ void long_chain(Bench& bench) {
       static_cast<double>(run.summary.steps.newton_iterations) / static_cast<double>(run.summary.steps.accepted), 6.0);
 }
 
-/// Slender cantilevers of more and more elements. Shear and extension are EA L^2 / EI times as stiff as bending, n
-/// elements in a row give way n^2 times as easily as one: condition and lost digits go with their product. Where
-/// digits are gone, the run says so.
+/// Slender cantilevers of more and more elements. Shear and extension are EA L^2 / EI times as stiff as bending, and n
+/// elements in a row are n^2 times as flexible as one. Condition and lost digits grow with the product. Where digits
+/// are lost, the run has to report it.
 void long_chain_statics(Bench& bench) {
   const int most = bench.shorten(100000, 10000);
   const double EA = 1e10, GA = 5e9, EI = 100.0, F = 1e-6;
@@ -201,8 +201,8 @@ void one_body(Bench& bench) {
   s.analysis.end_time = 5.0;
   s.analysis.step_size = 0.01;
   s.analysis.tolerance = 1e-12;
-  // Parallel to the spin, gravity and velocity look the same from the body: the scheme is exact. Across it,
-  // velocities turn in the body's axes.
+  // Parallel to the spin, gravity and velocity are constant in the body's axes, and the scheme is exact. Across it,
+  // velocities rotate in the body's axes.
   s.initial_velocities[0].velocity = {{0.0, 0.0, 30.0}};
   const run::MemoryRun run = bench.run(s);
   const double t = s.analysis.end_time;

@@ -19,10 +19,10 @@ RodPiece rod_of(double slenderness) {
   return {1.0, EA, shear_ratio * EA, 1.0, 0.0, 0.0};
 }
 
-/// Ten elements of order 3 are near the elastica by 1e-9. More are not better where the beam is slender: shear and
-/// extension are GA L^2 / EI times as stiff as bending, n elements in a row give way n^2 times as easily as one, and
-/// the tangent's condition is about the product. At L/h = 1e6 it is 6e15 here; from 20 elements on it passes 1/u,
-/// bending cannot be told from free motion, and the run says that nothing holds the beam.
+/// Ten elements of order 3 reproduce the elastica to 1e-9. For a slender beam more elements are no better: shear and
+/// extension are GA L^2 / EI times as stiff as bending, n elements in a row are n^2 times as flexible as one, and the
+/// tangent's condition is about the product. At L/h = 1e6 it is 6e15 here. From 20 elements on it exceeds 1/u, bending
+/// cannot be distinguished from free motion, and the run reports that the beam is unsupported.
 scene::Scene cantilever(double slenderness) {
   const RodPiece r = rod_of(slenderness);
   scene::Scene s = scene::make_cantilever(scene::make_section("s", r.EA, r.GA, r.GA, 0.8, 1.0, 1.0), 1.0, 10, 3);
@@ -41,7 +41,8 @@ void displacement(Bench& bench) {
     const run::MemoryRun run = bench.run(cantilever(slenderness), label(slenderness));
     bench.error("tip at " + label(slenderness), std::hypot(run.final("tip.x") - exact.x, run.final("tip.y") - exact.y),
                 1e-8);
-    // Elliptic integrals, no shear or extension: what these add is of order (h/L)^2, 1/12 in the strain times the load.
+    // Elliptic integrals, without shear and extension: their effect is of order (h/L)^2, 1/12 in the strain times the
+    // load.
     if (k == slenderness_count)
       bench.error("reference against the limit of no thickness", std::abs(exact.y - .713791523611912728), 1e-10);
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double spin = 1e4;  ///< [rad/s]
 
-/// A rotor in a bearing, about an axis that is none of its frame's: one radian a step.
+/// A rotor in a bearing whose axis is none of the axes of its frame, at one radian per step.
 void bearing(Bench& bench) {
   scene::Scene s;
   s.name = "rotor";
@@ -62,7 +62,8 @@ void precession(Bench& bench) {
   s.sensors = {scene::make_point_sensor("top", scene::SensorKind::position, "top")};
   s.analysis.end_time = bench.shorten(0.1, 0.01);
   s.analysis.tolerance = 1e-11;
-  // 0.02 rad a step, and half of that: the error of the scheme is C h^2 and grows as the top nutates, 8 times a second.
+  // 0.02 rad per step, and half of that: the error of the scheme is C h^2 and grows as the top nutates, 8 times a
+  // second.
   run::MemoryRun runs[2];
   for (int k = 0; k < 2; ++k) {
     s.analysis.step_size = k == 0 ? 2e-6 : 1e-6;

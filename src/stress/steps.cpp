@@ -26,8 +26,8 @@ constexpr double start_angle = -0.7;
 /// Rate after a swing from rest at the horizontal.
 double rate_at(double angle) { return -std::sqrt(-2.0 * gravity * std::sin(angle)); }
 
-/// Let go at the horizontal; here it is met on its way, where no component of place, rate and force is zero: these
-/// would have no round-off.
+/// Released from rest at the horizontal. The run begins during the swing, where no component of position, rate and
+/// force is zero; zeros would have no round-off.
 scene::Scene pendulum(double h, int steps) {
   const Vec3 place{{std::cos(start_angle), std::sin(start_angle), 0.0}};
   const double rate = rate_at(start_angle);
@@ -57,7 +57,7 @@ struct Errors {
   double place = 0.0, rate = 0.0, force = 0.0;  ///< relative to 1 m, the largest rate, the largest force 3 m g
 };
 
-/// Errors at the end, and their largest over the last rows where the closed form is followed step by step.
+/// Errors at the end, and their maximum over the last rows, where the closed form is compared step by step.
 Errors errors_of(Bench& bench, double h, int steps, int watched) {
   const run::MemoryRun run = bench.run(pendulum(h, steps), "h = " + io::rounded_text(h, 3));
   const double largest_rate = std::sqrt(2.0 * gravity);
@@ -77,8 +77,8 @@ Errors errors_of(Bench& bench, double h, int steps, int watched) {
   return worst;
 }
 
-/// What places that are off by e each may do to rates and forces: at most rate e / h and force m e / h^2. Sums over
-/// the answers of generalized-alpha to a single place that is off by one, where places are given by a constraint.
+/// Largest effect of position errors of size e on rates and forces: at most rate e / h and force m e / h^2. Sums over
+/// the responses of generalized-alpha to a single wrong position, where positions are prescribed by a constraint.
 struct Amplification {
   double rate = 0.0, force = 0.0;
 };
@@ -99,8 +99,8 @@ Amplification amplification(double rho) {
   return sum;
 }
 
-/// Truncation is C (h/T)^2, round-off of a place x leaves u |x| / h in velocities and u m |x| / h^2 in forces: C from
-/// steps where only it shows, the floors from steps so small that they alone show.
+/// The truncation error is C (h/T)^2. The round-off of a position x leaves u |x| / h in velocities and u m |x| / h^2 in
+/// forces. C is measured at steps where it dominates, the floors at steps so small that they dominate.
 void floors(Bench& bench) {
   const double T = swing;
   const Errors resolved = errors_of(bench, 1e-2 * T, 50, 20);
@@ -115,7 +115,7 @@ void floors(Bench& bench) {
   bench.error("rate at h = 1e-4 T", small.rate, 4.0 * C_rate * 1e-8 + most.rate * unit_round_off / h / largest_rate);
   bench.error("force at h = 1e-4 T", small.force,
               4.0 * C_force * 1e-8 + most.force * unit_round_off / (h * h) / (3.0 * gravity));
-  // Far below: the floors, in units of u |x| / h and u m |x| / h^2.
+  // Very small steps: the floors, in units of u |x| / h and u m |x| / h^2.
   const double tiny = 1e-7 * T;
   const Errors floor = errors_of(bench, tiny, 200, 150);
   const double rate_floor = floor.rate * largest_rate * tiny / unit_round_off,
@@ -123,15 +123,16 @@ void floors(Bench& bench) {
   bench.figure("floor of rates at h = 1e-7 T over u |x| / h", rate_floor, most.rate);
   bench.figure("floor of forces at h = 1e-7 T over u m |x| / h^2", force_floor, most.force);
   bench.error("place at h = 1e-7 T", floor.place, 1e3 * unit_round_off);
-  // The h at which floor and truncation are equal: C (h/T)^2 = f u / h, g u / h^2.
+  // The step h at which floor and truncation error are equal: C (h/T)^2 = f u / h, g u / h^2.
   bench.tell("h/T below which round-off rules rates",
              std::cbrt(rate_floor * unit_round_off / largest_rate / (C_rate * T)));
   bench.tell("h/T below which round-off rules forces",
              std::pow(force_floor * unit_round_off / (3.0 * gravity) / (C_force * T * T), 0.25));
 }
 
-/// The same pendulum on a stiff spring, which vibrates along it: steps below and above the smallest period, far below
-/// the swing's. The spring starts longer than it would swing, so that there is a vibration which could grow.
+/// The same pendulum on a stiff spring, which vibrates along its line. Steps are below and above the smallest period,
+/// and far below that of the swing. The spring starts longer than in the swing, so that there is a vibration that could
+/// grow.
 void large_steps(Bench& bench) {
   const double w = 1e4, stretch = 1e-6, period = 2.0 * M_PI / w;  // m = 1 kg
   const int steps = bench.shorten(20000, 2000);
@@ -156,15 +157,15 @@ void large_steps(Bench& bench) {
       off = std::max(off, std::abs(std::hypot(x, y) - 1.0));
       energy = std::max(energy, 0.5 * (vx * vx + vy * vy) + gravity * y);
     }
-    // The spring's stretch and what it holds, at most 3 m g, as a load that comes at once: twice that.
+    // The spring's stretch and its force, at most 3 m g, as for a suddenly applied load: twice that.
     const std::string label = ", h/T = " + io::rounded_text(ratio, 2);
     bench.figure("distance from the circle" + label, off, 2.0 * (stretch + 3.0 * gravity / (w * w)));
     bench.figure("energy gained over m g L" + label, energy / gravity, 1e-2);
   }
 }
 
-/// A swing in steps of its own period and more cannot be followed. Places stay on the circle all the same, and the
-/// run says so.
+/// A swing cannot be resolved by steps of its own period and more. Positions nevertheless remain on the circle, and the
+/// run reports the problem.
 void unresolved_swing(Bench& bench) {
   for (const double ratio : {1.0, 3.0, 10.0}) {
     const run::MemoryRun run = bench.try_run(pendulum(ratio * swing, bench.shorten(2000, 300)));
@@ -192,9 +193,9 @@ double spectral_radius_of(double rho, double w_h) {
   return step.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-/// Largest root of the recursion x_{k+3} = c_2 x_{k+2} + c_1 x_{k+1} + c_0 x_k that a history obeys, by least squares
-/// over rows of equal weight. (Its decay over many steps tells less: where the step is long all three roots meet, and
-/// x_k goes as k^2 rho^k.)
+/// Largest root of the recursion x_{k+3} = c_2 x_{k+2} + c_1 x_{k+1} + c_0 x_k that a history satisfies, by least
+/// squares over rows of equal weight. (The decay over many steps is less informative: for long steps all three roots
+/// coincide, and x_k behaves like k^2 rho^k.)
 double measured_radius(const std::vector<double>& x, std::size_t first, std::size_t rows) {
   Eigen::MatrixXd A(static_cast<Eigen::Index>(rows), 3);
   Eigen::VectorXd b(A.rows());
@@ -211,8 +212,8 @@ double measured_radius(const std::vector<double>& x, std::size_t first, std::siz
   return companion.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-/// A mass on a linear spring, pushed and let go: what its places obey from step to step has the largest eigenvalue of
-/// the scheme as its root.
+/// A mass on a linear spring, displaced and released: the recursion of its positions has the largest eigenvalue of the
+/// scheme as a root.
 void spectral_radius(Bench& bench) {
   const double w = 100.0, period = 2.0 * M_PI / w;
   for (const double rho : {0.0, 0.5, 0.8, 0.95, 1.0})
@@ -237,7 +238,7 @@ void spectral_radius(Bench& bench) {
       const run::MemoryRun run = bench.run(s);
       const double measured = measured_radius(run.series("mass.x"), 1, 12);
       const std::string label = "rho = " + io::rounded_text(rho, 2) + ", h/T = " + io::rounded_text(ratio, 3);
-      // Three roots that meet are known to the cube root of round-off.
+      // A triple root is determined only to the cube root of round-off.
       bench.error(label, std::abs(measured - spectral_radius_of(rho, w * ratio * period)),
                   std::cbrt(2.0 * unit_round_off));
       if (ratio > 1e3) bench.error("from the limit, " + label, std::abs(measured - rho), 1e-2);

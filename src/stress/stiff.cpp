@@ -57,7 +57,7 @@ void andrews(Bench& bench) {
   }
   double fine = 0.0, extrapolated = 0.0, size = 0.0;
   for (std::size_t r = 1; r < exact.times.size() && exact.times[r] <= end + 1e-12; ++r) {
-    const double e = exact.rows[r][exact.column("beta")] + 0.062;  // bough measures from the start
+    const double e = exact.rows[r][exact.column("beta")] + 0.062;  // bough measures angles from the initial position
     const double a = value_at(runs[0], "beta", exact.times[r]), b = value_at(runs[1], "beta", exact.times[r]);
     fine = std::max(fine, std::abs(b - e));
     extrapolated = std::max(extrapolated, std::abs(b + (b - a) / 3.0 - e));
@@ -100,11 +100,11 @@ void bushings(Bench& bench) {
   for (int decade = 5; decade <= 12; ++decade) {
     const double k = std::pow(10.0, decade);
     const run::MemoryRun run = bench.run(two_bars(k), "bushing of 1e" + std::to_string(decade));
-    double worst = 0.0;  // by time: steps that are cut and regrown leave rows in between
+    double worst = 0.0;  // by time: steps that are cut and grow again add rows in between
     for (const records::HistoryRow& row : ideal.rows)
       worst = std::max(worst, std::hypot(value_at(run, "lower.x", row.time) - row.values[0],
                                          value_at(run, "lower.y", row.time) - row.values[1]));
-    // The bushing gives way by (forces of some ten newtons) / k, and the motion carries it on.
+    // The bushing deflects by (forces of some ten newtons) / k, and the motion carries the deflection on.
     bench.error("against the ideal joint, 1e" + std::to_string(decade) + " N/m", worst, 2e2 / k + 2e-5);
   }
 }

@@ -1,4 +1,4 @@
-/// The table as a whole: which cases there are, how they are run, judged and written.
+/// The table as a whole: its cases, and how they are run, judged and written.
 #include <time.h>
 
 #include <algorithm>
@@ -70,7 +70,7 @@ StressCase run_case(const Definition& definition, bool is_quick, double memory_l
   result.status = !holds                                         ? StressStatus::fails
                   : definition.expected == StressStatus::refused ? StressStatus::refused
                                                                  : StressStatus::holds;
-  // A case listed as failing says so by itself; one that should be refused and is not, fails.
+  // A case that is expected to fail fails by its figures; one that should be refused but is not, fails.
   if (holds && definition.expected == StressStatus::refused && result.refusal.empty())
     result.status = StressStatus::holds;
   const std::string words = result.measured;
@@ -133,7 +133,7 @@ std::vector<StressCase> run_stress(
       if (is_stopped && is_stopped()) return;
       const std::size_t k = order[place];
       results[k] = run_case(table[k], options.quick, memory_limit, is_stopped);
-      if (is_stopped && is_stopped()) return;  // it may have been cut short
+      if (is_stopped && is_stopped()) return;  // it may have been interrupted
       const std::lock_guard<std::mutex> lock(telling);
       is_done[k] = 1;
       if (on_case) on_case(results[k], ++done, table.size());

@@ -25,7 +25,7 @@ TangentMatrix tangent_matrix(const scene::Scene& scene) {
       return false;
     }
     if (failed(system.evaluate(state, slopes, true)) || failed(system.linear().factor(true, slopes))) return false;
-    const auto n = static_cast<Eigen::Index>(system.linear().tree().num_unknowns());  // of the solver
+    const auto n = static_cast<Eigen::Index>(system.linear().tree().num_unknowns());  // of the linear system
     t.matrix.resize(n, n);
     Eigen::VectorXd unit = Eigen::VectorXd::Zero(n);
     for (Eigen::Index j = 0; j < n; ++j) {

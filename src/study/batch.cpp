@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int poll_milliseconds = 20;
-constexpr double least_grace = 2.0, part_of_limit = 0.1;  // wall time to end by itself past the time limit [s], [-]
+constexpr double least_grace = 2.0, part_of_limit = 0.1;  // wall time that a case gets to end by itself after its time
+                                                          // limit [s], [-]
 
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -32,7 +33,7 @@ CaseStatus status_of(int code) {
   return code == 0 ? CaseStatus::ok : code == 2 ? CaseStatus::bad_input : CaseStatus::failed;
 }
 
-/// What is kept of a case that was killed, in words. rows: of its history, where it went to no folder.
+/// Describes the results that remain of a case that was killed. rows: of its history, if it has no folder.
 std::string kept_rows(const BatchCase& which, std::string_view rows) {
   try {
     if (const std::optional<fs::path> kept = io::RunDirectory::keep_rows_of_killed(which.directory))
@@ -44,7 +45,7 @@ std::string kept_rows(const BatchCase& which, std::string_view rows) {
   }
 }
 
-/// Of a case that its worker told of.
+/// Result of a case that its worker has reported.
 CaseResult result_of(const BatchCase& which, const WorkerAnswer& answer, double seconds, bool is_late) {
   CaseResult result;
   result.which = which;
@@ -66,7 +67,7 @@ CaseResult result_of(const BatchCase& which, const WorkerAnswer& answer, double 
   return result;
 }
 
-/// Of a case whose worker has ended without a word. resident: memory that it was killed for; 0: it was not.
+/// Result of a case whose worker has ended without a report. resident: memory for which it was killed; 0: it was not.
 CaseResult result_of_ended(const BatchCase& which, int wait_status, double seconds, bool is_late, double resident,
                            std::string_view rows) {
   CaseResult result;
@@ -79,7 +80,7 @@ CaseResult result_of_ended(const BatchCase& which, int wait_status, double secon
                    " MB of memory, which is more than it may; " + kept_rows(which, rows);
     return result;
   }
-  result.report.is_unwritten = !WIFSIGNALED(wait_status) && !is_late;  // it could not tell of its end
+  result.report.is_unwritten = !WIFSIGNALED(wait_status) && !is_late;  // it could not report its end
   const std::string how = WIFSIGNALED(wait_status) ? "signal " + std::to_string(WTERMSIG(wait_status))
                                                    : "status " + std::to_string(WEXITSTATUS(wait_status));
   result.cause = (is_late ? "killed at the time limit, since it did not stop by itself; " : "ended by " + how + "; ") +
@@ -132,7 +133,7 @@ CaseResult not_started(const BatchCase& which, const std::string& why) {
   return result;
 }
 
-/// One batch as it goes.
+/// A batch in progress.
 class Batch {
  public:
   Batch(const std::vector<BatchCase>& cases, const BatchOptions& options, const RunCase& run_case, const CaseDone& done)
@@ -163,11 +164,11 @@ class Batch {
   }
 
  private:
-  /// Threads that a case gets: as many as it asks for, but never more than there are.
+  /// Number of threads of a case: as many as it asks for, but never more than there are.
   int threads_of(std::size_t which) const { return std::clamp(cases_[which].threads, 1, options_.threads); }
 
-  /// Gives the next case to a worker; false where all threads are busy, or as many as it asks for. Cases do not
-  /// overtake it, for it would wait for ever.
+  /// Gives the next case to a worker. False if all threads are busy, or if fewer are free than the case asks for. Later
+  /// cases do not overtake it, since it might then wait forever.
   bool hand_out() {
     if (num_busy_threads_ + threads_of(order_[next_]) > options_.threads) return false;
     auto idle = std::find_if(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.is_busy(); });
@@ -176,7 +177,7 @@ class Batch {
       try {
         workers_.emplace_back(cases_, run_case_, workers_);
       } catch (const std::system_error& error) {
-        if (!workers_.empty()) return false;  // fewer do as well
+        if (!workers_.empty()) return false;  // the batch continues with fewer workers
         const std::size_t which = order_[next_++];
         finish(which, not_started(cases_[which], error.code().message()));
         return true;
@@ -185,7 +186,7 @@ class Batch {
     }
     if (!idle->give(order_[next_])) {
       workers_.erase(idle);
-      return true;  // to another one
+      return true;  // the case goes to another worker
     }
     num_busy_threads_ += threads_of(order_[next_]);
     ++next_;
@@ -204,7 +205,7 @@ class Batch {
     done_(results_[which], ++num_done_, cases_.size());
   }
 
-  /// True where a case has ended.
+  /// True if a case has ended.
   bool collect() {
     bool any_ended = false;
     for (std::size_t k = 0; k < workers_.size();) {
@@ -223,7 +224,7 @@ class Batch {
                              : result_of_ended(cases_[which], w.reap(), seconds, is_late, w.killed_for_memory(),
                                                rows_to_keep(w)));
       }
-      // One that was told to stop would stop what it runs next, too.
+      // A worker that was told to stop would stop its next case as well.
       if (has_ended || (w.was_asked_to_stop() && !w.is_busy())) {
         workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(k));
         continue;
@@ -234,7 +235,7 @@ class Batch {
     return any_ended;
   }
 
-  /// A case past its limit of time is asked to stop, and its worker killed when it has had time to.
+  /// Asks a case beyond its time limit to stop, and kills its worker if it does not end in time.
   void keep_to_limits(Worker& w) const {
     const double limit = options_.time_limit;
     if (w.is_busy() && options_.resident_limit > 0.0) w.kill_above(options_.resident_limit);
@@ -243,7 +244,7 @@ class Batch {
     if (!w.was_killed() && w.seconds() > limit + std::max(least_grace, part_of_limit * limit)) w.kill();
   }
 
-  /// Waits until a worker tells something, but no longer than limits are looked at.
+  /// Waits until a worker reports, at most until limits are checked again.
   void wait() const {
     std::vector<pollfd> pipes;
     for (const Worker& w : workers_) pipes.push_back({w.pipe(), POLLIN, 0});

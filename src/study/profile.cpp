@@ -65,7 +65,7 @@ VisitMedians find_medians(const WalkTimes& times, const std::vector<solve::Visit
   const schedule::ChunkTimes& c = times.chunks[of(Work::evaluate)];
   if (c.count == 0) return m;
   std::size_t visit = 0;
-  for (std::size_t chunk = 0; chunk < c.chunk.size(); ++chunk) {  // both go over the batches in order
+  for (std::size_t chunk = 0; chunk < c.chunk.size(); ++chunk) {  // both are in the order of the batches
     const auto begin = static_cast<std::int64_t>(chunk) * c.grain;
     const std::int64_t end = std::min(begin + c.grain, static_cast<std::int64_t>(visits.back().batch_end));
     for (std::int64_t b = begin; b < end; ++b) {
@@ -76,7 +76,7 @@ VisitMedians find_medians(const WalkTimes& times, const std::vector<solve::Visit
   return m;
 }
 
-/// What the look at the system after the run has found.
+/// Results of examining the system after the run.
 struct Found {
   tree::Tree tree;
   solve::VisitShapes shapes;
@@ -162,7 +162,7 @@ void fill_events(const WatchedRun& run, records::Profile& out) {
   }
 }
 
-/// Means over the steps that were watched, the start left out; total and rest are those of medians.
+/// Means over the timed steps, without the start; total and rest are based on medians.
 records::StepProfile mean_step(const WatchedRun& run, std::size_t num_visits) {
   records::StepProfile s;
   const auto n = static_cast<double>(std::max<std::size_t>(run.watched.size(), 1));
@@ -204,7 +204,7 @@ double measured_solution(const WatchedRun& run, std::size_t num_visits) {
   return sum;
 }
 
-/// What other numbers of threads would take, from visits that ran on one.
+/// Predicts the times for other numbers of threads from visits that ran on one thread.
 void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun& alone, records::Profile& out) {
   constexpr double grain = schedule::Threads::usual_grain_flops;
   const std::vector<int> threads{1, 2, 4, 8, 16, 32, 64};
@@ -227,7 +227,7 @@ void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun
   const auto chunks =
       static_cast<double>(std::max<std::size_t>(alone.times.chunks[of(Work::evaluate)].chunk.size(), 1));
   for (records::ThreadsProfile& r : rows) {
-    const double rounds = std::ceil(chunks / r.threads);  // equal chunks go in rounds
+    const double rounds = std::ceil(chunks / r.threads);  // equal chunks are processed in rounds
     r.predicted_step += step.rest + (step.evaluate + step.other_chunks) * rounds / chunks;
   }
   out.total = rows.front().predicted;
@@ -246,7 +246,7 @@ std::string cannot_profile(const scene::Scene& scene) {
 records::Profile profile(const scene::Scene& given, const ProfileOptions& options, records::Recorder& recorder,
                          const run::ProgressCallback& progress) {
   scene::Scene scene = given;
-  scene.without.push_back("small");  // the threads that are asked for are looked at, whether they pay or not
+  scene.without.push_back("small");  // times are wanted for the requested number of threads, whether they pay or not
   records::Profile out;
   out.scene = scene.name;
   out.title = scene.title;

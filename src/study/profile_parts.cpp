@@ -11,7 +11,7 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 std::array<double, 3> point_of(const motion::Vec3<double>& x) { return {x[0], x[1], x[2]}; }
 
-/// Where a port is, and before it where its node is (once where both are the same).
+/// Adds the position of a port, preceded by that of its node (once if both are equal).
 void add_port(const plan::Plan& plan, const elements::Port& port, bool node_last,
               std::vector<std::array<double, 3>>& points) {
   const motion::Frame<double> node =
@@ -40,7 +40,7 @@ void add_part(const plan::Plan& plan, const E& e, int leaf, records::Profile& ou
     add_port(plan, e.ports[0], false, part.points);
     add_port(plan, e.ports[1], true, part.points);
   } else {
-    return;  // loads have no shape of their own
+    return;  // loads are not drawn
   }
   out.parts.push_back(std::move(part));
 }

@@ -17,7 +17,7 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
   std::vector<std::pair<std::uint64_t, std::uint64_t>> marks;  // begin and end of steps
   long tried = 0;
   bool is_watched = true;
-  const long first_kept = options.steps >= 3 ? 3 : 1;  // the first steps find caches and pages cold
+  const long first_kept = options.steps >= 3 ? 3 : 1;  // caches and pages are cold in the first steps
   run::SimulateOptions simulate_options;
   simulate_options.threads = options.threads;
   simulate_options.want_motion = options.want_motion;

@@ -12,12 +12,12 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// Tasks of a walk as a tree of their own; parents before children.
+/// Tasks of a walk as a tree; parents before children.
 struct Task {
   int parent = -1;
   double seconds = 0.0;
   double remaining = 0.0;  ///< longest sum along what depends on it, itself included
-  int open = 0;            ///< tasks that must be done before
+  int open = 0;            ///< number of tasks that have to be done before
 };
 
 std::vector<Task> cut_into_tasks(const tree::Tree& walk, const std::vector<double>& seconds, double grain_flops) {
@@ -42,7 +42,7 @@ std::vector<Task> cut_into_tasks(const tree::Tree& walk, const std::vector<doubl
 
 double critical_path(const tree::Tree& walk, const std::vector<double>& seconds) {
   std::vector<double> path(seconds.size(), 0.0);
-  for (std::size_t v = 0; v < seconds.size(); ++v) {  // children stand before their parents
+  for (std::size_t v = 0; v < seconds.size(); ++v) {  // children come before their parents
     path[v] += seconds[v];
     const tree::SubdomainId parent = walk.subdomains[v].parent;
     if (parent != tree::none) path[at(parent)] = std::max(path[at(parent)], path[v]);

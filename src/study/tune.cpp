@@ -18,8 +18,8 @@ namespace {
 using scene::Solver;
 using scene::SolverKind;
 
-constexpr double too_slow = 2.5;     // times the fastest of the first round
-constexpr double least_gain = 0.02;  // less is noise, or not worth a change
+constexpr double too_slow = 2.5;     // relative to the fastest of the first round
+constexpr double least_gain = 0.02;  // a smaller gain is noise, or not worth a change
 constexpr int least_rounds = 3;
 
 double median_of(std::vector<double> values) {
@@ -101,7 +101,7 @@ class Tuner {
   }
 
  private:
-  /// Adds a candidate unless its tree is that of another one.
+  /// Adds a candidate unless another one has the same tree.
   void add(Solver solver) {
     Shape shape;
     if (has_tree(solver.kind)) {
@@ -146,7 +146,7 @@ class Tuner {
     }
   }
 
-  /// One run of every candidate that is still in; false: asked to stop.
+  /// Runs every remaining candidate once; false if asked to stop.
   bool run_round() {
     for (TuneCandidate& c : list_)
       if (c.failure.empty() && !run_one(c)) return false;
@@ -164,7 +164,7 @@ class Tuner {
     return !progress_ || progress_(done_, std::max(done_, options_.rounds * static_cast<int>(open)));
   }
 
-  /// Tasks cost something where a tree is small: the fastest tree is tried without.
+  /// Tasks cost more than they gain in a small tree: the fastest tree is also tried without them.
   bool propose_without_tasks() {
     if (options_.threads == 1) return true;
     const TuneCandidate* best = nullptr;
@@ -205,7 +205,7 @@ class Tuner {
     for (std::size_t k = 0; k < list_.size(); ++k) {
       const TuneCandidate& c = list_[k];
       if (c.is_present || !c.failure.empty() || c.seconds.empty()) continue;
-      if (!present->failure.empty() || present->seconds.empty()) {  // what the scene asks for does not run
+      if (!present->failure.empty() || present->seconds.empty()) {  // the scene's own options fail
         result.best = k;
         break;
       }

@@ -11,7 +11,7 @@ namespace bough::tree {
 
 namespace {
 
-/// Separators looked for before the one of least predicted cost is taken. Small sets are many and decide little.
+/// Number of separators that are compared by predicted cost. Small sets are frequent and matter little.
 constexpr int most_trials = 8, few_trials = 3, small_set = 200;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -162,7 +162,7 @@ int Bisector::centroid_block(const std::vector<int>& elements, const Pieces& pie
         most = std::max(most, w);
       }
       most = std::max(most, total - sum);
-      // Balance first, but a block of half the size may be worth a tenth of imbalance.
+      // Balance decides first, but halving the size of the block may be worth a tenth of imbalance.
       const double score = most / total + 0.02 * adjacency_.size_of(b);
       if (best < 0 || score < best_score - 1e-12 || (score < best_score + 1e-12 && b < best)) {
         best = b;
@@ -301,7 +301,8 @@ Cut Bisector::deal_out(const std::vector<int>& elements, const Pieces& pieces) c
   Cut result;
   for (std::size_t i = 0; i < elements.size(); ++i)
     result.side[side_of[at(pieces.of_element[i])]].push_back(elements[i]);
-  if (result.side[0].empty() || result.side[1].empty()) {  // nothing separates: any halves are a valid cut of elements
+  if (result.side[0].empty() || result.side[1].empty()) {  // there is no separator: any two halves are a valid cut of
+                                                           // the elements
     const auto half = static_cast<std::ptrdiff_t>(elements.size() / 2);
     result.side[0].assign(elements.begin(), elements.begin() + half);
     result.side[1].assign(elements.begin() + half, elements.end());

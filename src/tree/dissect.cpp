@@ -19,7 +19,7 @@ std::size_t choose_leaf_size(const Adjacency& adjacency, const std::vector<int>&
   double flops = 0.0;
   for (int e : elements) flops += 1.6 * std::pow(adjacency.unknowns_of(e), 3.0);
   const double mean = count > 0.0 ? std::max(1.0, flops / count) : 1.0;
-  // Two groups of eight leaves in lockstep at least, where there is enough to cut.
+  // At least two groups of eight leaves in lockstep, if there are enough elements.
   constexpr double least = 4.0, largest = 4096.0;
   const double most = options.in_lockstep ? std::clamp(count / 12.0, 5.0, largest) : largest;
   return static_cast<std::size_t>(std::clamp(options.target_leaf_flops / mean, least, most));

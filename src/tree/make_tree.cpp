@@ -126,10 +126,11 @@ class Builder {
     return path;
   }
 
-  /// Leaves of a chain are swept from their first block to their last, the two at its ends as if they lay in the
-  /// middle: then all are alike and can be factored in lockstep, where a few operations more in two of them cost
-  /// nothing. For that the free end of the chain is eliminated with the separator above. Where most leaves are held
-  /// at one end (arms of a star), minimum degree sweeps them without fill.
+  /// Leaves of a chain are swept from their first block to their last, those at the two ends of the chain in the same
+  /// way as the inner ones. All leaves are then alike and can be factored in lockstep, where the few additional
+  /// operations in two of them cost nothing. For that purpose the free end of the chain is eliminated with the
+  /// separator above. If most leaves are held at one end only (arms of a star), minimum degree sweeps them without
+  /// fill.
   void choose_sweeps() {
     constexpr std::size_t shortest = 3;
     constexpr int least_leaves = 6;
@@ -183,7 +184,7 @@ class Builder {
     for (int c : p.children) elements_below(c, elements);
   }
 
-  /// A leaf ends in one top group; a group without eliminated blocks joins what would otherwise be several.
+  /// A leaf has to end in one top group. If there are several, a group without eliminated blocks joins them.
   void close_leaf(int part) {
     std::vector<int> elements, open;
     elements_below(part, elements);
@@ -197,10 +198,10 @@ class Builder {
       std::sort(open.begin(), open.end());
       quotient_.eliminate({}, open);
     }
-    // Sub-domains of chains and trees are alike more often than not, and eight fronts in lockstep share what a visit
-    // costs.
+    // Sub-domains of chains and trees are usually alike, and eight fronts in lockstep share the cost of a visit.
     constexpr double visit_alone = 12e3, visit_in_lockstep = 1200.0;  // [flop]
-    // The leaf at the end of a swept chain is merged as if it were held at both ends, so that it stays like the others.
+    // The leaf at the end of a swept chain is merged as if it were held at both ends, so that it remains like the
+    // others.
     const std::vector<int>& boundary = quotient_.groups.back().boundary;
     const int missing = is_swept_[at(part)] != 0 && boundary.size() == 1 ? adjacency_.size_of(boundary[0]) : 0;
     constexpr double visit_in_registers = 300.0;
@@ -291,7 +292,7 @@ class Builder {
     f.element_begin = static_cast<int>(tree_.element_order.size());
     std::vector<int> elements = group.elements;
     for (int e = 0; id == 0 && e < graph_.num_elements(); ++e)
-      if (adjacency_.blocks_of(e).empty()) elements.push_back(e);  // which add nothing wherever they are
+      if (adjacency_.blocks_of(e).empty()) elements.push_back(e);  // these add nothing to a front
     for (int e : elements) {
       tree_.element_order.push_back(e);
       tree_.leaf_of_element[at(e)] = s;
@@ -318,8 +319,7 @@ class Builder {
     return id;
   }
 
-  /// Boundaries in the order of elimination: what goes first comes first, and children scatter into their parents
-  /// without crossing.
+  /// Boundaries are sorted by the order of elimination, so that rows of children keep their order in the parent.
   void sort_boundaries() {
     std::vector<std::int64_t> rank(at(graph_.num_blocks()), 0);
     for (const Front& f : tree_.fronts)

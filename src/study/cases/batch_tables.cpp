@@ -10,7 +10,7 @@
 namespace bough::study {
 namespace {
 
-/// A field of text: one that a spreadsheet would run as a formula is shown to be text by an apostrophe.
+/// A field of text. Text that a spreadsheet would take for a formula gets a leading apostrophe.
 std::string text_field(const std::string& text) {
   const bool looks_like_formula =
       !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
@@ -30,7 +30,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Names in the order in which cases bring them.
+/// Names in the order of their first occurrence in the cases.
 class Columns {
  public:
   void add(const std::string& name) {

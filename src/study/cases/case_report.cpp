@@ -10,7 +10,7 @@
 namespace bough::study {
 namespace {
 
-/// The first expected figures that do not hold.
+/// The first expected figures that were not met.
 std::string failing_figures(const records::Summary& summary) {
   constexpr int shown = 3;
   std::string text;

@@ -18,7 +18,7 @@ namespace {
 using Row = std::vector<SweepValue>;
 using UnitRow = std::vector<double>;
 
-constexpr int digits = 12;  // of what is drawn: enough, and no more than mathematical libraries agree on
+constexpr int digits = 12;  // of random values: on so many digits all mathematical libraries agree
 
 SweepValue value_of(double x) {
   SweepValue value{io::rounded_text(x, digits), {}};
@@ -28,14 +28,14 @@ SweepValue value_of(double x) {
   return value;
 }
 
-/// Streams of draws: of each variable of each design some, for different uses.
+/// Numbers of random streams: several for each variable of each design, for different purposes.
 std::uint32_t stream_of(std::uint32_t design, std::size_t variable, std::uint32_t use) {
   return (design * 1000u + static_cast<std::uint32_t>(variable)) * 4u + use;
 }
 
 double part(double x) {
   const double u = x - std::floor(x);
-  return u > 0.0 ? u : 0x1p-33;  // a quantile asks for more than 0
+  return u > 0.0 ? u : 0x1p-33;  // quantiles need an argument above 0
 }
 
 /// Of Sobol's sequence, moved by one draw a dimension (Cranley, Patterson 1976).
@@ -131,14 +131,14 @@ std::vector<Row> one_at_a_time(const SweepDesign& d) {
   std::vector<Row> rows{nominal};
   for (std::size_t k = 0; k < d.variables.size(); ++k)
     for (const SweepValue& x : d.variables[k].values) {
-      if (x.text == nominal[k].text) continue;  // that case is there
+      if (x.text == nominal[k].text) continue;  // this case exists already
       rows.push_back(nominal);
       rows.back()[k] = x;
     }
   return rows;
 }
 
-/// How many rows a design has, before any is made.
+/// Number of rows of a design, computed before any row is made.
 double count_of(const SweepDesign& d) {
   const double n = static_cast<double>(d.variables.size()), samples = d.samples;
   double product = 1.0, sum = 1.0;

@@ -37,7 +37,7 @@ io::CsvTable table_of_file(const fs::path& file, const std::string& text) {
   return table;
 }
 
-/// What a shard is, by the names of the file.
+/// The texts that identify a shard, with their names in the file.
 std::vector<std::pair<const char*, std::string ShardRecord::*>> texts_of_record() {
   return {{"verb", &ShardRecord::verb},
           {"title", &ShardRecord::title},
@@ -91,7 +91,7 @@ std::vector<fs::path> shard_folders(const std::vector<fs::path>& folders) {
   return found;
 }
 
-/// The list of all cases: beside a shard, or in a folder that was named.
+/// The list of all cases, from the parent folder of a shard or from a folder that was named.
 std::string case_list(const std::vector<fs::path>& shards, const std::vector<fs::path>& named,
                       const ShardRecord& record) {
   std::vector<fs::path> places = named;
@@ -118,7 +118,7 @@ void require_same(const fs::path& first, const ShardRecord& a, const fs::path& o
     throw std::runtime_error(other.string() + " is not of one batch with " + first.string() + ": " + what);
 }
 
-/// What a row says but for its costs and places.
+/// The content of a row except costs and paths.
 std::string content_of(const CaseResult& result) {
   CaseReport report = result.report;
   report.directory.clear();
@@ -162,7 +162,7 @@ std::string cases_csv(const SweepCases& cases) {
 }
 
 std::string adopt_cases(const std::string& text, SweepCases& cases) {
-  constexpr double last_digits = 1e-9;  // of draws with 12 digits, relative
+  constexpr double last_digits = 1e-9;  // relative, of values drawn with 12 digits
   io::CsvTable table;
   if (std::string rule = table.read(text); !rule.empty()) return rule;
   if (table.columns.size() != cases.variables.size() + 1 || table.rows.size() != cases.cases.size())

@@ -9,8 +9,8 @@
 namespace bough::study {
 namespace {
 
-/// How long before its limit of time a queue tells a task to stop [s]: cases under way are given up, and the tables
-/// written.
+/// Time before its time limit at which a queue tells a task to stop [s]. Running cases are abandoned, and the tables
+/// are written.
 constexpr int lead_seconds = 120;
 
 std::string command_of(const JobSpec& spec) {
@@ -27,7 +27,7 @@ std::string path_of(const JobSpec& spec, const char* name) { return shell_quoted
 
 std::string megabytes(double bytes) { return std::to_string(static_cast<long long>(std::ceil(1e-6 * bytes))); }
 
-/// `exec` hands the signal of the queue to bough itself.
+/// `exec` makes bough itself receive the queue's signal.
 JobFile slurm_file(const JobSpec& spec) {
   const std::string count = std::to_string(spec.count);
   std::string text =

@@ -45,7 +45,7 @@ std::string library_bits() {
   return digest.text();
 }
 
-/// JSON on one line: line ends stand between values only, since strings escape theirs.
+/// JSON on one line. Line ends occur only between values, since strings escape theirs.
 std::string one_line(const std::string& json) {
   std::string line;
   for (std::size_t i = 0; i < json.size(); ++i) {
@@ -128,7 +128,7 @@ bool is_final(const CaseResult& result) {
 
 namespace {
 
-/// A file that is opened and locked; -1 where another process holds it. The lock ends with the process.
+/// Opens and locks a file; -1 if another process holds it. The lock ends with the process.
 int open_locked(const std::filesystem::path& file, int flags) {
   const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(file, errno);
@@ -137,7 +137,7 @@ int open_locked(const std::filesystem::path& file, int flags) {
   return -1;
 }
 
-/// The same; waits a moment for cases of a batch that was killed, which end with it.
+/// As open_locked, but waits a moment for cases of a killed batch, which are about to end.
 int open_mine(const std::filesystem::path& file, int flags) {
   for (int k = 0; k < 100; ++k) {
     if (const int descriptor = open_locked(file, flags); descriptor >= 0) return descriptor;
@@ -152,7 +152,7 @@ Records read_records(const std::filesystem::path& file, std::string& whole) {
   Records records;
   std::ifstream in(file, std::ios::binary);
   for (std::string line; in && std::getline(in, line);) {
-    if (in.eof()) break;  // its end was cut off
+    if (in.eof()) break;  // its end is missing
     std::string key;
     CaseResult result;
     if (!read_record(line, key, result)) continue;
@@ -163,10 +163,10 @@ Records read_records(const std::filesystem::path& file, std::string& whole) {
 }
 
 Journal::Journal(std::filesystem::path file, bool resumes) : file_(std::move(file)) {
-  const int former = open_mine(file_, O_RDWR | O_CREAT);  // held until the new one is
+  const int former = open_mine(file_, O_RDWR | O_CREAT);  // held until the new file is locked
   std::string kept;
   if (resumes) records_ = read_records(file_, kept);
-  io::write_file(file_, kept);  // whole records, durable, before any is added
+  io::write_file(file_, kept);  // complete records, durable before any is added
   descriptor_ = open_mine(file_, O_WRONLY | O_APPEND);
   ::close(former);
 }

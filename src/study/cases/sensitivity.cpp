@@ -23,7 +23,7 @@ double mean(const std::vector<double>& x) {
   return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
 }
 
-/// Largest spread that is round-off.
+/// Whether the spread of the values is round-off.
 bool is_constant(const std::vector<double>& x) {
   const auto [low, high] = std::minmax_element(x.begin(), x.end());
   return !(*high - *low > 1e-14 * std::max(std::abs(*low), std::abs(*high)));
@@ -44,7 +44,7 @@ std::vector<double> ranks_of(const std::vector<double>& x) {
   return ranks;
 }
 
-/// Less its mean, over its deviation; of a constant all zero.
+/// Minus the mean, divided by the standard deviation; all zero for a constant.
 Eigen::VectorXd standardised(const std::vector<double>& x) {
   Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
   if (is_constant(x)) return Eigen::VectorXd::Zero(v.size());
@@ -73,7 +73,7 @@ std::optional<Sensitivity> morris_effects(const std::vector<std::vector<double>>
   std::vector<std::vector<double>> effects(n);
   Sensitivity s{"morris", {"mu", "mu_star", "sigma"}, {}, 0, {}, {}};
   for (std::size_t first = 0; first + n < rows.size(); first += n + 1) {
-    if (!are_there(values, first, n + 1)) continue;  // a trajectory counts whole
+    if (!are_there(values, first, n + 1)) continue;  // a trajectory is used only if it is complete
     s.rows += n + 1;
     for (std::size_t r = first + 1; r <= first + n; ++r)
       for (std::size_t k = 0; k < n; ++k)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double most_shards = 1e6;
 
-/// A whole number of digits alone.
+/// Reads a whole number that consists of digits only.
 std::optional<std::size_t> count_in(std::string_view text) {
   double x = 0.0;
   if (text.empty() || text.size() > 7 || text.find_first_not_of("0123456789") != std::string_view::npos ||
@@ -33,8 +33,7 @@ std::optional<std::size_t> count_in(const Environment& environment, const char* 
 
 constexpr const char* what_to_do = "; give --shard I/N, with I from 1 to N";
 
-/// An array may be a part of another one that is run again: its numbers tell the part of the whole only where they are
-/// all of it.
+/// A Slurm array may be part of another one that is run again. Its numbers identify shards only if they are complete.
 Shard shard_of_slurm(const Environment& environment, std::optional<std::size_t> given_count) {
   const std::size_t id = *count_in(environment, "SLURM_ARRAY_TASK_ID");
   const auto first = count_in(environment, "SLURM_ARRAY_TASK_MIN"),
@@ -124,7 +123,8 @@ std::vector<std::size_t> shards_of(const std::vector<double>& work, std::size_t 
   using Load = std::pair<double, std::size_t>;
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;  // least first, then the first of equals
   for (std::size_t s = 0; s < count; ++s) loads.emplace(0.0, s);
-  const double least = work.empty() ? 0.0 : 1e-6 * work[order.front()];  // cases of no work are dealt out, too
+  const double least = work.empty() ? 0.0 : 1e-6 * work[order.front()];  // cases without predicted work are
+                                                                         // distributed, too
   std::vector<std::size_t> shards(work.size());
   for (const std::size_t i : order) {
     const auto [load, shard] = loads.top();
@@ -139,7 +139,7 @@ namespace {
 
 using Row = std::vector<io::SweepValue>;
 
-/// Some of the values that a variable takes, its ends among them.
+/// Some of the values of a variable, the first and the last among them.
 std::vector<io::SweepValue> some_values(const std::vector<Row>& rows, std::size_t variable) {
   constexpr std::size_t most = 9;
   std::vector<io::SweepValue> values;

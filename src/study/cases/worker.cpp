@@ -31,7 +31,7 @@ bool write_all(int pipe, std::string_view text) {
   return true;
 }
 
-/// The number of the next case; false where the parent wants no more.
+/// Reads the number of the next case; false if the parent has no more.
 bool read_case(int pipe, std::size_t& which) {
   char bytes[sizeof which];
   for (std::size_t got = 0; got < sizeof bytes;) {
@@ -53,7 +53,7 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// The system keeps the peak of a process until it is told to begin anew.
+/// Resets the peak memory of the process, which the system otherwise keeps.
 void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 double peak_bytes() {
@@ -113,7 +113,7 @@ Worker::Worker(const std::vector<BatchCase>& cases, const RunCase& run_case, con
   ::close(is_child ? from[0] : from[1]);
   if (is_child) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);  // it had ended before this was asked for
+    if (::getppid() != parent) ::_exit(1);  // the parent had ended before this call
     for (const Worker& other : others) {
       ::close(other.to_);
       ::close(other.from_);
@@ -127,7 +127,7 @@ void Worker::serve(const std::vector<BatchCase>& cases, const RunCase& run_case)
   std::size_t which = 0;
   while (read_case(to_, which) && write_all(from_, answer_text(cases[which], run_case, rows_))) {
   }
-  ::_exit(0);  // nothing of the parent's is flushed or destroyed twice
+  ::_exit(0);  // no buffers or objects of the parent are flushed or destroyed twice
 }
 
 Worker& Worker::operator=(Worker&& other) noexcept {
@@ -211,7 +211,7 @@ void Worker::kill_above(double bytes) {
 
 void Worker::end() {
   if (process_ > 0) {
-    ::kill(process_, SIGKILL);  // it is idle, or nobody waits for it any more
+    ::kill(process_, SIGKILL);  // it is idle, or its result is no longer wanted
     (void)reap();
   }
   for (int* end : {&to_, &from_}) {

@@ -10,7 +10,7 @@ namespace {
 
 using Quaternion = motion::Quaternion<double>;
 
-constexpr double round_off = 1e-13;  // relative errors at and below it are no measure of a method
+constexpr double round_off = 1e-13;  // smaller relative errors say nothing about a method
 
 Quaternion quaternion_of(const std::vector<double>& r) {
   if (r.size() == 4) return motion::normalise(Quaternion{r[0], {{r[1], r[2], r[3]}}});
@@ -89,7 +89,7 @@ OrderFit fit_order(const std::vector<double>& h, const std::vector<double>& erro
   for (std::size_t end = usable.size(); end >= 2; --end) {
     const std::size_t begin = end > fitted_points ? end - fitted_points : 0;
     const std::size_t first = usable[begin], last = usable[end - 1];
-    // what the reference's own error can change in the slope between the ends
+    // the change of the slope between the ends that the reference's own error can cause
     if (!(uncertainty / error[last] <= largest_doubt * std::log(h[first] / h[last]))) continue;
     std::vector<double> x, y;
     for (std::size_t k = begin; k < end; ++k) {

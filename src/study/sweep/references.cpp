@@ -54,11 +54,11 @@ std::optional<io::History> ReferenceCache::find(const std::string& from) const {
   std::ifstream in(folder_ / (name + ".txt"), std::ios::binary);
   if (!in) return std::nullopt;
   const std::string there((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (there != from) return std::nullopt;  // another reference of the same hash
+  if (there != from) return std::nullopt;  // another reference with the same hash
   try {
     return io::read_history(folder_ / (name + ".csv"));
   } catch (const std::runtime_error&) {
-    return std::nullopt;  // damaged: it is computed anew
+    return std::nullopt;  // damaged: it is computed again
   }
 }
 
@@ -95,7 +95,7 @@ ReferenceRuns plan_references(const io::StudySpec& spec) {
 }
 
 namespace {
-/// What runs differ in from a reference that is made by `overrides` ("/pointer=value"): SweepReference::errors_of.
+/// How runs differ from a reference with these `overrides` ("/pointer=value"): SweepReference::errors_of.
 std::string errors_seen_by(const std::vector<std::string>& overrides) {
   const auto sets = [&](std::string_view part) {
     return std::any_of(overrides.begin(), overrides.end(),

@@ -1,4 +1,4 @@
-/// Whether the runs of a study fit in memory, told from their scenes alone.
+/// Checks from the scenes alone whether the runs of a study fit in memory.
 #include <algorithm>
 
 #include "bough/run/estimate.hpp"
@@ -9,7 +9,7 @@
 namespace bough::study {
 namespace {
 
-/// One run that would be made, and what it would take.
+/// A planned run and the memory that it needs.
 struct Variant {
   std::string name;
   std::vector<std::string> overrides;
@@ -38,7 +38,7 @@ std::vector<Variant> runs_of(const io::StudySpec& spec) {
   return variants;
 }
 
-/// The largest run that is refused, and how many there are. References and runs do not go at the same time.
+/// The largest run that does not fit, and how many there are. References and runs are not executed at the same time.
 std::string refusal_of(const io::StudySpec& spec, std::vector<Variant> variants, const SweepOptions& options) {
   if (variants.empty()) return "";
   const auto side_by_side = std::min(variants.size(), static_cast<std::size_t>(std::max(1, options.threads)));

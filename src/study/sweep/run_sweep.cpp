@@ -66,7 +66,7 @@ std::string date_of_today() {
   return {text, std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &utc)};
 }
 
-/// Choices along all axes but the one left out.
+/// Choices along all axes except one.
 std::string label_of(const io::StudyGrid& grid, const std::vector<std::size_t>& c, std::size_t left_out) {
   std::string label;
   for (std::size_t a = 0; a < grid.axes.size(); ++a) {
@@ -83,7 +83,7 @@ int threads_of(const io::StudyGrid& grid, const SweepRun& run) {
   return 1;
 }
 
-/// A study as it goes.
+/// A study in progress.
 class Sweep {
  public:
   Sweep(const io::StudySpec& spec, const SweepOptions& options)
@@ -140,7 +140,7 @@ class Sweep {
     ReferenceRuns references = plan_references(result_.spec);
     const std::vector<double> times = io::sample_times(result_.spec);
     std::atomic<std::size_t> done{0};
-    // computed ones may take longer than the runs, so the limit of these does not hold for them
+    // the time limit of runs does not apply to computed references, which may take longer
     const RunLimits unlimited{0.0, &options_.stop};
     for_each_index(references.runs.size(), options_.threads, [&](std::size_t k) {
       ReferenceRun& r = references.runs[k];
@@ -191,7 +191,8 @@ class Sweep {
     }
   }
 
-  /// Rounds over all runs, forwards and backwards in turn: what slows the machine for a while slows all of them alike.
+  /// Rounds over all runs, alternately forwards and backwards, so that a temporary load of the machine affects all runs
+  /// alike.
   void measure_times() {
     const std::size_t count = result_.runs.size(), all = count * static_cast<std::size_t>(result_.repetitions);
     for (int round = 0; round < result_.repetitions; ++round)

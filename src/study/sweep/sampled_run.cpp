@@ -14,7 +14,7 @@
 namespace bough::study {
 namespace {
 
-constexpr double same_time = 1e-9;   // of the end: times agree within it
+constexpr double same_time = 1e-9;   // relative to the end time: times within it are equal
 constexpr int no_rows = 1000000000;  // stride beyond any run
 
 using Clock = std::chrono::steady_clock;
@@ -27,7 +27,7 @@ double process_cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Keeps the header; rows come as samples.
+/// Keeps the header only; rows are stored as samples.
 class HeaderKeeper final : public records::Recorder {
  public:
   explicit HeaderKeeper(SampledRun& run) : run_(run) {}
@@ -40,7 +40,7 @@ class HeaderKeeper final : public records::Recorder {
   SampledRun& run_;
 };
 
-/// Looks at the clocks when the steps begin and when they end.
+/// Reads the clocks at the begin and at the end of the steps.
 class Stopwatch final : public records::Recorder {
  public:
   explicit Stopwatch(TimedRun& run, bool count_instructions) : run_(run) {
@@ -66,7 +66,7 @@ class Stopwatch final : public records::Recorder {
   Clock::time_point wall_;
 };
 
-/// Runs within the limits; a run that was cut short is a failed one.
+/// Runs a scene within limits; a run that was interrupted counts as failed.
 records::Summary run_limited(const scene::Scene& scene, const std::vector<double>& sample_times, int threads,
                              const RunLimits& limits, records::Recorder& recorder, bool& was_stopped,
                              run::SimulateOptions options = {}) {
