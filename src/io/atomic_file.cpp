@@ -44,9 +44,9 @@ void sync_path(const std::filesystem::path& path, int flags) {
   if (error != 0) throw std::runtime_error("cannot make " + path.string() + " durable: " + reason(error));
 }
 
-/// Opens a file that is to be written, never in the place of a standard stream: where the process was started with
-/// one of them closed, what others print there would land in the file. -1, with the reason in errno, where it cannot
-/// be had.
+/// Opens a file for writing, never with the descriptor of a standard stream: if the process was started with one of
+/// them closed, text printed to it would go to the file. Returns -1 with the reason in errno if the file cannot be
+/// opened.
 int open_to_write(const char* path) {
   const int descriptor = ::open(path, O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0 || descriptor > STDERR_FILENO) return descriptor;
@@ -67,15 +67,15 @@ void sync_file(const std::filesystem::path& path) { sync_path(path, 0); }
 
 AtomicFile::AtomicFile(std::filesystem::path final_path)
     : final_path_(std::move(final_path)), partial_path_(final_path_) {
-  // A rename would put a file in the place of a device, a pipe or a folder's link: only files and links to files are
-  // replaced.
+  // Only regular files and links to them are replaced. A rename would put a file in the place of a device, a pipe or a
+  // link to a folder.
   std::error_code ignored;
   const std::filesystem::file_status there = std::filesystem::status(final_path_, ignored);
   if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
     throw std::runtime_error("cannot write " + final_path_.string() + ": it is not a regular file");
   }
   partial_path_ += ".partial";
-  // Not truncated before it is locked: another run may be writing it.
+  // The file is truncated only after it is locked: another run may be writing it.
   const int descriptor = open_to_write(partial_path_.c_str());
   if (descriptor < 0) fail(errno);
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -121,7 +121,7 @@ void AtomicFile::flush() {
   buffer_.clear();
   const bool cut = ::ftruncate(descriptor_, static_cast<off_t>(flushed_)) == 0 &&
                    ::lseek(descriptor_, static_cast<off_t>(flushed_), SEEK_SET) >= 0;
-  if (!cut) give_up();  // what is in the file is not known to be whole
+  if (!cut) give_up();  // the content of the file is not known to be complete
   fail(error);
 }
 
@@ -131,7 +131,7 @@ void AtomicFile::replace_front(std::string_view bytes) {
   const int error = ::lseek(descriptor_, 0, SEEK_SET) < 0 ? errno : write_all(descriptor_, bytes);
   if (error != 0 || ::lseek(descriptor_, static_cast<off_t>(flushed_), SEEK_SET) < 0) {
     const int cause = error != 0 ? error : errno;
-    give_up();  // what is in the file is not known to be whole
+    give_up();  // the content of the file is not known to be complete
     fail(cause);
   }
   digest_anew_ = digest_of_file(partial_path_);
@@ -139,7 +139,7 @@ void AtomicFile::replace_front(std::string_view bytes) {
 
 void AtomicFile::start_writing_out() {
   flush();
-  (void)::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);  // what fails is told by the fsync that follows
+  (void)::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);  // errors are reported by the following fsync
 }
 
 void AtomicFile::commit(Durability durability) {
@@ -149,7 +149,7 @@ void AtomicFile::commit(Durability durability) {
     flush();
   const bool is_waited_for = durability == Durability::now || durability == Durability::content;
   if (const int error = is_waited_for ? sync_descriptor(descriptor_) : 0; error != 0) {
-    give_up();  // the system may have dropped what it could not write: a second fsync would say nothing of that
+    give_up();  // the system may have dropped the data after a failed write; a second fsync would not report this
     fail(error);
   }
   if (::rename(partial_path_.c_str(), final_path_.c_str()) != 0) fail(errno);

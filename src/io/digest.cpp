@@ -13,7 +13,7 @@ static_assert(std::endian::native == std::endian::little, "whole words are read 
 
 namespace {
 
-/// A step of FNV-1a on words instead of bytes; the rotation carries high bits down, which a product alone never does.
+/// A step of FNV-1a on words instead of bytes. The rotation moves high bits down, which a product alone never does.
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
   constexpr std::uint64_t prime = 0x9E3779B97F4A7C15u;
   return std::rotl((hash ^ word) * prime, 29);
@@ -21,7 +21,7 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
 
 }  // namespace
 
-/// The hashes of a stripe's words do not wait for each other, and stay in registers from stripe to stripe.
+/// The hashes of the words in a stripe are independent of each other and stay in registers from stripe to stripe.
 void Digest::mix(const char* stripes, std::size_t count) {
   Stripe<std::uint64_t> hashes = hashes_, words;
   for (; count-- > 0; stripes += stripe_size) {

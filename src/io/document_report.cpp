@@ -31,14 +31,15 @@ void Report::add(const ExpansionFault& f, bool is_warning) {
 
 void Report::add_override(const PlacedFault& f) {
   Placed& placed = put(problems_, {f.pointer, 0, 0, shown(f.value), f.rule, f.hint}, 1, 0);
-  placed.is_expanded = origins_ == nullptr || origins_->empty();  // what an override names, it names in the file
+  placed.is_expanded = origins_ == nullptr || origins_->empty();  // the names in an override refer to the file as
+                                                                  // written
 }
 
 void Report::add(const PlacedFault& f, bool is_warning) {
   std::string reached;
   const JsonValue* at = locate(f.pointer, &reached);
-  // The value at fault may be inside what the pointer names; a longer pointer than the document has is cut to what is
-  // there.
+  // The value at fault may be inside the value that the pointer names. A pointer that leads beyond the document is
+  // shortened to its existing part.
   Problem p{reached, 0, 0, f.value, f.rule, f.hint};
   if (p.value.empty() && at != nullptr) p.value = summary(*at);
   std::vector<Placed>& list = is_warning ? warnings_ : problems_;
@@ -62,14 +63,14 @@ Report::Placed& Report::put(std::vector<Placed>& list, Problem p, int source, st
   if (source > 0) {
     p.hint += std::string(p.hint.empty() ? "" : "; ") + "given by an override";
   }
-  // Keys and names may hold anything; what is shown of them may not.
+  // Keys and names may contain any characters; those that could act on a terminal are not shown.
   constexpr std::size_t most = 2000;
   for (std::string* text : {&p.pointer, &p.value, &p.rule, &p.hint}) *text = shown(*text, most);
   list.push_back({std::move(p), source == source_file, offset});
   return list.back();
 }
 
-/// True where the same was said of another copy of the same text, which then counts this one.
+/// True if the same fault was reported for another copy of the same text; it then counts this one.
 bool Report::is_of_another_copy(std::vector<Placed>& list, const Problem& p, int source, std::size_t offset) {
   const std::string key =
       (&list == &warnings_ ? "w " : "p ") + std::to_string(source) + " " + std::to_string(offset) + " " + p.rule;
@@ -94,7 +95,7 @@ void Report::finish(std::vector<Placed>& list, std::size_t left_out, std::vector
       list[i].problem.line = at.line;
       list[i].problem.column = at.column;
     }
-    Problem& p = list[i].problem;  // of those shown alone: a search for each of many would be quadratic
+    Problem& p = list[i].problem;  // only for those shown, since a search for each of many would take quadratic time
     if (list[i].is_expanded) {
       if (p.owner = owner(p.pointer); p.owner == p.value) p.owner.clear();
       if (origins_ != nullptr) {
@@ -134,7 +135,7 @@ std::string Report::token(int source, std::size_t offset) const {
   return excerpt(source, offset, end + 1 - offset);
 }
 
-/// Text of a value; of an object with a name, the name.
+/// Text of a value; for an object with a name, the name.
 std::string Report::summary(const JsonValue& v) const {
   const JsonValue* name = v.is(JsonKind::object) ? v.find("name") : nullptr;
   const JsonValue& told = name != nullptr && name->is(JsonKind::string) ? *name : v;
@@ -144,7 +145,7 @@ std::string Report::summary(const JsonValue& v) const {
   return written + " = " + rounded_text(told.number, 6);
 }
 
-/// The value at a pointer, or the innermost one on the way to it; and the innermost name of a thing that is passed.
+/// The value at a pointer, or the innermost existing one on the way to it; also the innermost name on the way.
 const JsonValue* Report::locate(const std::string& pointer, std::string* reached, std::string* owner) const {
   const JsonValue* at = root_;
   const auto tokens = split_pointer(pointer);
@@ -158,7 +159,9 @@ const JsonValue* Report::locate(const std::string& pointer, std::string* reached
       const bool is_number = !t.empty() && t.size() < 10 && t.find_first_not_of("0123456789") == std::string::npos;
       if (is_number && std::stoul(t) < at->items.size()) next = &at->items[std::stoul(t)];
     }
-    if (next == nullptr || next->source == source_default) break;  // a default stands nowhere: its owner is named
+    if (next == nullptr || next->source == source_default)
+      break;  // a default has no place in the file: its owner is
+              // named
     at = next;
     path = pointer_to(path, t);
     const JsonValue* name = at->is(JsonKind::object) ? at->find("name") : nullptr;
@@ -170,7 +173,7 @@ const JsonValue* Report::locate(const std::string& pointer, std::string* reached
 
 namespace {
 
-/// expected: its size, where that is known, so that the text is not moved while it grows.
+/// expected: the size, if it is known, so that the text need not be moved while it grows.
 std::string read_to_end(std::istream& in, std::uintmax_t expected, Problem& problem) {
   std::string text;
   text.reserve(expected);

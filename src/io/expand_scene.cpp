@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t most_faults = 2 * max_problems;
 
-/// A part that comes many times, with what its copies hold.
+/// A repeated part, with the totals of its copies.
 struct Group {
   std::string pointer, index;
   const JsonValue *count = nullptr, *first = nullptr;
@@ -29,7 +29,7 @@ struct Group {
   };
   std::vector<Template> templates;
   std::vector<Group> nested;
-  std::size_t num_values = 0, num_bytes = 0;  ///< of one copy, without those nested in it
+  std::size_t num_values = 0, num_bytes = 0;  ///< of one copy, without nested copies
 };
 
 std::size_t count_values(const JsonValue& v) {
@@ -88,7 +88,7 @@ class Expander {
     }
   }
 
-  /// Of copies with the same fault the first is told, the others are counted.
+  /// The first of several copies with the same fault is reported, the others are counted.
   void add(ExpansionFault fault) {
     const std::string key = std::to_string(fault.source) + " " + std::to_string(fault.offset) + " " + fault.rule;
     const auto [at, is_new] = told_.try_emplace(key, result_.faults.size());
@@ -98,7 +98,7 @@ class Expander {
       result_.faults.push_back(std::move(fault));
     } else {
       ++result_.more_faults;
-      told_.erase(at);  // of those not told nothing is kept
+      told_.erase(at);  // faults that are not reported need no memory
     }
   }
 
@@ -109,7 +109,7 @@ class Expander {
 
   CopyOrigins& origins() { return result_.origins; }
 
-  /// The copies around what is being looked at.
+  /// Names the copies that contain the present value.
   std::string around() const {
     std::string text;
     for (const auto& [index, value] : around_) {
@@ -127,7 +127,7 @@ class Expander {
         apply(root_.items[i], JsonPath{}.member(key));
   }
 
-  /// Puts numbers for names into all strings and formulas of a value; comments stay as they are.
+  /// Replaces names by numbers in all strings and formulas of a value, except in comments.
   void apply(JsonValue& v, const JsonPath& path) {
     v.is_copy = !around_.empty();
     if (v.is(JsonKind::string)) return apply_to_text(v, path, false);
@@ -145,7 +145,7 @@ class Expander {
     }
   }
 
-  /// own: an object whose keys are names of the formula's own.
+  /// own: an object whose keys are local names of the formula.
   void apply_to_text(JsonValue& v, const JsonPath& path, bool is_formula, const JsonValue* own = nullptr) {
     v.is_copy = !around_.empty();
     if (!is_formula && v.text.str().find_first_of("{}") == std::string::npos) return;
@@ -228,14 +228,14 @@ class Expander {
     }
     if (const JsonValue* nested = v.find("repeat")) {
       const bool is_new = !names_.holds(group.index);
-      if (is_new) names_.set(group.index, 0.0);  // so that no index within has the same name
+      if (is_new) names_.set(group.index, 0.0);  // so that no inner index may have the same name
       group.nested = groups_of(*nested, pointer + "/repeat");
       if (is_new) names_.remove(group.index);
     }
     return group;
   }
 
-  /// A whole number of a group for the copies around it; nothing where it is at fault.
+  /// A whole number of a group within the present copies; none if it is at fault.
   std::optional<long> whole(const JsonValue& given, const std::string& pointer, const Rule& rule) {
     JsonValue v = given;
     apply(v, JsonPath{nullptr, pointer, 0});
@@ -249,7 +249,7 @@ class Expander {
     return faults.empty() ? std::optional<long>(static_cast<long>(v.number)) : std::nullopt;
   }
 
-  /// Calls each(index) with the index set to its value for every copy; false where the group's numbers are at fault.
+  /// Calls each(index) for every copy, with the index set to its value; false if the group's numbers are at fault.
   template <class Each>
   bool for_each_copy(const Group& group, const Each& each) {
     static const RuleRef count_rule = copy_count_rule(), first_rule = copy_first_rule();
@@ -270,7 +270,7 @@ class Expander {
     return true;
   }
 
-  /// Counts what all copies will hold, and ends where that is too much.
+  /// Counts the values of all copies, and ends where there are too many.
   void measure(const Group& group) {
     for_each_copy(group, [&](double) {
       num_values_ += group.num_values;
@@ -303,7 +303,7 @@ class Expander {
     });
   }
 
-  /// repeat: the place of a list that only copies make.
+  /// repeat: the place reported for a list that consists of copies only.
   void append(const std::string& name, JsonItems& items, const JsonValue& repeat) {
     JsonValue* list = root_.find_given(name);
     if (list == nullptr) {
@@ -313,7 +313,7 @@ class Expander {
       list->offset = repeat.offset;
       list->length = repeat.length;
     }
-    if (!list->is(JsonKind::array)) return;  // a fault of the outline, which the check tells
+    if (!list->is(JsonKind::array)) return;  // a fault of the outline, which the check reports
     list->items.reserve(list->items.size() + items.size(), false);
     for (JsonValue& item : items) list->items.add() = std::move(item);
   }
@@ -324,7 +324,7 @@ class Expander {
   Expansion result_;
   NamedNumbers names_;
   std::unordered_map<std::string, std::size_t> told_;
-  std::vector<std::pair<const std::string*, double>> around_;  ///< index and value of the copies around
+  std::vector<std::pair<const std::string*, double>> around_;  ///< index and value of the enclosing copies
   std::size_t num_values_ = 0, num_bytes_ = 0, made_bytes_ = 0;
   bool is_full_ = false;
   std::map<std::string, std::size_t> num_items_;

@@ -19,7 +19,7 @@ bool FolderLock::take(const fs::path& folder) {
     ::close(descriptor);
     return false;
   }
-  struct stat locked = {}, named = {};  // the folder may have got another name before it was locked
+  struct stat locked = {}, named = {};  // the folder may have been renamed before it was locked
   const bool is_same = ::fstat(descriptor, &locked) == 0 && ::lstat(folder.c_str(), &named) == 0 &&
                        locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
   if (!is_same) {

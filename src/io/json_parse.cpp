@@ -15,12 +15,12 @@ using Base = nlohmann::json;
 
 std::string too_many_values() { return "the file holds more than " + std::to_string(max_json_values) + " values"; }
 
-/// How many values each array and object holds, in the order in which these open, so that none takes room for more.
-/// Of a text that is not JSON the numbers say nothing, but their sum is no larger than the text.
+/// Number of values in each array and object, in the order in which they open, so that none reserves too much memory.
+/// For a text that is not JSON the numbers have no meaning, but their sum does not exceed the length of the text.
 std::vector<std::uint32_t> count_items(std::string_view text) {
   std::vector<std::uint32_t> counts;
   std::vector<std::size_t> open;
-  bool is_empty = false;  // nothing stands in the innermost one yet
+  bool is_empty = false;  // the innermost one has no value yet
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c == ' ' || c == '\n' || c == '\t' || c == '\r') continue;
@@ -48,9 +48,8 @@ std::vector<std::uint32_t> count_items(std::string_view text) {
   return counts;
 }
 
-/// Builds the tree from the reader's events. The reader tells no positions, but its events come in the order of the
-/// text and each stands for one token, so a cursor that steps over the same tokens knows where every one of them
-/// lies.
+/// Builds the tree from the reader's events. The reader reports no positions. Its events come in the order of the text,
+/// however, and each corresponds to one token, so a cursor that steps over the same tokens knows the position of each.
 class Builder : public nlohmann::json_sax<Base> {
  public:
   Builder(std::string_view text, std::int16_t source, std::vector<JsonFault>& faults, std::vector<std::uint32_t> counts)
@@ -159,7 +158,7 @@ class Builder : public nlohmann::json_sax<Base> {
     cursor_ = std::min(end, text_.size());
   }
 
-  /// A new value at the place the open object or array expects it.
+  /// Makes a new value at the place where the open object or array expects it.
   bool scalar(JsonKind kind) {
     take_token();
     if (++count_ > max_json_values) {
@@ -245,7 +244,7 @@ class Builder : public nlohmann::json_sax<Base> {
   std::vector<std::unique_ptr<JsonValue>> spare_;  ///< values of duplicate keys: read, then dropped
 };
 
-/// What people write where JSON does not allow it.
+/// Hints for common additions that JSON does not allow.
 std::string syntax_hint(std::string_view rest, char before, bool after_zero) {
   const auto starts = [&](std::string_view s) { return rest.substr(0, s.size()) == s; };
   if (rest.empty()) return "the file ends too early: a closing bracket, brace or quote is missing";
@@ -269,7 +268,7 @@ bool Builder::parse_error(std::size_t position, const std::string& last_token, c
   const std::string what = e.what();
   std::string rule = "is not JSON";
   std::size_t offset = cursor_;
-  if (e.id == 406) {  // the reader stops at numbers out of range: the only fault of a number that ends the reading
+  if (e.id == 406) {  // a number out of range is the only faulty number at which the reader stops
     rule = "is too large for a double";
   } else if (const std::size_t at = what.find("syntax error"); at != std::string::npos) {
     rule += ": " + what.substr(at);
@@ -302,7 +301,7 @@ std::optional<JsonValue> parse_json(std::string_view text, std::int16_t source, 
     faults.push_back({0, "", "", "is UTF-16", "save the file as UTF-8"});
     return std::nullopt;
   }
-  // The reader takes a zero byte for the end of the text: what follows would be dropped without a word.
+  // The reader takes a zero byte for the end of the text, and would silently ignore what follows.
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
     faults.push_back(
         {zero, "", "", "holds a zero byte, which no JSON text may", "remove it and what was not meant after it"});
@@ -310,7 +309,7 @@ std::optional<JsonValue> parse_json(std::string_view text, std::int16_t source, 
   }
   std::vector<std::uint32_t> counts = count_items(text);
   if (std::accumulate(counts.begin(), counts.end(), std::size_t{1}) >
-      max_json_values) {  // before room is made for them
+      max_json_values) {  // before memory is reserved for them
     faults.push_back(
         {0, "", "", too_many_values(), "split it, or give beams more elements instead of writing each as a beam"});
     return std::nullopt;

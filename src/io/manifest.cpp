@@ -36,7 +36,7 @@ std::string text_at(const JsonValue& object, std::string_view key) {
   return value != nullptr && value->is(JsonKind::string) ? value->text : std::string();
 }
 
-/// A name that leads nowhere but down.
+/// True for a relative name that stays below its folder.
 bool is_below(const std::string& name) {
   const fs::path path(name);
   return !name.empty() && path.is_relative() &&
@@ -78,7 +78,7 @@ class Listed {
         std::find_if(stars_.begin(), stars_.end(), [&](const FileRecord& r) { return is_named(r, name); });
     return star == stars_.end() ? nullptr : &*star;
   }
-  /// Whether a file there may be taken for one that bough wrote.
+  /// Whether a file can be regarded as one that bough wrote.
   bool holds(const fs::directory_entry& entry, std::string name) const {
     if (!entry.is_regular_file() || entry.is_symlink()) return false;
     if (name == manifest_name) return true;
@@ -88,7 +88,7 @@ class Listed {
     const FileRecord* record = find(name);
     return record != nullptr && (is_partial || record->hash.empty() || entry.file_size() == record->bytes);
   }
-  /// Whether something that is listed lies below.
+  /// Whether a listed file lies below the folder.
   bool has_below(const std::string& folder) const {
     return std::any_of(records_.begin(), records_.end(),
                        [&](const FileRecord& r) { return r.name.starts_with(folder + "/"); });
@@ -98,7 +98,8 @@ class Listed {
   std::vector<FileRecord> records_, stars_;
 };
 
-/// Whether a folder holds nothing, or only what a writer leaves that was killed before its first manifest had its name.
+/// Whether a folder is empty, or contains only files left by a writer that was killed before its first manifest was
+/// named.
 bool has_no_content(const fs::path& folder) {
   const std::string unfinished = std::string(manifest_name) + ".partial";
   return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), [&](const fs::directory_entry& entry) {
@@ -122,7 +123,7 @@ void look_below(const fs::path& folder, const std::string& prefix, const Listed&
   }
 }
 
-/// Removes listed files below; a folder that is empty then goes, too.
+/// Removes listed files below a folder, and folders that become empty.
 void remove_below(const fs::path& folder, const std::string& prefix, const Listed& listed) {
   std::vector<fs::directory_entry> entries;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) entries.push_back(entry);
@@ -137,7 +138,7 @@ void remove_below(const fs::path& folder, const std::string& prefix, const Liste
   if (!prefix.empty() && fs::is_empty(folder)) fs::remove(folder);
 }
 
-/// The same for all ways to one place: resolved as far as it is there.
+/// One form for all paths to a place: resolved as far as it exists.
 fs::path place_of(const fs::path& path) {
   std::error_code error;
   const fs::path place = fs::weakly_canonical(fs::absolute(path), error).lexically_normal();
@@ -149,7 +150,7 @@ bool are_one(const fs::path& a, const fs::path& b) {
   return place_of(a) == place_of(b) || fs::equivalent(a, b, error);
 }
 
-/// Others hold a folder for as long as they add a line to its manifest, or for a whole run.
+/// Waits for a folder's lock: others hold it while they add a line to its manifest, or for a whole run.
 void wait_for(FolderLock& lock, const fs::path& folder, int most_tries = 200) {
   for (int k = 0; !lock.take(fs::canonical(folder)); ++k) {
     if (k == most_tries)
@@ -269,7 +270,7 @@ void refuse_inputs_within(const std::vector<fs::path>& inputs, const fs::path& f
 
 namespace {
 
-/// list_file of whoever holds the folder.
+/// list_file for a caller that holds the folder's lock.
 void list_in_locked(const fs::path& folder, const std::string& made_by, const std::string& name) {
   std::optional<Manifest> present = read_manifest(folder);
   if (!present && fs::exists(fs::symlink_status(folder / manifest_name)))
@@ -296,7 +297,7 @@ void list_file(const fs::path& folder, const std::string& made_by, const std::st
 void write_listed_file_once(const fs::path& folder, const std::string& made_by, const std::string& name,
                             std::string_view text) {
   if (fs::exists(folder / name)) return;
-  constexpr int most_tries = 15000;  // the first writer may have tens of megabytes to make durable
+  constexpr int most_tries = 15000;  // the first writer may have to make tens of megabytes durable
   FolderLock lock;
   wait_for(lock, folder, most_tries);
   if (fs::exists(folder / name)) return;

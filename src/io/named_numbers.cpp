@@ -37,10 +37,10 @@ std::string NamedNumbers::fault_of_name(const std::string& name) {
 std::string NamedNumbers::hint_for(const std::string& name) {
   if (name.empty() || ++num_hints_ > max_problems) return "";
   std::vector<std::string> known = laws::formula_words();
-  constexpr std::size_t most = 1000;  // compared with: the search goes over all of them for every fault
+  constexpr std::size_t most = 1000;  // limit of the names compared, since every fault searches all of them
   for (const auto& [other, value] : values_)
     if (known.size() < most) known.push_back(other);
-  std::sort(known.begin(), known.end());  // the order of the table is no one's
+  std::sort(known.begin(), known.end());  // the order in the table has no meaning
   const std::string near = scene::nearest_name(name.substr(0, 100), known);
   return near.empty() ? "names are those of \"parameters\" and the index of copies" : "did you mean \"" + near + "\"?";
 }

@@ -14,7 +14,7 @@ void put(std::string& bytes, double value) { bytes.append(reinterpret_cast<const
 
 std::string npy_head(std::size_t rows, std::size_t columns) {
   std::string number = std::to_string(rows);
-  number.insert(0, 20 - number.size(), ' ');  // any number of rows takes the same room
+  number.insert(0, 20 - number.size(), ' ');  // the field has the same length for any number of rows
   std::string words =
       "{'descr': '<f8', 'fortran_order': False, 'shape': (" + number + ", " + std::to_string(columns) + "), }";
   constexpr std::size_t before = 10;  // magic string, version, length

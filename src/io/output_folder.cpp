@@ -26,7 +26,7 @@ std::string reason(int error) { return std::error_code(error, std::generic_categ
   throw std::runtime_error("cannot write into " + folder.string() + ": " + reason(error));
 }
 
-/// The folder that a name of the user's leads to; where nothing is there, the name below the folder that is.
+/// The folder to which the user's name leads. If it does not exist, the name within its existing parent.
 fs::path resolved(const fs::path& folder) {
   const fs::file_status there = fs::symlink_status(folder);
   if (fs::is_symlink(there) && !fs::exists(fs::status(folder)))
@@ -36,7 +36,7 @@ fs::path resolved(const fs::path& folder) {
   return fs::weakly_canonical(absolute);
 }
 
-/// Whether the folder cannot be given another name: this process stands in it, it is the root of a file system, or
+/// Whether the folder cannot be renamed: it is the working directory of this process or the root of a file system, or
 /// its parent cannot be written.
 bool has_to_stay(const fs::path& folder) {
   struct stat own = {}, above = {};
@@ -48,7 +48,7 @@ bool has_to_stay(const fs::path& folder) {
   return !error && !inside.empty() && *inside.begin() != "..";
 }
 
-/// Whether a folder can be given a name in another one.
+/// Whether a folder can be moved into another one.
 bool can_move_to(const fs::path& folder, const fs::path& parent) {
   struct stat own = {}, above = {};
   return ::stat(folder.c_str(), &own) == 0 && ::stat(parent.c_str(), &above) == 0 && own.st_dev == above.st_dev &&
@@ -68,7 +68,8 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(fs::symlink_status(path, ignored));
 }
 
-/// Folders within that are not part of the results themselves. Most results hold no folder: then no manifest is read.
+/// Folders within that are not part of the results themselves. Most results contain no folder; then no manifest is
+/// read.
 std::vector<std::string> guests_of(const fs::path& folder) {
   std::vector<std::string> guests;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
@@ -83,7 +84,7 @@ std::vector<std::string> guests_of(const fs::path& folder) {
   return guests;
 }
 
-/// Moves entries by name; those that are there already stay. Returns 0 or the first error.
+/// Moves entries by name; entries that already exist stay. Returns 0 or the first error.
 int move_names(const std::vector<std::string>& names, const fs::path& from, const fs::path& to) {
   int error = 0;
   for (const std::string& name : names)
@@ -92,7 +93,7 @@ int move_names(const std::vector<std::string>& names, const fs::path& from, cons
   return error;
 }
 
-/// Names at the top of what a manifest lists that are there, the manifest itself first.
+/// Existing top-level names listed in a manifest, the manifest itself first.
 std::vector<std::string> top_names(const fs::path& folder) {
   std::vector<std::string> names;
   if (!read_manifest(folder)) return names;
@@ -106,8 +107,8 @@ std::vector<std::string> top_names(const fs::path& folder) {
   return names;
 }
 
-/// Puts back what was moved out of the final folder and not yet replaced. The manifest of the new entries is moved
-/// last.
+/// Moves back the entries that were moved out of the final folder and not yet replaced. The manifest of the new entries
+/// is moved last.
 void put_back(const fs::path& former, const fs::path& staging, const fs::path& final) {
   std::vector<std::string> added, back;
   for (const FileRecord& file : read_manifest(staging).value_or(Manifest{}).files) {
@@ -121,7 +122,8 @@ void put_back(const fs::path& former, const fs::path& staging, const fs::path& f
     throw std::runtime_error("cannot put back the results of " + final.string() + " from " + former.string());
 }
 
-/// Takes away what a writer that was killed left: its files go, what it had moved out of the final folder goes back.
+/// Cleans up after a writer that was killed: removes its files, and moves back the entries that it had moved out of the
+/// final folder.
 void settle(const fs::path& staging, const fs::path& final) {
   const fs::path former = staging / former_name;
   if (!read_manifest(staging) && !is_folder(former) && !foreign_entries(staging, 1).empty())
@@ -136,7 +138,7 @@ void settle(const fs::path& staging, const fs::path& final) {
   remove_listed(staging);
 }
 
-/// Where a folder is written whose place is known.
+/// Staging folder for results whose place is known.
 fs::path staging_at(const fs::path& place, bool stays) {
   return stays ? place / inner_name : place.parent_path() / ("." + place.filename().string() + ".bough-new");
 }
@@ -167,7 +169,7 @@ OutputFolder::OutputFolder(fs::path folder, std::string made_by, std::vector<std
     require_ours(final_);
     prepare_staging();
   } catch (...) {
-    fs::remove(staging_, error);  // where it is empty
+    fs::remove(staging_, error);  // removes it only if it is empty
     throw;
   }
 }
@@ -176,7 +178,7 @@ std::string OutputFolder::taken_by_another() const {
   return "cannot write into " + shown_.string() + ": another run is writing it";
 }
 
-/// Makes the staging folder and locks it. Whoever holds it may end meanwhile and take it away.
+/// Makes the staging folder and locks it. Another process that holds it may end in the meantime and remove it.
 void OutputFolder::claim_staging() {
   constexpr int most_tries = 3;
   for (int k = 0; k < most_tries; ++k) {
@@ -190,11 +192,11 @@ OutputFolder::~OutputFolder() {
   if (is_whole_) return;
   try {
     remove_listed(staging_);
-  } catch (const std::exception&) {  // the next writer takes it away
+  } catch (const std::exception&) {  // the next writer removes it
   }
 }
 
-/// What writers that were killed left behind, also one that moved entries since it stood in the final folder.
+/// Cleans up after writers that were killed, including one that moved entries because it was inside the final folder.
 void OutputFolder::settle_former_staging() {
   const fs::path inner = final_ / inner_name;
   if (!is_in_place_ && is_folder(inner)) {
@@ -207,7 +209,7 @@ void OutputFolder::settle_former_staging() {
   claim_staging();
 }
 
-/// The files of a run that is killed are listed from the start.
+/// Lists the files from the start, in case the run is killed.
 void OutputFolder::prepare_staging() {
   Manifest manifest{made_by_};
   for (const std::string& name : names_) manifest.files.push_back({name});
@@ -224,8 +226,7 @@ void OutputFolder::write_index(const std::string& name, std::string_view text) {
   index_ = name;
 }
 
-/// What cannot be made durable is taken away: the system may have dropped it, and a second fsync would say nothing of
-/// that.
+/// Removes what cannot be made durable: the system may have dropped the data, and a second fsync would not report this.
 void OutputFolder::make_durable() {
   std::exception_ptr failure;
   std::error_code ignored;
@@ -246,7 +247,7 @@ void OutputFolder::make_durable() {
   for (const fs::path& folder : folders) sync_directory(folder);
 }
 
-/// The first name beside the final folder that is free, or holds what failed instead of the same good results before.
+/// The first name beside the final folder that is free, or whose folder holds an earlier failed run of these results.
 fs::path OutputFolder::place_beside() const {
   constexpr int most = 1000;
   const fs::path parent = can_move_to(staging_, final_.parent_path()) ? final_.parent_path() : final_;
@@ -259,7 +260,7 @@ fs::path OutputFolder::place_beside() const {
   throw std::runtime_error("cannot write beside " + shown_.string() + ": too many folders of failed runs");
 }
 
-/// Why the results cannot take the place of what stands under the final name; empty where they can.
+/// Why the results cannot replace what exists under the final name; empty if they can.
 std::string OutputFolder::obstacle(FolderState state) const {
   if (!is_folder(final_)) return {};
   const std::optional<Manifest> former = read_manifest(final_);
@@ -276,9 +277,9 @@ void OutputFolder::publish(FolderState state) {
     manifest.write(manifest_text({made_by_, state, instead_of, files_}));
     manifest.start_writing_out();
     make_durable();
-    manifest.commit(Durability::content);  // none that lists sizes comes before what it lists
+    manifest.commit(Durability::content);  // a manifest with sizes is committed only after the files that it lists
     sync_directory(staging_);
-  } catch (...) {  // a full disk: the files stand under the list of names that was made at the start, as unfinished
+  } catch (...) {  // the disk is full: the files remain listed as unfinished in the manifest made at the start
     failure = std::current_exception();
     state = FolderState::unfinished;
   }
@@ -312,12 +313,12 @@ void OutputFolder::replace_final(const fs::path& target) {
   }
   try {
     remove_listed(staging_);         // the former results
-  } catch (const std::exception&) {  // the new ones stand; the next writer takes the former away
+  } catch (const std::exception&) {  // the new results are in place; the next writer removes the former ones
   }
 }
 
-/// Out with the former entries and in with the new ones, manifests first and last; all is put back where one cannot
-/// be moved.
+/// Moves the former entries out and the new ones in, manifests first and last. If one cannot be moved, all moves are
+/// undone.
 void OutputFolder::move_entries(const fs::path& target) {
   const fs::path former = staging_ / former_name;
   if (::mkdir(former.c_str(), 0777) != 0 && errno != EEXIST) fail(target, errno);
@@ -341,7 +342,7 @@ void OutputFolder::move_entries(const fs::path& target) {
     if (!out.empty()) remove_listed(former);
     fs::remove(former);
     fs::remove(staging_);
-  } catch (const std::exception&) {  // the new results stand; the next writer takes the former away
+  } catch (const std::exception&) {  // the new results are in place; the next writer removes the former ones
   }
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t longest_line = 120;
 
-/// Appends the value on the line that has begun; false where it does not fit on it, with part of it written.
+/// Appends the value to the present line; false if it does not fit, in which case part of it has been written.
 bool append_line(std::string& out, const JsonValue& v, std::size_t line_begin) {
   switch (v.kind) {
     case JsonKind::null:

@@ -51,7 +51,7 @@ const RuleTable& frame_rules() {
   return table;
 }
 
-/// Turns a checked document into a study; what is not sound is left out.
+/// Converts a checked document to a study, without its faulty parts.
 class FrameConverter : private ValueConverter {
  public:
   using ValueConverter::faults;
@@ -95,7 +95,7 @@ class FrameConverter : private ValueConverter {
     for (std::size_t k = 0; k < 3; ++k) out[k] = placed_law(three.items[k], at + "/" + std::to_string(k));
   }
 
-  /// A prescribed motion needs all three of value, rate and acceleration at every time that is asked for.
+  /// A prescribed motion needs value, rate and acceleration at every time of the study.
   void check_laws() {
     for (const auto& [at, checked] : placed_laws_)
       for (int k = 0; k < study.num_points; ++k) {
@@ -107,7 +107,7 @@ class FrameConverter : private ValueConverter {
       }
   }
 
-  /// Names of unsound frames count, so that those who use them are not blamed.
+  /// Names of faulty frames are known, so that references to them are not reported as well.
   void read_frames(const Value* list) {
     if (list == nullptr || !list->is(JsonKind::array)) {
       all_named_ = false;
@@ -154,7 +154,7 @@ class FrameConverter : private ValueConverter {
     if (name.text == "ground") return 0;
     const auto found = std::find(names_.begin() + 1, names_.end(), name.text);
     if (found != names_.end()) return static_cast<int>(found - names_.begin());
-    if (!all_named_) return 0;  // the frame's own fault was reported
+    if (!all_named_) return 0;  // the fault of the frame itself was reported
     const std::string near = scene::nearest_name(name.text.str(), names_);
     fault(at, "no frame has this name", near.empty() ? "" : "did you mean \"" + near + "\"?");
     return 0;

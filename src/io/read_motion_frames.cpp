@@ -26,10 +26,10 @@ Mat3 matrix_of(const double* axes) {
   throw std::runtime_error(path.string() + ": " + what);
 }
 
-/// What the header says, in whose members a wrong type is told once, by `good`.
+/// Reads the header; `good` reports once if a member has the wrong type.
 struct HeaderReader {
   const JsonValue& header;
-  int most = 0;  ///< parts or points that a file of this size can hold
+  int most = 0;  ///< largest number of parts or points in a file of this size
   bool good = true;
 
   const std::vector<const JsonValue*> list(const JsonValue& of, std::string_view key) {
@@ -82,7 +82,7 @@ void read_shapes(HeaderReader& r, records::MotionParts& parts) {
   }
 }
 
-/// A frame with the names and sizes of all others, and what its parts are.
+/// A frame with the names and sizes of all others, and the properties of its parts.
 records::MotionFrame read_header(HeaderReader& r, records::MotionParts& parts) {
   records::MotionFrame f;
   read_shapes(r, parts);
@@ -216,7 +216,7 @@ struct Block {
   std::uintmax_t begin = 0;  ///< of its packed bytes in the file
 };
 
-/// All frames that are whole: what a crash cut off at the end does not count.
+/// All complete frames; a frame that a crash cut off at the end is ignored.
 std::vector<Block> blocks_of(std::ifstream& file, std::uintmax_t begin, std::uintmax_t size) {
   std::vector<Block> blocks;
   std::string head(frame_head_bytes, '\0');

@@ -9,12 +9,12 @@
 namespace bough::io {
 namespace {
 
-/// A parameter that a formula gives, and the formulas that it needs and is needed by.
+/// A parameter given by a formula, the formulas that it needs, and those that need it.
 struct Formula {
   std::string name, pointer;
   const JsonValue* text = nullptr;
   std::vector<std::size_t> needs, needed_by;
-  std::size_t open = 0;  ///< how many of `needs` have no value yet
+  std::size_t open = 0;  ///< number of `needs` that have no value yet
 };
 
 class ParameterReader {
@@ -53,7 +53,7 @@ class ParameterReader {
     formulas_.push_back({name, pointer, formula, {}, {}, 0});
   }
 
-  /// The text of {"expression": text}; nullptr where the object is no such thing, which is told.
+  /// The text of {"expression": text}; nullptr if the object has another form, which is reported.
   const JsonValue* formula_of(const JsonValue& value, const std::string& pointer) {
     const JsonValue* formula = nullptr;
     for (std::size_t i = 0; i < value.items.size(); ++i) {
@@ -110,7 +110,7 @@ class ParameterReader {
     names_.set_defective(f.name);
   }
 
-  /// Formulas without a value after all are in cycles, or need one that is.
+  /// Formulas that have no value in the end belong to a cycle, or need one that does.
   void tell_of_cycles() {
     std::vector<std::size_t> walk_of(formulas_.size(), 0);
     std::size_t walk = 0;

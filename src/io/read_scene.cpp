@@ -13,7 +13,7 @@
 namespace bough::io {
 namespace {
 
-/// True where a fault concerns the outline of the file, so that missing things would be reported all over.
+/// True if a fault concerns the outline of the file, which would cause many further reports.
 bool breaks_outline(const std::vector<CheckFault>& faults) {
   return std::any_of(faults.begin(), faults.end(), [](const CheckFault& f) {
     const bool is_top = std::count(f.pointer.begin(), f.pointer.end(), '/') <= 1;
@@ -85,7 +85,7 @@ ReadScene read(std::string_view text, std::string name, std::span<const std::str
   return result;
 }
 
-/// Calls read_text(text, name) with the text of a file, or says why it can not be had.
+/// Calls read_text(text, name) with the text of a file, or reports why it cannot be read.
 template <class ReadText>
 auto read_file(const std::filesystem::path& file, const ReadText& read_text) {
   Problem problem;
@@ -114,7 +114,7 @@ ExpandedScene expanded_scene_text(std::string_view text, std::span<const std::st
 
 namespace {
 
-/// Of files that a scene names; none for one from standard input.
+/// Folder of the files that a scene names; none for a scene from standard input.
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   if (file == "-") return {};
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");

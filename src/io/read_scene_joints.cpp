@@ -16,7 +16,7 @@ bool needs_axis(JointKind kind) { return kind != JointKind::fixed && kind != Joi
 
 double norm(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
 
-/// The inertial axis farthest from `a`; of equals the first.
+/// The inertial axis with the largest angle to `a`, the first of several.
 Vec3 far_axis(const Vec3& a) {
   int best = 0;
   for (int k = 1; k < 3; ++k)
@@ -46,8 +46,8 @@ Converter::Side Converter::side(const Value& v, const std::string& at) {
   return s;
 }
 
-/// The joint's frame at the start, from position and axes or from what the two sides say. Nothing where it can not be
-/// said; then a fault was reported, or one of the sides is not there (reported by the check of references).
+/// The joint's frame at the start, from position and axes or from the frames on both sides. None if it is not
+/// determined. A fault was then reported, or one of the sides does not exist (which the check of references reports).
 std::optional<Frame> Converter::common_frame(const Value& v, const std::string& at, JointKind kind, const Side& a,
                                              const Side& b) {
   const auto H_a = poses_->of(std::string_view(a.to.to)), H_b = poses_->of(std::string_view(b.to.to));
@@ -59,7 +59,7 @@ std::optional<Frame> Converter::common_frame(const Value& v, const std::string& 
   if (!H_a || !H_b) return std::nullopt;
   const Frame at_a = motion::compose(*H_a, a.to.offset), at_b = motion::compose(*H_b, b.to.offset);
   const bool b_leads =
-      b.to.to.empty() ? false : true;  // with bare names the joint sits at the second, unless that is the ground
+      b.to.to.empty() ? false : true;  // with bare names the joint is at the second part, unless that is the ground
   Frame joint;
   if (const Value* position = v.find("position")) {
     joint.x = motion::transform(*frame, vector(*position));

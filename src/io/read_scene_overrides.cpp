@@ -7,7 +7,7 @@
 namespace bough::io {
 namespace {
 
-constexpr std::size_t most_overrides = 10'000;  // each is a source of its own
+constexpr std::size_t most_overrides = 10'000;  // each is a source text of its own
 
 /// A bare word is a string; everything else is JSON.
 std::optional<JsonValue> parse_value(const std::string& text, std::int16_t source, std::string& rule) {
@@ -76,7 +76,8 @@ void apply_one(JsonValue& root, const std::string& text, std::int16_t source, st
                       : at->is(JsonKind::object) ? at->find_given(token)
                                                  : nullptr;
     const bool is_parameter = tokens->size() == 2 && i == 1 && tokens->front() == "parameters";
-    if (next == nullptr && is_parameter && at->is(JsonKind::object)) {  // one that no formula names would do nothing
+    if (next == nullptr && is_parameter && at->is(JsonKind::object)) {  // a parameter that no formula uses would have
+                                                                        // no effect
       faults.push_back({pointer, token, "the scene has no parameter of this name", hint_for(*at, token)});
       return;
     }

@@ -74,11 +74,11 @@ void Converter::material(const Value& v, const std::string& at) {
 const scene::Material* Converter::material_named(const std::string& name, const std::string& at) {
   if (const auto index = material_of_.find(name); index != material_of_.end()) return &materials_[index->second];
   if (defective_materials_.count(name) > 0) {
-    left_out_ = true;  // without a word: the material's fault was reported
+    left_out_ = true;  // not reported: the material's fault was
     return nullptr;
   }
   std::vector<std::string> known;
-  constexpr std::size_t most = 1000;  // names compared with: the search goes over all of them for every fault
+  constexpr std::size_t most = 1000;  // limit of the names compared, since every fault searches all of them
   for (std::size_t i = 0; i < std::min(most, materials_.size()); ++i) known.push_back(materials_[i].name);
   const std::string near = faults.size() < max_problems ? scene::nearest_name(name, known) : "";
   fault(at, "no material has this name",

@@ -152,7 +152,7 @@ void Converter::measure(const Value& v, const std::string& at) {
   add(scene.measures, "measures", std::move(m), at);
 }
 
-/// The quantities that an expression names.
+/// The quantities to which an expression refers.
 void Converter::read_measured_names(const Value& v, const std::string& at, scene::Measure& m) {
   const Value* of = v.find("of");
   if (m.expression.empty()) {
@@ -177,7 +177,7 @@ void Converter::read_measured_names(const Value& v, const std::string& at, scene
   }
 }
 
-/// Keys that were given and that the other choices leave without effect.
+/// Warns of keys that have no effect with the other choices.
 void Converter::warn_of_idle_settings(const Value& analysis) {
   const auto is_given = [&analysis](const char* key) {
     const Value* v = analysis.find(key);
@@ -312,7 +312,7 @@ void Converter::convert() {
   each("nodes", &Converter::node);
   each("bodies", &Converter::body);
   each("beams", &Converter::beam);
-  poses_.emplace(scene);  // what follows adds no places
+  poses_.emplace(scene);  // no places are added after this
   warn_of_thick_beams();
   each("joints", &Converter::joint);
   each("springs", &Converter::spring);

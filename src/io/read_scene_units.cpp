@@ -1,4 +1,4 @@
-/// Hints where numbers look like those of other units than SI, although they could be meant.
+/// Hints where numbers look as if they had units other than SI, although they may be intended.
 #include <algorithm>
 #include <cmath>
 
@@ -56,7 +56,7 @@ void Converter::warn_of_body_size(const Value& shape, const std::string& at, dou
                         "are its sizes in mm? they are asked for in metres"});
 }
 
-/// Sections thicker than their beams are long.
+/// Warns of sections that are thicker than their beams are long.
 void Converter::warn_of_thick_beams() {
   for (std::size_t i = 0; i < scene.beams.size(); ++i) {
     const scene::Beam& b = scene.beams[i];
@@ -71,7 +71,7 @@ void Converter::warn_of_thick_beams() {
   }
 }
 
-/// A law that stands at, or ends at, a number of whole degrees.
+/// Warns of a law that is constant at, or ends at, a whole number of degrees.
 void Converter::warn_of_degrees(const laws::Law& angle, const std::string& at) {
   if (!angle.is_constant() && !is_static_) return;  // in time a drive may make any number of turns
   const double x = std::abs(angle.at(is_static_ ? 1.0 : 0.0).value);

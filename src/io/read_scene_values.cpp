@@ -154,7 +154,7 @@ laws::Law ValueConverter::law_table(const Value& v) const {
 
 namespace {
 
-/// Neighbours two by two, so that a product of thousands of factors is no tower of thousands of products.
+/// Multiplies neighbours in pairs, so that a product of thousands of factors is not nested thousands of levels deep.
 laws::Law product_of(std::vector<laws::Law> factors) {
   for (; factors.size() > 1; factors.resize((factors.size() + 1) / 2))
     for (std::size_t i = 0; i < factors.size(); i += 2)

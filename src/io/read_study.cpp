@@ -55,7 +55,7 @@ void StudyConverter::convert(const JsonValue& root) {
   for (std::size_t i = 0; i < spec.grids.size(); ++i) check_runs(spec.grids[i], "/grids/" + std::to_string(i));
 }
 
-/// The scene with what all runs change. Its own sensors may be replaced; figures that it expects are of no use here.
+/// The scene with the overrides common to all runs. Its sensors may be replaced; its expected figures are not used.
 void StudyConverter::read_base(const Value& root) {
   spec.overrides = {"/expected=[]"};
   if (const Value* sensors = root.find("sensors")) {

@@ -17,7 +17,7 @@ bool is_multiple(double whole, double part) {
 
 }  // namespace
 
-/// Who is to blame for what these overrides lead to.
+/// The places in the study to which faults caused by these overrides are attributed.
 void StudyConverter::add_origins(const std::vector<std::string>& overrides, const std::string& at,
                                  std::vector<SettingOrigin>& origins) {
   for (const std::string& o : overrides) origins.push_back({o.substr(0, o.find('=')), at});
@@ -96,11 +96,11 @@ std::optional<StudyChoice> StudyConverter::read_value(const std::string& name, c
 
 namespace {
 
-/// Whether a pointer leads to the mechanics of a scene, not to how they are computed. What parameters are used for is
+/// Whether a pointer leads to the mechanics of a scene and not to the method of computation. The use of parameters is
 /// not known here.
 bool changes_the_scene(const std::string& pointer) {
   const auto tokens = split_pointer(pointer);
-  if (!tokens || tokens->empty()) return false;  // told as no pointer
+  if (!tokens || tokens->empty()) return false;  // reported as not being a pointer
   const std::string& first = tokens->front();
   if (first == "beams") return tokens->back() != "elements" && tokens->back() != "order";
   if (first == "analysis") return tokens->back() == "end_time" || tokens->back() == "kind" || tokens->back() == "frame";
@@ -190,7 +190,7 @@ bool StudyConverter::check_samples(const scene::Scene& scene, const std::string&
   return false;
 }
 
-/// Reads the scene of every run, so that nothing is wrong with any of them once the study starts.
+/// Reads the scene of every run, so that faults are found before the study starts.
 void StudyConverter::check_runs(const StudyGrid& grid, const std::string& at) {
   const StudyReference* reference = grid.has_reference   ? &grid.reference
                                     : spec.has_reference ? &spec.reference

@@ -11,7 +11,7 @@
 namespace bough::io {
 namespace {
 
-constexpr double same_time = 1e-9;  // of the run: times agree within it
+constexpr double same_time = 1e-9;  // relative to the end of the run: times within it are equal
 
 /// Columns of a CSV file with one header line; `trouble` says what is wrong with it.
 struct NumberTable {
@@ -156,7 +156,7 @@ void StudyConverter::read_table(const Value& v, const std::string& at, StudyQuan
     const auto row = std::find_if(table.rows.begin(), table.rows.end(), [&](const std::vector<double>& r) {
       return std::abs(r[columns[0]] - t) <= same_time * spec.end;
     });
-    // what is given at the start is no result
+    // values given at the start are not results
     if (row == table.rows.end() && t == 0.0) continue;
     if (row == table.rows.end()) {
       fault(at + "/file", "the table has no row at the sample time " + rounded_text(t, 9),

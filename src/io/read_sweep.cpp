@@ -59,7 +59,7 @@ class SweepConverter : public SceneConverter {
     return list;
   }
 
-  /// The scene's own measures stay, before those of the sweep.
+  /// Reads measures; the scene's own ones are kept and come before those of the sweep.
   void read_measures(const Value& root) {
     const Value* measures = root.find("measures");
     if (measures == nullptr || !measures->sound || measures->items.empty()) return;
@@ -205,7 +205,7 @@ class SweepConverter : public SceneConverter {
     }
   }
 
-  /// What is wrong with the scene, or with pointers, shows in the first case as well as in any other.
+  /// Faults of the scene or of pointers show in the first case as well as in any other.
   void read_first_case() {
     std::vector<std::string> overrides = spec.overrides;
     for (const SweepDesign& d : spec.designs)

@@ -91,7 +91,7 @@ std::exception_ptr RunDirectory::commit_files() {
     try {
       writer.commit(Durability::soon);
     } catch (const std::exception&) {
-      // The rows since the last flush are lost; those before it are whole and may still be given their name.
+      // The rows since the last flush are lost. Those before it are complete, and the file may still be committed.
       if (!writer.can_commit()) throw;
       writer.commit(Durability::soon);
       list(writer.record());
@@ -125,7 +125,7 @@ void RunDirectory::end(const records::Summary& summary) {
   if (!history_) begin(summary.header);
   has_ended_ = true;
   std::exception_ptr failure = commit_files();
-  if (!failure) {  // else no summary: the directory is not whole
+  if (!failure) {  // otherwise there is no summary, since the directory is incomplete
     try {
       folder_->write_index("summary.json", summary_text(summary, version_, origin_, records_));
       files_.emplace_back("summary.json");
@@ -155,7 +155,7 @@ std::optional<fs::path> RunDirectory::keep_rows_of_killed(const fs::path& direct
     rows = bytes_of("history.csv.partial");
     twin = bytes_of("history.npy.partial");
   }
-  rows.resize(rows.rfind('\n') + 1);  // whole rows; npos + 1 is 0
+  rows.resize(rows.rfind('\n') + 1);  // complete rows only; npos + 1 is 0
   if (rows.empty()) return std::nullopt;
   std::vector<std::string> columns;
   if (split_csv_line(std::string_view(rows).substr(0, rows.find('\n')), columns))

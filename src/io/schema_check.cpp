@@ -64,16 +64,16 @@ JsonKind json_kind(Form form) {
 using Path = JsonPath;
 
 constexpr std::size_t most_faults =
-    2 * max_problems;  // kept: more are counted, for a file of millions of faults has no room for them
+    2 * max_problems;  // number of faults kept; further ones are counted, since a file may have millions
 
 class Checker {
  public:
   Checker(const RuleTable& table, std::vector<CheckFault>& faults) : table_(table), faults_(faults) {}
 
-  /// True where the value and all it holds keep their rules.
+  /// True if the value and everything in it obey their rules.
   bool check(const Rule& rule_in, JsonValue& value, const Path& path) {
     const Rule& rule = table_.resolve(rule_in);
-    if (!value.sound) return false;  // said by the reader of the text
+    if (!value.sound) return false;  // already reported by the reader of the text
     if (rule.is_deferred) return true;
     value.sound = check_form(rule, value, path);
     return value.sound;
@@ -82,7 +82,7 @@ class Checker {
   std::size_t num_faults() const { return num_faults_; }
 
  private:
-  /// No more faults are shown, so nothing is searched for them.
+  /// No more faults are shown, so that no hints need to be searched.
   bool is_hopeless() const { return faults_.size() > max_problems; }
   std::string suggestion(const std::string& word, const std::vector<std::string>& known) const {
     const std::string near = is_hopeless() ? "" : scene::nearest_name(word, known);
@@ -99,8 +99,8 @@ class Checker {
     return false;
   }
 
-  /// True where the same was said of another copy of the same text, which then counts this one: a thousand copies with
-  /// one fault are one fault.
+  /// True if the same fault was reported for another copy of the same text, which then counts this one. A fault in a
+  /// thousand copies is one fault.
   bool is_of_another_copy(int source, std::uint32_t offset, const std::string& rule) {
     const std::string key = std::to_string(source) + " " + std::to_string(offset) + " " + rule;
     const auto [at, is_new] = of_copies_.try_emplace(key, faults_.size());
@@ -139,7 +139,7 @@ class Checker {
     }
   }
 
-  /// Puts the number that a formula gives in the place of the formula.
+  /// Replaces a formula by its value.
   bool evaluate(JsonValue& value, const Path& path) {
     if (!check_object(*table_.named.at("formula"), value, path)) return false;
     const JsonValue& formula = *value.find_given("expression");
@@ -166,7 +166,7 @@ class Checker {
     return "";
   }
 
-  /// What a rule asks for, in words.
+  /// Describes the values that a rule allows.
   std::string wanted(const Rule& rule_in) const {
     const Rule& rule = table_.resolve(rule_in);
     switch (rule.form) {
@@ -211,7 +211,7 @@ class Checker {
   }
 
   bool check_number(const Rule& rule, JsonValue& value, const Path& path) {
-    // A formula for a count carries round-off, as 0.3 / 0.1 does; what is further off was not meant as one.
+    // A formula for a count may have round-off, as 0.3 / 0.1 does; values farther from a whole number are faults.
     if (rule.form == Form::integer && value.is_made && std::abs(value.number - std::round(value.number)) <= 1e-9)
       value.number = std::round(value.number);
     const double x = value.number;
@@ -265,7 +265,7 @@ class Checker {
 
   /// Reports a key that is not known; returns the one that was probably meant, which is then not reported as missing.
   std::string unknown_key(const Rule& rule, const JsonValue& value, std::size_t i, const Path& at) {
-    if (is_hopeless()) {  // not shown, so no search for the key that was meant: it would be quadratic
+    if (is_hopeless()) {  // the key is not shown; a search for similar keys would take quadratic time in total
       fail(value.items[i], at, "this key is not known here", {}, true);
       return {};
     }
@@ -301,7 +301,8 @@ class Checker {
     return sound;
   }
 
-  /// Narrows a choice by the JSON type, then objects by "kind" or marker key, then arrays by what they hold.
+  /// Selects an alternative by the JSON type, then for objects by "kind" or a marker key, then for arrays by their
+  /// items.
   bool check_choice(const Rule& rule, JsonValue& value, const Path& path) {
     std::vector<const Rule*> fitting;
     flatten(rule, value.kind, fitting);
@@ -338,7 +339,7 @@ class Checker {
     return no_choice(options, value, path);
   }
 
-  /// Says what is wrong with an object that is none of the options.
+  /// Reports what is wrong with an object that fits no alternative.
   bool no_choice(const std::vector<const Rule*>& options, JsonValue& value, const Path& path) {
     std::vector<std::string> kinds, markers, keys;
     for (const Rule* option : options) {
@@ -369,7 +370,7 @@ class Checker {
   const RuleTable& table_;
   std::vector<CheckFault>& faults_;
   std::size_t num_faults_ = 0;
-  std::unordered_map<std::string, std::size_t> of_copies_;  ///< place and rule of faults in copies: which one it is
+  std::unordered_map<std::string, std::size_t> of_copies_;  ///< place and rule of a fault in copies -> its index
 };
 
 }  // namespace

@@ -383,7 +383,7 @@ RuleTable make_table() {
 }  // namespace
 
 const RuleTable& scene_rules() {
-  static const RuleTable& table = *new RuleTable(make_table());  // not taken apart at the end, which takes long
+  static const RuleTable& table = *new RuleTable(make_table());  // never destroyed, since that takes long
   return table;
 }
 

@@ -29,7 +29,7 @@ Json one_required(const std::vector<std::string>& keys) {
   return list;
 }
 
-/// What may name a number in formulas.
+/// Schema of the names that formulas may use for numbers.
 Json formula_name_schema() {
   return Json{
       {"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}, {"maxLength", 100}, {"not", Json{{"enum", laws::formula_words()}}}};
@@ -41,7 +41,7 @@ void add_object(const Rule& rule, Json& out, bool formulas) {
   for (const Field& f : rule.fields) {
     Json p = to_schema(*f.rule, formulas);
     if (f.key == "kind" && !rule.kinds.empty()) p = Json{{"enum", rule.kinds}};
-    // draft-07 ignores what stands beside a $ref, so a described reference is wrapped
+    // draft-07 ignores keys next to a $ref, so a reference with a description is wrapped
     if (p.contains("$ref")) p = Json{{"allOf", Json::array({p})}};
     const std::string own = p.value("description", "");
     p["description"] = std::string(f.about) + (own.empty() || own == f.about ? "" : " " + own);
@@ -108,7 +108,8 @@ Json to_schema(const Rule& rule, bool formulas) {
       add_object(rule, out, formulas);
       break;
     case Form::choice: {
-      // Of a choice that has formulas of its own, as laws do, a number is a number: exactly one option may fit.
+      // In a choice that has formulas of its own, such as a law, a number must be a plain number: exactly one option
+      // may fit.
       const bool has_own = std::any_of(rule.options.begin(), rule.options.end(),
                                        [](const RuleRef& option) { return option->marker == "expression"; });
       Json options = Json::array();

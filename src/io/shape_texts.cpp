@@ -61,7 +61,7 @@ double doubled_area(const std::vector<std::array<double, 2>>& loop) {
   return sum;
 }
 
-/// Points by place, triangles between them; what has no area is left out.
+/// Merges equal points and collects triangles; triangles without area are omitted.
 class MeshMaker {
  public:
   int point(const std::array<double, 3>& x) {
@@ -165,7 +165,7 @@ Result obj(std::string_view text) {
       if (face.size() < 3) return wrong(lines.where() + "a face has at least three vertices");
       for (std::size_t k = 2; k < face.size(); ++k)
         if (!maker.triangle(face[0], face[k - 1], face[k])) return wrong(too_many());
-    }  // normals, groups, materials and the like change no shape
+    }  // normals, groups, materials and the like do not change the shape
   }
   return whole(std::move(maker));
 }
@@ -196,7 +196,9 @@ OrFault<scene::Outline> outline_of_text(std::string_view text) {
   if (outline.loops.empty()) return fails("the file holds no corners");
   for (std::size_t k = 0; k < outline.loops.size(); ++k) {
     auto& loop = outline.loops[k];
-    if (loop.size() > 3 && loop.front() == loop.back()) loop.pop_back();  // closed as many programs write it
+    if (loop.size() > 3 && loop.front() == loop.back())
+      loop.pop_back();  // many programs repeat the first point at the
+                        // end
     if ((doubled_area(loop) < 0.0) == (k == 0)) std::reverse(loop.begin(), loop.end());
   }
   return Outcome(std::in_place_index<0>, std::move(outline));

@@ -12,7 +12,7 @@
 namespace bough::io {
 namespace {
 
-/// True where `inner` names what `outer` names, or something in it.
+/// True if `inner` names the same value as `outer` or a value within it.
 bool is_within(const std::string& inner, const std::string& outer) {
   return inner.size() >= outer.size() && inner.compare(0, outer.size(), outer) == 0 &&
          (inner.size() == outer.size() || inner[outer.size()] == '/');
@@ -51,7 +51,8 @@ void append_canonical(std::string& out, const JsonValue& v) {
   gather(v);
   if (const JsonValue* defaults = v.items.defaults()) gather(*defaults);
   std::stable_sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  const auto same_key = [](const auto& a, const auto& b) { return a.first == b.first; };  // given before defaults
+  const auto same_key = [](const auto& a, const auto& b) { return a.first == b.first; };  // given keys come before
+                                                                                          // defaults
   members.erase(std::unique(members.begin(), members.end(), same_key), members.end());
   out += '{';
   for (const auto& [key, value] : members) {
@@ -66,7 +67,7 @@ void append_canonical(std::string& out, const JsonValue& v) {
 
 std::vector<std::string> StudyScene::expand(const std::string& pointer, const std::string& value) {
   const auto tokens = split_pointer(pointer);
-  if (!tokens || tokens->empty()) return {pointer + "=" + value};  // the reader of overrides says what is wrong with it
+  if (!tokens || tokens->empty()) return {pointer + "=" + value};  // the reader of overrides reports the fault
   if (!root_) {
     std::vector<JsonFault> faults;
     root_ = parse_json(text_, source_file, faults);

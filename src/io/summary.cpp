@@ -77,7 +77,7 @@ void write_limit_points(JsonText& json, const std::vector<records::LimitPoint>& 
   json.end_array();
 }
 
-/// What sensors of motions are estimated to be off by at the end.
+/// Estimated errors of sensors of motions at the end.
 void write_errors(JsonText& json, const std::vector<records::SensorError>& errors) {
   if (errors.empty()) return;
   json.key("errors");
@@ -128,7 +128,7 @@ void write_stability(JsonText& json, const records::Stability& s) {
   json.end_object();
 }
 
-/// What speaks against the run, and how the levels of the tree were met with.
+/// Doubts about the run, and figures of the levels of the tree.
 void write_trust(JsonText& json, const records::Summary& summary) {
   json.key("trust");
   json.begin_object();

@@ -23,7 +23,7 @@ static_assert(std::endian::native == std::endian::little, "VTU data are written 
 constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_polyline = 4, vtk_triangle = 5, vtk_wedge = 13;
 enum class Kind : std::int32_t { beam = 0, body = 1, link = 2, load = 3 };
 
-/// What a point shows besides where it is; zero where it has none.
+/// Data of a point besides its position; zero where it has none.
 struct PointValues {
   const double* force = nullptr;     ///< 6
   const double* strain = nullptr;    ///< 6

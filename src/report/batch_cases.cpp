@@ -19,7 +19,7 @@ std::string unquoted(const std::string& text) {
   return text.size() >= 2 && text.front() == '"' ? text.substr(1, text.size() - 2) : text;
 }
 
-/// A value of an input: a number, or a text.
+/// Writes the value of an input: a number or a text.
 void write_input(io::JsonText& json, const std::string& text) {
   double number = 0.0;
   if (io::read_number(text, number) && std::isfinite(number))

@@ -57,7 +57,7 @@ Table status_table(const std::vector<CaseResult>& results) {
   return table;
 }
 
-/// A cause without its numbers, so that causes which differ in these alone are one.
+/// The text of a cause without its numbers; causes that differ only in numbers are counted together.
 std::string kind_of(const std::string& cause) {
   std::string kind;
   for (std::size_t i = 0; i < cause.size() && kind.size() < 160; ++i) {
@@ -152,7 +152,7 @@ std::string svg_of(double height, const std::string& inner) {
          "\" height=\"" + pixel(height) + "\"/>\n" + inner + "</svg>\n";
 }
 
-/// How often values come, in equal intervals: about as many as the root of their number.
+/// Histogram with equal intervals, about as many as the square root of the number of values.
 std::string histogram(const Measured& m) {
   constexpr double top = 34.0, bottom = 170.0;
   const double low = m.values.front(), high = m.values.back();
@@ -182,7 +182,7 @@ std::string histogram(const Measured& m) {
   return svg_of(bottom + 26.0, inner);
 }
 
-/// A name that fits beside a plot.
+/// Shortens a name so that it fits beside a plot.
 std::string shortened(const std::string& name) {
   constexpr std::size_t most = 16;
   return io::shown(name, most);
@@ -257,7 +257,7 @@ std::vector<std::size_t> cases_shown(const std::vector<CaseResult>& results, std
   if (all.size() <= most) return all;
   std::set<std::size_t> chosen;
   const std::vector<Measured> measured = measured_in(results);
-  for (std::size_t k = 0; chosen.size() < most / 2 && k < results.size(); ++k) {  // the extremes, from outside in
+  for (std::size_t k = 0; chosen.size() < most / 2 && k < results.size(); ++k) {  // the extreme values, from outside in
     const std::size_t before = chosen.size();
     for (const Measured& m : measured) {
       if (2 * k >= m.cases.size()) continue;
@@ -268,7 +268,7 @@ std::vector<std::size_t> cases_shown(const std::vector<CaseResult>& results, std
   }
   for (std::size_t i = 0; i < results.size() && chosen.size() < 3 * most / 4; ++i)
     if (!is_good(results[i])) chosen.insert(i);
-  // A sample at equal distances: cases of designs that draw have no order.
+  // A sample at equal distances: cases of random designs have no order.
   const std::size_t left = most - std::min(most, chosen.size());
   for (std::size_t k = 0; k < left; ++k) chosen.insert(k * results.size() / left);
   return {chosen.begin(), chosen.end()};

@@ -16,12 +16,12 @@ namespace bough::report {
 namespace {
 
 constexpr double left_margin = 66.0, right_margin = 16.0, head = 34.0, below_axis = 40.0;  // [px]
-constexpr double lane_height = 22.0;  // of failures, above the plot [px]
+constexpr double lane_height = 22.0;  // for failures, above the plot [px]
 constexpr double legend_row = 19.0;   // [px]
 constexpr double character = 6.6;     // mean width of a character in 12 px [px]
 constexpr double swatch = 26.0;       // of a legend's entry [px]
 constexpr int num_colors = 6, num_marks = 5, num_dashes = 3;
-constexpr std::size_t thinned_above = 400;  // points of a line without marks
+constexpr std::size_t thinned_above = 400;  // number of points above which a line without marks is thinned
 
 double on_axis(double value, Scale scale) {
   if (scale == Scale::linear || !std::isfinite(value)) return value;
@@ -37,7 +37,7 @@ struct Range {
   }
 };
 
-/// Some room around the points; whole decades where few fit, so that labels exist.
+/// Adds some room around the points; rounds to whole decades if the range has only a few, so that there are labels.
 Range padded(Range range, Scale scale) {
   if (range.low > range.high) return scale == Scale::log ? Range{-1.0, 1.0} : Range{0.0, 1.0};
   const double extent = range.high - range.low;
@@ -72,7 +72,7 @@ std::string power_text(int exponent) {
 }
 
 struct Tick {
-  double at;  ///< on the axis: log10 of a logarithmic one
+  double at;  ///< position on the axis: log10 of the value on a logarithmic one
   std::string label;
   bool is_major = true;
 };
@@ -126,7 +126,7 @@ std::string move_to(double x, double y, char verb = 'M') {
   return data;
 }
 
-/// Disc, square, triangle, diamond, triangle downwards: told apart without colour.
+/// Disc, square, triangle, diamond, inverted triangle: they can be distinguished without colour.
 std::string mark_path(int shape, double x, double y) {
   constexpr double r = 3.6;
   switch (shape % num_marks) {
@@ -168,7 +168,7 @@ std::string titled_path(const std::string& classes, const std::string& data, con
 
 struct Placed {
   double x, y;   ///< [px]; y NaN: not drawn
-  bool on_edge;  ///< below what the axis can show
+  bool on_edge;  ///< below the range of the axis
 };
 
 Placed place(const Chart& chart, const ChartFrame& f, const ChartPoint& point) {
@@ -226,8 +226,8 @@ std::string failures_text(const Chart& chart, const ChartFrame& f) {
   return text;
 }
 
-/// The part of the line inside the plot area, by clipping against its four edges, from the end at which its label is
-/// looked for; none: it lies outside.
+/// The part of the line inside the plot area, clipped at its four edges, beginning at the end where its label is
+/// placed; none if the line is outside.
 std::optional<Segment> guide_of(const Chart& chart, const ChartFrame& f, const SlopeLine& line) {
   const double x0 = on_axis(line.x0, chart.x.scale), y0 = on_axis(line.y0, chart.y.scale);
   if (!std::isfinite(x0) || !std::isfinite(y0) || !std::isfinite(line.slope)) return std::nullopt;
@@ -245,7 +245,7 @@ std::optional<Segment> guide_of(const Chart& chart, const ChartFrame& f, const S
   return Segment{f.to_x(a), height(a), f.to_x(b), height(b)};
 }
 
-/// Lines and marks of the series, as what labels are to keep off.
+/// Lines and marks of the series, which labels must not cover.
 std::vector<Segment> drawn_segments(const Chart& chart, const ChartFrame& f) {
   constexpr double r = 6.0;  // around a mark
   std::vector<Segment> drawn;

@@ -30,7 +30,7 @@ std::string attribute(std::string_view name, std::string_view value) {
   return value.empty() ? std::string() : " " + std::string(name) + "=\"" + escaped(value) + "\"";
 }
 
-/// label: what stands before the cell where a row is shown as a card; empty: it is not.
+/// label: the text before the cell where a row is shown as a card; empty if rows are not shown as cards.
 std::string cell_html(const Cell& cell, std::string_view label) {
   std::string classes(cell.is_number ? "number" : "");
   if (const std::string_view tone = class_of(cell.tone); !tone.empty())
@@ -52,7 +52,7 @@ std::size_t longest_word(std::string_view text) {
   return most;
 }
 
-/// Width that a column cannot do without, in wide letters: numbers do not wrap, words do.
+/// Minimum width of a column, in wide letters: numbers cannot be wrapped, and words only between them.
 double least_width(const Table& table, std::size_t c) {
   constexpr double letter = 8.8, bold_letter = 9.6, padding = 14.0, first_column = 9.0 * 15.0;  // [px] at 15 px
   double width = bold_letter * static_cast<double>(longest_word(table.head[c]));
@@ -62,7 +62,7 @@ double least_width(const Table& table, std::size_t c) {
   return padding + (c == 0 ? std::max(width, first_column) : width);
 }
 
-/// Columns that fit beside each other in a width, part after part, each with the first column again.
+/// Divides columns into parts that fit into a width; each part begins with the first column.
 std::vector<std::vector<std::size_t>> parts_within(const std::vector<double>& widths, double widest) {
   std::vector<std::vector<std::size_t>> parts(1);
   double used = 0.0;
@@ -77,8 +77,8 @@ std::vector<std::vector<std::size_t>> parts_within(const std::vector<double>& wi
   return parts;
 }
 
-/// Columns of a table that fit beside each other on the page, and, at four fifths of its letters, on paper of 190 mm; a
-/// wider table goes on in further ones, as few as possible and as equal in width.
+/// Divides a table into parts that fit on the page and, with letters of four fifths of the size, on paper of 190 mm.
+/// There are as few parts as possible, as equal in width as possible.
 std::vector<std::vector<std::size_t>> parts_of(const Table& table) {
   constexpr double widest = 860.0, step = 10.0;  // [px]
   std::vector<double> widths;
@@ -136,8 +136,8 @@ void Document::table(const Table& table) {
     if (row.size() != table.head.size()) throw std::logic_error("a row is as long as the head of its table");
   const std::vector<std::vector<std::size_t>> parts = parts_of(table);
   for (const std::vector<std::size_t>& columns : parts) {
-    // Where the window is narrower than such a table its rows are cards, a line for each column: nothing is cut or
-    // pushed aside.
+    // If the window is narrower than such a table, rows are shown as cards with one line for each column, so that
+    // nothing is cut off.
     double width = 0.0;
     for (const std::size_t c : columns) width += least_width(table, c);
     const bool has_cards = width > 340.0;

@@ -43,8 +43,8 @@ LabelPlace place_label(const Segment& line, double width, const std::vector<Segm
     for (int k = 0; k < num_places; ++k) {
       const double part = (k + 0.5) / num_places;
       const double x = line.x0 + part * (line.x1 - line.x0), y = line.y0 + part * (line.y1 - line.y0);
-      // Below a rising line there is room to the right of it, above it to the left; a corner of the label is next to
-      // the line.
+      // Below a rising line there is room to its right, above it to its left; a corner of the label is next to the
+      // line.
       const bool is_end = is_below != rises;
       const LabelPlace place{is_end ? x - gap : x + gap, is_below ? y + letters : y - descent, is_end};
       const Box box = box_of(place, width);

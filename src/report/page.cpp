@@ -29,7 +29,8 @@ void add_heading(Document& page, const RunFiles& run) {
                  Tone::soft);
 }
 
-/// A place for the moving picture, which the script fills and shows; without it, and on paper, the drawing.
+/// The place of the moving picture, which the script fills and shows. Without scripts, and on paper, the drawing is
+/// shown.
 void add_motion(Document& page, const RunFiles& run, const PictureOptions& options) {
   if (run.motion.empty()) return page.paragraph(how_to_record_motion(), Tone::soft);
   page.markup(
@@ -57,7 +58,7 @@ void add_plots(Document& page, const RunFiles& run) {
                    Tone::soft);
 }
 
-/// The scene, with what was set in it.
+/// The scene, with the values that were set for the run.
 std::string what_ran(const RunFiles& run) {
   std::string text = run.name;
   if (run.summary)
@@ -71,7 +72,7 @@ std::string words_of(std::string name) {
   return name;
 }
 
-/// Figures that do not hold, then those that do, folded.
+/// Expected figures: those that were missed, then the others, folded.
 void add_expected(Document& page, const std::vector<records::ExpectedResult>& expected) {
   if (expected.empty()) return;
   page.section("Expected figures");

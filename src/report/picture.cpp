@@ -13,7 +13,7 @@ constexpr double tallest = 560.0, lowest = 150.0;                 // of the draw
 constexpr double same_spot = 0.35;                                // points nearer than this are one [px]
 constexpr int num_colors = 9;
 
-/// From space to the drawing's pixels: u to the right, v down.
+/// Maps projected positions to pixels of the drawing: u to the right, v down.
 struct Sheet {
   Projection projection;
   double scale = 1.0;            ///< [px/m]
@@ -33,7 +33,7 @@ void include(double& low, double& high, double value) {
   high = std::max(high, value);
 }
 
-/// Scales what is drawn, in projection, to the sheet with equal axes.
+/// Fits the projection of all frames to the sheet, with equal scales of both axes.
 Sheet make_sheet(const std::vector<records::MotionFrame>& frames, const Projection& projection) {
   double u_low = HUGE_VAL, u_high = -HUGE_VAL, v_low = HUGE_VAL, v_high = -HUGE_VAL;
   const auto take = [&](const double* x) {
@@ -58,7 +58,7 @@ Sheet make_sheet(const std::vector<records::MotionFrame>& frames, const Projecti
   const double smallest =
       1e-12 * std::max({std::abs(u_low), std::abs(u_high), std::abs(v_low), std::abs(v_high)}) + 1e-300;
   double u_extent = u_high - u_low, v_extent = v_high - v_low;
-  if (std::max(u_extent, v_extent) <= smallest) u_extent = 1.0;  // one point that stays: one metre around it
+  if (std::max(u_extent, v_extent) <= smallest) u_extent = 1.0;  // a single point at rest: one metre around it
   const double inner = page_width - 2.0 * margin;
   Sheet sheet;
   sheet.projection = projection;
@@ -72,7 +72,7 @@ Sheet make_sheet(const std::vector<records::MotionFrame>& frames, const Projecti
   return sheet;
 }
 
-/// Builds path data; points that fall on the one before are left out.
+/// Builds path data; points that coincide with the previous one are omitted.
 class PathData {
  public:
   explicit PathData(const Sheet& sheet) : sheet_(sheet) {}
@@ -86,7 +86,7 @@ class PathData {
     is_pending_ = std::abs(here_.u - drawn_.u) + std::abs(here_.v - drawn_.v) < same_spot;
     if (!is_pending_) put('L');
   }
-  /// Ends a curve at its very last point.
+  /// Ends a curve at its last point, which is never omitted.
   void finish() {
     if (is_pending_) put('L');
     is_pending_ = false;
@@ -197,7 +197,8 @@ std::string axis_triad(const Sheet& sheet) {
 std::string color_ramp(const Sheet& sheet, const std::vector<double>& times, const std::vector<int>& colors,
                        bool is_static) {
   const double step =
-      std::max(26.0, 170.0 / static_cast<double>(times.size()));  // the first and the last time side by side
+      std::max(26.0, 170.0 / static_cast<double>(times.size()));  // the first and the last time have to fit side by
+                                                                  // side
   const double right = page_width - margin, left = right - step * static_cast<double>(times.size()),
                y = sheet.height - 36.0;
   std::string text;
@@ -216,7 +217,7 @@ std::string color_ramp(const Sheet& sheet, const std::vector<double>& times, con
 
 std::string legend(const Sheet& sheet, const std::vector<records::MotionFrame>& frames) {
   const records::MotionFrame& frame = frames.front();
-  const double y = sheet.height - 84.0;  // a line of its own, above scale, axes and times
+  const double y = sheet.height - 84.0;  // on a line of its own, above scale, axes and times
   double x = margin;
   std::string text;
   const auto entry = [&](const char* classes, const std::string& data, const char* name, double advance) {
@@ -225,7 +226,8 @@ std::string legend(const Sheet& sheet, const std::vector<records::MotionFrame>& 
   };
   const bool has_spokes =
       std::any_of(frame.bodies.begin(), frame.bodies.end(), [](const auto& body) { return !body.attachments.empty(); });
-  // A joint's two points differ by round-off, a spring's by much: what is seen of either is a line of some pixels.
+  // The two points of a joint differ by round-off only, those of a spring by much: links of some pixels are drawn as
+  // lines.
   const auto is_long = [&](const records::Link& link) {
     const Point2 a = sheet(link.first), b = sheet(link.second);
     return std::hypot(b.u - a.u, b.v - a.v) > 1.0;

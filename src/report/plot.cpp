@@ -14,7 +14,7 @@ namespace {
 constexpr double width = 468.0, height = 220.0, left = 66.0, right = width - 14.0, top = 40.0,
                  bottom = height - 40.0;  // [px]
 constexpr std::size_t num_colors = 6;
-constexpr double constant_below = 1e-12;  // range over magnitude: round-off, drawn as a constant
+constexpr double constant_below = 1e-12;  // range over magnitude; smaller ranges are round-off and drawn as a constant
 
 struct Range {
   double low = HUGE_VAL, high = -HUGE_VAL;
@@ -42,7 +42,7 @@ struct Scale {
   double to_y(double v) const { return bottom - (bottom - top) * (v - y.low) / (y.high - y.low); }
 };
 
-/// A curve and what is taken off its values.
+/// A curve and the constant that is subtracted from its values.
 struct Line {
   std::size_t column = 0;
   double offset = 0.0;
@@ -55,7 +55,8 @@ std::string column_path(const io::History& history, const Line& line, const Scal
       [&](double value) { return scale.to_y(value); });
 }
 
-/// Where curves lie so far apart that none of them would show its course, each is drawn less its value at the start.
+/// If curves are so far apart that their variation would not be visible, each is drawn relative to its value at the
+/// start.
 std::vector<Line> lines_of(const io::History& history, const std::vector<std::size_t>& columns) {
   constexpr double far_apart = 20.0;  // times the largest range of one
   Range all;
@@ -78,7 +79,7 @@ std::vector<Line> lines_of(const io::History& history, const std::vector<std::si
   return lines;
 }
 
-/// The component, with what is taken off it.
+/// Name of the component, with the constant that was subtracted.
 std::string legend_text(const io::History& history, const Line& line) {
   const std::string component = io::split_column(history.header.columns[line.column]).component;
   if (line.offset == 0.0) return component;
@@ -146,7 +147,7 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
              "\" role=\"img\" aria-label=\"" + escaped(title) +
              " over time\">\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n" +
              text_element("head ink", 10.0, 20.0, "start", io::shown(title, 46)) + axes(scale, time_label);
-  // Where title and legend do not fit side by side, the legend goes below the title.
+  // If title and legend do not fit side by side, the legend is placed below the title.
   constexpr double character = 9.0, title_character = 8.0;
   double legend_x = right,
          needed = 24.0 + title_character * static_cast<double>(std::min<std::size_t>(title.size(), 49));

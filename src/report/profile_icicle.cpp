@@ -1,4 +1,4 @@
-/// The hierarchy as an icicle: a row a level, the root on top, as wide as the unknowns of each subtree.
+/// The hierarchy as an icicle plot: one row per level with the root on top; widths are the unknowns of each subtree.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,7 +38,7 @@ constexpr std::array<Measure, num_measures> measures{{
      io::amount_text},
 }};
 
-/// Where a measure's colours begin and end, logarithmic.
+/// Range of a measure's colours, logarithmic.
 struct Range {
   double low = HUGE_VAL, high = -HUGE_VAL;
   bool has_any() const { return low <= high; }
@@ -52,7 +52,7 @@ struct Range {
 
 struct Cell {
   double left = 0.0, right = 0.0;
-  int subdomain = 0;  ///< the one that costs most of those drawn as one
+  int subdomain = 0;  ///< the most expensive of the sub-domains drawn as one cell
   int count = 1;
 };
 
@@ -74,7 +74,7 @@ std::string tip_of(const SubdomainProfile& s, int count) {
   return t;
 }
 
-/// Cells of each level, from left to right; what is too narrow goes together.
+/// Cells of each level, from left to right; cells that would be too narrow are merged.
 std::vector<std::vector<Cell>> lay_out(const Profile& p) {
   const std::size_t n = p.subdomains.size();
   std::vector<double> left(n, 0.0), used(n, 0.0), extent(n, 0.0);
@@ -86,7 +86,7 @@ std::vector<std::vector<Cell>> lay_out(const Profile& p) {
     if (s.parent < 0) {
       left[k] = 0.0;
     } else {
-      // Children share the width of their parent, separators count for nobody.
+      // Children share the width of their parent; its separator takes no width.
       const auto parent = at(s.parent);
       const SubdomainProfile& above = p.subdomains[parent];
       const auto below = static_cast<double>(above.subtree_unknowns - above.num_unknowns);
@@ -132,7 +132,7 @@ std::string legend(const Measure& m, const Range& range, double top) {
 
 namespace {
 
-/// Of letters on a colour of fill_styles, so that they have 4.5 times its contrast, light or dark.
+/// Class of letters on a colour of fill_styles: their contrast is at least 4.5, in light and dark mode.
 std::string_view class_on(int color) { return color >= 7 ? "tiny on strong" : color >= 4 ? "tiny on" : "tiny on weak"; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// What ran when and where, over a few steps.
+/// Visits and chunks on a timeline, by thread, over a few steps.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -37,7 +37,7 @@ const char* style_of(const ProfileEvent& e) {
   return "s5 solid";
 }
 
-/// End of the window: two whole steps, fewer where these hold too many bars.
+/// End of the time window: two whole steps, or fewer if these have too many bars.
 double window_end(const std::vector<const ProfileEvent*>& steps, const std::vector<const ProfileEvent*>& bars) {
   double end = bars.back()->begin + bars.back()->seconds;
   if (!steps.empty()) {
@@ -74,7 +74,7 @@ std::string timeline_svg(const Profile& p) {
     x += 130.0;
   }
   constexpr double label_width = 30.0;
-  double free_from = 0.0;  // of the label before
+  double free_from = 0.0;  // right end of the previous label
   for (const ProfileEvent* s : steps) {
     if (s->begin >= end) break;
     const double at = left + scale * (s->begin - begin);

@@ -9,7 +9,7 @@ namespace {
 constexpr std::pair<std::string_view, View> names[] = {
     {"auto", View::automatic}, {"xy", View::xy}, {"xz", View::xz}, {"yz", View::yz}, {"iso", View::iso}};
 
-constexpr double planar_below = 0.02;  // of the largest extent: hardly seen on paper
+constexpr double planar_below = 0.02;  // relative to the largest extent: smaller ones are hardly visible on paper
 
 void include(Box& box, const double* x) {
   if (!(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))) return;
@@ -72,7 +72,7 @@ View resolve_view(View view, const Box& box) {
   double extent[3];
   for (std::size_t k = 0; k < 3; ++k) extent[k] = box.high[k] - box.low[k];
   const double thin = planar_below * std::max({extent[0], extent[1], extent[2]});
-  if (extent[1] <= thin) return View::xz;  // first, so that a motion along one line is drawn with z up
+  if (extent[1] <= thin) return View::xz;  // tested first, so that a motion along one line is drawn with z up
   if (extent[2] <= thin) return View::xy;
   if (extent[0] <= thin) return View::yz;
   return View::iso;

@@ -32,7 +32,7 @@ Mat3 mat(const double* axes) {
   return R;
 }
 
-/// Pixels with the depth of what was drawn last.
+/// Pixels with the depth of the nearest object so far.
 class Canvas {
  public:
   Canvas(int width, int height)
@@ -65,7 +65,7 @@ class Canvas {
       }
   }
 
-  /// A line of a width in samples, a little nearer than what it lies on.
+  /// A line with a width in samples, drawn slightly nearer to the viewer than the surface on which it lies.
   void line(const Corner& a, const Corner& b, double width, const Color& color, double nearer) {
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     if (!std::isfinite(length)) return;
@@ -136,10 +136,10 @@ class Canvas {
   std::vector<double> depths_;
 };
 
-/// From space to the canvas.
+/// Maps positions in space to the canvas.
 class Camera {
  public:
-  /// Shows the whole motion, or the instant alone where that is so small beside it that nothing would be seen.
+  /// Shows the whole motion, or only the instant if that would be too small to be visible.
   Camera(const RunFiles& run, const records::MotionFrame& instant, const RasterOptions& options) {
     projection_ = projection_of(resolve_view(options.view, box_of(run.motion)));
     for (int k = 0; k < 3; ++k) toward_[k] = cross_of(k);
@@ -173,7 +173,7 @@ class Camera {
     return {x0_ + scale_ * p.u, y0_ - scale_ * p.v, dot(toward_, x)};
   }
   double extent() const { return extent_; }
-  /// How bright a surface with this normal is, 0 to 1: a lamp beside the viewer, both sides alike.
+  /// Brightness of a surface with this normal, 0 to 1: a lamp beside the viewer, both sides of a surface alike.
   double light(const Vec3& n) const {
     const double size = std::sqrt(dot(n, n));
     if (!(size > 0.0)) return 1.0;
@@ -182,7 +182,7 @@ class Camera {
   }
 
  private:
-  /// Everything that is drawn, with a radius around it.
+  /// Visits all drawn points, each with a radius around it.
   template <class Visit>
   static void for_each_place(const RunFiles& run, const std::vector<records::MotionFrame>& frames, const Visit& visit) {
     std::vector<double> of_outline, of_mesh;
@@ -221,7 +221,7 @@ class Camera {
   }
 
   Projection projection_;
-  Vec3 toward_ = Vec3::zero();  ///< the viewer
+  Vec3 toward_ = Vec3::zero();  ///< direction towards the viewer
   double extent_ = 1.0, scale_ = 1.0, x0_ = 0.0, y0_ = 0.0;
 };
 
@@ -345,7 +345,7 @@ class Painter {
     }
   }
 
-  /// Forces as long as they are large against the largest of their kind: of point loads, or of line loads.
+  /// Arrows whose length is proportional to the force, relative to the largest point load or line load.
   void arrows(const records::MotionFrame& f) {
     double most[2] = {0.0, 0.0};
     for (const records::MotionFrame& g : run_.motion)
@@ -375,7 +375,7 @@ class Painter {
 void mix(double* x, const double* y, double f, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) x[k] += f * (y[k] - x[k]);
 }
-/// Along the shortest rotation from one to the other.
+/// Rotates along the shortest rotation from one orientation to the other, by a fraction f.
 void turn(double* axes, const double* next, double f) {
   const Mat3 R = mat(axes);
   const Vec3 r = motion::log_so3(lanes::transpose(R) * mat(next));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double drawing_width = 990.0, head = 66.0, left = 46.0, right = 24.0, top = 30.0, bottom = 40.0;  // [px]
 constexpr double only_height = 400.0, panel_height = 232.0;  // of one panel alone, of each of several [px]
-constexpr double zero_below = 1e-12;                         // over the largest part: round-off
+constexpr double zero_below = 1e-12;                         // relative to the largest part: smaller ones are round-off
 constexpr std::size_t max_columns = 3;
 
 /// Curve classes of style_text, the same for a part in every drawing; the sum is drawn in ink.
@@ -69,7 +69,7 @@ std::string title_of(const io::SplitSeries& series) {
   return text.empty() ? text : text + " rad/s";
 }
 
-/// One panel in a coordinate system of its own.
+/// A panel with its own coordinate system.
 std::string panel(const io::SplitTable& table, const io::SplitSeries& series, const std::vector<io::Part>& parts,
                   const Scale& scale) {
   std::string text = text_element("head ink", left, 18.0, "start", title_of(series));

@@ -68,7 +68,7 @@ Table figures(const StressCase& c, std::size_t k) {
   return table;
 }
 
-/// What of a case is not as promised: the figures beyond their limits, or else why it broke off.
+/// Describes what is not as promised: the figures beyond their limits, or why the case ended early.
 std::string failure_text(const StressCase& c) {
   std::string text;
   for (const StressFigure& f : c.figures)

@@ -73,7 +73,7 @@ class StudyPage {
            std::to_string(r.repetitions) + " repetitions taken in turns.";
   }
 
-  /// The grid's name where there are several, and the choices that are not on the abscissa.
+  /// The grid's name if there are several, and the choices that are not on the abscissa.
   std::string series_name(const SweepSeries& s) const {
     const std::string& grid = r_.spec.grids[s.grid].name;
     return s.label == grid || r_.spec.grids.size() == 1 ? s.label : grid + ": " + s.label;
@@ -176,7 +176,7 @@ class StudyPage {
     runs(g);
   }
 
-  /// Theory's slope, a little below the finest error that the order was fitted to.
+  /// A line with the theoretical slope, a little below the finest error of the fit.
   void add_slope(Chart& chart, const SweepSeries& series, std::size_t q, bool larger_is_finer) const {
     const study::OrderFit& f = series.fits[q];
     if (std::isnan(f.expected) || f.runs.empty()) return;

@@ -2,8 +2,8 @@
 
 namespace bough::report {
 
-// Plain rules without variables: drawings are also read by programs that know little CSS. t0 to t8 are one hue in
-// nine steps, from faint to strong against the background; s0 to s5 tell curves apart.
+// Plain rules without variables, since drawings are also read by programs that support little CSS. t0 to t8 are one hue
+// in nine steps, from faint to strong against the background; s0 to s5 distinguish curves.
 std::string_view style_text() {
   return R"(
 .paper{fill:#fcfcfb}
