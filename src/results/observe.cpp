@@ -29,8 +29,8 @@ struct BeamPoint {
 
 using Series = lanes::Taylor<double, 1>;  ///< value and change to first order
 
-/// Motion of a port and its first-order change with the increment eta (in the node's own axes) that Newton's method has
-/// not yet applied to the node: R' = R ~w, x' = R v.
+/// Motion of a port and its first-order change with the node's increment eta (in the node's own axes) that is below the
+/// round-off of its position (State::unsettled): R' = R ~w, x' = R v.
 PortMotion<Series> with_unsettled(const PortMotion<double>& p, const Port& port, const step::State& state) {
   PortMotion<Series> r;
   r.H.R = lanes::cast<Series>(p.H.R);
@@ -50,8 +50,8 @@ PortMotion<Series> with_unsettled(const PortMotion<double>& p, const Port& port,
   return r;
 }
 
-/// Adds the residual of an element to `sum`. In statics, first-order terms of the increment not yet applied are
-/// included, f + K eta; see step::System::settle.
+/// Adds the residual of an element to `sum`. In statics it includes the first-order effect of that increment, f + K eta;
+/// see step::System::settle.
 template <class E>
 void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& f, const step::State& state,
                           double* sum) {
