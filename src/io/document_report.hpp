@@ -1,6 +1,6 @@
 #pragma once
-/// What is wrong with a document, gathered from all checks and placed in its text. Scenes and chains of frames share
-/// it.
+/// Collects the faults of a document from all checks and finds their positions in the text. Used for scenes and for
+/// chains of frames.
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace bough::io {
 
-/// Collects what is wrong and knows where in the texts it stands. Keeps references to what it is made from.
+/// Collects faults with their positions in the texts. Keeps references to the constructor's arguments.
 class Report {
  public:
   /// origins: of the items of the document that are copies; nullptr: there are none.
@@ -31,7 +31,7 @@ class Report {
   void add(const PlacedFault& f, bool is_warning);
   void add(const PlacedFaults& faults, bool is_warning);
 
-  /// More of them, which nobody kept.
+  /// Counts further faults that were not kept.
   void count_others(std::size_t number, bool is_warning = false) {
     (is_warning ? warnings_left_out_ : left_out_) += number;
   }
@@ -46,7 +46,7 @@ class Report {
     Problem problem;
     bool in_file;
     std::size_t offset;
-    bool is_expanded = true;  ///< its pointer is one into the document as it is checked, not into the file
+    bool is_expanded = true;  ///< its pointer refers to the document as checked, not to the file
     std::size_t other_copies = 0;
   };
 
@@ -71,7 +71,7 @@ class Report {
   std::size_t left_out_ = 0, warnings_left_out_ = 0;
 };
 
-/// The bytes of a file, "-": of standard input; where they can not be had, `problem.rule` says why.
+/// The content of a file, "-": of standard input; if it cannot be read, `problem.rule` says why.
 std::string read_whole_file(const std::filesystem::path& file, Problem& problem);
 
 /// A document of given rules: parsed, checked, and converted where it is an object. converter: has `convert(root)`,

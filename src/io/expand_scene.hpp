@@ -1,6 +1,6 @@
 #pragma once
-/// Scenes that vary: named numbers (`parameters`) and parts that come many times (`repeat`) become a plain scene,
-/// before the rules of scenes are checked.
+/// Expands named numbers (`parameters`) and repeated parts (`repeat`) to a plain scene, before the rules of scenes are
+/// checked.
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -18,7 +18,7 @@ struct ExpansionFault {
   std::size_t other_copies = 0;
 };
 
-/// Which text of the file the items stand for that `repeat` added to the lists of a scene.
+/// The text in the file from which each item comes that `repeat` added to a list.
 class CopyOrigins {
  public:
   struct Place {
@@ -59,13 +59,13 @@ class CopyOrigins {
 struct Expansion {
   std::vector<ExpansionFault> faults, warnings;
   std::size_t more_faults = 0;
-  bool has_outline = true;  ///< false: copies are missing, and what names them would be at fault as well
+  bool has_outline = true;  ///< false: copies are missing, so that references to them would be reported as well
   CopyOrigins origins;
 };
 
-/// Replaces `parameters` and `repeat` by what they stand for. A scene without them is left as it is, at the cost of two
-/// searches among the keys of its root. Never makes more than max_json_values values or max_file_bytes of
-/// text, both counted before anything is copied.
+/// Expands `parameters` and `repeat`. A scene without them is left unchanged, at the cost of two searches among the
+/// keys of its root. Never makes more than max_json_values values or max_file_bytes of text; both are counted before
+/// anything is copied.
 Expansion expand_scene(JsonValue& root);
 
 }  // namespace bough::io

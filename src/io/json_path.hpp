@@ -7,7 +7,7 @@
 
 namespace bough::io {
 
-/// The way to a value, put into words only where something is wrong with it. Lives as long as the call that goes there.
+/// The path to a value, converted to text only if there is a fault. It lives as long as the call that follows it.
 struct JsonPath {
   const JsonPath* up = nullptr;
   std::string_view key = {};  ///< of a member; of an item, its number

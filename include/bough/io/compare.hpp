@@ -9,18 +9,18 @@ namespace bough::io {
 
 struct CompareOptions {
   double relative = 1e-9;  ///< largest difference over the column's scale, >= 0
-  double absolute = 0.0;   ///< differences up to this are equal whatever the scale [unit of the column], >= 0
+  double absolute = 0.0;   ///< smaller differences are accepted whatever the scale [unit of the column], >= 0
 };
 
 /// Largest differences of one column:
 ///   absolute = max_i |a_i - b_i|,   relative = absolute / scale.
-/// scale: the range max - min in A, the largest among the components of the sensor that share its unit (a coordinate
-/// that stays at zero is measured by how far the point moves); the largest magnitude where nothing moves. 0/0 is 0.
+/// scale: the largest range max - min in A among the components of the sensor that share a unit (so a coordinate that
+/// stays at zero is measured by the motion of the point); the largest magnitude if nothing moves. 0/0 is 0.
 struct ColumnDifference {
   std::string name;
   double absolute = 0.0, relative = 0.0, scale = 0.0;
   double time = 0.0;            ///< of the largest difference
-  bool is_judged = true;        ///< iterations and step counts are shown only
+  bool is_judged = true;        ///< false: iterations and step counts, which are shown only
   bool has_non_finite = false;  ///< in either file: never equal
   bool holds = false;
 };
@@ -31,7 +31,7 @@ struct Comparison {
   bool equal = false;
 };
 
-/// Compares the columns that both have over the rows that both have.
+/// Compares the common columns over the common rows.
 Comparison compare_histories(const History& a, const History& b, const CompareOptions& options);
 
 }  // namespace bough::io

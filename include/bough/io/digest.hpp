@@ -1,5 +1,5 @@
 #pragma once
-/// A short hash of bytes, to tell whether files are those that were written together. It finds accidents, no forgery.
+/// A short hash of bytes, to check that files were written together. It detects accidents, not forgery.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace bough::io {
 
-/// 64 bits of whatever was added, in order; how it was cut into pieces does not matter. 32 bytes cost four
-/// multiplications that the processor makes side by side, so that it may run beside everything that is written.
+/// A 64-bit hash of all bytes added, in order, independent of their division into pieces. 32 bytes cost four
+/// independent multiplications, so that it can be computed for everything that is written.
 class Digest {
  public:
   void add(std::string_view bytes);

@@ -12,8 +12,8 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// False where another process holds it, or where the folder is not there under this name. Folders of file systems
-  /// without locks count as taken by this process.
+  /// False if another process holds the lock, or if the folder no longer exists under this name. On file systems
+  /// without locks, the folder counts as locked by this process.
   [[nodiscard]] bool take(const std::filesystem::path& folder);
   void release();
 

@@ -11,18 +11,18 @@
 
 namespace bough::io {
 
-/// The first line of a history, and a line of it.
+/// The first line of a history, and a row.
 std::string history_head(const records::HistoryHeader& header);
 void append_history_row(std::string& text, const records::HistoryRow& row);
 
-/// Writes rows as they come. The rows that were handed to the system can be kept after a failure: a failed write
-/// loses the rows since the last flush (at most half a second or 64 KiB) and nothing else.
+/// Writes rows as they come. Rows that were passed to the system can be kept after a failure: a failed write loses only
+/// the rows since the last flush (at most half a second or 64 KiB).
 class HistoryWriter {
  public:
   HistoryWriter(const std::filesystem::path& path, const records::HistoryHeader& header);
   void row(const records::HistoryRow& row);
   void commit(Durability durability = Durability::now) { file_.commit(durability); }
-  /// Of what stands in the file.
+  /// Record of the file's present content.
   [[nodiscard]] FileRecord record() const {
     return {file_.path().filename().string(), file_.bytes_flushed(), file_.digest()};
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// A JSON document with the place of every value in its text, and without the silent repairs common JSON readers make:
-/// duplicate keys, numbers that overflow or vanish, deep nesting and bad UTF-8 are faults.
+/// A JSON document with the position of every value in its text. Unlike common JSON readers, it repairs nothing
+/// silently: duplicate keys, numbers that overflow or underflow, deep nesting and bad UTF-8 are faults.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -15,13 +15,13 @@ namespace bough::io {
 
 enum class JsonKind : std::uint8_t { null, boolean, number, string, array, object };
 
-/// Which text a value comes from.
+/// The text from which a value comes.
 inline constexpr std::int16_t source_file = 0;      ///< the file; n > 0: the n-th override
 inline constexpr std::int16_t source_default = -1;  ///< the schema's default
 
 struct JsonValue;
 
-/// A string that takes the space of a pointer where it is empty, as in all values that are none.
+/// A string that takes the space of a pointer if it is empty, as in all values that are no strings.
 class JsonString {
  public:
   JsonString() = default;
@@ -45,8 +45,8 @@ class JsonString {
   std::unique_ptr<std::string> text_;
 };
 
-/// The values in an array, or those of an object with their keys, in the order of the file: one block of memory, none
-/// where there are none.
+/// The values of an array, or of an object with their keys, in the order of the file: one block of memory, none if
+/// there are no values.
 class JsonItems {
  public:
   JsonItems() = default;
@@ -72,13 +72,14 @@ class JsonItems {
   /// Of an object; empty in an array.
   const std::string& key(std::size_t i) const;
 
-  /// Room for exactly so many; growth beyond doubles it. All of one block have keys, or none.
+  /// Reserves room for exactly so many values; it doubles if more are added. The values of one block all have keys, or
+  /// none has.
   void reserve(std::size_t count, bool with_keys);
   JsonValue& add();
   JsonValue& add(std::string key);
 
-  /// Members that an object has without being given (`find` knows them): an object that outlives this one, shared by
-  /// all of one rule.
+  /// Members that an object has by default (`find` returns them): an object that outlives this one, shared by all
+  /// objects of one rule.
   const JsonValue* defaults() const { return has_keys() ? *shared() : nullptr; }
   void set_defaults(const JsonValue* defaults);
 
@@ -99,13 +100,13 @@ class JsonItems {
   Block* block_ = nullptr;
 };
 
-/// One value, 40 bytes: of files of millions of them none may cost 30 times its text.
+/// One value, 40 bytes. A file may have millions of values, so a value may cost at most 30 times its text.
 struct JsonValue {
   JsonKind kind = JsonKind::null;
   bool truth : 1 = false;    ///< of a boolean
-  bool sound : 1 = true;     ///< cleared by the schema check where this value or anything in it is at fault
-  bool is_made : 1 = false;  ///< computed from what stands at its place in the text
-  bool is_copy : 1 = false;  ///< one of several that stand at the same place of the text
+  bool sound : 1 = true;     ///< cleared by the schema check if this value or anything in it is at fault
+  bool is_made : 1 = false;  ///< computed from the text at its position
+  bool is_copy : 1 = false;  ///< one of several values with the same position in the text
   std::int16_t source = source_file;
   std::uint32_t offset = 0;      ///< of the first byte in its source
   std::uint32_t length = 0;      ///< [bytes]
@@ -116,7 +117,7 @@ struct JsonValue {
 
   /// A member of an object, given or by default.
   const JsonValue* find(std::string_view key) const;
-  /// One that is given.
+  /// A member that is given.
   JsonValue* find_given(std::string_view key);
   bool is(JsonKind k) const { return kind == k; }
 };
@@ -128,14 +129,14 @@ inline const JsonValue* JsonItems::end() const { return begin() + size(); }
 inline JsonValue& JsonItems::operator[](std::size_t i) { return values()[i]; }
 inline const JsonValue& JsonItems::operator[](std::size_t i) const { return values()[i]; }
 
-/// A fault of the text itself.
+/// A fault of the JSON text itself.
 struct JsonFault {
   std::size_t offset = 0;
   std::string pointer, value, rule, hint;
 };
 
-/// Reads a text. Returns nothing where the text is not JSON; duplicate keys are faults too, but reading goes on (the
-/// first one counts).
+/// Reads a text. Returns none if the text is not JSON. Duplicate keys are faults too, but reading continues, and the
+/// first one counts.
 std::optional<JsonValue> parse_json(std::string_view text, std::int16_t source, std::vector<JsonFault>& faults);
 
 /// Appends a token to a JSON pointer, escaping ~ and /.
@@ -148,7 +149,7 @@ std::optional<std::vector<std::string>> split_pointer(std::string_view pointer);
 struct LineColumn {
   int line = 0, column = 0;
 };
-/// Remembers the last place asked for: places asked for in order cost one walk over the text in all.
+/// Remembers the last position asked for: asking in order costs one pass over the text in total.
 class LineIndex {
  public:
   explicit LineIndex(std::string_view text);
@@ -160,7 +161,7 @@ class LineIndex {
   LineColumn place_{1, 1};
 };
 
-/// A piece of text fit to be shown: control characters and bad UTF-8 escaped, cut after `limit` characters.
+/// A part of a text for display: control characters and bad UTF-8 escaped, cut after `limit` characters.
 std::string shown(std::string_view text, std::size_t limit = 60);
 
 }  // namespace bough::io

@@ -1,8 +1,7 @@
 #pragma once
-/// `history.npy`: the numbers of a long history as an array of NumPy, format 1.0: float64, one row of the history
-/// after the other, columns as in columns.json (time, step_size, iterations, sensors). It stands beside history.csv
-/// and holds the same bits. While it is written its head tells of no rows; how many there are follows from its size,
-/// also after a crash.
+/// `history.npy` has the numbers of a long history as an array of NumPy, format 1.0: float64, row after row, columns as
+/// in columns.json (time, step_size, iterations, sensors). It accompanies history.csv and has the same bits. While it
+/// is written, its head states no rows; their number follows from its size, also after a crash.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -17,11 +16,11 @@ namespace bough::io {
 /// Head of such a file, a multiple of 64 bytes, the same length for any number of rows.
 std::string npy_head(std::size_t rows, std::size_t columns);
 
-/// The bytes of a file that a crash left, cut to whole rows and with their number in its head; empty where there are
+/// Repairs the bytes of a file left by a crash: complete rows only, with their number in the head; empty if there are
 /// none.
 std::string repaired_npy(std::string bytes, std::size_t columns);
 
-/// Begins the file when there are more rows than `long_history`; until then it keeps them.
+/// Begins the file when there are more than `long_history` rows, and keeps the rows in memory until then.
 class NpyHistoryWriter {
  public:
   static constexpr std::size_t long_history = 10'000;
@@ -32,7 +31,7 @@ class NpyHistoryWriter {
   [[nodiscard]] bool has_begun() const { return file_ != nullptr; }
   /// Writes the number of rows into the head, and commits.
   void commit(Durability durability = Durability::now);
-  /// Of what stands in the file.
+  /// Record of the file's present content.
   [[nodiscard]] FileRecord record() const {
     return {path_.filename().string(), file_->bytes_flushed(), file_->digest()};
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// A folder of results that changes as a whole: it is written under another name beside its own and takes its place
-/// when all is there.
+/// A folder of results that is replaced as a whole: it is written under another name beside its own, and takes its
+/// place when it is complete.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,17 +12,16 @@ namespace bough::io {
 
 /// Rules, for every verb that writes a folder:
 ///   - One process at a time writes it; another is refused.
-///   - What is there and is not bough's (`foreign_entries`), or is read by the same process, is never touched: the
-///     constructor refuses.
-///   - Files are written into `staging()`. Until `publish` the former results stand whole under the final name, and
-///     after it the new ones: one rename, or one exchange of two names, parts them. Where the folder cannot be
-///       renamed (a
-///     mount point, a parent that cannot be written, the folder that the process stands in) or the file system cannot
-///     exchange names, entries are moved one by one, the manifest last; what a kill leaves half-way is put back by the
-///     next writer, and told from whole results by its missing manifest.
-///   - Results of work that failed never replace good ones: they stand in `<name>.failed` beside, as does what meets
-///     files of others at its end.
-///   - Folders within that have manifests of their own go along.
+///  - What exists and is foreign (`foreign_entries`), or is read by the same process, is never touched: the
+///      constructor refuses.
+///   - Files are written into `staging()`. The final name has the complete former results until `publish` and the
+///      complete new ones after it, by one rename or one exchange of two names. If the folder cannot be renamed (a
+///      mount point, a parent that cannot be written, the working directory of the process), or if the file system
+///      cannot exchange names, entries are moved one by one, the manifest last. The next writer undoes what a kill
+///      left incomplete; until then it is recognised by its missing manifest.
+///   - Results of failed work never replace good ones: they are put into `<name>.failed` beside them. The same
+///      applies if files of others are found at the end.
+///   - Folders within that have manifests of their own are moved along.
 /// Throws OutputRefused where it refuses, std::runtime_error or filesystem_error where the system does.
 class OutputFolder {
  public:
@@ -34,12 +33,12 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& staging() const { return staging_; }
-  /// The same of whoever writes a folder, where somebody does.
+  /// Staging folder of the process that presently writes a folder, if there is one.
   static std::filesystem::path staging_of(const std::filesystem::path& folder);
-  /// Where the results stand, as the user named it; after `publish` perhaps `<name>.failed`.
+  /// Place of the results, as the user named it; after `publish` perhaps `<name>.failed`.
   [[nodiscard]] const std::filesystem::path& folder() const { return shown_; }
-  /// Whether `publish` had to leave what stands under the folder's name, and put these results beside it. why_beside:
-  /// what that is, in words.
+  /// Whether `publish` could not replace what exists under the folder's name and put these results beside it.
+  /// why_beside: the reason.
   [[nodiscard]] bool stands_beside() const { return !obstacle_.empty(); }
   [[nodiscard]] std::string why_beside() const { return final_.string() + " " + obstacle_; }
 
@@ -47,11 +46,11 @@ class OutputFolder {
   void add(FileRecord record) { files_.push_back(std::move(record)); }
   /// Writes a file there and lists it.
   void write(const std::string& name, std::string_view text);
-  /// The same of a file that tells of all others: where one of them cannot be made durable, it is taken away, too.
+  /// As write(), for a file that describes all others: if one of them cannot be made durable, this one is removed, too.
   void write_index(const std::string& name, std::string_view text);
 
-  /// Makes all that is listed durable, together, and gives the results their name. Without a summary to trust, say
-  /// after a full disk, they are marked as failed.
+  /// Makes all listed files durable together, and gives the results their name. Results without a trustworthy summary,
+  /// for example after the disk was full, are marked as failed.
   void publish(FolderState state);
 
  private:
@@ -69,23 +68,23 @@ class OutputFolder {
   std::string made_by_;
   std::vector<std::string> names_;
   std::vector<FileRecord> files_;
-  std::string index_;         ///< file that tells of all others
+  std::string index_;         ///< file that describes all others
   bool is_in_place_ = false;  ///< staging lies within the final folder
-  std::string obstacle_;      ///< why the results stand beside
-  bool is_whole_ = false;     ///< all that is wanted of it is in the staging folder
+  std::string obstacle_;      ///< why the results were put beside
+  bool is_whole_ = false;     ///< the staging folder is complete
   FolderLock lock_, final_lock_;
 };
 
-/// Files of a folder of many results (a batch, several studies), each of which changes by itself. Makes the folder,
-/// refuses as OutputFolder.
+/// Files of a folder with many results (a batch, several studies), each of which is replaced by itself. Makes the
+/// folder, and refuses as OutputFolder does.
 class OutputCollection {
  public:
   OutputCollection(std::filesystem::path folder, std::string made_by,
                    const std::vector<std::filesystem::path>& inputs = {});
   void write(const std::string& name, std::string_view text) const;
-  /// The same, where the file is not there yet: of what many processes write alike.
+  /// For files that many processes write with equal content: written only if it does not exist yet.
   void write_once(const std::string& name, std::string_view text) const;
-  /// Lists a file that somebody else writes there.
+  /// Lists a file that another process writes there.
   void list(const std::string& name) const;
 
  private:

@@ -8,17 +8,17 @@
 
 namespace bough::io {
 
-/// What is to be described: the motion that takes the axes `from` to the axes `to`, both poses in the inertial frame.
+/// The motion to be described takes the axes `from` to the axes `to`; both poses are in the inertial frame.
 struct MotionInput {
   std::optional<motion::Frame<double>> from;  ///< none: the inertial frame itself
   motion::Frame<double> to = motion::Frame<double>::identity();
   motion::SeenFrom seen_from = motion::SeenFrom::inertial;
 };
 
-/// The report of the motion. Throws std::invalid_argument where a pose is none (motion::describe_motion).
+/// The report of the motion. Throws std::invalid_argument if a pose is not valid (motion::describe_motion).
 motion::MotionReport describe(const MotionInput& input);
 
-/// A file as far as it could be read. It is usable only when `problems` is empty.
+/// The readable content of a file. It is usable only if `problems` is empty.
 struct MotionFile {
   MotionInput input;
   std::vector<Problem> problems;  ///< in the order of the file; at most max_problems

@@ -1,5 +1,5 @@
 #pragma once
-/// Scenes from JSON files, with everything that is wrong with them, each thing at its place.
+/// Reads scenes from JSON files, and reports all their faults with the position of each.
 #include <filesystem>
 #include <span>
 #include <string>
@@ -10,22 +10,22 @@
 
 namespace bough::io {
 
-/// One thing wrong with a file.
+/// One fault of a file.
 struct Problem {
   std::string pointer;        ///< JSON pointer (RFC 6901) of the value or key at fault
   int line = 0;               ///< from 1; 0: not in the file (given by an override, or the file itself)
   int column = 0;             ///< from 1, counted in characters
   std::string value;          ///< the text at fault as written, shortened
-  std::string rule;           ///< what is asked of it
+  std::string rule;           ///< the rule that it breaks
   std::string hint;           ///< what to do, or the nearest known name; may be empty
-  std::string owner = {};     ///< name of the thing that the pointer leads into; empty where the value tells it
+  std::string owner = {};     ///< name of the part to which the pointer leads; empty if the value shows it
   std::string instance = {};  ///< which copy of a repeated part: "i = 3, j = 0"; empty: none
 
   /// "line 12, column 7, /beams/0/section: "stel": no section has this name; did you mean "steel"?"
   std::string text() const;
 };
 
-/// A scene as far as it could be read. It is usable only when `problems` is empty.
+/// The readable content of a scene file. It is usable only if `problems` is empty.
 struct SceneFile {
   scene::Scene scene;
   std::vector<Problem> problems;  ///< in the order of the file; at most max_problems
@@ -34,7 +34,7 @@ struct SceneFile {
   bool ok() const { return problems.empty(); }
 };
 
-inline constexpr std::size_t max_problems = 200;           ///< those after are counted in the last one
+inline constexpr std::size_t max_problems = 200;           ///< further ones are counted in the last one
 inline constexpr std::size_t max_file_bytes = 32u << 20u;  ///< larger files are refused unread
 inline constexpr std::size_t max_json_depth = 64;          ///< of arrays and objects in each other
 inline constexpr std::size_t max_json_values = 2'000'000;  ///< numbers, strings, arrays and objects together
@@ -45,8 +45,8 @@ inline constexpr std::size_t max_json_values = 2'000'000;  ///< numbers, strings
 /// (name_of_file). The file "-" is standard input, and its scene is named "scene".
 SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> set_overrides = {});
 
-/// The name that a file gives to what it holds, and to folders of its results: its own without the last ending; the
-/// whole of it where only dots would be left, which would lead out of a folder.
+/// Name that a file gives to its scene and to folders of results: the file name without its last ending, or all of it
+/// if only dots would remain, which would lead out of a folder.
 std::string name_of_file(const std::filesystem::path& file);
 
 /// The same from a text in memory. name: becomes Scene::name.
@@ -54,8 +54,8 @@ std::string name_of_file(const std::filesystem::path& file);
 SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides = {},
                           const std::filesystem::path& folder = {});
 
-/// A scene with numbers in the place of its parameters and formulas, and all copies of its repeated parts, as a file
-/// of its own. Read again it gives the same scene, to the last bit. text: empty where there are problems.
+/// A scene in which parameters and formulas are replaced by numbers, and repeated parts by their copies, as a file of
+/// its own. When read, it gives the same scene to the last bit. text: empty if there are problems.
 struct ExpandedScene {
   std::string text;
   std::vector<Problem> problems, warnings;

@@ -5,8 +5,8 @@
 
 namespace bough::io {
 
-/// A study as far as it could be read. It is usable only when `problems` is empty; then the scene of every run is
-/// sound, too.
+/// The readable content of a study file. It is usable only if `problems` is empty; the scene of every run is then
+/// valid, too.
 struct StudyFile {
   StudySpec spec;
   std::vector<Problem> problems;  ///< in the order of the file; at most max_problems
@@ -22,12 +22,12 @@ StudyFile read_study_text(std::string_view text, std::string name, const std::fi
 /// The JSON Schema (draft-07) of such files.
 std::string study_schema_text();
 
-/// What a scene amounts to: the checked document with all defaults, keys sorted, numbers in full. Two texts are equal
-/// where the scenes are. Empty where it has problems.
+/// Canonical form of a scene: the checked document with all defaults, keys sorted, numbers in full. Two texts are equal
+/// if the scenes are. Empty if the scene has problems.
 std::string canonical_scene(std::string_view text, std::span<const std::string> overrides);
 
-/// A JSON text without spaces and comments, keys sorted, numbers in full: equal for texts that say the same. A text
-/// that is no JSON stays as it is.
+/// A JSON text without spaces and comments, keys sorted, numbers in full: equal for equivalent texts. A text that is
+/// not JSON is returned unchanged.
 std::string canonical_text(std::string_view text);
 
 }  // namespace bough::io

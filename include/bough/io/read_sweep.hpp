@@ -5,8 +5,8 @@
 
 namespace bough::io {
 
-/// A sweep as far as it could be read. It is usable only when `problems` is empty; then the scene of its first case is
-/// sound, too: what others make of it shows when they run.
+/// The readable content of a sweep file. It is usable only if `problems` is empty; the scene of its first case is then
+/// valid, too. Faults of other cases are found when they run.
 struct SweepFile {
   SweepSpec spec;
   std::vector<Problem> problems;  ///< in the order of the file; at most max_problems

@@ -26,11 +26,11 @@ namespace bough::io {
 
 class RunDirectory final : public records::Recorder {
  public:
-  /// Nothing is touched until `open` or `begin`: a run that does not start leaves no directory.
+  /// Nothing is touched before `open` or `begin`: a run that does not start leaves no directory.
   RunDirectory(std::filesystem::path directory, std::string version, RunOrigin origin = {});
 
-  /// Takes the directory for this run, and refuses what is not bough's (OutputFolder). `begin` does so where nobody
-  /// did before.
+  /// Takes the directory for this run, or refuses it if it has foreign entries (OutputFolder). `begin` calls it if it
+  /// was not called before.
   void open();
 
   void begin(const records::HistoryHeader& header) override;
@@ -38,29 +38,29 @@ class RunDirectory final : public records::Recorder {
   void motion(const records::MotionFrame& frame) override;
   void parts(const records::MotionParts& parts) override { parts_ = parts; }
 
-  /// Gives history, motion and summary their place. After a failed write what was safely written before is kept,
-  /// without a summary. Throws the first failure.
+  /// Commits history, motion and summary. After a failed write, everything written safely before is kept, without a
+  /// summary. Throws the first failure.
   void end(const records::Summary& summary) override;
 
   [[nodiscard]] bool has_begun() const { return history_ != nullptr; }
   [[nodiscard]] bool has_ended() const { return has_ended_; }  ///< `end` was called, whether it went well or not
 
-  /// For a run that was cut off by `cause` (a recorder that could not write, say) before `end`: ends it as failed
-  /// with what is there. Does nothing where it did not begin or did end. Throws as `end`.
+  /// For a run that was interrupted by `cause` before `end` (a recorder that could not write, say): ends it as failed
+  /// with the data so far. Has no effect if it did not begin or has ended. Throws as `end`.
   void end_as_failed(records::Summary summary, const std::string& cause);
 
-  /// Where the results stand; after the end of a run that failed perhaps beside former results that were good.
+  /// Place of the results; after a failed run perhaps beside former good results.
   [[nodiscard]] const std::filesystem::path& directory() const { return folder_ ? folder_->folder() : directory_; }
-  /// In words, why they stand beside; empty where they do not.
+  /// Why they were put beside; empty if they were not.
   [[nodiscard]] std::string why_beside() const {
     return folder_ && folder_->stands_beside() ? folder_->why_beside() : std::string();
   }
-  /// Names of the files that are whole, relative to the directory, for the message at the end.
+  /// Names of the complete files, relative to the directory, for the message at the end.
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
-  /// Gives the rows that a run which was killed had handed to the system their place: a history without a summary,
-  /// marked as failed. Returns where it stands; nothing where there are no rows, or the run still goes on. Throws as
-  /// OutputFolder. keep_rows: the same for rows that stand in memory, the head of the history before them.
+  /// Commits the rows that a killed run had passed to the system: a history without a summary, marked as failed.
+  /// Returns its place; none if there are no rows, or if the run is still going on. Throws as OutputFolder. keep_rows:
+  /// for rows in memory, preceded by the head of the history.
   static std::optional<std::filesystem::path> keep_rows_of_killed(const std::filesystem::path& directory);
   static std::filesystem::path keep_rows(const std::filesystem::path& directory, std::string_view rows);
 

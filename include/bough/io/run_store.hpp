@@ -20,14 +20,15 @@ struct StoredFile {
   std::string name, text;
 };
 
-/// Where a run stands: name of the store, below the folder of the batch, and the place of its record.
+/// Position of a stored run: name of the store, relative to the folder of the batch, and offset of its record.
 struct StoredPlace {
   std::string store;
   std::uint64_t offset = 0;
 };
 
-/// One process writes a store, any may read it. A record is a line of JSON with names, sizes and hashes of files, and
-/// then their bytes: what a kill cuts off is told from what is whole, and nobody is led there.
+/// A store is written by one process and may be read by any. A record is a line of JSON with names, sizes and hashes of
+/// files, followed by their bytes. An incomplete record, cut off by a kill, is recognised, and no position refers to
+/// it.
 class RunStore {
  public:
   /// The first store of the folder, store_000.pack, store_001.pack and so on, that no other process holds; it is held
@@ -37,8 +38,8 @@ class RunStore {
   RunStore(const RunStore&) = delete;
   RunStore& operator=(const RunStore&) = delete;
 
-  /// The system has the record when this returns; the disk takes it in its own time. Throws std::runtime_error where
-  /// it cannot be written; the store is then as before.
+  /// Returns when the system has the record; the disk gets it later. Throws std::runtime_error if it cannot be written;
+  /// the store is then unchanged.
   StoredPlace add(const std::vector<StoredFile>& files);
 
  private:
@@ -48,20 +49,20 @@ class RunStore {
 
 inline constexpr const char* store_names = "store_*";  ///< as a manifest lists them
 
-/// The files of a record; nothing where there is no whole one.
+/// The files of a record; none if it is incomplete.
 std::optional<std::vector<StoredFile>> read_stored(const std::filesystem::path& folder, const StoredPlace& place);
-/// Waits until the disk has all stores of a folder. remove_stores: takes them away.
+/// Waits until all stores of a folder are on disk. remove_stores: removes them.
 void sync_stores(const std::filesystem::path& folder);
 void remove_stores(const std::filesystem::path& folder);
 
-/// Writes stored files as the folder of a run, as if it had been run there. Throws as OutputFolder. Returns where they
-/// stand: beside where `folder` holds good results and these are of a run that failed.
+/// Writes stored files as the folder of a run, as if it had been run there. Throws as OutputFolder. Returns their
+/// place: beside `folder` if that has good results and these are of a failed run.
 std::filesystem::path unpack_run(const std::vector<StoredFile>& files, FolderState state,
                                  const std::filesystem::path& folder);
 
-/// A run that is recorded in memory, to be stored: history.csv, columns.json, motion.bin and summary.json of
-/// RunDirectory, to the byte but for what the summary says of VTU files, which are not made. twin: where given, takes
-/// the history row by row, so that it is not lost with the process.
+/// Records a run in memory, to be stored: history.csv, columns.json, motion.bin and summary.json with the bytes of
+/// RunDirectory, except that no VTU files are made or mentioned in the summary. twin: if given, receives the history
+/// row by row, so that it is not lost with the process.
 class RunInMemory final : public records::Recorder {
  public:
   RunInMemory(std::string version, RunOrigin origin, SharedText* twin = nullptr)

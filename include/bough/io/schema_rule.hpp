@@ -23,11 +23,12 @@ enum class Form {
   word,    ///< one of `words`
   array,   ///< min_items to max_items of `item`
   object,  ///< `fields` and nothing else
-  choice,  ///< one of `options`, told apart by JSON type, "kind" or a key that only one has
+  choice,  ///< one of `options`, distinguished by JSON type, by "kind", or by a key that only one has
   named    ///< the rule of that name in the table
 };
 
-/// A text of the program itself. Rules hold hundreds, which would take longer to copy than a small scene to check.
+/// A string literal of the program. Rules have hundreds of texts, and copying them would take longer than checking a
+/// small scene.
 struct Literal : std::string_view {
   constexpr Literal(const char* text = "") : std::string_view(text) {}
 };
@@ -42,7 +43,7 @@ struct Field {
   RuleRef rule;
   Literal about;  ///< one sentence with the unit
   Presence presence = Presence::optional;
-  Literal default_json = {};  ///< filled in where the key is missing; empty: nothing is
+  Literal default_json = {};  ///< inserted if the key is missing; empty: no default
 };
 
 struct Rule {
@@ -54,15 +55,15 @@ struct Rule {
   std::size_t min_items = 0, max_items = std::numeric_limits<std::size_t>::max();
   RuleRef item = nullptr;
   std::vector<Field> fields = {};
-  RuleRef others = nullptr;  ///< of an object: rule of all members that are no field; nullptr: there are none
+  RuleRef others = nullptr;  ///< of an object: rule of all members that are not fields; nullptr: none are allowed
   std::vector<std::string> kinds =
       {};               ///< of an object told by "kind": the values that mean this one (they become the key's enum)
-  Literal marker = {};  ///< of an object in a choice: the key whose presence tells it
+  Literal marker = {};  ///< of an object in a choice: the key that identifies it
   std::vector<std::vector<std::string>> exactly_one = {};  ///< sets of keys of which exactly one is given
   std::vector<std::vector<std::string>> at_most_one = {};
   std::vector<RuleRef> options = {};
   Literal target = {};       ///< of a named rule
-  bool is_deferred = false;  ///< taken as it is for now: it is checked when its copies are made (`repeat`)
+  bool is_deferred = false;  ///< not checked now, but when its copies are made (`repeat`)
 };
 
 struct RuleTable {
@@ -70,8 +71,7 @@ struct RuleTable {
   RuleRef root;
   bool has_formulas = false;  ///< {"expression": ...} may stand for any number
   const Rule& resolve(const Rule& rule) const;
-  /// An object of the keys that an object of this rule has without being given; made once, lives as long as the table
-  /// or a copy of it.
+  /// An object with the default members of objects of this rule; made once, lives as long as the table or a copy of it.
   const JsonValue& defaults_of(const Rule& rule) const;
 
  private:
@@ -85,15 +85,15 @@ struct RuleTable {
 /// The table of scene files.
 const RuleTable& scene_rules();
 
-/// What is asked of a name: 1 to 100 characters, no control characters, no '.' or '/', no space at an end, not
-/// "ground". Empty where the name is good, else the rule it breaks.
+/// Rule for names: 1 to 100 characters, no control characters, no '.' or '/', no space at an end, not "ground". Returns
+/// the rule that the name breaks; empty if the name is valid.
 std::string name_fault(const std::string& name);
 
 struct CheckFault {
   int source = source_file;
   std::uint32_t offset = 0, length = 0;  ///< of the value at fault; an unknown key, or the object that misses one
   std::string pointer, rule, hint;
-  std::size_t other_copies = 0;  ///< of the same text that are at fault in the same way
+  std::size_t other_copies = 0;  ///< further copies of the same text with the same fault
 };
 
 /// Checks a document, fills in defaults (source_default), puts numbers in the place of formulas, clears

@@ -1,5 +1,5 @@
 #pragma once
-/// What a study asks for: one scene over grids of choices, and what its results are compared with.
+/// A study: one scene over grids of choices, and the references with which its results are compared.
 #include <limits>
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace bough::io {
 
-/// One value of an axis: what it changes in the scene.
+/// One value of an axis, and its changes of the scene.
 struct StudyChoice {
   std::string label;                                         ///< as written in the file
   double number = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not a number
@@ -23,15 +23,15 @@ struct StudyAxis {
   bool larger_is_finer = false;  ///< counts (elements, load steps): errors fall as the number grows
 };
 
-/// What theory says of one quantity over a grid's abscissa.
+/// The theoretical order of convergence of one quantity over a grid's abscissa.
 struct StudyOrder {
   std::size_t quantity = 0;
   double order = 0.0;
   std::string theory;       ///< where it comes from
-  std::string explanation;  ///< why the order found is above it, where it is; empty: it should not be
+  std::string explanation;  ///< why the measured order is above the theoretical one; empty: it should not be
 };
 
-/// A reference that is computed: settings of the reference, and of the run that its own error is estimated with.
+/// A computed reference: its settings, and those of the run from which its error is estimated.
 struct StudyReference {
   std::vector<std::string> overrides, check_overrides;
   /// Order p > 0: the check takes `ratio` times the step of a method of order p, and the difference is (ratio^p - 1)
@@ -48,7 +48,7 @@ struct StudyGrid {
   std::vector<StudyAxis> axes;
   std::size_t abscissa = 0;  ///< axis over which errors converge
   std::vector<StudyOrder> orders;
-  bool has_reference = false;  ///< one of its own, in place of formulas and tables
+  bool has_reference = false;  ///< a reference of its own, instead of formulas and tables
   StudyReference reference;
 };
 
@@ -71,7 +71,7 @@ struct StudyQuantity {
   bool is_compared() const { return !formula.empty() || !table_times.empty(); }
 };
 
-/// A study. Every run reads the scene anew with: overrides of the study, of the grid, of the choices, in this order.
+/// A study. Every run reads the scene with the overrides of the study, of the grid and of the choices, in this order.
 struct StudySpec {
   std::string name, title;
   std::string scene_name, scene_text;

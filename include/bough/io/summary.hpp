@@ -1,6 +1,6 @@
 #pragma once
-/// `summary.json`: how a run ended, what it cost and whether its laws held. Written last: a directory that holds one
-/// is whole.
+/// `summary.json`: how a run ended, its cost and its checks. It is written last: a directory with a summary is
+/// complete.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace bough::io {
 
-/// What a run was made from.
+/// Inputs of a run: the scene, overrides, and the program.
 struct RunOrigin {
   std::filesystem::path scene_file = {};       ///< "-": standard input; empty: the scene was made in memory
   std::string scene_hash = {};                 ///< digest of its bytes
@@ -29,15 +29,15 @@ std::string_view status_text(records::RunStatus status);
 std::string summary_text(const records::Summary& summary, std::string_view version, const RunOrigin& origin = {},
                          const std::vector<FileRecord>& files = {});
 
-/// What the report, the comparison and the batch table need of a summary.
+/// The parts of a summary that the report, the comparison and the batch table need.
 struct SummaryFile {
   std::string status, cause, scene, title, version;
   long accepted = 0, rejected = 0, newton_iterations = 0;
   std::vector<std::pair<std::string, double>> checks;        ///< numbers only
   std::vector<std::pair<std::string, std::string>> options;  ///< by JSON pointer; texts only
   std::vector<std::string> notes;
-  std::vector<records::Doubt> doubts;  ///< why the run should not be trusted
-  std::string not_judged;              ///< what it may hide all the same
+  std::vector<records::Doubt> doubts;  ///< reasons not to trust the run
+  std::string not_judged;              ///< errors that may exist nevertheless
   std::vector<records::ExpectedResult> expected;
   std::vector<records::MeasureResult> measures;
   std::vector<std::string> overrides;  ///< of the scene, as they were given
@@ -47,9 +47,9 @@ struct SummaryFile {
 /// Throws std::runtime_error naming the file and what is wrong.
 SummaryFile read_summary(const std::filesystem::path& path);
 
-/// The summary of a directory, after a look at whether the files `names` are those that were written with it. Throws
-/// std::runtime_error where the directory is not whole, or where one of them is missing though the summary lists it,
-/// is there though it does not, or has changed.
+/// The summary of a directory, after checking that the files `names` were written together with it. Throws
+/// std::runtime_error if the directory is incomplete, or if one of them is listed but missing, exists but is not
+/// listed, or has changed.
 SummaryFile read_whole_summary(const std::filesystem::path& directory, const std::vector<std::string>& names);
 
 }  // namespace bough::io

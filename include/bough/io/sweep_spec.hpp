@@ -1,5 +1,5 @@
 #pragma once
-/// What is swept: variables of a scene, designs that give them values, and what is measured. Plain data, checked.
+/// A sweep: variables of a scene, designs that give them values, and measures. Plain data, checked.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,7 +25,7 @@ struct SweepValue {
   std::optional<double> number;
 };
 
-/// What is varied.
+/// A varied input.
 struct SweepVariable {
   std::string name;
   std::vector<std::string> pointers;  ///< into the scene, as of overrides: all take the same value
@@ -55,7 +55,7 @@ struct SweepDesign {
   int levels = 4;  ///< morris
 };
 
-/// Cases stay where the value lies in [low, high]; variables that are no numbers are not for conditions.
+/// Keeps the cases whose value lies in [low, high]; only variables that are numbers can have conditions.
 struct SweepCondition {
   std::string text;
   laws::Formula formula;
