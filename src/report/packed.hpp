@@ -1,6 +1,6 @@
 #pragma once
-/// Numbers of a page as text: arrays one after the other, compressed by zlib, in base64; and the hash that lets a
-/// script in.
+/// Numbers of a page as text: arrays one after the other, compressed by zlib, in base64; also the hash with which a
+/// page permits a script.
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -13,7 +13,7 @@ std::string base64(std::string_view bytes);
 std::string deflated(std::string_view bytes);  ///< zlib format (RFC 1950)
 std::string sha256(std::string_view bytes);    ///< 32 bytes (FIPS 180-4)
 
-/// Arrays, each at a multiple of 8 bytes, and what stands where as JSON.
+/// Arrays, each at a multiple of 8 bytes, and their positions as JSON.
 class Arrays {
  public:
   template <class T>

@@ -39,8 +39,8 @@ inline std::string inside_script(std::string_view json) {
   return text;
 }
 
-/// A coordinate on paper, to a twentieth of a pixel. What lies further than any page, infinity and what is not a
-/// number included, is put at the end of what 32-bit readers of coordinates can hold.
+/// A coordinate of a drawing, to a twentieth of a pixel. Values beyond any page, infinity and NaN are replaced by the
+/// limit of what 32-bit readers of coordinates can represent.
 inline void append_pixel(std::string& text, double value) {
   constexpr double far = 1e6;
   const double on_paper = value > -far ? std::min(value, far) : -far;  // the comparison is false for NaN

@@ -24,9 +24,8 @@ struct ChartSeries {
   std::string name;
   std::vector<ChartPoint> points;
   std::vector<ChartPoint> failures =
-      {};  ///< y is not used: marked in a lane above the plot at their x; note: the cause
-  int style =
-      -1;  ///< colour and mark, >= 0, the same in all charts of a page that show the same thing; -1: by position
+      {};          ///< y is not used: marked in a lane above the plot at their x; note: the cause
+  int style = -1;  ///< number of colour and mark, >= 0, equal in all charts of a page for equal things; -1: by position
   bool has_line = true;   ///< joins the points
   bool has_marks = true;  ///< shows each of them
 };
@@ -35,7 +34,7 @@ struct ChartSeries {
 struct SlopeLine {
   double x0 = 0.0, y0 = 0.0, slope = 0.0;
   std::string label;
-  bool is_below = false;  ///< what it is compared with lies above it: the label is looked for from its lower end on
+  bool is_below = false;  ///< the compared points are above the line: the label is placed from the line's lower end on
 };
 
 struct Chart {
@@ -46,12 +45,12 @@ struct Chart {
   double width = 468.0, plot_height = 250.0;  ///< of the drawing; of the plot area [px]
 };
 
-/// One <svg> element, styled by classes (style_text). A legend follows below the plot. Points that are not finite are
-/// left out and interrupt the line; a y that is zero or negative on a logarithmic axis stands hollow on the lower
-/// edge; such an x is left out. Lines of more than a few hundred points without marks are thinned as histories are.
+/// One <svg> element, styled by classes (style_text). A legend is below the plot. Points that are not finite are
+/// omitted and interrupt the line. A y that is zero or negative on a logarithmic axis is drawn hollow on the lower
+/// edge; such an x is omitted. Lines of more than a few hundred points without marks are thinned like histories.
 std::string chart_svg(const Chart& chart);
 
-/// Where a chart's plot area lies and what it spans, for tests and overlays.
+/// Position and range of a chart's plot area, for tests and overlays.
 struct ChartFrame {
   double left = 0.0, right = 0.0, top = 0.0, bottom = 0.0;      ///< [px]
   double x_low = 0.0, x_high = 1.0, y_low = 0.0, y_high = 1.0;  ///< on logarithmic axes: log10

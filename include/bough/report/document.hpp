@@ -16,7 +16,7 @@ struct Cell {
   std::string text;
   Tone tone = Tone::plain;
   bool is_number = false;   ///< aligned to the right
-  std::string source = {};  ///< JSON pointer to the value in the file that goes with the page: checks compare the two
+  std::string source = {};  ///< JSON pointer to the value in the file that belongs to the page; checks compare the two
   std::string link = {};    ///< relative address; empty: none
 };
 
@@ -41,7 +41,7 @@ class Document {
   void paragraph(std::string_view text, Tone tone = Tone::plain);
   void list(const std::vector<std::string>& items);
   void table(const Table& table);  ///< precondition: every row is as long as the head
-  /// A table behind a line that opens it; open on paper.
+  /// A table behind a line that opens it; on paper it is open.
   void folded(std::string_view line, const Table& table, bool is_open);
   void charts(const std::vector<Chart>& charts);
   void figure(std::string_view svg, std::string_view caption = {});  ///< a drawing of one's own; svg is taken as it is
@@ -49,8 +49,8 @@ class Document {
   void markup(std::string_view html);  ///< of one's own, taken as it is
 
   void figures(const std::vector<std::string>& svgs);  ///< drawings of one's own beside each other
-  /// Data and a script that reads them from the element of this id, at the end of the page. The page lets in this
-  /// script alone, by its hash.
+  /// Data, and a script that reads them from the element with this id, at the end of the page. The page permits this
+  /// script only, by its hash.
   void program(std::string_view id, std::string_view json, std::string_view script);
 
   std::string html() const;  ///< the whole page

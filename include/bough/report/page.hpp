@@ -20,13 +20,13 @@ struct RunFiles {
   records::MotionParts parts;                ///< of it
 };
 
-/// Reads a result directory. Throws std::runtime_error where it is not whole, or holds files of different runs
+/// Reads a result directory. Throws std::runtime_error if it is incomplete or has files of different runs
 /// (io::read_whole_summary).
 RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames = 301);
 
-bool is_static(const RunFiles& run);  ///< its histories run over the load factor
+bool is_static(const RunFiles& run);  ///< its histories are functions of the load factor
 
-/// options.is_static is for the caller to set. other: a second run to lay over the first, its differences plotted.
+/// The caller sets options.is_static. other: a second run, which is laid over the first; their differences are plotted.
 std::string page_html(const RunFiles& run, const PictureOptions& options, const RunFiles* other = nullptr);
 
 /// What to do where no motion was recorded, in one sentence.

@@ -10,7 +10,7 @@ namespace bough::report {
 struct PictureOptions {
   View view = View::automatic;
   int num_positions = 9;   ///< superposed, 1 to 9
-  bool is_static = false;  ///< frames are told apart by the load factor, not by time [s]
+  bool is_static = false;  ///< frames are labelled by the load factor instead of the time [s]
 };
 
 /// The drawing, and the path data of what it shows.

@@ -19,7 +19,7 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
 
 /// Round numbers, about `wanted` of them, that cover [low, high] from inside; low < high, both finite.
 std::vector<double> round_ticks(double low, double high, int wanted);
-/// Their texts, six digits. Where neighbours would read alike all but the roundest tell by how much they differ from
+/// Their texts, six digits. If neighbouring texts would be equal, all except the roundest show their difference from
 /// it.
 std::vector<std::string> tick_labels(const std::vector<double>& ticks);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// From space to paper: parallel projections with equal axes.
+/// Parallel projections of points in space to the plane of a drawing, with equal axes.
 #include <array>
 #include <optional>
 #include <string_view>
@@ -29,7 +29,7 @@ struct Projection {
 };
 Projection projection_of(View view);  ///< of anything but automatic
 
-/// Smallest box around all that is drawn of all frames.
+/// Smallest box around everything drawn in all frames.
 struct Box {
   std::array<double, 3> low{}, high{};
   bool empty = true;
