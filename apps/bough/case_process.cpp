@@ -99,7 +99,7 @@ int run_into_folder(const study::BatchCase& which, const CaseSettings& settings,
     if (directory.has_ended()) report.directory = directory.directory();
     return exit_failed;
   }
-  report.take(summary);
+  report.take(summary, scene);
   report.directory = directory.directory();
   return status_of(summary);
 }
@@ -128,7 +128,7 @@ int run_into_store(const study::BatchCase& which, const CaseSettings& settings, 
   io::RunInMemory run(std::string(version), origin, &rows);
   try {
     summary = simulate(scene, settings, start, run);
-    report.take(summary);
+    report.take(summary, scene);
   } catch (const std::exception& error) {
     report.cause = cause_of(error);
     summary.scene = scene.name;
@@ -170,7 +170,7 @@ int run_case_within(const study::BatchCase& which, const CaseSettings& settings,
   }
   NoRecorder nothing;
   const records::Summary summary = simulate(file.scene, settings, start, nothing);
-  report.take(summary);
+  report.take(summary, file.scene);
   return status_of(summary);
 }
 

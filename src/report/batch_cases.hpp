@@ -13,6 +13,9 @@ struct Measured {
   std::string name;
   std::vector<double> values;
   std::vector<std::size_t> cases;  ///< ascending values
+  std::string unit = {};           ///< empty: a pure number, or not known
+  /// "tip.x [m]"
+  std::string title() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 
 /// The cases that the page shows: names of columns, and of each case its cells.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "batch_cases.hpp"
@@ -25,9 +26,11 @@ std::vector<Measured> measured_in(const std::vector<CaseResult>& results) {
   std::vector<Measured> all;
   std::map<std::string, std::size_t> index;
   for (std::size_t i = 0; i < results.size(); ++i)
-    for (const records::MeasureResult& m : results[i].report.measures) {
+    for (std::size_t k = 0; k < results[i].report.measures.size(); ++k) {
+      const records::MeasureResult& m = results[i].report.measures[k];
       const auto [at, is_new] = index.try_emplace(m.name, all.size());
       if (is_new) all.push_back({m.name, {}, {}});
+      if (k < results[i].report.units.size()) all[at->second].unit = results[i].report.units[k];
       if (!m.value) continue;
       all[at->second].values.push_back(*m.value);
       all[at->second].cases.push_back(i);
@@ -37,7 +40,7 @@ std::vector<Measured> measured_in(const std::vector<CaseResult>& results) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&m](std::size_t a, std::size_t b) { return m.values[a] < m.values[b]; });
-    Measured sorted{m.name, {}, {}};
+    Measured sorted{m.name, {}, {}, m.unit};
     for (const std::size_t k : order) {
       sorted.values.push_back(m.values[k]);
       sorted.cases.push_back(m.cases[k]);
@@ -108,29 +111,46 @@ double at_share(const Measured& m, double share) {
 }
 
 Table measure_table(const std::vector<Measured>& all, const std::vector<CaseResult>& results) {
-  Table table{
-      {"measure", "cases", "mean", "deviation", "least", "in case", "5 %", "median", "95 %", "largest", "in case"}, {}};
+  // How many cases have a value stands there only where some have none, for the table is nearly as wide as the page.
+  const bool is_whole =
+      std::all_of(all.begin(), all.end(), [&](const Measured& m) { return m.values.size() == results.size(); });
+  Table table{{"measure", "mean", "deviation", "least", "in case", "5 %", "median", "95 %", "largest", "in case"}, {}};
+  if (!is_whole) table.head.insert(table.head.begin() + 1, "cases");
   for (const Measured& m : all) {
     if (m.values.empty()) continue;
     const double count = static_cast<double>(m.values.size());
     const double mean = std::accumulate(m.values.begin(), m.values.end(), 0.0) / count;
     double squares = 0.0;
     for (const double x : m.values) squares += (x - mean) * (x - mean);
-    table.rows.push_back(
-        {{m.name},
-         number_cell(count, 9),
-         number_cell(mean, 5),
-         number_cell(
-             m.values.size() > 1 ? std::sqrt(squares / (count - 1.0)) : std::numeric_limits<double>::quiet_NaN(), 4),
-         number_cell(m.values.front(), 5),
-         {results[m.cases.front()].which.name},
-         number_cell(at_share(m, 0.05), 5),
-         number_cell(at_share(m, 0.5), 5),
-         number_cell(at_share(m, 0.95), 5),
-         number_cell(m.values.back(), 5),
-         {results[m.cases.back()].which.name}});
+    table.rows.push_back({{m.title()},
+                          number_cell(mean, 5),
+                          number_cell(m.values.size() > 1 ? std::sqrt(squares / (count - 1.0))
+                                                          : std::numeric_limits<double>::quiet_NaN()),
+                          number_cell(m.values.front(), 5),
+                          {results[m.cases.front()].which.name},
+                          number_cell(at_share(m, 0.05), 5),
+                          number_cell(at_share(m, 0.5), 5),
+                          number_cell(at_share(m, 0.95), 5),
+                          number_cell(m.values.back(), 5),
+                          {results[m.cases.back()].which.name}});
+    if (!is_whole) table.rows.back().insert(table.rows.back().begin() + 1, number_cell(count, 9));
   }
   return table;
+}
+
+/// Of a measure that is 1 where something happens and 0 where it does not: how often it does, with the interval of
+/// Wilson (J. Am. Stat. Assoc. 22, 1927) for the probability.
+std::optional<std::string> share_text(const Measured& m) {
+  const auto is = [&m](double x) { return std::count(m.values.begin(), m.values.end(), x); };
+  const double n = static_cast<double>(m.values.size()), hits = static_cast<double>(is(1.0));
+  if (m.values.empty() || !m.unit.empty() || hits + static_cast<double>(is(0.0)) != n) return std::nullopt;
+  constexpr double z = 1.959963984540054;  // of 95 %
+  const double p = hits / n, middle = (p + 0.5 * z * z / n) / (1.0 + z * z / n);
+  const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + 0.25 * z * z / (n * n));
+  const auto percent = [](double share) { return io::rounded_text(100.0 * std::clamp(share, 0.0, 1.0), 3); };
+  return m.name + ": in " + io::rounded_text(hits, 9) + " of " + io::rounded_text(n, 9) + " cases, " + percent(p) +
+         " %. Were the cases independent draws, the probability would lie between " + percent(middle - half) + " and " +
+         percent(middle + half) + " % with a confidence of 95 %.";
 }
 
 constexpr double paper_width = 468.0, plot_left = 60.0, plot_right = 452.0;
@@ -165,7 +185,7 @@ std::string histogram(const Measured& m) {
   }
   const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
   const double width = (plot_right - plot_left) / static_cast<double>(bins);
-  std::string inner = text_at(plot_left, 20.0, "ink head", "start", m.name);
+  std::string inner = text_at(plot_left, 20.0, "ink head", "start", m.title());
   for (std::size_t k = 0; k < bins; ++k) {
     if (counts[k] == 0) continue;
     const double height = (bottom - top) * static_cast<double>(counts[k]) / most;
@@ -291,6 +311,8 @@ std::string batch_page(const std::vector<CaseResult>& results, const std::string
   const std::vector<Measured> measured = measured_in(results);
   if (!measured.empty()) {
     page.section("What was measured");
+    for (const Measured& m : measured)
+      if (const std::optional<std::string> share = share_text(m)) page.paragraph(*share);
     page.table(measure_table(measured, results));
     constexpr std::size_t most_histograms = 24;
     std::vector<std::string> drawings;

@@ -121,6 +121,32 @@ std::optional<double> figure_of(const scene::Measure& m, const Series& s) {
 
 }  // namespace
 
+std::string unit_of(const scene::Measure& measure, const records::HistoryHeader& header) {
+  switch (measure.kind) {
+    case MeasureKind::time_of_max:
+    case MeasureKind::time_of_min:
+    case MeasureKind::period:
+    case MeasureKind::settling_time:
+      return header.runs_over_load ? "" : "s";
+    case MeasureKind::dominant_frequency:
+      return header.runs_over_load ? "" : "Hz";
+    case MeasureKind::cycles:
+      return "";
+    case MeasureKind::value:
+    case MeasureKind::max:
+    case MeasureKind::min:
+    case MeasureKind::range:
+    case MeasureKind::mean:
+    case MeasureKind::rms:
+    case MeasureKind::percentile:
+    case MeasureKind::equivalent_range:
+      break;
+  }
+  for (std::size_t k = 0; k < std::min(header.columns.size(), header.about.size()); ++k)
+    if (measure.expression.empty() && header.columns[k] == measure.quantity) return header.about[k].unit;
+  return "";
+}
+
 std::vector<records::MeasureResult> Measures::results() const {
   std::vector<records::MeasureResult> all;
   for (const Measure& m : measures_) {

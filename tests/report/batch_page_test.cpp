@@ -83,4 +83,21 @@ TEST(BatchPage, an_empty_batch_is_a_page) {
 }
 
 }  // namespace
+TEST(BatchPage, tells_units_and_with_what_probability_something_happens) {
+  std::vector<CaseResult> results;
+  for (int k = 0; k < 10; ++k) {
+    results.push_back(result_of(static_cast<std::size_t>(k), 0.1 * k));
+    results.back().report.measures = {{"tip", 0.1 * k}, {"too near", k < 2 ? 1.0 : 0.0}};
+    results.back().report.units = {"m", ""};
+  }
+  const std::string page = batch_page(results, "t", {}, 10);
+  EXPECT_NE(page.find("tip [m]"), std::string::npos);
+  // Wilson's interval of 2 of 10: (0.2 + 1.921/10 -+ 1.96 sqrt(0.016 + 0.00960)) / 1.384
+  EXPECT_NE(page.find("too near: in 2 of 10 cases, 20 %."), std::string::npos);
+  EXPECT_NE(page.find("between 5.67 and 51 %"), std::string::npos);
+  EXPECT_EQ(page.find("tip: in"), std::string::npos);
+  results.back().report.measures[1].value = 0.5;
+  EXPECT_EQ(batch_page(results, "t", {}, 10).find("too near: in"), std::string::npos);
+}
+
 }  // namespace bough::report

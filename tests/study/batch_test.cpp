@@ -66,7 +66,7 @@ class Batch : public testing::Test {
       summary.cause = "no equilibrium";
     }
     run.end(summary);
-    report.take(summary);
+    report.take(summary, {});
     report.directory = run.directory();
     return summary.status == records::RunStatus::ok ? 0 : 1;
   }
@@ -150,11 +150,13 @@ TEST(CaseReports, go_through_a_pipe_with_all_their_bits) {
   r.doubts = {"energy", ""};
   r.constraint_error = 1e-17 / 3.0;
   r.measures = {{"a", 0.1 + 0.2}, {"b", {}}, {"c", -5e-324}};
+  r.units = {"m", "", "rad/s"};
   const std::string text = text_of(r);
   CaseReport back;
   ASSERT_TRUE(report_of(text, back));
   EXPECT_EQ(text_of(back), text);
   EXPECT_EQ(back.measures[2].value, -5e-324);
+  EXPECT_EQ(back.units, r.units);
   for (std::size_t n = 0; n + 2 < text.size(); ++n) {
     CaseReport part;
     EXPECT_FALSE(report_of(text.substr(0, n), part)) << n;

@@ -23,7 +23,7 @@ TEST(VerifyCases, indices_of_a_cantilever_are_those_of_its_formula) {
     ASSERT_TRUE(run.ok()) << run.text();
     results.emplace_back();
     results.back().which.name = c.name;
-    results.back().report.take(run.summary);
+    results.back().report.take(run.summary, scene.scene);
     EXPECT_NEAR(*results.back().report.measures.at(1).value, 1.0, 1e-6) << c.name;  // shear
   }
   const std::vector<MeasureSensitivity> all = sensitivities_of(file.spec, results);

@@ -42,6 +42,9 @@ std::vector<LoadCycle> rainflow_of(std::span<const double> values);
 /// Range of `cycles` equal cycles of the same damage: (sum n_i r_i^m / cycles)^(1/m).
 double equivalent_range(std::span<const LoadCycle> cycles, double exponent, double number);
 
+/// Unit of a measure; empty for a pure number, and for an expression, of which nobody knows.
+std::string unit_of(const scene::Measure& measure, const records::HistoryHeader& header);
+
 /// Takes the quantities of a scene's measures as a run goes and gives their figures at its end.
 class Measures {
  public:

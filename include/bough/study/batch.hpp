@@ -11,6 +11,7 @@
 #include "bough/io/run_store.hpp"
 #include "bough/io/shared_text.hpp"
 #include "bough/records/run.hpp"
+#include "bough/scene/scene.hpp"
 #include "bough/study/sensitivity.hpp"
 
 namespace bough::study {
@@ -47,10 +48,11 @@ struct CaseReport {
   std::string failing;              ///< the first expected figures that do not hold, in words
   std::vector<std::string> doubts;  ///< subjects of the doubts
   std::vector<records::MeasureResult> measures;
+  std::vector<std::string> units;  ///< of the measures, in their order; empty text: a pure number, or not known
   std::optional<double> energy_error,
       constraint_error;  ///< largest energy error over the largest energy; largest violation over the size of the parts
   /// Copies counts, figures and measures from the summary of a run.
-  void take(const records::Summary& summary);
+  void take(const records::Summary& summary, const scene::Scene& scene);
 };
 
 /// Measured times and memory of a case. They differ from run to run.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 #include "bough/io/history.hpp"
@@ -117,6 +118,21 @@ void write_sensitivities(io::JsonText& json, const std::vector<MeasureSensitivit
   json.end_array();
 }
 
+/// Of measures that have one, by name, for a table says nothing of them.
+void write_units(io::JsonText& json, const std::vector<CaseResult>& results) {
+  std::set<std::string> told;
+  for (const CaseResult& r : results)
+    for (std::size_t k = 0; k < std::min(r.report.units.size(), r.report.measures.size()); ++k) {
+      if (r.report.units[k].empty() || !told.insert(r.report.measures[k].name).second) continue;
+      if (told.size() == 1) {
+        json.key("units");
+        json.begin_object();
+      }
+      json.member(r.report.measures[k].name, std::string_view(r.report.units[k]));
+    }
+  if (!told.empty()) json.end_object();
+}
+
 }  // namespace
 
 std::string sensitivities_csv(const std::vector<MeasureSensitivity>& sensitivities) {
@@ -142,6 +158,7 @@ std::string batch_json(const std::vector<CaseResult>& results, const std::string
   io::JsonText json;
   json.begin_object();
   json.member("title", std::string_view(title));
+  write_units(json, results);
   json.key("cases");
   json.begin_array();
   for (const CaseResult& r : results) {

@@ -6,6 +6,7 @@
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/run/measures.hpp"
 
 namespace bough::study {
 namespace {
@@ -27,7 +28,7 @@ std::string failing_figures(const records::Summary& summary) {
 
 }  // namespace
 
-void CaseReport::take(const records::Summary& summary) {
+void CaseReport::take(const records::Summary& summary, const scene::Scene& scene) {
   was_interrupted = summary.status == records::RunStatus::interrupted;
   accepted = summary.steps.accepted;
   rejected = summary.steps.rejected;
@@ -40,6 +41,8 @@ void CaseReport::take(const records::Summary& summary) {
   for (const records::Doubt& d : summary.doubts)
     if (std::find(doubts.begin(), doubts.end(), d.about) == doubts.end()) doubts.push_back(d.about);
   measures = summary.measures;
+  units.clear();
+  for (const scene::Measure& m : scene.measures) units.push_back(run::unit_of(m, summary.header));
   const records::Checks& checks = summary.checks;
   energy_error = constraint_error = std::nullopt;
   if (checks.evaluated && checks.energy_scale > 0.0) energy_error = checks.energy_balance / checks.energy_scale;
@@ -91,6 +94,10 @@ std::string text_of(const CaseReport& r) {
       json.value(false);
   }
   json.end_array();
+  json.key("units");
+  json.begin_array();
+  for (const std::string& unit : r.units) json.value(std::string_view(unit));
+  json.end_array();
   json.end_object();
   return json.text();
 }
@@ -134,6 +141,8 @@ bool report_of(std::string_view text, CaseReport& r) {
     if (measures->items[k + 1].is(io::JsonKind::number)) m.value = measures->items[k + 1].number;
     r.measures.push_back(std::move(m));
   }
+  if (const io::JsonValue* units = root->find("units"); units != nullptr)
+    for (const io::JsonValue& unit : units->items) r.units.push_back(unit.text);
   return true;
 }
 
