@@ -25,12 +25,13 @@ bool BreakWalk::next(double begin, double& end) {
     }
     const double part = stretch_ * scene::steps_a_stretch * analysis_.step_size;
     if (search(std::min(analysis_.end_time, searched_to_ + part))) continue;
-    end = searched_to_;  // the run goes on to there, and ends when it asks again
+    end = searched_to_;  // the run continues to this time; the next call fails
     return searched_to_ > begin + least;
   }
 }
 
-/// Of a stretch longer than usual, half as much is looked at where one law has more breakpoints than are asked for.
+/// Searches breakpoints up to `end`. If a law has more of them than the limit in a stretch longer than usual, the
+/// stretch is halved for the next search; in a stretch of usual length that is a fault.
 bool BreakWalk::search(double end) {
   found_.clear();
   at_ = 0;

@@ -5,7 +5,7 @@
 
 namespace bough::run {
 
-/// The joints whose reactions are not unique by the last factorization, in groups that nodes connect:
+/// Names the joints whose reactions are not unique according to the last factorization, grouped by connecting nodes:
 /// "joints 'a', 'b', 'c' and 7 others connected to them; joint 'd'".
 std::string dependent_groups_text(const step::System& system);
 

@@ -12,11 +12,11 @@ namespace {
 
 using scene::SensorKind;
 
-constexpr double least_part = 1e-6;  ///< of the size of the structure or 1 rad: what ranges over less is at rest
+constexpr double least_part = 1e-6;  ///< least range of a sensor, relative to the size of the structure or 1 rad
 constexpr double least_kinetic_share =
-    0.3;  ///< of the virial theorem: potentials that rise more slowly than with their coordinate are left out
-constexpr double part_of_frames = 0.2;  ///< the same seen from a frame that moves along: the rest of a large motion
-constexpr double flip = 0.1;            ///< more than this in one step is a rotation vector or quaternion that jumps
+    0.3;  ///< least k of the virial theorem; 1/3 is that of a potential linear in its coordinate
+constexpr double part_of_frames = 0.2;  ///< the same in a moving frame, which sees the rest of a large motion
+constexpr double flip = 0.1;            ///< a larger change in one step is a jump of a rotation vector or quaternion
 
 bool is_rate(SensorKind kind) { return kind == SensorKind::velocity || kind == SensorKind::joint_rate; }
 
@@ -110,7 +110,7 @@ void ErrorWatch::see_energies(double time, double kinetic, double other, double 
   largest_ = largest;
 }
 
-/// Shift in time that the energy taken makes [s].
+/// Shift in time due to numerical dissipation [s].
 double ErrorWatch::slowed_by() const {
   const double other = other_ - least_other_ * (last_time_ - begin_), all = kinetic_ + other;
   if (is_driven_ || !(all > 0.0 && largest_ > 0.0)) return 0.0;

@@ -9,64 +9,67 @@
 
 namespace bough::run {
 
-/// Estimates what the steps in time leave in the sensors of motions by the end of a run.
+/// Estimates the discretization error in time, at the end of a run, of sensors that show motions.
 ///
-/// At a look the local error of the step is known as a displacement e_q of all nodes. Sensors are evaluated at the
-/// state and at one displaced by it, with velocities changed by e_q / h: positions and angles show the change d of what
-/// they measure in one step, velocities d / h of what their integral measures. Between looks the error goes with a norm
-/// that each step tells, so the sum over n steps is
+/// In some steps the local error is measured as a displacement e_q of all nodes. Sensors are then evaluated at the
+/// state and at the state displaced by e_q, with velocities changed by e_q / h. For a position or an angle the
+/// difference is its local error d in this step; for a velocity it is d / h, with d the local error of its integral.
+/// Between two measurements, d is assumed to be proportional to a norm of the local error that is known for every step.
+/// The sum of |d| over all steps is then
 ///   A = sum |d| / norm (mean of two looks) . (sum of the norms between them)
-/// Absolute values, since in free motions local errors add up to a shift in time, d ~ (dx/dt) tau of one sign of tau.
-/// For velocities u the shift gives A rms(du/dt) / rms(u). Energy that the integrator took makes a free motion slow: by
-/// the virial theorem a potential ~ q^n, with a share k = n / (n + 2) of kinetic energy on average, has periods ~
-/// E^(1/n - 1/2), so
+/// The sum is one of absolute values because local errors of free motions accumulate to a shift tau in time: d ~
+/// (dx/dt) tau with a constant sign of tau. For velocities u the shift gives the error A rms(du/dt) / rms(u). Numerical
+/// dissipation slows a free motion down. By the virial theorem, in a potential ~ q^n the kinetic energy is on average
+/// the share k = n / (n + 2) of the energy E, and periods are ~ E^(1/n - 1/2), so
 ///   d(tau)/dt = |1 - 2k| / (2k) . (energy taken) / (largest energy),     error = tau rms(ds/dt)
-/// which is 1/2 where nothing but inertia is at work and 0 for linear vibrations. Where drives or frames prescribe a
-/// motion, time is theirs.
+/// The factor |1 - 2k| / (2k) is 1/2 for motion under inertia alone and 0 for linear vibrations. Motions prescribed by
+/// drives or frames are not shifted in time.
 class ErrorWatch {
  public:
-  /// Sums of local errors grow on their way through the motion: in 16 kinds of scene, from tops to flexible beams, the
-  /// largest error of a sensor was 1.2 to 8 times A, 3 in the middle (src/run/README.md).
+  /// Factor by which the motion amplifies the sum of local errors. In 16 kinds of scene, from tops to flexible beams,
+  /// the largest error of a sensor was 1.2 to 8 times A, typically 3 times (src/run/README.md).
   static constexpr double growth = 3.0;
 
   explicit ErrorWatch(const plan::Plan& plan);
-  /// False: no sensor shows a motion, there is nothing to watch.
+  /// Whether any sensor shows a motion.
   bool has_columns() const { return !columns_.empty(); }
 
-  /// What sensors show, for their ranges.
+  /// Extends the ranges of the columns by these values of the sensors.
   void see(const std::vector<double>& values);
-  /// An accepted step, with a norm of its local error.
+  /// Adds an accepted step with a norm of its local error.
   void pass(double norm) { passed_ += norm; }
-  /// Of the last of these steps, of size h: sensors at its start (empty: not known), its end, and at its end displaced.
+  /// Adds a measurement of the last of these steps, of size h: values of sensors at its start (empty: not known), at
+  /// its end, and at its end displaced by the local error.
   void look(const std::vector<double>& before, const std::vector<double>& now, const std::vector<double>& displaced,
             double norm, double h);
-  /// Energies at a row: kinetic and all other, taken by the integrator so far, largest so far [J].
+  /// Adds the energies of a row [J]: kinetic energy, all other energy, energy dissipated by the integrator so far, and
+  /// the largest energy so far.
   void see_energies(double time, double kinetic, double other, double taken, double largest);
 
-  /// Estimates for all columns that were looked at, in the order of the header.
+  /// Estimated errors of all columns of motion sensors, in the order of the header.
   std::vector<records::SensorError> errors(const records::HistoryHeader& header) const;
 
  private:
   struct Column {
-    std::size_t index = 0, group = 0;     ///< in the header; in `least_range_`
+    std::size_t index = 0, group = 0;     ///< index in the header; in `least_range_`
     bool is_rate = false, jumps = false;  ///< a velocity; a rotation vector or a quaternion
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;  ///< seen
-    double share = 0.0;                                                          ///< |d| / norm at the last look
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;  ///< range of values
+    double share = 0.0;                                                          ///< |d| / norm at the last measurement
     double sum = 0.0;                                                            ///< A so far
-    double squares = 0.0;                                                        ///< of the values at looks
-    double squared_rates = 0.0;                                                  ///< of ds/dt at looks
+    double squares = 0.0;        ///< sum of squared values at measurements
+    double squared_rates = 0.0;  ///< sum of squared ds/dt at measurements
   };
   double slowed_by() const;
 
   std::vector<Column> columns_;
   std::vector<double> least_range_;  ///< by group of columns that share a unit and a sensor
-  double passed_ = 0.0;              ///< norms since the last look
+  double passed_ = 0.0;              ///< sum of norms since the last measurement
   bool has_looked_ = false;
-  long rated_ = 0;          ///< looks that told rates
+  long rated_ = 0;          ///< number of measurements with rates
   bool is_driven_ = false;  ///< drives or frames prescribe a motion, which energy does not slow down
   bool has_energies_ = false;
-  double begin_ = 0.0, last_time_ = 0.0;                         ///< of the energies seen [s]
-  double taken_ = 0.0, kinetic_ = 0.0, other_ = 0.0;             ///< integrals over this time [J s]
+  double begin_ = 0.0, last_time_ = 0.0;                         ///< first and last time of the energies [s]
+  double taken_ = 0.0, kinetic_ = 0.0, other_ = 0.0;             ///< integrals over time [J s]
   double last_taken_ = 0.0, least_other_ = 0.0, largest_ = 0.0;  ///< [J]
 };
 

@@ -10,14 +10,14 @@ namespace bough::run {
 
 namespace {
 
-// Resident memory of runs of one beam of 20000 elements of order 1 (370 MB) and 3 (519 MB), of 5000 bodies on
-// revolute joints (206 MB) and of lattices of 40 x 40 and 80 x 80 nodes (54 and 179 MB), all in space: fitted by
-// hand. In a plane 0.45 to 0.6 of these.
+// Fitted by hand to the resident memory of runs in space: one beam of 20000 elements of order 1 (370 MB) and 3 (519
+// MB), 5000 bodies on revolute joints (206 MB), lattices of 40 x 40 and 80 x 80 nodes (54 and 179 MB). Runs in a plane
+// take 0.45 to 0.6 of these.
 constexpr double program = 15e6, of_node = 10e3, of_inner_node = 5e3, of_element = 7.5e3, of_joint = 28e3,
                  of_spring = 6e3, of_loop = 700.0;
-constexpr double least_part = 0.4;     ///< of the memory in space that motion on a line may take
-constexpr double planar_part = 0.6;    ///< and motion in a plane
-constexpr double of_unknown = 0.2e-6;  ///< [s] a step, as `bough plan` says of a chain
+constexpr double least_part = 0.4;     ///< memory of motion on a line, relative to motion in space
+constexpr double planar_part = 0.6;    ///< the same for motion in a plane
+constexpr double of_unknown = 0.2e-6;  ///< time per step and unknown [s], as `bough plan` gives for a chain
 
 double rows_of(scene::JointKind kind) {
   return kind == scene::JointKind::spherical || kind == scene::JointKind::planar ? 3.0

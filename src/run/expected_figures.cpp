@@ -15,9 +15,9 @@ using scene::FigureKind;
 
 namespace {
 
-constexpr double around = 3.001;  ///< steps on either side of a time: two ends before it, and two after it
-constexpr double probe = 1e-4;    ///< of a step: over so much slopes at its ends are taken
-constexpr double sharp = 1e-7;    ///< of a step: to this times of extremes and crossings are sought
+constexpr double around = 3.001;  ///< reach in steps: two ends before a time and two after it are needed
+constexpr double probe = 1e-4;    ///< part of a step over which slopes at its ends are differenced
+constexpr double sharp = 1e-7;    ///< tolerance of times of extremes and crossings, relative to the step
 
 bool is_at_time(const scene::Expected& e) { return e.figure == FigureKind::value && e.time.has_value(); }
 bool is_of_whole_run(const scene::Expected& e) { return e.figure != FigureKind::value; }
@@ -26,7 +26,7 @@ bool needs_least(FigureKind k) {
   return k == FigureKind::min || k == FigureKind::time_of_min || k == FigureKind::range;
 }
 
-/// Sensors that somebody asks for, by their places in the plan.
+/// Sensors used by a figure (or all), by their indices in the plan.
 std::vector<int> sensors_asked_for(const std::vector<scene::Expected>& expected, const plan::Plan& plan, bool all) {
   std::vector<int> sensors;
   for (std::size_t k = 0; k < plan.sensors.size(); ++k) {
@@ -103,7 +103,7 @@ void ExpectedFigures::add(step::System& system, const step::State& state, result
   }
   if (window_.num_ends() == StepWindow::most_ends) --num_seen_;
   window_.push(system, state, meter);
-  // What is interpolated waits for four ends, or for the end of the stretch.
+  // Interpolation waits for four ends, or for the end of the stretch.
   if (!plan_.is_dynamic || window_.num_ends() == StepWindow::most_ends) look_on(system, state, meter);
 }
 
@@ -117,7 +117,7 @@ void ExpectedFigures::look_on(step::System& system, const step::State& state, re
   if (num_seen_ == window_.num_ends()) return;
   for (; num_seen_ < window_.num_ends(); ++num_seen_) {
     for (Figure& figure : figures_) {
-      if (figure.sensor < 0) continue;  // of no column of this scene: it is not reached
+      if (figure.sensor < 0) continue;  // the scene has no such column, so the figure has no value
       if (!is_at_time(*figure.given) && !is_of_whole_run(*figure.given)) continue;
       if (num_seen_ > 0 && plan_.is_dynamic) see_between(figure, system, meter, num_seen_ - 1);
       see_end(figure, num_seen_);
@@ -131,7 +131,8 @@ void ExpectedFigures::see_end(Figure& figure, int end) {
   const scene::Expected& e = *figure.given;
   const double time = window_.time(end), value = window_.values(end, figure.sensor)[figure.component];
   if (is_at_time(e)) {
-    // At a breakpoint the end of the step before counts; along a path the last time that it comes nearest.
+    // At a breakpoint the end of the earlier step counts. Along a path the nearest value counts, and the last of
+    // equally near ones.
     const double distance = std::abs(*e.time - time);
     if (!is_same(*e.time, time) || (figure.value && (plan_.is_dynamic || distance > figure.distance))) return;
     figure.value = value;
@@ -148,7 +149,7 @@ void ExpectedFigures::see_end(Figure& figure, int end) {
 }
 
 void ExpectedFigures::Extreme::take(double sign, double other, double when, double spread) {
-  constexpr double as_high = 1e-9;  // of the spread: peaks that differ by less are of equal height
+  constexpr double as_high = 1e-9;  // of the spread: peaks that differ by less are taken as equal
   if (!is_beaten_by(sign, other)) return;
   if (!is_known || sign * (other - value_at_time) > as_high * spread) {
     time = when;
@@ -158,15 +159,15 @@ void ExpectedFigures::Extreme::take(double sign, double other, double when, doub
   is_known = true;
 }
 
-/// Within a step the function has one extreme at most: where it leaves one end towards it and comes from it at the
-/// other.
+/// Assumes at most one extreme within a step. There is one if the function rises (times `sign`) from the first end and
+/// falls towards the second.
 template <class F>
 void ExpectedFigures::seek_extreme(Extreme& best, double sign, double begin, double end, double spread, F&& f) const {
   const auto g = [&](double t) { return sign * f(t); };
   const double h = end - begin, d = probe * h;
   const double at_begin = g(begin), rise = g(begin + d) - at_begin;
   if (!(rise > 0.0) || !(g(end) - g(end - d) < 0.0)) return;
-  // A hill lies below its tangents.
+  // A concave function lies below its tangents, so the maximum is below this bound.
   if (!best.is_beaten_by(sign, sign * (at_begin + rise / probe))) return;
   const auto [time, value] = find_maximum(g, begin, end, sharp * h);
   best.take(sign, sign * value, time, spread);
@@ -199,14 +200,14 @@ void ExpectedFigures::see_between(Figure& figure, step::System& system, results:
   if (figure.crossings++ == 0) figure.first_crossing = figure.last_crossing;
 }
 
-/// Samples up to an end of the window, from the end before it on.
+/// Passes on the samples between the previous end of the window and end `end`.
 void ExpectedFigures::hand_out_samples(step::System& system, results::EnergyMeter& meter, int end) {
   const double time = window_.time(end);
   for (; next_sample_ < sample_times_.size(); ++next_sample_) {
     const double wanted = sample_times_[next_sample_];
     const bool is_end = is_same(wanted, time);
     if (wanted > time && !is_end) return;
-    if (!is_end && (end == 0 || !plan_.is_dynamic)) continue;  // the run was not there
+    if (!is_end && (end == 0 || !plan_.is_dynamic)) continue;  // no step covers this time
     sampled_.clear();
     for (int k = 0; k < static_cast<int>(window_.sensors().size()); ++k) {
       const std::span<const double> values =

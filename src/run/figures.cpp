@@ -11,7 +11,7 @@ namespace {
 
 double duration_of(const Series& s) { return s.times.empty() ? 0.0 : s.times.back() - s.times.front(); }
 
-/// Sum over intervals of f(width, value at begin, value at end), over the whole duration.
+/// Sum of f(width, value at begin, value at end) over all intervals, divided by the whole duration.
 template <class F>
 double average(const Series& s, const F& f) {
   double sum = 0.0;
@@ -34,7 +34,7 @@ double rms_of(const Series& s) {
 double percentile_of(const Series& s, double percent) {
   const auto [low, high] = std::minmax_element(s.values.begin(), s.values.end());
   if (!(duration_of(s) > 0.0) || *low == *high) return s.values.back();
-  // Time spent at or below x: along each straight line the part of it that is below; this grows with x.
+  // Share of the time spent at or below x, with straight lines between values. It increases with x.
   const auto part_below = [&](double x) {
     return average(s, [x](double h, double a, double b) {
       const double least = std::min(a, b), most = std::max(a, b);
@@ -57,7 +57,7 @@ std::optional<double> settling_time_of(const Series& s, double target, double ba
   while (k > 0 && distance(k - 1) <= band) --k;
   if (k == s.times.size()) return std::nullopt;
   if (k == 0) return s.times.front();
-  // It enters the band between k - 1 and k, on the side where it was outside.
+  // The quantity enters the band between k - 1 and k, at the edge on the side on which it was outside.
   const double edge = target + std::copysign(band, s.values[k - 1] - target);
   const double part = (edge - s.values[k - 1]) / (s.values[k] - s.values[k - 1]);
   return s.times[k - 1] + std::clamp(part, 0.0, 1.0) * (s.times[k] - s.times[k - 1]);
@@ -86,7 +86,8 @@ void transform(std::vector<std::complex<double>>& x) {
     }
 }
 
-/// The straight lines at n equal intervals; the end is left out, as periods are.
+/// Samples of the straight lines at n equal intervals, less the mean and times a Hann window. The end is left out, as
+/// for a period.
 std::vector<std::complex<double>> equal_samples(const Series& s, std::size_t n) {
   std::vector<std::complex<double>> samples(n);
   const double mean = mean_of(s), duration = duration_of(s);
@@ -133,7 +134,7 @@ std::vector<LoadCycle> rainflow_of(std::span<const double> values) {
     points.push_back(point);
     while (points.size() >= 3 && range(1) >= range(2)) {
       const std::size_t n = points.size();
-      if (n == 3) {  // the range before holds the start: half a cycle
+      if (n == 3) {  // the earlier range contains the start: half a cycle
         count(points[0], points[1], 0.5);
         points.erase(points.begin());
       } else {
@@ -142,7 +143,7 @@ std::vector<LoadCycle> rainflow_of(std::span<const double> values) {
       }
     }
   };
-  // A value is a turning point where the next different one lies on the side that it came from.
+  // A value is a turning point if the change to the next different value has the opposite sign of the change before.
   std::optional<double> before, last;
   for (const double x : values) {
     if (last && x == *last) continue;

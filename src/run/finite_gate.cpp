@@ -10,7 +10,7 @@
 namespace bough::run {
 namespace {
 
-/// x - x is 0 where x is finite and NaN where it is not; sums keep a NaN.
+/// x - x is 0 if x is finite and NaN otherwise, and a NaN persists in the sum.
 bool are_finite(std::span<const double> values) {
   double sum = 0.0;
   for (const double value : values) sum += value - value;

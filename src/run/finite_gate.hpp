@@ -1,5 +1,5 @@
 #pragma once
-/// The gate at the end of a run: what is not a finite number does not pass as a result.
+/// Check that all results of a run are finite numbers.
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -10,14 +10,14 @@
 
 namespace bough::run {
 
-/// Looks at everything that a run hands out, and keeps in words the first thing that is not a finite number. A number
-/// is looked at where it is made: the largest of several forgets one that is not a number.
+/// Checks all results of a run, and keeps a description of the first one that is not finite. Numbers are checked where
+/// they are computed, because a maximum over several numbers may discard a NaN.
 class FiniteGate {
  public:
   void look_at(const records::HistoryHeader& header, const records::HistoryRow& row);
   void look_at(const records::MotionFrame& frame);
-  /// `frame`: the structure at this time, to name the part that is farthest away; asked for only where something is
-  /// wrong.
+  /// frame: returns the structure at this time, to name the part that is farthest away. Called only if a number is not
+  /// finite.
   template <class Frame>
   void look_at(const results::Energies& energies, double time, const Frame& frame) {
     const std::string_view name = not_finite_in(energies);
@@ -25,12 +25,12 @@ class FiniteGate {
   }
   void look_at(const step::State& state, const plan::Plan& plan);
   void look_at(const records::Summary& summary);
-  /// One number of the run by its name.
+  /// Checks one number, described by a name.
   void look_at(std::string_view name, double value, double time) {
     if (!std::isfinite(value)) fail_at(name, value, time);
   }
 
-  /// Empty where all that was looked at is finite; else the time, what is not finite, where, and what to do.
+  /// Empty if everything checked is finite; else the time, what is not finite, where, and what to do.
   const std::string& cause() const { return cause_; }
 
  private:

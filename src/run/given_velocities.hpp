@@ -6,8 +6,9 @@
 
 namespace bough::run {
 
-/// Velocities that the scene gives (parts of them other than zero) and that differ in `start`, a consistent state, by
-/// more than round-off: by name, of a beam where it differs most; the largest change first.
+/// Initial velocities given by the scene (their nonzero parts) that differ from those of the consistent state `start`
+/// by more than round-off. Each has its name; a beam has one entry, where it differs most. The largest change comes
+/// first.
 std::vector<records::ChangedVelocity> changed_velocities(const plan::Plan& plan, const step::State& start);
 
 }  // namespace bough::run

@@ -21,14 +21,14 @@ struct Largest {
 
 double length_of(const motion::Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
 
-/// What a load's law makes of it.
+/// Absolute value of a load's law at a load factor; a load without a law is proportional to the load factor.
 double factor_of(const laws::Law& law, double load_factor) {
   return std::abs(law.node() == nullptr ? load_factor : law.at(load_factor, laws::Side::left).value);
 }
 
 std::string named(const std::string& name) { return name.empty() ? "a load" : "'" + name + "'"; }
 
-/// Of a force and a moment at one place.
+/// Includes the force and the moment at one place in the search for the largest load.
 void include(Largest& largest, const std::string& name, const std::string& where, double force, double moment,
              double size) {
   const auto text = [&](double value, const char* unit) {

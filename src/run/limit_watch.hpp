@@ -8,14 +8,14 @@
 
 namespace bough::run {
 
-/// Counts what held step control to the sizes of its steps.
+/// Counts which errors limited the step sizes of step control.
 class LimitWatch {
  public:
   explicit LimitWatch(const plan::Plan& plan);
-  /// An accepted step: by an error, or by the largest size allowed.
+  /// Counts an accepted step whose size was limited by an error, or by the largest size allowed.
   void count(const step::ErrorLimit& limit);
   void count_largest() { ++at_largest_; }
-  /// A note on what did most often; none where nothing was counted.
+  /// A note on the most frequent limit; none if nothing was counted.
   std::optional<std::string> text(const plan::Plan& plan, double tolerance) const;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* remedy = "; a run in steps half as long tells";
 
-/// Why there is no estimate of any sensor; empty where there are some.
+/// The reason why there is no estimate for any sensor; empty if there are estimates.
 std::string why_none(const step::StepOptions& options, bool checks) {
   if (options.integrator == scene::Integrator::variational) return "the variational integrator tells no local errors";
   if (options.integrator == scene::Integrator::bdf) return "backward differences tell no local errors";

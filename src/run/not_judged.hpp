@@ -7,8 +7,9 @@
 
 namespace bough::run {
 
-/// Of which sensors of a run in time no error in time was estimated, why, and how to learn of it; empty where there is
-/// an estimate for all. checks: whether the scene asks for them. errors: the estimates that there are.
+/// Names the sensors of a dynamic run whose discretization error in time was not estimated, with the reason and a way
+/// to find it out. Empty if there is an estimate for all. checks: whether the scene requests checks. errors: the
+/// existing estimates.
 std::string error_not_judged(const plan::Plan& plan, const step::StepOptions& options, bool checks,
                              const std::vector<records::SensorError>& errors);
 

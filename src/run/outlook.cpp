@@ -14,7 +14,7 @@ namespace bough::run {
 namespace {
 
 constexpr double usual_iterations = 3.1, usual_evaluations = 3.4, usual_factorizations = 0.46;
-constexpr std::int64_t program_bytes = 11'000'000;  ///< resident before a scene is built
+constexpr std::int64_t program_bytes = 11'000'000;  ///< resident memory of the program before a scene is built
 
 std::int64_t bytes_of(const step::System& system) {
   const plan::Plan& plan = system.plan();

@@ -4,8 +4,7 @@ namespace bough::run {
 
 namespace {
 
-constexpr double aside =
-    1e-5;  ///< of a step: so far beside a point at which the stiffness is singular; then four times as far
+constexpr double aside = 1e-5;  ///< first distance from a singular point, of the interval; then four times as far
 constexpr int most_asides = 8;
 
 }  // namespace
@@ -21,7 +20,8 @@ std::optional<step::Trouble> PathSearch::go_to(step::State& state, double distan
   return path_.set_tangent(state);
 }
 
-/// At a distance, or a little before it, or at other parts of what lies between the two places.
+/// Finds an equilibrium at the given distance, or a little before it, or at other parts of the interval. Sets
+/// `distance`.
 std::optional<step::Trouble> PathSearch::go_near(step::State& state, double& distance, const PathPlace& from,
                                                  const PathPlace& to) {
   auto trouble = go_to(state, distance);

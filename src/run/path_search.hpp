@@ -1,5 +1,5 @@
 #pragma once
-/// Points within one step along a path of equilibria: where the load turns, where it has its last value.
+/// Search for points within one step along a path of equilibria: limit points, and given load factors.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,38 +9,40 @@
 
 namespace bough::run {
 
-/// A point that was looked for within a step.
+/// Result of a search for a point within a step.
 struct PathPoint {
   double distance = 0.0;  ///< from the start of the step [-]
-  step::State state;      ///< the equilibrium there; not located: the nearest that was met
+  step::State state;      ///< the equilibrium there or, if not located, the nearest one found
   bool is_located = false;
-  bool is_near = false;      ///< some equilibrium between the two places was met
-  step::State extreme;       ///< the equilibrium of the largest load that was met; the least, where values rise
-  bool is_passed = false;    ///< of a limit point: its load lies beyond that where the slope changes its sign
-  double value = 0.0;        ///< what is left of the value there
-  double width = 0.0;        ///< not located: of what is left between two places [-]
-  double load_factor = 0.0;  ///< of a limit point; not located: by a parabola through both ends of the step
+  bool is_near = false;      ///< some equilibrium between the two places was found
+  step::State extreme;       ///< equilibrium with the largest load found (the smallest, if values rise)
+  bool is_passed = false;    ///< limit point: an equilibrium beyond the load of the zero slope was found
+  double value = 0.0;        ///< remaining value there
+  double width = 0.0;        ///< not located: length of the remaining interval [-]
+  double load_factor = 0.0;  ///< limit point; if not located, of a parabola over the step
   std::string cause;         ///< why it was not located
 };
 
-/// A place on the path with the value whose sign tells on which side of the point it lies.
+/// A place on the path. The sign of `value` tells on which side of the sought point it lies.
 struct PathPlace {
   double distance = 0.0, value = 0.0, load_factor = 0.0;
 };
 
 class PathSearch {
  public:
-  /// start, direction: of the step, an equilibrium and the path's direction there; iterations: counts those of Newton.
+  /// start, direction: equilibrium at the start of the step, and direction of the path there. iterations: Newton's
+  /// iterations are added to it.
   PathSearch(step::ArcLengthPath& path, const step::State& start, const step::ArcLengthPath::Vectors& direction,
              long& iterations)
       : path_(path), start_(start), direction_(direction), iterations_(iterations) {}
 
-  /// The equilibrium at a distance along the path, with its tangent set; `state` is of no use where that fails.
+  /// Finds the equilibrium at a distance along the path and sets the tangent there. If that fails, `state` is
+  /// undefined.
   [[nodiscard]] std::optional<step::Trouble> go_to(step::State& state, double distance);
 
-  /// Where value(state) changes its sign between two places of the step, to `tolerance` of the value: regula falsi
-  /// (Illinois), and halves where there is no equilibrium to be found at the distance that it asks for. At a limit
-  /// point the stiffness is singular and may have no factor: the path is then met a little beside.
+  /// Finds a zero of value(state) between two places of the step, to `tolerance` of the value, by regula falsi
+  /// (Illinois). If no equilibrium is found at a trial distance, other parts of the interval are tried. At a limit
+  /// point the stiffness is singular and may have no factorization; trials then move to equilibria beside it.
   template <class Value>
   PathPoint find(PathPlace from, PathPlace to, double tolerance, Value&& value);
 
@@ -57,8 +59,8 @@ class PathSearch {
 template <class Value>
 PathPoint PathSearch::find(PathPlace from, PathPlace to, double tolerance, Value&& value) {
   constexpr int most_trials = 40;
-  constexpr double exact = 1e-12;       // of the step: no place lies between
-  constexpr double near_enough = 1e-6;  // of the step: where trials end without having met the tolerance
+  constexpr double exact = 1e-12;       // of the interval: smaller ones are not divided
+  constexpr double near_enough = 1e-6;  // of the interval: located at this width, even if the tolerance is not met
   const double width = std::abs(to.distance - from.distance);
   const double sense = from.value > to.value ? 1.0 : -1.0;
   PathPoint nearest;

@@ -11,16 +11,17 @@ namespace bough::run {
 
 namespace {
 
-constexpr double worth_a_look = 5e-4;  ///< bend over the largest reaction: half of what is doubted (TrustLimits::lost)
+constexpr double worth_a_look = 5e-4;  ///< relative second difference: half of TrustLimits::lost
 constexpr double louder = 2.0, fading = 0.995;
-constexpr int followed = 3;     ///< steps after one that is looked at, since what round-off leaves of gaps is chance
-constexpr double growth = 3.0;  ///< of local errors on the way, as ErrorWatch takes it
-constexpr double unresolved = 0.05;  ///< bend over the largest reaction, next to a pole that steps do not resolve
-constexpr double like_a_pole = 0.1;  ///< relative: how well four steps have to lie on c / (t - t0) + b
-/// Of the largest reaction: an estimated error that is doubted. The estimate is 1.1 to 3.6 times the error of four-bars
-/// of two and three windows in steps of 0.5 to 5 ms: so those are doubted that are off by a hundredth or a little more.
+constexpr int followed = 3;          ///< steps checked after the first, because gaps left by round-off are random
+constexpr double growth = 3.0;       ///< amplification of local errors, as in ErrorWatch
+constexpr double unresolved = 0.05;  ///< relative second difference next to a pole that steps do not resolve
+constexpr double like_a_pole = 0.1;  ///< relative tolerance for four steps on c / (t - t0) + b
+/// Estimated error, relative to the largest reaction, above which a run is doubted. The estimate is 1.1 to 3.6 times
+/// the error of four-bars of two and three windows in steps of 0.5 to 5 ms, so errors of a hundredth or a little more
+/// are doubted.
 constexpr double misplaced_by = 0.014;
-constexpr double least_share = 1e-3;  ///< reactions below this part of the largest of all joints are held to that part
+constexpr double least_share = 1e-3;  ///< lower bound on the scale of a reaction, relative to the largest of all joints
 
 }  // namespace
 
@@ -48,8 +49,8 @@ ReactionWatch::ReactionWatch(const step::System& system) : plan_(system.plan()) 
 
 double ReactionWatch::scale_of(const Watched& w) const { return std::max(w.largest, least_share * largest_); }
 
-/// Four values at equal steps lie on c / (t - t0) + b where their cross ratio is that of their times, 4/3. The slope at
-/// an inner one is then the harmonic mean of the differences on both sides of it.
+/// Four values at equal steps lie on c / (t - t0) + b if and only if their cross ratio equals that of their times, 4/3.
+/// The slope at an inner value is then the harmonic mean of the differences on both sides of it.
 double ReactionWatch::steepness_at_pole(const Row& r, double now, double scale) {
   const double bend =
       std::max(std::abs(r.first - 2.0 * r.before_that + r.before), std::abs(r.before_that - 2.0 * r.before + now));
@@ -58,7 +59,7 @@ double ReactionWatch::steepness_at_pole(const Row& r, double now, double scale) 
                other = 4.0 / 3.0 * (r.first - now) * (r.before_that - r.before);
   if (std::abs(one - other) > like_a_pole * std::max(std::abs(one), std::abs(other))) return 0.0;
   const std::array<double, 3> d = {r.before_that - r.first, r.before - r.before_that, now - r.before};
-  // Across the pole the value leaps against the sense of all other steps, and farthest.
+  // The change across the pole has the opposite sign of the two others and is the largest.
   const auto leap = static_cast<std::size_t>(
       std::max_element(d.begin(), d.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) - d.begin());
   for (std::size_t k = 0; k < d.size(); ++k)
@@ -67,7 +68,7 @@ double ReactionWatch::steepness_at_pole(const Row& r, double now, double scale) 
   return std::max(slope(d[0], d[1]), slope(d[1], d[2]));
 }
 
-/// Of the motion, by the time that the fastest part takes for its error [s].
+/// Estimated delay of the motion: its error divided by the largest speed [s].
 double ReactionWatch::delay(const step::State& state) const {
   double square = 0.0;
   for (const elements::NodeMotion& n : step::nodes_in_space(plan_, state)) {

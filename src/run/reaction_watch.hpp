@@ -1,11 +1,11 @@
 #pragma once
-/// Digits of reactions in time. Near positions in which constraints come to depend on each other, multipliers answer
-/// to gaps of joints with
+/// Accuracy of reactions in dynamics. Near positions in which constraints become linearly dependent, constraint
+/// violations (gaps of joints) cause multipliers of
 ///   (G S^-1 G^T)^-1 gap,   S^-1 about beta h^2 M^-1,
-/// so that what round-off and the tolerance leave of gaps may be as large as the reaction itself. Positions and
-/// velocities do not show it. Where they pass through such a position reactions have a pole, c / (t - t0) + b, as those
-/// of bars that pull along a line that they do not leave: how large they are at the steps next to it hangs on where
-/// these fall, so that a small delay of the motion makes large errors.
+/// Gaps left by round-off and the tolerance can then cause errors as large as the reaction itself, although positions
+/// and velocities are accurate. When a motion passes through such a position, reactions may have a pole, c / (t - t0) +
+/// b, as with bars that pull along a line that they do not leave. The reactions at the adjacent steps depend on the
+/// times of these steps relative to t0, so that a small delay of the motion causes large errors.
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,56 +15,56 @@
 
 namespace bough::run {
 
-/// Watches the joints whose reactions sensors show. A reaction that bends from step to step by more than a small part
-/// of itself is looked at: what one more correction, S^-1 (-residual), changes of it is what is not determined. Where
-/// a look finds nothing in this step and the next ones, further ones wait for twice that bend, which fades in some
-/// hundred steps: reactions that vibrate cost a few looks in a hundred steps.
+/// Watches the joints whose reactions are shown by sensors. If the second difference of a reaction over steps exceeds a
+/// small part of the largest reaction, the reaction is checked: the change of it by one more Newton correction, S^-1
+/// (-residual), estimates its error. After a check, the threshold is twice the second difference that was checked,
+/// which decays over some hundred steps. Reactions that vibrate thus cost a few checks per hundred steps.
 class ReactionWatch {
  public:
   explicit ReactionWatch(const step::System& system);
 
-  /// A start, or the far side of a jump: reactions before it say nothing.
+  /// Forgets earlier reactions, at a start or after a jump in a load or motion.
   void restart() { num_known_ = 0; }
-  /// To be called for every accepted step: whether its reactions are to be looked at. drift: the sum of local errors
-  /// so far, of the size of the structure or rad.
+  /// Adds an accepted step, and returns whether its reactions should be checked by `look`. drift: sum of the local
+  /// errors so far, relative to the size of the structure or in rad.
   bool wants_look(const step::State& state, double drift);
-  /// Looks at them. The state must be whole, laws those of its time, the factor that of its step. Overwrites the
-  /// residual and the right-hand side.
+  /// Checks the reactions. The state must be complete, laws must be set to its time, and the factorization must be that
+  /// of its step size. Overwrites the residual and the right-hand side.
   [[nodiscard]] std::optional<step::Trouble> look(step::System& system, const step::State& state);
-  /// What looks have found, by joint: its least determined reaction.
+  /// For each joint, the reaction with the largest estimated error.
   std::vector<records::UnsureReaction> found() const;
-  /// Of reactions that passed a pole: the one whose value there is most wrong, since the motion comes to it at another
-  /// time, in words; empty: none is by more than a hundredth of its largest.
+  /// Describes the reaction with the largest error next to a pole, caused by the estimated delay of the motion. Empty
+  /// if no such error is above about a hundredth of the largest reaction.
   std::string misplaced() const;
 
  private:
   struct Row {
     std::size_t multiplier;
     std::size_t unknown;
-    double weight;  ///< 1, of a moment 1/arm [1/m]: multipliers times this are forces [N]
-    double before = 0.0, before_that = 0.0, first = 0.0;  ///< one, two and three steps ago
+    double weight;  ///< 1, or 1/arm [1/m] for a moment: converts multipliers to forces [N]
+    double before = 0.0, before_that = 0.0, first = 0.0;  ///< values one, two and three steps ago
   };
   struct Watched {
     int joint = -1;
     std::vector<Row> rows;
-    double largest = 0.0;  ///< reaction so far [N]
+    double largest = 0.0;  ///< largest reaction so far [N]
     double bend = 0.0,
-           quiet = 0.0;  ///< second difference of the reaction now; the largest that was looked at, fading [N]
+           quiet = 0.0;  ///< second difference now; decaying maximum of those checked [N]
     records::UnsureReaction found;
-    double steepness = 0.0;                  ///< at a pole now, else 0 [N a step]
-    double shifted = 0.0, shifted_at = 0.0;  ///< what the estimated delay of the motion changes at a pole, and when [N]
+    double steepness = 0.0;                  ///< change per step next to a pole, else 0 [N]
+    double shifted = 0.0, shifted_at = 0.0;  ///< largest error at a pole due to the delay [N]; its time
   };
-  /// Change per step at the steeper one of the last two steps but one, where the last four lie on a pole; else 0 [N].
+  /// If the last four values lie on a pole, the steeper of the slopes at the two inner ones [N per step]; else 0.
   static double steepness_at_pole(const Row& row, double now, double scale);
   double delay(const step::State& state) const;
   double scale_of(const Watched& w) const;
 
   const plan::Plan& plan_;
   std::vector<Watched> joints_;
-  double largest_ = 0.0;  ///< of all
-  int num_known_ = 0;     ///< steps before this one whose reactions are known, up to 2
-  int num_due_ = 0;       ///< steps after the last look that are looked at, too
-  int num_equal_ = 0;     ///< steps of one size up to this one, up to 3
+  double largest_ = 0.0;  ///< reaction of all joints so far [N]
+  int num_known_ = 0;     ///< number of earlier steps with known reactions, at most 2
+  int num_due_ = 0;       ///< number of further steps to be checked
+  int num_equal_ = 0;     ///< number of steps of equal size up to this one, at most 3
   double step_size_ = 0.0, drift_ = 0.0;
 };
 

@@ -5,8 +5,8 @@
 
 namespace bough::run {
 
-/// Where a continuous f changes its sign between a and b, to `tolerance`; fa = f(a), fb = f(b) of opposite signs.
-/// Illinois' regula falsi.
+/// Finds a zero of a continuous f between a and b, to `tolerance`, by regula falsi (Illinois). fa = f(a) and fb = f(b)
+/// must have opposite signs.
 template <class F>
 double find_zero(F&& f, double a, double b, double fa, double fb, double tolerance) {
   constexpr int most_trials = 60;
@@ -27,8 +27,8 @@ double find_zero(F&& f, double a, double b, double fa, double fb, double toleran
   return x;
 }
 
-/// Place and value of the largest f between a and b, where it has one maximum there, to `tolerance`: golden section
-/// and parabolas through the last three places (Brent 1973, chapter 5).
+/// Finds the maximum of f between a and b, to `tolerance`, if there is only one, by golden section and parabolas
+/// through the last three places (Brent 1973, chapter 5). Returns its place and its value.
 template <class F>
 std::pair<double, double> find_maximum(F&& f, double a, double b, double tolerance) {
   constexpr int most_trials = 60;

@@ -10,9 +10,9 @@ namespace bough::run {
 
 namespace {
 
-constexpr int widest_for_condition = 60;  // dense singular values of wider ones would take longer than short runs
+constexpr int widest_for_condition = 60;  // the dense SVD of wider interfaces would take longer than short runs
 
-/// Largest row sum of |D_r A D_c|, elements apart.
+/// Upper bound of the largest row sum of |D_r A D_c|: absolute values are summed over elements.
 double norm_of(step::System& system, const solve::Hierarchical& solver) {
   const blocks::BlockGraph& g = system.plan().graph;
   const std::span<const double> rows = solver.row_scale(), columns = solver.column_scale();
@@ -36,7 +36,7 @@ double norm_of(step::System& system, const solve::Hierarchical& solver) {
   return norm;
 }
 
-/// Fixed signs, as if drawn: no direction is left out.
+/// A fixed pseudo-random vector of signs, which has a component in every direction.
 std::vector<double> signs(std::size_t count) {
   std::vector<double> values(count);
   std::uint64_t state = 0x9e3779b97f4a7c15u;
@@ -53,7 +53,7 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-/// Levels with their widths, and the conditions of their interfaces where these are narrow.
+/// Levels of the tree with their widths, and the condition numbers of their interfaces if these are narrow.
 std::vector<records::LevelFigures> make_levels(const tree::Tree& tree, const solve::Hierarchical& solver) {
   std::vector<records::LevelFigures> levels;
   for (const tree::Subdomain& s : tree.subdomains) {
@@ -76,8 +76,9 @@ std::vector<records::LevelFigures> make_levels(const tree::Tree& tree, const sol
   return levels;
 }
 
-/// By inverse iteration from a vector of signs: what grows most is met within a small factor after few iterations. 0:
-/// not known. first: is told the first right-hand side with its solution, and |A|.
+/// Estimates the condition number by inverse iteration from a vector of signs, which approximates the largest growth
+/// within a small factor after few iterations. Returns 0 if unknown. first: called with the first right-hand side, its
+/// solution, and |A|.
 template <class First>
 double estimate_condition(step::System& system, const solve::Hierarchical& solver, First&& first) {
   constexpr int iterations = 4;
@@ -102,7 +103,7 @@ double estimate_condition(step::System& system, const solve::Hierarchical& solve
 /// Backward errors of a solution by the level of the tree at which unknowns are eliminated.
 void add_backward_errors(step::System& system, const solve::Hierarchical& solver, const std::vector<double>& b,
                          const std::vector<double>& x, double norm, std::vector<records::LevelFigures>& levels) {
-  // The system is as consistent as its rows let it be: where rows depend nothing is said.
+  // With dependent rows the system may be inconsistent, and backward errors have no meaning.
   if (solver.last_status().deficiency != 0) return;
   const tree::Tree& tree = system.linear().tree();
   const std::span<const double> rows = solver.row_scale(), columns = solver.column_scale();

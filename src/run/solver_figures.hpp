@@ -4,12 +4,13 @@
 
 namespace bough::run {
 
-/// Figures of the tree and the linear solver for the summary of a run; conditions of interfaces where these are narrow.
+/// Figures of the tree and the linear solver for the summary of a run, with condition numbers of interfaces if these
+/// are narrow.
 decltype(records::Summary::solver) solver_figures(step::System& system, int dependent_rows);
 
-/// The last factorization of a run under a right-hand side of signs: backward errors and conditions by level of the
-/// tree, and an estimate of the condition number of the scaled tangent, |A| times the largest growth that a few
-/// inverse iterations meet (a lower bound: within a small factor of it as a rule). Adds `levels` and the figures
+/// Examines the last factorization of a run with a right-hand side of signs. Computes backward errors and condition
+/// numbers by level of the tree, and estimates the condition number of the scaled tangent as |A| times the largest
+/// growth in a few inverse iterations (a lower bound, as a rule within a small factor). Adds `levels` and the figures
 /// `condition_estimate`, `digits_lost`. Hierarchical solver only; allocates.
 void look_at_last_factor(step::System& system, records::Summary& summary);
 

@@ -31,7 +31,7 @@ int StabilityWatch::look(const step::State& state, std::optional<step::Stability
     if (mode || seen_.is_declared) {
       if (!seen_.first_lost) seen_.first_lost = {last_factor_, state.time};
     } else {
-      look.unstable = 0;  // no more than round-off
+      look.unstable = 0;  // the negative pivot is round-off
     }
   }
   seen_.is_known = look.is_known;
@@ -48,14 +48,14 @@ void StabilityWatch::look_at_end(const step::State& state) {
   if (motions == plan::Motions::planar || motions == plan::Motions::line) look_at_hidden(state);
 }
 
-/// Along a line: sideways. In a plane: out of it.
+/// Examines motions that the plan has left out: lateral ones of a line, those out of a plane.
 void StabilityWatch::look_at_hidden(const step::State& state) {
   scene::Scene whole = scene_;
   whole.without.insert(whole.without.end(), {"planar", "line"});
   const plan::Plan plan = plan::make_plan(whole);
   const bool is_alike = plan.nodes.size() == state.num_nodes() && plan.joints.size() == state.turns.size() &&
                         static_cast<std::size_t>(plan.num_multipliers) == state.multipliers.size();
-  if (!is_alike) return;  // rigid parts were found otherwise
+  if (!is_alike) return;  // the plan with all motions has other rigid parts
   step::System system(plan, whole.solver, schedule::make_serial_walker());
   step::State at_rest = step::make_spatial(system_.plan(), state);
   at_rest.unsettled.clear();

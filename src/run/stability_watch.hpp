@@ -1,5 +1,5 @@
 #pragma once
-/// What a run in statics has seen of the stability of its equilibria.
+/// Stability of the equilibria of a static run.
 #include <optional>
 #include <string>
 
@@ -12,15 +12,16 @@ class StabilityWatch {
  public:
   StabilityWatch(const scene::Scene& scene, step::System& system);
 
-  /// An equilibrium that was just found, whose tangents are present and were factored there or next to it. Returns the
-  /// directions in which it is left. known: what stability().look() has told of the same tangents, where it was asked.
+  /// Examines an equilibrium just found, whose tangents are present and were factored there or next to it. Returns its
+  /// number of unstable directions. known: the result of stability().look() for the same tangents, if it was called.
   int look(const step::State& state, std::optional<step::StabilityLook> known = {});
-  /// The last equilibrium of the run, unless unstable ones are declared: what moves in its unstable direction, and
-  /// whether it is stable in the motions that the plan has left out. Makes a plan with these, and evaluates it once.
+  /// Examines the last equilibrium of the run, unless the scene declares unstable ones: its unstable mode, and its
+  /// stability in the motions that the plan has left out. For the latter it makes a plan with all motions and evaluates
+  /// it once.
   void look_at_end(const step::State& state);
 
   const records::Stability& seen() const { return seen_; }
-  /// Of the last equilibrium that look() was called for.
+  /// Result for the last equilibrium passed to look().
   step::StabilityLook last() const { return {seen_.is_known, seen_.unstable_directions}; }
   step::Stability& stability() { return stability_; }
   /// "'beam.8' moves most, along (0, 1, 0)"

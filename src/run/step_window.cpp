@@ -59,7 +59,7 @@ std::span<const double> StepWindow::values_between(step::System& system, results
   if (!shows_motion(plan_, sensors_[sensor])) {
     found_.assign(value_begin_[sensor + 1] - value_begin_[sensor], 0.0);
     for (int i = 0; i < num_ends_; ++i) {
-      double weight = 1.0;  // Lagrange's polynomial of this end
+      double weight = 1.0;  // Lagrange polynomial of this end
       for (int j = 0; j < num_ends_; ++j)
         if (j != i) weight *= (time - this->time(j)) / (this->time(i) - this->time(j));
       const std::span<const double> at_end = values(i, k);

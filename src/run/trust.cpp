@@ -19,7 +19,7 @@ double solver_figure(const records::Summary& summary, const char* name) {
 
 std::string number(double value) { return io::rounded_text(value, 2); }
 
-/// Whether a value passes its bound, or is no number.
+/// Whether a value exceeds its bound or is not a number.
 bool passes(double value, double bound) { return !(value <= bound); }
 
 void doubt_energy(const records::Summary& s, const TrustLimits& limits, std::vector<records::Doubt>& doubts) {
@@ -38,8 +38,9 @@ void doubt_energy(const records::Summary& s, const TrustLimits& limits, std::vec
                        "smaller steps or a spectral radius nearer to 1"});
 }
 
-/// What would bring an error of the second order in the step, or of the first in the tolerance, safely below its bound:
-/// the estimate of a run that is far off is itself off, by less than the margin in all runs that were tried.
+/// The step size or tolerance that would bring the error below its bound, given that errors are of second order in the
+/// step and of first order in the tolerance. The margin covers the error of the estimate itself in runs with large
+/// errors; in all runs that were tried it was smaller.
 std::string remedy(const records::Summary& s, double excess) {
   constexpr double margin = 1.5;
   excess *= margin;
@@ -93,8 +94,8 @@ void doubt_linear_solutions(const records::Summary& s, const TrustLimits& limits
                                                 number(level.backward_error)});
 }
 
-/// What round-off and tolerance leave of results. Where a limit point was located the tangent is singular as it has to
-/// be, and the path goes on.
+/// Effect of round-off and tolerance on the results. At a located limit point the tangent is singular by nature, so
+/// such a run is not doubted for it.
 void doubt_condition(const records::Summary& s, bool is_dynamic, const TrustLimits& limits,
                      std::vector<records::Doubt>& doubts) {
   const double error = solver_figure(s, "solution_error_estimate");
@@ -136,8 +137,8 @@ void doubt_constraints(const records::Checks& c, const TrustLimits& limits, std:
                             " of the size of the parts that meet in it (or rad) in a step; take smaller steps"});
 }
 
-/// "the last equilibrium is unstable, it is left in one direction: ..."; empty where it is stable in the motions that
-/// the plan has taken.
+/// "the last equilibrium is unstable, it is left in one direction: ..."; empty if it is stable in the motions of the
+/// plan.
 std::string unstable_text(const records::Stability& s) {
   if (s.unstable_directions == 0) return "";
   const std::string count = !s.not_conservative.empty()  ? "an odd number of directions"
@@ -146,7 +147,7 @@ std::string unstable_text(const records::Stability& s) {
   return "the last equilibrium is unstable, it is left in " + count + ": " + s.mode;
 }
 
-/// One doubt, in which motions ever the structure leaves its equilibria.
+/// Adds at most one doubt about stability, whatever the motions in which equilibria are unstable.
 void doubt_stability(const records::Stability& s, std::vector<records::Doubt>& doubts) {
   std::string text = unstable_text(s);
   const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };

@@ -6,48 +6,49 @@
 
 namespace bough::run {
 
-/// Where a run is doubted. Each bound lies well above what the gallery shows and below what an engineer would accept
-/// unsaid.
+/// Bounds above which a run is doubted. Each is well above the values of the gallery, and below what an engineer would
+/// accept without being told.
 struct TrustLimits {
-  /// Of the largest speed: a given initial velocity that the start changes by more is not the one asked for. Numbers
-  /// in a scene have six digits at
-  /// least, so what is less may be their rounding; a note tells it.
+  /// Change of a given initial velocity by the consistent start, relative to the largest speed. Numbers in a scene have
+  /// at least six digits, so smaller changes may be due to their rounding; a note reports them.
   double velocity_changed = 1e-6;
-  /// Of the largest energy: what the integrator may have added by the end. A scheme that is stable adds what its
-  /// truncation error is; a hundredth is visible in amplitudes (their half).
+  /// Energy added by the integrator by the end, relative to the largest energy. A stable scheme adds no more than its
+  /// truncation error. A hundredth of the energy is half a hundredth of amplitudes, which is visible.
   double energy_gained = 1e-2;
-  /// Of the largest energy: the same for what it took. Damping of unresolved vibrations is meant, a tenth of
-  /// all energy changes amplitudes by a twentieth.
+  /// Energy taken by the integrator, relative to the largest energy. Unresolved vibrations are damped on purpose; a
+  /// tenth of all energy changes amplitudes by a twentieth.
   double energy_taken = 0.1;
-  /// Of the range of a sensor: its estimated error by the end (ErrorWatch), which is right within a factor of three. So
-  /// runs are doubted that are wrong by 12 %, which shows in a picture, and none that is right to 1 %. Scenes of the
-  /// gallery stay below 3.3 %.
+  /// Estimated error of a sensor by the end (ErrorWatch), relative to its range. The estimate is right within a factor
+  /// of three. Runs with errors of 12 %, which are visible in a picture, are thus always doubted, and runs right to 1 %
+  /// never. Scenes of the gallery stay below 3.3 %.
   double sensor_error = 0.04;
-  /// The same of the size of the structure, or 1 rad, of the sum of local errors, where no sensor shows a motion.
+  /// Sum of local errors, relative to the size of the structure or 1 rad. Used if no sensor shows a motion.
   double local_error_sum = 0.04;
-  /// LAPACK's bar for a solution: residual over norm, unknowns and unit round-off.
+  /// LAPACK's test ratio for a linear solution: its residual over the norm, the number of unknowns and the unit
+  /// round-off.
   double lapack_ratio = 30.0;
-  /// What one more correction changes of a displacement or of a reaction, over the largest: fewer than three digits
-  /// are sure.
+  /// Change of a displacement or a reaction by one more Newton correction, relative to the largest: fewer than three
+  /// digits are certain above this.
   double lost = 1e-3;
-  /// Of the size of the parts that meet in a joint, or rad: open by more than a millionth.
+  /// Violation of constraints, relative to the size of the parts that meet in a joint, or in rad.
   double violation = 1e-6;
-  /// The same for what the rates open in one step: a thousandth.
+  /// The same for the violation that rates of constraints cause in one step.
   double violation_step = 1e-3;
-  /// Of the largest force: what steps in time accepted at the floor of round-off leave unbalanced. Reactions and
-  /// section forces have that error; a tolerance that asks for more digits than there are is no reason for doubt. In
-  /// statics nothing stays unbalanced, see step::System::settle.
+  /// Unbalanced force of steps in time accepted at the round-off floor, relative to the largest force. Reactions and
+  /// section forces have this error. Reaching the floor alone is no reason for doubt, since the tolerance may just ask
+  /// for more digits than there are. In statics no force stays unbalanced, see step::System::settle.
   double unbalanced = 1e-6;
-  /// Share of the steps that were rejected: the step size is not that of the problem.
+  /// Rejected steps per accepted step: above this, the step size does not suit the problem.
   double rejected = 0.1;
 };
 
-/// Given initial velocities that the start has changed: the three changed most, asked and got, and how many others.
+/// Describes the given initial velocities that the start has changed: the three largest changes, with given and actual
+/// values, and the number of others.
 std::string describe(const std::vector<records::ChangedVelocity>& changed);
 
-/// Why a run should not be trusted without a closer look, in words: about the run itself (it broke off), initial
-/// velocities, energy, errors, linear solutions, condition, constraints, stability, round-off, steps. Reads the
-/// summary's status, changed velocities, steps, checks, levels and solver figures.
+/// Reasons in words why a run should not be trusted without a closer look. They concern the run itself (it broke off),
+/// initial velocities, energy, errors, linear solutions, condition, constraints, stability, round-off and steps. Reads
+/// the status, changed velocities, steps, checks, levels and solver figures of the summary.
 std::vector<records::Doubt> doubts_of(const records::Summary& summary, bool is_dynamic, const TrustLimits& limits = {});
 
 }  // namespace bough::run

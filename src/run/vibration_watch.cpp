@@ -15,8 +15,8 @@ std::optional<std::string> VibrationWatch::look(const step::Integrator& integrat
 }
 
 std::optional<std::string> VibrationWatch::judge(const results::Balance& balance, double time) {
-  constexpr double largest_gain = 0.5;  // of all energy and work seen; errors of resolved motion stay far below
-  constexpr int long_enough = 10;       // steps: a start from rest has little energy to compare with
+  constexpr double largest_gain = 0.5;  // of the energy scale; errors of resolved motions stay far below
+  constexpr int long_enough = 10;       // steps, because the energy scale is small after a start from rest
   const bool gains = balance.last_energy_error() > largest_gain * balance.energy_scale();
   gaining_steps_ = gains ? gaining_steps_ + 1 : 0;
   if (gaining_steps_ < long_enough) return std::nullopt;

@@ -11,13 +11,15 @@ inline constexpr const char* undamped =
     "the variational integrator does not damp vibrations that the step does not resolve; use generalized_alpha or a "
     "smaller step";
 
-/// Looks at the steps of the variational integrator, which damps nothing, for vibrations faster than the step.
+/// Detects vibrations that the step does not resolve. For the variational integrator, which does not damp them.
 class VibrationWatch {
  public:
-  /// After an accepted step: a note when they first make up a good part of the accelerations.
+  /// To be called after an accepted step. Returns a note when such vibrations first make up a large part of the
+  /// accelerations.
   std::optional<std::string> look(const step::Integrator& integrator, double time);
   bool seen() const { return seen_; }
-  /// Every step once they were seen: why the run has to end, where energy keeps above what work explains.
+  /// To be called in every step once they were detected. Returns the cause to end the run if the energy stays above
+  /// what the work of loads and drives explains.
   std::optional<std::string> judge(const results::Balance& balance, double time);
 
  private:

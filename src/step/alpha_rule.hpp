@@ -1,12 +1,12 @@
 #pragma once
-/// The formulas of a step of generalized-alpha, in all motions or those of a plane. Internal to step.
+/// The formulas of one step of generalized-alpha, for motion vectors in space or in a plane. Internal to step.
 #include "bough/elements/evaluate.hpp"
 #include "bough/step/options.hpp"
 
 namespace bough::step {
 
-/// Of a step of size h [s]: velocities and accelerations that belong to its increment dq, and the increment that it
-/// starts from. V: a motion vector, of doubles or packs.
+/// One step of size h [s]: velocities and accelerations as functions of the increment dq, the predicted dq, and the
+/// local error. V is a motion vector of doubles or packs.
 struct AlphaRule {
   AlphaCoefficients c;
   double h;
@@ -20,8 +20,9 @@ struct AlphaRule {
     return {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false};
   }
 
-  ///   a_{n+1} = (dq - h v_n) / (beta h^2) - (1/2 - beta)/beta a_n,  v_{n+1} = v_n + h ((1 - gamma) a_n + gamma
-  ///     a_{n+1}),
+  /// Acceleration-like variable, velocity and acceleration at the end of the step as functions of dq:
+  ///   a_{n+1} = (dq - h v_n) / (beta h^2) - (1/2 - beta)/beta a_n
+  ///   v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
   ///   dv/dt_{n+1} = ((1 - alpha_m) a_{n+1} + alpha_m a_n - alpha_f dv/dt_n) / (1 - alpha_f)
   template <class V>
   Rates<V> follow(const V& dq, const V& v, const V& a, const V& algorithmic) const {
@@ -31,14 +32,14 @@ struct AlphaRule {
             share * V((1.0 - c.alpha_m) * next + c.alpha_m * algorithmic - c.alpha_f * a), next};
   }
 
-  /// What the step leaves without the filter of stiff parts, e_q of step_control.hpp, where dv/dt changed by `change`;
-  /// bracket: ad(v) dv/dt.
+  /// Local error e_q of step_control.hpp without the filter for stiff parts. `change` is the change of dv/dt over the
+  /// step, `bracket` is ad(v) dv/dt.
   template <class V>
   V local_error(const V& change, const V& bracket) const {
     return (h * h * (c.beta + 0.5 * c.shift() - 1.0 / 6.0)) * change - (h * h * h / 12.0) * bracket;
   }
 
-  /// dq where dv/dt changes by `change`.
+  /// The increment dq of a step over which dv/dt changes by `change`.
   template <class V>
   V predict(const V& v, const V& a, const V& algorithmic, const V& change) const {
     const V next = (1.0 / (1.0 - c.alpha_m)) * V(a + (1.0 - c.alpha_f) * change - c.alpha_m * algorithmic);
@@ -46,8 +47,9 @@ struct AlphaRule {
   }
 };
 
-/// How a quantity changes over a step where it goes on as the polynomial of an order, 0, 1 or 2, through its values at
-/// the ends of past steps of the same size. change: over the last step; of_change: of that, from the step before.
+/// Change of a quantity over the next step, extrapolated by the polynomial of order 0, 1 or 2 through its values at the
+/// ends of past steps of the same size. `change` is its change over the last step, `of_change` the difference of the
+/// last two changes.
 template <class V>
 V predicted_change(int order, const V& change, const V& of_change) {
   return order == 2 ? V(change + of_change) : order == 1 ? change : V::zero();

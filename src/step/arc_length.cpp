@@ -13,12 +13,12 @@ using motion::Vec6;
 namespace {
 
 constexpr double load_difference =
-    1e-4;  ///< over which loads are differenced: exact where they are proportional to the factor
+    1e-4;  ///< difference of load factors for dR/df; exact if loads are proportional to the factor
 constexpr double least_alignment =
-    0.5;                           ///< cosine between a step and the tangent it set out along: less may be the way back
-constexpr double at_rest = 1e-10;  ///< of the largest motion along the path
-constexpr double no_digits = 1e-12;  ///< of a determinant's terms: it may be 0
-constexpr double divergence = 1e3;   ///< change of relative motions that no step along a path needs
+    0.5;  ///< least cosine between a step and its initial tangent; below, the step may have turned back
+constexpr double at_rest = 1e-10;    ///< an unknown moves if it exceeds this part of the largest motion
+constexpr double no_digits = 1e-12;  ///< a determinant below this part of its terms may be zero
+constexpr double divergence = 1e3;   ///< a larger change of relative motions means divergence
 
 }  // namespace
 
@@ -66,11 +66,11 @@ double ArcLengthPath::distance(const State& from, const State& to) const {
   return std::sqrt(sum);
 }
 
-/// By the tangents at both ends of a very short step.
+/// Estimates the curvature of the path from the tangents at both ends of a very short step.
 double ArcLengthPath::choose_first_step(const State& state) {
   constexpr double longest = 0.05, probe = 1e-5, shortest = 1e-6;
-  constexpr double most_turn = 0.25;  // rad, of the direction
-  constexpr double most_loss = 0.5;   // of the slope
+  constexpr double most_turn = 0.25;  // change of the direction over the first step [rad]
+  constexpr double most_loss = 0.5;   // relative change of the slope df/ds over the first step
   const Vectors direction = direction_;
   const double slope = slope_;
   State near = state;
@@ -90,8 +90,8 @@ double ArcLengthPath::choose_first_step(const State& state) {
   return step;
 }
 
-/// A spring on one unknown, the one that moves most where nothing else holds the shape: K + k e e^T is regular at a
-/// limit point. k is of the size of the loads over the motions that they cause, so that no digits go to it.
+/// Chooses a spring on one unknown, the one without a pivot, so that K + k e e^T is regular at a limit point. The
+/// stiffness k is of the size of the loads over the motions that they cause, so that it costs no digits.
 std::optional<ArcLengthPath::Spring> ArcLengthPath::find_spring(const solve::FactorStatus& status) const {
   if (!has_direction_ || status.outcome != solve::FactorOutcome::singular || status.block < 0) return std::nullopt;
   const blocks::BlockGraph& g = system_.plan().graph;
@@ -104,7 +104,7 @@ std::optional<ArcLengthPath::Spring> ArcLengthPath::find_spring(const solve::Fac
     largest = std::max(largest, std::abs(x_[i]));
   }
   const double moved = std::abs(x_[spring.unknown]);
-  if (!(moved > at_rest * largest) || !(work > 0.0)) return std::nullopt;  // another branch crosses the path
+  if (!(moved > at_rest * largest) || !(work > 0.0)) return std::nullopt;  // bifurcation: it does not move here
   spring.stiffness = work / (moved * moved);
   for (int e = 0; e < g.num_elements(); ++e) {
     std::int64_t size = 0, row = -1;
@@ -122,7 +122,7 @@ std::optional<ArcLengthPath::Spring> ArcLengthPath::find_spring(const solve::Fac
   return std::nullopt;
 }
 
-/// Of K, or where that is singular of K + k e e^T, with the solution for k e.
+/// Factors K or, if K is singular, K + k e e^T. In the second case also solves for the right-hand side k e.
 std::optional<Trouble> ArcLengthPath::factor(bool rescale) {
   spring_.reset();
   const auto trouble = system_.linear().factor(rescale, {});
@@ -138,13 +138,13 @@ std::optional<Trouble> ArcLengthPath::factor(bool rescale) {
   return system_.linear().solve(load_.data(), by_spring_.data());
 }
 
-/// The tangents as they were evaluated; the factor stays.
+/// Restores the element matrices as evaluated. The factorization with the spring is kept.
 void ArcLengthPath::take_spring_out() {
   if (spring_) system_.linear().solver().element(spring_->element)[spring_->entry] = spring_->entry_without;
 }
 
-/// tangent_ = K^-1 (-dR/df), with K (and its spring) factored and R evaluated at this load factor; leaves the loads of
-/// the load factor set.
+/// Computes tangent_ = K^-1 (-dR/df). K (with its spring) must be factored and R evaluated at this load factor. On
+/// return the laws are set to the load factor.
 std::optional<Trouble> ArcLengthPath::solve_load(const State& state, double load_factor) {
   for (std::size_t i = 0; i < load_.size(); ++i) load_[i] = system_.residual()[i];
   const double step = load_difference * std::max(1.0, std::abs(load_factor));
@@ -160,7 +160,7 @@ std::optional<Trouble> ArcLengthPath::set_tangent(const State& state) {
   if (auto t = system_.evaluate(state, {}, true)) return t;
   if (auto t = factor(true)) return t;
   if (auto t = solve_load(state, state.time)) return t;
-  double load = 1.0;  // that goes with tangent_
+  double load = 1.0;  // change of the load factor that belongs to tangent_
   if (spring_) {
     load = 1.0 - by_spring_[spring_->unknown];
     const double moved = tangent_[spring_->unknown];
@@ -184,10 +184,11 @@ std::optional<Trouble> ArcLengthPath::set_tangent(const State& state) {
   return std::nullopt;
 }
 
-/// correction_ = x_R + df x_f, x_R and x_f being correction_ and tangent_, such that the step keeps its length; df.
-/// What the spring adds to K is taken away again: with K' = K + k e e^T and K' x_e = k e
+/// Sets correction_ = x_R + df x_f, where x_R is correction_ and x_f is tangent_, so that the step has the given
+/// length. Returns df, or nothing if the equations are singular. The spring is eliminated: with K' = K + k e e^T
+/// and K' x_e = k e
 ///   x = x_R + df x_f + xi x_e,   xi = x . e,
-/// two equations for df and xi, regular at a limit point.
+/// These are two equations for df and xi, regular at a limit point.
 std::optional<double> ArcLengthPath::keep_length(double length) {
   double by_load = 0.0, by_spring = 0.0, left = 0.5 * (length * length - square(moved_));
   for (std::size_t n = 0; n < moved_.size(); ++n) {
@@ -237,7 +238,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
       const bool still = report.change < options_.tolerance &&
                          change_of_load < options_.tolerance * std::max(1.0, std::abs(state.time));
       report.converged = still && is_small(system_, report.residual, options_.tolerance);
-      // More iterations than the tolerance asks for would make the next steps shorter.
+      // Iterations beyond the tolerance would make the next steps shorter, so round-off ends the iteration here.
       if (still && !report.converged && may_be_round_off(k, report.change, previous, options_.tolerance))
         report.converged = report.at_floor = is_at_floor(system_, report.residual, options_.tolerance);
       if (report.converged) break;

@@ -30,7 +30,7 @@ double CpuClock::now() {
     if (since < longest_guess) return told_ = std::max(told_, cpu_ + 1e-9 * static_cast<double>(since));
   }
   cpu_ = read(CLOCK_THREAD_CPUTIME_ID);
-  read_at_ = steady_now();  // after it: waiting between the two is not taken for work
+  read_at_ = steady_now();  // read after the CPU clock, so that waiting between both does not count as work
   return told_ = std::max(told_, cpu_);
 }
 

@@ -8,18 +8,17 @@ namespace bough::step {
 
 namespace {
 
-constexpr double taken_whole = 1e-2;  ///< smaller changes are not tested: there Newton's own convergence has set in
-/// The second order of smaller changes is below the rounding of strains: nodes take them as they are, without the
-/// roundings of the way along the tree.
+constexpr double taken_whole = 1e-2;  ///< smaller corrections need no line search
+/// The second-order effect of smaller corrections is below the rounding of strains. Each node then takes its own
+/// increment, which avoids the rounding errors of the motion tree.
 constexpr double taken_by_node = 1e-8;
-constexpr double loose =
-    0.8;  ///< part of the first power that may be left: the search only keeps Newton from overshooting
+constexpr double loose = 0.8;  ///< accepted part of the initial power; the line search only prevents overshooting
 constexpr int max_trials = 6;
-constexpr double divergence = 1e3;  ///< change of relative motions that no shape on the way to an equilibrium needs
+constexpr double divergence = 1e3;  ///< a larger change of relative motions means divergence
 
-/// Applies as much of the correction in work().x as does not overshoot (line search on the power of the unbalanced
-/// forces along the path, Matthies, Strang 1979):  g(s) = residual(q(s)) . dq/ds,  not  g(s) / g(0) < -loose;  by
-/// regula falsi between 0 and 1.
+/// Applies the correction in work().x, shortened by a factor s if the whole correction overshoots: line search on the
+/// power g(s) = residual(q(s)) . dq/ds of the unbalanced forces (Matthies, Strang 1979). A factor is accepted unless
+/// g(s) has changed its sign and exceeds `loose` times g(0); the next one follows from regula falsi between 0 and s.
 void apply_damped(System& system, State& state, double size) {
   const std::vector<double>& x = system.work().x;
   if (size <= taken_by_node) {
@@ -94,7 +93,7 @@ StepReport equilibrate(System& system, State& state, const StepOptions& options,
   State& start = system.work().start;
   start = state;
   StepReport report = try_load(system, state, options, load_factor);
-  if (!report.converged && system.linear().takes_symmetric_parts()) {  // may be why
+  if (!report.converged && system.linear().takes_symmetric_parts()) {  // may be the cause
     system.linear().drop_symmetry();
     state = start;
     report = try_load(system, state, options, load_factor);

@@ -11,10 +11,10 @@ namespace {
 
 using motion::Vec6;
 
-constexpr double fewest = 3.0, most = 12.0;  ///< steps a period
-constexpr double least_damping = 0.07;       ///< cos(86 degrees), of the critical one
+constexpr double fewest = 3.0, most = 12.0;  ///< steps per period of vibrations that grow
+constexpr double least_damping = 0.07;       ///< cos(86 degrees), relative to critical damping
 constexpr int applications =
-    24;  ///< of 4 P (1 - P): what lies outside the band falls below a part in a thousand of what lies inside
+    24;  ///< of 4 P (1 - P): vibrations outside the band fall below a thousandth of those inside
 
 class Filter {
  public:
@@ -25,7 +25,7 @@ class Filter {
     const elements::Slopes slopes{0.0, shift_, false};
     return !system_.evaluate(state_, slopes, true) && !system_.linear().factor(true, slopes);
   }
-  /// M x, or C x, in the unknowns of the solver; other rows are zero.
+  /// y = M x or y = C x in the unknowns of the solver, by differences of residuals; constraint rows are zero.
   bool multiply(bool by_mass, const std::vector<double>& x, std::vector<double>& y) {
     y.assign(x.size(), 0.0);
     if (system_.evaluate(state_, {}, false)) return false;
@@ -55,7 +55,7 @@ class Filter {
   std::vector<double> rhs_;
 };
 
-/// Sum over nodes of a . b, rotations by the arm that turns them into lengths: multipliers are left out.
+/// Inner product of the motions of all nodes. The moment arm converts rotations to lengths; multipliers do not count.
 double inner(const System& system, const std::vector<double>& a, const std::vector<double>& b) {
   const double arm = system.moment_arm();
   double sum = 0.0;
@@ -90,7 +90,7 @@ int largest_node(const System& system, const std::vector<double>& x) {
   return found;
 }
 
-/// Some vector in which every vibration has a part.
+/// A fixed pseudo-random vector, which has a component in every vibration.
 std::vector<double> any_vector(std::size_t size) {
   std::vector<double> x(size);
   unsigned long long seed = 20;

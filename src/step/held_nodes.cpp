@@ -38,7 +38,8 @@ HeldNodes::HeldNodes(const plan::Plan& plan) : plan_(plan), kind_(plan.directory
   }
 }
 
-/// add_forces(use, node, forces): adds those of an element at the node, in its own axes, to those given.
+/// Solves the balance of one held node for its multipliers. add_forces(use, node, forces) adds the forces of an
+/// attached element, in the node's own axes, to `forces`.
 template <class AddForces>
 void HeldNodes::balance(std::size_t held, Vec6<double> forces, AddForces&& add_forces, double* multipliers) const {
   const plan::HeldNode& h = plan_.held[held];
@@ -54,7 +55,8 @@ void HeldNodes::balance(std::size_t held, Vec6<double> forces, AddForces&& add_f
 
 namespace {
 
-/// Rows of part `part` of K eta added to `to`, K of an element in six unknowns a node, eta by node.
+/// Adds the rows of K eta that belong to the element's node `part`. K is the element's tangent with six unknowns per
+/// node; increment(node) returns eta.
 template <class E, class Increment>
 void add_product(const E& e, const double* K, int part, Increment&& increment, Vec6<double>& to) {
   const int n = elements::num_unknowns(e);

@@ -1,6 +1,7 @@
 #pragma once
-/// What the solver does not see of elements at nodes that joints hold at rest (Plan::held); the multipliers of
-/// joints that hold nodes at rest, from the balance of the node. Internal to step.
+/// Nodes that joints hold at rest (Plan::held) have no unknowns. This class tells which rows and columns of elements at
+/// such nodes the solver keeps, and recovers the multipliers of the holding joints from the balance of forces at the
+/// node. Internal to step.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,25 +19,27 @@ class HeldNodes {
   using Vec6List = std::vector<motion::Vec6<double>>;
   explicit HeldNodes(const plan::Plan& plan);
 
-  /// Whether an element is a joint that holds a node: the solver sees nothing of it, and no residual of it is wanted.
+  /// Whether an element is a joint that holds a node. Such a joint has no entries in the linear system, and its
+  /// residual is not evaluated.
   bool leaves_out(std::size_t element) const { return kind_[element] == Kind::holds; }
-  /// Whether the solver sees a part of an element only.
+  /// Whether only some of the rows and columns of an element are in the linear system.
   bool trims(std::size_t element) const { return kind_[element] != Kind::whole; }
-  /// Unknowns of a trimmed element that the solver has, by their numbers in the element.
+  /// The unknowns of a trimmed element that are in the linear system, by their local numbers in the element.
   std::span<const std::int8_t> kept(std::size_t element) const {
     return {kept_.data() + begin_[element], static_cast<std::size_t>(begin_[element + 1] - begin_[element])};
   }
 
-  /// Multipliers of all joints that hold:  W multipliers = -(forces of all other elements on the node), in statics
-  /// with what these lack to first order, f + K eta (State::unsettled). more: forces by node beside those of
-  /// elements, or null. in_plane: elements in the scene's plane are asked, else those in space.
+  /// Sets the multipliers of all joints that hold nodes, from W multipliers = -(forces of all other elements on the
+  /// node). In statics these forces include the first-order correction f + K eta (State::unsettled). more: additional
+  /// forces by node, or null. in_plane: evaluates the elements over SE(2) instead of those over SE(3).
   void recover_multipliers(const System& system, State& state, const Vec6List* more, bool in_plane) const;
-  /// Largest of W^-1 M eta, eta the increments of the nodes by a vector x of unknowns.
+  /// Largest entry of W^-1 M eta over all held nodes; eta are the increments of nodes in the vector x of unknowns.
   double largest_impulse(const System& system, const State& state, const double* x) const;
 
  private:
   enum class Kind : std::uint8_t { whole, trimmed, holds };
-  /// An element at a held node, and which of its nodes that is, those on the ground not counted.
+  /// An element attached to a held node. `part` is the index of that node among the element's nodes, ports on the
+  /// ground not counted.
   struct Use {
     std::size_t element;
     int part;
@@ -49,11 +52,11 @@ class HeldNodes {
   std::vector<Kind> kind_;              ///< by element
   std::vector<std::int64_t> begin_{0};  ///< by element: range in kept_
   std::vector<std::int8_t> kept_;
-  std::vector<std::vector<Use>> uses_;  ///< by held node, in the order of elements; without the joints that hold it
+  std::vector<std::vector<Use>> uses_;  ///< by held node: attached elements, ascending, without its holding joints
 };
 
-/// Calls f(place, i) for every entry i of an element's n x n matrix, row-major, that the solver takes, and its place
-/// there. held: may be null.
+/// Calls f(place, i) for every entry i of an element's row-major n x n matrix that is in the linear system; `place` is
+/// its index in the solver's element matrix. held: may be null.
 template <class F>
 void for_each_kept(const HeldNodes* held, std::size_t element, int n, F&& f) {
   if (held == nullptr || !held->trims(element)) {
@@ -66,7 +69,7 @@ void for_each_kept(const HeldNodes* held, std::size_t element, int n, F&& f) {
     for (const int column : kept) f(place++, row * n + column);
 }
 
-/// Writes an element's matrix of entries entry(i) where the solver takes it.
+/// Writes the entries entry(i) of an element's matrix to the solver's storage.
 template <class Entry>
 void write_matrix(const HeldNodes* held, std::size_t element, int n, Entry&& entry, const solve::ElementView& to) {
   for_each_kept(held, element, n, [&](std::int64_t place, int i) { to[place] = entry(i); });

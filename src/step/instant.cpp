@@ -11,10 +11,10 @@ using motion::Vec6;
 
 namespace {
 
-/// The observer of statics moves steadily: every point of its frame has an acceleration that does not change in it,
+/// In statics the observer's frame moves steadily: the acceleration of each of its points is constant in the frame,
 ///   a_0 + w x (w x x),  a_0 = V_l' + w x V_l,
-/// and the load factor scales it. A common velocity changes nothing, so it is left out:  V = (0; sqrt(factor) w),  V'
-/// = (factor a_0; 0).
+/// and is scaled by the load factor. A common velocity has no effect and is omitted:  V = (0; sqrt(factor) w),  V' =
+/// (factor a_0; 0).
 void make_steady(CarrierMotion& m, double factor) {
   const Vec3<double> w = lanes::angular_part(m.twist);
   const Vec3<double> origin = lanes::linear_part(m.twist_rate) + cross(w, lanes::linear_part(m.twist));
@@ -60,7 +60,7 @@ elements::Field Instant::surroundings(const elements::Slopes& slopes, bool with_
   f.observer = observer();
   if (f.observer == nullptr) return f;
   f.around.gravity = lanes::transpose_times(f.observer->pose.R, f.around.gravity);
-  f.around.has_inertia = with_inertia;  // statics, too: at rest in a frame that moves steadily
+  f.around.has_inertia = with_inertia;  // in statics, too: nodes are at rest in a frame that moves steadily
   return f;
 }
 

@@ -13,7 +13,7 @@ void LaneBatches<G>::add(const solve::ElementBatch& batch, Slot& slot) {
   using E = typename std::tuple_element_t<I, Arrays>::value_type;
   const auto& array = std::get<I>(plan::arrays_on<G>(*plan_));
   const E* list[elements::num_lanes];
-  for (int l = 0; l < elements::num_lanes; ++l) {  // a lane that is missing repeats one that is there
+  for (int l = 0; l < elements::num_lanes; ++l) {  // an empty lane repeats the first element
     const int own = batch.element[static_cast<std::size_t>(l)];
     const int id = own >= 0 ? own : batch.element[static_cast<std::size_t>(slot.first)];
     const plan::ElementPlace place = plan_->directory[static_cast<std::size_t>(id)];
@@ -66,7 +66,7 @@ void LaneBatches<G>::place_rows(const solve::ElementBatch& batch, Slot& slot) {
 
 template <class G>
 void LaneBatches<G>::gather_singles() {
-  constexpr std::size_t near_by = 256;  ///< batches: their elements still lie in the cache together
+  constexpr std::size_t near_by = 256;  ///< distance in batches within which elements share the cache
   struct Open {
     std::size_t batch = 0;
     plan::ElementPlace first;
@@ -90,7 +90,7 @@ void LaneBatches<G>::gather_singles() {
     const auto present = end - loose.begin();
     if (present == 0 || present >= least_lanes) continue;
     batch.element.fill(-1);
-    batch.stride = 1;  // its lanes are no longer those of the solver
+    batch.stride = 1;  // its lanes no longer match those of the solver
     std::erase_if(open, [b](const Open& o) { return b - o.batch > near_by; });
     std::size_t staying = 0;
     for (const int* id = loose.data(); id != loose.data() + present; ++id) {
@@ -100,7 +100,7 @@ void LaneBatches<G>::gather_singles() {
         batch.element[staying++] = *id;
         if (staying == 1)
           open.push_back({b, place});
-        else if (open.back().batch == b)  // two kinds: one by one
+        else if (open.back().batch == b)  // the batch holds two kinds: they are evaluated one by one
           open.pop_back();
         continue;
       }
@@ -198,7 +198,7 @@ void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& s
   around.around.laws = laws;
   around.around.has_inertia = field.around.has_inertia;
   Pack residual[most], magnitude[most], parts[2 * most], spare[most * most];
-  const bool is_direct =  // else the empty lanes must stay empty
+  const bool is_direct =  // written directly only to full batches: the solver's empty lanes must stay empty
       to.want_tangents() && slot.present == wide && batch.stride == wide && !slot.is_trimmed;
   Pack* matrix = nullptr;
   if (is_direct) matrix = reinterpret_cast<Pack*>(to.tangent_of(batch.element[0]).first);

@@ -1,6 +1,7 @@
 #pragma once
-/// Elements that the solver factors in lockstep, evaluated in lockstep as well: eight of one kind in the lanes of a
-/// pack, their tangents written where the solver takes them. Internal to step.
+/// Evaluation of eight elements of one kind at once, one in each lane of a pack. The batches follow those of the
+/// solver, which factors equal sub-domains in lockstep, so that tangents are written directly to the solver's storage.
+/// Internal to step.
 #include <cstdint>
 #include <span>
 #include <tuple>
@@ -26,57 +27,57 @@ struct LaneArraysOf<std::tuple<std::vector<E>...>> {
 };
 }  // namespace detail
 
-/// Where results of elements go.
+/// Destination of the results of elements.
 struct ElementResults {
   double* parts;              ///< as System::parts_
-  const std::int64_t* begin;  ///< by element: half of where its parts begin
-  solve::AnySolver* solver;   ///< takes tangents; null: not wanted
+  const std::int64_t* begin;  ///< by element: half the offset of its parts
+  solve::AnySolver* solver;   ///< receives tangents; null: tangents are not computed
 
   bool want_tangents() const { return solver != nullptr; }
   double* parts_of(int element) const { return parts + 2 * begin[element]; }
   solve::ElementView tangent_of(int element) const { return solver->element(element); }
 };
 
-/// Of elements that move on the group G.
+/// Batches of elements on the group G.
 template <class G>
 class LaneBatches {
  public:
   using Arrays = plan::ArraysOn<G>;
   using Field = elements::FieldOn<G, double>;
 
-  /// Batches of the solver; elements of those that are all but empty are put together with others near by of one
-  /// kind, in the place of the first. A batch goes in lanes if it holds at least `least_lanes` elements and they
-  /// differ in numbers only. Joints that hold nodes are in none: nothing of them is asked for.
+  /// Starts from the batches of the solver. Elements of batches with fewer than `least_lanes` elements are regrouped
+  /// with elements of the same kind from nearby batches, in the first of these. A batch is evaluated in lanes if it
+  /// then holds at least `least_lanes` elements that differ only in the values of their data. Joints that hold nodes at
+  /// rest are omitted, since the solver does not see them.
   void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
             const std::vector<int>& joint_of_element, const HeldNodes* held);
 
-  /// Frames of prescribed motion as they are now, the same for all lanes; needed only where there are some.
+  /// Sets the motions of frames of prescribed motion, equal in all lanes. Needed only if the scene has such frames.
   void set_frames(const plan::FrameMotions& frames);
 
   std::span<const solve::ElementBatch> batches() const { return batches_; }
   bool holds(std::size_t batch) const { return !slots_.empty() && slots_[batch].index >= 0; }
 
-  /// Residuals, magnitudes and (where wanted) tangents of all elements of a batch. No allocation.
+  /// Computes residuals, magnitudes and (if `to` has a solver) tangents of all elements of a batch. Does not allocate.
   void evaluate(std::size_t batch, const State& state, const Field& field, const ElementResults& to) const;
 
  private:
   struct Slot {
     int array = -1;   ///< of plan.elements
-    int index = -1;   ///< in that array's lane elements; -1: not in lanes
-    int first = -1;   ///< lane that holds an element; lanes that hold none repeat it
-    int present = 0;  ///< lanes that hold one
+    int index = -1;   ///< in the lane elements of that array; -1: evaluated one by one
+    int first = -1;   ///< first lane with an element; empty lanes repeat that element
+    int present = 0;  ///< number of lanes with an element
     int num_laws = 0;
-    int num_unknowns = 0;  ///< of one element
-    int num_rows = 0;      ///< of one element, those that have a multiplier
-    std::size_t places =
-        0;  ///< in places_: nodes port by port, laws and multipliers one by one, joints; of all lanes each
-    bool is_trimmed = false;  ///< a node of one of them is held
+    int num_unknowns = 0;     ///< of one element
+    int num_rows = 0;         ///< constraint rows of one element that have a multiplier
+    std::size_t places = 0;   ///< offset in places_: nodes by port, then laws, multipliers, joints, each for all lanes
+    bool is_trimmed = false;  ///< one of the elements is attached to a held node
   };
-  /// A lane element of eight equal ones, which further batches of the same may use: constants of a large structure do
-  /// not fit into the caches.
+  /// A lane element made of eight elements with equal data. Further batches of the same elements share it, because the
+  /// constants of a large structure would not fit into the caches.
   struct Uniform {
     int array, index;
-    std::size_t element;  ///< one of them, in the plan's array
+    std::size_t element;  ///< one of the eight, in the plan's array
   };
   void gather_singles();
   void place_rows(const solve::ElementBatch& batch, Slot& slot);
@@ -86,14 +87,14 @@ class LaneBatches {
   void evaluate_as(const solve::ElementBatch& batch, const Slot& slot, const State& state, const Field& field,
                    const ElementResults& to) const;
 
-  static constexpr std::size_t most_uniform = 64;  ///< that are compared with
+  static constexpr std::size_t most_uniform = 64;  ///< number of lane elements that are searched for equal ones
   const plan::Plan* plan_ = nullptr;
   const HeldNodes* held_ = nullptr;
   std::vector<solve::ElementBatch> batches_;
   std::span<const int> joint_of_element_;
   std::vector<Slot> slots_;
   std::vector<Uniform> uniform_;
-  std::vector<int> places_;  ///< here, since elements themselves are large and lie far apart
+  std::vector<int> places_;  ///< apart from the elements, which are large, so that they stay in the caches
   typename detail::LaneArraysOf<Arrays>::Type lanes_;
   std::vector<elements::CarrierLanes> carriers_;
   elements::CarrierLanes observer_;

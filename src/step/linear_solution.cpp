@@ -76,7 +76,8 @@ std::optional<Trouble> LinearSolution::factor(bool rescale, const elements::Slop
   return Trouble{explain_singular(status)};
 }
 
-/// What is known of the scene beforehand, or else the unknown without a pivot.
+/// Explains a singular matrix by the free or massless motions that the plan has found, or else by the unknown that has
+/// no pivot.
 std::string LinearSolution::explain_singular(const solve::FactorStatus& status) const {
   std::string text = "the linear system is singular";
   const plan::Mobility& mobility = plan_.mobility;
@@ -105,7 +106,7 @@ std::optional<Trouble> LinearSolution::solve(const double* rhs, double* x, bool 
   ++counts_.solutions;
   if (!check && is_trusted_ && solver_->hierarchical() != nullptr && ++unchecked_ < check_every) {
     static_cast<void>(solver_->solve(walker_, rhs, x, false));
-    return std::nullopt;  // what is not finite shows in the change that it makes
+    return std::nullopt;  // the caller notices a solution that is not finite by the size of the correction
   }
   unchecked_ = 0;
   last_solution_ = solver_->solve(walker_, rhs, x);

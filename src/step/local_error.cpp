@@ -13,7 +13,7 @@ using motion::Vec6;
 
 namespace {
 
-/// The largest magnitudes of each of six entries.
+/// Largest magnitude of each of the six entries over many vectors.
 struct Largest {
   Vec6<double> most = Vec6<double>::zero();
   void include(const Vec6<double>& v) {
@@ -70,8 +70,9 @@ void LocalError::watch(const plan::Plan& plan) {
   if (std::any_of(plan.sensors.begin(), plan.sensors.end(), is_seen_whole)) watch_mechanism(plan);
 }
 
-/// Where the mechanism is: bodies, and places of the ends of beams. Inner nodes of beams are left out, and how their
-/// ends turn: many vibrations, little of the motion.
+/// Watches the gross motion of the mechanism: positions and rotations of bodies, positions of the ends of beams. Inner
+/// nodes of beams and rotations of their ends are not watched, because they carry many vibrations and little of the
+/// gross motion.
 void LocalError::watch_mechanism(const plan::Plan& plan) {
   std::vector<char> is_of_beam(watched_.size(), 0), is_end(watched_.size(), 0);
   for (const plan::BeamPlan& beam : plan.beams) {
@@ -88,7 +89,7 @@ void LocalError::watch_mechanism(const plan::Plan& plan) {
 void LocalError::watch(const plan::Plan& plan, const plan::SensorPlan& sensor) {
   using Kind = scene::SensorKind;
   const Kind kind = sensor.sensor.kind;
-  if (shows_energy(kind)) return;  // set_energy_error()
+  if (shows_energy(kind)) return;  // their error is given by set_energy_error()
   const bool turns = kind != Kind::position && kind != Kind::joint_displacement;
   const bool velocity = turns && kind != Kind::rotation && kind != Kind::quaternion && kind != Kind::joint_angle;
   if (sensor.beam >= 0) {
@@ -112,7 +113,7 @@ void LocalError::watch(const plan::Plan& plan, const plan::SensorPlan& sensor) {
   for (const elements::Port& port : sensor.chain) watch(port, turns, velocity);
 }
 
-/// The first elements of beams that end at a node: what vibrates in them is in a reaction there.
+/// Watches the end elements of all beams that end at a node: a reaction there contains their vibrations.
 void LocalError::watch_ends(const plan::Plan& plan, int node) {
   for (const plan::BeamPlan& beam : plan.beams) {
     const std::size_t count = beam.elements.size(), order = (beam.nodes.size() - 1) / count;
@@ -137,7 +138,7 @@ void LocalError::watch(int node, double arm, bool turns, bool velocity) {
   w.arm = std::max(w.arm, arm);
 }
 
-/// Adds h times the unfiltered error of dq over h^3 to dv/dt.
+/// Sets `to` to `after` with h times (unfiltered error of dq) / h^3 added to dv/dt.
 void LocalError::shift_accelerations(const State& after, State& to) const {
   const double h = after.step_size;
   to = after;
@@ -153,10 +154,10 @@ void LocalError::shift_accelerations(const State& after, State& to) const {
 std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   const double h = after.step_size, h3 = h * h * h;
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
-  // Forces are linear in v': M e = R(v' + e) - R(v'), with an e of the size of v' so that the difference keeps its
-  // digits.
+  // The residual is linear in v', so M e = R(v' + e) - R(v'). The e used here is of the size of v', so that the
+  // difference does not cancel.
   const double c2 = (1.0 - alpha_.alpha_m) / ((1.0 - alpha_.alpha_f) * alpha_.beta * h * h);
-  if (auto t = system.evaluate(after, {}, false)) return t;  // the last iteration need not have looked at it
+  if (auto t = system.evaluate(after, {}, false)) return t;  // maybe not evaluated since the last correction
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
   shift_accelerations(after, shifted_);
   if (auto t = system.evaluate(shifted_, {}, false)) return t;
@@ -181,7 +182,7 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   return std::nullopt;
 }
 
-/// e_v over the change of e / h^3 from step to step.
+/// Ratio of the velocity error e_v to the change of e / h^3 from step to step.
 double LocalError::velocity_factor() const {
   return step_ * step_ * step_ * std::abs(constants_.velocity / constants_.position) / (0.5 * (step_ + previous_step_));
 }

@@ -30,7 +30,7 @@ solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solv
   solve::SolveOptions options;
   options.penalty_factor = given.penalty_factor;
   options.lanes = plan.took("lanes");
-  options.inertia = !plan.is_dynamic;  // for Stability
+  options.inertia = !plan.is_dynamic;  // needed by Stability
   if (plan.took("symmetric")) options.symmetry = solve::Symmetry::symmetric;
   if (plan.took("definite")) options.symmetry = solve::Symmetry::definite;
   return options;

@@ -1,5 +1,5 @@
 #pragma once
-/// The linear solver that a scene asks for. Internal to step.
+/// Construction of the linear solver that a scene selects. Internal to step.
 #include <memory>
 
 #include "bough/plan/plan.hpp"
@@ -11,7 +11,7 @@ namespace bough::step {
 std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree::Tree& tree,
                                               const scene::Solver& given);
 
-/// What to tell when factor() answers that the chosen solver does not serve; null for other outcomes.
+/// Message if factor() reports that the chosen solver cannot be used; null for other outcomes.
 const char* explain_backend(solve::FactorOutcome outcome);
 
 }  // namespace bough::step

@@ -12,13 +12,13 @@ namespace bough::step {
 namespace {
 
 struct Edge {
-  int rank;          ///< lower ones are taken up first
-  int a, b;          ///< nodes, or -1: the inertial frame; of a beam: a is the one that it measures from
-  int section = -1;  ///< of a beam
+  int rank;          ///< edges of lower rank are added to the tree first
+  int a, b;          ///< nodes, or -1 for the inertial frame; a of a beam is its reference node
+  int section = -1;  ///< index of the beam's section; -1: other elements
 };
 
-/// Edges of all elements between nodes, in the order of the elements, sorted by rank. Sections of beams are numbered
-/// in it.
+/// Edges of all elements that connect nodes, sorted by rank and, within a rank, in the order of the elements. The
+/// sections of beams are numbered in the order of the elements, too.
 std::vector<Edge> edges_of(const plan::Plan& plan) {
   std::vector<Edge> edges;
   int section = 0;
@@ -38,7 +38,8 @@ std::vector<Edge> edges_of(const plan::Plan& plan) {
   return edges;
 }
 
-/// Groups of the beams of N nodes; the directory holds one array after the other, so their sections follow each other.
+/// Adds the groups of beams of N nodes. The directory lists one array after the other, so the sections of these beams
+/// have consecutive numbers.
 template <int N>
 void add_groups(const plan::Plan& plan, MotionTree& tree, int& section) {
   const auto count = static_cast<int>(plan::array_of<elements::Beam<N>>(plan.elements).size());
@@ -52,7 +53,7 @@ void add_groups(const plan::Plan& plan, MotionTree& tree, int& section) {
 }  // namespace
 
 MotionTree make_motion_tree(const plan::Plan& plan) {
-  const std::size_t n = plan.nodes.size();  // vertex n stands for the inertial frame
+  const std::size_t n = plan.nodes.size();  // vertex n represents the inertial frame
   const auto vertex = [n](int node) { return node < 0 ? n : static_cast<std::size_t>(node); };
   std::vector<std::size_t> set(n + 1);
   std::iota(set.begin(), set.end(), std::size_t{0});
@@ -86,7 +87,7 @@ MotionTree make_motion_tree(const plan::Plan& plan) {
       }
   };
   spread(n);
-  for (std::size_t v = 0; v < n; ++v)  // parts that nothing ties to the inertial frame
+  for (std::size_t v = 0; v < n; ++v)  // parts that are not connected to the inertial frame
     if (!reached[v]) {
       tree.links.push_back({-1, static_cast<int>(v)});
       spread(v);
@@ -110,7 +111,7 @@ using motion::Quaternion;
 using motion::Vec3;
 using motion::Vec6;
 
-/// exp(eta).
+/// The rigid motion exp(eta).
 RigidMotion motion_of(const Vec6<double>& eta) {
   return {motion::exp_quaternion(lanes::angular_part(eta)), motion::Se3::exp(eta).x};
 }
@@ -120,7 +121,7 @@ Vec3<double> turned_by(const Quaternion<double>& q, const Vec3<double>& x) {
   return 2.0 * lanes::cross(q.v, lanes::cross(q.v, x) + q.w * x);
 }
 
-/// A port's motion S as one of the node that carries it at O:  O S O^-1.
+/// The motion S of a port with offset O, as a motion of its node:  O S O^-1.
 RigidMotion seen_from_node(const Frame<double>& O, const RigidMotion& S) {
   const Quaternion<double> turn{S.turn.w, O.R * S.turn.v};
   return {turn, O.R * S.shift - turned_by(turn, O.x)};
@@ -134,14 +135,15 @@ RigidMotion inverse(const RigidMotion& S) {
 using elements::LanePack;
 using elements::num_lanes;
 
-/// Moves the sections of a group of beams. correction: of a node, (linear; angular) in its own axes.
+/// Computes the motions of the sections of a group of beams. correction(node): Newton correction of a node, (linear;
+/// angular) in its own axes.
 template <int N, class Correction>
 void move_sections(const plan::Plan& plan, const MotionTree::BeamGroup& group, const elements::Field& field,
                    Correction&& correction, double factor, MotionTree::Section* sections) {
   const auto* beams = plan::array_of<elements::Beam<N>>(plan.elements).data() + group.first_beam;
   elements::PortMotion<LanePack> ports[N];
   Vec6<LanePack> eta[N], strain_rates[N - 1];
-  for (int lane = 0; lane < num_lanes; ++lane) {  // those that are not needed repeat the last beam
+  for (int lane = 0; lane < num_lanes; ++lane) {  // unused lanes repeat the last beam
     const elements::Beam<N>& e = beams[std::min(lane, group.count - 1)];
     const auto anchor = elements::anchor_of(e, field.nodes);
     for (int i = 0; i < N; ++i) {
@@ -167,7 +169,7 @@ void move_sections(const plan::Plan& plan, const MotionTree::BeamGroup& group, c
     }
 }
 
-/// Their twists at the end of the way.
+/// Computes the twists of the sections at the end of the path.
 template <int N>
 void turn_sections(const plan::Plan& plan, const MotionTree::BeamGroup& group, MotionTree::Section* sections) {
   const auto* beams = plan::array_of<elements::Beam<N>>(plan.elements).data() + group.first_beam;
@@ -185,14 +187,14 @@ void turn_sections(const plan::Plan& plan, const MotionTree::BeamGroup& group, M
         (sections++)->twist = motion::adjoint_times(beams[lane].ports[i].offset, lanes::get_lane(twists[k++], lane));
 }
 
-/// H <- H S of a node.
+/// Moves a node, H <- H S.
 void carry(const plan::Plan&, const RigidMotion& S, SpatialNodes& nodes, std::size_t n) {
   elements::NodeMotion& node = nodes.motion[n];
   node.x.add(node.R * S.shift);
   nodes.rotation[n] = motion::normalise(motion::multiply(nodes.rotation[n], S.turn));
   node.R = motion::rotation_of(nodes.rotation[n]);
 }
-/// S turns about the plane's normal and shifts along the plane.
+/// The same in a plane: S rotates about the plane's normal and translates along the plane.
 void carry(const plan::Plan& plan, const RigidMotion& S, PlanarNodes& nodes, std::size_t n) {
   const motion::Mat3<double>& B = plan.planar->nodes[n].basis;
   const Vec3<double> shift = lanes::transpose_times(B, S.shift), half = lanes::transpose_times(B, S.turn.v);
@@ -200,10 +202,10 @@ void carry(const plan::Plan& plan, const RigidMotion& S, PlanarNodes& nodes, std
   node.x.add(motion::complex_times(node.R, motion::plane_part(shift)));
   const motion::Vec2<double> turn{{S.turn.w * S.turn.w - half[2] * half[2], 2.0 * S.turn.w * half[2]}};
   node.R = motion::complex_times(node.R, turn);
-  node.R = (1.5 - 0.5 * lanes::dot(node.R, node.R)) * node.R;  // back to size one, to first order
+  node.R = (1.5 - 0.5 * lanes::dot(node.R, node.R)) * node.R;  // normalised to first order
 }
 
-/// Calls f with the number of nodes of a group as a constant.
+/// Calls f with the number of nodes as a compile-time constant.
 template <class F>
 void with_num_nodes(int num_nodes, F&& f) {
   if (num_nodes == 2) return f(std::integral_constant<int, 2>{});
@@ -238,7 +240,7 @@ void System::apply_along_tree(State& state, const double* x, double factor) {
     const elements::NodeMotion &a = before.nodes[parent], &b = before.nodes[node];
     const Frame<double> H{lanes::transpose_times(a.R, b.R), lanes::transpose_times(a.R, motion::difference(b.x, a.x))};
     RigidMotion own;
-    if (link.section < 0) {  // hinges and slides turn and slide by their increment exactly
+    if (link.section < 0) {  // joints take their relative increment exactly: hinges rotate, slides translate
       tree.own_twists[node] = eta - motion::inverse_adjoint_times(H, node_part(x, link.parent));
       own = motion_of(factor * tree.own_twists[node]);
     } else {
@@ -271,7 +273,7 @@ double System::power_along_tree(const double* x) {
   for (const MotionTree::Link& link : tree.links) {
     const auto node = static_cast<std::size_t>(link.node);
     tree.twists[node] = tree.own_twists[node];
-    if (link.section >= 0) {  // that of the parent relative to this node, or the other way round
+    if (link.section >= 0) {  // the section's twist is relative to its reference node, which is the parent or this node
       const Vec6<double>& twist = tree.sections[static_cast<std::size_t>(link.section)].twist;
       tree.twists[node] = link.to_reference ? -motion::inverse_adjoint_times(tree.relative[node], twist) : twist;
     }

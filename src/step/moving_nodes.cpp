@@ -27,7 +27,7 @@ static_assert(elements::num_lanes == static_cast<int>(nodes_in_lanes));
 template <class G>
 using VectorLanes = typename G::template Vector<Pack>;
 
-/// Where the numbers of a node stand: its pose, v, dv/dt and dq, one after the other.
+/// Layout of a node's numbers in memory: pose, v, dv/dt and dq, one after the other.
 template <class G>
 struct NodeNumbers {
   static constexpr int all = elements::numbers_of_node<G>, dof = G::dof, pose = all - 3 * dof, v = pose, dq = all - dof;
@@ -47,7 +47,7 @@ Pack angular_square(const VectorLanes<G>& v) {
   return motion::VectorsOn<G>::template angular_square<Pack>(v);
 }
 
-/// A node's pose, and what an increment changes of it.
+/// The pose and the increment dq of a node (or of eight nodes in lanes), and their update by an increment eta.
 template <class G, class S>
 struct Mover;
 template <class S>
@@ -71,12 +71,12 @@ struct Mover<Se2, S> {
   PositionPair<S, 2> x;
   Vec3<S> dq;
 
-  /// The angle of dq is known beyond half a turn: it has grown by that of eta.
+  /// The angles of dq and eta are added, so that the angle of dq stays correct beyond half a turn.
   void move(const Vec3<S>& eta, bool follow_dq) {
     const auto step = Se2::exp(eta);
     x.add(motion::complex_times(R, step.x));
     R = motion::complex_times(R, step.R);
-    R = S(1.5 - 0.5 * lanes::dot(R, R)) * R;  // back to size one, to first order
+    R = S(1.5 - 0.5 * lanes::dot(R, R)) * R;  // normalised to first order
     if (!follow_dq) return;
     const auto before = Se2::exp(dq);
     const Vec2<S> way = before.x + motion::complex_times(before.R, step.x);
@@ -86,7 +86,7 @@ struct Mover<Se2, S> {
   }
 };
 
-/// Pose and quaternion of eight nodes.
+/// Loads poses (and quaternions in space) of up to eight nodes into lanes.
 template <class G>
 void gather_pose(const NodesOn<G>& nodes, std::size_t from, std::size_t count, Mover<G, Pack>& m) {
   gather<NodeNumbers<G>::pose>(nodes.motion.data(), from, count, reinterpret_cast<Pack*>(&m.R));
@@ -100,9 +100,9 @@ void scatter_pose(const Mover<G, Pack>& m, NodesOn<G>& nodes, std::size_t from, 
 static_assert(sizeof(Quaternion<double>) == 4 * sizeof(double) && offsetof(Quaternion<double>, w) == 0);
 
 constexpr double nothing[12] =
-    {};  ///< increment of a node without unknowns; what is read of a node where there is none
+    {};  ///< zeros: the increment of a node without unknowns, and the data of the fixed ground
 
-/// Increments of eight nodes, node(lane) < 0: none.
+/// Increments of eight nodes in lanes; zero where node(lane) < 0 or the node has no unknowns.
 template <class G, class Node>
 VectorLanes<G> gather_increments(const double* x, const IncrementsOf& of, Node&& node) {
   const plan::NodeUnknowns& u = of.unknowns;
@@ -116,7 +116,7 @@ VectorLanes<G> gather_increments(const double* x, const IncrementsOf& of, Node&&
   lanes::gather_lanes(from, u.count, &eta[0]);
   if constexpr (std::is_same_v<G, Se3>) {
     if (u.count == G::dof) return eta;
-    // P^T x as NodeUnknowns::expanded has it: of point masses, which do not turn.
+    // P^T x as in NodeUnknowns::expanded, for point masses, which have translations only.
     for (int i = u.count; i < G::dof; ++i) eta[i] = Pack(0.0);
     if (u.basis.empty()) return eta;
     for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
@@ -130,7 +130,7 @@ VectorLanes<G> gather_increments(const double* x, const IncrementsOf& of, Node&&
   return eta;
 }
 
-/// Calls f(first, count) for every eight nodes.
+/// Calls f(first, count) for consecutive groups of up to eight nodes.
 template <class F>
 void by_eights(std::size_t begin, std::size_t end, F&& f) {
   for (std::size_t n = begin; n < end; n += nodes_in_lanes) f(n, std::min(nodes_in_lanes, end - n));
@@ -225,15 +225,15 @@ double predict_nodes(const AlphaRule& rule, int order, const NodesOn<G>& start, 
 
 namespace {
 
-/// dq of eight nodes from where they started: in space as move_nodes left it.
+/// The increment dq of eight nodes since the start of the step; in space move_nodes has kept it up to date.
 VectorLanes<Se3> measure_increment(const SpatialNodes&, const SpatialNodes& state, std::size_t first,
                                    std::size_t count) {
   VectorLanes<Se3> dq;
   gather<Se3::dof>(state.motion.data(), first, count, &dq[0], NodeNumbers<Se3>::dq);
   return dq;
 }
-/// log(H_start^-1 H), whose angle is known beyond half a turn: no rounding of a move is left between places and
-/// increments.
+/// log(H_start^-1 H), with the angle that move_nodes has accumulated, which is correct beyond half a turn. Computed
+/// from the poses, it contains no accumulated rounding of single corrections.
 VectorLanes<Se2> measure_increment(const PlanarNodes& start, const PlanarNodes& state, std::size_t first,
                                    std::size_t count) {
   Mover<Se2, Pack> from, to;
@@ -304,7 +304,7 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
 
 namespace {
 
-/// Eight nodes: where they are, and how an increment moves them, in the axes in which places are told.
+/// Poses of eight nodes and their increments, turned into the axes in which positions are given.
 template <class G>
 struct Moving {
   typename G::template Rotation<Pack> R;
@@ -318,7 +318,7 @@ Vec3<Pack> turned(const Vec2<Pack>& R, const Vec3<Pack>& eta) {
   return motion::join(motion::complex_times(R, plane_part(eta)), eta[2]);
 }
 
-/// How the far end of an arm moves with a turn of the near one.
+/// Displacement of the far end of an arm due to the rotation of its near end.
 Vec3<Pack> swung(const Vec6<Pack>& change, const Vec3<Pack>& arm) {
   return lanes::cross(lanes::angular_part(change), arm);
 }
@@ -329,7 +329,7 @@ Vec2<Pack> swung(const Vec3<Pack>& change, const Vec2<Pack>& arm) { return chang
 template <class G>
 double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const double* x,
                       const IncrementsOf& of) {
-  constexpr int numbers = NodeNumbers<G>::pose - G::translations;  // R and the rounded place
+  constexpr int numbers = NodeNumbers<G>::pose - G::translations;  // R and the leading part of the position
   const auto look_at = [&](const int(&node)[nodes_in_lanes]) {
     const double* from[nodes_in_lanes];
     for (std::size_t l = 0; l < nodes_in_lanes; ++l)
@@ -342,7 +342,7 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
   };
   const Pack far(too_far);
   Pack most(0.0);
-  lanes::Mask<elements::num_lanes> near = less(most, far);  // in no lane where something is not a number
+  lanes::Mask<elements::num_lanes> near = less(most, far);  // comparisons are false in lanes that hold NaN
   for (const PairLanes& p : pairs) {
     const Moving<G> a = look_at(p.a), b = look_at(p.b);
     const VectorLanes<G> change = b.change - a.change;

@@ -1,6 +1,8 @@
 #pragma once
-/// What a step does to nodes, on either group: eight nodes at a time, one to a lane, with the bits of one node alone.
-/// Functions take the nodes [begin, end), so that threads share the work. Internal to step.
+/// Operations of a step on nodes, for SE(3) and SE(2): prediction, Newton corrections, updates of velocities, local
+/// errors. Eight nodes are computed at once, one in each lane of a pack; results are bitwise equal to those of scalar
+/// arithmetic. Each function takes the range [begin, end) of nodes, so that threads can share the work. Internal to
+/// step.
 #include <cstdint>
 #include <span>
 
@@ -9,13 +11,14 @@
 
 namespace bough::step {
 
-/// How a vector of unknowns makes increments of nodes: first unknown by node, -1: none.
+/// Maps a vector of unknowns to increments of nodes. `begin` is the first unknown of each node, -1 for a node without
+/// unknowns.
 struct IncrementsOf {
   const plan::NodeUnknowns& unknowns;
   const std::int64_t* begin;
 };
 
-/// A vector of a node as one of space, own axes.
+/// A motion vector of a node, expanded to six components in the node's own axes.
 inline const motion::Vec6<double>& vector_in_space(const plan::Plan&, std::size_t, const motion::Vec6<double>& v) {
   return v;
 }
@@ -23,42 +26,49 @@ inline motion::Vec6<double> vector_in_space(const plan::Plan& plan, std::size_t 
   return plan.unknowns.expanded(&v[0], node);
 }
 
-/// Eight pairs of nodes of an element; a < 0: b alone, against what does not move. Spare lanes repeat the last pair.
+/// Eight pairs (a, b) of nodes of elements, whose relative motions are measured. If a < 0, the motion of b is measured
+/// relative to the fixed ground. Unused lanes repeat the last pair.
 struct PairLanes {
   int a[elements::num_lanes], b[elements::num_lanes];
   elements::LanePack per_length;  ///< 1 / length of the element [1/m]
 };
 
-/// H <- H exp(eta), eta from a vector x of unknowns. In space dq <- log(exp(dq) exp(eta)); in a plane the angle of dq
-/// alone is kept, which the pose does not tell beyond half a turn: follow_nodes finds the rest.
+/// Applies a correction, H <- H exp(eta), with eta from the vector x of unknowns. In space the increment of the step is
+/// updated, too: dq <- log(exp(dq) exp(eta)). In a plane only the angle of dq is updated, because the pose does not
+/// determine it beyond half a turn; follow_nodes computes the other components of dq from the poses.
 template <class G>
 void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x, const IncrementsOf& increments);
 
-/// Nodes as the rule predicts them, all of `state` from `start`. Returns the largest square of the angle of dq.
+/// Predictor: sets poses, rates and dq of the nodes of `state` from those of `start`. Returns the largest squared angle
+/// of dq.
 template <class G>
 double predict_nodes(const AlphaRule& rule, int order, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
                      std::size_t end);
 
-/// dq, and the velocities and accelerations that belong to it. Returns the largest square of the angle of dq.
+/// Sets dq from the present poses, and the velocities and accelerations that generalized-alpha assigns to it. Returns
+/// the largest squared angle of dq.
 template <class G>
 double follow_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
                     std::size_t end);
 
-/// Trends of accelerations, and what the end of the step tells; angular accelerations count by `arm` [m].
+/// At the end of a step: stores the changes of accelerations for the next predictor, and returns the errors of the
+/// predictors of order 0, 1, 2, the local error and the size of dq. `arm` [m] converts angular to linear accelerations;
+/// `per_length` [1/m] makes lengths relative.
 template <class G>
 Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
                                 NodesOn<G>& state, std::size_t begin, std::size_t end);
 
-/// The largest square of a shift or a turn of the pairs; infinite where one is too far (System::relative_size).
+/// The largest squared relative displacement or rotation of the pairs (System::relative_size); infinite if one exceeds
+/// the bound too_far or is not a number.
 template <class G>
 double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const double* x,
                       const IncrementsOf& increments);
 
-/// Node n of `to` at H exp(d) of `from`, dq = d.
+/// Places node `node` of `to` at H exp(d), H being its pose in `from`, and sets dq = d.
 template <class G>
 void place_node(const NodesOn<G>& from, std::size_t node, const typename G::template Vector<double>& d, NodesOn<G>& to);
 
-/// One node.
+/// Applies an increment to one node: H <- H exp(eta), dq <- log(exp(dq) exp(eta)).
 template <class G>
 void move_node(NodesOn<G>& nodes, std::size_t node, const typename G::template Vector<double>& eta);
 

@@ -11,18 +11,20 @@ namespace bough::step {
 
 namespace {
 
-/// Round-off is never twice the same: residuals within this many times what was met as such are it, too.
+/// Round-off varies from step to step: a residual up to this multiple of the one that was recorded as round-off is
+/// taken for round-off, too.
 constexpr double noise_spread = 1.5;
 
-/// sum |K| eps |coordinates| counts one rounding of each coordinate, a residual makes several (poses, relative
-/// motions, sums over elements): up to so many of them may be left above the tolerance.
+/// The floor sum |K| eps |coordinates| counts one rounding of each coordinate. The evaluation of a residual rounds
+/// several times (poses, relative motions, sums over elements), so a residual of up to this many floors is accepted
+/// above the tolerance.
 constexpr double roundings = 16.0;
 
 }  // namespace
 
 double largest_share(const System& system, const ResidualSize& r) {
   const double arm = system.moment_arm();
-  constexpr double huge = 1e100;  // more says nothing, and must not overflow
+  constexpr double huge = 1e100;  // larger ratios carry no information and must not overflow
   const auto share = [](double part, double whole) {
     return part == 0.0 ? 0.0 : whole <= part / huge ? huge : part / whole;
   };
@@ -63,7 +65,7 @@ bool is_settled(const System& system, const ResidualSize& r, double tolerance, c
 }
 
 bool is_noise(const System& system, const ResidualSize& r, double tolerance, double size, double expected) {
-  constexpr double too_much = 16.0;  // for a contraction that only got worse
+  constexpr double too_much = 16.0;  // more than a merely slower contraction explains
   if (size > tolerance || size <= too_much * expected) return false;
   const ResidualSize& floor = system.round_off_floor();
   return r.force <= floor.force && r.moment <= floor.moment;
@@ -83,7 +85,8 @@ bool is_at_floor(const System& system, const ResidualSize& r, double tolerance) 
 
 namespace {
 
-/// Other joints whose constraints depend on each other now, with this one among them: " against 'b', 'c'", or nothing.
+/// If this joint is among those whose constraints now depend on each other, the names of the others: " against 'b',
+/// 'c'". Else empty.
 std::string partners(System& system, int joint) {
   std::string others;
   bool takes_part = false;
@@ -120,7 +123,7 @@ std::string describe(System& system, ResidualSize r, double tolerance) {
 
 namespace {
 
-/// Whether a joint, `joint` of the plan, left its branch.
+/// Whether joint `joint` of the plan flipped to its opposite pose, which satisfies the same constraints.
 bool is_flipped(const plan::Plan&, std::size_t, const elements::Joint& e, const elements::Field& f) {
   motion::Mat3<double> R;
   bool is_known = false;
@@ -134,7 +137,7 @@ bool is_flipped(const plan::Plan&, std::size_t, const elements::Joint& e, const 
   return false;
 }
 
-/// How the second of two ports is turned against the first, in a plane: (cos, sin).
+/// Relative rotation of port `port` with respect to the first port, in a plane: (cos, sin).
 template <class E>
 motion::Vec2<double> eval_turn(const E& e, int port, const elements::FieldOn<motion::Se2, double>& f) {
   return motion::conjugate_times(eval_port_rotation(e.ports[0], f), eval_port_rotation(e.ports[port], f));
@@ -168,7 +171,7 @@ bool is_folded(const E& e, const elements::FieldOn<motion::Se2, double>& f) {
 
 namespace {
 
-/// The trouble with the first bad element.
+/// The message on the first element that failed the check; none if `bad` is the number of elements.
 std::optional<Trouble> describe_shape(const System& system, std::int64_t bad) {
   const plan::Plan& plan = system.plan();
   if (bad == static_cast<std::int64_t>(plan.directory.size())) return std::nullopt;
@@ -210,7 +213,8 @@ namespace {
 double eval_angle(const plan::Plan&, std::size_t, const elements::Joint& e, const elements::Field& f, double turns) {
   return elements::eval_joint_angle(e, f, turns);
 }
-/// Both ports keep the joint's own axis 1 where its axis 3 is the normal. An axis in the plane turns nothing.
+/// The angle is that of the ports' rotations, with the sign of the joint's axis along the plane's normal. A joint whose
+/// axis lies in the plane does not turn.
 double eval_angle(const plan::Plan& plan, std::size_t joint, const elements::JointOn<motion::Se2>& e,
                   const elements::FieldOn<motion::Se2, double>& f, double turns) {
   constexpr double whole = 6.283185307179586476925;
@@ -218,7 +222,7 @@ double eval_angle(const plan::Plan& plan, std::size_t joint, const elements::Joi
   if (sign == 0.0) return turns;
   const motion::Vec2<double> turn = eval_turn(e, 1, f);
   const double angle = sign * motion::angle_of(turn[0], turn[1]);
-  return angle + whole * std::round((turns - angle) / whole);  // of those half a turn from the last the nearest
+  return angle + whole * std::round((turns - angle) / whole);  // the branch nearest to the last accepted angle
 }
 
 }  // namespace

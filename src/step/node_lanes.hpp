@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers of eight items at a time, one item to a lane, between arrays and packs. Internal to step.
+/// Transfers the numbers of eight items between arrays and packs, one item in each lane. Internal to step.
 #include <algorithm>
 
 #include "bough/lanes/transpose.hpp"
@@ -10,11 +10,11 @@ namespace bough::step {
 
 inline constexpr std::size_t nodes_in_lanes = 8;
 
-/// Numbers of an item from `number` on.
+/// Loads consecutive numbers of up to eight items, beginning with number `number` of each item.
 template <int numbers, class Item>
 void gather(const Item* items, std::size_t begin, std::size_t count, lanes::Pack<nodes_in_lanes>* to,
             std::size_t number = 0) {
-  if (count == nodes_in_lanes) {  // addresses at fixed distances need no registers of their own
+  if (count == nodes_in_lanes) {  // addresses at fixed distances need no extra registers
     const double* from = reinterpret_cast<const double*>(items + begin) + number;
     return lanes::gather_rows<numbers, sizeof(Item) / sizeof(double)>(from, to);
   }
@@ -23,7 +23,7 @@ void gather(const Item* items, std::size_t begin, std::size_t count, lanes::Pack
     from[l] = reinterpret_cast<const double*>(items + begin + std::min(l, count - 1)) + number;
   lanes::gather_lanes(from, numbers, to);
 }
-/// Spare lanes hold what the last does, so they may write it as well.
+/// Unused lanes hold the same values as the last item, so they may be written to it as well.
 template <int numbers, class Item>
 void scatter(const lanes::Pack<nodes_in_lanes>* from, Item* items, std::size_t begin, std::size_t count,
              std::size_t number = 0) {

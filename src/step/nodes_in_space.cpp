@@ -1,4 +1,4 @@
-/// Nodes that move in a plane, as they are in space, eight at a time.
+/// Conversion of nodes that move in a plane to nodes in space, eight at a time.
 #include <algorithm>
 #include <numeric>
 
@@ -18,7 +18,7 @@ using Pack = elements::LanePack;
 using motion::Se2;
 using motion::Se3;
 
-/// Where eight nodes stood at the start.
+/// Initial poses of eight nodes, in space and in the plane.
 struct Start {
   Mat3<Pack> basis;
   motion::Quaternion<Pack> rotation;
@@ -29,8 +29,8 @@ struct Start {
 constexpr int start_numbers = sizeof(plan::PlanarNode) / sizeof(double);
 static_assert(sizeof(Start) == start_numbers * sizeof(Pack));
 
-/// A motion of a node in the plane as one in space, its own axes: columns of B along the plane, along the plane,
-/// normal.
+/// A motion vector of a node in the plane as one in space, in the node's own axes. The first two columns of B are along
+/// the plane, the third is its normal.
 Vec6<Pack> in_space(const Mat3<Pack>& B, const Vec3<Pack>& z) {
   Vec6<Pack> v;
   for (int i = 0; i < 3; ++i) {
@@ -40,10 +40,10 @@ Vec6<Pack> in_space(const Mat3<Pack>& B, const Vec3<Pack>& z) {
   return v;
 }
 
-/// Cosine and sine of half the turn (c, s), up to the sign of both: of the larger of the two by a root, of the other by
-/// 2 (c/2)(s/2) = s.
+/// Cosine and sine of half of the angle with cosine and sine `turn`, up to a common sign. The larger of the two is
+/// computed by a square root, the other from 2 cos(t/2) sin(t/2) = sin t.
 Vec2<Pack> half_turn(const Vec2<Pack>& turn) {
-  const auto beyond = less(turn[0], Pack(0.0));  // a quarter of a turn
+  const auto beyond = less(turn[0], Pack(0.0));  // the angle exceeds a quarter of a turn
   const Pack larger = sqrt(Pack(0.5 + 0.5 * lanes::abs(turn[0]))), other = 0.5 * turn[1] / larger;
   return {{select(beyond, other, larger), select(beyond, larger, other)}};
 }
@@ -51,14 +51,14 @@ Vec2<Pack> half_turn(const Vec2<Pack>& turn) {
 elements::NodeLanes show(const plan::PlanarModel& plane, const Start& start,
                          const elements::NodeMotionOn<Se2, Pack>& node) {
   elements::NodeLanes to;
-  // Turned about the normal since the start; unit quaternions stay so to first order.
+  // Rotation about the normal since the start. The quaternion is normalised to first order.
   const Vec2<Pack> half = half_turn(motion::conjugate_times(start.turn, node.R));
   motion::Quaternion<Pack> turned =
       motion::multiply(start.rotation, motion::Quaternion<Pack>{half[0], Vec3<Pack>(half[1] * column(start.basis, 2))});
   const Pack unit = 1.5 - 0.5 * (turned.w * turned.w + lanes::dot(turned.v, turned.v));
   turned = {unit * turned.w, Vec3<Pack>(unit * turned.v)};
   to.R = motion::rotation_of(turned);
-  // The place goes into space as a displacement, in two parts, so that its digits beyond a double stay.
+  // The position is converted as a displacement in two parts, which keeps the digits beyond double precision.
   Vec2<Pack> hi, lo;
   for (int i = 0; i < 2; ++i) {
     motion::two_sum(node.x.hi[i], Pack(-start.x.hi[i]), hi[i], lo[i]);
@@ -73,14 +73,14 @@ elements::NodeLanes show(const plan::PlanarModel& plane, const Start& start,
   return to;
 }
 
-/// Nodes node(k) of k = 0 to count - 1.
+/// Converts the nodes node(k) for k = 0 to count - 1.
 template <class Node>
 void show_nodes(const plan::PlanarModel& plane, const PlanarNodes& nodes, std::size_t count, Node&& node,
                 std::vector<elements::NodeMotion>& to) {
   for (std::size_t first = 0; first < count; first += nodes_in_lanes) {
     const double *starts[nodes_in_lanes], *motions[nodes_in_lanes];
     double* shown[nodes_in_lanes];
-    for (std::size_t l = 0; l < nodes_in_lanes; ++l) {  // spare lanes repeat the last node
+    for (std::size_t l = 0; l < nodes_in_lanes; ++l) {  // unused lanes repeat the last node
       const std::size_t n = node(std::min(first + l, count - 1));
       starts[l] = reinterpret_cast<const double*>(&plane.nodes[n]);
       motions[l] = reinterpret_cast<const double*>(&nodes.motion[n]);

@@ -12,11 +12,11 @@ using motion::Vec6;
 
 namespace {
 
-constexpr int most_iterations = 30;  ///< of inverse iteration with one shift
-constexpr double settled = 1e-3;     ///< relative change of a curvature that ends them: the node is known long before
-constexpr int most_shifts = 60;      ///< each four times the last
-constexpr double round_offs = 64.0;  ///< of the terms of a curvature: what is smaller is taken for zero
-constexpr double neutral = 1e-11;    ///< of the diagonal: added where the tangent is singular
+constexpr int most_iterations = 30;  ///< limit of inverse iterations with one shift
+constexpr double settled = 1e-3;     ///< relative change of the curvature at convergence; the node is known earlier
+constexpr int most_shifts = 60;      ///< limit of shifts, each four times the last
+constexpr double round_offs = 64.0;  ///< a curvature below this many eps times its terms is taken as zero
+constexpr double neutral = 1e-11;    ///< part of the diagonal that is added if the tangent is singular
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -116,7 +116,7 @@ void Stability::add_to_diagonal(double shift, double relative_shift) {
         shift * d.weight + (relative_shift > 0.0 ? relative_shift * sizes_[d.unknown] : 0.0);
 }
 
-/// K + shift N, N the weights, of the tangents that are present.
+/// Factors a copy of the present tangents, K + shift N, where N is the diagonal of weights.
 bool Stability::factor_copy(double shift, double relative_shift) {
   copy_tangents();
   if (shift > 0.0 || relative_shift > 0.0) add_to_diagonal(shift, relative_shift);
@@ -124,8 +124,8 @@ bool Stability::factor_copy(double shift, double relative_shift) {
   return copy_->factor(system_.walker()).ok();
 }
 
-/// Inverse iteration from x with the present copy: y = (K + shift N)^-1 N x on ker G. Returns the curvature y^T (K +
-/// shift N) y / y^T N y; y and x are the direction, its largest entry about one.
+/// Inverse iteration from x with the factored copy: y = (K + shift N)^-1 N x on ker G. Returns the curvature y^T (K +
+/// shift N) y / y^T N y. On return x is the direction, scaled to a largest entry of about one.
 double Stability::iterate(std::vector<double>& x, std::vector<double>& y) {
   double curvature = 0.0;
   for (int k = 0; k < most_iterations; ++k) {
@@ -146,7 +146,7 @@ double Stability::iterate(std::vector<double>& x, std::vector<double>& y) {
   return curvature;
 }
 
-/// Of x^T K x: a part of sum |x_i| |K_ij| |x_j| over all elements, motion alone.
+/// Round-off of x^T K x: round_offs eps sum |x_i| |K_ij| |x_j| over all elements, without multipliers.
 double Stability::round_off(const std::vector<double>& x) const {
   const blocks::BlockGraph& g = system_.plan().graph;
   std::vector<double> own;
@@ -167,8 +167,8 @@ double Stability::round_off(const std::vector<double>& x) const {
   return round_offs * std::numeric_limits<double>::epsilon() * sum;
 }
 
-/// The first shift is none; then K + shift N has its smallest eigenvalues where K has its most negative ones, once the
-/// shift is large enough.
+/// The first shift is zero. Once the shift is large enough, the smallest eigenvalues of K + shift N belong to the most
+/// negative ones of K, to which inverse iteration then converges.
 std::optional<UnstableMode> Stability::find_mode(const State& state) {
   std::vector<double> x(system_.num_unknowns(), 0.0), y(x.size(), 0.0);
   double shift = 0.0;
@@ -177,7 +177,7 @@ std::optional<UnstableMode> Stability::find_mode(const State& state) {
     if (!factor_copy(shift, 0.0) && !factor_copy(shift, neutral)) return std::nullopt;
     const StabilityLook look = read(copy_->inertia(), copy_->last_status().deficiency);
     is_stable = k > 0 && look.is_known && look.unstable == 0;
-    for (std::size_t i = 0; i < diagonal_.size(); ++i)  // no direction is left out
+    for (std::size_t i = 0; i < diagonal_.size(); ++i)  // the start has a component in every direction
       x[diagonal_[i].unknown] = 1.0 + std::sin(static_cast<double>(7 * i + 1));
     const double shifted = iterate(x, y), curvature = shifted - shift;
     double square = 0.0;
@@ -207,7 +207,7 @@ UnstableMode Stability::mode_of(const State& state, const std::vector<double>& x
       turns = {static_cast<int>(n), (1.0 / most_turned) * w, true};
     }
   }
-  constexpr double still = 1e-6;  // of the size of the structure and rad
+  constexpr double still = 1e-6;  // relative to the size of the structure, or rad
   UnstableMode mode = most_moved > still * plan.length_scale * most_turned ? moves : turns;
   int largest = 0;
   for (int i = 1; i < 3; ++i)

@@ -18,21 +18,20 @@ typename G::template Vector<double> part_on(const System& system, const std::vec
   return system.part_on<G>(x.data(), static_cast<int>(node));
 }
 
-constexpr double closed = 1e-13;  ///< relative gap that is not worth another correction
+constexpr double closed = 1e-13;  ///< relative constraint violation below which no further correction is made
 constexpr double open =
-    1e-9;  ///< gap that constraints which contradict each other leave, relative to the parts that meet there
-constexpr double apart = 1e-8;  ///< the same of rates, relative to the largest speed
-constexpr double still =
-    1e-12;  ///< relative gap that a rate may open in one step where nothing moves: round-off of drives
+    1e-9;  ///< a remaining violation above this, relative to the parts at the joint, means contradictory constraints
+constexpr double apart = 1e-8;   ///< the same for rates of constraints, relative to the largest speed
+constexpr double still = 1e-12;  ///< relative violation that a rate may cause in one step at rest: round-off of drives
 
-/// Spreads values by multiplier over the solver's unknowns:  to[block of joint] = from.
+/// Copies values by multiplier into the constraint rows of a vector of unknowns: to[unknown of multiplier m] = from(m).
 template <class From>
 void set_rows(const System& system, std::vector<double>& to, From&& from) {
   for_each_multiplier(
       system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) { to[unknown] = from(multiplier); });
 }
 
-/// Matrix [M G^T; G 0] of the present positions, factored.
+/// Evaluates and factors the matrix [M G^T; G 0] at the present positions.
 std::optional<Trouble> factor_mass(System& system, const State& state) {
   if (auto t = system.evaluate(state, mass_slopes, true)) return t;
   if (auto t = system.linear().factor(true, mass_slopes))
@@ -40,7 +39,7 @@ std::optional<Trouble> factor_mass(System& system, const State& state) {
   return std::nullopt;
 }
 
-/// Joints whose constraints contradict each other, for a message.
+/// Names the joints whose constraints contradict each other, for a message.
 std::string contradicting(const System& system, int worst, const std::vector<int>& blocks) {
   std::string text = system.plan().joints.empty()
                          ? ""
@@ -76,8 +75,8 @@ double speed_scale(const System& system, const State& state) {
   });
 }
 
-/// Velocities that satisfy the constraints (plus `offset` by multiplier when given), nearest in the mass metric. Mass
-/// matrix factored. Says in `report` how much they changed.
+/// Projects velocities to those that satisfy the constraints (with rates `offset` by multiplier, if given) and are
+/// nearest in the mass metric. The mass matrix must be factored. `report` receives the size of the change.
 std::optional<Trouble> project_velocities(System& system, State& state, const std::vector<double>* offset,
                                           StartReport* report) {
   std::vector<double> rhs(system.num_unknowns(), 0.0), x(system.num_unknowns());
@@ -102,7 +101,7 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
   return std::nullopt;
 }
 
-/// G d by multiplier, d a motion in the unknowns. Element matrices hold G.
+/// Computes G d by multiplier, d being a motion as a vector of unknowns. The present element matrices must contain G.
 void eval_rates(System& system, const std::vector<double>& d, std::vector<double>& rates) {
   std::vector<double> product(system.num_unknowns());
   system.linear().multiply(d.data(), product.data());
@@ -112,7 +111,7 @@ void eval_rates(System& system, const std::vector<double>& d, std::vector<double
   });
 }
 
-/// dq, and dv/dt where asked for, of all nodes are zero.
+/// Sets dq, and if asked for dv/dt, of all nodes to zero.
 void set_unmoved(State& state, bool with_accelerations) {
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     for (auto& n : nodes.motion) {
@@ -176,11 +175,11 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
     std::fill(rhs.begin(), rhs.end(), 0.0);
     set_rows(system, rhs, [&](std::size_t m) { return -series[m].c[0]; });
     if (const auto t = system.linear().solve(rhs.data(), x.data())) return failed(t->text);
-    set_rows(system, x, [](std::size_t) { return 0.0; });  // impulses of a projection are no reactions
+    set_rows(system, x, [](std::size_t) { return 0.0; });  // the impulses of this projection are not reactions
     State trial = state;
     const double change = system.apply(trial, x.data());
     const double next = system.relative_violation(trial, 0, &worst);
-    if (!(next < gap)) break;  // as closed as round-off allows
+    if (!(next < gap)) break;  // round-off prevents a smaller violation
     report.position_correction = std::max(report.position_correction, change);
     state = std::move(trial);
     gap = next;

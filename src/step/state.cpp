@@ -20,7 +20,7 @@ void set_count(const plan::Plan& plan, auto& nodes) {
   nodes.acceleration_trend = nodes.trend_change = nodes.algorithmic;
 }
 
-/// A motion of space, own axes, as the group of the nodes has it.
+/// A motion vector of space, own axes, in the components of the nodes' group.
 Vec6<double> restricted(const plan::Plan&, const SpatialNodes&, std::size_t, const Vec6<double>& v) { return v; }
 Vec3<double> restricted(const plan::Plan& plan, const PlanarNodes&, std::size_t node, const Vec6<double>& v) {
   Vec3<double> z;

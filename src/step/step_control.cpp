@@ -7,10 +7,9 @@ namespace bough::step {
 
 namespace {
 
-constexpr double least_trend =
-    0.5;  ///< E goes up and down with vibrations: a rise by more than twice tells no more than twice
-constexpr double forgetting = 0.85;  ///< of a large E in a step: it must not hold up growth for ever
-constexpr double tiny = 1e-10;       ///< smaller E are taken as this: the factor is at its limit long before
+constexpr double least_trend = 0.5;  ///< E fluctuates with vibrations: a rise by more than a factor of 2 counts as 2
+constexpr double forgetting = 0.85;  ///< per step: a large E in the past must not prevent growth forever
+constexpr double tiny = 1e-10;       ///< lower bound on E; the change of h is limited long before
 
 }  // namespace
 

@@ -9,18 +9,18 @@ namespace bough::step {
 
 namespace {
 
-// Fitted by hand to phases of steps of chains, cantilevers and lattices (bench_step, bench_lean), beside elements as
-// on the machine of src/elements/README.md.
-constexpr double planar_tangent = 0.15, planar_node = 0.14;  ///< shares of one in space, as plan::planar_residual
-constexpr double per_sum = 20e-9;   ///< gathering, adding and sizing up, an element and evaluation [s]
-constexpr double per_node = 90e-9;  ///< moving a node with its velocity and acceleration, an iteration [s]
-// Fronts in registers: of swept chains, 0.10 us beside their flops and 0.03 us a solution on a machine half as fast
-// again.
+// Fitted by hand to the phases of steps of chains, cantilevers and lattices (bench_step, bench_lean). The costs of
+// elements are those of the machine of src/elements/README.md.
+constexpr double planar_tangent = 0.15, planar_node = 0.14;  ///< relative to one in space, as plan::planar_residual
+constexpr double per_sum = 20e-9;   ///< gathering, summing and measuring residuals, per element and evaluation [s]
+constexpr double per_node = 90e-9;  ///< moving a node with its velocity and acceleration, per iteration [s]
+// Fronts in registers, as in swept chains: 0.10 us in addition to their flops and 0.03 us per solution, on a machine
+// half as fast again.
 constexpr double per_front_lanes = 1.6e-7, per_flop_lanes = 2.5e-11;
 constexpr double per_front = 1.7e-6, per_front_registers = 1.6e-7, per_flop = 4.8e-11;
-constexpr double per_flop_of_others = 1.1e-9;  ///< of monolithic solvers
-// A solution: fronts one by one, and bytes of factors and element matrices, from memory where they do not stay in the
-// caches [s].
+constexpr double per_flop_of_others = 1.1e-9;  ///< time per flop of monolithic solvers
+// Time of a solution [s]: per front eliminated alone, and per byte of factors and element matrices, which come from
+// memory if they do not fit into the caches.
 constexpr double per_front_solved = 1.5e-7, per_front_solved_registers = 4e-8, per_byte_near = 1.1e-11,
                  per_byte_far = 5e-11;
 constexpr double bytes_near = 16e6;

@@ -1,5 +1,5 @@
-/// Velocities that belong to momenta, and the accelerations and multipliers that belong to a state: linear problems
-/// in [M G^T; G 0], solved with an old factor and refined.
+/// Velocities from momenta, and accelerations and multipliers of a state. Both are linear problems in [M G^T; G 0],
+/// solved with a factorization of an earlier step and iterative refinement.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace {
 constexpr elements::Slopes mass_slopes{0.0, 0.0, true};
 }
 
-/// Largest of lengths over the scene's size, and of angles.
+/// Largest entry of vectors, lengths relative to the size of the structure.
 template <class G>
 double VariationalOn<G>::largest(const Vectors& vectors) const {
   double lengths = 0.0, angles = 0.0;
@@ -25,7 +25,7 @@ double VariationalOn<G>::largest(const Vectors& vectors) const {
   return std::max(lengths / system_.plan().length_scale, angles);
 }
 
-/// Matrix [M G^T; G 0] with the elastic inertia of steps of h.
+/// Evaluates and factors the matrix [M G^T; G 0] with the elastic inertia of steps of size h.
 template <class G>
 std::optional<Trouble> VariationalOn<G>::factor_mass(const State& state, double h) {
   mass_step_ = 0.0;
@@ -51,13 +51,13 @@ std::optional<Trouble> VariationalOn<G>::factor_mass(const State& state, double 
   return std::nullopt;
 }
 
-/// P(q, x) + G^T mu = goal_, G dx = row_goals_ for changes dx of the guess, x the velocities of `moving`, mu
-/// `multipliers`: solved with the factor at hand and refined until the change is below `target`. A factor that no
-/// longer serves is made anew.
+/// Solves P(q, x) + G^T mu = goal_, G dx = row_goals_, where x are the velocities of `moving`, dx their change from the
+/// initial guess, and mu are `multipliers`. The present factorization is used with iterative refinement until the
+/// change is below `target`, and replaced if the refinement contracts too slowly.
 template <class G>
 std::optional<Trouble> VariationalOn<G>::solve_mass(State& moving, std::vector<double>& multipliers, double h,
                                                     double target) {
-  constexpr double slowest = 0.05;  // a factor that contracts less than this is made anew
+  constexpr double slowest = 0.05;  // factored anew if the refinement contracts more slowly
   constexpr int most = 12;
   bool fresh = mass_step_ != h;
   if (fresh)
@@ -78,7 +78,7 @@ std::optional<Trouble> VariationalOn<G>::solve_mass(State& moving, std::vector<d
     const double rate = previous > 0.0 ? change / previous : 1.0;
     if (change <= target || change * rate <= target) break;
     if (previous > 0.0 && rate > slowest) {
-      if (fresh) break;  // as near as round-off allows
+      if (fresh) break;  // round-off prevents a smaller change
       if (auto t = factor_mass(moving, h)) return t;
       fresh = true;
       previous = 0.0;
@@ -89,8 +89,9 @@ std::optional<Trouble> VariationalOn<G>::solve_mass(State& moving, std::vector<d
   return std::nullopt;
 }
 
-/// Adds x_ to velocities and multipliers, and what it closes to the rows. Returns the largest change: of motion
-/// relative to the motion, of multipliers to their largest or `scale`.
+/// Adds the solution x_ to velocities and multipliers, and subtracts its part from row_goals_. Returns the largest
+/// change, of velocities relative to the velocities, of multipliers relative to the larger of their maximum and
+/// `scale`.
 template <class G>
 double VariationalOn<G>::add_solution(State& moving, std::vector<double>& multipliers, double scale) {
   Nodes& moved = change(moving);
@@ -115,7 +116,7 @@ double VariationalOn<G>::add_solution(State& moving, std::vector<double>& multip
   return std::max(motion > 0.0 ? largest(increments_) / motion : 0.0, largest_row > 0.0 ? by_rows / largest_row : 0.0);
 }
 
-/// P(q, v) + G^T mu = p,  Phi'(q, v) = 0;  then p <- p - G^T mu.
+/// Solves P(q, v) + G^T mu = p,  Phi'(q, v) = 0 for v and mu;  then p <- p - G^T mu.
 template <class G>
 std::optional<Trouble> VariationalOn<G>::solve_velocities(State& state, double h) {
   Nodes& moved = change(state);
@@ -130,16 +131,16 @@ std::optional<Trouble> VariationalOn<G>::solve_velocities(State& state, double h
   Vectors& momentum = state.change<G>().momentum;
   after_.add_forces(impulses_.data(), -1.0, momentum);
   for (std::size_t n = 0; n < D_.size(); ++n)
-    if (is_held(n)) momentum[n] = sums_.momentum(n);  // the impulses of what holds it taken off
+    if (is_held(n)) momentum[n] = sums_.momentum(n);  // without the impulses of the joints that hold the node
   return std::nullopt;
 }
 
-/// Equations of motion with the elastic inertia of steps of h, and Phi''(q, v, a) = 0: what is faster than the step
-/// is held back, what is slower changes by O(h^2).
+/// Solves the equations of motion with the elastic inertia of steps of size h, and Phi''(q, v, a) = 0. The elastic
+/// inertia reduces accelerations of vibrations faster than the step, and changes slower ones by O(h^2).
 template <class G>
 std::optional<Trouble> VariationalOn<G>::solve_accelerations(State& state, double h) {
-  // Of dependent rows the multipliers of least norm are wanted: corrections of none have it, those of former ones do
-  // not.
+  // If rows are dependent, the multipliers of least norm are required. Refinement started from zero gives these;
+  // started from earlier multipliers it does not.
   if (mass_step_ > 0.0 && mass_.linear().solver().last_status().deficiency != 0)
     std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
   system_.constraint_series(state, nullptr, 0.0, series_);
@@ -164,7 +165,8 @@ std::optional<Trouble> VariationalOn<G>::solve_accelerations(State& state, doubl
   return std::nullopt;
 }
 
-/// Of joints that hold nodes: from inertia as in the equations of motion above, P(q, a), and all forces without it.
+/// Recovers the multipliers of joints that hold nodes, from the inertia P(q, a) of the equations of motion above and
+/// all other forces.
 template <class G>
 std::optional<Trouble> VariationalOn<G>::recover_multipliers(State& state, double h) {
   if (system_.plan().held.empty()) return std::nullopt;
@@ -194,7 +196,8 @@ void VariationalOn<G>::add_counts() {
   from = WorkCounts{};
 }
 
-/// The trapezoidal rule holds to O(h^2) where the step resolves the motion.
+/// Sets unresolved_ from the error of the trapezoidal rule for velocities, which is O(h^2) if the step resolves the
+/// motion.
 template <class G>
 void VariationalOn<G>::compare_rates(const State& state, double h) {
   const Nodes &before = nodes(base_), &after = nodes(state);

@@ -1,4 +1,4 @@
-/// Momenta, forces and constraint rows of a state, summed by node.
+/// Momenta and forces of a state, summed by node, and its constraint rows.
 #include <cmath>
 
 #include "system_parts.hpp"
