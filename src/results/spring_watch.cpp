@@ -40,7 +40,7 @@ Vec3<double> SpringWatch::rate_of(const elements::Spring& e, const elements::Fie
 
 /// Positions decide most cases. Velocities are used where the line has reversed, and in the first call.
 void SpringWatch::look(const step::System& system, const step::State& state) {
-  if (seen_.empty() || passed_ != nullptr) return;
+  if (seen_.empty() || passed_) return;
   const elements::Field f = system.field(state);
   const auto& springs = plan::array_of<elements::Spring>(system.plan().elements);
   for (Seen& s : seen_) {
@@ -48,7 +48,7 @@ void SpringWatch::look(const step::System& system, const step::State& state) {
     const Vec3<double> span = position_of(f, e.ports[1]) - position_of(f, e.ports[0]);
     if (!is_first_ && lanes::dot(span, s.span) < 0.0 && cosine(s.approach, s.span) < -along &&
         cosine(rate_of(e, f), span) > along) {
-      passed_ = &s;
+      passed_ = static_cast<std::size_t>(&s - seen_.data());
       time_ = state.time;
       return;
     }
@@ -59,10 +59,10 @@ void SpringWatch::look(const step::System& system, const step::State& state) {
 }
 
 std::string SpringWatch::text() const {
-  if (passed_ == nullptr) return "";
+  if (!passed_) return "";
   char time[32];
   std::snprintf(time, sizeof time, "%.6g", time_);
-  return "spring '" + passed_->name + "' has passed through length 0 by time " + time +
+  return "spring '" + seen_[*passed_].name + "' has passed through length 0 by time " + time +
          ": its force has no direction there and turns round at once; hold the point beside the line, use a bushing, "
          "or a rest length of 0";
 }

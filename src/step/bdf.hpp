@@ -28,6 +28,7 @@ class Bdf final : public Integrator {
  public:
   /// `order`: 2; everything else is 3.
   Bdf(System& system, int order);
+  std::unique_ptr<Integrator> clone() const override { return std::make_unique<Bdf>(*this); }
 
   /// The next step starts anew from positions, velocities and dv/dt of the state that it gets.
   StartReport start(State& state, const StepOptions& options, double step_size) override;

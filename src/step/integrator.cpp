@@ -11,6 +11,7 @@ namespace {
 class GeneralizedAlpha final : public Integrator {
  public:
   explicit GeneralizedAlpha(System& system) : system_(system) {}
+  std::unique_ptr<Integrator> clone() const override { return std::make_unique<GeneralizedAlpha>(*this); }
   StartReport start(State& state, const StepOptions& options, double step_size) override {
     return start_alpha(system_, state, options, step_size);
   }

@@ -24,6 +24,7 @@ void add_sizes(const Vector& v, Vector& to) {
 template <class G>
 VariationalOn<G>::VariationalOn(System& system, const scene::Solver& solver, double newmark_beta)
     : system_(system),
+      solver_(solver),
       newmark_beta_(newmark_beta),
       mass_(system.plan(), solver, system.walker()),
       sums_(system.plan()),

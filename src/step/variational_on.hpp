@@ -72,6 +72,10 @@ template <class G>
 class VariationalOn final : public Integrator {
  public:
   VariationalOn(System& system, const scene::Solver& solver, double newmark_beta);
+  /// All that lasts from step to step stands in the state; a mass matrix is factored anew.
+  std::unique_ptr<Integrator> clone() const override {
+    return std::make_unique<VariationalOn>(system_, solver_, newmark_beta_);
+  }
   StartReport start(State& state, const StepOptions& options, double step_size) override;
   StartReport change_step_size(State& state, const StepOptions& options, double step_size) override;
   StepReport advance(State& state, const StepOptions& options, double end_time) override;
@@ -122,6 +126,7 @@ class VariationalOn final : public Integrator {
   }
 
   System& system_;
+  const scene::Solver& solver_;  ///< of the scene
   double newmark_beta_;
   System mass_;  ///< for its matrices and its solver
   Sums sums_;

@@ -1,4 +1,5 @@
-// A user of the installed package: reads a scene, simulates it and counts what it is given.
+// A user of the installed package: reads a scene, drives its simulation, and counts what
+// it is given.
 //   consumer SOURCE_TREE
 #include <cstdio>
 #include <string>
@@ -6,7 +7,7 @@
 
 #include "bough/io/read_scene.hpp"
 #include "bough/records/run.hpp"
-#include "bough/run/simulate.hpp"
+#include "bough/run/simulation.hpp"
 #include "bough/version.hpp"
 
 namespace {
@@ -36,7 +37,17 @@ int main(int argc, char** argv) {
     return 1;
   }
   CountRows recorder;
-  const bough::records::Summary summary = bough::run::simulate(file.scene, {.threads = 2}, recorder);
+  bough::run::Simulation simulation(file.scene, {.threads = 2}, &recorder);
+  const bool is_half_way = simulation.advance_to(0.75);
+  const std::string sensor = simulation.header().columns.front();
+  const double half_way = simulation.value(sensor);
+  const auto moment = simulation.save();
+  const bool is_done = simulation.run();
+  simulation.restore(*moment);
+  const bool is_back = simulation.value(sensor) == half_way && simulation.run();
+  const bough::records::Summary& summary = simulation.finish();
   std::printf("bough %s: %ld rows, %s\n", EXPECTED_VERSION, recorder.rows, summary.cause.c_str());
-  return summary.status == bough::records::RunStatus::ok && recorder.rows > 100 ? 0 : 1;
+  return is_half_way && is_done && is_back && summary.status == bough::records::RunStatus::ok && recorder.rows > 100
+             ? 0
+             : 1;
 }

@@ -1,5 +1,6 @@
 #pragma once
 /// Detects springs that pass through length 0, where the direction of their force is undefined and reverses.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ class SpringWatch {
 
   std::vector<Seen> seen_;
   bool is_first_ = true;
-  const Seen* passed_ = nullptr;
+  std::optional<std::size_t> passed_;  ///< in seen_
   double time_ = 0.0;
 };
 

@@ -11,6 +11,8 @@ namespace bough::step {
 class Integrator {
  public:
   virtual ~Integrator() = default;
+  /// A rule on the same system that goes on from where this one is, with the state that belongs there.
+  virtual std::unique_ptr<Integrator> clone() const = 0;
 
   /// Takes over a state that is consistent at its time (make_consistent), for steps of this size [s].
   virtual StartReport start(State& state, const StepOptions& options, double step_size) = 0;

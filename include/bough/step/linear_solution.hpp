@@ -68,6 +68,9 @@ class LinearSolution {
   bool takes_symmetric_parts() const { return takes_symmetric_parts_; }
   void drop_symmetry() { takes_symmetric_parts_ = is_factored_ = false; }
 
+  /// The matrices and the factor at hand are of another state than the next one: they do not serve again.
+  void forget_factor() { is_factored_ = is_of_matrices_ = is_trusted_ = false; }
+
   /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
   double last_contraction() const { return contraction_; }
   void set_last_contraction(double contraction) { contraction_ = contraction; }

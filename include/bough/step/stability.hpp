@@ -32,6 +32,9 @@ struct UnstableMode {
 class Stability {
  public:
   explicit Stability(System& system);
+  /// A copy makes its own factors where it needs them.
+  Stability(const Stability& other)
+      : system_(other.system_), diagonal_(other.diagonal_), num_rows_(other.num_rows_), last_(other.last_) {}
 
   bool is_conservative() const { return system_.plan().not_conservative.empty(); }
 

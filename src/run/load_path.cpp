@@ -1,12 +1,11 @@
 /// Statics along the path of equilibria.
+#include "load_path.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "run.hpp"
+#include <stdexcept>
 
 namespace bough::run {
-
-using records::RunStatus;
 
 namespace {
 
@@ -21,7 +20,7 @@ constexpr double known = 1e-7;  ///< of load factors at limit points, where the 
 }  // namespace
 
 /// Whether the load factor passes its last value between two equilibria, after so many limit points.
-bool Run::passes_end(double from, double to, std::size_t limit_points) const {
+bool LoadPath::passes_end(double from, double to, std::size_t limit_points) const {
   const scene::ArcLength& arc = *options_.arc_length;
   const double end = arc.end_load_factor;
   return arc.end_at_limit_point == 0 && static_cast<int>(limit_points) >= arc.after_limit_points &&
@@ -29,7 +28,7 @@ bool Run::passes_end(double from, double to, std::size_t limit_points) const {
 }
 
 /// The equilibrium at the last value of the load factor, which is passed between two places of the step.
-PathPoint Run::find_end(PathPlace from, PathPlace to, const step::State& beyond) {
+PathPoint LoadPath::find_end(PathPlace from, PathPlace to, const step::State& beyond) {
   const double end = options_.arc_length->end_load_factor;
   from.value = from.load_factor - end;
   to.value = to.load_factor - end;
@@ -38,61 +37,69 @@ PathPoint Run::find_end(PathPlace from, PathPlace to, const step::State& beyond)
   point.distance = to.distance;
   point.state = beyond;
   if (!point.is_located) {
-    PathSearch search(*path_, path_start_, path_direction_, summary_.steps.newton_iterations);
+    PathSearch search = make_search();
     point = search.find(from, to, 1e-6 * std::max(1.0, std::abs(end)),
                         [end](const step::State& s) { return s.time - end; });
   }
   step::State state = point.is_located || point.is_near ? point.state : beyond;
   const step::StepReport report = step::equilibrate(system_, state, options_, end);
-  summary_.steps.newton_iterations += report.iterations;
+  account().newton_iterations() += report.iterations;
   if (!report.converged && point.cause.empty()) point.cause = report.cause;
   point.is_located = report.converged;
   point.state = report.converged ? state : beyond;
   return point;
 }
 
+/// The limit point between the ends of a step, `value` the slope of the path there. noise: of load factors.
+void LoadPath::locate_limit(PathPlace from, PathPlace to, double noise, Step& step) {
+  const double length = to.distance, slope_before = from.value;
+  PathSearch search = make_search();
+  const double tolerance = sharp * std::max(std::abs(to.value), std::abs(slope_before));
+  step.limit = search.find(from, to, tolerance, [&](const step::State&) { return path_->slope(); });
+  PathPoint& limit = *step.limit;
+  if (!limit.is_near) {
+    const bool is_end = std::abs(to.value) <= std::abs(slope_before);
+    limit.distance = is_end ? length : 0.0;
+    limit.state = is_end ? step.end : start_;
+    limit.value = is_end ? to.value : slope_before;
+    limit.width = length;
+  }
+  const double size = std::max(1.0, std::abs(limit.state.time));
+  limit.is_passed = limit.is_near && std::abs(limit.extreme.time - limit.state.time) > noise;
+  if (limit.is_passed) {
+    limit.state = limit.extreme;
+    limit.cause = "the slope of the path is lost in round-off there; this is the load factor of the equilibrium " +
+                  std::string("that comes nearest to it");
+  }
+  // The load changes by no more than that between the nearest equilibrium and the point.
+  limit.is_located = !limit.is_passed && (limit.is_located || std::abs(limit.value) * limit.width <= known * size);
+  // What round-off hides of it a parabola tells where it adds little.
+  const double parabola = from.load_factor + 0.5 * length * slope_before * slope_before / (slope_before - to.value);
+  limit.load_factor = limit.is_located || limit.is_passed ? limit.state.time : parabola;
+}
+
 /// The tangent at the end of a step that was just taken, the limit point in it and the end of the run, if they are
 /// there. What speaks against the step is answered: it is then to be taken anew, shorter. The last try takes what is
 /// known instead of points that it does not find.
-std::string Run::look_at_step(double length, bool is_last_try, PathStep& step) {
+std::string LoadPath::look_at_step(double length, bool is_last_try, Step& step) {
   const scene::ArcLength& arc = *options_.arc_length;
   const double slope_before = path_->slope();
   step = {};
   path_->accept();
   if (const auto t = path_->set_tangent(state_)) return t->text;
   step.end = state_;
-  PathPlace from{0.0, slope_before, path_start_.time};
+  PathPlace from{0.0, slope_before, start_.time};
   const PathPlace to{length, path_->slope(), state_.time};
   const double change = to.load_factor - from.load_factor;
   const double noise = 10.0 * options_.tolerance * std::max(1.0, std::abs(to.load_factor));  // of iterations that ended
   if (slope_before * to.value > 0.0 && slope_before * change < 0.0 && std::abs(change) > noise)
     return "the load changed against the slope of the path at both ends of the step: it came to another branch";
-  std::size_t passed = summary_.limit_points.size();
+  std::size_t passed = summary().limit_points.size();
   if (slope_before * to.value < 0.0) {
-    PathSearch search(*path_, path_start_, path_direction_, summary_.steps.newton_iterations);
-    const double tolerance = sharp * std::max(std::abs(to.value), std::abs(slope_before));
-    step.limit = search.find(from, to, tolerance, [&](const step::State&) { return path_->slope(); });
-    PathPoint& limit = *step.limit;
-    if (!limit.is_near) {
-      const bool is_end = std::abs(to.value) <= std::abs(slope_before);
-      limit.distance = is_end ? length : 0.0;
-      limit.state = is_end ? step.end : path_start_;
-      limit.value = is_end ? to.value : slope_before;
-      limit.width = length;
-    }
+    locate_limit(from, to, noise, step);
+    const PathPoint& limit = *step.limit;
     const double size = std::max(1.0, std::abs(limit.state.time));
-    limit.is_passed = limit.is_near && std::abs(limit.extreme.time - limit.state.time) > noise;
-    if (limit.is_passed) {
-      limit.state = limit.extreme;
-      limit.cause = "the slope of the path is lost in round-off there; this is the load factor of the equilibrium " +
-                    std::string("that comes nearest to it");
-    }
-    // The load changes by no more than that between the nearest equilibrium and the point.
-    limit.is_located = !limit.is_passed && (limit.is_located || std::abs(limit.value) * limit.width <= known * size);
-    // What round-off hides of it a parabola tells where it adds little.
-    const double parabola = from.load_factor + 0.5 * length * slope_before * slope_before / (slope_before - to.value);
-    limit.load_factor = limit.is_located || limit.is_passed ? limit.state.time : parabola;
-    const bool is_close = limit.is_passed || std::abs(parabola - limit.state.time) <= close * size;
+    const bool is_close = limit.is_passed || std::abs(limit.load_factor - limit.state.time) <= close * size;
     if (!limit.is_located && !is_close && !is_last_try) return "the limit point in it was not met: " + limit.cause;
     const PathPlace turn{limit.distance, 0.0, limit.state.time};
     if (passes_end(from.load_factor, turn.load_factor, passed)) step.stop = find_end(from, turn, limit.state);
@@ -114,83 +121,104 @@ std::string Run::look_at_step(double length, bool is_last_try, PathStep& step) {
 
 /// Finds the load factors at which figures are asked for between two places of the present step, and looks at the
 /// equilibria there. True where the state has moved. One that is not found is left out, and the figure says why.
-bool Run::look_within(PathPlace from, PathPlace to) {
+bool LoadPath::look_within(PathPlace from, PathPlace to) {
   bool has_moved = false;
-  PathSearch search(*path_, path_start_, path_direction_, summary_.steps.newton_iterations);
-  for (const double time : figures_.times()) {
+  PathSearch search = make_search();
+  for (const double time : recording_.figures().times()) {
     from.value = from.load_factor - time;
     to.value = to.load_factor - time;
     if (from.value * to.value >= 0.0) continue;
-    if (figures_.is_same(time, from.load_factor) || figures_.is_same(time, to.load_factor)) continue;
+    if (recording_.figures().is_same(time, from.load_factor) || recording_.figures().is_same(time, to.load_factor))
+      continue;
     has_moved = true;
     const PathPoint point = search.find(from, to, 1e-6 * std::max(1.0, std::abs(time)),
                                         [time](const step::State& s) { return s.time - time; });
     if (!point.is_near) {
-      figures_.note_missing(time, "no equilibrium within a step of the path: " + point.cause);
+      recording_.figures().note_missing(time, "no equilibrium within a step of the path: " + point.cause);
       continue;
     }
     state_ = point.state;
     const step::StepReport report = step::equilibrate(system_, state_, options_, time);
-    summary_.steps.newton_iterations += report.iterations;
+    account().newton_iterations() += report.iterations;
     if (!report.converged) {
-      figures_.note_missing(time, "no equilibrium at this load factor: " + report.cause);
+      recording_.figures().note_missing(time, "no equilibrium at this load factor: " + report.cause);
       continue;
     }
-    if (!plan_.joints.empty()) step::accept_turns(system_, state_);
-    figures_.add(system_, state_, energy_meter_);
+    accept_turns();
+    recording_.add_figures(state_);
   }
   return has_moved;
 }
 
 /// A row at the limit point of a step, which is listed.
-void Run::accept_limit_point(const PathPoint& limit, bool is_maximum, int iterations) {
+void LoadPath::accept_limit_point(const PathPoint& limit, bool is_maximum, int iterations) {
   const double end_of_step = last_step_;
   state_ = limit.state;
-  summary_.limit_points.push_back({limit.load_factor, is_maximum, limit.is_located});
-  path_done_ = options_.arc_length->end_at_limit_point == static_cast<int>(summary_.limit_points.size());
+  summary().limit_points.push_back({limit.load_factor, is_maximum, limit.is_located});
+  is_done_ = options_.arc_length->end_at_limit_point == static_cast<int>(summary().limit_points.size());
   if (!limit.is_located)
     note("a limit point of the load was passed but not met, its load factor " + std::to_string(limit.load_factor) +
          (limit.is_passed ? ": " : " is that of a parabola through equilibria on both sides of it: ") + limit.cause);
   last_step_ = limit.distance;
-  if (!plan_.joints.empty()) step::accept_turns(system_, state_);
-  if (limit.is_near || path_done_) record(iterations, path_done_);
+  accept_turns();
+  if (limit.is_near || is_done_) record(iterations, is_done_);
   last_step_ = end_of_step;
 }
 
-/// A step that stands, as long as asked for or shorter. Counts cuts; false: the run ends.
-bool Run::try_path_step(double& length, PathStep& step, step::StepReport& report, int& cuts) {
+/// A step that is accepted, of the length asked for or shorter. Counts cuts; false: the run ends.
+bool LoadPath::try_step(Step& step, step::StepReport& report, int& cuts) {
   for (;; ++cuts) {
-    if (!may_try(state_.time + length * path_->slope())) return false;
-    report = path_->advance(state_, length);
+    if (!may_try(state_.time + length_ * path_->slope())) return false;
+    report = path_->advance(state_, length_);
     const bool had_converged = report.converged;
-    if (had_converged) report.cause = look_at_step(length, cuts == options_.max_cuts, step);
+    if (had_converged) report.cause = look_at_step(length_, cuts == options_.max_cuts, step);
     report.converged = report.cause.empty();
     if (report.converged) return true;
-    state_ = path_start_;
+    state_ = start_;
     count(report);
     if (cuts == options_.max_cuts)
       return fail("the path cannot be followed from load factor " + std::to_string(state_.time) + ": " + report.cause);
-    length *= 0.5;
+    length_ *= 0.5;
     if (!had_converged) continue;
-    path_->set_direction(path_direction_);
+    path_->set_direction(direction_);
     if (const auto t = path_->set_tangent(state_)) return fail(t->text);
   }
 }
 
-/// One step, the limit point within it, and the end of the run if that lies in it.
-bool Run::take_path_step(double& length) {
+bool LoadPath::begin() {
   const scene::ArcLength& arc = *options_.arc_length;
+  const step::StepReport start = step::equilibrate(system_, state_, options_, 0.0);
+  if (!start.converged) return fail("no equilibrium without loads: " + start.cause);
+  path_.emplace(system_, options_);
+  if (const auto t = path_->set_tangent(state_)) return fail(t->text);
+  stability_.look(state_);
+  record(0, false);
+  length_ = arc.step > 0.0 ? arc.step : path_->choose_first_step(state_);
+  return true;
+}
+
+void LoadPath::come_back() {
+  Analysis::come_back();
+  if (const auto t = path_->set_tangent(state_)) throw std::logic_error(t->text);  // there was one
+}
+
+/// One step, the limit point within it, and the end of the run if that lies in it.
+bool LoadPath::take_step() {
+  const scene::ArcLength& arc = *options_.arc_length;
+  if (summary().steps.accepted >= arc.max_steps)
+    return fail("the path did not come to its end in " + std::to_string(arc.max_steps) + " steps, at load factor " +
+                std::to_string(state_.time));
   const double largest = arc.largest_step > 0.0 ? arc.largest_step : 4.0 * (arc.step > 0.0 ? arc.step : usual_step);
-  path_start_ = state_;
-  path_direction_ = path_->direction();
-  start_look_ = stability_->last();
+  start_ = state_;
+  direction_ = path_->direction();
+  start_look_ = stability_.last();
   const double slope_before = path_->slope();
   step::StepReport report;
-  PathStep step;
+  Step step;
   int cuts = 0;
-  if (!try_path_step(length, step, report, cuts)) return false;
+  if (!try_step(step, report, cuts)) return false;
   count(report);
-  PathPlace from{0.0, 0.0, path_start_.time};
+  PathPlace from{0.0, 0.0, start_.time};
   bool has_moved = false;
   if (step.limit && (!step.stop || step.stops_after_limit)) {
     const PathPlace turn{step.limit->distance, 0.0, step.limit->state.time};
@@ -198,48 +226,27 @@ bool Run::take_path_step(double& length) {
     accept_limit_point(*step.limit, slope_before > 0.0, report.iterations);
     from = turn;
   }
-  if (path_done_) return true;
+  if (is_done_) return true;
   for (records::Bifurcation& b : step.bifurcations) accept_bifurcation(std::move(b));
-  const double distance = step.stop && step.stop->is_located ? step.stop->distance : length;
+  const double distance = step.stop && step.stop->is_located ? step.stop->distance : length_;
   has_moved = look_within(from, {distance, 0.0, step.last().time}) || has_moved;
   state_ = step.last();
   if (has_moved)
     if (const auto t = path_->set_tangent(state_); t && !step.stop) return fail(t->text);
-  last_step_ = length;
+  last_step_ = length_;
   if (step.stop) {
-    path_done_ = true;
+    is_done_ = true;
     if (!step.stop->is_located)
       note("the load factor passes " + std::to_string(arc.end_load_factor) + " between two equilibria, but none was " +
            "found there: the run ends at " + std::to_string(state_.time) + ". " + step.stop->cause);
   }
-  if (!plan_.joints.empty()) step::accept_turns(system_, state_);
-  stability_->look(state_, has_moved ? std::nullopt : step.look);
-  record(report.iterations, path_done_);
-  length *= std::clamp(std::sqrt(static_cast<double>(wanted_iterations) / report.iterations), shortest_part,
-                       cuts > 0 ? 1.0 : longest_part);
-  length = std::min(length, largest);
+  accept_turns();
+  stability_.look(state_, has_moved ? std::nullopt : step.look);
+  record(report.iterations, is_done_);
+  length_ *= std::clamp(std::sqrt(static_cast<double>(wanted_iterations) / report.iterations), shortest_part,
+                        cuts > 0 ? 1.0 : longest_part);
+  length_ = std::min(length_, largest);
   return report_progress(report, arc.end_load_factor);
-}
-
-/// Steps of equal length along the path, shorter where they need many iterations, to where the load factor passes its
-/// last value or to a limit point.
-bool Run::run_path() {
-  const scene::ArcLength& arc = *options_.arc_length;
-  const step::StepReport start = step::equilibrate(system_, state_, options_, 0.0);
-  if (!start.converged) return fail("no equilibrium without loads: " + start.cause);
-  path_.emplace(system_, options_);
-  if (const auto t = path_->set_tangent(state_)) return fail(t->text);
-  stability_->look(state_);
-  record(0, false);
-  double length = arc.step > 0.0 ? arc.step : path_->choose_first_step(state_);
-  while (!path_done_) {
-    if (summary_.steps.accepted >= arc.max_steps)
-      return fail("the path did not come to its end in " + std::to_string(arc.max_steps) + " steps, at load factor " +
-                  std::to_string(state_.time));
-    if (!take_path_step(length)) return false;
-  }
-  summary_.status = RunStatus::ok;
-  return true;
 }
 
 }  // namespace bough::run

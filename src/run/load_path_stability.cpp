@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run.hpp"
+#include "load_path.hpp"
 
 namespace bough::run {
 
@@ -18,19 +18,19 @@ constexpr double leap = 10.0;         ///< times the way between two equilibria 
 
 /// Between two equilibria the number of unstable directions changes where the load turns, by one, or where another
 /// branch crosses the path. If neither is found the step came to another branch, and is to be taken anew, shorter.
-std::string Run::look_at_stability(double length, bool is_last_try, PathStep& step) {
-  const step::StabilityLook look = stability_->stability().look();
+std::string LoadPath::look_at_stability(double length, bool is_last_try, Step& step) {
+  const step::StabilityLook look = stability_.stability().look();
   step.look = look;
   if (!look.is_known || !start_look_.is_known || look.unstable == start_look_.unstable) return {};
   // Next to a critical load of a slender structure signs are those of round-off.
-  if (look.unstable > start_look_.unstable && !stability_->stability().find_mode(state_)) return {};
+  if (look.unstable > start_look_.unstable && !stability_.stability().find_mode(state_)) return {};
   const bool passes_limit = step.limit && (!step.stop || step.stops_after_limit);
   if (passes_limit && std::abs(look.unstable - start_look_.unstable) == 1) return {};
   std::string cause = "the number of unstable directions changes by more than the limit point in it explains";
   if (!passes_limit) {
     step.look.reset();
     const PathPlace to{length, static_cast<double>(look.unstable), step.last().time};
-    PathPlace from{0.0, static_cast<double>(start_look_.unstable), path_start_.time};
+    PathPlace from{0.0, static_cast<double>(start_look_.unstable), start_.time};
     cause.clear();
     for (int k = 0; cause.empty() && from.value != to.value && k < most_bifurcations; ++k)
       cause = find_bifurcation(from, to, look.unstable, step);
@@ -38,7 +38,7 @@ std::string Run::look_at_stability(double length, bool is_last_try, PathStep& st
     if (const auto t = path_->set_tangent(state_)) return t->text;
   }
   if (is_last_try && !cause.empty()) {
-    note("from load factor " + std::to_string(path_start_.time) + " to " + std::to_string(step.last().time) +
+    note("from load factor " + std::to_string(start_.time) + " to " + std::to_string(step.last().time) +
          " the path may have changed to another branch: " + cause);
     cause.clear();
   }
@@ -46,10 +46,10 @@ std::string Run::look_at_stability(double length, bool is_last_try, PathStep& st
 }
 
 /// The first change of the number of unstable directions after `from`, by halves; `from` is set behind it.
-std::string Run::find_bifurcation(PathPlace& from, PathPlace to, int unstable_there, PathStep& step) {
-  PathSearch search(*path_, path_start_, path_direction_, summary_.steps.newton_iterations);
+std::string LoadPath::find_bifurcation(PathPlace& from, PathPlace to, int unstable_there, Step& step) {
+  PathSearch search = make_search();
   const double before = from.value, end = to.distance, width = end - from.distance;
-  step::State stable = path_start_, beyond = step.last();
+  step::State stable = start_, beyond = step.last();
   bool has_stable = from.distance == 0.0;
   for (int k = 0; k < halvings; ++k) {
     const double middle = 0.5 * (from.distance + to.distance);
@@ -58,7 +58,7 @@ std::string Run::find_bifurcation(PathPlace& from, PathPlace to, int unstable_th
       if (k > halvings / 2) break;  // the tangent is singular: it is known well enough
       return "a bifurcation in it was not met: " + t->text;
     }
-    const step::StabilityLook look = stability_->stability().look();
+    const step::StabilityLook look = stability_.stability().look();
     if (!look.is_known) return {};
     const bool is_before = look.unstable == static_cast<int>(before);
     (is_before ? from : to) = {middle, static_cast<double>(look.unstable), state.time};
@@ -74,17 +74,17 @@ std::string Run::find_bifurcation(PathPlace& from, PathPlace to, int unstable_th
                                     : std::max(from.distance - beside * width, 0.5 * from.distance);
   step::State state;
   if (away > 0.0 && !search.go_to(state, away))
-    if (const auto mode = stability_->stability().find_mode(state)) found.mode = StabilityWatch::describe(plan_, *mode);
+    if (const auto mode = stability_.stability().find_mode(state)) found.mode = StabilityWatch::describe(plan_, *mode);
   step.bifurcations.push_back(std::move(found));
   from = to;
   return {};
 }
 
-void Run::accept_bifurcation(records::Bifurcation&& b) {
+void LoadPath::accept_bifurcation(records::Bifurcation&& b) {
   note("a bifurcation was passed at load factor " + std::to_string(b.load_factor) + ", where stability is " +
        (b.is_lost ? "lost" : "regained") + (b.mode.empty() ? "" : ": " + b.mode) +
        "; another branch of equilibria begins there");
-  summary_.bifurcations.push_back(std::move(b));
+  summary().bifurcations.push_back(std::move(b));
 }
 
 }  // namespace bough::run

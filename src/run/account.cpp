@@ -1,0 +1,94 @@
+#include "account.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bough/io/number_text.hpp"
+#include "dependent_rows.hpp"
+
+namespace bough::run {
+
+using records::RunStatus;
+
+bool Account::fail(const std::string& cause) {
+  summary_.status = RunStatus::failed;
+  summary_.cause = cause;
+  return false;
+}
+
+bool Account::interrupt(const std::string& cause) {
+  summary_.status = RunStatus::interrupted;
+  summary_.cause = cause;
+  return false;
+}
+
+void Account::note(const std::string& text) {
+  if (std::find(summary_.notes.begin(), summary_.notes.end(), text) == summary_.notes.end())
+    summary_.notes.push_back(text);
+}
+
+void Account::count(const step::StepReport& report, const step::State& state) {
+  if (!report.converged) return reject(report, state, report.cause);
+  ++summary_.steps.accepted;
+  summary_.steps.newton_iterations += report.iterations;
+  watch_floor(report);
+  watch_dependent_rows(state.time);
+}
+
+void Account::reject(const step::StepReport& report, const step::State& state, const std::string& cause) {
+  if (cause.empty()) throw std::logic_error("a step was rejected without a cause");
+  ++summary_.steps.rejected;
+  summary_.steps.newton_iterations += report.iterations;
+  if (first_rejection_.empty())
+    first_rejection_ = "the first rejected step was that from " + std::to_string(state.time) + ": " + cause;
+}
+
+/// What steps leave unbalanced at the floor counts against the largest forces of the run: at rest there are none to
+/// compare with.
+void Account::watch_floor(const step::StepReport& report) {
+  const step::ResidualSize& r = report.residual;
+  const double arm = system_.moment_arm();
+  largest_force_ = std::max({largest_force_, r.force_scale, r.moment_scale / arm});
+  if (!report.at_floor) return;
+  summary_.checks.round_off_floor_reached = true;
+  ++summary_.checks.steps_at_floor;
+  unbalanced_force_ = std::max({unbalanced_force_, r.force, r.moment / arm});
+}
+
+void Account::watch_dependent_rows(double time) {
+  const int deficiency = system_.linear().solver().last_status().deficiency;
+  least_dependent_rows_ = std::min(least_dependent_rows_, deficiency);
+  if (deficiency <= dependent_rows_) return;
+  dependent_rows_ = deficiency;
+  dependent_since_ = time;
+  not_unique_ = dependent_groups_text(system_);
+}
+
+/// Rows that depend on others all the time leave the motion as it is. Where rows come to depend on others only at
+/// times, the rank of the constraints drops there: parts can then move in more ways than elsewhere, and the equations
+/// do not say which way the motion goes on.
+void Account::note_dependent_rows() {
+  if (dependent_rows_ <= 0) return;
+  const bool is_dynamic = system_.plan().is_dynamic;
+  std::string text = std::to_string(dependent_rows_) + " constraint row(s) depend on others";
+  if (least_dependent_rows_ < dependent_rows_)
+    text += (is_dynamic ? " at time " : " at load factor ") + io::rounded_text(dependent_since_, 6) + ", and " +
+            std::to_string(std::max(0, least_dependent_rows_)) +
+            " elsewhere: the mechanism passes a singular position, where it can go on in more than one way, and the "
+            "reactions of these are not unique: ";
+  else if (is_dynamic)
+    text += ": the motion is unique, the reactions of these are not: ";
+  else
+    text += ": the reactions of these are not unique: ";
+  note(text + not_unique_);
+}
+
+void Account::note_steps() {
+  if (!first_rejection_.empty() && summary_.status != RunStatus::failed) note(first_rejection_);
+  if (system_.plan().took("symmetric") && !system_.linear().takes_symmetric_parts())
+    note("the symmetric parts of tangents were given up for whole ones: Newton's iteration had slowed down");
+  if (summary_.checks.round_off_floor_reached)
+    note("some steps were accepted at the round-off floor of the residual, above the tolerance asked for");
+}
+
+}  // namespace bough::run

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cmath>
+
+#include "time_steps.hpp"
+
+namespace bough::run {
+
+namespace {
+
+constexpr double most_between_looks = 32.0, looks_at_least = 16.0;  ///< looks of two steps each; in a run
+constexpr double worth_a_look = 1.5;  ///< times the largest unfiltered error at a look so far: the step is looked at
+
+}  // namespace
+
+EqualSteps::EqualSteps(const Parts& parts) : TimeSteps(parts) {
+  const double steps = scene_.analysis.end_time / scene_.analysis.step_size;
+  if (recording_.error_watch() != nullptr)
+    looks_every_ = static_cast<long>(std::clamp(steps / looks_at_least, 2.0, most_between_looks));
+}
+
+bool EqualSteps::begin_stretch() {
+  looking_ = false;  // errors across a start say nothing
+  const double wanted = scene_.analysis.step_size;
+  steps_ = std::max(1L, static_cast<long>(std::ceil((end_ - begin_) / wanted - 1e-9)));
+  size_ = (end_ - begin_) / static_cast<double>(steps_);
+  level_ = easy_ = 0;
+  done_ = 0;
+  return start_integrator(size_);
+}
+
+bool EqualSteps::step_within_stretch() {
+  for (int failures = 0;; ++failures) {
+    const double size = size_ / static_cast<double>(1L << level_);
+    if (!set_step_size(size)) return false;
+    const bool ends_stretch = done_ + 1 == steps_ << level_;
+    const double target = ends_stretch ? end_ : begin_ + static_cast<double>(done_ + 1) * size;
+    if (!may_try(target)) return false;
+    const step::StepReport report = integrator_->advance(state_, options_, target);
+    count(report);
+    if (report.converged) return accept(report, size, target == scene_.analysis.end_time);
+    if (!cut(report, size)) return false;
+    keep_or_restore(failures == 0);
+  }
+}
+
+/// Halves the steps to come.
+bool EqualSteps::cut(const step::StepReport& report, double size) {
+  constexpr long most_parts = 1L << 62;  // of a stretch, which a long can count
+  easy_ = 0;
+  if (++level_ > options_.max_cuts || (steps_ << (level_ - 1)) > most_parts / 2)
+    return fail("the step at time " + std::to_string(state_.time) + " fails down to a step size of " +
+                std::to_string(size) + ": " +
+                (summary().instability.empty() ? "" : summary().instability + "; it ended in this: ") + report.cause +
+                (vibrations_.seen() ? "; " + std::string(undamped) : ""));
+  done_ *= 2;
+  return true;
+}
+
+/// What every accepted step goes through.
+bool EqualSteps::accept(const step::StepReport& report, double size, bool is_last) {
+  ++done_;
+  last_step_ = size;
+  if (options_.single_solution && summary().steps.accepted == 1)
+    note("one linear solution per step: residuals are not driven to the tolerance");
+  accept_turns();
+  if (!watch_reactions()) return false;
+  if (watches_error() && !look_at_error()) return false;
+  recording_.conservation().add_step(state_, size);
+  const bool goes_on = !is_variational() || watch_vibrations();
+  record(report.iterations, is_last || !goes_on);
+  if (!goes_on || !report_progress(report, scene_.analysis.end_time)) return false;
+  if (level_ > 0 && done_ % 2 == 0 && ++easy_ >= 4 && report.iterations <= options_.max_iterations / 2) {
+    done_ /= 2;
+    --level_;
+    easy_ = 0;
+  }
+  return true;
+}
+
+bool EqualSteps::watch_vibrations() {
+  if (const auto text = vibrations_.look(*integrator_, state_.time)) note(*text);
+  if (!vibrations_.seen()) return true;
+  recording_.conservation().compare(state_);
+  const auto cause = vibrations_.judge(recording_.conservation().balance(), state_.time);
+  return !cause || fail(*cause);
+}
+
+/// Local errors of two steps in a row (the second tells that of velocities), at least each 32 steps and where they
+/// rise: a solution and two evaluations in one of 16 steps.
+bool EqualSteps::look_at_error() {
+  const bool is_second = looking_;
+  const double unfiltered = state_.local_error;
+  if (recording_.error_watch() != nullptr) recording_.error_watch()->pass(unfiltered);
+  if (!is_second) {
+    if (++since_look_ < looks_every_ && unfiltered <= worth_a_look * unfiltered_looked_) return true;
+    unfiltered_looked_ = std::max(unfiltered_looked_, unfiltered);
+    local_error_->restart();
+  }
+  since_look_ = 0;
+  looking_ = !is_second;
+  if (const auto t = local_error_->measure(system_, state_)) return fail(t->text);
+  add_error(state_.time - looked_at_, last_step_);
+  if (is_second)
+    watch_errors(unfiltered);
+  else
+    see_before_look();
+  local_error_->accept(state_);
+  looked_at_ = state_.time;
+  return true;
+}
+
+}  // namespace bough::run

@@ -1,0 +1,92 @@
+#include "judgement.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "not_judged.hpp"
+#include "solver_figures.hpp"
+#include "trust.hpp"
+
+namespace bough::run {
+
+using records::RunStatus;
+using records::Summary;
+
+namespace {
+
+void sum_up_work(const EndedRun& run, Summary& summary) {
+  const step::WorkCounts& work = run.system.counts();
+  summary.final_values = run.recording.last_values();
+  summary.steps.factorizations = work.factorizations;
+  summary.times.assemble = work.assemble;
+  summary.times.factor = work.factor;
+  summary.times.solve = work.solve;
+  summary.times.update = work.update;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  summary.memory_peak_bytes = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+  summary.checks.linear_backward_error_max = work.backward_error_max;
+  summary.checks.linear_rank_error_max = work.rank_error_max;
+}
+
+/// How far one more Newton correction would move the end of the run, over what it has moved from the start.
+void estimate_solution_error(step::System& system, const step::State& state, Summary& summary) {
+  if (system.counts().factorizations == 0) return;
+  constexpr double least_motion = 1e-12;  // of the structure: less is a few roundings of places
+  const plan::Plan& plan = system.plan();
+  std::vector<double> rhs(system.num_unknowns()), x(system.num_unknowns());
+  if (system.evaluate(state, {}, false)) return;
+  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
+  if (system.linear().solve(rhs.data(), x.data())) return;
+  double moved = least_motion, shift = 0.0;
+  const std::vector<elements::NodeMotion>& nodes = system.nodes(state);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const motion::Frame<double>& from = plan.nodes[n].pose;
+    const motion::Vec6<double> eta = system.node_part(x.data(), static_cast<int>(n));
+    for (int i = 0; i < 3; ++i) {
+      moved = std::max(moved, std::abs(nodes[n].x.hi[i] - from.x[i]) / plan.length_scale);
+      shift = std::max({shift, std::abs(eta[i]) / plan.length_scale, std::abs(eta[3 + i])});
+    }
+    for (int i = 0; i < 9; ++i) moved = std::max(moved, std::abs(nodes[n].R.m[i] - from.R.m[i]));
+  }
+  summary.solver.emplace_back("solution_error_estimate", shift / moved);
+}
+
+}  // namespace
+
+void judge(const EndedRun& run) {
+  Recording& recording = run.recording;
+  Account& account = recording.account();
+  Summary& summary = recording.summary();
+  const plan::Plan& plan = run.system.plan();
+  sum_up_work(run, summary);
+  summary.checks.unbalanced_at_floor = account.unbalanced_at_floor();
+  recording.conservation().sum_up(summary.checks, run.options, run.scene.analysis.end_time);
+  if (const ErrorWatch* watch = recording.error_watch()) summary.sensor_errors = watch->errors(summary.header);
+  summary.not_judged = error_not_judged(plan, run.options, run.scene.output.checks, summary.sensor_errors);
+  account.note_dependent_rows();
+  run.analysis.add_notes();
+  account.note_steps();
+  recording.take_figures();
+  if (summary.status == RunStatus::ok) {
+    recording.gate().look_at(run.state, plan);
+    recording.gate().look_at(summary);
+    const std::string& cause = recording.gate().cause();
+    if (!cause.empty() && !account.fail(cause)) recording.take_figures();  // of a run that failed none holds
+  }
+  summary.solver = solver_figures(run.system, account.dependent_rows());
+  const bool is_alpha = run.options.integrator == scene::Integrator::generalized_alpha;
+  if (summary.status == RunStatus::ok) {
+    look_at_last_factor(run.system, summary);
+    if (!plan.is_dynamic || is_alpha) estimate_solution_error(run.system, run.state, summary);
+  }
+  run.analysis.sum_up();
+  summary.doubts = doubts_of(summary, plan.is_dynamic);
+  if (const std::string passed = recording.springs().text(); !passed.empty())
+    summary.doubts.push_back({"springs", passed});
+  run.analysis.add_doubts();
+}
+
+}  // namespace bough::run

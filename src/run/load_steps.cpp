@@ -1,0 +1,71 @@
+#include "load_steps.hpp"
+
+#include <algorithm>
+
+#include "largest_load.hpp"
+
+namespace bough::run {
+
+/// Stability at the end. Next to a critical load the tangent is nearly singular by nature, which is no fault of the
+/// numbers.
+void Statics::sum_up() {
+  if (summary().status == records::RunStatus::ok) stability_.look_at_end(state_);
+  summary().stability = stability_.seen();
+  records::Stability& s = *summary().stability;
+  if (s.unstable_directions > 0 || s.first_lost || !s.hidden.empty())
+    s.largest_load = largest_load(scene_, plan_, state_.time, recording_.conservation().mass());
+}
+
+LoadSteps::LoadSteps(const Parts& parts) : Statics(parts), num_steps_(std::max(1, parts.scene.analysis.load_steps)) {
+  begin_load_step();
+}
+
+void LoadSteps::begin_load_step() {
+  from_ = static_cast<double>(step_) / num_steps_;
+  stops_ = stops_between(from_, from_ + 1.0 / num_steps_);
+  next_stop_ = 0;
+}
+
+bool LoadSteps::begin() {
+  if (const auto t = system_.set_time(0.0)) return fail(t->text);
+  record(0, false);
+  return true;
+}
+
+bool LoadSteps::take_step() {
+  const double stop = stops_[next_stop_];
+  const bool is_whole = stops_.size() == 1, is_last = step_ + 1 == num_steps_ && next_stop_ + 1 == stops_.size();
+  const double width = is_whole ? 1.0 / num_steps_ : stop - from_;
+  for (;;) {
+    const bool is_end = is_last && part_ + 1 == (1L << level_);
+    const double target =
+        is_end ? 1.0 : from_ + width * static_cast<double>(part_ + 1) / static_cast<double>(1L << level_);
+    if (!may_try(target)) return false;
+    const double before = state_.time;
+    const step::StepReport report = step::equilibrate(system_, state_, options_, target);
+    count(report);
+    if (!report.converged) {
+      if (++level_ > options_.max_cuts)
+        return fail("no equilibrium at load factor " + std::to_string(target) + ": " + report.cause);
+      part_ *= 2;
+      continue;
+    }
+    stability_.look(state_);
+    last_step_ = target - before;
+    accept_turns();
+    ++part_;
+    while (level_ > 0 && part_ % 2 == 0) {
+      part_ /= 2;
+      --level_;
+    }
+    record(report.iterations, target == 1.0);
+    if (part_ == (1L << level_)) {
+      part_ = 0;
+      from_ = stop;
+      if (++next_stop_ == stops_.size() && ++step_ < num_steps_) begin_load_step();
+    }
+    return report_progress(report, 1.0);
+  }
+}
+
+}  // namespace bough::run

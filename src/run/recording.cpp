@@ -1,0 +1,152 @@
+#include "recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bough/plan/history_header.hpp"
+#include "bough/results/observe.hpp"
+#include "effective_options.hpp"
+
+namespace bough::run {
+
+using records::RunStatus;
+
+namespace {
+
+/// What the scene expects, then what it measures in the same way.
+std::vector<scene::Expected> figures_asked_for(const scene::Scene& scene) {
+  std::vector<scene::Expected> figures = scene.expected;
+  for (const scene::Measure& m : scene.measures) {
+    if (!Measures::is_figure(m)) continue;
+    scene::Expected figure;
+    figure.quantity = m.quantity;
+    figure.figure = static_cast<scene::FigureKind>(m.kind);
+    figure.time = m.time;
+    figure.level = m.level;
+    figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+/// What a measure is held against what it has to be; `how` tells how it was taken, and whether its time was reached.
+records::ExpectedResult held_against(const scene::Expected& given, const records::MeasureResult& measured,
+                                     records::ExpectedResult how) {
+  how.name = measured.name;
+  how.value = measured.value.value_or(0.0);
+  how.reference = given.value;
+  how.tolerance = given.allowed();
+  how.source = given.source;
+  how.has_value = measured.value.has_value();
+  how.holds = how.reached && measured.value && std::abs(how.value - how.reference) <= how.tolerance;
+  return how;
+}
+
+/// Work and energies are followed in every step where checks are made, and where the integrator damps nothing, whose
+/// runs are judged by them as they go.
+bool follows_energy(const scene::Scene& scene, const plan::Plan& plan) {
+  return scene.output.checks || (plan.is_dynamic && scene.analysis.integrator == scene::Integrator::variational);
+}
+
+}  // namespace
+
+Recording::Recording(const scene::Scene& scene, const SimulateOptions& options, const step::StepOptions& step_options,
+                     step::System& system, records::Recorder& recorder)
+    : scene_(scene),
+      system_(system),
+      recorder_(recorder),
+      account_(system),
+      conservation_(system, follows_energy(scene, system.plan())),
+      pictures_(scene, system.plan(), options.want_motion || scene.output.motion),
+      asked_(std::make_shared<const std::vector<scene::Expected>>(figures_asked_for(scene))),
+      figures_(scene, *asked_, system.plan(), plan::make_header(system.plan()), options.stops, options.sample),
+      measures_(scene, plan::make_header(system.plan())),
+      springs_(system.plan()) {
+  const plan::Plan& plan = system.plan();
+  records::Summary& s = summary();
+  s.status = RunStatus::failed;
+  s.scene = scene.name;
+  s.title = scene.title;
+  s.options = effective_options(scene, step_options);
+  s.header = plan::make_header(plan);
+  s.notes = plan.notes;
+  s.checks.evaluated = scene.output.checks;
+  s.follows_path = !plan.is_dynamic && step_options.arc_length.has_value();
+  const bool tells_errors = plan.is_dynamic && step_options.integrator == scene::Integrator::generalized_alpha;
+  if (tells_errors && scene.output.checks) error_watch_.emplace(plan);
+}
+
+bool Recording::is_due(long row, bool is_last) const { return row % std::max(1, scene_.output.stride) == 0 || is_last; }
+
+void Recording::record(const step::State& state, double step_size, int iterations, bool is_last) {
+  const step::PhaseTimer timer{system_.clock(), summary().times.output};
+  const long row = rows_++;
+  summary().step_size = std::max(summary().step_size, step_size);
+  const bool due = is_due(row, is_last);
+  if ((due || !measures_.empty()) && !system_.plan().sensors.empty()) {
+    (void)eval_sensors(state);
+    if (due && error_watch_) error_watch_->see(values_);
+    if (!measures_.empty()) measures_.add(state.time, values_);
+  }
+  if (due) springs_.look(system_, state);
+  if (due && scene_.output.checks) conservation_.check(state, step_size, summary().checks, gate_, error_watch());
+  if (due) {
+    row_.time = state.time;
+    row_.step_size = row == 0 ? 0.0 : step_size;
+    row_.iterations = iterations;
+    row_.values = values_;
+    gate_.look_at(summary().header, row_);
+    recorder_.row(row_);
+  }
+  if (pictures_.is_due(row, state.time, is_last)) draw(state, is_last);
+  add_figures(state);
+}
+
+void Recording::draw(const step::State& state, bool is_last) {
+  records::MotionFrame frame = results::eval_motion(system_, state);
+  gate_.look_at(frame);
+  if (pictures_.is_first()) {
+    const records::MotionParts parts = results::make_parts(scene_, system_);
+    if (const auto fewer = pictures_.set_size(frame, parts)) account_.note(*fewer);
+    recorder_.parts(parts);
+  }
+  frame.for_others = pictures_.take(state.time, is_last);
+  recorder_.motion(frame);
+}
+
+const std::vector<double>& Recording::eval_sensors(const step::State& state) {
+  results::eval_sensors(system_, state, conservation_.energies(), values_);
+  return values_;
+}
+
+void Recording::take_figures() {
+  records::Summary& s = summary();
+  s.expected = figures_.results(s);
+  const std::vector<records::MeasureResult> of_whole_run = measures_.results();
+  s.measures.clear();
+  std::vector<records::ExpectedResult> of_measures;
+  std::size_t next_figure = scene_.expected.size(), next_measure = 0;
+  for (const scene::Measure& m : scene_.measures) {
+    records::MeasureResult measured{m.name, std::nullopt};
+    records::ExpectedResult how;
+    if (Measures::is_figure(m)) {
+      how = s.expected[next_figure++];
+      if (how.reached && how.has_value && std::isfinite(how.value)) measured.value = how.value;
+    } else {
+      measured = of_whole_run[next_measure++];
+      how.taken = "from the ends of all accepted steps";
+      how.reached = is_time_reached(m);
+    }
+    if (s.status != RunStatus::ok) measured.value.reset();  // what a part of a run shows is no figure of it
+    if (m.expected) of_measures.push_back(held_against(*m.expected, measured, std::move(how)));
+    s.measures.push_back(std::move(measured));
+  }
+  s.expected.resize(scene_.expected.size());
+  s.expected.insert(s.expected.end(), of_measures.begin(), of_measures.end());
+}
+
+/// Whether the run gets to the time of a measure, if it has one: a run in time may be made shorter.
+bool Recording::is_time_reached(const scene::Measure& m) const {
+  return !m.time || !system_.plan().is_dynamic || *m.time <= scene_.analysis.end_time * (1.0 + 1e-12);
+}
+
+}  // namespace bough::run

@@ -1,0 +1,194 @@
+#include "bough/run/simulation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+
+#include "analysis.hpp"
+#include "bough/schedule/threads.hpp"
+#include "judgement.hpp"
+
+namespace bough::run {
+
+using records::RunStatus;
+
+namespace {
+
+struct NoRecorder final : records::Recorder {
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow&) override {}
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
+};
+
+int threads_for(const scene::Scene& scene, const plan::Plan& plan, int asked) {
+  return scene.solver.tasks && !plan.took("small") ? std::max(1, asked) : 1;
+}
+
+step::StepOptions options_for(const scene::Scene& scene, const plan::Plan& plan) {
+  step::StepOptions options = step::make_step_options(scene.analysis);
+  options.reuse_factors = plan.took("reuse");
+  return options;
+}
+
+}  // namespace
+
+struct Simulation::Parts {
+  enum class Stage { made, going, ended, finished };
+
+  Parts(const scene::Scene& given, SimulateOptions given_options, records::Recorder* given_recorder,
+        ProgressCallback given_progress)
+      : asked(std::move(given_options)),
+        progress(std::move(given_progress)),
+        scene(given),
+        recorder(given_recorder != nullptr ? *given_recorder : no_recorder),
+        plan(plan::make_plan(given)),
+        options(options_for(given, plan)),
+        threads(threads_for(given, plan, asked.threads)),
+        system(plan, given.solver, asked.wrap_walker ? asked.wrap_walker(threads.walker()) : threads.walker()),
+        state(step::make_initial_state(plan)) {
+    recording.emplace(scene, asked, options, system, recorder);
+    recording->summary().threads = threads.count();
+    analysis = make_analysis({scene, options, plan, system, state, *recording, asked, progress});
+  }
+
+  bool start() {
+    if (stage != Stage::made) return stage == Stage::going;
+    recorder.begin(recording->summary().header);
+    stage = analysis->begin() ? Stage::going : Stage::ended;
+    return stage == Stage::going;
+  }
+
+  bool take_step() {
+    if (!start()) return false;
+    if (!analysis->take_step()) {
+      stage = Stage::ended;
+      return false;
+    }
+    if (analysis->is_done()) {
+      stage = Stage::ended;
+      recording->summary().status = RunStatus::ok;
+    }
+    return true;
+  }
+
+  /// Calls `body` with the threads together, and counts its time.
+  void together(const std::function<void()>& body) {
+    const auto begin = std::chrono::steady_clock::now();
+    threads.keep_together(body);
+    recording->summary().times.total += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  NoRecorder no_recorder;
+  const SimulateOptions asked;
+  const ProgressCallback progress;
+  const scene::Scene& scene;
+  records::Recorder& recorder;
+  plan::Plan plan;
+  step::StepOptions options;
+  schedule::Threads threads;
+  step::System system;
+  step::State state;
+  std::optional<Recording> recording;  ///< always there; replaced by restore
+  Cloned<Analysis> analysis;
+  Stage stage = Stage::made;
+};
+
+class Simulation::Moment {
+ public:
+  explicit Moment(const Parts& p)
+      : options(p.options), state(p.state), recording(*p.recording), analysis(p.analysis), stage(p.stage) {}
+
+  step::StepOptions options;
+  step::State state;
+  Recording recording;
+  Cloned<Analysis> analysis;
+  Parts::Stage stage;
+};
+
+Simulation::Simulation(const scene::Scene& scene, SimulateOptions options, records::Recorder* recorder,
+                       ProgressCallback progress)
+    : parts_(std::make_unique<Parts>(scene, std::move(options), recorder, std::move(progress))) {}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+bool Simulation::start() {
+  bool is_there = false;
+  parts_->together([&] { is_there = parts_->start(); });
+  return is_there;
+}
+
+bool Simulation::take_step() {
+  bool is_taken = false;
+  parts_->together([&] { is_taken = parts_->take_step(); });
+  return is_taken;
+}
+
+bool Simulation::advance_to(double time) {
+  constexpr double round_off = 1e-12;
+  parts_->together([&] {
+    if (!parts_->start()) return;
+    while (parts_->state.time < time - round_off * std::max(1.0, std::abs(time)) && parts_->take_step()) {
+    }
+  });
+  return parts_->state.time >= time - round_off * std::max(1.0, std::abs(time));
+}
+
+bool Simulation::run() {
+  parts_->together([&] {
+    while (parts_->take_step()) {
+    }
+  });
+  return parts_->recording->summary().status == RunStatus::ok;
+}
+
+bool Simulation::has_ended() const {
+  return parts_->stage == Parts::Stage::ended || parts_->stage == Parts::Stage::finished;
+}
+
+double Simulation::time() const { return parts_->state.time; }
+
+const records::HistoryHeader& Simulation::header() const { return parts_->recording->summary().header; }
+
+const std::vector<double>& Simulation::values() { return parts_->recording->eval_sensors(parts_->state); }
+
+double Simulation::value(std::string_view column) {
+  const std::vector<std::string>& columns = header().columns;
+  const auto found = std::find(columns.begin(), columns.end(), column);
+  if (found == columns.end()) throw std::out_of_range("no sensor shows '" + std::string(column) + "'");
+  return values()[static_cast<std::size_t>(found - columns.begin())];
+}
+
+std::shared_ptr<const Simulation::Moment> Simulation::save() const { return std::make_shared<const Moment>(*parts_); }
+
+void Simulation::restore(const Moment& moment) {
+  Parts& p = *parts_;
+  p.options = moment.options;
+  p.state = moment.state;
+  p.recording.emplace(moment.recording);
+  p.analysis = moment.analysis;
+  p.stage = moment.stage;
+  p.system.linear().forget_factor();
+  p.system.met_round_off() = {};
+  if (p.stage != Parts::Stage::made) p.analysis->come_back();
+}
+
+const records::Summary& Simulation::finish() {
+  Parts& p = *parts_;
+  records::Summary& summary = p.recording->summary();
+  if (p.stage == Parts::Stage::finished) return summary;
+  if (p.stage == Parts::Stage::made) p.recorder.begin(summary.header);
+  if (!has_ended()) (void)p.recording->account().interrupt("stopped at time " + std::to_string(p.state.time));
+  p.stage = Parts::Stage::finished;
+  judge({p.scene, p.options, p.system, p.state, *p.recording, *p.analysis});
+  if (p.asked.after_run) p.asked.after_run(p.system, p.state);
+  p.recorder.end(summary);
+  return summary;
+}
+
+}  // namespace bough::run
