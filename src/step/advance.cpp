@@ -5,7 +5,7 @@
 
 #include "bough/motion/vectors_on.hpp"
 #include "moving_nodes.hpp"
-#include "newton.hpp"
+#include "newton_iteration.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {

@@ -6,7 +6,7 @@
 
 #include "bough/motion/vectors_on.hpp"
 #include "moving_nodes.hpp"
-#include "newton.hpp"
+#include "newton_iteration.hpp"
 #include "start_parts.hpp"
 
 namespace bough::step {

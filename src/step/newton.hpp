@@ -1,5 +1,5 @@
 #pragma once
-/// The iteration of a step in time, and what it shares with that of statics (equilibrate.cpp).
+/// Bounds and questions that the iterations in time (newton_iteration.hpp) and in statics (equilibrate.cpp) share.
 #include "bough/step/advance.hpp"
 
 namespace bough::step {
@@ -29,12 +29,6 @@ struct IterationGoal {
 /// Iterations may leave 3e-5 of the local error, as a residual relative to what makes it, down to 1e-13. Nothing is
 /// asked where the error is round-off itself, as where drives prescribe all motion, nor after a start.
 IterationGoal make_goal(const State& start);
-
-/// Repeats: evaluate, stop when converged, factor, solve, apply. `follow` brings velocities and accelerations along
-/// with the positions.
-template <class Follow>
-StepReport iterate(System& system, State& state, const StepOptions& options, const IterationGoal& goal,
-                   const elements::Slopes& slopes, Follow&& follow);
 
 /// The largest of forces, moments, lengths and angles of a residual, each relative to what makes it.
 double largest_share(const System& system, const ResidualSize& r);
@@ -70,5 +64,3 @@ bool is_at_floor(const System& system, const ResidualSize& r, double tolerance);
 std::string describe(System& system, ResidualSize r, double tolerance);
 
 }  // namespace bough::step
-
-#include "newton_impl.hpp"

@@ -261,7 +261,7 @@ void VariationalOn<G>::set_rows_of(int element, double* matrix) const {
   }
 }
 
-/// Newton's iteration for D and the multipliers; a factor serves again while it contracts, as in newton_impl.hpp.
+/// Newton's iteration for D and the multipliers; a factor serves again while it contracts, as in newton_iteration.hpp.
 template <class G>
 StepReport VariationalOn<G>::iterate(State& next, const StepOptions& options, double h) {
   StepReport report;
