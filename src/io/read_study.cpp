@@ -27,7 +27,9 @@ void StudyConverter::convert(const JsonValue& root) {
   spec.sample_interval = number_or(root, "sample_interval", 0.0);
   if (const Value* wanted = sound(root, "wanted"))
     for (const Value& w : wanted->items) spec.wanted.push_back(w.number);
-  if (!read_scene_file(root, spec.scene_text, spec.scene_name)) return;
+  const std::optional<std::filesystem::path> scene_file = read_scene_file(root, spec.scene_text, spec.scene_name);
+  if (!scene_file) return;
+  spec.scene_folder = scene_file->parent_path();
   read_base(root);
   const Value* quantities = root.find("quantities");
   if (!base_ || quantities == nullptr || !quantities->is(JsonKind::array)) return;

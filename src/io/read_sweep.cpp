@@ -20,9 +20,7 @@ class SweepConverter : public SceneConverter {
  public:
   SweepSpec spec;
 
-  SweepConverter(std::string_view text, std::filesystem::path folder) : SceneConverter(text, std::move(folder)) {
-    may_name_files_ = true;
-  }
+  SweepConverter(std::string_view text, std::filesystem::path folder) : SceneConverter(text, std::move(folder)) {}
 
   void convert(const JsonValue& root) {
     spec.title = text_or(root, "title");

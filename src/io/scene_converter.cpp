@@ -20,7 +20,7 @@ std::optional<std::filesystem::path> SceneConverter::read_scene_file(const Value
     fault("/scene", problem.rule, "names are relative to the folder of this file: " + shown(file.string(), 200));
     return std::nullopt;
   }
-  scene_.emplace(text, name, may_name_files_ ? file.parent_path() : std::filesystem::path());
+  scene_.emplace(text, name, file.parent_path());
   return file;
 }
 

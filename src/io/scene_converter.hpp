@@ -31,7 +31,6 @@ class SceneConverter : protected ValueConverter {
   std::vector<std::string> read_setting(const std::string& pointer, const std::string& value,
                                         const std::string& pointer_at);
 
-  bool may_name_files_ = false;         ///< the scene, for whoever runs it knows its folder
   std::optional<StudyScene> scene_;     ///< there once it is read
   std::vector<SettingOrigin> origins_;  ///< of what all runs change
 

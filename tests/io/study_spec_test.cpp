@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "bough/io/read_study.hpp"
 #include "support/scratch_directory.hpp"
@@ -91,6 +92,26 @@ TEST_F(Studies, a_sound_one_is_read_whole) {
   EXPECT_TRUE(s.quantities[0].is_compared());
   EXPECT_EQ(s.repetitions, 3);
   EXPECT_EQ(s.wanted.size(), 5u);
+}
+
+TEST_F(Studies, its_scene_may_name_files_in_its_own_folder) {
+  std::string scene = (std::stringstream() << std::ifstream(folder_ / "ball.json").rdbuf()).str();
+  const std::string rectangle = R"({"kind": "rectangle", "width": 0.02, "height": 0.02})";
+  const std::string polygon =
+      R"({"kind": "polygon", "torsion_constant": 1e-8, "file": "square.csv"}, "shear_factors": [0.85, 0.85])";
+  ASSERT_NE(scene.find(rectangle), std::string::npos);
+  scene.replace(scene.find(rectangle), rectangle.size(), polygon);
+  std::filesystem::create_directories(folder_ / "scenes");
+  std::ofstream(folder_ / "scenes/ball.json") << scene;
+  const auto read_it = [&] { return read("\"scene\": \"ball.json\"", "\"scene\": \"scenes/ball.json\""); };
+  const StudyFile lost = read_it();
+  ASSERT_FALSE(lost.ok());
+  EXPECT_NE(lost.problems.front().text().find("there is no such file beside the scene"), std::string::npos)
+      << lost.problems.front().text();
+  std::ofstream(folder_ / "scenes/square.csv") << "0,0\n0.02,0\n0.02,0.02\n0,0.02\n";
+  const StudyFile file = read_it();
+  for (const Problem& p : file.problems) ADD_FAILURE() << p.text();
+  EXPECT_EQ(file.spec.scene_folder, folder_ / "scenes");
 }
 
 TEST_F(Studies, a_star_in_a_pointer_stands_for_every_item) {

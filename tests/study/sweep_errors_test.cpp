@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "../../src/study/sweep/references.hpp"
+#include "../../src/study/sweep/sampled_run.hpp"
 #include "bough/io/digest.hpp"
 #include "bough/study/errors.hpp"
 #include "support/scratch_directory.hpp"
@@ -158,6 +159,27 @@ TEST_F(Cache, computes_anew_what_is_damaged) {
   cache.keep("one", history_);
   std::ofstream(folder_ / (io::digest_of("one") + ".csv")) << "time,step_size,iterations,tip.x\n1,0,";
   EXPECT_FALSE(cache.find("one"));
+}
+
+TEST_F(Cache, counts_files_that_the_scene_names_to_what_a_reference_is_made_from) {
+  io::StudySpec spec;
+  spec.scene_folder = folder_;
+  spec.scene_text = R"({"schema_version": 1, "gravity": [0, 0, -1],
+    "nodes": [{"name": "a"}, {"name": "b", "position": [1, 0, 0]}],
+    "materials": [{"name": "steel", "young": 2e11, "poisson": 0.3, "density": 7850}],
+    "sections": [{"name": "bar", "material": "steel", "shear_factors": [0.8, 0.8],
+                  "shape": {"kind": "polygon", "torsion_constant": 1e-8,
+                            "file": "corners.csv"}}],
+    "beams": [{"name": "beam", "section": "bar", "start": "a", "end": "b"}],
+    "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.1}})";
+  const auto with = [&](const char* corners) {
+    std::ofstream(folder_ / "corners.csv") << corners;
+    EXPECT_EQ(study_scene(spec, {}).beams.size(), 1u);
+    return made_from(spec, {});
+  };
+  const std::string thin = with("0,0\n0.02,0\n0.02,0.02\n0,0.02\n");
+  EXPECT_EQ(made_from(spec, {}), thin);
+  EXPECT_NE(with("0,0\n0.03,0\n0.03,0.02\n0,0.02\n"), thin);
 }
 
 TEST_F(Cache, without_a_folder_keeps_nothing) {

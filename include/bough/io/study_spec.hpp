@@ -1,5 +1,6 @@
 #pragma once
 /// A study: one scene over grids of choices, and the references with which its results are compared.
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -75,6 +76,7 @@ struct StudyQuantity {
 struct StudySpec {
   std::string name, title;
   std::string scene_name, scene_text;
+  std::filesystem::path scene_folder;  ///< of files that the scene names
   std::vector<std::string> overrides;  ///< sensors, figures and output among them
   std::vector<StudyQuantity> quantities;
   double sample_interval = 0.0;  ///< [s] (statics: of the load factor); 0: errors at the end only

@@ -9,6 +9,7 @@
 #include "bough/io/digest.hpp"
 #include "bough/io/manifest.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/io/read_scene.hpp"
 #include "bough/io/read_study.hpp"
 #include "bough/lanes/instruction_set.hpp"
 #include "bough/version.hpp"
@@ -45,7 +46,10 @@ std::string made_from(const io::StudySpec& spec, const std::vector<std::string>&
                      std::string(compiler_flags) + " for " + std::string(lanes::instruction_set().name) +
                      "\nsample interval ";
   io::append_number(text, spec.sample_interval);
-  return text + "\n" + io::canonical_scene(spec.scene_text, overrides) + "\n";
+  text += "\n" + io::canonical_scene(spec.scene_text, overrides) + "\n";
+  // Files that the scene names belong to what a reference is made from.
+  const std::string hash = io::read_scene_text(spec.scene_text, spec.scene_name, overrides, spec.scene_folder).hash;
+  return hash == io::digest_of(spec.scene_text) ? text : text + "with files: " + hash + "\n";
 }
 
 std::optional<io::History> ReferenceCache::find(const std::string& from) const {

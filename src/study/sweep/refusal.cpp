@@ -48,7 +48,7 @@ std::string refusal_of(const io::StudySpec& spec, std::vector<Variant> variants,
   double largest = 0.0;
   const Variant* worst = nullptr;
   for (Variant& v : variants) {
-    const scene::Scene scene = study_scene(spec.scene_text, spec.scene_name, v.overrides);
+    const scene::Scene scene = study_scene(spec, v.overrides);
     const std::string why = run::refusal(scene, limit);
     if (why.empty()) continue;
     ++refused;

@@ -115,7 +115,7 @@ class Sweep {
   }
 
   scene::Scene scene_of(const std::vector<std::string>& overrides) const {
-    return study_scene(result_.spec.scene_text, result_.spec.scene_name, overrides);
+    return study_scene(result_.spec, overrides);
   }
   scene::Scene scene_of(const SweepRun& run) const {
     return scene_of(io::overrides_of(result_.spec, result_.spec.grids[run.grid], run.choices));

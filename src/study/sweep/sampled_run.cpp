@@ -100,8 +100,8 @@ std::vector<std::vector<double>> SampledRun::of(const std::vector<std::size_t>& 
   return values;
 }
 
-scene::Scene study_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {
-  io::SceneFile file = io::read_scene_text(text, name, overrides);
+scene::Scene study_scene(const io::StudySpec& spec, const std::vector<std::string>& overrides) {
+  io::SceneFile file = io::read_scene_text(spec.scene_text, spec.scene_name, overrides, spec.scene_folder);
   if (!file.ok()) throw std::logic_error("a study runs sound scenes only: " + file.problems.front().text());
   return std::move(file.scene);
 }

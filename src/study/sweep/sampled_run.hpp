@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bough/io/history.hpp"
+#include "bough/io/study_spec.hpp"
 #include "bough/records/run.hpp"
 #include "bough/scene/scene.hpp"
 
@@ -29,7 +30,7 @@ struct SampledRun {
 };
 
 /// Precondition: the overrides lead to a valid scene.
-scene::Scene study_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides);
+scene::Scene study_scene(const io::StudySpec& spec, const std::vector<std::string>& overrides);
 
 SampledRun run_sampled(scene::Scene scene, const std::vector<double>& sample_times, int threads,
                        const RunLimits& limits);
