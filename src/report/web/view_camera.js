@@ -19,6 +19,21 @@ class ViewCamera {
     });
     this.projected = new THREE.Vector3();
     this.buildTriad();
+    // Where an instant is so small beside the motion that nothing would be seen of it, the structure is followed.
+    const {elements} = new THREE.Matrix4(),
+      extentOf = (times) => {
+        const [low, high] = this.extent(elements, 1, times);
+        return Math.max(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+      },
+      atStart = extentOf(run.times.slice(0, 1));
+    this.isWide = atStart > 0 && atStart < 0.02 * extentOf(this.instants());
+    if (this.isWide) Object.assign(this.camera, {near: -3 * size, far: 9 * size}); // depths of small parts stay apart
+  }
+  // At most 25 instants of the run.
+  instants() {
+    const {times} = this.run,
+      count = Math.min(times.length, 25);
+    return Array.from({length: count}, (_, k) => times[Math.round((k * (times.length - 1)) / Math.max(1, count - 1))]);
   }
 
   resize(renderer) {
@@ -48,19 +63,20 @@ class ViewCamera {
     controls.update();
     this.request();
   }
-  fit(scale) {
+  // times: those that are to be seen
+  fit(scale, times) {
     this.controls.target.fromArray(this.run.middle);
     this.camera.zoom = 1;
     this.camera.updateProjectionMatrix();
     this.lookFrom(this.run.look);
-    this.fitZoom(scale);
+    this.fitZoom(scale, times);
   }
-  // The whole motion, displacements times scale, seen from where it is looked at now: its middle into the middle of the
-  // picture, its extent to the rims.
-  fitZoom(scale) {
+  // What is to be seen at these times, displacements times scale, from where it is looked at now: its middle into the
+  // middle of the picture, its extent to the rims.
+  fitZoom(scale, times) {
     const {camera, run} = this;
     camera.updateMatrixWorld();
-    const [low, high] = this.extent(camera.matrixWorld.clone().invert().elements, scale);
+    const [low, high] = this.extent(camera.matrixWorld.clone().invert().elements, scale, times);
     if (!(high[0] >= low[0])) return;
     const least = 1e-6 * run.size,
       width = camera.right - camera.left,
@@ -70,35 +86,35 @@ class ViewCamera {
       Math.min(
         width / Math.max(high[0] - low[0], least),
         height / Math.max(high[1] - low[1], least),
-        (4 * height) / run.size,
+        times.length > 1 ? (4 * height) / run.size : Infinity,
       );
     this.move(
       new THREE.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, 0).applyQuaternion(camera.quaternion),
     );
     this.changed();
   }
-  // Smallest and largest coordinates in the plane of the picture, over at most 25 instants.
-  extent(m, scale) {
-    const {run} = this,
-      low = [Infinity, Infinity],
-      high = [-Infinity, -Infinity],
-      last = run.times.length - 1,
-      instants = Math.min(run.times.length, 25);
-    const take = function (x, i, r) {
-      const u = m[0] * x[i] + m[4] * x[i + 1] + m[8] * x[i + 2] + m[12],
-        v = m[1] * x[i] + m[5] * x[i + 1] + m[9] * x[i + 2] + m[13];
-      if (u - r < low[0]) low[0] = u - r;
-      if (u + r > high[0]) high[0] = u + r;
-      if (v - r < low[1]) low[1] = v - r;
-      if (v + r > high[1]) high[1] = v + r;
-    };
+  // Smallest and largest coordinates (across, up, toward) in the axes of a view at times.
+  extent(m, scale, times) {
+    const {run} = this;
     let poses = null;
-    for (let s = 0; s < instants; ++s) {
-      poses = posesAt(run, run.times[Math.round((s * last) / Math.max(1, instants - 1))], scale, poses);
-      for (let i = 0; i < poses.x.length; i += 3) take(poses.x, i, 0);
-      for (const b of run.bodies) if (b.mesh >= 0) take(poses.x, 3 * b.track, this.radii[b.mesh]);
+    const bounds = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    for (const time of times) {
+      poses = posesAt(run, time, scale, poses);
+      this.take(bounds, m, poses.x);
     }
-    return [low, high];
+    return bounds;
+  }
+  take([low, high], m, x) {
+    const {run} = this;
+    const see = function (i, r) {
+      for (let c = 0; c < 3; ++c) {
+        const u = m[c] * x[i] + m[4 + c] * x[i + 1] + m[8 + c] * x[i + 2] + m[12 + c];
+        if (u - r < low[c]) low[c] = u - r;
+        if (u + r > high[c]) high[c] = u + r;
+      }
+    };
+    for (let i = 0; i < x.length; i += 3) see(i, 0);
+    for (const b of run.bodies) if (b.mesh >= 0) see(3 * b.track, this.radii[b.mesh]);
   }
   zoomBy(f) {
     this.camera.zoom *= f;
@@ -109,10 +125,15 @@ class ViewCamera {
     this.controls.target.add(by);
     this.controls.update();
   }
-  // Keeps a track where it is on the screen; begins with it in the middle.
+  // Keeps a track where it is on the screen, or without one the middle of the structure; begins with it in the middle.
   follow(x, track) {
-    if (track < 0) return;
-    const now = new THREE.Vector3().fromArray(x, 3 * track);
+    const now = new THREE.Vector3();
+    if (track >= 0) now.fromArray(x, 3 * track);
+    else {
+      const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+      this.take([low, high], new THREE.Matrix4().elements, x);
+      now.set(...low.map((l, c) => (l + high[c]) / 2));
+    }
     this.move(now.clone().sub(this.followed || this.controls.target));
     this.followed = now;
   }

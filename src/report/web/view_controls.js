@@ -51,6 +51,7 @@ function makeChoices(view, holder) {
       act(box.checked);
       view.request();
     });
+    return box;
   };
   const select = function (text, options, act) {
     const label = make(more, "label", {}, text + " "),
@@ -89,12 +90,16 @@ function makeChoices(view, holder) {
   );
   const names = namesOf(run),
     partList = select("part", [["", "none"]].concat(names.map((n) => [n, n])), (v) => view.select(v));
-  check("follow", false, (v) => view.follow(v));
+  const followed = check("follow", false, (v) => view.follow(v));
   check("shapes", true, (v) => (state.shapes = v));
   check("frames", false, (v) => view.scenes.forEach((s) => (s.frames.visible = v)));
   check("joint axes", false, (v) => view.scenes.forEach((s) => (s.axes.visible = v)));
   const listed = new Set(names);
   return {
+    follow: function (on) {
+      followed.checked = on;
+      view.follow(on);
+    },
     showQuantity: (name) => (quantityList.value = name),
     showSelected: (name) => (partList.value = listed.has(name) ? name : ""),
   };

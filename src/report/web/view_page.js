@@ -73,18 +73,25 @@ function startPicture(view, canvas, renderer) {
   });
   new ResizeObserver(() => seen.resize(renderer)).observe(stage);
   seen.resize(renderer);
+  if (seen.isWide) choices.follow(true);
   view.fit();
   view.setTime(first.times[0]);
 }
 
 function startViews(view, seen) {
   const {state} = view;
+  // Of a structure that is followed the present alone is fitted.
+  const timesSeen = () => (state.follow && !state.selected ? [state.time] : seen.instants());
   view.lookFrom = (name) => seen.lookFrom(name);
   view.look = function (name) {
     seen.lookFrom(name);
-    seen.fitZoom(state.scale);
+    seen.fitZoom(state.scale, timesSeen());
+    seen.followed = null;
   };
-  view.fit = () => seen.fit(state.scale);
+  view.fit = function () {
+    seen.fit(state.scale, timesSeen());
+    seen.followed = null;
+  };
   view.zoomBy = (f) => seen.zoomBy(f);
   view.partAt = (px, py) => view.scenes[0].partAt(px, py, (x, i) => seen.project(x, i));
   view.follow = function (on) {
@@ -187,7 +194,8 @@ function startDrawing(view, renderer, scene, seen) {
       s.paint.selected = state.selected;
       s.update(state.time, state.scale, solids);
     }
-    if (state.follow && state.selected) seen.follow(view.scenes[0].poses.x, view.scenes[0].trackOf(state.selected));
+    if (state.follow)
+      seen.follow(view.scenes[0].poses.x, state.selected ? view.scenes[0].trackOf(state.selected) : -1);
     renderer.render(scene, seen.camera);
     if (solids) {
       const gl = renderer.getContext();
