@@ -6,6 +6,7 @@
 #include "bough/io/motion_frames.hpp"
 #include "bough/report/document.hpp"
 #include "bough/report/plot.hpp"
+#include "round_off.hpp"
 #include "svg_text.hpp"
 #include "view_data.hpp"
 
@@ -44,12 +45,14 @@ void add_plots(Document& page, const RunFiles& run) {
   page.section("Sensors");
   std::string html = "<div id=\"plots\" class=\"plots\">\n";
   const std::string_view time_label = is_static(run) ? "load factor" : "time [s]";
+  const std::vector<double> round_off = round_off_of(run);
   for (std::size_t k = 0; k < std::min(groups.size(), most_plots); ++k) {
     const std::size_t first = groups[k].columns.front();
     const std::string unit =
         first < run.history.header.about.size() ? run.history.header.about[first].unit : std::string();
     const std::string title = io::title_of(groups[k]) + (unit.empty() ? "" : " [" + unit + "]");
-    html += "<figure>\n" + make_plot(run.history, title, groups[k].columns, time_label).svg + "</figure>\n";
+    html += "<figure>\n" + make_plot(run.history, title, groups[k].columns, time_label, round_off[first]).svg +
+            "</figure>\n";
   }
   page.markup(html + "</div>\n");
   if (groups.size() > most_plots)

@@ -6,6 +6,7 @@
 #include "bough/io/columns.hpp"
 #include "bough/io/json_value.hpp"
 #include "curve.hpp"
+#include "round_off.hpp"
 #include "svg_text.hpp"
 
 namespace bough::report {
@@ -86,9 +87,10 @@ std::string legend_text(const io::History& history, const Line& line) {
   return component + (line.offset > 0.0 ? " - " : " + ") + io::rounded_text(std::abs(line.offset), 6);
 }
 
-std::string axes(const Scale& scale, std::string_view time_label) {
+std::string axes(const Scale& scale, std::string_view time_label, bool is_round_off) {
   std::string text;
-  const std::vector<double> levels = round_ticks(scale.y.low, scale.y.high, 5);
+  const std::vector<double> levels =
+      is_round_off ? std::vector<double>{0.0} : round_ticks(scale.y.low, scale.y.high, 5);
   const std::vector<std::string> of_levels = tick_labels(levels);
   for (std::size_t k = 0; k < levels.size(); ++k) {
     const double y = scale.to_y(levels[k]);
@@ -132,13 +134,17 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
 }
 
 Plot make_plot(const io::History& history, const std::string& title, const std::vector<std::size_t>& columns,
-               std::string_view time_label) {
+               std::string_view time_label, double round_off) {
   Range times, values;
   const std::vector<Line> lines = lines_of(history, columns);
   for (const records::HistoryRow& row : history.rows) {
     times.include(row.time);
     for (const Line& line : lines) values.include(row.values[line.column] - line.offset);
   }
+  const double most = values.empty() ? 0.0 : std::max(std::abs(values.low), std::abs(values.high));
+  const bool is_round_off = most > 0.0 && most <= round_off;
+  // Curves of round-off lie on the line of zero.
+  if (is_round_off) values = {-100.0 * round_off, 100.0 * round_off};
   if (times.empty()) times = {0.0, 1.0};
   if (times.low == times.high) times.high = times.low + 1.0;
   const Scale scale{times, padded(values)};
@@ -146,7 +152,9 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
   plot.svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixel(width) + " " + pixel(height) +
              "\" role=\"img\" aria-label=\"" + escaped(title) +
              " over time\">\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n" +
-             text_element("head ink", 10.0, 20.0, "start", io::shown(title, 46)) + axes(scale, time_label);
+             text_element("head ink", 10.0, 20.0, "start", io::shown(title, 46)) +
+             axes(scale, time_label, is_round_off);
+  if (is_round_off) plot.svg += text_element("tiny soft", left + 8.0, top + 14.0, "start", round_off_words);
   // If title and legend do not fit side by side, the legend is placed below the title.
   constexpr double character = 9.0, title_character = 8.0;
   double legend_x = right,

@@ -11,6 +11,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/motion/quaternion.hpp"
 #include "packed.hpp"
+#include "round_off.hpp"
 #include "view_plots.hpp"
 
 namespace bough::report {
@@ -418,7 +419,7 @@ std::string view_data(const RunFiles& run, std::size_t most_bytes) {
     for (const records::Curve& c : frames.front()->curves) num_points += c.points.size();
   for (bool with_strains = num_points <= many_points;; with_strains = false) {
     Arrays arrays;
-    const std::string plots = plot_data(run.history, arrays);
+    const std::string plots = plot_data(run.history, round_off_of(run), arrays);
     const std::string motion = frames.empty()
                                    ? "\"times\":[],\"curves\":[],\"bodies\":[],\"links\":[],\"frames\":[],\"arrows\":[]"
                                    : MotionData(run, frames, with_strains).json(arrays);

@@ -5,6 +5,7 @@
 
 #include "bough/io/columns.hpp"
 #include "bough/io/json_text.hpp"
+#include "bough/io/number_text.hpp"
 
 namespace bough::report {
 namespace {
@@ -41,7 +42,7 @@ std::vector<std::size_t> rows_of(const io::History& history, const std::vector<s
 
 }  // namespace
 
-std::string plot_data(const io::History& history, Arrays& arrays) {
+std::string plot_data(const io::History& history, const std::vector<double>& round_off, Arrays& arrays) {
   std::string json = "[";
   if (history.rows.empty()) return json + "]";
   const std::vector<io::ColumnGroup> groups = io::group_columns(history.header.columns);
@@ -56,8 +57,9 @@ std::string plot_data(const io::History& history, Arrays& arrays) {
                                                     ? history.header.about[group.columns.front()]
                                                     : records::HistoryHeader::About{};
     json += (g > 0 ? ",{" : "{") + ("\"title\":" + io::json_string(io::title_of(group))) +
-            ",\"unit\":" + io::json_string(about.unit) + ",\"part\":" + io::json_string(about.part) + ",\"times\":\"" +
-            prefix + "\",\"columns\":[";
+            ",\"unit\":" + io::json_string(about.unit) + ",\"part\":" + io::json_string(about.part) +
+            ",\"roundOff\":" + io::rounded_text(round_off[group.columns.front()], 3) + ",\"times\":\"" + prefix +
+            "\",\"columns\":[";
     for (std::size_t k = 0; k < group.columns.size(); ++k) {
       const std::size_t c = group.columns[k];
       std::vector<float> values;

@@ -3,6 +3,7 @@
 #include <regex>
 
 #include "../../src/report/packed.hpp"
+#include "../../src/report/round_off.hpp"
 #include "../../src/report/svg_text.hpp"
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/run_directory.hpp"
@@ -175,6 +176,27 @@ TEST(Plot, values_that_are_not_finite_leave_a_gap) {
   EXPECT_EQ(plot.svg.find("nan"), std::string::npos);
   const std::size_t curve = plot.svg.find("class=\"curve");
   EXPECT_EQ(count_of(plot.svg.substr(curve, plot.svg.find("/>", curve) - curve), "M"), 2u);
+}
+
+TEST(Plot, of_nothing_but_round_off_says_so_and_has_no_scale) {
+  RunFiles run;
+  run.history.header.columns = {"wall.Fx", "wall.Mx", "hinge.M"};
+  run.history.header.about = {{"N", "joint_reaction", "wall"}, {"N m", "joint_reaction", "wall"}, {"N m", "", ""}};
+  records::MotionFrame frame;
+  frame.curves.emplace_back().points.resize(2);
+  frame.curves[0].points[1].position[0] = 3.0;
+  run.motion = {frame};
+  for (int k = 0; k < 10; ++k) run.history.rows.push_back({1.0 * k, 1.0, 1, {2.0 * k, 5e-37 * k, 1e-12 * k}});
+  const std::vector<double> least = round_off_of(run);
+  ASSERT_EQ(least.size(), 3u);
+  EXPECT_DOUBLE_EQ(least[0], 18e-14);
+  EXPECT_DOUBLE_EQ(least[1], 54e-14) << "the largest force over the size of the structure";
+  const std::string zero = make_plot(run.history, "moment", {1}, "time", least[1]).svg;
+  EXPECT_NE(zero.find(round_off_words), std::string::npos);
+  EXPECT_EQ(zero.find("e-3"), std::string::npos) << "no scale of round-off";
+  EXPECT_EQ(make_plot(run.history, "force", {0}, "time", least[0]).svg.find(round_off_words), std::string::npos);
+  EXPECT_EQ(make_plot(run.history, "small", {2}, "time", least[2]).svg.find(round_off_words), std::string::npos)
+      << "what is above it is shown, small as it is";
 }
 
 class Page : public testing::Test {

@@ -26,9 +26,9 @@ function valueAt(times, values, time) {
 }
 
 class Plot {
-  // series: [{label, times, values, dashed}], one unit; xLabel with its unit
-  constructor(parent, title, unit, xLabel, series, onTime) {
-    Object.assign(this, {title, unit, xLabel, series, onTime, log: false, own: false});
+  // series: [{label, times, values, dashed}], one unit; xLabel with its unit; roundOff: values below it are zero
+  constructor(parent, title, unit, xLabel, series, roundOff, onTime) {
+    Object.assign(this, {title, unit, xLabel, series, roundOff, onTime, log: false, own: false});
     this.element = make(parent, "figure", {class: "plot"});
     const head = make(this.element, "div", {class: "plot-head"});
     this.name = make(
@@ -114,14 +114,23 @@ class Plot {
       last = Math.min(s.times.length - 1, placeOf(s.times, this.range[1]).k + 1);
     return [first, last];
   }
+  // The value as it is plotted; NaN where a logarithmic scale has no place for it.
+  plotted(v) {
+    if (!this.log) return v;
+    return Math.abs(v) > this.roundOff ? Math.log10(Math.abs(v)) : NaN;
+  }
+  // Whether curves hold nothing but round-off, and something of that.
+  isRoundOff(list) {
+    const most = list.reduce((m, s) => s.values.reduce((n, v) => Math.max(n, Math.abs(v) || 0), m), 0);
+    return most > 0 && most <= this.roundOff;
+  }
   scaleOf(list) {
     let low = Infinity,
       high = -Infinity;
     for (const s of list) {
       const [first, last] = this.shownRows(s);
       for (let k = first; k <= last; ++k) {
-        let v = s.values[k];
-        if (this.log) v = Math.abs(v) > 0 ? Math.log10(Math.abs(v)) : NaN;
+        const v = this.plotted(s.values[k]);
         if (Number.isFinite(v)) {
           low = Math.min(low, v);
           high = Math.max(high, v);
@@ -133,6 +142,7 @@ class Plot {
       high = 1;
     }
     if (this.log) low = Math.max(low, high - 12);
+    else if (this.isRoundOff(list)) return [-100 * this.roundOff, 100 * this.roundOff]; // on the line of zero
     const least = 1e-12 * Math.max(Math.abs(low), Math.abs(high));
     if (high - low <= least) {
       const pad = Math.max(Math.abs(high) * 0.1, 1e-300) || 1;
@@ -157,7 +167,8 @@ class Plot {
     const shared = this.own ? null : this.scaleOf(this.series),
       first = shared || this.scaleOf([this.series[0]]);
     const yOf = (v, scale) => this.bottom - ((this.bottom - this.top) * (v - scale[0])) / (scale[1] - scale[0]);
-    for (const t of roundTicks(first[0], first[1], 4)) {
+    const isZero = this.isRoundOff(shared ? this.series : [this.series[0]]);
+    for (const t of isZero ? (this.log ? [] : [0]) : roundTicks(first[0], first[1], 4)) {
       const y = yOf(t, first);
       if (y < this.top - 1 || y > this.bottom + 1) continue;
       svg(box, "line", {class: "grid", x1: this.left, x2: this.right, y1: y, y2: y});
@@ -168,6 +179,8 @@ class Plot {
         this.log ? "1e" + number(t, 4) : number(t, 6),
       );
     }
+    if (this.isRoundOff(this.series))
+      svg(box, "text", {class: "tiny soft", x: this.left + 8, y: this.top + 14}, "zero to round-off");
     const ticks = roundTicks(this.range[0], this.range[1], 4);
     for (const t of ticks) {
       const x = this.xOf(t);
@@ -225,8 +238,7 @@ class Plot {
       column = -1;
     };
     for (let k = first; k <= last; ++k) {
-      let v = s.values[k];
-      if (this.log) v = Math.abs(v) > 0 ? Math.log10(Math.abs(v)) : NaN;
+      const v = this.plotted(s.values[k]);
       if (!Number.isFinite(v)) {
         flush();
         pen = false;

@@ -23,7 +23,8 @@ function startPlots(view) {
         return p.title === plot.title && p.columns.length === plot.columns.length;
       });
     const series = seriesOf(a, plot, false, b ? " A" : "").concat(other ? seriesOf(b, other, true, " B") : []);
-    const own = new Plot(place, plot.title, plot.unit, a.timeLabel, series, onTime);
+    const roundOff = Math.max(plot.roundOff, other ? other.roundOff : 0);
+    const own = new Plot(place, plot.title, plot.unit, a.timeLabel, series, roundOff, onTime);
     own.part = plot.part;
     view.plots.push(own);
     if (!other) return;
@@ -41,7 +42,7 @@ function startPlots(view) {
         }),
       };
     });
-    const gap = new Plot(place, plot.title + ", difference", plot.unit, a.timeLabel, difference, onTime);
+    const gap = new Plot(place, plot.title + ", difference", plot.unit, a.timeLabel, difference, roundOff, onTime);
     gap.part = plot.part;
     view.plots.push(gap);
   });
