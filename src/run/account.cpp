@@ -43,8 +43,8 @@ void Account::reject(const step::StepReport& report, const step::State& state, c
     first_rejection_ = "the first rejected step was that from " + std::to_string(state.time) + ": " + cause;
 }
 
-/// What steps leave unbalanced at the floor counts against the largest forces of the run: at rest there are none to
-/// compare with.
+/// The unbalanced force at the round-off floor is compared with the largest force of the run, because at rest the step
+/// itself has no forces to compare with.
 void Account::watch_floor(const step::StepReport& report) {
   const step::ResidualSize& r = report.residual;
   const double arm = system_.moment_arm();
@@ -64,9 +64,9 @@ void Account::watch_dependent_rows(double time) {
   not_unique_ = dependent_groups_text(system_);
 }
 
-/// Rows that depend on others all the time leave the motion as it is. Where rows come to depend on others only at
-/// times, the rank of the constraints drops there: parts can then move in more ways than elsewhere, and the equations
-/// do not say which way the motion goes on.
+/// Rows that are dependent throughout the run do not affect the motion. If rows become dependent only at times, the
+/// rank of the constraints drops there: the mechanism then has more degrees of freedom than elsewhere, and the
+/// equations do not determine how the motion continues.
 void Account::note_dependent_rows() {
   if (dependent_rows_ <= 0) return;
   const bool is_dynamic = system_.plan().is_dynamic;

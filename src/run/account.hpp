@@ -1,5 +1,5 @@
 #pragma once
-/// The account of a run: its summary, filled step by step.
+/// The account of a run: its summary, updated with every step.
 #include <limits>
 #include <string>
 
@@ -9,8 +9,8 @@
 
 namespace bough::run {
 
-/// Counts the steps of a run and keeps its status, its notes and what it met on the way: constraint rows that depend
-/// on others, residuals at the floor of round-off, the first rejected step.
+/// Counts the steps of a run, and keeps its status and notes. It also keeps events during the run: linearly dependent
+/// constraint rows, residuals at the round-off floor, the first rejected step.
 class Account {
  public:
   /// Keeps the reference.
@@ -19,29 +19,29 @@ class Account {
   records::Summary& summary() { return summary_; }
   const records::Summary& summary() const { return summary_; }
 
-  /// Ends the run as failed. Always false, so that verbs can return it.
+  /// Sets the status to failed. Always returns false, so that callers can return the result.
   bool fail(const std::string& cause);
-  /// Ends the run as interrupted. Always false.
+  /// Sets the status to interrupted. Always returns false.
   bool interrupt(const std::string& cause);
   /// Adds a note, unless the summary has it already.
   void note(const std::string& text);
 
-  /// Counts an attempt of a step from or to this state: as accepted where it converged, else as rejected.
+  /// Counts an attempted step from or to this state: as accepted if it converged, else as rejected.
   void count(const step::StepReport& report, const step::State& state);
-  /// Counts an attempt from this state as rejected for a cause, whether it converged or not.
+  /// Counts an attempted step from this state as rejected, whether it converged or not.
   void reject(const step::StepReport& report, const step::State& state, const std::string& cause);
-  /// Counts linear solutions of equilibria that are no steps of their own.
+  /// Counter of Newton iterations, for equilibria that are not steps of their own.
   long& newton_iterations() { return summary_.steps.newton_iterations; }
 
-  /// Keeps the largest and the least deficiency of the factors of accepted steps, with the reactions that were not
-  /// unique at the largest.
+  /// Records the largest and the smallest rank deficiency of the factorizations of accepted steps, and the reactions
+  /// that are not unique at the largest.
   void watch_dependent_rows(double time);
   int dependent_rows() const { return dependent_rows_; }
 
   /// Notes at the end of a run: on constraint rows that depend on others; then on steps and factors.
   void note_dependent_rows();
   void note_steps();
-  /// What accepted steps left unbalanced at the floor of round-off, over the largest force of the run.
+  /// Largest unbalanced force of steps accepted at the round-off floor, relative to the largest force of the run.
   double unbalanced_at_floor() const { return largest_force_ > 0.0 ? unbalanced_force_ / largest_force_ : 0.0; }
 
  private:
@@ -49,7 +49,7 @@ class Account {
 
   const step::System& system_;
   records::Summary summary_;
-  double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< of accepted steps; of those at the floor of round-off [N]
+  double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< in accepted steps; in those at the round-off floor [N]
   std::string first_rejection_, not_unique_;
   int dependent_rows_ = 0, least_dependent_rows_ = std::numeric_limits<int>::max();
   double dependent_since_ = 0.0;  ///< time or load factor at which the largest number was met first

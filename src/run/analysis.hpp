@@ -1,5 +1,5 @@
 #pragma once
-/// How a run goes from state to state: an analysis takes accepted steps, one a call, each with its row.
+/// Interface of the analyses. An analysis advances the state; each call takes one accepted step and records it.
 #include <memory>
 #include <vector>
 
@@ -9,35 +9,36 @@
 
 namespace bough::run {
 
-/// What an analysis works on; all of it outlives the analysis.
+/// The objects on which an analysis works. All of them must outlive it.
 struct Parts {
   const scene::Scene& scene;
   step::StepOptions& options;
   const plan::Plan& plan;
   step::System& system;
-  step::State& state;  ///< the last accepted one, between steps
+  step::State& state;  ///< last accepted state, between steps
   Recording& recording;
-  const SimulateOptions& asked;  ///< callbacks and stops
+  const SimulateOptions& asked;  ///< callbacks and requested stops
   const ProgressCallback& progress;
 };
 
-/// Base of the analyses. Verbs that return bool say whether the run goes on: where it does not, the account has the
-/// status and the cause. A copy goes on from where the original was, on the same parts.
+/// Base class of the analyses. Functions that return bool return whether the run continues; if not, the account holds
+/// the status and the cause. A copy continues from the point that the original had reached, on the same parts.
 class Analysis {
  public:
   virtual ~Analysis() = default;
   virtual std::unique_ptr<Analysis> clone() const = 0;
 
-  /// Comes to the first equilibrium or the consistent start, and records it.
+  /// Finds the first equilibrium or the consistent initial state, and records it.
   [[nodiscard]] virtual bool begin() = 0;
   /// Takes one accepted step, after as many rejected attempts as it needs. Not to be called once is_done().
   [[nodiscard]] virtual bool take_step() = 0;
   virtual bool is_done() const = 0;
-  /// The state was taken back to where this copy was made: makes anew what the system keeps for the next step.
+  /// To be called after the state was restored to the moment at which this copy was made. Recomputes what the system
+  /// holds for the next step.
   virtual void come_back();
 
-  /// What the analysis alone can tell at the end of a run: notes; figures of the summary by which it is judged;
-  /// doubts beside those that the summary gives rise to.
+  /// Contributions of the analysis at the end of a run: notes, figures of the summary, and doubts in addition to those
+  /// that follow from the summary.
   virtual void add_notes() {}
   virtual void sum_up() {}
   virtual void add_doubts() {}
@@ -52,12 +53,13 @@ class Analysis {
   void note(const std::string& text) { account().note(text); }
   /// Counts an attempt at the present state.
   void count(const step::StepReport& report) { account().count(report, state_); }
-  /// Records the present state, after a step of `last_step_`.
+  /// Records the present state, after a step of size `last_step_`.
   void record(int iterations, bool is_last) { recording_.record(state_, last_step_, iterations, is_last); }
-  /// Asks the caller before an attempt of a step to `target`, and tells of an accepted one on the way to `end`.
+  /// Callbacks: whether a step to `target` may be attempted, and the report of an accepted step on the way to `end`.
   bool may_try(double target);
   bool report_progress(const step::StepReport& report, double end);
-  /// Times of expected figures, and those asked for, within a stretch, and its end: steps end there.
+  /// Times at which steps have to end within a stretch: those of expected figures, those requested, and the end of the
+  /// stretch.
   std::vector<double> stops_between(double begin, double end) const;
   void accept_turns() {
     if (!plan_.joints.empty()) step::accept_turns(system_, state_);
@@ -73,7 +75,7 @@ class Analysis {
   double last_step_ = 0.0;  ///< size of the last accepted step, in time, load factor or along the path
 };
 
-/// The analysis that the scene asks for.
+/// Makes the analysis that the scene selects.
 std::unique_ptr<Analysis> make_analysis(const Parts& parts);
 
 /// A pointer that copies what it points to, by its clone().

@@ -58,10 +58,10 @@ void Conservation::check(const step::State& state, double step_size, records::Ch
                               balance_.last_energy_error(), balance_.energy_scale());
 }
 
-/// What energies cannot tell: their own round-off and that of weights at work over the size of the structure, and the
-/// motion that the tolerance of Newton's iteration leaves open over the whole run.
+/// Uncertainty of the energy balance: round-off of the energies and of the work of weight over the size of the
+/// structure, and the kinetic energy of the motion that Newton's tolerance leaves undetermined over the run.
 double Conservation::energy_round_off(const step::StepOptions& options, double duration) const {
-  constexpr double digits = 64.0 * 0x1p-53;  // sums over elements and steps lose some
+  constexpr double digits = 64.0 * 0x1p-53;  // allows for round-off of sums over elements and steps
   const double mass = work_meter_.mass(), size = plan_.length_scale;
   const double open = options.tolerance * size / duration;
   return digits * (mass * std::sqrt(lanes::dot(plan_.gravity, plan_.gravity)) * size + balance_.largest_energies()) +

@@ -1,5 +1,5 @@
 #pragma once
-/// Energy, momentum and constraints along a run.
+/// Checks of energy, momentum and constraints during a run.
 #include "bough/records/run.hpp"
 #include "bough/results/balance.hpp"
 #include "bough/scene/scene.hpp"
@@ -10,31 +10,31 @@
 
 namespace bough::run {
 
-/// Holds what the integrator makes of energy and momentum against the work and the impulse that were supplied, and
-/// keeps the largest violations of constraints.
+/// Compares the changes of energy and momentum with the work and the impulse of loads and drives, and keeps the largest
+/// violations of constraints.
 class Conservation {
  public:
-  /// Keeps the references. has_balance: whether the work of every step is added up.
+  /// Keeps the references. has_balance: whether the work of every step is summed.
   Conservation(const step::System& system, bool has_balance);
 
   bool has_balance() const { return has_balance_; }
   results::EnergyMeter& energies() { return energy_meter_; }
   const results::Balance& balance() const { return balance_; }
-  double mass() const { return work_meter_.mass(); }  ///< of everything [kg]
+  double mass() const { return work_meter_.mass(); }  ///< of the whole structure [kg]
 
-  /// The consistent start of a run: everything counts from here.
+  /// Starts the balances at the consistent initial state.
   void begin(const step::State& state);
-  /// The far side of a jump in a load or a motion; `before`: energies on its near side.
+  /// Continues the balances after a jump in a load or a motion. before: energies before the jump.
   void jump(const results::Energies& before, const step::State& state);
-  /// After an accepted step of this size.
+  /// Adds the work of an accepted step of this size.
   void add_step(const step::State& state, double step_size);
-  /// Compares energy and momentum with what was supplied.
+  /// Compares energy and momentum with the supplied work and impulse.
   void compare(const step::State& state) { balance_.compare(energy_meter_.eval(system_, state), work_meter_.supply()); }
 
-  /// The checks of a row: violations of constraints and, in dynamics, balances. error_watch may be null.
+  /// Performs the checks of a row: violations of constraints and, in dynamics, balances. error_watch may be null.
   void check(const step::State& state, double step_size, records::Checks& checks, FiniteGate& gate,
              ErrorWatch* error_watch);
-  /// What a run has shown by its end. In dynamics `duration` is its end time [s].
+  /// Writes the results of the whole run to the checks. In dynamics `duration` is the end time [s].
   void sum_up(records::Checks& checks, const step::StepOptions& options, double duration) const;
 
  private:
@@ -46,7 +46,7 @@ class Conservation {
   results::WorkMeter work_meter_;
   results::EnergyMeter energy_meter_;
   results::Balance balance_;
-  int open_joint_ = -1, fast_joint_ = -1;  ///< of the largest relative violations seen, in Plan::joints
+  int open_joint_ = -1, fast_joint_ = -1;  ///< with the largest relative violations, in Plan::joints
 };
 
 }  // namespace bough::run

@@ -7,14 +7,14 @@ namespace bough::run {
 
 namespace {
 
-constexpr long steps_a_look = 8;        ///< accepted steps between two looks at sensors
-constexpr double default_part = 0.02;   ///< of the end time: largest step where none is given
-constexpr int most_rejections = 12;     ///< in a row
-constexpr double fitting_slack = 1e-9;  ///< a stretch is this much longer than whole steps only by round-off
+constexpr long steps_a_look = 8;        ///< accepted steps between two measurements of the errors of sensors
+constexpr double default_part = 0.02;   ///< default of the largest step, relative to the end time
+constexpr int most_rejections = 12;     ///< consecutive rejections before the run fails
+constexpr double fitting_slack = 1e-9;  ///< relative to a step: an excess over whole steps that is round-off
 
-/// Whole number of steps up to `size` that fill `duration`.
+/// Number of equal steps, each at most `size`, that fill `duration`.
 long steps_to_fill(double duration, double size) {
-  constexpr double most_steps = 1e18;  // that a long can count; a size that is none makes as many
+  constexpr double most_steps = 1e18;  // fits a long; also the result if `size` is not a number
   const double steps = std::ceil(duration / size - fitting_slack);
   return std::max(1L, static_cast<long>(steps < most_steps ? steps : most_steps));
 }
@@ -45,7 +45,7 @@ bool ControlledSteps::begin_stretch() {
   return true;
 }
 
-/// Sizes divide what is left of the way to the next stop.
+/// Divides the remaining time to the next stop into equal steps.
 void ControlledSteps::begin_way() {
   from_ = state_.time;
   const double way = stops_[next_stop_] - from_;
@@ -90,7 +90,7 @@ bool ControlledSteps::step_within_stretch() {
   }
 }
 
-/// The local errors of the step just taken.
+/// Measures the local errors of the step just taken.
 bool ControlledSteps::measure() {
   if (const auto t = local_error_->measure(system_, state_)) return fail(t->text);
   if (energy_error_) {
@@ -101,7 +101,8 @@ bool ControlledSteps::measure() {
   return true;
 }
 
-/// An attempt that did not converge, or whose local error is too large: goes back and takes a smaller size.
+/// Rejects an attempt that did not converge or whose local error is too large: restores the state and reduces the step
+/// size.
 bool ControlledSteps::reject(const step::StepReport& report, double ratio) {
   if (report.converged) {
     state_ = system_.work().start;
@@ -118,7 +119,7 @@ bool ControlledSteps::reject(const step::StepReport& report, double ratio) {
               std::to_string(before) + ": " + cause);
 }
 
-/// Local errors of an accepted step, and what held its size.
+/// Records the local errors of an accepted step, and which error limited its size.
 void ControlledSteps::watch_accepted() {
   add_error(size_, size_);
   if (wanted_size_ >= largest_)
@@ -132,7 +133,7 @@ void ControlledSteps::watch_accepted() {
   local_error_->accept(state_);
 }
 
-/// A new size is taken where fewer steps, or smaller ones, then lead to the next stop.
+/// Changes the step size if it has to shrink, or if a larger one reduces the number of steps to the next stop.
 void ControlledSteps::choose_next_size(double ratio) {
   ++done_;
   const double next = controller_.after_accepted(ratio, size_);

@@ -7,8 +7,9 @@ namespace bough::run {
 
 namespace {
 
-constexpr double most_between_looks = 32.0, looks_at_least = 16.0;  ///< looks of two steps each; in a run
-constexpr double worth_a_look = 1.5;  ///< times the largest unfiltered error at a look so far: the step is looked at
+constexpr double most_between_looks = 32.0,
+                 looks_at_least = 16.0;  ///< steps between measurements; measurements in a run
+constexpr double worth_a_look = 1.5;  ///< growth of the unfiltered error over its maximum that triggers a measurement
 
 }  // namespace
 
@@ -19,7 +20,7 @@ EqualSteps::EqualSteps(const Parts& parts) : TimeSteps(parts) {
 }
 
 bool EqualSteps::begin_stretch() {
-  looking_ = false;  // errors across a start say nothing
+  looking_ = false;  // errors are not compared across a start
   const double wanted = scene_.analysis.step_size;
   steps_ = std::max(1L, static_cast<long>(std::ceil((end_ - begin_) / wanted - 1e-9)));
   size_ = (end_ - begin_) / static_cast<double>(steps_);
@@ -43,9 +44,9 @@ bool EqualSteps::step_within_stretch() {
   }
 }
 
-/// Halves the steps to come.
+/// Halves the size of further steps. Returns false if the limit of cuts is reached.
 bool EqualSteps::cut(const step::StepReport& report, double size) {
-  constexpr long most_parts = 1L << 62;  // of a stretch, which a long can count
+  constexpr long most_parts = 1L << 62;  // number of parts of a stretch that fits a long
   easy_ = 0;
   if (++level_ > options_.max_cuts || (steps_ << (level_ - 1)) > most_parts / 2)
     return fail("the step at time " + std::to_string(state_.time) + " fails down to a step size of " +
@@ -56,7 +57,7 @@ bool EqualSteps::cut(const step::StepReport& report, double size) {
   return true;
 }
 
-/// What every accepted step goes through.
+/// Checks and records an accepted step, and doubles the step size after four easy steps.
 bool EqualSteps::accept(const step::StepReport& report, double size, bool is_last) {
   ++done_;
   last_step_ = size;
@@ -85,8 +86,8 @@ bool EqualSteps::watch_vibrations() {
   return !cause || fail(*cause);
 }
 
-/// Local errors of two steps in a row (the second tells that of velocities), at least each 32 steps and where they
-/// rise: a solution and two evaluations in one of 16 steps.
+/// Measures the local errors of two consecutive steps; the second gives the error of velocities. This is done at least
+/// every 32 steps and whenever the unfiltered error rises. It costs a solution and two evaluations in one of 16 steps.
 bool EqualSteps::look_at_error() {
   const bool is_second = looking_;
   const double unfiltered = state_.local_error;

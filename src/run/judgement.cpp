@@ -31,10 +31,10 @@ void sum_up_work(const EndedRun& run, Summary& summary) {
   summary.checks.linear_rank_error_max = work.rank_error_max;
 }
 
-/// How far one more Newton correction would move the end of the run, over what it has moved from the start.
+/// Size of one more Newton correction at the end of the run, relative to the total displacement from the start.
 void estimate_solution_error(step::System& system, const step::State& state, Summary& summary) {
   if (system.counts().factorizations == 0) return;
-  constexpr double least_motion = 1e-12;  // of the structure: less is a few roundings of places
+  constexpr double least_motion = 1e-12;  // of the size of the structure: less is a few roundings of positions
   const plan::Plan& plan = system.plan();
   std::vector<double> rhs(system.num_unknowns()), x(system.num_unknowns());
   if (system.evaluate(state, {}, false)) return;
@@ -74,7 +74,7 @@ void judge(const EndedRun& run) {
     recording.gate().look_at(run.state, plan);
     recording.gate().look_at(summary);
     const std::string& cause = recording.gate().cause();
-    if (!cause.empty() && !account.fail(cause)) recording.take_figures();  // of a run that failed none holds
+    if (!cause.empty() && !account.fail(cause)) recording.take_figures();  // no expected figure of a failed run holds
   }
   summary.solver = solver_figures(run.system, account.dependent_rows());
   const bool is_alpha = run.options.integrator == scene::Integrator::generalized_alpha;

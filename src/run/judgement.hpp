@@ -1,10 +1,10 @@
 #pragma once
-/// The end of a run: its summary is completed and judged.
+/// Completion and assessment of the summary at the end of a run.
 #include "analysis.hpp"
 
 namespace bough::run {
 
-/// A run that has ended, with all that tells of it.
+/// A run that has ended, with the objects that describe it.
 struct EndedRun {
   const scene::Scene& scene;
   const step::StepOptions& options;
@@ -14,8 +14,8 @@ struct EndedRun {
   Analysis& analysis;
 };
 
-/// Completes the summary: counts and times of the work, checks, figures, the last factorization, doubts. A number that
-/// is not finite makes the run a failed one.
+/// Completes the summary: counts and times of the work, checks, figures, properties of the last factorization, doubts.
+/// If a number is not finite, the status becomes failed.
 void judge(const EndedRun& run);
 
 }  // namespace bough::run

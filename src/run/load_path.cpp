@@ -1,4 +1,4 @@
-/// Statics along the path of equilibria.
+/// Statics by arc length along a path of equilibria.
 #include "load_path.hpp"
 
 #include <algorithm>
@@ -10,16 +10,16 @@ namespace bough::run {
 namespace {
 
 constexpr int wanted_iterations =
-    5;  ///< a step that needs more makes the next shorter, by the square root of the ratio (Ramm 1981)
+    5;  ///< the next length is scaled by the square root of this over the iterations (Ramm 1981)
 constexpr double shortest_part = 0.5, longest_part = 1.5;
-constexpr double close = 1e-4;       ///< the same where it is not met
-constexpr double usual_step = 0.05;  ///< [-], where the path bends little
-constexpr double sharp = 1e-5;       ///< of slopes at limit points: the load factor is then known to the square of it
-constexpr double known = 1e-7;  ///< of load factors at limit points, where the stiffness has no factor nearer to them
+constexpr double close = 1e-4;       ///< accepted error of the load factor of a limit point that is not located
+constexpr double usual_step = 0.05;  ///< usual length of a step where the path bends little [-]
+constexpr double sharp = 1e-5;       ///< relative tolerance of slopes at limit points; load factors have its square
+constexpr double known = 1e-7;       ///< tolerance of load factors where the stiffness has no factorization
 
 }  // namespace
 
-/// Whether the load factor passes its last value between two equilibria, after so many limit points.
+/// Whether the load factor passes its final value between two equilibria, given the number of limit points so far.
 bool LoadPath::passes_end(double from, double to, std::size_t limit_points) const {
   const scene::ArcLength& arc = *options_.arc_length;
   const double end = arc.end_load_factor;
@@ -27,7 +27,7 @@ bool LoadPath::passes_end(double from, double to, std::size_t limit_points) cons
          (from - end) * (to - end) <= 0.0 && from != end;
 }
 
-/// The equilibrium at the last value of the load factor, which is passed between two places of the step.
+/// Finds the equilibrium at the final load factor, which is passed between two places of the step.
 PathPoint LoadPath::find_end(PathPlace from, PathPlace to, const step::State& beyond) {
   const double end = options_.arc_length->end_load_factor;
   from.value = from.load_factor - end;
@@ -50,7 +50,8 @@ PathPoint LoadPath::find_end(PathPlace from, PathPlace to, const step::State& be
   return point;
 }
 
-/// The limit point between the ends of a step, `value` the slope of the path there. noise: of load factors.
+/// Finds the limit point between two places of a step, whose `value` is the slope of the path. noise: uncertainty of
+/// load factors.
 void LoadPath::locate_limit(PathPlace from, PathPlace to, double noise, Step& step) {
   const double length = to.distance, slope_before = from.value;
   PathSearch search = make_search();
@@ -71,16 +72,16 @@ void LoadPath::locate_limit(PathPlace from, PathPlace to, double noise, Step& st
     limit.cause = "the slope of the path is lost in round-off there; this is the load factor of the equilibrium " +
                   std::string("that comes nearest to it");
   }
-  // The load changes by no more than that between the nearest equilibrium and the point.
+  // The load changes by at most |slope| times width between the nearest equilibrium and the limit point.
   limit.is_located = !limit.is_passed && (limit.is_located || std::abs(limit.value) * limit.width <= known * size);
-  // What round-off hides of it a parabola tells where it adds little.
+  // Otherwise the load factor is estimated by the parabola through the first place with the slopes at both.
   const double parabola = from.load_factor + 0.5 * length * slope_before * slope_before / (slope_before - to.value);
   limit.load_factor = limit.is_located || limit.is_passed ? limit.state.time : parabola;
 }
 
-/// The tangent at the end of a step that was just taken, the limit point in it and the end of the run, if they are
-/// there. What speaks against the step is answered: it is then to be taken anew, shorter. The last try takes what is
-/// known instead of points that it does not find.
+/// Computes the tangent at the end of the step just taken, and finds the limit point and the end of the run in it, if
+/// there are any. Returns the reason to reject the step and repeat it with a shorter length, or an empty text. The last
+/// try accepts the nearest known equilibria in place of points that are not found.
 std::string LoadPath::look_at_step(double length, bool is_last_try, Step& step) {
   const scene::ArcLength& arc = *options_.arc_length;
   const double slope_before = path_->slope();
@@ -91,7 +92,7 @@ std::string LoadPath::look_at_step(double length, bool is_last_try, Step& step) 
   PathPlace from{0.0, slope_before, start_.time};
   const PathPlace to{length, path_->slope(), state_.time};
   const double change = to.load_factor - from.load_factor;
-  const double noise = 10.0 * options_.tolerance * std::max(1.0, std::abs(to.load_factor));  // of iterations that ended
+  const double noise = 10.0 * options_.tolerance * std::max(1.0, std::abs(to.load_factor));  // left by iterations
   if (slope_before * to.value > 0.0 && slope_before * change < 0.0 && std::abs(change) > noise)
     return "the load changed against the slope of the path at both ends of the step: it came to another branch";
   std::size_t passed = summary().limit_points.size();
@@ -119,8 +120,9 @@ std::string LoadPath::look_at_step(double length, bool is_last_try, Step& step) 
   return look_at_stability(step.stop && step.stop->is_located ? step.stop->distance : length, is_last_try, step);
 }
 
-/// Finds the load factors at which figures are asked for between two places of the present step, and looks at the
-/// equilibria there. True where the state has moved. One that is not found is left out, and the figure says why.
+/// Finds the equilibria at requested load factors between two places of the present step, and evaluates the figures
+/// there. A figure whose equilibrium is not found gets the cause instead of a value. Returns whether the state was
+/// changed.
 bool LoadPath::look_within(PathPlace from, PathPlace to) {
   bool has_moved = false;
   PathSearch search = make_search();
@@ -150,7 +152,7 @@ bool LoadPath::look_within(PathPlace from, PathPlace to) {
   return has_moved;
 }
 
-/// A row at the limit point of a step, which is listed.
+/// Lists the limit point of a step in the summary and records a row there.
 void LoadPath::accept_limit_point(const PathPoint& limit, bool is_maximum, int iterations) {
   const double end_of_step = last_step_;
   state_ = limit.state;
@@ -165,7 +167,8 @@ void LoadPath::accept_limit_point(const PathPoint& limit, bool is_maximum, int i
   last_step_ = end_of_step;
 }
 
-/// A step that is accepted, of the length asked for or shorter. Counts cuts; false: the run ends.
+/// Takes an accepted step of the present length or, after cuts, a shorter one. Counts the cuts. Returns false if the
+/// run ends.
 bool LoadPath::try_step(Step& step, step::StepReport& report, int& cuts) {
   for (;; ++cuts) {
     if (!may_try(state_.time + length_ * path_->slope())) return false;
@@ -199,10 +202,10 @@ bool LoadPath::begin() {
 
 void LoadPath::come_back() {
   Analysis::come_back();
-  if (const auto t = path_->set_tangent(state_)) throw std::logic_error(t->text);  // there was one
+  if (const auto t = path_->set_tangent(state_)) throw std::logic_error(t->text);  // it existed when saved
 }
 
-/// One step, the limit point within it, and the end of the run if that lies in it.
+/// Takes one step and records the limit point within it and its end, or the end of the run if that lies in it.
 bool LoadPath::take_step() {
   const scene::ArcLength& arc = *options_.arc_length;
   if (summary().steps.accepted >= arc.max_steps)

@@ -1,5 +1,5 @@
 #pragma once
-/// Statics along the path of equilibria.
+/// Statics by arc length along a path of equilibria.
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace bough::run {
 
-/// Steps of equal length along the path, shorter where they need many iterations, to where the load factor passes its
-/// last value or to a limit point.
+/// Follows the path in steps whose length adapts to the number of iterations. Ends where the load factor passes its
+/// final value, or at a given limit point.
 class LoadPath final : public Statics {
  public:
   explicit LoadPath(const Parts& parts) : Statics(parts) {}
@@ -22,13 +22,13 @@ class LoadPath final : public Statics {
   void come_back() override;
 
  private:
-  /// What a step along the path comes by.
+  /// A step along the path with the limit point, the end of the run and the bifurcations found in it.
   struct Step {
     step::State end;
-    std::optional<PathPoint> limit, stop;  ///< where the load turns; where the run ends
+    std::optional<PathPoint> limit, stop;  ///< limit point of the load; end of the run
     bool stops_after_limit = false;
     std::vector<records::Bifurcation> bifurcations;
-    std::optional<step::StabilityLook> look;  ///< at its end, where no other equilibrium was looked at since
+    std::optional<step::StabilityLook> look;  ///< stability at its end; none if another equilibrium was examined since
     const step::State& last() const { return stop ? stop->state : end; }
   };
   bool try_step(Step& step, step::StepReport& report, int& cuts);
@@ -44,10 +44,10 @@ class LoadPath final : public Statics {
   PathSearch make_search() { return {*path_, start_, direction_, account().newton_iterations()}; }
 
   std::optional<step::ArcLengthPath> path_;
-  double length_ = 0.0;                     ///< of the next step
-  step::State start_;                       ///< of the present step
-  step::ArcLengthPath::Vectors direction_;  ///< of the path there
-  step::StabilityLook start_look_;          ///< there
+  double length_ = 0.0;                     ///< length of the next step
+  step::State start_;                       ///< state at the start of the present step
+  step::ArcLengthPath::Vectors direction_;  ///< direction of the path there
+  step::StabilityLook start_look_;          ///< stability there
   bool is_done_ = false;
 };
 

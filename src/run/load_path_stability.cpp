@@ -1,4 +1,4 @@
-/// Bifurcations of the path of equilibria, and steps that came to another branch.
+/// Detection of bifurcations on the path of equilibria, and of steps that ended on another branch.
 #include <algorithm>
 #include <cmath>
 
@@ -8,21 +8,22 @@ namespace bough::run {
 
 namespace {
 
-constexpr int halvings = 24;          ///< of what is left of a step: a load factor is known to 1e-7 of it
+constexpr int halvings = 24;  ///< bisections: the load factor of a bifurcation is known to 1e-7 of the part of a step
 constexpr int most_bifurcations = 8;  ///< within a step
-constexpr double beside = 1e-3;       ///< of what is left of a step
-constexpr double apart = 1e-5;        ///< of what is left of a step: what iterations leave between two equilibria
-constexpr double leap = 10.0;         ///< times the way between two equilibria of the path: they lie on two branches
+constexpr double beside = 1e-3;       ///< distance beside a bifurcation, of the rest of a step
+constexpr double apart = 1e-5;  ///< of the rest of a step: distance of two equilibria that iterations do not resolve
+constexpr double leap = 10.0;   ///< equilibria farther apart than this times their path are on two branches
 
 }  // namespace
 
-/// Between two equilibria the number of unstable directions changes where the load turns, by one, or where another
-/// branch crosses the path. If neither is found the step came to another branch, and is to be taken anew, shorter.
+/// Along the path the number of unstable directions changes by one at a limit point of the load, or at a bifurcation,
+/// where another branch crosses the path. If the number changes over a step and neither is found, the step ended on
+/// another branch and is to be repeated with a shorter length.
 std::string LoadPath::look_at_stability(double length, bool is_last_try, Step& step) {
   const step::StabilityLook look = stability_.stability().look();
   step.look = look;
   if (!look.is_known || !start_look_.is_known || look.unstable == start_look_.unstable) return {};
-  // Next to a critical load of a slender structure signs are those of round-off.
+  // Next to a critical load of a slender structure round-off determines the signs of pivots.
   if (look.unstable > start_look_.unstable && !stability_.stability().find_mode(state_)) return {};
   const bool passes_limit = step.limit && (!step.stop || step.stops_after_limit);
   if (passes_limit && std::abs(look.unstable - start_look_.unstable) == 1) return {};
@@ -45,7 +46,7 @@ std::string LoadPath::look_at_stability(double length, bool is_last_try, Step& s
   return cause;
 }
 
-/// The first change of the number of unstable directions after `from`, by halves; `from` is set behind it.
+/// Finds by bisection the first change of the number of unstable directions after `from`, and sets `from` behind it.
 std::string LoadPath::find_bifurcation(PathPlace& from, PathPlace to, int unstable_there, Step& step) {
   PathSearch search = make_search();
   const double before = from.value, end = to.distance, width = end - from.distance;
@@ -55,7 +56,7 @@ std::string LoadPath::find_bifurcation(PathPlace& from, PathPlace to, int unstab
     const double middle = 0.5 * (from.distance + to.distance);
     step::State state;
     if (const auto t = search.go_to(state, middle)) {
-      if (k > halvings / 2) break;  // the tangent is singular: it is known well enough
+      if (k > halvings / 2) break;  // the tangent is singular there, and the bifurcation is known accurately enough
       return "a bifurcation in it was not met: " + t->text;
     }
     const step::StabilityLook look = stability_.stability().look();
@@ -69,7 +70,7 @@ std::string LoadPath::find_bifurcation(PathPlace& from, PathPlace to, int unstab
     return "the number of unstable directions changes from " + std::to_string(static_cast<int>(before)) + " to " +
            std::to_string(unstable_there) + ", and there is neither a limit point nor a bifurcation";
   records::Bifurcation found{0.5 * (from.load_factor + to.load_factor), "", to.value > before};
-  // The mode is unstable on one side, by more than round-off a little away.
+  // The mode is unstable on one side of the bifurcation. At a small distance its curvature exceeds round-off.
   const double away = found.is_lost ? std::min(to.distance + beside * width, end)
                                     : std::max(from.distance - beside * width, 0.5 * from.distance);
   step::State state;

@@ -6,8 +6,7 @@
 
 namespace bough::run {
 
-/// Stability at the end. Next to a critical load the tangent is nearly singular by nature, which is no fault of the
-/// numbers.
+/// Adds the stability of the equilibria to the summary and, if an instability was found, the largest load.
 void Statics::sum_up() {
   if (summary().status == records::RunStatus::ok) stability_.look_at_end(state_);
   summary().stability = stability_.seen();

@@ -7,7 +7,7 @@
 
 namespace bough::run {
 
-/// What all of statics does: it watches the stability of the equilibria that it finds.
+/// Common base of static analyses, which watch the stability of the equilibria that they find.
 class Statics : public Analysis {
  public:
   void sum_up() override;
@@ -19,8 +19,8 @@ class Statics : public Analysis {
   StabilityWatch stability_;
 };
 
-/// Load steps of equal width; one within which a figure is asked for ends there, and goes on to its own end. A step
-/// that fails is halved, and doubled again after success.
+/// Load steps of equal width. A load step is divided at load factors at which figures are requested. A failed step is
+/// halved, and doubled again after success.
 class LoadSteps final : public Statics {
  public:
   explicit LoadSteps(const Parts& parts);
@@ -32,12 +32,12 @@ class LoadSteps final : public Statics {
  private:
   void begin_load_step();
 
-  int num_steps_, step_ = 0;   ///< load steps of equal width: all, and the present one
-  std::vector<double> stops_;  ///< load factors at which it ends, or a part of it
+  int num_steps_, step_ = 0;   ///< number of load steps, and index of the present one
+  std::vector<double> stops_;  ///< load factors at which its parts end
   std::size_t next_stop_ = 0;
-  double from_ = 0.0;  ///< where the way to the next stop begins
-  int level_ = 0;      ///< the way there is cut into 2^level steps
-  long part_ = 0;      ///< of which so many are done
+  double from_ = 0.0;  ///< load factor at the start of the present part
+  int level_ = 0;      ///< the part is cut into 2^level steps
+  long part_ = 0;      ///< number of these steps done
 };
 
 }  // namespace bough::run

@@ -52,11 +52,11 @@ void Measures::add(double time, std::span<const double> values) {
 
 namespace {
 
-/// Value at a time, by the straight line; nothing outside.
+/// Value at a time by linear interpolation; none outside of the run.
 std::optional<double> value_at(const Series& s, double time) {
   const double reach = 1e-9 * (s.times.back() - s.times.front());
   if (time < s.times.front() - reach || time > s.times.back() + reach) return std::nullopt;
-  // The first of equal times is the end of the step before.
+  // Of two equal times the first is the end of the earlier step.
   const auto next = static_cast<std::size_t>(std::lower_bound(s.times.begin(), s.times.end(), time) - s.times.begin());
   if (next == s.times.size()) return s.values.back();
   if (next == 0 || s.times[next] == time) return s.values[next];
@@ -113,7 +113,7 @@ std::optional<double> figure_of(const scene::Measure& m, const Series& s) {
       return number;
     }
     case MeasureKind::equivalent_range:
-      // Cycles not given: one a second.
+      // The default is one cycle per second.
       return equivalent_range(rainflow_of(s.values), m.exponent, m.cycles.value_or(s.times.back() - s.times.front()));
   }
   return std::nullopt;

@@ -7,14 +7,14 @@ namespace bough::run {
 
 namespace {
 
-/// Bytes of one picture, compressed, as measured on lattices of 10 512 tubes and rectangular bars, largest ones: of a
-/// point of a beam 50 in motion.bin (49 to 50), in a VTU file 93 and 13.2 for a corner of its section (16 corners:
-/// 297 to 305; 4: 143 to 147).
+/// Compressed size of one picture, largest values measured on lattices of 10 512 tubes and rectangular bars. A point of
+/// a beam takes 50 bytes in motion.bin (49 to 50). In a VTU file it takes 93 bytes, and 13.2 for each corner of its
+/// section (297 to 305 in all with 16 corners, 143 to 147 with 4).
 constexpr double bytes_per_point = 50.0, vtu_bytes_per_point = 93.0, vtu_bytes_per_corner = 13.2;
 
 struct PictureBytes {
   double motion = 200.0;  ///< in motion.bin
-  double vtu = 4000.0;    ///< of the file for other programs
+  double vtu = 4000.0;    ///< in the VTU file for other programs
 };
 
 PictureBytes bytes_of(const records::MotionFrame& frame, const records::MotionParts& parts) {
@@ -52,8 +52,8 @@ bool Pictures::is_passed(double time, int interval) const {
 bool Pictures::is_due(long row, double time, bool is_last) const {
   if (!is_wanted_ || is_last) return is_wanted_;
   if (stride_ > 0) return row % stride_ == 0;
-  if (follows_path_) return true;  // the path's length is not known before its end
-  // The first step that ends in or beyond the next interval.
+  if (follows_path_) return true;  // the length of the path is unknown before its end
+  // The first step that ends at or after the next interval is drawn.
   return row == 0 || is_passed(time, next_);
 }
 

@@ -13,7 +13,7 @@ using records::RunStatus;
 
 namespace {
 
-/// What the scene expects, then what it measures in the same way.
+/// The expected figures of the scene, followed by its measures that are taken in the same way.
 std::vector<scene::Expected> figures_asked_for(const scene::Scene& scene) {
   std::vector<scene::Expected> figures = scene.expected;
   for (const scene::Measure& m : scene.measures) {
@@ -28,7 +28,7 @@ std::vector<scene::Expected> figures_asked_for(const scene::Scene& scene) {
   return figures;
 }
 
-/// What a measure is held against what it has to be; `how` tells how it was taken, and whether its time was reached.
+/// Compares a measure with its expected value. `how` holds how it was taken and whether its time was reached.
 records::ExpectedResult held_against(const scene::Expected& given, const records::MeasureResult& measured,
                                      records::ExpectedResult how) {
   how.name = measured.name;
@@ -41,8 +41,8 @@ records::ExpectedResult held_against(const scene::Expected& given, const records
   return how;
 }
 
-/// Work and energies are followed in every step where checks are made, and where the integrator damps nothing, whose
-/// runs are judged by them as they go.
+/// Whether work and energies are followed in every step: if checks are made, and for the variational integrator, whose
+/// runs are judged by their energy while they proceed.
 bool follows_energy(const scene::Scene& scene, const plan::Plan& plan) {
   return scene.output.checks || (plan.is_dynamic && scene.analysis.integrator == scene::Integrator::variational);
 }
@@ -136,7 +136,7 @@ void Recording::take_figures() {
       how.taken = "from the ends of all accepted steps";
       how.reached = is_time_reached(m);
     }
-    if (s.status != RunStatus::ok) measured.value.reset();  // what a part of a run shows is no figure of it
+    if (s.status != RunStatus::ok) measured.value.reset();  // an incomplete run has no measures
     if (m.expected) of_measures.push_back(held_against(*m.expected, measured, std::move(how)));
     s.measures.push_back(std::move(measured));
   }
@@ -144,7 +144,7 @@ void Recording::take_figures() {
   s.expected.insert(s.expected.end(), of_measures.begin(), of_measures.end());
 }
 
-/// Whether the run gets to the time of a measure, if it has one: a run in time may be made shorter.
+/// Whether the run reaches the time of a measure, if it has one; the end time may have been reduced.
 bool Recording::is_time_reached(const scene::Measure& m) const {
   return !m.time || !system_.plan().is_dynamic || *m.time <= scene_.analysis.end_time * (1.0 + 1e-12);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run hands out as it goes: rows of the history, pictures, figures, and the checks of each row.
+/// Output of a run while it proceeds: rows of the history, pictures, figures, and the checks of each row.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,11 +16,11 @@
 
 namespace bough::run {
 
-/// Records the accepted states of a run. A copy goes on recording from where the original was: rows that were handed
-/// out stay handed out.
+/// Records the accepted states of a run. A copy continues recording from the point that the original had reached; rows
+/// already passed to the recorder are not withdrawn.
 class Recording {
  public:
-  /// Keeps the references, all but that to `options`, and the summary's header and notes of the plan are set.
+  /// Keeps all references except that to `options`. Sets the header and the notes of the plan in the summary.
   Recording(const scene::Scene& scene, const SimulateOptions& options, const step::StepOptions& step_options,
             step::System& system, records::Recorder& recorder);
 
@@ -30,20 +30,20 @@ class Recording {
   Conservation& conservation() { return conservation_; }
   FiniteGate& gate() { return gate_; }
   ExpectedFigures& figures() { return figures_; }
-  /// Estimated errors of sensors; null where local errors are not known or checks not asked for.
+  /// Estimator of the errors of sensors; null if local errors are unknown or checks are not requested.
   ErrorWatch* error_watch() { return error_watch_ ? &*error_watch_ : nullptr; }
 
-  /// Takes the end of an accepted step of this size, or a start (size 0), as its time's left limit.
+  /// Records the end of an accepted step of this size, or a start (size 0), as the left limit at its time.
   void record(const step::State& state, double step_size, int iterations, bool is_last);
-  /// Figures at a state that has no row of its own.
+  /// Evaluates figures at a state that has no row of its own.
   void add_figures(const step::State& state) { figures_.add(system_, state, conservation_.energies()); }
-  /// A breakpoint or the end of the run: nothing is interpolated across.
+  /// To be called at a breakpoint or the end of the run: figures are not interpolated across it.
   void end_stretch(const step::State& state) { figures_.end_stretch(system_, state, conservation_.energies()); }
 
-  /// Values of all sensors, by the header.
+  /// Values of all sensors in the order of the header.
   const std::vector<double>& eval_sensors(const step::State& state);
 
-  /// Takes expected figures and measures into the summary. To be called again where the status has changed since.
+  /// Writes expected figures and measures to the summary. To be called again if the status has changed since.
   void take_figures();
   const std::vector<double>& last_values() const { return row_.values; }
   const results::SpringWatch& springs() const { return springs_; }
@@ -60,13 +60,13 @@ class Recording {
   Conservation conservation_;
   FiniteGate gate_;
   Pictures pictures_;
-  std::shared_ptr<const std::vector<scene::Expected>> asked_;  ///< what the scene expects, then what it measures alike
+  std::shared_ptr<const std::vector<scene::Expected>> asked_;  ///< expected figures, then measures that are figures
   ExpectedFigures figures_;
   Measures measures_;
   results::SpringWatch springs_;
   std::optional<ErrorWatch> error_watch_;
   std::vector<double> values_;
-  records::HistoryRow row_;  ///< the last one recorded
+  records::HistoryRow row_;  ///< last recorded row
   long rows_ = 0;
 };
 

@@ -75,7 +75,7 @@ struct Simulation::Parts {
     return true;
   }
 
-  /// Calls `body` with the threads together, and counts its time.
+  /// Calls `body` in the scope of the threads and measures its time.
   void together(const std::function<void()>& body) {
     const auto begin = std::chrono::steady_clock::now();
     threads.keep_together(body);
@@ -92,7 +92,7 @@ struct Simulation::Parts {
   schedule::Threads threads;
   step::System system;
   step::State state;
-  std::optional<Recording> recording;  ///< always there; replaced by restore
+  std::optional<Recording> recording;  ///< always has a value; optional so that restore can replace it
   Cloned<Analysis> analysis;
   Stage stage = Stage::made;
 };

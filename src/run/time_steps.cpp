@@ -83,8 +83,8 @@ bool TimeSteps::start_integrator(double step_size) {
   return started.ok || fail(started.cause);
 }
 
-/// Order 3 makes some undamped vibrations grow: where the scene has one and does not ask for this order, order 2 is
-/// taken.
+/// With order 3, some undamped vibrations grow. If the scene has such a vibration and does not request order 3, order 2
+/// is used.
 void TimeSteps::choose_bdf_order(double step_size) {
   if (options_.bdf_order == 2) return;
   const auto vibration = step::find_growing_vibration(system_, state_, step_size);

@@ -1,5 +1,6 @@
 #pragma once
-/// Dynamics: stretches between the times at which laws jump, each begun from a consistent state.
+/// Dynamics. The run is divided into stretches between breakpoints, the times at which laws jump; each begins with a
+/// consistent state.
 #include <optional>
 #include <vector>
 
@@ -14,7 +15,7 @@
 
 namespace bough::run {
 
-/// What steps of equal and of chosen sizes have in common.
+/// Common base of runs with equal and with controlled step sizes.
 class TimeSteps : public Analysis {
  public:
   bool begin() override { return begin_next_stretch(); }
@@ -27,32 +28,33 @@ class TimeSteps : public Analysis {
   explicit TimeSteps(const Parts& parts);
   TimeSteps(const TimeSteps&) = default;
 
-  /// Begins steps on the stretch from `begin_` to `end_`, at the state that is there.
+  /// Prepares the steps of the stretch from `begin_` to `end_`, starting at the present state.
   [[nodiscard]] virtual bool begin_stretch() = 0;
   [[nodiscard]] virtual bool step_within_stretch() = 0;
   virtual bool is_stretch_done() const = 0;
 
-  /// Makes the state consistent, at the start of the run (which is recorded) or on the far side of a jump, and starts
-  /// the integrator with steps of this size.
+  /// Makes the state consistent, at the start of the run (which is recorded) or after a jump, and starts the integrator
+  /// with steps of this size.
   [[nodiscard]] bool start_integrator(double step_size);
   bool set_step_size(double size);
-  /// Before further attempts of a step that failed: it sets out from where its first attempt did. Each change of size
-  /// corrects velocities, and where steps resolve nothing, corrections of corrections would grow without bound.
+  /// Keeps the state at the first failure of a step and restores it at further ones, so that all attempts of a step
+  /// start from the same state. Each change of step size corrects velocities. Where steps do not resolve the motion,
+  /// repeated corrections of corrections would grow without bound.
   void keep_or_restore(bool is_first_failure);
-  /// Looks at reactions where these ask for it.
+  /// Checks reactions if ReactionWatch requires it.
   bool watch_reactions();
   bool is_variational() const { return options_.integrator == scene::Integrator::variational; }
 
-  /// Local errors that were measured of a step of this size hold for all steps of a duration.
+  /// Adds the local errors measured in a step of this size to the sums, as valid for all steps of a duration.
   void add_error(double duration, double size);
-  /// Sensors at the start of the step that is looked at; then what its local error, measured at its end, is in the
-  /// sensors. norm: what the watch was told of this step.
+  /// see_before_look evaluates sensors at the start of the step whose error is measured. watch_errors evaluates them at
+  /// its end, with and without the local error. norm: the one passed to ErrorWatch::pass for this step.
   void see_before_look();
   void watch_errors(double norm);
 
-  double begin_ = 0.0, end_ = 0.0;               ///< of the present stretch [s]
-  std::optional<step::LocalError> local_error_;  ///< of generalized-alpha where checks or step control ask for it
-  step::State displaced_;                        ///< by local errors
+  double begin_ = 0.0, end_ = 0.0;               ///< times of the present stretch [s]
+  std::optional<step::LocalError> local_error_;  ///< of generalized-alpha, if checks or step control need it
+  step::State displaced_;                        ///< state displaced by local errors
   VibrationWatch vibrations_;
   Cloned<step::Integrator> integrator_;
 
@@ -64,13 +66,13 @@ class TimeSteps : public Analysis {
 
   BreakWalk breaks_;
   bool is_begun_ = false;
-  step::State tried_;                       ///< from which the first attempt of a step that failed set out
-  std::optional<ReactionWatch> reactions_;  ///< where checks are made and sensors show reactions
-  std::vector<double> values_before_, values_now_, values_displaced_;  ///< of sensors of motions at a look
+  step::State tried_;                       ///< start of the first attempt of a failed step
+  std::optional<ReactionWatch> reactions_;  ///< if checks are made and sensors show reactions
+  std::vector<double> values_before_, values_now_, values_displaced_;  ///< of motion sensors when an error is measured
 };
 
-/// Steps of equal size from one breakpoint to the next; a step that fails is halved, and the size grows back after
-/// four easy steps.
+/// Steps of equal size between breakpoints. A failed step is halved, and the size is doubled again after four easy
+/// steps.
 class EqualSteps final : public TimeSteps {
  public:
   explicit EqualSteps(const Parts& parts);
@@ -82,25 +84,25 @@ class EqualSteps final : public TimeSteps {
   bool is_stretch_done() const override { return done_ == steps_ << level_; }
   bool cut(const step::StepReport& report, double size);
   bool accept(const step::StepReport& report, double size, bool is_last);
-  /// Whether steps tell their local errors.
+  /// Whether local errors are measured.
   bool watches_error() const { return local_error_ && scene_.output.checks && !options_.single_solution; }
   bool look_at_error();
-  /// The variational integrator, for which this is, damps nothing: ends a run whose unresolved vibrations make energy
-  /// out of nothing.
+  /// For the variational integrator, which has no damping: ends a run in which unresolved vibrations increase the
+  /// energy. Returns whether the run continues.
   bool watch_vibrations();
 
-  double size_ = 0.0;                                 ///< of the stretch's uncut steps [s]
-  long steps_ = 0;                                    ///< so many of these make up the stretch
+  double size_ = 0.0;                                 ///< size of the uncut steps of the stretch [s]
+  long steps_ = 0;                                    ///< number of uncut steps of the stretch
   int level_ = 0;                                     ///< steps are cut into 2^level
-  long done_ = 0;                                     ///< in units of size_ / 2^level
-  int easy_ = 0;                                      ///< easy steps in a row
-  long looks_every_ = 1;                              ///< steps between two looks at local errors
+  long done_ = 0;                                     ///< completed steps, of size_ / 2^level
+  int easy_ = 0;                                      ///< consecutive easy steps
+  long looks_every_ = 1;                              ///< steps between two measurements of local errors
   long since_look_ = 0;                               ///< steps
-  bool looking_ = false;                              ///< at the second of two steps
-  double looked_at_ = 0.0, unfiltered_looked_ = 0.0;  ///< time of the last look; largest unfiltered error at a look
+  bool looking_ = false;                              ///< the next step is the second of a measurement
+  double looked_at_ = 0.0, unfiltered_looked_ = 0.0;  ///< time of the last measurement; largest unfiltered error then
 };
 
-/// Steps of sizes that keep local errors within a tolerance.
+/// Steps whose size is controlled so that local errors stay within a tolerance.
 class ControlledSteps final : public TimeSteps {
  public:
   explicit ControlledSteps(const Parts& parts);
@@ -118,17 +120,17 @@ class ControlledSteps final : public TimeSteps {
   void watch_accepted();
   void choose_next_size(double ratio);
 
-  double largest_;  ///< step size allowed [s]
+  double largest_;  ///< largest step size allowed [s]
   step::StepController controller_;
   LimitWatch limit_watch_;
-  std::optional<EnergyError> energy_error_;  ///< where sensors show forces or energies
-  std::vector<double> stops_;                ///< times at which steps end
+  std::optional<EnergyError> energy_error_;  ///< if sensors show forces, accelerations or energies
+  std::vector<double> stops_;                ///< times at which steps have to end
   std::size_t next_stop_ = 0;
   double wanted_size_ = 0.0;        ///< of the next step [s]
-  double from_ = 0.0, size_ = 0.0;  ///< since the last change of size: its time, and the size [s]
-  long steps_ = 0, done_ = 0;       ///< steps from there to the next stop, and those done
-  int rejections_ = 0;              ///< in a row
-  long since_look_ = 0;             ///< accepted steps since the last look at sensors
+  double from_ = 0.0, size_ = 0.0;  ///< time of the last change of size, and the size since [s]
+  long steps_ = 0, done_ = 0;       ///< number of steps from there to the next stop, and of those done
+  int rejections_ = 0;              ///< consecutive rejections
+  long since_look_ = 0;             ///< accepted steps since errors of sensors were last measured
 };
 
 }  // namespace bough::run

@@ -15,7 +15,7 @@ namespace {
 constexpr double largest_turn =
     2.8;  ///< rotation of a node in one step [rad]: below pi, where the logarithm is no longer unique
 
-/// Calls f(begin, end) of nodes, in chunks over the threads, and returns the largest of what it returns.
+/// Calls f(begin, end) for chunks of nodes, distributed over the threads, and returns the largest result.
 template <class F>
 double largest_of_chunks(System& system, F&& f) {
   std::vector<double>& most = system.work().chunk_most;
@@ -29,7 +29,7 @@ double largest_of_chunks(System& system, F&& f) {
   return most.empty() ? 0.0 : *std::max_element(most.begin(), most.end());
 }
 
-/// A step by the rule from a start.
+/// The formulas of generalized-alpha applied to all nodes, for a step that begins at `start`.
 struct Integrator {
   AlphaRule rule;
   const State& start;
@@ -43,9 +43,10 @@ struct Integrator {
     });
   }
 
-  /// Predictor: dv/dt goes on as the polynomial through past ones that would have been nearest last; a_{n+1} follows.
-  /// So do multipliers: the first solution would find them whatever they were, but an old factor the better the
-  /// nearer they are. Writes all of `state`, its nodes in one pass over the start.
+  /// Predictor. It extrapolates dv/dt by the polynomial, of order 0, 1 or 2, that would have been most accurate in the
+  /// last step; a_{n+1} and the other quantities follow from it. Multipliers are extrapolated likewise: with an
+  /// up-to-date Jacobian the first solution would find them from any initial value, but with a stale one their error
+  /// contracts only slowly. Writes all of `state`, its nodes in one pass.
   std::optional<Trouble> predict(System& system, State& state) const {
     state.step_size = start.step_size;
     system.predict_multipliers(start, state);
@@ -60,7 +61,7 @@ struct Integrator {
   }
 
  private:
-  /// most: the largest square of the angle of a dq.
+  /// Reports a node whose increment turns too far; `most` is the largest squared angle of a dq.
   template <class G>
   static std::optional<Trouble> judge_turn(const System& system, const NodesOn<G>& nodes, double most) {
     if (most <= largest_turn * largest_turn) return std::nullopt;
@@ -73,8 +74,9 @@ struct Integrator {
   }
 };
 
-/// What the next step goes by: its predictor, and how far it iterates. Angular accelerations count by the arm that
-/// turns them into linear ones.
+/// Stores what the next step needs, in chunks of nodes: changes of accelerations for the predictor, the errors of the
+/// predictors, and the local error, which limits Newton's iteration. The moment arm converts angular to linear
+/// accelerations.
 void note_end(System& system, const AlphaRule& rule, const State& start, State& state) {
   const double arm = system.moment_arm(), per_length = 1.0 / system.plan().length_scale;
   std::vector<Workspace::StepEnd>& parts = system.work().step_ends;
@@ -89,7 +91,7 @@ void note_end(System& system, const AlphaRule& rule, const State& start, State& 
   });
 }
 
-/// The same over all nodes, once Workspace::step_ends tell of all chunks.
+/// Combines the values of all chunks in Workspace::step_ends into the state.
 void note_whole_end(System& system, const State& start, State& state) {
   Workspace::StepEnd whole;
   for (const Workspace::StepEnd& part : system.work().step_ends) {
@@ -107,7 +109,7 @@ Integrator make_rule(const StepOptions& options, const State& start) {
   return {{make_alpha_coefficients(options.spectral_radius), start.step_size}, start};
 }
 
-/// The predicted state, its laws and velocities.
+/// Sets the laws of `end_time` and the predicted state.
 std::optional<Trouble> enter(System& system, State& state, const Integrator& step, double end_time) {
   if (auto t = system.set_time(end_time, laws::Side::left)) return t;
   state.time = end_time;

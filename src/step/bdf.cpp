@@ -14,9 +14,9 @@ namespace bough::step {
 namespace {
 
 constexpr double largest_turn =
-    1.4;  ///< of a node in one step [rad]: two of them stay below pi, where the logarithm is no longer unique
+    1.4;  ///< rotation of a node in one step [rad]: two steps stay below pi, where the logarithm ceases to be unique
 
-/// log(H_a^-1 H_b) of a node.
+/// Increment of a node from state a to state b, log(H_a^-1 H_b).
 template <class G>
 typename G::template Vector<double> increment(const NodesOn<G>& a, const NodesOn<G>& b, std::size_t node) {
   const auto &from = a.motion[node], &to = b.motion[node];
@@ -87,13 +87,14 @@ StepReport Bdf::take_start_step(State& state, const StepOptions& options, double
     total = report;
     total.iterations = iterations;
     if (!report.converged) return total;
-    const int sample = done_ * parts + i - 2;  // 0, 3, 6 are wanted
+    const int sample = done_ * parts + i - 2;  // samples are taken at 0, 3 and 6
     if (sample % 3 == 0 && sample >= 0)
       next.visit([&]<class G>(const NodesOn<G>& nodes) {
         for (std::size_t n = 0; n < nodes.motion.size(); ++n) history<G>().samples[sample / 3][n] = nodes.motion[n].a;
       });
   }
-  // What is reported: velocities of the constraints, accelerations and multipliers of the equations of motion there.
+  // The reported state has velocities that satisfy the constraints, and accelerations and multipliers that satisfy the
+  // equations of motion.
   state = next;
   if (system_.plan().num_multipliers > 0) {
     if (const auto t = set_normal_velocities(system_, state, nullptr)) return failed(total, t->text);
@@ -133,7 +134,8 @@ void Bdf::eval_steady_error(const State& point) {
   });
 }
 
-/// Increments and velocities of the starting steps, these with the steady error of the scheme.
+/// Fills the history with the increments and velocities of the starting steps. Velocities include the steady error of
+/// the scheme.
 std::optional<Trouble> Bdf::finish_start(const State& state) {
   State last = state;
   State* const points[] = {&first_, &second_, &last};
@@ -157,7 +159,8 @@ std::optional<Trouble> Bdf::finish_start(const State& state) {
   return std::nullopt;
 }
 
-/// The parabola through y_n = 0 and y_{n-1}, or the cubic that also meets y_{n-2}, with the slope v_n.
+/// Predictor: extrapolates the parabola through y_n = 0 and y_{n-1} (order 2), or the cubic that also passes through
+/// y_{n-2} (order 3), with the slope v_n at y_n.
 void Bdf::predict(State& state) {
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     using Vector = typename NodesOn<G>::Vector;
@@ -178,7 +181,8 @@ void Bdf::predict(State& state) {
   });
 }
 
-/// Velocities and accelerations by the formulas; dq as the tangents of the elements take it.
+/// Sets velocities and accelerations by the formulas of the scheme, and dq = D / c0, the increment for which the
+/// tangents of elements are exact to first order.
 std::optional<Trouble> Bdf::follow(State& state) const {
   return state.change_all([&]<class G>(NodesOn<G>& nodes) -> std::optional<Trouble> {
     using Vector = typename NodesOn<G>::Vector;

@@ -7,7 +7,7 @@ namespace bough::step {
 
 namespace {
 
-/// All of its vectors stand in the state, where local errors and predictors look at them.
+/// Generalized-alpha. All of its vectors are in the state, where local errors and predictors read them.
 class GeneralizedAlpha final : public Integrator {
  public:
   explicit GeneralizedAlpha(System& system) : system_(system) {}

@@ -1,66 +1,74 @@
 #pragma once
-/// Bounds and questions that the iterations in time (newton_iteration.hpp) and in statics (equilibrate.cpp) share.
+/// Convergence criteria shared by Newton's iterations in time (newton_iteration.hpp) and in statics (equilibrate.cpp).
 #include "bough/step/advance.hpp"
 
 namespace bough::step {
 
-/// Changes that an own factor contracts less than this do not come from a whole tangent of a smooth system.
+/// With an up-to-date and complete Jacobian of a smooth system, Newton's corrections shrink faster than by this ratio.
+/// A slower rate means that the Jacobian is incomplete: the antisymmetric part of the tangents was dropped.
 constexpr double slowest_contraction = 0.03;
 
-/// Residual and change that an iteration may leave, measured or to be expected from its contraction, relative to the
-/// tolerance: an old factor must come as near as a new one, since errors of steps add up.
+/// Residual and correction at which an iteration may stop, measured or predicted from its rate of contraction, relative
+/// to the tolerance. The margin makes a stale Jacobian as accurate as a new one: errors of steps accumulate.
 constexpr double left_open = 1e-3;
 
-/// Changes of relative motions that are round-off at any tolerance.
+/// Changes of relative motions below this are round-off, whatever the tolerance.
 constexpr double least_change = 4e-15;
 
-/// Changes whose ratio is above this no longer shrink: what is left may be round-off.
+/// If the ratio of two successive corrections is above this, they no longer shrink, and the remaining residual may be
+/// round-off.
 constexpr double shrinks = 0.3;
 
-/// What was not measured is taken to be this much larger than the last ratio of changes or residuals lets expect.
+/// Safety factor on predicted corrections and residuals: the last evaluation of the residual is skipped only if this
+/// multiple of its prediction is within the bounds.
 constexpr double unseen_growth = 1.2;
 
-/// What the local error of the last step asks of an iteration beside the tolerance; as made: nothing.
+/// What the local error of the last step requires of an iteration in addition to the tolerance. The default requires
+/// nothing.
 struct IterationGoal {
-  double residual = 1.0;   ///< that may be left, relative to what makes it [-]
-  double round_off = 0.0;  ///< changes of relative motions that rounding of a step's increments makes [-]
+  double residual = 1.0;   ///< largest final residual, relative to the sum of |terms| [-]
+  double round_off = 0.0;  ///< changes of relative motions due to the rounding of increments [-]
 };
 
-/// Iterations may leave 3e-5 of the local error, as a residual relative to what makes it, down to 1e-13. Nothing is
-/// asked where the error is round-off itself, as where drives prescribe all motion, nor after a start.
+/// The final residual, relative to the sum of the magnitudes of its terms, may be 3e-5 of the last relative local
+/// error, but need not be below 1e-13. Nothing is required after a start, or where the local error itself is round-off,
+/// as where drives prescribe all motion.
 IterationGoal make_goal(const State& start);
 
-/// The largest of forces, moments, lengths and angles of a residual, each relative to what makes it.
+/// Relative size of a residual: the largest of its forces, moments, lengths and angles, each relative to its own scale
+/// (the sum of the magnitudes of the terms, the size of the structure, 1 rad).
 double largest_share(const System& system, const ResidualSize& r);
 
-/// Whether that is within the tolerance.
+/// Whether the relative size of a residual is within the tolerance.
 bool is_small(const System& system, const ResidualSize& r, double tolerance);
 
-/// Whether `share` of a residual may be left where the motion still lacks `error`, relative: within left_open of the
-/// tolerance, or, below the tolerance, within the round-off that iterations met. Where the goal asks for less, it is
-/// met, or what is left is round-off of poses, or of reactions alone, which move nothing any more and do not add up
-/// over steps.
+/// Whether an iteration may stop with `share` times this residual, `error` being the relative change of the motion that
+/// is still to be expected. The residual must be within left_open times the tolerance or, if it is below the tolerance,
+/// within the round-off that earlier iterations met. A stricter goal must be met as well. Exempt from it is a residual
+/// that is round-off of poses, and one that belongs to reactions alone (`error` is round-off): reactions do not
+/// accumulate over steps.
 bool is_settled(const System& system, const ResidualSize& r, double tolerance, const IterationGoal& goal, double error,
                 double share = 1.0);
 
-/// Whether a residual, `size` of what makes it, is much larger than `expected` of it and yet, below the tolerance, as
-/// small as round-off can make it.
+/// Whether a residual is noise: its relative size `size` is below the tolerance but much larger than the prediction
+/// `expected`, and its forces and moments are within the round-off floor.
 bool is_noise(const System& system, const ResidualSize& r, double tolerance, double size, double expected);
 
-/// Whether the gaps of joints are within the tolerance.
+/// Whether the violations of the constraints are within the tolerance.
 bool is_closed(const System& system, const ResidualSize& r, double tolerance);
 
-/// Whether iteration k of statics leaves a residual above the tolerance that may be what rounded places leave:
-/// changes, the last one and that before, no longer shrink, or shrink so fast that the next would be negligible.
+/// Whether a residual above the tolerance after iteration k of statics may come from rounded positions: the last two
+/// corrections, `previous` and `change`, no longer shrink, or they shrink so fast (quadratically) that the next one
+/// would be negligible.
 inline bool may_be_round_off(int k, double change, double previous, double tolerance) {
   if (change == 0.0) return true;
   return k > 1 && (change > shrinks * previous || change * change <= left_open * tolerance * previous);
 }
 
-/// Whether what is left of a residual above the tolerance may be round-off.
+/// Whether a residual above the tolerance is within the round-off floor.
 bool is_at_floor(const System& system, const ResidualSize& r, double tolerance);
 
-/// Names the part of the residual that is worst, for a message.
+/// Describes the largest part of the residual for a message.
 std::string describe(System& system, ResidualSize r, double tolerance);
 
 }  // namespace bough::step

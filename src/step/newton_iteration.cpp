@@ -16,7 +16,7 @@ NewtonIteration::NewtonIteration(System& system, const StepOptions& options, con
       fresh_(!may_reuse_ || !system.linear().has_factor(slopes) || system.linear().is_factor_worn()),
       rate_(fresh_ ? 1.0 : system.linear().last_contraction()),
       contraction_(rate_) {
-  // Increments are rounded less than places: tolerances far below the usual one ask for their digits.
+  // An increment of a step is rounded less than a position. Tolerances far below the usual one require these digits.
   const double least = goal.round_off > 0.0 ? std::min(goal.round_off, least_change) : least_change;
   negligible_ = std::max(left_open * options.tolerance, least);
 }
@@ -65,9 +65,9 @@ bool NewtonIteration::is_converged() {
     if (still && is_settled_at(error)) return true;
   }
   if (!(change < tolerance)) return false;
-  const bool stalled = has_rate && rate_ > shrinks && is_own_;  // with an old factor: it contracts badly here
+  const bool stalled = has_rate && rate_ > shrinks && is_own_;  // a stale Jacobian may merely contract slowly
   if (stalled && size_ <= tolerance) return true;
-  // Is what is left only round-off? A new factor could change nothing where nodes no longer move.
+  // The remaining residual may be round-off. Where nodes no longer move, a new factorization could not reduce it.
   if (stalled || change == 0.0 || (has_rate && lies_still))
     report_.at_floor = is_at_floor(system_, report_.residual, tolerance);
   return report_.at_floor;
@@ -82,8 +82,8 @@ std::optional<Trouble> NewtonIteration::give_up() {
   return std::nullopt;
 }
 
-/// A new factor costs some renewal_cost solutions, and serves for one at least: it pays where as many with the one at
-/// hand would not do.
+/// A new factorization costs as much as renewal_cost solutions and is followed by at least one solution. It pays if
+/// renewal_cost + 1 further solutions with the present factorization would not reach convergence.
 bool NewtonIteration::contracts_slowly() const {
   if (count() < 2) return false;
   const double solutions = system_.linear().renewal_cost() + 1.0;
@@ -97,7 +97,7 @@ std::optional<Trouble> NewtonIteration::renew_factor(const State& state) {
   if (count() > 0) {
     const bool is_slow = contracts_slowly();
     if (count() > 1 && is_own_ && rate_ > slowest_contraction && linear.takes_symmetric_parts())
-      linear.drop_symmetry();  // not the factor's age
+      linear.drop_symmetry();  // the Jacobian is up to date, so the dropped antisymmetric part slows it down
     fresh_ = !may_reuse_ || is_slow || !linear.has_factor(slopes_);
     if (fresh_)
       if (auto t = system_.evaluate(state, slopes_, true)) return t;
@@ -122,8 +122,9 @@ std::optional<Trouble> NewtonIteration::correct(State& state) {
   return std::nullopt;
 }
 
-/// Gaps have to be seen closed: rows that contradict each other stay open while changes vanish. From the first
-/// correction nothing follows, since a prediction errs in other ways than iterates do.
+/// The constraints must have been evaluated as satisfied, not only predicted so: rows that contradict each other stay
+/// violated while corrections vanish. No prediction is made from the first correction, because the error of the
+/// predictor differs in kind from that of later iterates.
 bool NewtonIteration::will_be_converged() {
   if (options_.single_solution || count() == 1) return false;
   rate_ = previous_ > 0.0 ? report_.change / previous_ : 0.0;

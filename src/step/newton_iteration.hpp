@@ -1,28 +1,30 @@
 #pragma once
-/// Newton's method for a step in time, with a factor that serves over iterations and steps.
+/// Newton's method for one step in time. A factorization of the Jacobian is reused over iterations and steps.
 #include "newton.hpp"
 
 namespace bough::step {
 
-/// What Newton's iteration of one step knows and decides. The loop itself is `iterate`.
+/// The state and the decisions of Newton's iteration in one step: convergence, divergence, and when the Jacobian is
+/// factored anew. The loop itself is `iterate`.
 class NewtonIteration {
  public:
   NewtonIteration(System& system, const StepOptions& options, const IterationGoal& goal,
                   const elements::Slopes& slopes);
 
-  /// Evaluates the residual, for the first correction with the tangent where a new factor is due.
+  /// Evaluates the residual. Before the first correction it also evaluates the tangents if a new factorization is due.
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state);
-  /// Whether the residual just evaluated ends the iteration: the state is whole, or what is left of the residual is
-  /// round-off.
+  /// Whether the residual just evaluated ends the iteration: it and the expected next correction are small enough, or
+  /// the residual is round-off.
   bool is_converged();
-  /// Why the iteration is given up, if it is: too many corrections, or growing ones.
+  /// The reason to abandon the iteration, if there is one: too many corrections, or corrections that grow.
   std::optional<Trouble> give_up();
-  /// Makes a new factor where the one at hand contracts too slowly, or does not belong to these slopes.
+  /// Evaluates and factors the Jacobian anew if the present factorization contracts too slowly or was made with other
+  /// slopes.
   [[nodiscard]] std::optional<Trouble> renew_factor(const State& state);
-  /// Solves for the correction and applies it.
+  /// Solves the linear system for the Newton correction and applies it.
   [[nodiscard]] std::optional<Trouble> correct(State& state);
-  /// Whether the correction just applied ends the iteration, since changes and residuals shrink on as they did, so
-  /// that the residual which it leaves need not be evaluated.
+  /// Whether the iteration ends with the correction just applied: the residual that it leaves, predicted from the rates
+  /// at which corrections and residuals have shrunk, is small enough and need not be evaluated.
   bool will_be_converged();
 
   /// The report of an iteration that has converged, or failed for a cause.
@@ -41,21 +43,21 @@ class NewtonIteration {
   const elements::Slopes& slopes_;
   StepReport report_;
   bool may_reuse_;
-  double negligible_;      ///< change of relative motions that may be left
-  bool fresh_;             ///< the next solution gets a new factor
-  bool is_own_ = false;    ///< the factor at hand was made in this step
-  int served_ = 0;         ///< solutions in this step with the factor at hand
-  double previous_ = 0.0;  ///< the change before the last
-  double size_ = 0.0;      ///< the residual's largest share
-  double expected_ = 0.0;  ///< what the last solution was to leave of that
-  /// Ratios of the last two changes and of the last two residuals. A factor that served before contracts as it did; of
-  /// a new one nothing is known at first.
+  double negligible_;      ///< remaining change of relative motions that is neglected
+  bool fresh_;             ///< the next solution needs a new factorization
+  bool is_own_ = false;    ///< the present factorization was made in this step
+  int served_ = 0;         ///< solutions in this step with the present factorization
+  double previous_ = 0.0;  ///< size of the correction before the last
+  double size_ = 0.0;      ///< relative size of the residual (largest_share)
+  double expected_ = 0.0;  ///< prediction of size_ after the last correction
+  /// Ratios of the last two corrections and of the last two residuals. The initial rate of a factorization from an
+  /// earlier step is the one observed there; that of a new factorization is unknown (1).
   double rate_, shrunk_ = 0.0;
-  double contraction_;  ///< the last ratio of changes that is not round-off
+  double contraction_;  ///< last ratio of corrections above round-off
 };
 
-/// Repeats: evaluate the residual, stop when converged, renew the factor where it is due, correct. `follow(state)`
-/// brings velocities and accelerations along with the positions.
+/// Newton's loop: evaluate the residual, stop when converged, factor anew where that is due, correct. `follow(state)`
+/// updates velocities and accelerations from the corrected positions by the formulas of the integrator.
 template <class Follow>
 StepReport iterate(System& system, State& state, const StepOptions& options, const IterationGoal& goal,
                    const elements::Slopes& slopes, Follow&& follow) {

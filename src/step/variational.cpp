@@ -56,7 +56,7 @@ StartReport VariationalOn<G>::start(State& state, const StepOptions& /*options*/
   return report;
 }
 
-/// Momenta of another step size are found where the next step begins.
+/// The momenta for the new step size are computed at the beginning of the next step.
 template <class G>
 StartReport VariationalOn<G>::change_step_size(State& state, const StepOptions& /*options*/, double step_size) {
   state.step_size = step_size;
@@ -71,7 +71,7 @@ double VariationalOn<G>::elastic_inertia(double h) const {
   return (newmark_beta_ - 0.25) * h * h;
 }
 
-/// Momenta that belong to velocities in steps of h.
+/// Sets the momenta that belong to the velocities in steps of size h.
 template <class G>
 std::optional<Trouble> VariationalOn<G>::set_momenta(State& state, double h) {
   const Field field = system_.template field_on<G>(state);
@@ -81,9 +81,9 @@ std::optional<Trouble> VariationalOn<G>::set_momenta(State& state, double h) {
   return std::nullopt;
 }
 
-/// D = h v_n + (h^2/2) a_n, with a_n of the last step's own motion, 2 (v_n - D_n / h_n) / h_n, once there is one: the
-/// accelerations of the equations of motion may hold vibrations faster than the step, which mean nothing for the
-/// next.
+/// Predictor D = h v_n + (h^2/2) a_n. After the first step a_n = 2 (v_n - D_n / h_n) / h_n, from the increment D_n of
+/// the last step. The accelerations of the equations of motion may contain vibrations faster than the step, which would
+/// spoil the prediction.
 template <class G>
 void VariationalOn<G>::predict(double h) {
   const double last = base_.last_step;
@@ -94,7 +94,7 @@ void VariationalOn<G>::predict(double h) {
   }
 }
 
-/// The nodes of `next` and of the middle by D.
+/// Places the nodes at the end and at the middle of the step according to D.
 template <class G>
 std::optional<Trouble> VariationalOn<G>::place_nodes(State& next, double h) {
   const NodesOn<G>& base = base_.on<G>();
@@ -135,7 +135,7 @@ std::optional<Trouble> VariationalOn<G>::evaluate_step(const State& next, double
     residual_[n] = 0.5 * (residual_[n] + On::template adjoint_transpose_times<double>(G::exp(half), residual_[n])) +
                    (2.0 / h) * On::template inverse_tangent_transpose_times<double>(Vector(-half), P) + sums_.force(n);
     const Vector left = residual_[n];
-    if (is_held(n)) {  // balanced by the joints that hold it
+    if (is_held(n)) {  // the joints that hold the node balance it
       add_sizes(left, terms);
       residual_[n] = Vector::zero();
     }
@@ -166,7 +166,7 @@ std::optional<Trouble> VariationalOn<G>::evaluate_step(const State& next, double
   return std::nullopt;
 }
 
-/// What round-off leaves in the residual: of the momenta, and of the element matrices now present.
+/// Round-off floor of the residual, from the momenta and the present element matrices.
 template <class G>
 ResidualSize VariationalOn<G>::round_off_floor(double h) const {
   ResidualSize floor = system_.round_off_floor();
@@ -237,8 +237,8 @@ void VariationalOn<G>::evaluate_tangent(const elements::Slopes& slopes, double h
                                   tree::make_chunk(by_element));
 }
 
-/// Gradients of a joint's rows in its matrix: of forces at the start of the step, of rows at its end, carried to the
-/// middle.
+/// Sets the gradients of a joint's rows in its matrix: of forces at the start of the step, of rows at its end, both
+/// carried to the middle.
 template <class G>
 void VariationalOn<G>::set_rows_of(int element, double* matrix) const {
   const Place* const p = after_.place_of(element);
@@ -261,7 +261,8 @@ void VariationalOn<G>::set_rows_of(int element, double* matrix) const {
   }
 }
 
-/// Newton's iteration for D and the multipliers; a factor serves again while it contracts, as in newton_iteration.hpp.
+/// Newton's iteration for D and the multipliers. The factorization is reused as long as the iteration contracts, as in
+/// newton_iteration.hpp.
 template <class G>
 StepReport VariationalOn<G>::iterate(State& next, const StepOptions& options, double h) {
   StepReport report;
@@ -348,7 +349,8 @@ StepReport VariationalOn<G>::try_step(State& state, const StepOptions& options, 
   report = iterate(state, options, h);
   if (!report.converged) return report;
   Vectors& momentum = state.change<G>().momentum;
-  // What the iteration left open, r, is carried along as it is: momenta add up to round-off, whatever the tolerance.
+  // The remaining residual r is carried over to the momenta, so that the momentum balance is kept to round-off,
+  // whatever the tolerance.
   for (std::size_t n = 0; n < D_.size(); ++n) {
     const Vector open = On::template inverse_tangent_transpose_times<double>(
         Vector(-D_[n]), On::template tangent_transpose_times<double>(Vector(-0.5 * D_[n]), residual_[n]));

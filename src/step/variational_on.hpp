@@ -14,7 +14,7 @@ class MomentumSums {
 
  public:
   explicit MomentumSums(const plan::Plan& plan);
-  /// Laws and slopes as in `field`; `nodes` of it are read.
+  /// What `evaluate` computes. It reads nodes, laws and slopes from `field`.
   enum class Want { momenta, forces };
   [[nodiscard]] std::optional<Trouble> evaluate(const System& system, const elements::FieldOn<G, double>& field,
                                                 const std::vector<double>& turns, double elastic_inertia, Want want);
@@ -25,11 +25,11 @@ class MomentumSums {
  private:
   std::vector<std::int64_t> begin_;             ///< by element: place in the arrays below
   std::vector<double> momenta_, forces_;        ///< by element, G::dof per node
-  std::vector<std::int64_t> use_begin_, uses_;  ///< by node: places that add up to it
+  std::vector<std::int64_t> use_begin_, uses_;  ///< by node: its summands in the arrays above
   std::vector<Vector> momentum_, force_, force_size_;
 };
 
-/// Values and gradients of the constraint rows that are unknowns, at one instant.
+/// Values and gradients, at one instant, of the constraint rows whose multipliers are unknowns.
 template <class G>
 class ConstraintRows {
  public:
@@ -44,13 +44,13 @@ class ConstraintRows {
     int element = 0, num_nodes = 0;
     int nodes[2] = {-1, -1};
     std::size_t gradient_begin = 0, value_begin = 0;
-    /// Of row k of the joint: its place among all multipliers.
+    /// Index of row k of the joint among all multipliers.
     std::size_t multiplier(int k) const {
       return static_cast<std::size_t>(plan->multiplier_begin + plan->rows[static_cast<std::size_t>(k)]);
     }
   };
   const std::vector<Place>& places() const { return places_; }
-  /// Of an element that has rows; null for others.
+  /// Rows of an element; null if it has none.
   const Place* place_of(int element) const {
     const int place = place_of_element_[static_cast<std::size_t>(element)];
     return place < 0 ? nullptr : &places_[static_cast<std::size_t>(place)];
@@ -72,7 +72,7 @@ template <class G>
 class VariationalOn final : public Integrator {
  public:
   VariationalOn(System& system, const scene::Solver& solver, double newmark_beta);
-  /// All that lasts from step to step stands in the state; a mass matrix is factored anew.
+  /// The state holds everything that persists between steps, so the copy only has to factor its mass matrix anew.
   std::unique_ptr<Integrator> clone() const override {
     return std::make_unique<VariationalOn>(system_, solver_, newmark_beta_);
   }
@@ -120,7 +120,7 @@ class VariationalOn final : public Integrator {
     return static_cast<std::size_t>(system_.block_begin(p.plan->block) + k);
   }
   template <class From>
-  void set_rows(From&& from) {  ///< of rhs_, from a function of the joint's place and row
+  void set_rows(From&& from) {  ///< sets the constraint rows of rhs_ from a function of joint and row
     for (const Place& p : after_.places())
       for (int k = 0; k < p.joint->num_rows; ++k) rhs_[row_unknown(p, k)] = from(p, k);
   }
@@ -128,7 +128,7 @@ class VariationalOn final : public Integrator {
   System& system_;
   const scene::Solver& solver_;  ///< of the scene
   double newmark_beta_;
-  System mass_;  ///< for its matrices and its solver
+  System mass_;  ///< a second system, whose solver factors the mass matrix
   Sums sums_;
   Rows before_, after_;                        ///< at the ends of the step
   State base_, mid_;                           ///< start and middle of the step; multipliers of the step in the middle
