@@ -42,16 +42,43 @@ PortMotion<lanes::Taylor<double, K>> series_of(const PortMotion<double>& p, cons
   return r;
 }
 
+/// The same in a plane, where R' = i w R and x' = R u, to first order.
+inline PortMotionOn<motion::Se2, lanes::Taylor<double, 1>> series_of(const PortMotionOn<motion::Se2, double>& p,
+                                                                     const Vec3<double>& jerk) {
+  using T = lanes::Taylor<double, 1>;
+  PortMotionOn<motion::Se2, T> r;
+  const motion::Vec2<double> turning = p.v[2] * motion::quarter_turn(p.H.R);
+  const motion::Vec2<double> moving = motion::complex_times(p.H.R, motion::plane_part(p.v));
+  for (int i = 0; i < 2; ++i) {
+    r.H.R[i] = T(p.H.R[i]);
+    r.H.R[i].c[1] = turning[i];
+    r.H.x[i] = T(p.H.x[i]);
+    r.H.x[i].c[1] = moving[i];
+  }
+  for (int i = 0; i < 3; ++i) {
+    r.v[i] = T(p.v[i]);
+    r.v[i].c[1] = p.a[i];
+    r.a[i] = T(p.a[i]);
+    r.a[i].c[1] = jerk[i];
+  }
+  return r;
+}
+inline PortMotion<lanes::Taylor<double, 1>> series_of(const PortMotion<double>& p, const Vec6<double>& jerk) {
+  return series_of<1>(p, jerk);
+}
+
 template <class E>
-void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Taylor<double, 1>>& around,
-                   const double* multipliers, double turns, double* residual_rate) {
+void evaluate_rate(const E& e, const FieldOn<typename E::Group, double>& field,
+                   const SurroundingsOn<typename E::Group, lanes::Taylor<double, 1>>& around, const double* multipliers,
+                   double turns, double* residual_rate) {
+  using G = typename E::Group;
   using T = lanes::Taylor<double, 1>;
   constexpr int P = E::num_ports;
-  const motion::Vec3Pair anchor = anchor_of(e, field.nodes);
-  PortMotion<T> p[P];
+  const auto anchor = anchor_of(e, field.nodes);
+  PortMotionOn<G, T> p[P];
   for (int k = 0; k < P; ++k)
-    p[k] = series_of<1>(eval_port(e.ports[k], field.nodes, anchor, field.carriers), Vec6<double>::zero());
-  if constexpr (has_mass_matrix<E>) {
+    p[k] = series_of(eval_port(e.ports[k], field.nodes, anchor, field.carriers), G::template Vector<double>::zero());
+  if constexpr (has_mass_matrix<E> && G::has_moving_frames) {
     if (field.observer != nullptr && around.has_inertia) {
       Vec6<T> twist = lanes::cast<T>(field.observer->twist), twist_rate = lanes::cast<T>(field.observer->twist_rate);
       for (int i = 0; i < 6; ++i) {
@@ -62,11 +89,11 @@ void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Tay
         add_observer_motion(p[k], lanes::cast<T>(Vec3<double>(anchor.hi + anchor.lo)), twist, twist_rate);
     }
   }
-  T out[6 * P], rows[E::num_multipliers + 1], lambda[E::num_multipliers + 1] = {};
+  T out[G::dof * P], rows[E::num_multipliers + 1], lambda[E::num_multipliers + 1] = {};
   for (int k = 0; k < num_multipliers(e); ++k) lambda[k] = T(multipliers[k]);
   eval_kernel(e, p, lambda, around, turns, out, rows);
-  double rate[6 * P];
-  for (int i = 0; i < 6 * P; ++i) rate[i] = out[i].c[1];
+  double rate[G::dof * P];
+  for (int i = 0; i < G::dof * P; ++i) rate[i] = out[i].c[1];
   const Places<E> places(e);
   carry_wrenches(e, places, rate, residual_rate);
   for (int k = 0; k < num_multipliers(e); ++k) residual_rate[places.forces + k] = rows[k].c[1];
@@ -75,7 +102,8 @@ void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Tay
 }  // namespace bough::elements
 
 /// Instantiates the drivers for one element type.
-#define BOUGH_INSTANTIATE_ELEMENT(E)                                                                                \
-  template void evaluate(const E&, const Field&, const double*, double, double*, double*);                          \
-  template void evaluate_rate(const E&, const Field&, const Surroundings<lanes::Taylor<double, 1>>&, const double*, \
-                              double, double*);
+#define BOUGH_INSTANTIATE_ELEMENT(E)                                                                            \
+  template void evaluate(const E&, const FieldOn<E::Group, double>&, const double*, double, double*, double*);  \
+  template void evaluate_rate(const E&, const FieldOn<E::Group, double>&,                                       \
+                              const SurroundingsOn<E::Group, lanes::Taylor<double, 1>>&, const double*, double, \
+                              double*);

@@ -102,6 +102,6 @@ void evaluate_lanes(const E& e, const FieldOn<typename E::Group, LanePack>& fiel
   template void evaluate_lanes(const LaneElement<E>&, const FieldOn<E::Group, LanePack>&, const LanePack*, \
                                const LanePack&, LanePack*, LanePack*, LanePack*);
 /// Both forms, alone and in lanes.
-#define BOUGH_INSTANTIATE_BOTH(E)                                                                              \
-  template void evaluate(const E&, const FieldOn<E::Group, double>&, const double*, double, double*, double*); \
+#define BOUGH_INSTANTIATE_BOTH(E) \
+  BOUGH_INSTANTIATE_ELEMENT(E)    \
   BOUGH_INSTANTIATE_LANES(E)

@@ -394,7 +394,7 @@ void take(Builder& b, const Motion& motion) {
     u.basis.push_back(lanes::transpose(node.pose.R) * axes);
     for (int i = 0; i < 9; ++i) is_plain &= u.basis.back().m[i] == (i % 4 == 0 ? 1.0 : 0.0);
   }
-  if (is_plain) u.basis.clear();
+  if (is_plain || motion.kind() == Motions::translation) u.basis.clear();  // nodes do not turn: their own axes serve
   for (JointPlan& j : b.plan.joints) {
     const auto& e = array_of<elements::Joint>(
         b.plan.elements)[static_cast<std::size_t>(b.plan.directory[static_cast<std::size_t>(j.element)].index)];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "reduced_elements.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -29,7 +30,7 @@ void LaneBatches<G>::add(const solve::ElementBatch& batch, Slot& slot) {
   for (int k = 0; k < slot.num_laws; ++k)
     for (const auto& of_lane : laws) places_.push_back(of_lane[k]);
   slot.num_unknowns = num_unknowns(*list[0]);
-  if constexpr (E::num_multipliers > 0) place_rows(batch, slot);
+  if constexpr (E::num_multipliers > 0) place_rows(batch, num_multipliers(*list[0]), slot);
   slot.array = static_cast<int>(I);
   auto& lanes = std::get<I>(lanes_);
   const bool is_uniform =
@@ -49,17 +50,17 @@ void LaneBatches<G>::add(const solve::ElementBatch& batch, Slot& slot) {
 }
 
 template <class G>
-void LaneBatches<G>::place_rows(const solve::ElementBatch& batch, Slot& slot) {
+void LaneBatches<G>::place_rows(const solve::ElementBatch& batch, int num_rows, Slot& slot) {
   int joints[elements::num_lanes];
   for (std::size_t l = 0; l < elements::num_lanes; ++l) {
     const int id = batch.element[l] >= 0 ? batch.element[l] : batch.element[static_cast<std::size_t>(slot.first)];
     joints[l] = joint_of_element_[static_cast<std::size_t>(id)];
   }
-  slot.num_rows = static_cast<int>(plan_->joints[static_cast<std::size_t>(joints[0])].rows.size());
+  slot.num_rows = num_rows;
   for (int r = 0; r < slot.num_rows; ++r)
     for (const int j : joints) {
       const plan::JointPlan& joint = plan_->joints[static_cast<std::size_t>(j)];
-      places_.push_back(static_cast<int>(joint.multiplier_begin) + joint.rows[static_cast<std::size_t>(r)]);
+      places_.push_back(joint.multiplier_begin + (is_reduced_ ? r : joint.rows[static_cast<std::size_t>(r)]));
     }
   places_.insert(places_.end(), std::begin(joints), std::end(joints));
 }
@@ -112,19 +113,26 @@ void LaneBatches<G>::gather_singles() {
 }
 
 template <class G>
+bool LaneBatches<G>::leaves_out(int element) const {
+  const auto id = static_cast<std::size_t>(element);
+  return (held_ != nullptr && held_->leaves_out(id)) || is_idle_joint(*plan_, joint_of_element_[id]);
+}
+
+template <class G>
 void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
                           const std::vector<int>& joint_of_element, const HeldNodes* held) {
   plan_ = &plan;
   held_ = held;
+  is_reduced_ = are_elements_reduced(plan);
+  joint_of_element_ = joint_of_element;
   batches_.assign(batches.begin(), batches.end());
   for (solve::ElementBatch& batch : batches_)
     for (int& id : batch.element)
-      if (id >= 0 && held != nullptr && held->leaves_out(static_cast<std::size_t>(id))) id = -1;
+      if (id >= 0 && leaves_out(id)) id = -1;
   gather_singles();
   std::erase_if(batches_, [](const solve::ElementBatch& b) {
     return std::all_of(b.element.begin(), b.element.end(), [](int id) { return id < 0; });
   });
-  joint_of_element_ = joint_of_element;
   slots_.assign(batches_.size(), {});
   uniform_.clear();
   for (std::size_t b = 0; b < batches_.size(); ++b) {
@@ -199,11 +207,13 @@ void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& s
   around.around.has_inertia = field.around.has_inertia;
   Pack residual[most], magnitude[most], parts[2 * most], spare[most * most];
   const bool is_direct =  // written directly only to full batches: the solver's empty lanes must stay empty
-      to.want_tangents() && slot.present == wide && batch.stride == wide && !slot.is_trimmed;
+      to.want_tangents() && slot.present == wide && batch.stride == wide && !slot.is_trimmed && !is_reduced_;
   Pack* matrix = nullptr;
   if (is_direct) matrix = reinterpret_cast<Pack*>(to.tangent_of(batch.element[0]).first);
   if (to.want_tangents() && !is_direct) matrix = spare;
   evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
+  if constexpr (std::is_same_v<G, motion::Se3>)
+    if (is_reduced_) return reduce_lanes<I>(batch, residual, magnitude, matrix, to);
   join_parts(G::dof, n, slot.num_rows, residual, magnitude, parts);
   double nowhere[2 * most], *to_parts[wide];
   for (int l = 0; l < wide; ++l) {
@@ -214,6 +224,38 @@ void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& s
           held_, static_cast<std::size_t>(id), n, [&](int i) { return spare[i][l]; }, to.tangent_of(id));
   }
   lanes::scatter_lanes(parts, 2 * n, to_parts);
+}
+
+/// Results of a batch of elements in space in the unknowns that their nodes have.
+template <class G>
+template <std::size_t I>
+void LaneBatches<G>::reduce_lanes(const solve::ElementBatch& batch, const elements::LanePack* residual,
+                                  const elements::LanePack* magnitude, const elements::LanePack* matrix,
+                                  const ElementResults& to) const {
+  const auto& array = std::get<I>(plan_->elements);
+  const plan::NodeUnknowns& u = plan_->unknowns;
+  std::array<double, most_unknowns * most_unknowns> whole, reduced;
+  std::array<double, most_unknowns> vector, sizes;
+  for (int l = 0; l < elements::num_lanes; ++l) {
+    const int id = batch.element[static_cast<std::size_t>(l)];
+    if (id < 0) continue;
+    const auto place = static_cast<std::size_t>(id);
+    const auto& e = array[static_cast<std::size_t>(plan_->directory[place].index)];
+    const int j = joint_of_element_[place], n = elements::num_unknowns(e);
+    const plan::JointPlan* const joint = j < 0 ? nullptr : &plan_->joints[static_cast<std::size_t>(j)];
+    const auto take = [&whole, l](const elements::LanePack* from, int count) {
+      for (int i = 0; i < count; ++i) whole[static_cast<std::size_t>(i)] = from[i][l];
+      return whole.data();
+    };
+    const int size = reduce_vector(u, e, joint, take(residual, n), vector.data());
+    reduce_sizes(u, e, joint, take(magnitude, n), sizes.data());
+    join_parts(u.count, size, joint == nullptr ? 0 : static_cast<int>(joint->rows.size()), vector.data(), sizes.data(),
+               to.parts_of(id));
+    if (matrix == nullptr) continue;
+    reduce_matrix(u, e, joint, take(matrix, n * n), reduced.data());
+    write_matrix(
+        held_, place, size, [&](int i) { return reduced[static_cast<std::size_t>(i)]; }, to.tangent_of(id));
+  }
 }
 
 template class LaneBatches<motion::Se3>;

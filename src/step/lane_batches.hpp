@@ -80,15 +80,22 @@ class LaneBatches {
     std::size_t element;  ///< one of the eight, in the plan's array
   };
   void gather_singles();
-  void place_rows(const solve::ElementBatch& batch, Slot& slot);
+  void place_rows(const solve::ElementBatch& batch, int num_rows, Slot& slot);
+  /// Whether the solver sees nothing of an element.
+  bool leaves_out(int element) const;
   template <std::size_t I>
   void add(const solve::ElementBatch& batch, Slot& slot);
   template <std::size_t I>
   void evaluate_as(const solve::ElementBatch& batch, const Slot& slot, const State& state, const Field& field,
                    const ElementResults& to) const;
+  template <std::size_t I>
+  void reduce_lanes(const solve::ElementBatch& batch, const elements::LanePack* residual,
+                    const elements::LanePack* magnitude, const elements::LanePack* matrix,
+                    const ElementResults& to) const;
 
   static constexpr std::size_t most_uniform = 64;  ///< number of lane elements that are searched for equal ones
   const plan::Plan* plan_ = nullptr;
+  bool is_reduced_ = false;  ///< nodes have fewer unknowns than the elements' group has
   const HeldNodes* held_ = nullptr;
   std::vector<solve::ElementBatch> batches_;
   std::span<const int> joint_of_element_;

@@ -25,7 +25,7 @@ constexpr double per_front_solved = 1.5e-7, per_front_solved_registers = 4e-8, p
                  per_byte_far = 5e-11;
 constexpr double bytes_near = 16e6;
 
-void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, bool may_share, StepCost& cost) {
+void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, StepCost& cost) {
   int present = 0, first = -1;
   for (int id : batch.element) {
     if (id < 0) continue;
@@ -33,7 +33,7 @@ void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, bool
     first = first < 0 ? id : first;
   }
   if (first < 0) return;
-  const bool in_lanes = may_share && present >= least_lanes;
+  const bool in_lanes = present >= least_lanes;
   plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(first)], [&](const auto& element) {
     const plan::ElementCost& c = plan::cost<std::decay_t<decltype(element)>>;
     const double count = in_lanes ? solve::lanes_wide : present, sums = present * per_sum;
@@ -47,8 +47,7 @@ void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, bool
 StepCost estimate_step_cost(const System& system) {
   const plan::Plan& plan = system.plan();
   StepCost cost;
-  for (const solve::ElementBatch& batch : system.batches())
-    add_elements(plan, batch, plan.unknowns.is_whole() || plan.planar, cost);
+  for (const solve::ElementBatch& batch : system.batches()) add_elements(plan, batch, cost);
   const solve::SolverCounters counters = system.linear().solver().counters();
   const auto bytes = static_cast<double>(counters.memory_bytes);
   double alone = 0.0, in_registers = 0.0;  // fronts

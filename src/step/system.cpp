@@ -9,7 +9,7 @@
 #include "bough/step/step_cost.hpp"
 #include "lane_batches.hpp"
 #include "moving_nodes.hpp"
-#include "projection.hpp"
+#include "reduced_elements.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -52,11 +52,9 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   if (!plan.held.empty()) held_ = std::make_unique<HeldNodes>(plan);
   place_parts();
   spatial_lanes_ = std::make_unique<LaneBatches<motion::Se3>>();
-  if (plan.unknowns.is_whole())
-    spatial_lanes_->make(plan, linear_.solver().batches(), joint_of_element_, held_.get());
-  else
-    projection_ = std::make_unique<Projection>(plan);
+  if (!plan.planar) spatial_lanes_->make(plan, linear_.solver().batches(), joint_of_element_, held_.get());
   if (plan.planar) {
+    if (!plan.is_dynamic) seen_parts_.resize(static_cast<std::size_t>(element_begin_.back()));
     planar_lanes_ = std::make_unique<LaneBatches<motion::Se2>>();
     planar_lanes_->make(plan, linear_.solver().batches(), joint_of_element_, held_.get());
   }
@@ -133,8 +131,7 @@ const LaneBatches<motion::Se2>& System::lanes_on<motion::Se2>() const {
 }
 template <class G>
 std::span<const solve::ElementBatch> System::batches_on() const {
-  const bool is_projected = std::is_same_v<G, motion::Se3> && projection_;
-  return is_projected ? linear_.solver().batches() : lanes_on<G>().batches();
+  return lanes_on<G>().batches();
 }
 
 template <class G>
@@ -142,6 +139,7 @@ void System::evaluate_alone(std::size_t id, const State& state, const elements::
                             const ElementResults& to) {
   if (held_ && held_->leaves_out(id)) return;
   const int j = joint_of_element_[id];
+  if (is_idle_joint(plan_, j)) return;
   std::array<double, elements::max_rows> scratch;
   const double* multipliers = nullptr;
   double turns = 0.0;
@@ -151,7 +149,7 @@ void System::evaluate_alone(std::size_t id, const State& state, const elements::
   }
   plan::with_element(plan::arrays_on<G>(plan_), plan_.directory[id], [&](const auto& e) {
     if constexpr (std::is_same_v<G, motion::Se3>)
-      if (projection_) return evaluate_projected(e, id, f, multipliers, turns, to.want_tangents());
+      if (are_elements_reduced(plan_)) return evaluate_reduced(e, id, f, multipliers, turns, to.want_tangents());
     std::array<double, most_unknowns> residual, magnitude;
     std::array<double, most_unknowns * most_unknowns> tangent_entries;
     const solve::ElementView view = to.want_tangents() ? to.tangent_of(static_cast<int>(id)) : solve::ElementView{};
@@ -171,17 +169,18 @@ void System::evaluate_alone(std::size_t id, const State& state, const elements::
 
 /// The element in six unknowns a node, then in those that the scene has.
 template <class E>
-void System::evaluate_projected(const E& e, std::size_t id, const elements::Field& f, const double* multipliers,
-                                double turns, bool tangent) {
+void System::evaluate_reduced(const E& e, std::size_t id, const elements::Field& f, const double* multipliers,
+                              double turns, bool tangent) {
   std::array<double, most_unknowns * most_unknowns> entries, reduced;
-  std::array<double, most_unknowns> residual, magnitude, projected, sizes;
+  std::array<double, most_unknowns> residual, magnitude, reduced_residual, sizes;
   elements::evaluate(e, f, multipliers, turns, residual.data(), tangent ? entries.data() : nullptr);
   elements::eval_magnitude(e, f, residual.data(), magnitude.data());
-  projection_->project_vector(id, residual.data(), projected.data());
-  projection_->project_sizes(id, magnitude.data(), sizes.data());
-  set_parts(id, projected.data(), sizes.data());
+  const plan::JointPlan* const joint = joint_plan_of(id);
+  reduce_vector(plan_.unknowns, e, joint, residual.data(), reduced_residual.data());
+  reduce_sizes(plan_.unknowns, e, joint, magnitude.data(), sizes.data());
+  set_parts(id, reduced_residual.data(), sizes.data());
   if (!tangent) return;
-  const int n = projection_->project_matrix(id, entries.data(), reduced.data());
+  const int n = reduce_matrix(plan_.unknowns, e, joint, entries.data(), reduced.data());
   write_matrix(
       held_.get(), id, n, [&](int i) { return reduced[static_cast<std::size_t>(i)]; },
       linear_.solver().element(static_cast<int>(id)));
@@ -248,7 +247,7 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   PhaseTimer timer{clock_, counts_.assemble};
   ++counts_.evaluations;
   if (tangent) begin_matrices(linear_.takes_symmetric_parts());
-  if (state.is_planar() && !as_sensors_)
+  if (state.is_planar())
     evaluate_on(state, field_on<motion::Se2>(state, slopes), tangent);
   else
     evaluate_on(state, field(state, slopes), tangent);

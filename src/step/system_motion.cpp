@@ -1,5 +1,6 @@
 /// System: moving the nodes, and time derivatives along a motion.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -7,7 +8,7 @@
 #include "bough/step/system.hpp"
 #include "held_nodes.hpp"
 #include "moving_nodes.hpp"
-#include "projection.hpp"
+#include "reduced_elements.hpp"
 #include "system_parts.hpp"
 
 namespace bough::step {
@@ -124,14 +125,46 @@ double System::largest_held_impulse(const State& state, const double* x) const {
   return held_ ? held_->largest_impulse(*this, state, x) : 0.0;
 }
 
+/// Sum of the residuals of elements in space, as sensors see them, in the unknowns of the plane; false where it is not
+/// finite. Nodes keep more digits in the plane than they have in space, so elements answer with other forces there.
+bool System::sum_as_seen(const State& state, std::vector<double>& sum) {
+  const elements::Field f = field(state);
+  auto by_element = [&](std::int64_t begin, std::int64_t end) {
+    std::array<double, most_unknowns> residual;
+    for (auto id = static_cast<std::size_t>(begin); id < static_cast<std::size_t>(end); ++id) {
+      const plan::JointPlan* const joint = joint_plan_of(id);
+      const double* multipliers = joint == nullptr ? nullptr : state.multipliers.data() + joint->multiplier_begin;
+      const double turns = joint == nullptr ? 0.0 : state.turns[static_cast<std::size_t>(joint_of_element_[id])];
+      plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
+        elements::evaluate(e, f, multipliers, turns, residual.data(), nullptr);
+        reduce_vector(plan_.unknowns, e, joint, residual.data(), seen_parts_.data() + element_begin_[id]);
+      });
+    }
+  };
+  walker_.for_each_chunk(static_cast<std::int64_t>(plan_.directory.size()), element_grain,
+                         tree::make_chunk(by_element));
+  std::fill(sum.begin(), sum.end(), 0.0);
+  for (std::size_t id = 0; id < plan_.directory.size(); ++id) {
+    if (held_ && held_->leaves_out(id)) continue;
+    const double* from = seen_parts_.data() + element_begin_[id];
+    for_each_part(plan_, id, joint_of_element_[id], [&](int block, int size, int) {
+      for (int i = 0; i < size && block >= 0; ++i) sum[static_cast<std::size_t>(block_begin(block) + i)] += from[i];
+      from += size;
+    });
+  }
+  return std::all_of(sum.begin(), sum.end(), [](double x) { return std::isfinite(x); });
+}
+
 void System::find_unsettled(State& state) {
   state.unsettled.clear();
   // Without tangents: the kernel that sensors evaluate, bit by bit. The matrices stay those of the last evaluation.
-  as_sensors_ = true;
-  const bool is_finite = !evaluate(state, {}, false);
-  as_sensors_ = false;
-  if (!is_finite) return;
-  for (std::size_t i = 0; i < work_.rhs.size(); ++i) work_.rhs[i] = -residual_[i];
+  if (state.is_planar()) {
+    if (!sum_as_seen(state, work_.rhs)) return;
+  } else {
+    if (evaluate(state, {}, false)) return;
+    work_.rhs = residual_;
+  }
+  for (double& r : work_.rhs) r = -r;
   if (!linear_.is_of_matrices() && linear_.factor(false, {})) return;
   if (linear_.solve(work_.rhs.data(), work_.x.data())) return;
   for (State* s : {&state, &work_.start, &work_.before})
@@ -143,42 +176,56 @@ void System::find_unsettled(State& state) {
 }
 
 void System::evaluate_rate(const State& state, std::vector<double>& rate, double step_size) {
-  elements::Field f = field(state);
+  rate.assign(num_unknowns(), 0.0);
+  state.visit([&]<class G>(const NodesOn<G>&) { add_rates<G>(state, step_size, rate); });
+}
+
+template <class G>
+void System::add_rates(const State& state, double step_size, std::vector<double>& rate) {
   using T = lanes::Taylor<double, 1>;
+  elements::FieldOn<G, double> f = field_on<G>(state);
   const std::vector<T>& laws = instant_.rate_series();
-  elements::Surroundings<T> around;
-  for (int k = 0; k < 3; ++k) around.gravity[k] = plan_.gravity[k] * laws[static_cast<std::size_t>(plan_.gravity_law)];
+  const T strength = laws[static_cast<std::size_t>(plan_.gravity_law)];
+  motion::Vec3<T> gravity;
+  for (int k = 0; k < 3; ++k) gravity[k] = plan_.gravity[k] * strength;
+  if constexpr (G::has_moving_frames) {
+    if (!plan_.frames.empty()) {
+      const plan::FrameMotions& frames = instant_.frame_series(step_size);
+      f.carriers = frames.in_ground.data();
+      if (f.observer != nullptr) {
+        f.observer = &frames.observer;
+        motion::Vec3<T> turning = lanes::cast<T>(lanes::angular_part(f.observer->twist));
+        gravity = lanes::cast<T>(lanes::transpose_times(f.observer->pose.R, plan_.gravity));
+        for (int k = 0; k < 3; ++k) gravity[k].c[1] = -lanes::cross(turning, gravity)[k].c[0];  // (R^T g)' = -w x R^T g
+        gravity = strength * gravity;
+      }
+    }
+  }
+  elements::SurroundingsOn<G, T> around;
+  if constexpr (G::has_moving_frames)
+    around.gravity = gravity;
+  else
+    around.gravity = motion::plane_part(lanes::transpose_times(lanes::cast<T>(plan_.planar->axes), gravity));
   around.laws = laws.data();
   around.has_inertia = plan_.is_dynamic;
   around.nodes_turn = f.around.nodes_turn;
-  if (!plan_.frames.empty()) {
-    const plan::FrameMotions& frames = instant_.frame_series(step_size);
-    f.carriers = frames.in_ground.data();
-    if (f.observer != nullptr) {
-      f.observer = &frames.observer;
-      motion::Vec3<T> turning = lanes::cast<T>(lanes::angular_part(f.observer->twist));
-      motion::Vec3<T> gravity = lanes::cast<T>(lanes::transpose_times(f.observer->pose.R, plan_.gravity));
-      for (int k = 0; k < 3; ++k) gravity[k].c[1] = -lanes::cross(turning, gravity)[k].c[0];  // (R^T g)' = -w x R^T g
-      around.gravity = laws[static_cast<std::size_t>(plan_.gravity_law)] * gravity;
-    }
-  }
-  rate.assign(num_unknowns(), 0.0);
-  std::vector<double> part, projected;
+  std::array<double, most_unknowns> part, reduced;
+  std::array<double, elements::max_rows> scratch;
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
-    part.assign(most_unknowns, 0.0);
+    part.fill(0.0);
     const int j = joint_of_element_[e];
-    const double* multipliers =
-        j >= 0 ? state.multipliers.data() + plan_.joints[static_cast<std::size_t>(j)].multiplier_begin : nullptr;
-    const double turns = j >= 0 ? state.turns[static_cast<std::size_t>(j)] : 0.0;
-    plan::with_element(plan_.elements, plan_.directory[e], [&](const auto& element) {
-      elements::evaluate_rate(element, f, around, multipliers, turns, part.data());
-    });
+    const plan::JointPlan* const joint = joint_plan_of(e);
+    const double* multipliers = joint == nullptr ? nullptr : multipliers_on<G>(*joint, state, scratch.data());
+    const double turns = joint == nullptr ? 0.0 : state.turns[static_cast<std::size_t>(j)];
     const double* from = part.data();
-    if (projection_) {
-      projected.resize(part.size());
-      projection_->project_vector(e, part.data(), projected.data());
-      from = projected.data();
-    }
+    plan::with_element(plan::arrays_on<G>(plan_), plan_.directory[e], [&](const auto& element) {
+      elements::evaluate_rate(element, f, around, multipliers, turns, part.data());
+      if constexpr (G::has_moving_frames)
+        if (are_elements_reduced(plan_)) {
+          reduce_vector(plan_.unknowns, element, joint, part.data(), reduced.data());
+          from = reduced.data();
+        }
+    });
     for_each_part(plan_, e, j, [&](int block, int size, int) {
       for (int i = 0; i < size && block >= 0; ++i) rate[static_cast<std::size_t>(block_begin(block) + i)] += from[i];
       from += size;

@@ -175,8 +175,9 @@ Measures measure(const E& e, const Field& field, const double* multipliers, doub
 /// Time derivative of the residual along the motion with accelerations held constant: positions, velocities, frames of
 /// multipliers and laws advance. Laws are given as value and rate. Of joints only the forces are differentiated.
 template <class E>
-void evaluate_rate(const E& e, const Field& field, const Surroundings<lanes::Taylor<double, 1>>& around,
-                   const double* multipliers, double turns, double* residual_rate);
+void evaluate_rate(const E& e, const FieldOn<typename E::Group, double>& field,
+                   const SurroundingsOn<typename E::Group, lanes::Taylor<double, 1>>& around, const double* multipliers,
+                   double turns, double* residual_rate);
 
 /// Constraint rows of a joint as Taylor coefficients in time up to order 3, along the motion given by twist,
 /// acceleration and jerk (the derivative of the acceleration's components) of its nodes.  out[row] = {Phi, Phi',

@@ -69,7 +69,6 @@ struct Workspace {
 
 template <class G>
 class LaneBatches;
-class Projection;
 class HeldNodes;
 struct PairLanes;
 struct IncrementsOf;
@@ -263,14 +262,20 @@ class System {
                       const ElementResults& to);
   IncrementsOf increments() const;
   template <class E>
-  void evaluate_projected(const E& e, std::size_t id, const elements::Field& field, const double* multipliers,
-                          double turns, bool tangent);
+  void evaluate_reduced(const E& e, std::size_t id, const elements::Field& field, const double* multipliers,
+                        double turns, bool tangent);
+  template <class G>
+  void add_rates(const State& state, double step_size, std::vector<double>& rate);
+  bool sum_as_seen(const State& state, std::vector<double>& sum);
+  const plan::JointPlan* joint_plan_of(std::size_t element) const {
+    const int j = joint_of_element_[element];
+    return j < 0 ? nullptr : &plan_.joints[static_cast<std::size_t>(j)];
+  }
 
   const plan::Plan& plan_;
   Instant instant_;
   std::unique_ptr<LaneBatches<motion::Se3>> spatial_lanes_;
   std::unique_ptr<LaneBatches<motion::Se2>> planar_lanes_;  ///< of a scene in a plane; else null
-  std::unique_ptr<Projection> projection_;                  ///< none where a node has six unknowns
   std::unique_ptr<HeldNodes> held_;                         ///< none where the solver knows all nodes
   tree::Walker walker_;
   CpuClock clock_;
@@ -305,7 +310,7 @@ class System {
   double moment_arm_ = 0.0;
   MotionTree motion_tree_;  ///< empty in dynamics
   RoundOffMemory met_round_off_;
-  bool as_sensors_ = false;  ///< elements in space, one at a time: the bits that sensors see
+  std::vector<double> seen_parts_;  ///< scratch of sum_as_seen: residuals of elements, from element_begin_ on
 };
 
 }  // namespace bough::step
