@@ -50,8 +50,8 @@ PortMotion<Series> with_unsettled(const PortMotion<double>& p, const Port& port,
   return r;
 }
 
-/// Adds the residual of an element to `sum`. In statics it includes the first-order effect of that increment, f + K eta;
-/// see step::System::settle.
+/// Adds the residual of an element to `sum`. In statics it includes the first-order effect of that increment, f + K
+/// eta; see step::System::settle.
 template <class E>
 void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& f, const step::State& state,
                           double* sum) {

@@ -5,7 +5,7 @@
 
 #include "bough/elements/evaluate_lanes.hpp"
 
-namespace bough::elements::planar {
+namespace bough::elements::in_plane {
 
 using motion::Se2;
 using Port = PortOn<Se2, double>;
@@ -23,7 +23,7 @@ using Spring = SpringOn<Se2>;
 using Bushing = BushingOn<Se2>;
 using Joint = JointOn<Se2>;
 
-}  // namespace bough::elements::planar
+}  // namespace bough::elements::in_plane
 
 namespace bough::elements::check {
 
@@ -46,7 +46,7 @@ struct PlanarResult {
 /// Columns: the nodes' increments, then the multipliers. With `mass_only` the unknowns are accelerations: rows keep
 /// the gradient by poses, and of forces only what follows the acceleration is left.
 template <class E>
-PlanarResult evaluate_on_jets(const E& e, const planar::Field& field, const double* multipliers, double turns) {
+PlanarResult evaluate_on_jets(const E& e, const in_plane::Field& field, const double* multipliers, double turns) {
   using G = motion::Se2;
   constexpr int P = E::num_ports, D = 3 * P;
   using T = lanes::Jet<double, D>;
@@ -54,7 +54,7 @@ PlanarResult evaluate_on_jets(const E& e, const planar::Field& field, const doub
   const auto anchor = anchor_of(e, field.nodes);
   const auto seeded = [&](bool moves, bool has_rates, PortMotionOn<G, T>* p) {
     for (int k = 0; k < P; ++k) {
-      const planar::Port& port = e.ports[k];
+      const in_plane::Port& port = e.ports[k];
       PortMotionOn<G, double> at =
           port.node == ground
               ? PortMotionOn<G, double>{{port.offset.R,

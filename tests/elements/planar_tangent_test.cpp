@@ -9,7 +9,7 @@
 #include "elements/planar_jets.hpp"
 #include "elements/samples.hpp"
 
-namespace bough::elements::planar {
+namespace bough::elements::in_plane {
 namespace {
 
 using check::Numbers;
@@ -250,4 +250,4 @@ TEST(PlanarElements, in_lanes_have_the_bits_of_the_element_alone) {
 }
 
 }  // namespace
-}  // namespace bough::elements::planar
+}  // namespace bough::elements::in_plane
