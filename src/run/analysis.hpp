@@ -61,9 +61,6 @@ class Analysis {
   /// Times at which steps have to end within a stretch: those of expected figures, those requested, and the end of the
   /// stretch.
   std::vector<double> stops_between(double begin, double end) const;
-  void accept_turns() {
-    if (!plan_.joints.empty()) step::accept_turns(system_, state_);
-  }
 
   const Parts parts_;
   const scene::Scene& scene_;

@@ -80,7 +80,7 @@ bool ControlledSteps::step_within_stretch() {
     last_step_ = size_;
     watch_accepted();
     count(report);
-    accept_turns();
+    if (!plan_.joints.empty()) step::accept_turns(system_, state_);
     if (!watch_reactions()) return false;
     recording_.conservation().add_step(state_, last_step_);
     record(report.iterations, target == scene_.analysis.end_time);

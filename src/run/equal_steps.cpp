@@ -63,7 +63,7 @@ bool EqualSteps::accept(const step::StepReport& report, double size, bool is_las
   last_step_ = size;
   if (options_.single_solution && summary().steps.accepted == 1)
     note("one linear solution per step: residuals are not driven to the tolerance");
-  accept_turns();
+  if (!plan_.joints.empty()) step::accept_turns(system_, state_);
   if (!watch_reactions()) return false;
   if (watches_error() && !look_at_error()) return false;
   recording_.conservation().add_step(state_, size);

@@ -146,7 +146,7 @@ bool LoadPath::look_within(PathPlace from, PathPlace to) {
       recording_.figures().note_missing(time, "no equilibrium at this load factor: " + report.cause);
       continue;
     }
-    accept_turns();
+    if (!plan_.joints.empty()) step::accept_turns(system_, state_);
     recording_.add_figures(state_);
   }
   return has_moved;
@@ -162,7 +162,7 @@ void LoadPath::accept_limit_point(const PathPoint& limit, bool is_maximum, int i
     note("a limit point of the load was passed but not met, its load factor " + std::to_string(limit.load_factor) +
          (limit.is_passed ? ": " : " is that of a parabola through equilibria on both sides of it: ") + limit.cause);
   last_step_ = limit.distance;
-  accept_turns();
+  if (!plan_.joints.empty()) step::accept_turns(system_, state_);
   if (limit.is_near || is_done_) record(iterations, is_done_);
   last_step_ = end_of_step;
 }
@@ -243,7 +243,7 @@ bool LoadPath::take_step() {
       note("the load factor passes " + std::to_string(arc.end_load_factor) + " between two equilibria, but none was " +
            "found there: the run ends at " + std::to_string(state_.time) + ". " + step.stop->cause);
   }
-  accept_turns();
+  if (!plan_.joints.empty()) step::accept_turns(system_, state_);
   stability_.look(state_, has_moved ? std::nullopt : step.look);
   record(report.iterations, is_done_);
   length_ *= std::clamp(std::sqrt(static_cast<double>(wanted_iterations) / report.iterations), shortest_part,

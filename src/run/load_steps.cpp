@@ -51,7 +51,7 @@ bool LoadSteps::take_step() {
     }
     stability_.look(state_);
     last_step_ = target - before;
-    accept_turns();
+    if (!plan_.joints.empty()) step::accept_turns(system_, state_);
     ++part_;
     while (level_ > 0 && part_ % 2 == 0) {
       part_ /= 2;

@@ -205,6 +205,7 @@ void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& s
   for (int i = 0; i < field.around.gravity.size(); ++i) around.around.gravity[i] = Pack(field.around.gravity[i]);
   around.around.laws = laws;
   around.around.has_inertia = field.around.has_inertia;
+  around.around.nodes_turn = field.around.nodes_turn;
   Pack residual[most], magnitude[most], parts[2 * most], spare[most * most];
   const bool is_direct =  // written directly only to full batches: the solver's empty lanes must stay empty
       to.want_tangents() && slot.present == wide && batch.stride == wide && !slot.is_trimmed && !is_reduced_;
