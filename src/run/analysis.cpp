@@ -10,34 +10,35 @@
 namespace bough::run {
 
 Analysis::Analysis(const Parts& parts)
-    : parts_(parts),
-      scene_(parts.scene),
+    : scene_(parts.scene),
       options_(parts.options),
       plan_(parts.plan),
       system_(parts.system),
       state_(parts.state),
-      recording_(parts.recording) {}
+      recording_(parts.recording),
+      asked_(parts.asked),
+      progress_(parts.progress) {}
 
 void Analysis::come_back() {
   if (const auto t = system_.set_time(state_.time)) throw std::logic_error(t->text);  // it was finite there before
 }
 
 bool Analysis::may_try(double target) {
-  const auto& ask = parts_.asked.before_step;
+  const auto& ask = asked_.before_step;
   if (!ask || ask(system_, state_, {options_, summary().steps.accepted + 1, target})) return true;
   return account().interrupt("stopped before the step to " + std::to_string(target));
 }
 
 bool Analysis::report_progress(const step::StepReport& report, double end) {
-  if (!parts_.progress) return true;
+  if (!progress_) return true;
   records::Progress p;
   p.time = state_.time;
   p.end_time = end;
   p.step_size = last_step_;
   p.iterations = report.iterations;
   p.step = summary().steps.accepted;
-  if (parts_.progress(p)) return true;
-  const auto& stopped_by = parts_.asked.stopped_by;
+  if (progress_(p)) return true;
+  const auto& stopped_by = asked_.stopped_by;
   return account().interrupt("stopped by " + (stopped_by ? stopped_by() : std::string("the user")) + " at time " +
                              std::to_string(state_.time));
 }
@@ -45,7 +46,7 @@ bool Analysis::report_progress(const step::StepReport& report, double end) {
 std::vector<double> Analysis::stops_between(double begin, double end) const {
   const double least = 1e-9 * (end - begin);
   std::vector<double> stops;
-  for (const std::vector<double>* times : {&recording_.figures().times(), &parts_.asked.stops})
+  for (const std::vector<double>* times : {&recording_.figures().times(), &asked_.stops})
     for (const double t : *times)
       if (t > begin + least && t < end - least) stops.push_back(t);
   std::sort(stops.begin(), stops.end());

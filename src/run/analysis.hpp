@@ -62,13 +62,14 @@ class Analysis {
   /// stretch.
   std::vector<double> stops_between(double begin, double end) const;
 
-  const Parts parts_;
   const scene::Scene& scene_;
   step::StepOptions& options_;
   const plan::Plan& plan_;
   step::System& system_;
   step::State& state_;
   Recording& recording_;
+  const SimulateOptions& asked_;
+  const ProgressCallback& progress_;
   double last_step_ = 0.0;  ///< size of the last accepted step, in time, load factor or along the path
 };
 

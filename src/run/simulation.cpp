@@ -36,11 +36,11 @@ step::StepOptions options_for(const scene::Scene& scene, const plan::Plan& plan)
 
 }  // namespace
 
-struct Simulation::Parts {
+struct Simulation::Impl {
   enum class Stage { made, going, ended, finished };
 
-  Parts(const scene::Scene& given, SimulateOptions given_options, records::Recorder* given_recorder,
-        ProgressCallback given_progress)
+  Impl(const scene::Scene& given, SimulateOptions given_options, records::Recorder* given_recorder,
+       ProgressCallback given_progress)
       : asked(std::move(given_options)),
         progress(std::move(given_progress)),
         scene(given),
@@ -99,19 +99,19 @@ struct Simulation::Parts {
 
 class Simulation::Moment {
  public:
-  explicit Moment(const Parts& p)
+  explicit Moment(const Impl& p)
       : options(p.options), state(p.state), recording(*p.recording), analysis(p.analysis), stage(p.stage) {}
 
   step::StepOptions options;
   step::State state;
   Recording recording;
   Cloned<Analysis> analysis;
-  Parts::Stage stage;
+  Impl::Stage stage;
 };
 
 Simulation::Simulation(const scene::Scene& scene, SimulateOptions options, records::Recorder* recorder,
                        ProgressCallback progress)
-    : parts_(std::make_unique<Parts>(scene, std::move(options), recorder, std::move(progress))) {}
+    : impl_(std::make_unique<Impl>(scene, std::move(options), recorder, std::move(progress))) {}
 
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -119,43 +119,46 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 bool Simulation::start() {
   bool is_there = false;
-  parts_->together([&] { is_there = parts_->start(); });
+  impl_->together([&] { is_there = impl_->start(); });
   return is_there;
 }
 
 bool Simulation::take_step() {
   bool is_taken = false;
-  parts_->together([&] { is_taken = parts_->take_step(); });
+  impl_->together([&] { is_taken = impl_->take_step(); });
   return is_taken;
 }
 
 bool Simulation::advance_to(double time) {
   constexpr double round_off = 1e-12;
-  parts_->together([&] {
-    if (!parts_->start()) return;
-    while (parts_->state.time < time - round_off * std::max(1.0, std::abs(time)) && parts_->take_step()) {
+  impl_->together([&] {
+    if (!impl_->start()) return;
+    while (impl_->state.time < time - round_off * std::max(1.0, std::abs(time)) && impl_->take_step()) {
     }
   });
-  return parts_->state.time >= time - round_off * std::max(1.0, std::abs(time));
+  return impl_->state.time >= time - round_off * std::max(1.0, std::abs(time));
 }
 
 bool Simulation::run() {
-  parts_->together([&] {
-    while (parts_->take_step()) {
+  impl_->together([&] {
+    while (impl_->take_step()) {
     }
   });
-  return parts_->recording->summary().status == RunStatus::ok;
+  return impl_->recording->summary().status == RunStatus::ok;
 }
 
 bool Simulation::has_ended() const {
-  return parts_->stage == Parts::Stage::ended || parts_->stage == Parts::Stage::finished;
+  return impl_->stage == Impl::Stage::ended || impl_->stage == Impl::Stage::finished;
 }
 
-double Simulation::time() const { return parts_->state.time; }
+double Simulation::time() const { return impl_->state.time; }
 
-const records::HistoryHeader& Simulation::header() const { return parts_->recording->summary().header; }
+const records::HistoryHeader& Simulation::header() const { return impl_->recording->summary().header; }
 
-const std::vector<double>& Simulation::values() { return parts_->recording->eval_sensors(parts_->state); }
+const std::vector<double>& Simulation::values() {
+  if (impl_->stage == Impl::Stage::made) (void)start();
+  return impl_->recording->eval_sensors(impl_->state);
+}
 
 double Simulation::value(std::string_view column) {
   const std::vector<std::string>& columns = header().columns;
@@ -164,10 +167,10 @@ double Simulation::value(std::string_view column) {
   return values()[static_cast<std::size_t>(found - columns.begin())];
 }
 
-std::shared_ptr<const Simulation::Moment> Simulation::save() const { return std::make_shared<const Moment>(*parts_); }
+std::shared_ptr<const Simulation::Moment> Simulation::save() const { return std::make_shared<const Moment>(*impl_); }
 
 void Simulation::restore(const Moment& moment) {
-  Parts& p = *parts_;
+  Impl& p = *impl_;
   p.options = moment.options;
   p.state = moment.state;
   p.recording.emplace(moment.recording);
@@ -175,16 +178,16 @@ void Simulation::restore(const Moment& moment) {
   p.stage = moment.stage;
   p.system.linear().forget_factor();
   p.system.met_round_off() = {};
-  if (p.stage != Parts::Stage::made) p.analysis->come_back();
+  if (p.stage != Impl::Stage::made) p.analysis->come_back();
 }
 
 const records::Summary& Simulation::finish() {
-  Parts& p = *parts_;
+  Impl& p = *impl_;
   records::Summary& summary = p.recording->summary();
-  if (p.stage == Parts::Stage::finished) return summary;
-  if (p.stage == Parts::Stage::made) p.recorder.begin(summary.header);
+  if (p.stage == Impl::Stage::finished) return summary;
+  if (p.stage == Impl::Stage::made) p.recorder.begin(summary.header);
   if (!has_ended()) (void)p.recording->account().interrupt("stopped at time " + std::to_string(p.state.time));
-  p.stage = Parts::Stage::finished;
+  p.stage = Impl::Stage::finished;
   judge({p.scene, p.options, p.system, p.state, *p.recording, *p.analysis});
   if (p.asked.after_run) p.asked.after_run(p.system, p.state);
   p.recorder.end(summary);

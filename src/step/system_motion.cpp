@@ -132,6 +132,7 @@ bool System::sum_as_seen(const State& state, std::vector<double>& sum) {
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     std::array<double, most_unknowns> residual;
     for (auto id = static_cast<std::size_t>(begin); id < static_cast<std::size_t>(end); ++id) {
+      if (held_ && held_->leaves_out(id)) continue;
       const plan::JointPlan* const joint = joint_plan_of(id);
       const double* multipliers = joint == nullptr ? nullptr : state.multipliers.data() + joint->multiplier_begin;
       const double turns = joint == nullptr ? 0.0 : state.turns[static_cast<std::size_t>(joint_of_element_[id])];

@@ -194,7 +194,8 @@ class Batch {
     return true;
   }
 
-  /// Of so many cases and no more: what all of them die of is seen from these, and a folder holds no 1e5 others.
+  /// The rows that the present case of a worker has written, for a folder of its own. Only the first 1000 cases that
+  /// die get one: they suffice to find the cause, and the output folder stays small.
   std::string_view rows_to_keep(const Worker& w) {
     constexpr std::size_t most = 1000;
     return w.rows().empty() || num_kept_++ >= most ? std::string_view() : w.rows();

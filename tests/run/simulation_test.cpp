@@ -90,6 +90,15 @@ TEST(Simulation, sensors_are_read_where_it_stands) {
   EXPECT_TRUE(simulation.has_ended());
 }
 
+TEST(Simulation, sensors_are_read_at_the_consistent_start) {
+  const scene::Scene scene = gallery("slider_crank");
+  Rows rows;
+  Simulation simulation(scene, {}, &rows);
+  const std::vector<double> first = simulation.values();
+  ASSERT_EQ(rows.rows.size(), 1u) << "reading comes to the start by itself";
+  EXPECT_EQ(first, rows.rows.front().values);
+}
+
 TEST(Simulation, left_before_its_end_it_says_so) {
   const scene::Scene scene = gallery("slider_crank");
   Rows rows;

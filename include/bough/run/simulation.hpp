@@ -54,8 +54,8 @@ class Simulation {
   const records::Summary& finish();
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace bough::run
