@@ -114,7 +114,7 @@ class Piecewise final : public Node {
   }
 
  private:
-  /// A value on the way may be infinite (a pole). It is reported when the law is evaluated, not here.
+  /// The value at a start may be infinite (a pole). It is reported when the law is evaluated, not here.
   static Law make_constant_unchecked(double value) {
     return Law{std::make_shared<PolynomialPieces>(std::vector<PolynomialPieces::Knot>{},
                                                   std::vector<PolynomialPieces::Piece>{{0.0, 1.0, {value}}})};

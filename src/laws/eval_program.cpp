@@ -217,7 +217,8 @@ Jet<S> switch_argument(Op op, const Stack<S>& stack, std::size_t height) {
 }
 
 /// Runs instructions [begin, end) from an empty stack at time jet t. Returns the height of the stack. before: null, or
-/// the stack of a run at the last time before t, kept in step by this one for the branches seen from the left.
+/// the stack of a run at the last time before t, which this run advances as well to find the branches seen from the
+/// left.
 template <class S>
 std::size_t run(const Program& program, std::size_t begin, std::size_t end, const Jet<S>& t, Stack<S>& stack,
                 const Jet<double>* t_before = nullptr, Stack<double>* before = nullptr,

@@ -8,7 +8,8 @@
 
 namespace bough::laws {
 
-/// Times nearer to zero than this [s] are zero for the changes of branch: products of smaller ones lose their sign.
+/// In the search for changes of branch, times nearer to zero than this [s] count as zero: products of smaller ones
+/// underflow and lose their sign.
 inline constexpr double tiny_time = 1e-300;
 
 /// The last time before t: the next double below, tiny_time below around zero.

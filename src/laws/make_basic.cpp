@@ -26,11 +26,11 @@ void check_ramp(double t0, double t1, double v0, double v1) {
   if (!(t0 < t1)) throw LawError({}, 0, "a ramp must end after it begins");
 }
 
-/// Moments M_i = f''(times[i]) of the cubic spline with not-a-knot ends (f''' without jump at the second and last but
-/// one knot). Three terms a row inside:
+/// Moments M_i = f''(times[i]) of the cubic spline with not-a-knot ends (f''' is continuous at the second and the last
+/// but one knot). Each inner row has three terms:
 ///   h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (d_i - d_{i-1}),   d_i the slope of chord i,
-/// with M_0 = (1 + q) M_1 - q M_2, q = h_0 / h_1, put into the first row and the mirror image into the last. The matrix
-/// is diagonally dominant, so no pivoting.
+/// with M_0 = (1 + q) M_1 - q M_2, q = h_0 / h_1, inserted in the first row and its mirror image in the last. The
+/// matrix is diagonally dominant, so pivoting is not needed.
 std::vector<double> eval_spline_moments(const std::vector<double>& h, const std::vector<double>& d) {
   const std::size_t last = h.size();  // index of the last knot
   std::vector<double> moments(last + 1, 0.0);

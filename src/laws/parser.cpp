@@ -98,7 +98,7 @@ class Parser {
   }
 
  private:
-  /// Counts the levels of nesting while it lives.
+  /// Counts the levels of nesting during its lifetime.
   class Level {
    public:
     explicit Level(Parser& parser) : parser_(parser) {

@@ -37,7 +37,7 @@ enum class Op : std::uint8_t {
   max  // these change branch where their argument (min, max: the difference) changes sign
 };
 
-/// Lowest derivative that jumps where the operation changes branch.
+/// is_switch: the operation has branches; switch_order: the lowest derivative that jumps where the branch changes.
 constexpr bool is_switch(Op op) { return op >= Op::abs; }
 constexpr int switch_order(Op op) { return op == Op::sign || op == Op::step ? 0 : 1; }
 constexpr bool has_two_arguments(Op op) {
@@ -47,7 +47,7 @@ constexpr bool has_two_arguments(Op op) {
 struct Instruction {
   Op op = Op::number;
   double number = 0.0;      ///< the number; the exponent of pow_number
-  std::uint32_t first = 0;  ///< of a switch: where the instructions of its arguments begin; of a variable: which
+  std::uint32_t first = 0;  ///< of a switch: where the instructions of its arguments begin; of a variable: its index
 };
 
 /// A formula in postfix order: each instruction takes its arguments from a stack and leaves its result there.

@@ -3,7 +3,7 @@
 
 namespace bough::laws {
 
-/// Masks floating-point traps while it lives: infinities and NaN are for the caller to judge.
+/// Masks floating-point traps during its lifetime; the caller handles infinities and NaN.
 class TrapsMasked {
  public:
   TrapsMasked() { std::feholdexcept(&environment_); }

@@ -11,7 +11,8 @@ namespace bough::motion {
 
 namespace {
 
-/// Largest entry of |R^T R - I|. Throws what is no rotation.
+/// Largest entry of |R^T R - I|. Throws std::invalid_argument for an R that is not a rotation and for entries that are
+/// not finite.
 double checked_defect(const Frame<double>& motion) {
   for (const double x : motion.R.m)
     if (!std::isfinite(x)) throw std::invalid_argument("motion: the rotation has an entry that is not a finite number");

@@ -9,7 +9,7 @@ namespace bough::motion {
 
 namespace {
 
-/// a of the skew part ~a of M.
+/// The vector a whose skew matrix ~a is the skew-symmetric part of M.
 Vec3<double> axial(const Mat3<double>& M) {
   return {{0.5 * (M(2, 1) - M(1, 2)), 0.5 * (M(0, 2) - M(2, 0)), 0.5 * (M(1, 0) - M(0, 1))}};
 }
@@ -27,7 +27,7 @@ Vec3<double> angular_velocity_of(const Mat3<double>& R, const Mat3<double>& R_ra
 }
 
 Vec3<double> angular_acceleration_of(const Mat3<double>& R, const Mat3<double>& R_rate, const Mat3<double>& R_second) {
-  // Rdot Rdot^T = -~w ~w is symmetric: it only takes away the symmetric part of Rddot R^T.
+  // Rdot Rdot^T = -~w ~w is symmetric: adding it only cancels the symmetric part of Rddot R^T.
   return axial(R_second * transpose(R) + R_rate * transpose(R_rate));
 }
 
@@ -63,7 +63,7 @@ Resolved angular_velocity(const FrameChain& chain, Of b, RelativeTo a, In axes) 
 }
 
 AngularAcceleration angular_acceleration(const FrameChain& chain, Of b, RelativeTo a, From g, In axes) {
-  // d_g W_ab = d_a W_ab + W_ga x W_ab [2.2] holds the same terms: sum_i W_ai x w_i + W_ga x sum_i w_i.
+  // d_g W_ab = d_a W_ab + W_ga x W_ab [2.2], so the transport terms are sum_i W_ai x w_i + W_ga x sum_i w_i.
   const Walk from_a = walk(chain, a.frame, b.frame);
   const Vec3<double> W_ga = -walk(chain, a.frame, g.frame).angular_velocity;
   const Axes change(chain, a.frame, axes);

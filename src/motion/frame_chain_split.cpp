@@ -14,7 +14,8 @@ void require_frame(const FrameChain& chain, int frame) {
                                 std::to_string(frame));
 }
 
-/// Adds sign times the motion, seen from g, of a vector that is x, x', x'' in the frame reached (components of g).
+/// Adds `sign` times the motion, as seen from g, of a vector that has the value x and the derivatives `rate` and
+/// `second` in the frame reached (all components in the axes of g).
 void add_vector(Walk& w, double sign, const Vec3<double>& x, const Vec3<double>& rate, const Vec3<double>& second) {
   const Vec3<double>& W = w.angular_velocity;
   w.pose.x += sign * x;
@@ -22,7 +23,7 @@ void add_vector(Walk& w, double sign, const Vec3<double>& x, const Vec3<double>&
   w.acceleration += sign * (second + 2.0 * cross(W, rate) + cross(w.local + w.transport, x) + cross(W, cross(W, x)));
 }
 
-/// From frame i-1 to frame i.
+/// Goes from frame i-1 to frame i.
 void step_out(Walk& w, const FrameMotion& link) {
   const Mat3<double> R = w.pose.R;
   add_vector(w, 1.0, R * link.pose.x, R * link.velocity, R * link.acceleration);
@@ -33,7 +34,8 @@ void step_out(Walk& w, const FrameMotion& link) {
   w.pose.R = R * link.pose.R;
 }
 
-/// From frame i to frame i-1: the same terms with a minus, and the origin seen from the frame it belongs to.
+/// Goes back from frame i to frame i-1 and subtracts the terms of step_out. The origin of frame i is a point of frame
+/// i-1, so its motion is subtracted after the change of frame.
 void step_in(Walk& w, const FrameMotion& link) {
   const Mat3<double> R = w.pose.R * transpose(link.pose.R);
   const Vec3<double> turn = R * link.angular_velocity;

@@ -1,10 +1,11 @@
 #pragma once
-/// A walk along a chain of frames, gathering what one of them sees of another.
+/// A walk along a chain of frames. It accumulates the motion of one frame as seen from another.
 #include "bough/motion/frame_chain.hpp"
 
 namespace bough::motion {
 
-/// Motion of the frame reached seen from the frame started at (g); all components in the axes of g.
+/// Motion of the frame that the walk has reached, as seen from the frame g where it started. All components are in the
+/// axes of g.
 struct Walk {
   Frame<double> pose = Frame<double>::identity();
   Vec3<double> velocity = Vec3<double>::zero();          ///< of the origin, from g
@@ -14,10 +15,10 @@ struct Walk {
   Vec3<double> transport = Vec3<double>::zero();         ///< sum of the W_gi x w_i
 };
 
-/// From frame g to frame b, up or down the chain. Both have to be in it.
+/// Walks from frame g to frame b, up or down the chain. Throws std::invalid_argument for a frame outside the chain.
 Walk walk(const FrameChain& chain, int g, int b);
 
-/// Carries components from the axes of one frame to those of another.
+/// Transforms components from the axes of one frame to those of another.
 class Axes {
  public:
   Axes(const FrameChain& chain, int from, In to) : R_(walk(chain, to.frame, from).pose.R), to_(to) {}

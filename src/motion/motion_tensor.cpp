@@ -110,14 +110,14 @@ Mat6<double> z_matrix(double x, double y) {
 
 namespace {
 
-/// [1.36], sign 1 for C and -1 for its inverse.
+/// Equation [1.36]; `sign` is 1 for C and -1 for its inverse.
 Mat6<double> intrinsic_tensor(const IntrinsicMotion& m, double alpha, double sign) {
   const Mat6<double> I = Mat6<double>::identity();
   if (m.kind != MotionKind::screw) return I + (sign * m.d) * cross6(first_eigenvector(m));
   const IntrinsicCoefficients c = intrinsic_coefficients(m.phi, alpha);
   const double half_sine = std::sin(0.5 * m.phi);
   const Mat6<double> N = cross6(screw_vector(m, alpha));
-  // Z ~N first: its entries are of order phi, those of ~N ~N of order 1/phi^2.
+  // Z ~N is formed first, since its entries are of order phi and those of ~N ~N of order 1/phi^2.
   const Mat6<double> odd = z_matrix(m.d * c.c1, std::sin(m.phi)) * N;
   const Mat6<double> even = z_matrix(m.d * c.c2, 2.0 * half_sine * half_sine) * N * N;
   return I + sign * odd + even;

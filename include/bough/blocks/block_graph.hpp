@@ -1,6 +1,6 @@
 #pragma once
 /// The sparsity of a model for the linear solver: blocks of unknowns, and the elements that couple them. The tree of
-/// sub-domains and the solver know nothing else of a model. Plain data.
+/// sub-domains and the solver use no other data of a model. Plain data.
 #include <cstdint>
 #include <vector>
 

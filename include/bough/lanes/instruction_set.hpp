@@ -1,7 +1,7 @@
 #pragma once
 /// The instruction set that the loaded library was compiled for. With BOUGH_DISPATCH the loader gives a program, itself
-/// compiled once, the library that suits the processor. The library is therefore asked: preprocessor macros of the
-/// program would tell what the program was compiled for.
+/// compiled once, the library that suits the processor. Therefore the library reports it: preprocessor macros of the
+/// program would describe the build of the program.
 #include <string_view>
 
 namespace bough::lanes {

@@ -62,7 +62,7 @@ auto choose(bool take_first, const First& first, const Second& second) {
 
 /// a b + c. For doubles and packs it is rounded once where the instruction set has a fused operation, with the same
 /// bits in every lane as for a double; elsewhere, and for all other scalars, it is two operations. The compiler never
-/// fuses operations by itself (-ffp-contract=off), so only what calls this function is fused.
+/// fuses operations by itself (-ffp-contract=off), so only calls of this function are fused.
 template <class S>
 S multiply_add(const S& a, const S& b, const S& c) {
   return a * b + c;

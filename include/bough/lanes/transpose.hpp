@@ -1,7 +1,7 @@
 #pragma once
 /// Conversion between W plain arrays and one array of packs, entry by entry: lane l of to[i] = from[l][i], and back.
-/// Registers of eight or four doubles are transposed as square blocks: writing single lanes and then reading the whole
-/// register stalls the processor.
+/// Registers of eight or four doubles are transposed as square blocks, because writing single lanes and then reading
+/// the whole register stalls the processor.
 #include <cstddef>
 #include <utility>
 
@@ -56,8 +56,8 @@ inline void transpose_square(Real8 (&r)[8]) {
 }
 #endif
 
-/// A register at any address. Not by memcpy, which compilers split into narrower moves: loading a register from memory
-/// just written by two narrower stores stalls.
+/// A register at any address. memcpy is not used, since compilers split it into narrower moves, and loading a register
+/// that two narrower stores have just written stalls the processor.
 template <int N>
 struct Anywhere {
   typedef double Real __attribute__((vector_size(8 * N), aligned(8), may_alias));
@@ -220,7 +220,7 @@ Pack<W> load_lanes(const double* from, const Place* at, std::index_sequence<I...
   return p;
 }
 }  // namespace detail
-/// Lane l <- from[at[l]], without a detour of single lanes through memory.
+/// Lane l <- from[at[l]], without writing single lanes to memory first.
 template <int W, class Place>
 Pack<W> load_lanes(const double* from, const Place* at) {
   return detail::load_lanes<W>(from, at, std::make_index_sequence<static_cast<std::size_t>(Pack<W>::chunk)>());

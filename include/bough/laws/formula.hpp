@@ -1,6 +1,5 @@
 #pragma once
-/// What readers of files need of formulas beside laws: the names that occur in a formula, and its value where it is a
-/// constant.
+/// Functions for files in which formulas stand for numbers: the names in a formula, and its value if it is constant.
 
 #include <cstddef>
 #include <memory>
@@ -14,7 +13,7 @@ namespace bough::laws {
 /// Names with a meaning in every formula: t, pi, e and the functions of make_expression.
 const std::vector<std::string>& formula_words();
 
-/// Where a name stands in a formula [bytes].
+/// Position and length of a name in a formula [bytes].
 struct NamePlace {
   std::size_t position = 0, length = 0;
 };

@@ -16,15 +16,14 @@ struct LawValue {
   double acceleration = 0.0;
 };
 
-/// Breakpoints of a law, as far as they were looked for.
+/// Breakpoints of a law that a search has found.
 struct Breaks {
   std::vector<double> times;  ///< sorted, unique [s]
-  bool is_cut =
-      false;  ///< there are more than asked for, or so many places where there may be some that the search was given up
-  double work = 0.0;  ///< instructions of formulas that the search took
+  bool is_cut = false;  ///< there are more than requested, or the search was given up for too many undecided places
+  double work = 0.0;    ///< number of formula instructions that the search executed
 };
 
-/// Which limit is meant where a law or one of its derivatives jumps.
+/// Side from which the limit is taken where a law or one of its derivatives jumps.
 enum class Side { left, right };
 
 class Node;  // one kind of law (src/laws/node.hpp)
@@ -38,7 +37,8 @@ class Law {
 
   /// Value and derivatives at t [s]; where something jumps, the limit from the given side.
   /// Derivatives are those of the smooth branch on that side: a jump of the value adds no impulse to the rate.
-  /// Not finite where the law is not (a pole, a root of a negative number): ask non_finite(). Never throws.
+  /// The result is not finite where the law is not (a pole, a root of a negative number); see non_finite(). Never
+  /// throws.
   LawValue at(double t, Side side = Side::right) const;
 
   /// Times in [t_begin, t_end] [s] at which the value or one of its first two derivatives jumps; sorted, unique.
@@ -47,7 +47,7 @@ class Law {
   std::vector<double> breakpoints(double t_begin, double t_end) const;
 
   /// The same, but the search ends once there are more than `most`: a formula may have any number of them in any
-  /// interval. Its cost grows with `most`, not with the number of breakpoints that there are.
+  /// interval. Its cost grows with `most`, not with the number of breakpoints that exist.
   Breaks breakpoints(double t_begin, double t_end, std::size_t most) const;
 
   /// The antiderivative that vanishes at t0 [s]:  F(t) = int_t0^t f(s) ds,  F' = f,  F'' = f'.
@@ -58,9 +58,8 @@ class Law {
   /// True where the law is known to be the same at all times (by construction, not by trial).
   bool is_constant() const;
 
-  /// The law that this one sums up by quadrature from a start; nothing where it has a closed form. A value of this
-  /// one costs as much as all of the way from there, and is NaN where that would take more than quadrature is given
-  /// (make_law.hpp, limits).
+  /// The integrand if this law is an integral by quadrature; empty if it has a closed form. A value of such an integral
+  /// may cost a quadrature from its start on, and is NaN where that exceeds the limits of make_law.hpp.
   std::optional<Law> integrand() const;
 
   /// The implementation behind this value, null for zero. For use within this layer only.

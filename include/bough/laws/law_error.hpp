@@ -7,7 +7,7 @@
 
 namespace bough::laws {
 
-/// What is wrong with the data of a law: a formula that can not be read, a table out of order.
+/// An error in the data of a law, such as a formula that cannot be read or a table out of order.
 /// text: the formula as given, empty where the law is not a formula. position: offset in `text` of the first character
 /// at fault, from 0; text.size() where more was expected. what(): one sentence for the user.
 struct LawError : std::runtime_error {

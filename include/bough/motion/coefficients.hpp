@@ -3,7 +3,8 @@
 ///   c_n(x) = sum_k (-x)^k / (2k + n)!        (Stumpff functions: c_0 = cos phi, c_1 = sin phi / phi, ...)
 ///   a = c_1 = sin(phi)/phi,  b = c_2 = (1 - cos phi)/phi^2,  c = c_3 = (phi - sin phi)/phi^3
 ///   k = (1 - (phi/2) cot(phi/2)) / phi^2     (poles at phi = 2 pi, 4 pi, ...)
-/// Functions of x, not of phi: no square root is taken near zero, so all derivative types pass through phi = 0.
+/// They are functions of x, not of phi, so no square root is taken near zero, and derivative types are valid at phi =
+/// 0.
 #include <array>
 #include <cmath>
 
@@ -14,8 +15,8 @@ namespace bough::motion {
 
 namespace detail {
 
-/// Polynomial sum_k table[k] x^k, Horner in x^2 for even and odd terms side by side: two short chains instead of a
-/// long one.
+/// Polynomial sum_k table[k] x^k by Horner's rule in x^2, for even and odd terms separately: two short chains of
+/// dependent operations instead of a long one.
 template <class S, class L, std::size_t N>
 S horner(const std::array<L, N>& table, const S& x) {
   const S xx = x * x;
@@ -42,7 +43,7 @@ constexpr std::array<L, N> rounded(const std::array<long double, N>& table) {
   return t;
 }
 
-/// Its first terms.
+/// The first M terms of a table.
 template <std::size_t M, std::size_t N>
 constexpr std::array<long double, M> first_of(const std::array<long double, N>& table) {
   static_assert(M <= N);
@@ -75,7 +76,7 @@ inline constexpr std::array<L, 14> stumpff_8 = rounded<L>(stumpff_table(8));
 template <class L>
 inline constexpr std::array<L, 14> stumpff_9 = rounded<L>(stumpff_table(9));
 
-/// 2 sum_{m >= 3} (2 pi m)^-(2n+2): k without its first two poles, a series that converges up to phi = 6 pi.
+/// 2 sum_{m >= 3} (2 pi m)^-(2n+2): power series of k without its first two poles, which converges up to phi = 6 pi.
 template <class L>
 inline constexpr std::array<L, 15> inverse_rest = rounded<L>(std::array<long double, 15>{
     0.0200075935568722261809087L, 2.54381206886256215795349e-5L, 5.58456839049441513112409e-8L,
@@ -84,14 +85,14 @@ inline constexpr std::array<L, 15> inverse_rest = rounded<L>(std::array<long dou
     6.25747115080577223920474e-26L, 1.75867304929096798907852e-28L, 4.94584695005793873891076e-31L,
     1.39138267890808799277361e-33L, 3.91504425254531424268482e-36L, 1.10172689146714187787501e-38L});
 
-/// k itself, 2 sum_m (2 pi m)^-(2n+2): where x is small, its series without poles.
+/// 2 sum_m (2 pi m)^-(2n+2): power series of k itself, used where x is small.
 constexpr std::array<long double, 15> inverse_table{
     0.0833333333333333333333333L,     0.00138888888888888888888889L,  0.0000330687830687830687830688L,
     0.00000082671957671957671957672L, 2.08767569878680989792101e-8L,  5.28419013868749318484768e-10L,
     1.3382536530684678832827e-11L,    3.3896802963225828668302e-13L,  8.58606205627784456413591e-15L,
     2.17486869855806187304152e-16L,   5.50900282836022951520265e-18L, 1.39544646858125233407077e-19L,
     3.53470703962946747169323e-21L,   8.95351742703754685040261e-23L, 2.26795245233768306031095e-24L};
-/// Terms of the derivative of a series.
+/// Coefficients of the derivative of a series.
 template <std::size_t N>
 constexpr std::array<long double, N - 1> slope_of(const std::array<long double, N>& t) {
   std::array<long double, N - 1> d{};
@@ -108,18 +109,20 @@ template <class L>
 inline constexpr std::array<L, 12> near_inverse_3 =
     rounded<L>(first_of<12>(slope_of(slope_of(slope_of(inverse_table)))));
 
-/// Below this x = phi^2 (phi = 1/2) series of a few terms do: the relative motion of neighbours is mostly there.
+/// Below this x = phi^2 (phi = 1/2) series of a few terms suffice. Most relative rotations of neighbouring nodes are
+/// below.
 inline constexpr double near_x = 0.25;
 
-/// Below this x = phi^2 (phi = 4) the polynomials hold, beyond it the closed forms: there 1/x^3 damps the rounding of
-/// sin and cos to one ulp of the highest coefficient, so one switch serves all coefficients and their derivatives.
+/// Below this x = phi^2 (phi = 4) polynomials are used, beyond it closed forms. There the factor 1/x^3 reduces the
+/// rounding of sin and cos to one ulp of the highest coefficient, so one limit suits all coefficients and their
+/// derivatives.
 inline constexpr double switch_x = 16.0;
 
 }  // namespace detail
 
-/// c_0 .. c_7 at x = phi^2 >= 0. Two polynomials for c_6 and c_7 and the stable recurrence c_n = 1/n! - x c_{n+2} below
-/// phi = 4, shorter ones below phi = 1/2; half-angle sine and cosine and the recurrence upwards beyond. Round-off
-/// relative to the largest value.
+/// c_0 .. c_7 at x = phi^2 >= 0. Below phi = 4, c_6 and c_7 are polynomials (shorter ones below phi = 1/2), and the
+/// stable recurrence c_n = 1/n! - x c_{n+2} gives the others. Beyond, sine and cosine of phi/2 give c_0 to c_2, and the
+/// recurrence, upwards, the others. Errors are round-off of the largest value.
 template <class S>
 lanes::Vec<S, 8> eval_stumpff(const S& x) {
   using L = Literal<S>;
@@ -171,7 +174,7 @@ lanes::Vec<S, 8> eval_stumpff(const S& x) {
       });
 }
 
-/// c_8 and c_9, which third derivatives ask for beside the others.
+/// c_8 and c_9, which third derivatives need as well. c = eval_stumpff(x).
 template <class S>
 lanes::Vec<S, 2> eval_last_stumpff(const S& x, const lanes::Vec<S, 8>& c) {
   using L = Literal<S>;
@@ -189,7 +192,8 @@ lanes::Vec<S, 2> eval_last_stumpff(const S& x, const lanes::Vec<S, 8>& c) {
       });
 }
 
-/// The same for jets: values as for S, slopes c_n' = (n c_{n+2} - c_{n+1}) / 2 in S, instead of series of jets.
+/// The same for jets. Values are those of S; slopes c_n' = (n c_{n+2} - c_{n+1}) / 2 are computed in S, without series
+/// of jets.
 template <class S, int N>
 lanes::Vec<lanes::Jet<S, N>, 8> eval_stumpff(const lanes::Jet<S, N>& x) {
   using L = Literal<S>;
@@ -214,8 +218,8 @@ lanes::Vec<lanes::Jet<S, N>, 8> eval_stumpff(const lanes::Jet<S, N>& x) {
   return r;
 }
 
-/// a, b, c with first (d) and second (dd) derivatives by x = phi^2. What a caller does not read is not computed once
-/// the call is inlined. From c_n' = (n c_{n+2} - c_{n+1}) / 2, which divides by nothing.
+/// a, b, c with first (d) and second (dd) derivatives by x = phi^2, from c_n' = (n c_{n+2} - c_{n+1}) / 2, which has no
+/// division by x. Once a call is inlined, the compiler removes the members that the caller does not use.
 template <class S>
 struct AngleCoefficients {
   S a, b, c;        ///< sin(phi)/phi, (1 - cos phi)/phi^2, (phi - sin phi)/phi^3
@@ -239,10 +243,10 @@ AngleCoefficients<S> eval_angle_coefficients(const S& x) {
   return r;
 }
 
-/// k = (1 - (phi/2) cot(phi/2))/phi^2 with derivatives up to the third by x = phi^2; not at phi = 2 pi, 4 pi, ...
-/// Below phi = 4 from the partial fractions of the cotangent, k = sum_m 2/((2 pi m)^2 - x): two poles and a polynomial,
-/// all terms positive, no trigonometric function; below phi = 1/2 its own series. Beyond, with y = (phi/2)
-/// cot(phi/2): 2 x y' = y - y^2 - x/4.
+/// k = (1 - (phi/2) cot(phi/2))/phi^2 with derivatives up to the third by x = phi^2. phi must not be 2 pi, 4 pi, ...
+/// Below phi = 4 they come from the partial fractions of the cotangent, k = sum_m 2/((2 pi m)^2 - x): two poles and a
+/// polynomial, all terms positive, no trigonometric function. Below phi = 1/2 the power series is used. Beyond phi = 4
+/// they come from y = (phi/2) cot(phi/2) and 2 x y' = y - y^2 - x/4.
 template <class S>
 struct InverseCoefficients {
   S k, dk, ddk, dddk;

@@ -1,7 +1,8 @@
 #pragma once
-/// Positions as a pair of numbers, so that differences keep their digits far from the origin: 200 m away a double holds
-/// 3e-14 m, which is the strain resolution lost by an element of 1 m; the pair holds 1e-30 m.
-/// Exact under round-to-nearest without contraction or reassociation (-ffp-contract=off, no fast-math).
+/// Positions as sums of two numbers, so that differences of positions far from the origin stay accurate. At 200 m a
+/// double resolves 3e-14 m, which limits the strain of an element of 1 m to a resolution of 3e-14; the pair resolves
+/// 1e-30 m. Sums are exact under round-to-nearest without contraction or reassociation (-ffp-contract=off, no
+/// fast-math).
 #include "bough/motion/se3.hpp"
 
 namespace bough::motion {
@@ -53,7 +54,7 @@ struct PreciseFrame {
   static PreciseFrame from(const Frame<S>& H) { return {H.R, PositionPair<S>::from(H.x)}; }
   Frame<S> rounded() const { return {R, x.rounded()}; }
 };
-/// H_a^-1 H_b: the digits of the relative position do not depend on the distance to the origin.
+/// H_a^-1 H_b. The accuracy of the relative position does not depend on the distance to the origin.
 template <class S>
 Frame<S> relative(const PreciseFrame<S>& a, const PreciseFrame<S>& b) {
   return {transpose_times(a.R, b.R), transpose_times(a.R, difference(b.x, a.x))};

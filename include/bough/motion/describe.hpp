@@ -1,7 +1,6 @@
 #pragma once
-/// Everything about one motion, gathered for a reader: the representations of its rotation, its screw, its parameters
-/// and its motion tensor. Equation numbers are those of src/motion/README.md. Lengths in the unit of the input,
-/// angles [rad].
+/// A report of one motion: the representations of its rotation, its screw, its parameters and its motion tensor.
+/// Equation numbers are those of src/motion/README.md. Lengths in the unit of the input, angles [rad].
 #include <array>
 #include <optional>
 #include <string_view>
@@ -19,8 +18,8 @@ struct ParameterReport {
 };
 
 struct MotionReport {
-  Frame<double> motion = Frame<double>::identity();  ///< what is described: R, and u = x of the reference point
-  double rotation_defect = 0.0;                      ///< largest |R^T R - I|: how far the given R is off a rotation
+  Frame<double> motion = Frame<double>::identity();  ///< the motion described: R, and u = x of the reference point
+  double rotation_defect = 0.0;                      ///< largest entry of |R^T R - I| of the given R
 
   // Rotation. At phi = pi the axis is one of two, n or -n.
   double angle = 0.0;                                              ///< phi, 0 <= phi <= pi [rad]
@@ -45,10 +44,9 @@ struct MotionReport {
   std::optional<Vec6<double>> second_eigenvector;  ///< N2 = (d/(2 sin(phi/2)) n + w; n); screws only
 };
 
-/// Report of a motion. A rotation of at most smallest_angle [rad] counts as none in `intrinsic` and all that follows
-/// from it (intrinsic_motion). R is taken as it is; what is not a rotation is refused.
-/// Throws std::invalid_argument where a number is not finite, |R^T R - I| exceeds 1e-6 or det R < 0. No allocation
-/// else.
+/// Report of a motion. A rotation of at most smallest_angle [rad] counts as none in `intrinsic` and in all members
+/// derived from it (see intrinsic_motion). R is used as given. Throws std::invalid_argument if a number is not finite,
+/// |R^T R - I| exceeds 1e-6 or det R < 0; only these errors allocate.
 MotionReport describe_motion(const Frame<double>& motion, double smallest_angle = 1e-150);
 
 /// Axes of a relative motion.
@@ -57,8 +55,8 @@ enum class SeenFrom {
   first      ///< C* = C_k^-1 C_l [1.48-1.49]: pose of l in k; does not change when both move rigidly
 };
 
-/// Report of the motion that takes frame k to frame l. Rounding of the product of two rotations is about 4e-16, so
-/// smaller relative rotations have a random axis: by default they count as translations.
+/// Report of the motion that takes frame k to frame l. The product of two rotations has rounding errors of about 4e-16,
+/// so smaller relative rotations have a random axis: by default they count as translations.
 MotionReport describe_relative_motion(const Frame<double>& k, const Frame<double>& l, SeenFrom seen_from,
                                       double smallest_angle = 1e-14);
 

@@ -1,8 +1,8 @@
 #pragma once
-/// Dual numbers a + e b (e^2 = 0), 3-vectors and 3x3 matrices of them. By transference they carry SE(3): a motion
-/// vector (u; psi) is the dual vector psi + e u, an operator [A, B; 0, A] on motions is the dual matrix A + e B, and
-/// every formula on SO(3) holds as it stands. A wrench (n; m) is n + e m: transposes of operators act on it as
-/// transposed dual matrices. A product of two operators is 81 multiplications instead of 216.
+/// Dual numbers a + e b (e^2 = 0), 3-vectors and 3x3 matrices of them. By the principle of transference they represent
+/// SE(3): a motion vector (u; psi) is the dual vector psi + e u, an operator [A, B; 0, A] on motions is the dual matrix
+/// A + e B, and every formula on SO(3) holds unchanged. A wrench (n; m) is n + e m: transposes of operators act on it
+/// as transposed dual matrices. A product of two operators is 81 multiplications instead of 216.
 #include "bough/motion/types.hpp"
 
 namespace bough::motion {
@@ -174,7 +174,7 @@ BOUGH_INLINE void add_outer(DualMat<S>& m, const DualVec<S>& x, const DualVec<S>
       m.b(i, j) = multiply_add(x.a[i], y.b[j], multiply_add(x.b[i], y.a[j], m.b(i, j)));
     }
 }
-/// x y and m += x y, row by row, y in registers.
+/// x y and m += x y, computed row by row so that y stays in registers.
 template <class S>
 DualMat<S> product(const DualMat<S>& x, const DualMat<S>& y) {
   const Mat3<S> ya = y.a, yb = y.b;

@@ -1,13 +1,13 @@
 #pragma once
-/// Nested frames: frame i rotates and translates in frame i-1, i = 1 .. n; frame 0 is the base, the inertial frame
-/// where the chain starts in it. Everything is at one time, from numbers: laws of time stand above this layer.
+/// Nested frames: frame i rotates and translates in frame i-1, i = 1 .. n. Frame 0 is the base, which is the inertial
+/// frame if the chain starts there. All quantities are numbers at one time; functions of time belong to higher layers.
 ///   w_i      angular velocity of frame i in frame i-1 [rad/s];  W_ab = sum of the w_i between: of b relative to a
 ///   a_i      derivative of w_i from frame i, which is that from frame i-1 [rad/s^2]
 ///   d_g x    derivative of the vector x as seen from frame g
-/// Any frame of the chain may be the observer, also one beyond the point: sums then run backwards with a minus.
-/// Doubles; pure; no allocation; a frame that is not in the chain is std::invalid_argument. Errors are a few round-off
-/// of the sum of the magnitudes of the terms. Equation numbers: Harithuddin, Trivailo, Jazar 2015
-/// (src/motion/README.md).
+/// Any frame of the chain may be the observer, also one after the point's frame: sums then run backwards with a minus.
+/// The functions use doubles, are pure, do not allocate and throw std::invalid_argument for a frame that is not in the
+/// chain. Errors are a few round-off of the sum of the magnitudes of the terms. Equation numbers: Harithuddin,
+/// Trivailo, Jazar 2015 (src/motion/README.md).
 #include <vector>
 
 #include "bough/motion/resolved.hpp"
@@ -27,27 +27,27 @@ struct FrameMotion {
 ///   dx/dt = R v,  d2x/dt2 = R (dv/dt + omega x v),  w = R omega,  dw/dt = R domega/dt.
 FrameMotion motion_from_twist(const Frame<double>& pose, const Vec6<double>& twist, const Vec6<double>& twist_rate);
 
-/// w of Rdot R^T = ~w [2.52-2.54]: the angular velocity in the parent's axes. The symmetric part, which is the error of
-/// the data, drops out.
+/// w of Rdot R^T = ~w [2.52-2.54]: the angular velocity in the parent's axes. The symmetric part of Rdot R^T, which is
+/// an error of the data, has no effect.
 Vec3<double> angular_velocity_of(const Mat3<double>& R, const Mat3<double>& R_rate);
 
 /// dw/dt of Rddot R^T + Rdot Rdot^T = (dw/dt)~ [2.52-2.60], in the parent's axes.
 Vec3<double> angular_acceleration_of(const Mat3<double>& R, const Mat3<double>& R_rate, const Mat3<double>& R_second);
 
-/// The frames of a chain. Allocates when made, never after.
+/// The frames of a chain. Only the constructor allocates.
 class FrameChain {
  public:
   /// links[i - 1] is the motion of frame i in frame i-1.
   explicit FrameChain(std::vector<FrameMotion> links) : links_(std::move(links)) {}
   int last() const { return static_cast<int>(links_.size()); }  ///< n
   const FrameMotion& link(int i) const;                         ///< 1 <= i <= n
-  void set_link(int i, const FrameMotion& motion);              ///< 1 <= i <= n; for the next time
+  void set_link(int i, const FrameMotion& motion);              ///< 1 <= i <= n; for another time
 
  private:
   std::vector<FrameMotion> links_;
 };
 
-/// A point of a frame: components in that frame's axes, derivatives from that frame.
+/// Motion of a point of a frame. Components are in that frame's axes, and derivatives are seen from it.
 struct PointMotion {
   int frame = 0;
   Vec3<double> position = Vec3<double>::zero();      ///< r from the frame's origin [m]
@@ -55,11 +55,11 @@ struct PointMotion {
   Vec3<double> acceleration = Vec3<double>::zero();  ///< r'' [m/s^2]
 };
 
-/// The origin of frame i as a point of frame i-1, to split the part of an acceleration that comes from it in turn.
+/// The origin of frame i as a point of frame i-1. With it the part `origin` of an acceleration can be split further.
 PointMotion origin_of(const FrameChain& chain, int i);
 
-/// Motion of one frame of the chain in another, components and derivatives in and from the latter: the chain as one
-/// link. The angular acceleration is [2.29] with the observer in the latter.
+/// Motion of frame b in frame a, as if the chain between them were one link. Components are in the axes of a, and all
+/// derivatives are seen from a, also the angular acceleration [2.29].
 FrameMotion relative_motion(const FrameChain& chain, Of b, RelativeTo a);
 
 /// The same vector in other axes: no derivative is taken.
@@ -72,20 +72,21 @@ Resolved angular_velocity(const FrameChain& chain, Of b, RelativeTo a, In axes);
 /// w_3 [2.31].
 struct AngularAcceleration {
   Resolved local;      ///< sum of the a_i
-  Resolved transport;  ///< sum of the W_gi x w_i: axes that turn
+  Resolved transport;  ///< sum of the W_gi x w_i, since the axes turn
   Resolved total() const { return local + transport; }
 };
 AngularAcceleration angular_acceleration(const FrameChain& chain, Of b, RelativeTo a, From g, In axes);
 
-/// Euler transformation d_A x = d_B x + W_AB x x [2.2, 2.16]: B is the rate's own observer. In the axes of x.
+/// Euler transformation d_A x = d_B x + W_AB x x [2.2, 2.16]; B is the rate's own observer. The result is in the axes
+/// of x.
 Rate derivative(const FrameChain& chain, const Resolved& x, const Rate& rate, From observer);
 
 /// Mixed transformation for a vector x of frame C [2.22]: d_A x = d_B x + (W_AC - W_BC) x x. B is the rate's own
-/// observer. The same vector as `derivative` gives, by the angular velocities that an observer of C measures.
+/// observer. The result equals that of `derivative`, here computed from the angular velocities of C.
 Rate mixed_derivative(const FrameChain& chain, const Resolved& x, const Rate& rate, Of c, From observer);
 
-/// d_B (d_A r) of the vector r of a point of frame C [2.35]. With A = B its `tangential` holds what acceleration_split
-/// tells apart as tangential and Razi, and its `razi` is zero.
+/// d_B (d_A r) of the vector r of a point of frame C [2.35]. With A = B, `tangential` is the sum of the tangential and
+/// Razi parts of acceleration_split, and `razi` is zero.
 struct MixedAcceleration {
   Resolved local;        ///< r''
   Resolved coriolis;     ///< (W_BC + W_AC) x r'
@@ -94,8 +95,8 @@ struct MixedAcceleration {
   Resolved centripetal;  ///< W_AC x (W_BC x r), the mixed centripetal acceleration
   Resolved total() const { return local + coriolis + tangential + razi + centripetal; }
 };
-/// first: A, from which the derivative is taken first; second: B. The origins of the frames play no part: r is a
-/// vector.
+/// first: A, from which the derivative is taken first; second: B. The origins of the frames do not matter: r is
+/// differentiated as a vector.
 MixedAcceleration mixed_acceleration(const FrameChain& chain, const PointMotion& r, From first, From second, In axes);
 
 /// Velocity of a point of frame n seen from frame g.
@@ -114,7 +115,7 @@ struct AccelerationParts {
   Resolved coriolis;     ///< 2 W_gn x r'
   Resolved centripetal;  ///< W_gn x (W_gn x r)
   Resolved razi;         ///< sum_i (W_gi x w_i) x r
-  Resolved origin;       ///< of the origin of frame n, which the source leaves at rest; see origin_of
+  Resolved origin;       ///< of the origin of frame n, which is at rest in the source; see origin_of
   Resolved total() const { return local + tangential + coriolis + centripetal + razi + origin; }
 };
 AccelerationParts acceleration_split(const FrameChain& chain, const PointMotion& r, From g, In axes);
@@ -122,19 +123,19 @@ AccelerationParts acceleration_split(const FrameChain& chain, const PointMotion&
 /// The point as seen from another frame: position, velocity and acceleration there.
 PointMotion observe(const FrameChain& chain, const PointMotion& r, From g);
 
-/// What acts on a mass observed in frame n [2.46-2.48], F = m total: the inertial forces are minus the other terms, so
-/// m r'' = F + tangential + coriolis + centrifugal + razi + origin [N].
+/// Forces on a mass observed in frame n [2.46-2.48]. The applied force is F = m total, the inertial forces are minus
+/// the other terms, so m r'' = F + tangential + coriolis + centrifugal + razi + origin [N].
 struct InertialForces {
-  Resolved applied;      ///< F, what has to act on the mass
+  Resolved applied;      ///< F, which the motion requires
   Resolved tangential;   ///< Euler force
   Resolved coriolis;     ///< Coriolis force
   Resolved centrifugal;  ///< centrifugal force
   Resolved razi;         ///< Razi force
-  Resolved origin;       ///< of the frames' translation
-  /// All that an observer in frame n has to add to the applied force.
+  Resolved origin;       ///< from the translation of the frames
+  /// Sum of the inertial forces, which an observer in frame n adds to the applied force.
   Resolved sum() const { return tangential + coriolis + centrifugal + razi + origin; }
 };
-/// mass [kg]; parts seen from an inertial frame.
+/// mass [kg]; the parts must be seen from an inertial frame.
 InertialForces inertial_forces(double mass, const AccelerationParts& parts);
 
 }  // namespace bough::motion

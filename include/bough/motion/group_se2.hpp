@@ -1,8 +1,8 @@
 #pragma once
-/// The group SE(2) as elements see it: the names of group_se3.hpp for motions of a plane, (u; theta), whose
-/// displacements are complex numbers. Brackets are displacements without rotation, so what maps to them is kept
-/// without its last row; numbers that commute with ad(d) are plain, since <x, y> = x_theta y_theta; no structural
-/// zero is stored or multiplied.
+/// The group SE(2) for elements: the functions of group_se3.hpp for motions (u; theta) of a plane, with displacements
+/// as complex numbers. Brackets are displacements without rotation, so maps to brackets are stored without their last
+/// row. Numbers that commute with ad(d) are plain, since <x, y> = x_theta y_theta. No structural zero is stored or
+/// multiplied.
 #include "bough/motion/group_se2_blocks.hpp"
 
 namespace bough::motion {
@@ -33,20 +33,20 @@ struct Se2 : Se2Blocks {
     static_cast<void>(log(H, d, square));
     return d;
   }
-  /// Ad(H)^-1 v: a twist at the frame H from one at the frame that H is described in; A: scalar of a constant pose.
+  /// Ad(H)^-1 v: the components in the frame H of a twist v given in its parent frame. A: scalar of a constant pose.
   template <class A, class S>
   static BOUGH_INLINE Vec3<S> inverse_adjoint_times(const PlanePose<A>& H, const Vec3<S>& v) {
     const Vec2<S> here{{v[0] - v[2] * H.x[1], v[1] + v[2] * H.x[0]}};
     return join(conjugate_times(H.R, here), v[2]);
   }
-  /// Ad(H)^-T f: a wrench at the frame H as one at the origin.
+  /// Ad(H)^-T f: a wrench f given in the frame H, expressed in the parent frame and about its origin.
   template <class A, class S>
   static BOUGH_INLINE Vec3<S> inverse_adjoint_transpose_times(const PlanePose<A>& H, const Vec3<S>& f) {
     const Vec2<S> turned = complex_times(H.R, plane_part(f));
     return join(turned, S(f[2] + (H.x[0] * turned[1] - H.x[1] * turned[0])));
   }
 
-  /// Linear part of a vector; R u and R^T u of a direction; w x u of a twist with angular part w.
+  /// Linear part of a vector; R u and R^T u for a direction u; w x u, with w the angular part of a twist.
   template <class S>
   static BOUGH_INLINE Vec2<S> linear(const Vec3<S>& v) {
     return plane_part(v);

@@ -200,7 +200,7 @@ struct Se2Algebra {
   static BOUGH_INLINE void put(const Vec3<S>& n, S* out) {
     for (int k = 0; k < 3; ++k) out[k] = n[k];
   }
-  /// The wrench of a force f without a moment, into `out`, and as a wrench.
+  /// The wrench of a force f without a moment, written to `out` or returned.
   template <class S>
   static BOUGH_INLINE void put_force(const Vec2<S>& f, S* out) {
     out[0] = f[0];
@@ -211,12 +211,12 @@ struct Se2Algebra {
   static BOUGH_INLINE Vec3<S> force(const Vec2<S>& f) {
     return join(f, S(0.0));
   }
-  /// A wrench in inertial axes as one in the axes of H.
+  /// Components in the axes of H of a wrench given in inertial axes, about the same point.
   template <class S>
   static BOUGH_INLINE Vec3<S> wrench_turned_back(const PlanePose<S>& H, const Vec3<S>& n) {
     return join(conjugate_times(H.R, plane_part(n)), n[2]);
   }
-  /// A wrench in inertial axes as one in the axes of H exp(d).
+  /// Components in the axes of H exp(d) of a wrench given in inertial axes, about the same point.
   template <class S>
   static BOUGH_INLINE Vec3<S> turned_back(const PlanePose<S>& H, const Vec3<S>& d, const Vec3<S>& n) {
     const lanes::Vec<S, 8> c = eval_stumpff(S(d[2] * d[2]));

@@ -1,17 +1,17 @@
 #pragma once
-/// Directions that two frames compare, and full blocks, on SE(2); see group_se3.hpp for the meaning of the names.
+/// Scalar functions of the relative pose of two frames, and full blocks, on SE(2); group_se3.hpp explains the names.
 #include "bough/motion/group_se2_maps.hpp"
 
 namespace bough::motion {
 
 struct Se2Blocks : Se2Maps {
-  // ---- directions that two frames compare, H the pose of the second in the first; s = e^(-i theta) d is a direction
-  // of the first frame as seen from the second. A row of cosines is d . (cos, sin), of an angle d_1 theta.
+  // ---- functions of the relative pose H of a second frame in a first. s = e^(-i theta) d is a direction d of the
+  // first frame in the axes of the second. A cosine is d . (cos theta, sin theta), an angle is d_1 theta.
 
   template <class S>
   using Seen = Vec2<S>;
   template <class S>
-  using TurnSlope = Vec2<S>;  ///< of a force by theta; of a moment its first entry
+  using TurnSlope = Vec2<S>;  ///< derivative by theta, of a moment in the first entry
   template <class S, class C>
   static BOUGH_INLINE Vec2<S> seen(const PlanePose<S>& H, const Direction<C>& direction) {
     return conjugate_times(H.R, Vec2<S>{{S(direction.d[0]), S(direction.d[1])}});
@@ -165,7 +165,7 @@ struct Se2Blocks : Se2Maps {
     r(2, 1) = negative_multiply_add(w.row[0], x.c[1], multiply_add(w.row[1], x.c[0], r(2, 1)));
     r(2, 2) = multiply_add(w.corner, x.b, multiply_add(w.row[1], x.t[1], multiply_add(w.row[0], x.t[0], r(2, 2))));
   }
-  /// r += d(R^T q) of a wrench f = R^T q held in inertial axes, x how the frame R moves.
+  /// r += d(R^T q)/deta of a wrench q constant in inertial axes, f = R^T q. x maps eta to the increment of the frame.
   template <class S>
   static BOUGH_INLINE void add_turning_product(Mat3<S>& r, const Vec3<S>& f, const PlaneMap<S>& x) {
     r(0, 2) = multiply_add(f[1], x.b, r(0, 2));
@@ -176,7 +176,7 @@ struct Se2Blocks : Se2Maps {
     r(0, 2) = r(0, 2) + f[1];
     r(1, 2) = r(1, 2) - f[0];
   }
-  /// Rows of displacements of a map, and += those of w x u + dw x u by dv = velocity eta, (u; w) = v.
+  /// Rows of displacements of the map x; and rows += d(w x u)/deta for v = (u; w), dv = velocity eta.
   template <class S>
   static BOUGH_INLINE lanes::Mat<S, 2, 3> linear_rows(const PlaneMap<S>& x) {
     return {{x.c[0], -x.c[1], x.t[0], x.c[1], x.c[0], x.t[1]}};
@@ -188,7 +188,7 @@ struct Se2Blocks : Se2Maps {
     const lanes::Mat<S, 2, 3> more{{c[0], -c[1], t[0], c[1], c[0], t[1]}};
     rows += more;
   }
-  /// r += (f; 0) n^T, and r += a R_k^T R_q in the rows and columns of displacements.
+  /// r += (f; 0) n^T; and r += a R_k^T R_q in the block of displacements.
   template <class S>
   static BOUGH_INLINE void add_force_outer(Mat3<S>& r, const Vec2<S>& f, const Vec3<S>& n) {
     for (int i = 0; i < 2; ++i)

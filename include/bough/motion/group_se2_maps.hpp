@@ -101,7 +101,7 @@ struct Se2Maps : Se2Algebra {
     m.c = add(m.c, S(-v[2]), turned);
     m.t = add_complex(m.t, turned, plane_part(v));
   }
-  /// The same map, its last row written out.
+  /// The same map with its last row, which is zero.
   template <class S>
   static BOUGH_INLINE PlaneMap<S> as_map(const PlaneBracketMap<S>& m) {
     return {m.c, m.t, S(0.0)};

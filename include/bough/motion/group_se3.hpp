@@ -1,7 +1,7 @@
 #pragma once
-/// The group SE(3) as elements see it: poses, plain vectors and matrices (dof = 6), and the algebra in its compact
-/// form. By transference motions are dual vectors and operators on motions dual 3x3 matrices (dual.hpp), so what a
-/// formula says about rotations holds for motions. The operations that elements are written in, with D = ad(d):
+/// The group SE(3) for elements: poses, plain vectors and matrices (dof = 6), and the algebra in its compact form. By
+/// transference, motions are dual vectors and operators on motions are dual 3x3 matrices (dual.hpp), so formulas for
+/// rotations hold for motions as well. Elements are written in these operations, with D = ad(d):
 ///
 ///   motion, wrench     vectors (linear; angular) and (force; moment) in compact form
 ///   bracket            ad(x) y                    dual_bracket       ad(x)^T n

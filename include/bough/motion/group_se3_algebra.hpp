@@ -14,16 +14,16 @@ struct Se3Algebra {
   template <class S>
   using Matrix = Mat6<S>;
   static constexpr int dof = 6;
-  static constexpr bool numbers_have_slopes = true;  ///< dual: f(X) carries f'(X)
+  static constexpr bool numbers_have_slopes = true;  ///< numbers are dual: f(X) contains f'(X)
 
   template <class S>
   using Motion = DualVec<S>;
   template <class S>
-  using Bracket = DualVec<S>;  ///< image of ad: all of the algebra
+  using Bracket = DualVec<S>;  ///< image of ad, the whole algebra
   template <class S>
   using Wrench = DualVec<S>;
   template <class S>
-  using Number = Dual<S>;  ///< what commutes with every ad(d)
+  using Number = Dual<S>;  ///< scalars that commute with every ad(d)
   template <class S>
   using Map = DualMat<S>;
   template <class S>
@@ -69,7 +69,7 @@ struct Se3Algebra {
   static BOUGH_INLINE DualVec<S> add_translation(const DualVec<S>& v, const Vec3<S>& u) {
     return {v.a, v.b + u};
   }
-  /// Linear part of a vector; R u and R^T u of a direction; w x u of a twist with angular part w.
+  /// Linear part of a vector; R u and R^T u for a direction u; w x u, with w the angular part of a twist.
   template <class S>
   static BOUGH_INLINE Vec3<S> linear(const Vec6<S>& v) {
     return linear_part(v);
@@ -87,7 +87,7 @@ struct Se3Algebra {
     return lanes::cross(angular_part(v), u);
   }
 
-  /// d and X of the logarithm of H, and the coefficient of D^2 in T(d)^-1 with its derivatives by X.
+  /// d = log(H) and X = <d, d>. Returns the coefficient of D^2 in T(d)^-1 with its derivatives by X.
   template <class S>
   static BOUGH_INLINE InverseCoefficients<S> log(const Frame<S>& H, DualVec<S>& d, Dual<S>& x) {
     const Vec3<S> psi = log_so3(H.R);
@@ -158,7 +158,7 @@ struct Se3Algebra {
   static BOUGH_INLINE DualVec<S> add_covector(const DualVec<S>& r, const Dual<S>& f, const DualVec<S>& x) {
     return motion::add_scaled(r, f, x);
   }
-  /// f x of a number or a plain factor.
+  /// f x for a number or a plain factor f.
   template <class S>
   static BOUGH_INLINE DualVec<S> times(const Dual<S>& f, const DualVec<S>& x) {
     return f * x;
@@ -172,7 +172,7 @@ struct Se3Algebra {
   static BOUGH_INLINE DualVec<S> add(const DualVec<S>& r, const F& f, const DualVec<S>& x) {
     return motion::add_scaled(r, f, x);
   }
-  /// M x, a wrench, of the matrix of a section or a body.
+  /// The wrench M x, M the matrix of a section or a body.
   template <class C, class S>
   static BOUGH_INLINE DualVec<S> matrix_times(const Mat6<C>& m, const DualVec<S>& x) {
     return wrench_dual(Vec6<S>(m * motion_vector(x)));
@@ -195,7 +195,7 @@ struct Se3Algebra {
       out[3 + k] = n.b[k];
     }
   }
-  /// The wrench of a force f without a moment, into `out`, and as a wrench.
+  /// The wrench of a force f without a moment, written to `out` or returned.
   template <class S>
   static BOUGH_INLINE void put_force(const Vec3<S>& f, S* out) {
     for (int k = 0; k < 3; ++k) {
@@ -207,12 +207,12 @@ struct Se3Algebra {
   static BOUGH_INLINE DualVec<S> force(const Vec3<S>& f) {
     return {f, Vec3<S>::zero()};
   }
-  /// A wrench in inertial axes as one in the axes of H.
+  /// Components in the axes of H of a wrench given in inertial axes, about the same point.
   template <class S>
   static BOUGH_INLINE DualVec<S> wrench_turned_back(const Frame<S>& H, const Vec6<S>& n) {
     return {lanes::transpose_times(H.R, linear_part(n)), lanes::transpose_times(H.R, angular_part(n))};
   }
-  /// A wrench in inertial axes as one in the axes of H exp(d).
+  /// Components in the axes of H exp(d) of a wrench given in inertial axes, about the same point.
   template <class S>
   static BOUGH_INLINE DualVec<S> turned_back(const Frame<S>& H, const DualVec<S>& d, const Vec6<S>& n) {
     const Mat3<S> R = H.R * exp_so3(d.a);

@@ -1,5 +1,5 @@
 #pragma once
-/// Directions that two frames compare, and full blocks, on SE(3); see group_se3.hpp for the meaning of the names.
+/// Scalar functions of the relative pose of two frames, and full blocks, on SE(3); group_se3.hpp explains the names.
 #include "bough/motion/group_se3_maps.hpp"
 
 namespace bough::motion {
@@ -22,23 +22,23 @@ struct AxialTurn {
 }  // namespace detail
 
 struct Se3Blocks : Se3Maps {
-  // ---- directions that two frames compare, H the pose of the second in the first; s = R^T e_i is axis i of the
-  // first frame as seen from the second. Derivatives are by the rotation of the right increment of H.
+  // ---- functions of the relative pose H of a second frame in a first. s = R^T e_i is axis i of the first frame in the
+  // axes of the second. Derivatives are by the rotation of the right increment of H.
 
   template <class S>
   using Seen = Vec3<S>;
   template <class S>
-  using TurnSlope = Mat3<S>;  ///< of a force or a moment by the rotation
+  using TurnSlope = Mat3<S>;  ///< derivative of a force or a moment by the rotation
   template <class S, class C>
   static BOUGH_INLINE Vec3<S> seen(const Frame<S>& H, const Direction<C>& d) {
     return {{H.R(d.i, 0), H.R(d.i, 1), H.R(d.i, 2)}};
   }
-  /// e_i . x and its gradient (s; 0), of the force s.
+  /// e_i . x; its gradient is (s; 0), with s as the force.
   template <class S, class C>
   static BOUGH_INLINE const S& component(const Frame<S>& H, const Direction<C>& d) {
     return H.x[d.i];
   }
-  /// e_i . R e_j and its gradient (0; e_j x s).
+  /// e_i . R e_j, and e_j x s of its gradient (0; e_j x s).
   template <class S, class C>
   static BOUGH_INLINE S cosine(const Direction<C>& d, const Vec3<S>& s) {
     return s[d.j];
@@ -58,15 +58,15 @@ struct Se3Blocks : Se3Maps {
     for (int k = 0; k < 3; ++k) m(k, k) = m(k, k) - s[d.j];
     return m;
   }
-  /// Sine and cosine, times a positive factor, of the rotation theta about axis 3, the projection of R; theta =
-  /// atan2(sine, cosine).
+  /// Cosine and sine, times a positive factor, of the rotation theta about axis 3, which is the projection of R: theta
+  /// = atan2(R_21 - R_12, R_11 + R_22).
   template <class S, class C>
   static BOUGH_INLINE lanes::Vec<S, 2> axial_turn(const Frame<S>& H, const Direction<C>&) {
     return {{H.R(0, 0) + H.R(1, 1), H.R(1, 0) - H.R(0, 1)}};
   }
   template <class S>
   static BOUGH_INLINE S angle_of_turn(const S& c, const S& s) {
-    using lanes::atan2;  // of complex numbers, which lie in std
+    using lanes::atan2;  // for complex numbers, whose own namespace is std
     using std::atan2;
     return atan2(s, c);
   }
@@ -87,7 +87,7 @@ struct Se3Blocks : Se3Maps {
     const Mat3<S> turned = t.c * dds - t.s * ddc + lanes::outer(t.ds, t.dc) - lanes::outer(t.dc, t.ds);
     return t.inverse * (turned - lanes::outer(Vec3<S>(2.0 * g), half));
   }
-  /// A wrench of a force and a moment, one without a force.
+  /// The wrench of a force and a moment, and that of a moment alone.
   template <class S>
   static BOUGH_INLINE DualVec<S> force_moment(const Vec3<S>& f, const Vec3<S>& m) {
     return {f, m};
@@ -96,7 +96,7 @@ struct Se3Blocks : Se3Maps {
   static BOUGH_INLINE DualVec<S> moment(const Vec3<S>& m) {
     return {Vec3<S>::zero(), m};
   }
-  /// r += f x, a force or a moment by the rotation, in the columns of the rotation; and += f (0; x^T u), a wrench.
+  /// r += f x in the columns of the rotation; x is the derivative of a force or of a moment by the rotation.
   template <class S>
   static BOUGH_INLINE void add_force_slope(Mat6<S>& r, const S& f, const Mat3<S>& x) {
     for (int i = 0; i < 3; ++i)
@@ -124,9 +124,9 @@ struct Se3Blocks : Se3Maps {
       for (int j = 0; j < 6; ++j) r(i, j) = multiply_add(x[i], y[j], r(i, j));
   }
 
-  // ---- full blocks: the matrices of sections and bodies, and what they multiply
+  // ---- full blocks: the matrices of sections and bodies, and their products
 
-  /// m x and r += m x, row by row, x in registers.
+  /// m x and r += m x, computed row by row so that x stays in registers.
   template <class A, class S>
   static Mat6<S> block_product(const Mat6<A>& m, const DualMat<S>& x) {
     const Mat3<S> xa = x.a, xb = x.b;
@@ -155,7 +155,7 @@ struct Se3Blocks : Se3Maps {
       for (int j = 0; j < 6; ++j) r(i, j) = row[j];
     }
   }
-  /// x^T m, column by column, x in registers.
+  /// x^T m, computed column by column so that x stays in registers.
   template <class S, class A>
   static Mat6<S> transposed_product(const DualMat<S>& x, const Mat6<A>& m) {
     const Mat3<S> xa = x.a, xb = x.b;
@@ -182,7 +182,7 @@ struct Se3Blocks : Se3Maps {
       }
     }
   }
-  /// r += w and r += w x, w = A + e B standing for [0, A; A, B].
+  /// r += w and r += w x, where w = A + e B represents [0, A; A, B].
   template <class S>
   static BOUGH_INLINE void add_wrench_map(Mat6<S>& r, const DualMat<S>& w) {
     for (int i = 0; i < 3; ++i)
@@ -196,7 +196,7 @@ struct Se3Blocks : Se3Maps {
   static BOUGH_INLINE void add_wrench_product(Mat6<S>& r, const DualMat<S>& w, const DualMat<S>& x) {
     add_wrench_map(r, motion::product(w, x));
   }
-  /// r += d(R^T q) of a wrench f = R^T q held in inertial axes, x how the frame R moves.
+  /// r += d(R^T q)/deta of a wrench q constant in inertial axes, f = R^T q. x maps eta to the increment of the frame.
   template <class S>
   static BOUGH_INLINE void add_turning_product(Mat6<S>& r, const DualVec<S>& f, const DualMat<S>& x) {
     const Mat3<S> upper = skew(f.a) * x.a, lower = skew(f.b) * x.a;
@@ -215,7 +215,7 @@ struct Se3Blocks : Se3Maps {
         r(3 + i, 3 + k) = r(3 + i, 3 + k) + lower(i, k);
       }
   }
-  /// Rows of displacements of a map, and += those of w x u + dw x u by dv = velocity eta, (u; w) = v.
+  /// Rows of displacements of the map x; and rows += d(w x u)/deta for v = (u; w), dv = velocity eta.
   template <class S>
   static BOUGH_INLINE lanes::Mat<S, 3, 6> linear_rows(const DualMat<S>& x) {
     lanes::Mat<S, 3, 6> rows;
@@ -236,7 +236,7 @@ struct Se3Blocks : Se3Maps {
         rows(i, 3 + j) = rows(i, 3 + j) + angular(i, j);
       }
   }
-  /// r += (f; 0) n^T, and r += a R_k^T R_q in the rows and columns of displacements.
+  /// r += (f; 0) n^T; and r += a R_k^T R_q in the block of displacements.
   template <class S>
   static BOUGH_INLINE void add_force_outer(Mat6<S>& r, const Vec3<S>& f, const DualVec<S>& n) {
     for (int i = 0; i < 3; ++i)
@@ -260,8 +260,8 @@ struct Se3Blocks : Se3Maps {
     add_wrench_map(x, skew(DualVec<S>{-momentum.a, -momentum.b}));
     return x;
   }
-  /// How R^T u of a direction u = H.R at_rest, given by its components in the frame, follows the frame's increment: m
-  /// -= that, as a motion.
+  /// m -= the derivative of R^T u by the increment of the frame, as a motion. u is a direction constant in inertial
+  /// axes, given by its components R^T u in the frame.
   template <class S>
   static BOUGH_INLINE void subtract_turned_back(DualMat<S>& m, const Vec3<S>& components) {
     m.b = m.b - skew(components);

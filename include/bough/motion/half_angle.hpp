@@ -1,6 +1,6 @@
 #pragma once
 /// Half-angle rotation G, R = G G, and R - I without cancellation: R - I = 2 sin(phi/2) ~n G. Pure, no allocation, no
-/// failure; accurate from phi = 0, where G = I, to phi = pi, where two half rotations exist and one is given.
+/// failure; accurate from phi = 0, where G = I, to phi = pi, where two half rotations exist and one is returned.
 #include "bough/motion/so3.hpp"
 
 namespace bough::motion {

@@ -25,8 +25,9 @@ struct IntrinsicMotion {
   Vec3<double> n = Vec3<double>::zero();  ///< unit axis; zero for MotionKind::none
 };
 
-/// Screw of a motion. A rotation of at most smallest_angle [rad] counts as none: the axis of a motion whose rotation is
-/// the rounding of R is noise. The default decides by phi = 0 (up to underflow); 1e-14 suits products of rotations.
+/// Screw of a motion. A rotation of at most smallest_angle [rad] counts as none, since the axis of a rotation that is
+/// only rounding of R is noise. By default only phi = 0 (up to underflow) counts as none; 1e-14 suits products of
+/// rotations.
 ///   d = n.u [1.7],  w = G^T (u - d n) / (2 sin(phi/2)) [1.47],  G = exp(phi ~n / 2)
 /// Translation: w = 0, the axis through the reference point.
 IntrinsicMotion intrinsic_motion(const Frame<double>& motion, double smallest_angle = 1e-150);
@@ -59,8 +60,8 @@ Mat6<double> rotation_factor(const Frame<double>& motion);
 Vec6<double> first_eigenvector(const IntrinsicMotion& m);
 
 /// N = (alpha d / (2 sin(phi/2)) n + w; n), the unit-eigenvalue vectors of the motion tensor [1.22-1.24]: alpha = 0
-/// is the Mozzi-Chasles axis [1.25], alpha = 1 is N2 [1.21]. Translation: (0; n) for alpha = 0; otherwise the
-/// direction part vanishes beside the moment as phi -> 0 and what is left is N1. None: zero.
+/// is the Mozzi-Chasles axis [1.25], alpha = 1 is N2 [1.21]. Translation: (0; n) for alpha = 0, else N1, since the
+/// direction becomes negligible beside the moment as phi -> 0. None: zero.
 Vec6<double> screw_vector(const IntrinsicMotion& m, double alpha);
 
 /// lambda = n.m = alpha d / (2 sin(phi/2)) of that vector [1.24], [m]; no value for translations with alpha != 0,
@@ -73,7 +74,7 @@ std::optional<double> screw_lambda(const IntrinsicMotion& m, double alpha);
 std::optional<Mat3<double>> moment_of_displacement(const Vec3<double>& n, double phi, double alpha);
 
 /// J = E^-1, u = J m [1.28-1.29]: I/a + (1 - cos phi) ~n + (1/a - sin phi) ~n~n. Regular for all phi, 0 at phi = 0; no
-/// value for alpha = 0, where E takes away the part of u along n.
+/// value for alpha = 0, where E removes the part of u along n.
 std::optional<Mat3<double>> displacement_of_moment(const Vec3<double>& n, double phi, double alpha);
 
 /// c1 = cos phi - alpha cos(phi/2), c2 = sin phi - 2 alpha sin(phi/2) [1.32].
@@ -87,8 +88,8 @@ Mat6<double> z_matrix(double x, double y);
 
 /// Motion tensor and its inverse from N = screw_vector(m, alpha) with cos phi and sin phi only [1.36a, b]:
 ///   C^{+-1} = I +- Z(d c1, sin phi) ~N + Z(d c2, 1 - cos phi) ~N ~N
-/// Errors: a few round-off of |d| (1 + |alpha|) + |u|. Translation and none, where N is infinite or free: the limit
-/// I +- d ~N1.
+/// Errors: a few round-off of |d| (1 + |alpha|) + |u|. For a translation and for no motion, where N is infinite or
+/// undetermined, the result is the limit I +- d ~N1.
 Mat6<double> motion_tensor(const IntrinsicMotion& m, double alpha);
 Mat6<double> inverse_motion_tensor(const IntrinsicMotion& m, double alpha);
 

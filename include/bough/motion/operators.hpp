@@ -3,13 +3,13 @@
 /// second: the tangent operator T(d) and its inverse. Since D^3 = -X D every analytic function of D has this form,
 /// with p and q functions of X = <d, d>:
 ///   T(d) = (1 - exp(-D)) / D:  p = -c_2(X), q = c_3(X);        T(d)^-1:  p = 1/2, q = k(X)        (coefficients.hpp)
-/// exp(d)^-1 (d/dt) exp(d) = T(d) d'. With E = ad(e) and a prime for derivatives by X, dX[e] = 2 <d, e> and dD[e] = E
-/// give all the rest.
+/// exp(d)^-1 (d/dt) exp(d) = T(d) d'. All derivatives follow from dX[e] = 2 <d, e> and dD[e] = E, with E = ad(e) and a
+/// prime for derivatives by X.
 #include "bough/motion/group.hpp"
 
 namespace bough::motion {
 
-/// T(d): what is not read is not computed once the call is inlined.
+/// T(d). Once a call is inlined, the compiler removes the members that are not used.
 template <class G, class S>
 struct Tangent {
   typename G::template Motion<S> d;
@@ -74,7 +74,7 @@ BOUGH_INLINE InverseTangent<G, S> eval_log(const typename G::template Pose<S>& H
 }
 
 namespace detail {
-// The odd part of either operator: p w, r + p w; and a + 2 p' w, which is a for the inverse.
+// The odd part of either operator, p w and r + p w; p = 1/2 for the inverse.
 template <class G, class S, class W>
 BOUGH_INLINE W odd_part(const Tangent<G, S>& f, const W& w) {
   return G::times(f.p, w);
@@ -91,7 +91,7 @@ template <class R, class G, class S, class W>
 BOUGH_INLINE R add_odd_part(const R& r, const InverseTangent<G, S>&, const W& w) {
   return G::add(r, 0.5, w);
 }
-/// Of two vectors of one kind: p' w1 + q' w2.
+/// p' w1 + q' w2 for two vectors of one kind; p' = 0 for the inverse.
 template <class G, class S, class W>
 BOUGH_INLINE W slopes_of(const Tangent<G, S>& f, const W& w1, const W& w2) {
   return G::add(G::times(f.dp, w1), f.dq, w2);
@@ -218,4 +218,4 @@ typename G::template WrenchMap<S> hessian(const Tangent<G, S>& f, const typename
 
 }  // namespace bough::motion
 
-#include "bough/motion/operators_se2.hpp"  // their form on SE(2), which takes the place of the above there
+#include "bough/motion/operators_se2.hpp"  // overloads for SE(2), used there instead of the above

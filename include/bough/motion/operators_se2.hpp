@@ -2,8 +2,8 @@
 /// The operators of operators.hpp on SE(2), where they are complex numbers: f(d) y = (c y_u + k u y_theta; y_theta)
 /// of d = (u; theta),
 ///   c = 1 - theta^2 q + i theta p,   k = theta q - i p,
-/// and a prime below is the derivative by theta, p' = 2 theta dp/dX and so on. What the general forms alone use of a
-/// group SE(2) does without.
+/// and a prime below is the derivative by theta, p' = 2 theta dp/dX and so on. SE(2) lacks the functions of a group
+/// that only the general forms use.
 #include "bough/motion/operators.hpp"
 
 namespace bough::motion {
@@ -69,7 +69,7 @@ BOUGH_INLINE Vec2<S> plane_c2(const F<Se2, S>& f) {
   const OddPart<S> odd = odd_numbers(f);
   return {{-2.0 * f.q - x * (10.0 * f.dq + 4.0 * x * f.ddq), theta * (6.0 * odd.dp + 4.0 * x * odd.ddp)}};
 }
-/// c' y_u + y_theta k' u: how f y follows theta.
+/// c' y_u + y_theta k' u: the derivative of f y by theta.
 template <template <class, class> class F, class S>
 BOUGH_INLINE Vec2<S> by_angle(const F<Se2, S>& f, const Vec3<S>& y) {
   return Se2::add(complex_times(plane_c1(f), plane_part(y)), y[2], plane_k1(f, plane_part(f.d)));

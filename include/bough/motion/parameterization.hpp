@@ -55,13 +55,13 @@ struct ExponentialLaw {
   }
 };
 
-/// p = 2 tan(phi/2) n, rational. Infinite at phi = pi: there, and only there, the modulus stops at 2e50, which still
-/// gives the rotation back to round-off, so that no infinity or NaN appears. Near pi the two parts of a motion's u,
-/// p' d along the axis and p w across it, differ by the factor p/4: the pose comes back to epsilon |p| |x|, and not
-/// at pi itself.
+/// p = 2 tan(phi/2) n, rational. It is infinite at phi = pi. There, and only there, |p| is limited to 2e50, which still
+/// gives the rotation to round-off, so that no infinity or NaN appears. Near pi the two parts of a motion's u, p' d
+/// along the axis and p w across it, differ by the factor p/4. The pose is therefore recovered to epsilon |p| |x|, and
+/// not at all at pi itself.
 struct CayleyLaw {
   static constexpr std::string_view name = "cayley";
-  static constexpr double smallest_cosine = 1e-50;  ///< of phi/2; a double rotation has 0 or more than 1e-20
+  static constexpr double smallest_cosine = 1e-50;  ///< of phi/2, which in doubles is 0 or above 1e-20
   template <class S>
   static IsotropicTensor<S> rotation(const S& x) {
     const S g = S(1.0) / (1.0 + 0.25 * x);
@@ -125,7 +125,7 @@ struct Parameterization {
   static Mat3<S> rotation(const Vec3<S>& p) {
     return Law::rotation(S(dot(p, p))).matrix(p);
   }
-  /// p of a rotation, that of the angle 0 <= phi <= pi; at pi one of the two.
+  /// p of a rotation by the angle 0 <= phi <= pi; at pi one of the two.
   template <class S>
   static Vec3<S> parameters(const Mat3<S>& R) {
     return Law::parameters(quaternion_of(R));

@@ -1,7 +1,7 @@
 #pragma once
 /// Lines by Plücker coordinates Q = (moment about the origin [m]; direction [-]), m = r x l for any point r of the
-/// line. A line has m.l = 0; coordinates scale with |l|, which need not be 1. Lines move as C Q* [1.15]. A direction
-/// of zero is the line at infinity of the planes across m: it moves as well, but has no nearest point. Pure, no
+/// line. A line has m.l = 0; coordinates scale with |l|, which need not be 1. Lines move as C Q* [1.15]. With l = 0
+/// they are the line at infinity of the planes normal to m, which moves as well but has no nearest point. Pure, no
 /// allocation.
 #include <optional>
 
@@ -33,8 +33,8 @@ Vec6<double> moved_line(const Frame<double>& motion, const Vec6<double>& line);
 /// (~u R e; R e); for k < 3 the moved line at infinity (R e; 0).
 Vec6<double> moved_axis(const Frame<double>& motion, int k);
 
-/// m1.l2 + m2.l1: 0 where two lines meet or are parallel, does not change when both move; distance times the sine of
-/// the angle for unit directions [m].
+/// Mutual moment m1.l2 + m2.l1 of two lines. It is 0 where they meet or are parallel and does not change when both
+/// move. For unit directions its modulus is the distance times the sine of the angle [m].
 double mutual_moment(const Vec6<double>& a, const Vec6<double>& b);
 
 }  // namespace bough::motion

@@ -37,8 +37,8 @@ Mat3<S> rotation_of(const Quaternion<S>& q) {
            L(2) * (x * y + w * z), L(1) - L(2) * (x * x + z * z), L(2) * (y * z - w * x),  //
            L(2) * (x * z - w * y), L(2) * (y * z + w * x), L(1) - L(2) * (x * x + y * y)}};
 }
-/// A multiple q' = c q, c >= 1, of the quaternion of a rotation, w >= 0. The rows of 4 q q^T are linear in R; the row
-/// with the largest diagonal (always >= 1) is taken, so nothing cancels and no square root is taken, at any angle
+/// A multiple q' = c q, c >= 1, of the quaternion of a rotation, w >= 0. The rows of 4 q q^T are linear in R. The row
+/// with the largest diagonal (always >= 1) is used, so nothing cancels at any angle, and no square root is needed
 /// (Shepperd 1978).
 template <class S>
 Quaternion<S> quaternion_direction(const Mat3<S>& R) {
@@ -88,7 +88,7 @@ inline constexpr std::array<L, 16> near_arctangent = rounded<L>(first_of<16>(arc
 /// Rotation vector of q with w >= 0, |psi| <= pi [rad]. The norm m of q drops out. The angle is halved twice,
 ///   tan(phi/4) = |v|/(m + w),  tan(phi/8) = |v|/(m + w + g),  g = sqrt(2 m (m + w)) = (m + w) sqrt(1 + tan(phi/4)^2),
 /// so that psi = 8 v atan(t)/(t (m + w + g)), t = tan(phi/8), is one formula in v.v, analytic from 0 to pi, with one
-/// division. Where tan(phi/2) is below 1/4 its own arctangent does, without a square root.
+/// division. Where tan(phi/2) is below 1/4, its arctangent is used directly, without a square root.
 template <class S>
 Vec3<S> log_quaternion(const Quaternion<S>& q) {
   using L = Literal<S>;

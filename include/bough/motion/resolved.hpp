@@ -1,13 +1,13 @@
 #pragma once
-/// Vectors that know the axes they are resolved in and the frame they are differentiated from. Frames are the indices
-/// of one FrameChain; a mistake (a sum across axes, components asked for in other axes) throws std::invalid_argument at
-/// once instead of giving a wrong number. What is not known: the chain itself and its time; vectors of two chains or of
-/// two times have to be kept apart by the caller.
+/// Vectors that carry the frame in whose axes they are resolved and the frame from which they are differentiated.
+/// Frames are indices in one FrameChain. A mistake (a sum of vectors in different axes, components requested in other
+/// axes) throws std::invalid_argument instead of giving a wrong number. The chain and its time are not recorded; the
+/// caller must not mix vectors of two chains or of two times.
 #include "bough/motion/se3.hpp"
 
 namespace bough::motion {
 
-/// What a frame's index stands for in a call. Explicit, so that two frames cannot change places unnoticed:
+/// The role of a frame in a call. It is named explicitly, so that two frames cannot be swapped unnoticed:
 ///   angular_velocity(chain, Of(2), RelativeTo(0), In(1))
 template <class Role>
 struct FrameRole {
@@ -19,15 +19,15 @@ using RelativeTo = FrameRole<struct RelativeToRole>;  ///< the frame in which it
 using From = FrameRole<struct FromRole>;              ///< the frame from which a derivative is taken, the observer
 using In = FrameRole<struct InRole>;                  ///< the frame in whose axes components are given
 
-/// A vector by its components in the axes of one frame. Sums and products need both sides in the same axes, else
-/// std::invalid_argument. Value type; no allocation unless it throws.
+/// A vector by its components in the axes of one frame. Sums and products of vectors in different axes throw
+/// std::invalid_argument. A value type; only these errors allocate.
 class Resolved {
  public:
   Resolved(const Vec3<double>& components, In axes) : components_(components), axes_(axes.frame) {}
   static Resolved zero(In axes) { return {Vec3<double>::zero(), axes}; }
 
   In axes() const { return In(axes_); }
-  /// Components; `axes` says in which axes the caller takes them to be and has to be right.
+  /// Components. `axes` must be the axes that the vector is resolved in; otherwise std::invalid_argument is thrown.
   const Vec3<double>& components(In axes) const;
 
   Resolved& operator+=(const Resolved& b);
@@ -46,8 +46,8 @@ class Resolved {
   int axes_;
 };
 
-/// The derivative of a vector in time with the frame it is taken from: d_from x. Derivatives taken from different
-/// frames are different vectors; value() hands one out only to who names its frame.
+/// The derivative of a vector in time with the frame it is seen from: d_from x. Derivatives seen from different frames
+/// are different vectors, so value() throws std::invalid_argument unless the caller names the right frame.
 class Rate {
  public:
   Rate(const Resolved& value, From observer) : value_(value), observer_(observer.frame) {}

@@ -1,15 +1,15 @@
 #pragma once
-/// The blend P(s) = s T(s d) T(d)^-1 = (1 - exp(-s D)) / (1 - exp(-D)) of the motions at both ends of a screw motion
-/// d, D = ad(d): a section at s moves by (1 - P) of the one and P of the other. At the two Gauss points s = 1/2 -+ t,
-/// P = 1/2 + p D -+ (t + q D^2): one odd and one even part serve both, with
+/// The blend P(s) = s T(s d) T(d)^-1 = (1 - exp(-s D)) / (1 - exp(-D)) of the motions at both ends of a screw motion d,
+/// D = ad(d): a section at s moves by (1 - P) times the motion of the first end plus P times that of the second. At the
+/// two Gauss points s = 1/2 -+ t, P = 1/2 + p D -+ (t + q D^2), so both use the same odd and even part, with
 ///   p = (cos(t phi) - cos(phi/2)) / (2 phi sin(phi/2)),   q = (t - sin(t phi) / (2 sin(phi/2))) / phi^2,   X = phi^2.
 #include "bough/motion/operators.hpp"
 
 namespace bough::motion {
 
 namespace detail {
-/// p and q as functions of x = phi^2 have poles at (2 pi m)^2; the first two apart, what is left is a power series that
-/// converges up to phi = 6 pi: 12 terms reach beyond round-off up to phi = pi, which holds every logarithm.
+/// p and q as functions of x = phi^2 have poles at (2 pi m)^2. Without the first two poles they are power series that
+/// converge up to phi = 6 pi; 12 terms are exact to round-off up to phi = pi, the largest angle of a logarithm.
 struct ScrewTable {
   std::array<long double, 2> residues;
   std::array<long double, 12> rest;
@@ -44,7 +44,7 @@ lanes::Vec<S, 4> eval_screw_coefficient(const ScrewTable& table, const S& x, con
 }
 }  // namespace detail
 
-/// t, of the Gauss points s = 1/2 -+ t.
+/// The offset t of the Gauss points s = 1/2 -+ t.
 inline constexpr double gauss_offset = 0.288675134594812882254574390251;  // 1 / (2 sqrt(3))
 
 /// p and q with their derivatives by X.

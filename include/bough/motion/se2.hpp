@@ -1,6 +1,6 @@
 #pragma once
-/// Complex numbers and angles, of which motions of a plane are made (group_se2.hpp): displacements are u = u_1 + i
-/// u_2, rotations e^(i theta).
+/// Complex numbers and angles for motions of a plane (group_se2.hpp): displacements are u = u_1 + i u_2, rotations e^(i
+/// theta).
 #include "bough/motion/coefficients.hpp"
 #include "bough/motion/quaternion.hpp"
 
@@ -13,7 +13,7 @@ template <class A, class S>
 BOUGH_INLINE Vec2<S> complex_times(const Vec2<A>& a, const Vec2<S>& b) {
   return {{negative_multiply_add(a[1], b[1], S(a[0] * b[0])), multiply_add(a[1], b[0], S(a[0] * b[1]))}};
 }
-/// conj(a) b: what turns the other way, and the transpose of complex_times(a, .).
+/// conj(a) b: the opposite rotation, and the transpose of complex_times(a, .).
 template <class A, class S>
 BOUGH_INLINE Vec2<S> conjugate_times(const Vec2<A>& a, const Vec2<S>& b) {
   return {{multiply_add(a[1], b[1], S(a[0] * b[0])), negative_multiply_add(a[1], b[0], S(a[0] * b[1]))}};
@@ -44,8 +44,8 @@ BOUGH_INLINE Vec3<S> join(const Vec2<S>& u, const S& w) {
   return {{u[0], u[1], w}};
 }
 
-/// theta of e^(i theta) = c + i s, |theta| <= pi: the arctangent of s/c where that is below 1/4, else by halving the
-/// angle three times.
+/// theta of e^(i theta) = c + i s, |theta| <= pi. It is the arctangent of s/c where that is below 1/4; else the angle
+/// is halved three times.
 template <class S>
 S angle_of(const S& c, const S& s) {
   using L = Literal<S>;
@@ -60,7 +60,7 @@ S angle_of(const S& c, const S& s) {
         return S(detail::horner(detail::near_arctangent<L>, S(t * t)) * t);
       },
       [&] {
-        const auto beyond = less(c, S(0.0));  // a quarter of a turn
+        const auto beyond = less(c, S(0.0));  // |theta| > pi/2
         const S other = select(below, S(c - L(1)), S(L(1) - c));
         const S w = select(beyond, size, S(c + L(1))), v = select(beyond, other, s);
         const S vv = v * v, m = sqrt(multiply_add(w, w, vv)), sum = m + w;

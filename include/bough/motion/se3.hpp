@@ -16,7 +16,7 @@ template <class S>
 Frame<S> inverse(const Frame<S>& a) {
   return {transpose(a.R), -transpose_times(a.R, a.x)};
 }
-/// H_a^-1 H_b: pose of b in a. Does not change when both move rigidly.
+/// H_a^-1 H_b: pose of b in a. It does not change when both frames move rigidly.
 template <class S>
 Frame<S> relative(const Frame<S>& a, const Frame<S>& b) {
   return {transpose_times(a.R, b.R), transpose_times(a.R, b.x - a.x)};

@@ -64,7 +64,7 @@ Vec3<S> series_slope_times(const SkewSeries<S>& f, const Vec3<S>& psi, const Vec
   return cross(u, f.p * v + f.q * w) + cross(psi, (s * f.dp) * v + (s * f.dq) * w + f.q * cross(u, v));
 }
 
-/// D^2 f(psi)[u, x] v: how D f(psi)[x] v changes along u.
+/// D^2 f(psi)[u, x] v: the derivative of D f(psi)[x] v along u.
 ///   2 (x.u) (p' w1 + q' w2) + 2 (psi.x) (p' u x v + q' (w2)_u + 2 (psi.u) (p'' w1 + q'' w2))
 ///   + 2 (psi.u) (p' x x v + q' (w2)_x) + q (x x (u x v) + u x (x x v)),   w1 = psi x v, w2 = psi x w1
 template <class S>
@@ -79,7 +79,7 @@ Vec3<S> series_second_times(const SkewSeries<S>& f, const Vec3<S>& psi, const Ve
          cross(x, (su * f.dp) * v + (su * f.dq) * w1 + f.q * uv);
 }
 
-/// d(f(psi) v)/dpsi as a matrix and, along u, its derivative: the pair that makes the 6x6 derivative on SE(3).
+/// d(f(psi) v)/dpsi as a matrix and its derivative along u, the blocks of the 6x6 derivative on SE(3).
 ///   M   = -p ~v - q (~w1 + ~psi ~v) + 2 (p' w1 + q' w2) psi^T,           w1 = psi x v, w2 = psi x w1
 ///   M_u = -2 (psi.u) (p' ~v + q' (~w1 + ~psi ~v)) - q (~(u x v) + ~u ~v) + 2 (p' w1 + q' w2) u^T
 ///         + 2 (p' u x v + q' (w2)_u + 2 (psi.u) (p'' w1 + q'' w2)) psi^T

@@ -12,8 +12,8 @@ Mat3<S> exp_so3(const Vec3<S>& psi) {
   const lanes::Vec<S, 8> c = eval_stumpff(dot(psi, psi));
   return series_matrix(SkewSeries<S>{c[1], c[2], S(0.0), S(0.0), S(0.0), S(0.0)}, psi);
 }
-/// psi with exp(~psi) = R and |psi| <= pi; at exactly pi one of the two. Errors of R off the group enter once, not
-/// enlarged. Analytic in R except at phi = pi: derivative types pass through phi = 0.
+/// psi with exp(~psi) = R and |psi| <= pi; at exactly pi one of the two. Errors of R off the group are not amplified.
+/// The function is analytic in R except at phi = pi, so derivative types are valid at phi = 0.
 template <class S>
 Vec3<S> log_so3(const Mat3<S>& R) {
   return log_quaternion(quaternion_direction(R));

@@ -1,6 +1,7 @@
 #pragma once
-/// Derivatives on SO(3) in closed form, 3x3, row i and column j: d(.)_i/dpsi_j. Regular at phi = 0; those of T^-1 have
-/// its poles at |psi| = 2 pi, 4 pi, ... Those on SE(3) stand in se3.hpp, second ones in operators.hpp.
+/// Derivatives on SO(3) in closed form, 3x3, row i and column j: d(.)_i/dpsi_j. They are regular at phi = 0; those of
+/// T^-1 have its poles at |psi| = 2 pi, 4 pi, ... Derivatives on SE(3) are in se3.hpp, second derivatives in
+/// operators.hpp.
 /// Templates on the scalar; pure, no allocation, no failure.
 #include "bough/motion/so3.hpp"
 

@@ -24,7 +24,7 @@ using lanes::multiply_add;
 using lanes::negative_multiply_add;
 using lanes::select;
 
-/// Precision of the literals that go with a scalar: long double keeps its own, all others are built from doubles.
+/// Type of the literals used with a scalar: long double for long double, double for all others.
 template <class S>
 using Literal = std::conditional_t<std::is_same_v<S, long double>, long double, double>;
 

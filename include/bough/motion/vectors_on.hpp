@@ -1,6 +1,6 @@
 #pragma once
-/// Operators of a group on plain vectors, (linear; angular) and (force; moment), for what is not in the inner loops:
-/// step rules, momenta. Elements use the compact forms of operators.hpp.
+/// Operators of a group on plain vectors, (linear; angular) and (force; moment), for code outside the inner loops, such
+/// as integrators and momenta. Elements use the compact forms of operators.hpp.
 #include <type_traits>
 
 #include "bough/motion/group_se2.hpp"

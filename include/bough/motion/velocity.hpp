@@ -1,9 +1,9 @@
 #pragma once
 /// Velocities and differential motions of a rigid body, and the relations between the two. V = (v; omega), inertial
 /// frame: v is the velocity of the body point now at the inertial origin. V* = C^-1 V, body frame: v* is that of the
-/// frame's own origin. A variation dU or dU* is to the parameters of a motion what V or V* is to time, and no U
-/// exists [1.63-1.65]. Templates on the scalar; pure, no allocation, no failure. Units: [m/s], [rad/s]; of variations
-/// [m], [rad].
+/// frame's own origin. A variation dU or dU* relates to the parameters of a motion as V or V* does to time; it is not
+/// the differential of any U [1.63-1.65]. Templates on the scalar; pure, no allocation, no failure. Units: [m/s],
+/// [rad/s]; of variations [m], [rad].
 #include "bough/motion/se3.hpp"
 
 namespace bough::motion {
@@ -36,8 +36,8 @@ template <class S>
 Mat6<S> inverse_motion_tensor_rate(const Frame<S>& H, const Vec6<S>& V) {
   return S(-1.0) * (inverse_adjoint(H) * cross6(V));
 }
-/// V of ~V = Cdot C^-1 = sum_i (dY_i/dt) Y^i, the dual basis Y^i being the rows of C^-1 [1.56, 1.67]. The parts of Cdot
-/// that no motion has (symmetric blocks) drop out.
+/// V of ~V = Cdot C^-1 = sum_i (dY_i/dt) Y^i, the dual basis Y^i being the rows of C^-1 [1.56, 1.67]. Symmetric blocks
+/// of Cdot C^-1, which no motion has, have no effect.
 template <class S>
 Vec6<S> velocity_of_basis(const Frame<S>& H, const Mat6<S>& C_rate) {
   const Mat6<S> M = C_rate * inverse_adjoint(H);
