@@ -19,7 +19,7 @@ namespace bough::io {
 /// Collects faults with their positions in the texts. Keeps references to the constructor's arguments.
 class Report {
  public:
-  /// origins: of the items of the document that are copies; nullptr: there are none.
+  /// origins: sources of the items of the document that are copies; nullptr: there are no copies.
   Report(std::string_view text, const JsonValue* root, const std::vector<std::string>& overrides,
          const CopyOrigins* origins = nullptr)
       : text_(text), lines_(text), root_(root), overrides_(overrides), origins_(origins) {}
@@ -31,14 +31,14 @@ class Report {
   void add(const PlacedFault& f, bool is_warning);
   void add(const PlacedFaults& faults, bool is_warning);
 
-  /// Counts further faults that were not kept.
+  /// Counts further faults that were not stored.
   void count_others(std::size_t number, bool is_warning = false) {
     (is_warning ? warnings_left_out_ : left_out_) += number;
   }
 
   bool empty() const { return problems_.empty(); }
 
-  /// In the order of the file; those of overrides last.
+  /// Writes all faults in the order of the file, those of overrides last.
   void write(std::vector<Problem>& problems, std::vector<Problem>& warnings);
 
  private:
@@ -57,7 +57,7 @@ class Report {
   std::string excerpt(int source, std::size_t offset, std::size_t length) const;
   std::string token(int source, std::size_t offset) const;
   std::string summary(const JsonValue& v) const;
-  /// Name of the innermost thing with a name on the way along a pointer, as written; empty: none.
+  /// Name, as written in the file, of the innermost named object that contains the value at a pointer; empty: none.
   std::string owner(const std::string& pointer) const;
   const JsonValue* locate(const std::string& pointer, std::string* reached, std::string* owner = nullptr) const;
 
@@ -66,16 +66,16 @@ class Report {
   const JsonValue* root_;
   const std::vector<std::string>& overrides_;
   const CopyOrigins* origins_;
-  std::map<std::string, std::size_t> of_copies_;  ///< list, place and rule: which of the list
+  std::map<std::string, std::size_t> of_copies_;  ///< index in its list, by list, place and rule
   std::vector<Placed> problems_, warnings_;
   std::size_t left_out_ = 0, warnings_left_out_ = 0;
 };
 
-/// The content of a file, "-": of standard input; if it cannot be read, `problem.rule` says why.
+/// The content of a file ("-": of standard input). If it cannot be read, `problem.rule` says why.
 std::string read_whole_file(const std::filesystem::path& file, Problem& problem);
 
-/// A document of given rules: parsed, checked, and converted where it is an object. converter: has `convert(root)`,
-/// `faults` and `warnings`. What is wrong goes to the members `problems` and `warnings` of `file`.
+/// Parses a document, checks it by the given rules, and converts it if it is an object. converter: has `convert(root)`,
+/// `faults` and `warnings`. Faults are written to the members `problems` and `warnings` of `file`.
 template <class File, class Converter>
 void read_document(std::string_view text, const RuleTable& rules, Converter& converter, File& file) {
   std::vector<JsonFault> text_faults;
@@ -95,7 +95,7 @@ void read_document(std::string_view text, const RuleTable& rules, Converter& con
   report.write(file.problems, file.warnings);
 }
 
-/// read_text(text) of a file that can be read; else what keeps it from being read.
+/// Result of read_text for the text of a file, or the problem that keeps the file from being read.
 template <class File, class ReadText>
 File read_document_file(const std::filesystem::path& file, const ReadText& read_text) {
   Problem problem;

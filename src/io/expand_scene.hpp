@@ -10,7 +10,7 @@
 
 namespace bough::io {
 
-/// Something wrong with parameters or copies; the pointer is that of the file.
+/// A fault in parameters or copies; the pointer refers to the file.
 struct ExpansionFault {
   int source = source_file;
   std::uint32_t offset = 0, length = 0;
@@ -18,23 +18,23 @@ struct ExpansionFault {
   std::size_t other_copies = 0;
 };
 
-/// The text in the file from which each item comes that `repeat` added to a list.
+/// For each item that `repeat` added to a list, the place in the file that it was copied from.
 class CopyOrigins {
  public:
   struct Place {
     std::string pointer;   ///< in the file
-    std::string instance;  ///< "i = 3, j = 0"; empty: no copy
+    std::string instance;  ///< "i = 3, j = 0"; empty: not a copy
   };
-  /// Of a pointer into the expanded scene.
+  /// The source of the value at a pointer into the expanded scene.
   Place source_of(const std::string& pointer) const;
   bool empty() const { return lists_.empty(); }
 
-  /// A copy of a part, within the copy `outer` (-1: none); returns its number.
+  /// Adds a copy of a part, within the copy `outer` (-1: none); returns its number.
   std::int32_t add_instance(std::int32_t outer, std::uint32_t index, double value);
   std::uint32_t add_index(std::string name);
   std::string text_of(std::int32_t instance) const;
   std::uint32_t add_template(std::string pointer);
-  /// The next item of a list, of which `before` stand in the file.
+  /// Adds the next item of a list of which the first `before` items are written in the file.
   void add_item(const std::string& list, std::size_t before, std::uint32_t source, std::int32_t instance);
 
  private:

@@ -14,7 +14,7 @@ std::string packed_frame(double time, std::string_view floats) {
     for (std::size_t b = 0; b < sizeof(float); ++b) planes[b * count + k] = floats[sizeof(float) * k + b];
   uLongf room = compressBound(static_cast<uLong>(planes.size()));
   std::string block(frame_head_bytes + room, '\0');
-  // Level 1: higher ones take longer and gain a twentieth.
+  // Level 1: higher levels take longer and save a twentieth of the bytes.
   if (compress2(reinterpret_cast<Bytef*>(block.data() + frame_head_bytes), &room,
                 reinterpret_cast<const Bytef*>(planes.data()), static_cast<uLong>(planes.size()), 1) != Z_OK)
     throw std::runtime_error("zlib cannot compress a picture");

@@ -7,9 +7,9 @@
 
 namespace bough::io {
 
-/// One frame as it stands in the file:  time (float64), number of packed bytes (uint64), packed bytes: the float32
-/// numbers, their lowest bytes first, then the next ones up to the highest, compressed by zlib. Bytes of one place
-/// are alike, which halves the size.
+/// One frame in the format of the file: time (float64), number of packed bytes (uint64), packed bytes. These are the
+/// float32 numbers, compressed by zlib: the lowest bytes of all numbers first, then the next ones, up to the highest.
+/// Bytes of equal significance are similar, so this order halves the size.
 std::string packed_frame(double time, std::string_view floats);
 
 struct FrameHead {
@@ -19,8 +19,7 @@ struct FrameHead {
 inline constexpr std::size_t frame_head_bytes = 16;
 FrameHead frame_head(std::string_view bytes);
 
-/// The numbers of a frame, float32 as they stand in memory; nullopt where the bytes hold anything else than `size` of
-/// them.
+/// The bytes of a frame's float32 numbers in their order in memory; nullopt if they are not `size` bytes.
 std::optional<std::string> unpacked_frame(std::string_view packed, std::size_t size);
 
 }  // namespace bough::io

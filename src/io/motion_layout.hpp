@@ -1,5 +1,5 @@
 #pragma once
-/// What writer and reader of motion.bin share.
+/// Definitions shared by the writer and the reader of motion.bin.
 #include <string>
 
 #include "bough/records/run.hpp"
@@ -8,9 +8,9 @@ namespace bough::io {
 
 inline constexpr const char* motion_format = "bough motion 3";
 
-/// Numbers of a frame, float32.
+/// Number of float32 values of a frame.
 std::size_t frame_floats_of(const records::MotionFrame& frame);
-/// The start, float64.
+/// The motion at the start, float64.
 std::string start_of(const records::MotionFrame& frame);
 
 }  // namespace bough::io

@@ -24,7 +24,7 @@ std::string_view name_of(MotionKind kind) {
   return "screw";
 }
 
-/// What stands for a number that does not exist.
+/// The text printed in place of a number that does not exist.
 std::string missing(const motion::MotionReport& r, const std::string& what) {
   return r.intrinsic.kind == MotionKind::none ? "none: no motion" : "none: " + what;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Names that stand for numbers in the texts of a scene, and what they make of its strings and formulas.
+/// Names that stand for numbers in a scene, and their replacement in strings and formulas.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,33 +11,32 @@
 
 namespace bough::io {
 
-/// What is wrong with a text that holds names.
+/// A fault in a text with names.
 struct NamedFault {
   std::string rule, hint;
-  std::string unknown = {};  ///< a name that no number has
-  bool was_told = false;     ///< it names a parameter whose own fault is reported
+  std::string unknown = {};  ///< a name without a number
+  bool was_told = false;     ///< a name belongs to a parameter whose own fault was reported
 };
 
 class NamedNumbers {
  public:
   void set(const std::string& name, double value) { values_[name] = value; }
   void set_defective(const std::string& name) { defective_.insert(name); }
-  /// For the index of copies: taken away when their scope ends.
+  /// Removes the index of copies when its scope ends.
   void remove(const std::string& name) { values_.erase(name); }
   bool holds(const std::string& name) const { return values_.count(name) > 0 || defective_.count(name) > 0; }
-  /// Empty where a number may have this name, else the rule that it breaks.
+  /// The rule that a name of a number breaks; empty if it is allowed.
   static std::string fault_of_name(const std::string& name);
 
-  /// The formula with numbers, in parentheses, for all names but t, pi, e and functions; braces are parentheses, so
-  /// that {i} reads as in other strings.
-  /// own: names that are left as they are.
+  /// Replaces all names but t, pi, e and functions by numbers in parentheses. Braces become parentheses, so that {i}
+  /// means the same as in other strings. own: names that are not replaced.
   std::optional<NamedFault> put_into_formula(std::string& formula, const JsonValue* own = nullptr);
-  /// The text with whole numbers for all formulas in braces; {{ and }} are single braces. A number is whole to 1e-9.
+  /// Replaces all formulas in braces by whole numbers (to 1e-9); {{ and }} become single braces.
   std::optional<NamedFault> put_into_text(std::string& text);
 
-  /// Names that some text used.
+  /// Whether some text used a name.
   bool is_used(const std::string& name) const { return used_.count(name) > 0; }
-  /// What may have been meant by a name that no number has; empty after the first hundreds, which nobody reads.
+  /// A hint for an unknown name, such as a similar known one. Empty after the first hundreds of faults, not shown anyway.
   std::string hint_for(const std::string& name);
 
  private:

@@ -5,8 +5,8 @@
 
 namespace bough::io {
 
-/// A value as text for people: what fits stands on one line of up to 120 characters, numbers are the shortest that read
-/// back to the same bits. What an object has by default alone is left out.
+/// A value as text for people. Values that fit are written on one line of up to 120 characters; numbers are the
+/// shortest that read back to the same bits. Defaults are omitted.
 std::string printed(const JsonValue& value);
 
 }  // namespace bough::io

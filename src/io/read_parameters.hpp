@@ -6,7 +6,7 @@
 
 namespace bough::io {
 
-/// Told of a fault at a value; at_key: at the key of the member.
+/// Called for each fault at a value; at_key: the fault is at the key of the member.
 using TellFault = std::function<void(const JsonValue& at, const std::string& pointer, std::string rule,
                                      std::string hint, bool at_key)>;
 

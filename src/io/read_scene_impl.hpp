@@ -17,16 +17,16 @@
 
 namespace bough::io {
 
-/// Applies "/pointer=value" to a document. texts: keeps the value texts, number i + 1 of which is the source of the
-/// new values.
+/// Applies overrides "/pointer=value" to a document. texts: stores the texts of the values; text i is the source i + 1
+/// of the new values.
 void apply_overrides(JsonValue& root, std::span<const std::string> overrides, std::vector<std::string>& texts,
                      std::vector<PlacedFault>& faults);
 
-/// Turns a checked document into a scene. Items that are not sound, or turn out wrong here, are left out and named in
+/// Converts a checked document to a scene. Items with faults, found by the check or here, are omitted and named in
 /// `defective`.
 class Converter : private ValueConverter {
  public:
-  /// folder: of files that the scene names; empty: it may name none.
+  /// folder: that of the files that the scene names; empty: it may not name files.
   Converter(const JsonValue& root, const std::filesystem::path& folder) : files(folder), root_(root) {}
   void convert();
 
@@ -84,7 +84,7 @@ class Converter : private ValueConverter {
   void read_measured_names(const Value& v, const std::string& at, scene::Measure& m);
   void settings();
 
-  // Units in disguise, and settings without effect: hints.
+  // Hints for numbers in units other than SI, and for settings without effect.
   void warn_of_units(const scene::Material& material, const std::string& at);
   void warn_of_density(double density, const std::string& at, const std::string& name);
   void warn_of_thickness(const JsonValue& shape, const scene::Material& material, const std::string& at);
@@ -95,7 +95,7 @@ class Converter : private ValueConverter {
   void warn_of_idle_settings(const Value& analysis);
 
   std::string own_name(const Value& v, const char* stem);
-  /// Converts all items of a list; those that are wrong become defective.
+  /// Converts all items of a list; those with faults become defective.
   void each(const char* list, void (Converter::*read)(const Value&, const std::string&));
   template <class T>
   void add(std::vector<T>& list, const char* name, T item, const std::string& at) {
@@ -105,13 +105,13 @@ class Converter : private ValueConverter {
   }
 
   const JsonValue& root_;
-  std::size_t faults_before_ = 0;  ///< those of items before this one
-  bool left_out_ = false;          ///< this item needs another that was left out
+  std::size_t faults_before_ = 0;  ///< number of faults of the items before this one
+  bool left_out_ = false;          ///< this item refers to an omitted one
   bool is_static_ = false;
   std::vector<scene::Material> materials_;
   std::unordered_map<std::string, double> thickness_;  ///< of sections of a given shape: its largest dimension [m]
   std::unordered_map<std::string, std::size_t> material_of_;  ///< by name, in materials_
-  std::unordered_set<std::string> defective_materials_;       ///< left out, for their faults were reported
+  std::unordered_set<std::string> defective_materials_;       ///< omitted; their faults were reported
   std::unordered_set<std::string> names_;                     ///< all names given in the file
   std::unordered_set<std::string> measure_names_;
   int unnamed_ = 0;

@@ -1,4 +1,4 @@
-/// Shapes of sections and bodies that stand in files of their own.
+/// Shapes of sections and bodies, from the scene or from files that it names.
 #include <algorithm>
 #include <memory>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Checked JSON values into vectors, rotations, placements and laws.
+/// Converts checked JSON values to vectors, rotations, placements and laws.
 #include <string>
 #include <vector>
 
@@ -9,17 +9,17 @@
 
 namespace bough::io {
 
-/// Something wrong or doubtful at a place of the document.
+/// A fault or a doubt at a place of the document.
 struct PlacedFault {
   std::string pointer, value, rule, hint;  ///< value: empty = the text at the pointer
 };
 
-/// Shorter vectors have no direction: the square of one is hardly a number.
+/// Shorter vectors are taken to have no direction, since the square of their length is close to underflow.
 inline constexpr double least_axis = 1e-150;
-/// Larger angles [rad] have no digit left that tells a direction.
+/// Larger angles [rad] are refused: their round-off is too large for a direction.
 inline constexpr double largest_angle = 1e12;
 
-/// The first hundreds of faults, and how many there are.
+/// Stores the first hundreds of faults and counts all of them.
 class PlacedFaults {
  public:
   void push_back(PlacedFault fault) {
@@ -35,7 +35,8 @@ class PlacedFaults {
   std::size_t size_ = 0;
 };
 
-/// All members take sound values of the schema's form; what only shows here goes to `faults` and `warnings`.
+/// All members take values without faults in the form of the schema. Faults that only show here are added to `faults`
+/// and `warnings`.
 class ValueConverter {
  public:
   PlacedFaults faults, warnings;

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 #ifdef BOUGH_HAS_VTK
 constexpr bool has_vtk = true;
 #else
-constexpr bool has_vtk = false;  // what stands under it is not compiled: vtu_text and its like are not there
+constexpr bool has_vtk = false;  // the code below it is not compiled, since vtu_text is not available
 #endif
 
 const std::vector<std::string> all_names = {"history.csv", "history.npy",    "columns.json", "motion.bin",

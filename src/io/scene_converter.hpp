@@ -1,5 +1,5 @@
 #pragma once
-/// What studies and sweeps share: files that name a scene and change values in it.
+/// Common part of the readers of studies and sweeps, whose files name a scene and change values in it.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,22 +17,23 @@ class SceneConverter : protected ValueConverter {
   using ValueConverter::warnings;
 
  protected:
-  /// text: of the file, from which values are copied as they are written. folder: names of files are relative to it.
+  /// text: the text of the file, from which values are copied. folder: names of files are relative to it.
   SceneConverter(std::string_view text, std::filesystem::path folder) : text_(text), folder_(std::move(folder)) {}
 
-  /// A value as it is written.
+  /// The text of a value in the file.
   std::string slice(const Value& v) const;
   std::filesystem::path path_of(const std::string& name) const { return (folder_.empty() ? "." : folder_) / name; }
 
-  /// Reads the file that the key "scene" names; returns its path, or nothing where it cannot be read, which is told.
+  /// Reads the file that the key "scene" names. Returns its path, or nothing if it cannot be read, which is a fault.
   std::optional<std::filesystem::path> read_scene_file(const Value& root, std::string& text, std::string& name);
 
-  /// "/pointer=value" for all that a pointer names in the scene. pointer_at: where the file says it.
+  /// Overrides "/pointer=value" for all values that a pointer names in the scene. pointer_at: place of the pointer in
+  /// the file.
   std::vector<std::string> read_setting(const std::string& pointer, const std::string& value,
                                         const std::string& pointer_at);
 
-  std::optional<StudyScene> scene_;     ///< there once it is read
-  std::vector<SettingOrigin> origins_;  ///< of what all runs change
+  std::optional<StudyScene> scene_;     ///< empty until it is read
+  std::vector<SettingOrigin> origins_;  ///< of the settings common to all runs
 
  private:
   std::string_view text_;

@@ -3,7 +3,7 @@
 
 namespace bough::io {
 
-/// The rules that several things use: vectors, rotations, laws, attachments, matrices, shapes.
+/// Rules that several parts of a scene use: vectors, rotations, laws, attachments, matrices, shapes.
 void add_part_rules(RuleTable& table);
 void add_law_rules(RuleTable& table);
 /// Statics and dynamics with their step control and paths; `frame`: the field that names the frame of description.
@@ -13,13 +13,13 @@ void add_analysis_rules(RuleTable& table, const Field& frame);
 void add_measure_rules(RuleTable& table);
 /// `parameters` and `repeat`; lists: the lists of a scene of which copies can be made.
 void add_expansion_rules(RuleTable& table, const std::vector<Field>& lists);
-/// How many copies are made, and the index of the first.
+/// Rules for the number of copies and for the index of the first.
 RuleRef copy_count_rule();
 RuleRef copy_first_rule();
 
-/// An object rule: all its fields, told by a marker key where the choice around it needs one.
+/// An object rule with all its fields; `marker` is the key by which a choice recognises the object.
 Rule object_of(Literal about, std::vector<Field> fields, Literal marker = {});
-/// An object rule told by "kind".
+/// An object rule recognised by "kind".
 Rule object_of_kind(std::vector<std::string> kinds, Literal about, std::vector<Field> fields);
 RuleRef made(Rule rule);
 

@@ -10,7 +10,7 @@
 namespace bough::io {
 
 struct SharedText::Shared {
-  std::atomic<std::size_t> size{0};  ///< of what is whole
+  std::atomic<std::size_t> size{0};  ///< [bytes] completely appended
   [[nodiscard]] char* begin() { return reinterpret_cast<char*>(this + 1); }
 };
 
@@ -30,11 +30,11 @@ SharedText& SharedText::operator=(SharedText&& other) noexcept {
 }
 
 void SharedText::clear() {
-  constexpr std::size_t many = 1 << 20;  // what is worth a call to give pages back
+  constexpr std::size_t many = 1 << 20;  // from this size on, pages are returned to the system
   if (shared_ == nullptr) return;
   const bool is_large = shared_->size.load() > many;
   shared_->size.store(0);
-  if (is_large) (void)::madvise(shared_, bytes_, MADV_REMOVE);  // which reads as zeros afterwards
+  if (is_large) (void)::madvise(shared_, bytes_, MADV_REMOVE);  // the pages read as zeros afterwards
 }
 
 bool SharedText::append(std::string_view piece) {

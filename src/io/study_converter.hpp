@@ -1,5 +1,5 @@
 #pragma once
-/// Turns a checked document into a study.
+/// Converts a checked document to a study.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -37,13 +37,13 @@ class StudyConverter : public SceneConverter {
   static void add_origins(const std::vector<std::string>& overrides, const std::string& at,
                           std::vector<SettingOrigin>& origins);
 
-  // What is compared (read_study_quantities.cpp).
+  // The quantities compared (read_study_quantities.cpp).
   void read_quantity(const Value& v, const std::string& at);
   bool find_columns(const Value& v, const std::string& at, StudyQuantity& q);
   void read_formula(const Value& v, const std::string& at, StudyQuantity& q);
   void read_table(const Value& v, const std::string& at, StudyQuantity& q);
 
-  // What is varied (read_study_grids.cpp).
+  // The settings varied (read_study_grids.cpp).
   StudyReference read_reference(const Value& v, const std::string& at);
   void read_grid(const Value& v, const std::string& at);
   StudyAxis read_axis(const Value& v, const std::string& at);
@@ -53,7 +53,7 @@ class StudyConverter : public SceneConverter {
   void check_runs(const StudyGrid& grid, const std::string& at);
   bool check_samples(const scene::Scene& scene, const std::string& at);
 
-  std::optional<scene::Scene> base_;  ///< the scene with what all runs change
+  std::optional<scene::Scene> base_;  ///< the scene with the settings common to all runs
   std::vector<std::string> columns_;  ///< of its history
 };
 

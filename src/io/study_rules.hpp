@@ -8,8 +8,8 @@ namespace bough::io {
 /// The table of study files.
 const RuleTable& study_rules();
 
-/// Where the axes with known names lead in the scene; `*` stands for every item of a list. "threads" leads nowhere:
-/// it is no part of a scene.
+/// Pointers into the scene for the axes with known names; `*` stands for every item of a list. "threads" has no
+/// pointer, since it is not part of a scene.
 struct KnownAxis {
   const char* name;
   const char* pointer;

@@ -1,6 +1,6 @@
 #pragma once
-/// The scene of a study while the study is read: where its settings lead, and who is to blame for what is wrong with
-/// it.
+/// The scene of a study while the study is read: the values that settings refer to, and the settings that cause faults
+/// of the scene.
 #include <map>
 #include <optional>
 #include <set>
@@ -13,25 +13,24 @@
 
 namespace bough::io {
 
-/// Where a value of the scene comes from in the study's file.
+/// A value of the scene and the place in the study's file that sets it.
 struct SettingOrigin {
   std::string scene_pointer, spec_pointer;
 };
 
 class StudyScene {
  public:
-  /// folder: of files that the scene names; empty: it may name none.
+  /// folder: that of the files that the scene names; empty: it may not name files.
   StudyScene(std::string text, std::string name, std::filesystem::path folder = {})
       : text_(std::move(text)), name_(std::move(name)), folder_(std::move(folder)) {}
 
   const std::string& text() const { return text_; }
 
-  /// "/pointer=value" with every `*` replaced by the indices of the list it stands in; nothing where there is no such
-  /// list.
+  /// Overrides "/pointer=value" with every `*` replaced by the indices of its list; empty if there is no such list.
   std::vector<std::string> expand(const std::string& pointer, const std::string& value);
 
-  /// Reads the scene with overrides. Each problem becomes one fault, at the setting that the problem's place belongs
-  /// to, else at `otherwise`; what was said of a place before is not said again.
+  /// Reads the scene with overrides. Each problem becomes one fault, at the setting that contains the problem's place,
+  /// else at `otherwise`. A fault that was reported for the same place before is not repeated.
   std::optional<scene::Scene> read(const std::vector<std::string>& overrides, const std::vector<SettingOrigin>& origins,
                                    const std::string& otherwise, PlacedFaults& faults);
 

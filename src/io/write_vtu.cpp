@@ -135,7 +135,7 @@ void add_arrow(Grid& grid, const records::Arrow& arrow, std::size_t index) {
   grid.add_cell(vtk_vertex, std::array{grid.num_points() - 1}, Kind::load, index);
 }
 
-/// Whether single precision would take more than a ten-thousandth of the structure's size from its coordinates.
+/// Whether rounding to single precision would change coordinates by more than a ten-thousandth of the structure's size.
 bool needs_double(const std::vector<double>& points) {
   double most = 0.0, low[3], high[3];
   std::fill_n(low, 3, std::numeric_limits<double>::infinity());
@@ -169,7 +169,7 @@ struct Appended {
       const std::size_t length = std::min(block, size - b * block);
       uLongf room = compressBound(static_cast<uLong>(length));
       std::string part(room, '\0');
-      // Level 1: half the bytes of none at a small part of a step's time.
+      // Level 1: half the bytes of no compression, in a small part of a step's time.
       if (compress2(reinterpret_cast<Bytef*>(part.data()), &room, bytes + b * block, static_cast<uLong>(length), 1) !=
           Z_OK)
         throw std::runtime_error("zlib cannot compress a picture");

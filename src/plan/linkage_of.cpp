@@ -204,7 +204,7 @@ void SceneLinkage::add_stiffness() {
 /// all its attachment points.
 void SceneLinkage::add_point_masses() {
   struct Use {
-    bool feels = false;  // another part turns with it
+    bool feels = false;  // another part depends on its rotation
     std::vector<Vec3d> met;
   };
   std::unordered_map<std::string, Use> uses;

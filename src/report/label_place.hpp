@@ -1,5 +1,5 @@
 #pragma once
-/// Where a label may stand beside a line of a drawing, off what else is drawn there. All in pixels, y downwards.
+/// Position of a label beside a line of a drawing, clear of other lines. Coordinates are in pixels, y downwards.
 #include <vector>
 
 namespace bough::report {
@@ -21,8 +21,8 @@ Box box_of(const LabelPlace& place, double width);
 /// Whether any part of a segment lies in a box.
 bool meets(const Segment& segment, const Box& box);
 
-/// Beside `line`, from its first end on, preferably below it: the first place within `area` at which the label meets
-/// nothing of `drawn`, the line itself included; where there is none, that at which it meets least.
+/// The first place beside `line` within `area`, from its first end on and first below it, at which the label meets no
+/// segment of `drawn` (which includes the line itself). If there is none, the place with the fewest segments met.
 LabelPlace place_label(const Segment& line, double width, const std::vector<Segment>& drawn, const Box& area);
 
 }  // namespace bough::report

@@ -61,7 +61,7 @@ bool Crowding::look() {
   const long switches = count_switches();
   const bool is_probe = now - while_crowded().end() < window;
   const bool counts =
-      switches_ >= 0 && !is_crowded_ && now - begin_ <= window + between_looks;  // longer: nobody asked in the meantime
+      switches_ >= 0 && !is_crowded_ && now - begin_ <= window + between_looks;  // a longer window is ignored
   if (counts && switches - switches_ >= (is_probe ? many_in_probe : many_switches)) while_crowded().begin(now);
   const bool was_crowded = std::exchange(is_crowded_, now < while_crowded().end());
   if (switches_ < 0 || is_crowded_ || was_crowded || now - begin_ >= (is_probe ? probe : window)) {

@@ -43,7 +43,7 @@ class Helper {
   /// Makes the serving thread return soon.
   void dismiss();
 
-  /// For tests: bursts do not regard the helper's share of the time.
+  /// For tests: bursts ignore the helper's share of the time.
   void set_tireless(bool yes) { is_tireless_ = yes; }
 
   void walk_up(const tree::Tree& tree, tree::Visit visit);
@@ -78,8 +78,8 @@ class Helper {
   std::condition_variable to_helper_, to_owner_;
   std::atomic<Stage> stage_{Stage::absent};
   std::atomic<bool> is_recalled_{false};
-  Part other_;               ///< begin: what is to be done next. The helper's while the stage is `taken`
-  Clock::duration spent_{};  ///< in the last burst; the helper's likewise
+  Part other_;               ///< begin: the next item to do. It belongs to the helper while the stage is `taken`
+  Clock::duration spent_{};  ///< in the last burst; it belongs to the helper in the same stage
   Clock::duration credit_{};
   Clock::time_point credit_at_{};
   std::atomic<bool> is_sharing_{false};

@@ -36,7 +36,7 @@ void require_consistent(const blocks::BlockGraph& graph) {
   }
 }
 
-/// From the dissection to the tree: eliminate part by part, then number and lay out.
+/// Makes the tree from the dissection: eliminates part by part, then numbers the fronts and lays them out.
 class Builder {
  public:
   Builder(const blocks::BlockGraph& graph, const TreeOptions& options, bool sweeps_paths)

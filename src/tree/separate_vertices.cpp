@@ -81,7 +81,7 @@ std::vector<int> separate_by_levels(const std::vector<int>& row_begin, const std
 std::vector<int> separate_vertices(const VertexGraph& graph, unsigned seed) {
   (void)seed;
 #ifdef BOUGH_HAS_METIS
-  constexpr int least_for_metis = 16;  // below, its coarsening has nothing to do and the levels are as good
+  constexpr int least_for_metis = 16;  // below, METIS has nothing to coarsen and levels are as good
   if (static_cast<int>(graph.weights.size()) >= least_for_metis) {
     std::vector<idx_t> xadj(graph.row_begin.begin(), graph.row_begin.end()),
         adjncy(graph.columns.begin(), graph.columns.end()), vwgt(graph.weights.begin(), graph.weights.end());

@@ -163,7 +163,7 @@ struct Plan {
   std::vector<GivenVelocity> given_velocities;  ///< in the scene's order
   ElementArrays elements;
   std::vector<ElementPlace> directory;     ///< by global element id
-  std::vector<std::string> element_owner;  ///< name of the scene's thing behind each element
+  std::vector<std::string> element_owner;  ///< name of the part of the scene that each element belongs to
   std::vector<JointPlan> joints;
   int num_multipliers = 0;
   std::vector<BeamPlan> beams;

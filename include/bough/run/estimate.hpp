@@ -1,19 +1,19 @@
 #pragma once
-/// What a run of a scene takes, told from the scene alone: before anything is allocated for it.
+/// Memory and time of a run, estimated from the scene alone, before memory is allocated for it.
 #include <string>
 
 #include "bough/scene/scene.hpp"
 
 namespace bough::run {
 
-/// Counts are those of the scene in space, before the plan leaves anything out. Memory and time are sums over nodes,
-/// elements and joints, with figures of chains and lattices that were measured on one machine: within a factor of two
-/// for these, too little for solids of beams.
+/// Counts are those of the scene in space, before the plan omits unknowns. Memory and time are sums over nodes,
+/// elements and joints with costs measured for chains and lattices on one machine. For these they are right within a
+/// factor of two; for solids of beams they are too small.
 struct Estimate {
   double nodes = 0.0, elements = 0.0, joints = 0.0;
-  double unknowns = 0.0;      ///< six a node, and the rows of all joints
+  double unknowns = 0.0;      ///< six per node, and the rows of all joints
   double steps = 0.0;         ///< of a run in time, or load steps
-  double memory_bytes = 0.0;  ///< of the process that runs it
+  double memory_bytes = 0.0;  ///< of the whole process
   double step_seconds = 0.0;  ///< on one thread
   double seconds() const { return steps * step_seconds; }
 };
@@ -21,8 +21,8 @@ struct Estimate {
 /// Cost: one pass over the lists of the scene. Precondition: problems_in(scene) is empty.
 Estimate estimate_run(const scene::Scene& scene);
 
-/// Empty where a run stays within `limit` bytes; else the numbers and what to do, in words. Motion in a plane or
-/// without rotation takes about half: where that decides, and only there, a plan is made.
+/// Empty if a run stays within `limit` bytes; else a message with the numbers and a remedy. Motion in a plane or
+/// without rotation takes about half of the memory; a plan is made only if this decides.
 std::string refusal(const scene::Scene& scene, double limit);
 
 }  // namespace bough::run

@@ -1,6 +1,6 @@
 #pragma once
-/// A simulation that a program drives: step by step or to a time, with sensors read on the way, and taken back to where
-/// it was.
+/// A simulation that a program controls: it takes single steps or runs to a time, sensors can be read in between, and
+/// it can be set back to an earlier moment.
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace bough::run {
 
-/// One scene as it is simulated, in time or along its loads (then "time" is the load factor). Rows, pictures and the
-/// summary go to a recorder, if there is one. The scene and the recorder outlive the simulation. Failures are told in
-/// the summary; what a recorder throws passes through. Not for use by several threads at once.
+/// The simulation of one scene, in time or along its loads (then "time" is the load factor). Rows, pictures and the
+/// summary are passed to a recorder, if there is one. The scene and the recorder must outlive the simulation. Failures
+/// are reported in the summary; exceptions of a recorder are passed on. Not for use by several threads at once.
 class Simulation {
  public:
-  /// Precondition: problems_in(scene) is empty (refusal_of tells what is wrong). Makes the plan and takes all memory
+  /// Precondition: problems_in(scene) is empty (refusal_of gives the problems). Makes the plan and allocates all memory
   /// that steps need; nothing is simulated yet.
   explicit Simulation(const scene::Scene& scene, SimulateOptions options = {}, records::Recorder* recorder = nullptr,
                       ProgressCallback progress = {});
@@ -22,35 +22,36 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// Comes to the first equilibrium, or to the consistent start in time, where it is not there yet. The other verbs do
-  /// it by themselves. False: it failed.
+  /// Computes the first equilibrium, or the consistent initial state in dynamics, unless this was done. The other
+  /// functions call it if necessary. False: it failed.
   bool start();
-  /// Takes one accepted step. False: there is none, since the simulation has ended, or ends now.
+  /// Takes one accepted step. False: no step was accepted, because the simulation had ended or ends now.
   bool take_step();
   /// Takes steps until the time is reached, which is rounded up to the end of a step. False: it ended before.
   bool advance_to(double time);
   /// Takes steps to the end. False: the simulation failed or was interrupted.
   bool run();
 
-  /// Nothing more is simulated: the end was reached, a step failed, or a callback has stopped it.
+  /// True if nothing more is simulated: the end was reached, a step failed, or a callback has stopped the run.
   bool has_ended() const;
   double time() const;  ///< [s], or the load factor
 
-  /// Names and units of what sensors show, and their values now, in the same order.
+  /// Names and units of all components of sensors, and their present values in the same order.
   const records::HistoryHeader& header() const;
   const std::vector<double>& values();
-  /// One of them, "<sensor>.<component>" or "<sensor>"; throws std::out_of_range where there is none.
+  /// One of these values, by "<sensor>.<component>" or "<sensor>"; throws std::out_of_range if there is none.
   double value(std::string_view column);
 
-  /// A moment of this simulation: all that changes as it goes, in memory of its own.
+  /// A saved moment of this simulation: a copy of all data that steps change.
   class Moment;
   std::shared_ptr<const Moment> save() const;
-  /// Goes back to a moment of this simulation. From there it goes on as it did before, up to the tolerance of Newton's
-  /// iteration, since the factor at hand is made anew. Rows and pictures that the recorder was given are not taken
-  /// back.
+  /// Goes back to a moment of this simulation. Further steps equal the earlier ones up to the tolerance of Newton's
+  /// method, since the stored factorization is discarded and computed anew. Rows and pictures that were passed to the
+  /// recorder are not withdrawn.
   void restore(const Moment& moment);
 
-  /// Judges what was simulated: what `simulate` returns. Hands it to the recorder and ends the simulation.
+  /// Ends the simulation, completes the summary with its checks, passes it to the recorder and returns it (as
+  /// `simulate` does).
   const records::Summary& finish();
 
  private:
