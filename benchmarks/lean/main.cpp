@@ -1,6 +1,6 @@
 /// bench_lean [--case=REGEX] [--checks=yes] [options of Google Benchmark]
-/// Rows taken/CASE and barred/CASE: the same scene with a decision of its plan taken and barred, interleaved; CASE
-/// begins with the decision. One iteration is one accepted step, but for symmetric_... and definite_..., where it is
+/// Rows taken/CASE and barred/CASE: the same scene with a decision of its plan taken and excluded, interleaved; CASE
+/// begins with the name of the decision. One iteration is one accepted step; for symmetric_... and definite_... it is
 /// one factorization.
 #include <benchmark/benchmark.h>
 
@@ -26,27 +26,27 @@ struct LeanCase {
   scene::Scene (*make)(int);
 };
 
-/// The lattice in its own plane, gravity along it.
+/// The lattice moving in its own plane, with gravity along it.
 scene::Scene make_hanging_lattice(int n) {
   scene::Scene s = make_lattice_2d(n, Support::clamp);
   s.gravity = {{0.0, -9.81, 0.0}};
   return s;
 }
 scene::Scene make_level_lattice(int n) { return make_lattice_2d(n, Support::clamp); }
-/// A beam of so many elements, held at one end, falls from the horizontal.
+/// A beam of a given number of elements, held at one end, falls from the horizontal.
 scene::Scene make_cantilever(int elements) {
   scene::Scene s = make_chain(1);
   s.joints[0].kind = scene::JointKind::fixed;
   s.beams[0].elements = elements;
   return s;
 }
-/// The same, so light that it vibrates where it is: to round-off a linear structure.
+/// The same beam, so light that it hardly moves: to round-off a linear structure.
 scene::Scene make_light_cantilever(int elements) {
   scene::Scene s = make_cantilever(elements);
   s.gravity = 1e-3 * s.gravity;
   return s;
 }
-/// Two such beams as an angle that gravity bends and twists out of its plane: linear as well, but in space.
+/// Two such beams at an angle, which gravity bends and twists out of their plane: also linear, but in space.
 scene::Scene make_light_bracket(int elements) {
   scene::Scene s = make_chain(2);
   for (scene::Joint& joint : s.joints) joint.kind = scene::JointKind::fixed;
@@ -55,13 +55,13 @@ scene::Scene make_light_bracket(int elements) {
   s.gravity = 1e-3 * s.gravity;
   return s;
 }
-/// Links joined by fixed joints instead of hinges, the first on its hinge: one long beam, put together of parts.
+/// Links connected by fixed joints instead of hinges, the first on its hinge: one long beam made of parts.
 scene::Scene make_tied_chain(int links) {
   scene::Scene s = make_chain(links);
   for (std::size_t l = 1; l < s.joints.size(); ++l) s.joints[l].kind = scene::JointKind::fixed;
   return s;
 }
-/// The lattice as assembled of bars: each has nodes of its own, which fixed joints tie to the crossings.
+/// The lattice assembled from bars: each has nodes of its own, which fixed joints connect to the crossings.
 scene::Scene make_tied_lattice(int n) {
   scene::Scene s = make_level_lattice(n);
   std::map<std::string, scene::Vec3> crossings;
@@ -132,7 +132,7 @@ scene::Scene make_scene(const LeanCase& c, bool barred, bool checks) {
   s.output.stride = c.steps + 1;
   s.output.checks = checks;
   if (barred) s.without = {c.decision};
-  if (is_of_factors(c)) s.without.push_back("reuse");  // a factor in every iteration
+  if (is_of_factors(c)) s.without.push_back("reuse");  // a factorization in every iteration
   return s;
 }
 
@@ -152,7 +152,7 @@ void run_case(benchmark::State& state, const LeanCase& c, bool barred, bool chec
     return true;
   };
   const bool of_factors = is_of_factors(c);
-  while (state.KeepRunningBatch(c.steps)) {  // a run is that many iterations: the least time is one of all its steps
+  while (state.KeepRunningBatch(c.steps)) {  // a run is this many iterations, so the least time covers all its steps
     double seconds = 0.0;
     std::chrono::steady_clock::time_point start;
     end = run::simulate(s, options, recorder, [&](const records::Progress& p) {
@@ -180,7 +180,8 @@ void run_case(benchmark::State& state, const LeanCase& c, bool barred, bool chec
 int main(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
   const std::regex wanted(take_option(arguments, "case", ".*"));
-  const bool checks = take_option(arguments, "checks", "no") == "yes";  // certificates, which both rows then pay for
+  const bool checks =
+      take_option(arguments, "checks", "no") == "yes";  // the checks of results, whose cost is then in both rows
   std::vector<std::string> defaults{"--benchmark_repetitions=3", "--benchmark_enable_random_interleaving=true",
                                     "--benchmark_min_time=0.05"};
   for (std::string& d : defaults) arguments.insert(arguments.begin() + 1, d.data());

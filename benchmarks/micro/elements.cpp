@@ -80,7 +80,7 @@ Joint make_revolute() {
   joint.num_rows = 5;
   return joint;
 }
-/// The same with a spring and a damper about its axis.
+/// The same joint with a spring and a damper about its axis.
 Joint make_sprung_revolute() {
   Joint joint = make_revolute();
   joint.efforts[0] = {Coordinate::angle, 10.0, 0.1, 1.0, -1};

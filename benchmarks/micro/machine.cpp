@@ -1,6 +1,6 @@
-/// What the machine can do on one thread, to set beside the counters of bench_step: fused multiply-adds in registers,
-/// and reading from each cache and from memory. Gflop/s and GB/s are the counters `flops` and `bytes`. Rows
-/// second_thread/...: the same by one thread alone and by two side by side.
+/// Peak performance of the machine on one thread, for comparison with the counters of bench_step: fused multiply-adds
+/// in registers, and reading from each cache and from memory. Gflop/s and GB/s are the counters `flops` and `bytes`.
+/// Rows second_thread/...: the same by one thread alone and by two side by side.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -17,7 +17,7 @@ using packs::Real;
 
 using Data = std::vector<double, LineAllocator<double>>;
 
-/// Their sum alone: sums with an address would go through memory every time.
+/// Keeps only their total from being optimised away: sums with an address would be stored in memory every time.
 template <int sums>
 void keep(const Real (&sum)[sums]) {
   Real all = {};
@@ -26,12 +26,12 @@ void keep(const Real (&sum)[sums]) {
   benchmark::DoNotOptimize(all);
 }
 
-/// As many sums as a tile of the kernels has, so that none waits for itself.
+/// As many sums as a tile of the kernels has, so that no operation waits for the previous one on the same sum.
 constexpr int many_sums = 3 * packs::width, rounds = 1024;
 template <int sums>
 void multiply_and_add() {
   Real sum[sums];
-  for (int i = 0; i < sums; ++i) sum[i] = Real{} + i;  // equal ones would be made one
+  for (int i = 0; i < sums; ++i) sum[i] = Real{} + i;  // the compiler would merge equal sums
   const Real factor = Real{} + 0.5, term = Real{} + 1.0;
   for (int k = 0; k < rounds; ++k)
 #pragma GCC unroll 24
@@ -71,8 +71,8 @@ void run_side_by_side(benchmark::State& state, long repeats, Work work) {
   times.report(state);
 }
 
-/// One sum waits for itself and leaves most of a core idle: two threads of one core do twice as much of these, but no
-/// more of multiply_adds.
+/// With one sum each operation waits for the previous one, and most of a core is idle. Two threads of one core do twice
+/// as much of these, but no more of multiply_adds.
 template <int sums>
 void side_by_side_multiply_adds(benchmark::State& state) {
   run_side_by_side(state, 120000 / (sums + 4), [](int) { multiply_and_add<sums>(); });
@@ -84,7 +84,7 @@ void side_by_side_read(benchmark::State& state) {
   run_side_by_side(state, in_4_gib, [&data](int k) { read_all(data[k]); });
 }
 
-constexpr int repetitions = 9;  // whose median is read: what else the host does comes and goes
+constexpr int repetitions = 9;  // the median is reported, since the load of the host varies
 BENCHMARK(side_by_side_multiply_adds<1>)
     ->Name("second_thread/dependent_multiply_adds")
     ->UseManualTime()

@@ -1,6 +1,6 @@
-/// Hot operators of motions: bough in double and in packs of 8 lanes, and the same job by Eigen's route through
-/// AngleAxis, Quaternion and Isometry3d with sine and cosine. One row is IMPLEMENTATION/OPERATOR; the counter `each`
-/// is the time of one motion. Before it is timed, every row is compared with bough in double.
+/// Frequent operators of motions: bough in double and in packs of 8 lanes, and the same operations by Eigen through
+/// AngleAxis, Quaternion and Isometry3d with sine and cosine. One row is IMPLEMENTATION/OPERATOR; the counter `each` is
+/// the time of one motion. Before it is timed, every row is compared with bough in double.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Geometry>
@@ -82,13 +82,13 @@ const Inputs& inputs() {
   return all;
 }
 
-// Eigen's route.
+// The implementation by Eigen.
 Eigen::Matrix3d skew_of(const Eigen::Vector3d& a) {
   Eigen::Matrix3d r;
   r << 0.0, -a[2], a[1], a[2], 0.0, -a[0], -a[1], a[0], 0.0;
   return r;
 }
-constexpr double small_angle = 1e-8;  // below, what AngleAxis divides by is not to be trusted
+constexpr double small_angle = 1e-8;  // below, the divisor in AngleAxis is inaccurate
 
 Eigen::Matrix3d eigen_exp_so3(const Eigen::Vector3d& psi) {
   const double phi = psi.norm();

@@ -1,7 +1,7 @@
 /// bench_penalties [CASE]
-/// What a penalty costs: the error of one solution against extended precision, for each form of the solver, over the
-/// penalty factor; and the worst condition of the scaled interface flexibility in the tree. No refinement. The
-/// right-hand side belongs to a random solution of order one in scaled unknowns. Prints Markdown tables.
+/// Accuracy lost by a penalty: the error of one solution against extended precision, for each form of the solver, over
+/// the penalty factor; and the worst condition of the scaled interface flexibility in the tree. There is no refinement.
+/// The right-hand side belongs to a random solution of order one in scaled unknowns. Prints Markdown tables.
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
@@ -120,7 +120,7 @@ Reference make_reference(const Matrices& m, const tree::Tree& tree) {
   for (Eigen::Index i = 0; i < n; ++i) wanted(i) = static_cast<long double>(uniform(random));
   const ExtendedVector scaled_rhs = a * wanted;
   r.rhs.resize(n);
-  ExtendedVector rounded(n);  // the right-hand side that everybody gets
+  ExtendedVector rounded(n);  // the right-hand side for all solvers
   for (Eigen::Index i = 0; i < n; ++i) {
     r.rhs(i) = static_cast<double>(scaled_rhs(i) / static_cast<long double>(row_scale(i)));
     rounded(i) = static_cast<long double>(r.rhs(i)) * static_cast<long double>(row_scale(i));
@@ -184,7 +184,7 @@ void print_case(const Case& c) {
   double whole = std::nan("");
   if (!r.only_motion) {
     const Eigen::PartialPivLU<Eigen::MatrixXd> lu(r.scaled);
-    // Scales are powers of two: the scaled right-hand side is exact.
+    // Scales are powers of two, so the scaled right-hand side is exact.
     Eigen::VectorXd b(r.rhs.size());
     solve::Hierarchical scales(m.graph, tree);
     write_elements(m, scales);

@@ -1,5 +1,5 @@
 #pragma once
-/// bough's own solver on a problem, by its public interface.
+/// bough's solver on a problem, through its public interface.
 #include <memory>
 #include <utility>
 
@@ -10,7 +10,7 @@
 
 namespace bough::bench {
 
-/// Writes the element matrices where a solver wants them.
+/// Writes the element matrices to the storage of a solver.
 template <class Solver>
 void write_elements(const Problem& p, Solver& solver) {
   for (int e = 0; e < p.graph.num_elements(); ++e) {
@@ -20,12 +20,13 @@ void write_elements(const Problem& p, Solver& solver) {
   }
 }
 
-/// The tree and the solver's storage: sessions of several thread counts share them, since they never run at once.
+/// The tree and the storage of the solver. Sessions with different numbers of threads share them, since they never run
+/// at the same time.
 struct BoughStorage {
   tree::Tree tree;
   solve::Hierarchical solver;
-  /// One solution to a factorization, which is what the rows time; lockstep: the tree as for several, where that is
-  /// another one.
+  /// The tree for one solution per factorization, as the rows time it; lockstep: the tree for several solutions, if it
+  /// differs.
   explicit BoughStorage(const Problem& p, bool lockstep = false)
       : tree(tree::make_tree(p.graph, {.for_one_solution = !lockstep && !p.is_symmetric()})),
         solver(p.graph, tree,
@@ -35,7 +36,7 @@ struct BoughStorage {
                 .check = solve::SolveCheck::none,
                 .refinement_steps = 0}) {
     write_elements(p, solver);
-    solver.trust_symmetry(p.is_symmetric());  // peers read one triangle, too
+    solver.trust_symmetry(p.is_symmetric());  // the peers read one triangle as well
   }
 };
 

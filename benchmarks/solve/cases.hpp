@@ -1,5 +1,5 @@
 #pragma once
-/// The cases of the solver benchmark, the ratios that are aimed at, and who takes part in which.
+/// The cases of the solver benchmark, the ratios required, and the solvers that take part in each.
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,8 +16,8 @@ struct Case {
   Family family;
   int size;
   Values values;
-  double bar;                       ///< best of `rivals` over bough, at least
-  std::vector<std::string> rivals;  ///< solvers that the bar is measured against
+  double bar;                       ///< least required ratio of the best of `rivals` to bough
+  std::vector<std::string> rivals;  ///< solvers that the ratio refers to
   std::string family_key() const;   ///< "chain_u"
   scene::Scene make_scene() const;
 };
@@ -44,7 +44,7 @@ struct Field {
   std::vector<Entrant> entrants;
 };
 
-/// What is carried from case to case of a family: cases come in order of size.
+/// Data passed from case to case of a family; cases are in order of size.
 struct Memory {
   struct Item {
     std::string key;  ///< "klu/chain_u"
@@ -59,17 +59,15 @@ struct Memory {
 /// Rows of bough itself.
 struct OwnRows {
   std::vector<int> thread_counts;  ///< empty: none
-  /// And rows `bough_lockstep` of unsymmetric chains, by the tree that is made where factors serve several solutions.
+  /// Adds rows `bough_lockstep` of unsymmetric chains, with the tree for several solutions per factorization.
   bool lockstep = false;
 };
 
-/// Makes the problem, tries the peers' orderings, checks every solution, and decides who is left out:
-///   a solver that does not apply; that fails; whose backward error is above 1e-10; that is not among the rivals and
-///     whose first
-///   numeric factorization takes more than 20 times (best rival's refactorization and solution) / bar, here or in a
-///     smaller case of the
-///   family.
-/// Orderings are tried while the first factorization takes less than 0.3 s; larger cases keep the choice of the next
+/// Makes the problem, tries the peers' orderings, checks every solution, and excludes:
+///   - a solver that does not apply, that fails, or whose backward error is above 1e-10;
+///   - a solver that is not among the rivals and whose first numeric factorization takes more than 20 times (best
+///     rival's refactorization and solution) / bar, here or in a smaller case of the family.
+/// Orderings are compared while the first factorization takes less than 0.3 s; larger cases use the choice of the next
 /// smaller one.
 Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const OwnRows& own, Memory& memory,
                  std::vector<LeftOut>& left_out);

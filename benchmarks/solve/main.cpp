@@ -1,7 +1,7 @@
 /// bench_solve [--case=REGEX] [--solver=REGEX] [--lockstep=yes] [--side_by_side=yes] [options of Google Benchmark]
 /// Numeric refactorization plus one solution, symbolic work reused: bough and its peers on the same matrices.
-/// --lockstep=yes: unsymmetric chains by both of bough's trees. --side_by_side=yes: instead of these, what a second
-/// thread gains on chains and what two do that share no work (second_thread.hpp).
+/// --lockstep=yes: unsymmetric chains with both of bough's trees. --side_by_side=yes: instead of these, the gain by a
+/// second thread on chains and lattices, and that of two threads that share no work (second_thread.hpp).
 #include <benchmark/benchmark.h>
 
 #include <cstdio>

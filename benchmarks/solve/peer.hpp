@@ -1,5 +1,5 @@
 #pragma once
-/// A direct solver as the benchmark sees it.
+/// Interface of a direct solver in the benchmark.
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,32 +9,31 @@
 
 namespace bough::bench {
 
-/// One solver on one problem with one ordering; the problem outlives it.
+/// One solver on one problem with one ordering. The problem must outlive it.
 class Session {
  public:
   virtual ~Session() = default;
-  /// Symbolic work, once. False: failed.
+  /// Symbolic analysis, done once. False: failed.
   [[nodiscard]] virtual bool analyze() = 0;
   /// The first numeric factorization, pivot search included. False: failed.
   [[nodiscard]] virtual bool factor() = 0;
-  /// What is timed: numeric factorization with the symbolic work at hand, then x = A^-1 rhs of the problem. No
-  /// refinement, no estimate of errors. False: failed.
+  /// The operations timed: numeric factorization with a given symbolic analysis, then x = A^-1 rhs of the problem,
+  /// without iterative refinement and error estimates. False: failed.
   [[nodiscard]] virtual bool refactor_and_solve(std::vector<double>& x) = 0;
-  /// Nonzeros of L and U, their diagonal once; 0: not told.
+  /// Nonzeros of L and U, their diagonal once; 0: unknown.
   virtual double factor_entries() const { return 0.0; }
-  /// All that the solver holds [bytes]; 0: not told.
+  /// Memory of the solver [bytes]; 0: unknown.
   virtual double memory_bytes() const { return 0.0; }
-  /// Of one factorization [flop]; 0: not told.
+  /// Operations of one factorization [flop]; 0: unknown.
   virtual double factor_flops() const { return 0.0; }
-  /// Runs the iterations of a row, with what they have in common around them, such as threads that stay together
-  /// during a run.
+  /// Runs the iterations of a row within their common scope, such as threads that stay active during a run.
   virtual void iterate(const std::function<void()>& iterations) { iterations(); }
 };
 
 struct Peer {
   std::string name;
   std::string version;
-  /// Orderings worth a trial, the default first; empty: does not apply.
+  /// Orderings to compare, the default first; empty: the solver does not apply.
   std::function<std::vector<std::string>(const Problem&)> orderings;
   std::function<std::unique_ptr<Session>(const Problem&, const std::string& ordering)> make;
 };

@@ -1,5 +1,5 @@
-/// CHOLMOD: supernodal L L^T (or simplicial, as it decides) of positive definite matrices; simplicial L D L^T where
-/// there are multipliers, in an order that meets no zero pivot.
+/// CHOLMOD: supernodal L L^T (or simplicial, by its own choice) of positive definite matrices; simplicial L D L^T if
+/// there are multipliers, in an order without zero pivots.
 #include <cholmod.h>
 
 #include "peer.hpp"

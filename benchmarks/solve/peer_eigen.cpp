@@ -14,7 +14,7 @@ Matrix make_matrix(const SparseMatrix& a) {
   return Eigen::Map<const Matrix>(a.n, a.n, a.num_entries(), a.column_begin.data(), a.row.data(), a.value.data());
 }
 
-/// Holds the permuted problem and moves right-hand side and solution to and fro.
+/// Stores the permuted problem and permutes right-hand side and solution.
 class Permuted {
  public:
   Permuted(const Problem& p, const std::string& ordering) : rhs_(p.rhs) {
@@ -87,8 +87,8 @@ Peer make_eigen_lu_peer() {
           }};
 }
 
-/// LDL^T without pivoting: an order of scalars may meet the zero diagonal of a multiplier before anything was added
-/// to it.
+/// LDL^T without pivoting: in an order of scalar unknowns the zero diagonal of a multiplier may become a pivot before
+/// anything was added to it.
 Peer make_eigen_ldlt_peer() {
   return {
       "eigen_ldlt", version(),

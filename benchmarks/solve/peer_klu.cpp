@@ -11,7 +11,7 @@ class KluSession final : public Session {
  public:
   KluSession(const Problem& p, const std::string& ordering) : a_(p.matrix), rhs_(p.rhs) {
     klu_defaults(&common_);
-    common_.scale = 0;  // near one already
+    common_.scale = 0;  // the diagonal is near one
     common_.ordering = ordering == "colamd" ? 1 : 0;
     if (ordering.starts_with("node")) given_ = order_nodes(p, ordering);
   }
@@ -41,7 +41,7 @@ class KluSession final : public Session {
   }
 
  private:
-  int* begin() const { return const_cast<int*>(a_.column_begin.data()); }  // KLU takes no const
+  int* begin() const { return const_cast<int*>(a_.column_begin.data()); }  // KLU takes pointers to non-const
   int* row() const { return const_cast<int*>(a_.row.data()); }
   double* value() const { return const_cast<double*>(a_.value.data()); }
   const SparseMatrix& a_;

@@ -21,8 +21,8 @@ class MumpsSession final : public Session {
     id_.comm_fortran = -987654;  // MPI_COMM_WORLD
     run(-1);
     for (int i : {1, 2, 3, 4}) set(i, i < 4 ? -1 : 0);  // silent
-    set(6, 0);                                          // no permutation to a large diagonal: it is near one already
-    set(8, 0);                                          // nor scaling
+    set(6, 0);                                          // no permutation to a large diagonal, which is near one
+    set(8, 0);                                          // no scaling
     set(10, 0);                                         // no refinement
     set(14, 100);                                       // room for delayed pivots [%]
     set(7, ordering == "amd" ? 0 : ordering == "scotch" ? 3 : ordering == "pord" ? 4 : 1);

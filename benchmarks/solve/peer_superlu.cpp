@@ -1,4 +1,4 @@
-/// SuperLU, sequential: supernodal, partial pivoting that prefers the diagonal where the ordering is of A + A^T.
+/// SuperLU, sequential: supernodal, with partial pivoting that prefers the diagonal if the ordering is that of A + A^T.
 #include <slu_ddefs.h>
 
 #include "peer.hpp"

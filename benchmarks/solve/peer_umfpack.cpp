@@ -1,5 +1,4 @@
-/// UMFPACK: unsymmetric multifrontal. Its numeric object is made anew at every factorization; there is no call that
-/// reuses it.
+/// UMFPACK: unsymmetric multifrontal. Every factorization makes a new numeric object, since no function reuses one.
 #include <umfpack.h>
 
 #include "peer.hpp"
@@ -12,7 +11,7 @@ class UmfpackSession final : public Session {
  public:
   UmfpackSession(const Problem& p, const std::string& ordering) : a_(p.matrix), rhs_(p.rhs) {
     umfpack_di_defaults(control_);
-    control_[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;  // near one already
+    control_[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;  // the diagonal is near one
     control_[UMFPACK_IRSTEP] = 0;
     control_[UMFPACK_ORDERING] = ordering == "metis" ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
     if (ordering.starts_with("node")) given_ = order_nodes(p, ordering);

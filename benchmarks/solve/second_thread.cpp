@@ -19,7 +19,7 @@ bool is_sound(const Problem& problem, Session& session) {
          eval_backward_error(problem.matrix, x, problem.rhs) <= largest_backward_error;
 }
 
-/// Chains and lattices that ask for a second thread.
+/// Chains and lattices large enough for a second thread.
 bool is_one_of_the_rows(const Case& c) {
   if (c.values != Values::unsymmetric) return false;
   if (c.family == Family::chain) return c.size >= 128 && c.size <= 2048;
@@ -27,7 +27,7 @@ bool is_one_of_the_rows(const Case& c) {
          (c.family == Family::lattice_3d && c.size == 12);
 }
 
-/// Empty where a solver fails.
+/// Empty if a solver fails.
 std::unique_ptr<SecondThreadCase> make_case(const Case& c) {
   auto out = std::make_unique<SecondThreadCase>();
   out->problem = std::make_unique<Problem>(make_problem(c.name, c.make_scene(), c.values));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double longest_trial = 0.3;
 
-/// CPU seconds of the process: trials run on one thread, and what else runs on the machine must not decide who takes
+/// CPU seconds of the process, since trials run on one thread and other programs must not decide which solvers take
 /// part.
 double cpu_now() {
   timespec t;
@@ -19,7 +19,7 @@ double cpu_now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// One ordering: first factorization, then twice what is timed.
+/// One ordering: the first factorization, then the operations timed, twice.
 Trial try_ordering(const Peer& peer, const Problem& p, const std::string& ordering, double limit) {
   Trial t;
   t.peer = &peer;

@@ -1,16 +1,16 @@
 #pragma once
-/// Trying a solver on a problem before it is timed.
+/// Trials of a solver on a problem before it is timed.
 #include <limits>
 
 #include "peer.hpp"
 
 namespace bough::bench {
 
-/// A normwise backward error above this leaves a solver out.
+/// A solver with a normwise backward error above this is excluded.
 constexpr double largest_backward_error = 1e-10;
 
-/// A peer with one ordering, and the CPU seconds it took: first numeric factorization, and what is timed (the better
-/// of two where that is short).
+/// A peer with one ordering, and its CPU seconds for the first numeric factorization and for the operations timed (the
+/// smaller of two if they are short).
 struct Trial {
   const Peer* peer = nullptr;
   std::string ordering, failure;
@@ -19,9 +19,9 @@ struct Trial {
   double first = 0.0, again = std::numeric_limits<double>::infinity(), backward_error = 0.0;
 };
 
-/// All orderings that suit the peer, the best one returned (with its failure if all fail). Orderings are tried while
-/// the first factorization takes less than 0.3 s; then `kept`, the choice for a smaller case of the same kind, stays
-/// (empty: none). A first factorization above the limit [s] counts as failure; nothing more is computed then.
+/// Tries all orderings of a peer and returns the best one (with its failure if all fail). Orderings are compared while
+/// the first factorization takes less than 0.3 s; otherwise `kept`, the choice for a smaller case of the same kind, is
+/// used (empty: none). A first factorization above the limit [s] counts as failure, and the trial ends.
 Trial try_peer(const Peer& peer, const Problem& p, const std::string& kept,
                double limit = std::numeric_limits<double>::infinity());
 

@@ -1,6 +1,7 @@
 /// bench_start [options of Google Benchmark]
-/// What it costs to start the program: whole processes, one an iteration, from before it is spawned until it is reaped.
-///   start/nothing        /bin/true: what a process costs whatever it does
+/// Cost of starting the program: whole processes, one per iteration, timed from before the start until the exit status
+/// is read.
+/// start/nothing /bin/true: the cost of any process
 ///   start/version        bough --version
 ///   start/ten_unknowns   bough run of a scene of ten unknowns and 100 steps, files written
 /// Wall time; the counters cpu_ms (user and system time of the child), faults (of pages, without reading).

@@ -63,12 +63,12 @@ scene::Scene make_scene(const StepCase& c, scene::SolverKind kind, int steps) {
   s.analysis.step_size = step_size;
   s.analysis.end_time = step_size * steps;
   s.solver.kind = kind;
-  s.output.stride = steps;  // what is timed is steps, not rows: only the first and the last are observed
+  s.output.stride = steps;  // steps are timed, not rows: only the first and the last are observed
   return s;
 }
 
-/// What one factorization computes and what one solution reads: all factors once, L upward and U downward. 0: not the
-/// hierarchical solver's.
+/// Operations of one factorization, and bytes that one solution reads: all factors once, L upward and U downward. 0 for
+/// other than the hierarchical solver.
 struct Loads {
   double factor_flops = 0.0, factor_bytes = 0.0;
 };
@@ -88,8 +88,8 @@ records::Summary simulate(const scene::Scene& s, int threads, const run::Progres
   return run::simulate(s, options, recorder, progress);
 }
 
-/// Times the steps after the first one of runs of steps + 1; where a step's time goes comes from the difference to a
-/// run of one step, which `start` keeps over the repetitions.
+/// Times the steps after the first one in runs of steps + 1. The times of phases are differences to a run of one step,
+/// which `start` stores over the repetitions.
 void run_steps(benchmark::State& state, const StepCase& c, scene::SolverKind kind, int threads,
                std::optional<records::Summary>& start) {
   const scene::Scene one = make_scene(c, kind, 1), all = make_scene(c, kind, c.steps + 1);
@@ -122,7 +122,7 @@ void run_steps(benchmark::State& state, const StepCase& c, scene::SolverKind kin
   state.counters["iterations_a_step"] = per_step([](const S& s) { return s.steps.newton_iterations; });
   state.counters["factorizations_a_step"] = per_step([](const S& s) { return s.steps.factorizations; });
   if (loads.factor_flops == 0.0) return;
-  const auto rate = [&](const char* of, double amount) {  // in CPU time; nothing where the phase takes none
+  const auto rate = [&](const char* of, double amount) {  // per CPU time; omitted if the phase takes none
     const double seconds = 1e-3 * state.counters[of].value;
     return seconds > 1e-9 ? 1e-9 * amount / seconds : 0.0;
   };

@@ -1,11 +1,11 @@
 #pragma once
-/// Own options of a benchmark program, taken out before Google Benchmark sees the rest.
+/// Options of a benchmark program itself, removed before Google Benchmark reads the others.
 #include <string>
 #include <vector>
 
 namespace bough::bench {
 
-/// Takes "--NAME=VALUE" out of the arguments.
+/// Removes "--NAME=VALUE" from the arguments and returns VALUE, or the default.
 inline std::string take_option(std::vector<char*>& arguments, const std::string& name, const std::string& otherwise) {
   std::string value = otherwise;
   const std::string start = "--" + name + "=";

@@ -15,7 +15,7 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// The same numbers on every machine: a linear congruential generator (Knuth's constants).
+/// A linear congruential generator (Knuth's constants), which gives the same numbers on every machine.
 class Random {
  public:
   double operator()() {  ///< uniform in [-1, 1)
@@ -151,7 +151,7 @@ void assemble(Problem& p) {
 
 Problem make_problem(const std::string& name, const scene::Scene& given, Values values) {
   scene::Scene scene = given;
-  scene.without = scene::decision_names();  // the matrix in six unknowns a node, as other programs set it up
+  scene.without = scene::decision_names();  // the matrix with six unknowns per node, as in other programs
   const plan::Plan plan = plan::make_plan(scene);
   Random random;
   Problem p;

@@ -28,19 +28,19 @@ struct Problem {
   blocks::BlockGraph graph;
   std::vector<std::vector<double>> elements;  ///< row-major, by element
   std::vector<int> unknown_begin;             ///< by block
-  SparseMatrix matrix;                        ///< all entries, exact zeros left out (an entry and its mirror together)
+  SparseMatrix matrix;  ///< all entries without exact zeros (an entry and its mirror are omitted together)
   std::vector<double> rhs;
   bool is_symmetric() const { return values == Values::symmetric; }
 };
 
-/// The tangent of a time step of 1e-3 s (spectral radius 0.8) of a scene whose nodes are displaced, turned and moving
-/// a little at random (fixed seed), so that no entry vanishes by chance.
+/// The tangent of a time step of 1e-3 s (spectral radius 0.8) of a scene whose nodes have small random displacements,
+/// rotations and velocities (fixed seed), so that no entry vanishes by chance.
 ///   symmetric: the symmetric part of each element matrix, constraint rows included.
 /// Unknowns and rows are measured in units of powers of two that bring the diagonal (of multipliers: the largest
 /// entry of the row) near one, so that no solver needs scaling. The right-hand side is random in [-1, 1].
 Problem make_problem(const std::string& name, const scene::Scene& scene, Values values);
 
-/// max_i |b - A x|_i / (|A|_inf |x|_inf + |b|_inf); NaN where x is not finite.
+/// Normwise backward error max_i |b - A x|_i / (|A|_inf |x|_inf + |b|_inf); NaN if x is not finite.
 double eval_backward_error(const SparseMatrix& a, const std::vector<double>& x, const std::vector<double>& b);
 
 /// Lower triangle with the diagonal.
@@ -49,7 +49,7 @@ SparseMatrix lower_triangle(const SparseMatrix& a);
 SparseMatrix permute(const SparseMatrix& a, const std::vector<int>& order);
 
 /// Elimination orders found on the graph of nodes, a joint's multipliers merged into the first node it constrains and
-/// eliminated right after it, so that no pivot is zero.  "node amd" or "node metis" (empty when METIS was not found).
+/// eliminated right after it, so that no pivot is zero. "node amd" or "node metis" (empty if METIS was not found).
 /// order[i]: i-th unknown to eliminate.
 std::vector<int> order_nodes(const Problem& problem, const std::string& method);
 

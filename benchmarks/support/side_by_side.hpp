@@ -1,6 +1,6 @@
 #pragma once
-/// How much of a second processor a machine has: the same work by one thread alone and by two side by side, each on
-/// data of its own.
+/// What a second processor of a machine contributes: the same work by one thread alone and by two at the same time,
+/// each on its own data.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -11,8 +11,9 @@
 
 namespace bough::bench {
 
-/// Wall seconds of `rounds` rounds of work(k) on each of the threads k = 0, 1, ...: they begin together, after a few
-/// untimed rounds that spread them over the processors and fill the caches, and wait for each other at the end only.
+/// Wall seconds of `rounds` rounds of work(k) on each of the threads k = 0, 1, ... They begin together, after a few
+/// untimed rounds that distribute them over the processors and fill the caches, and wait for each other only at the
+/// end.
 template <class Work>
 double eval_rounds(int threads, long rounds, Work& work) {
   using Clock = std::chrono::steady_clock;
@@ -20,7 +21,7 @@ double eval_rounds(int threads, long rounds, Work& work) {
   std::vector<Clock::time_point> begin(static_cast<std::size_t>(threads)), end(begin.size());
   const auto run = [&](int k) {
     for (long r = 0; r < rounds / 4 + 1; ++r) work(k);
-    for (--missing; missing > 0;) std::this_thread::yield();  // who slept would begin late
+    for (--missing; missing > 0;) std::this_thread::yield();  // a sleeping thread would begin late
     begin[static_cast<std::size_t>(k)] = Clock::now();
     for (long r = 0; r < rounds; ++r) work(k);
     end[static_cast<std::size_t>(k)] = Clock::now();
@@ -32,13 +33,13 @@ double eval_rounds(int threads, long rounds, Work& work) {
   return std::chrono::duration<double>(wall).count();
 }
 
-/// One iteration is one round of two threads side by side. Counters, milliseconds of a round: `alone`,
-/// `side_by_side`, in turn; and what a second thread can gain, `bound` = 2 alone / side_by_side, but for caches: two
-/// threads on one piece of work have twice as much of them for it.
+/// One iteration is one round of two threads at the same time. Counters, milliseconds of a round: `alone` and
+/// `side_by_side`, measured alternately; and the largest gain by a second thread, `bound` = 2 alone / side_by_side.
+/// Caches may raise it: two threads that share one piece of work have twice as much cache for it.
 struct SideBySide {
   double alone = 0.0, both = 0.0;
 
-  /// So many rounds alone and side by side, which are one batch of iterations.
+  /// Number of rounds, alone and side by side, in one batch of iterations.
   template <class Work>
   void add(benchmark::State& state, long rounds, Work& work) {
     alone += eval_rounds(1, rounds, work);

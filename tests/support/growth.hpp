@@ -1,5 +1,6 @@
 #pragma once
-/// How the cost of something grows with its size, by the processor's time of this thread: other programs do not count.
+/// Growth of a cost with the size of the input, measured in processor time of this thread, so that other programs have
+/// little influence.
 #include <time.h>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ inline double least_seconds(const std::function<void()>& run) {
   return least;
 }
 
-/// Something whose cost is linear: n names put into a table and looked up.
+/// A job of linear cost: n names are put into a table and looked up.
 inline void fill_table(int n) {
   std::unordered_map<std::string, std::vector<double>> table;
   for (int i = 0; i < n; ++i) table["thing number " + std::to_string(i)].assign(8, 1.0 * i);
@@ -37,15 +38,15 @@ inline void fill_table(int n) {
   if (sum < 0.0) throw std::logic_error("a sum of squares is negative");
 }
 
-/// How much sixteen times the size costs, 16 where cost is linear, 256 where it is quadratic. Large things leave the
-/// caches, the more so the busier the machine is, so the growth is counted against that of something linear of the
-/// same sizes.
+/// Cost of sixteen times the size over the cost of the size: 16 if it is linear, 256 if it is quadratic. Large inputs
+/// exceed the caches, the more so the busier the machine is, so growth is measured relative to that of a linear job of
+/// the same sizes.
 inline double growth_by_sixteen(const std::function<std::function<void()>(int)>& prepare, int size) {
   const double small = least_seconds(prepare(size)), small_table = least_seconds([=] { fill_table(size); });
   const double large = least_seconds(prepare(16 * size)), large_table = least_seconds([=] { fill_table(16 * size); });
   return 16.0 * large / std::max(small, 1e-4) / std::max(large_table / small_table, 16.0);
 }
 
-inline constexpr double linear_by_sixteen = 80.0;  ///< far from both
+inline constexpr double linear_by_sixteen = 80.0;  ///< between 16 and 256, far from both
 
 }  // namespace bough::test

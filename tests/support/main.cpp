@@ -10,8 +10,8 @@
 
 namespace {
 
-// Sanitizers run their own code between ours and do not expect traps. An optimising clang may compute both sides of
-// a select and throw one away, which is right without traps only; g++ keeps to trapping arithmetic by default.
+// Sanitizers insert code of their own that does not expect traps. An optimising clang may compute both sides of a
+// select and discard one, which is right only without traps; g++ respects trapping arithmetic by default.
 constexpr bool compiled_for_traps() {
 #if defined(BOUGH_TEST_WITHOUT_TRAPS) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return false;
@@ -24,7 +24,7 @@ constexpr bool compiled_for_traps() {
 #endif
 }
 
-// valgrind masks traps and says so in its log at every start; it shows itself in LD_PRELOAD.
+// valgrind masks traps and says so in its log at every start; it is recognised by LD_PRELOAD.
 bool runs_under_valgrind() {
   const char* preload = std::getenv("LD_PRELOAD");
   return preload != nullptr && std::strstr(preload, "valgrind") != nullptr;

@@ -21,7 +21,7 @@ struct Rig {
         system(plan, scene.solver, walker),
         state(step::make_initial_state(plan)) {}
 
-  /// In space.
+  /// The nodes in space.
   const std::vector<elements::NodeMotion>& nodes() const { return system.nodes(state); }
 
   /// A consistent start and steps of generalized-alpha.
@@ -52,7 +52,7 @@ inline void expect_same_nodes(const step::State& a, const step::State& b) {
   });
 }
 
-/// A vector of the system with fewer unknowns in the one of the same scene with more: what is left out is zero.
+/// A vector of the system with fewer unknowns, in the unknowns of the system with more; the additional ones are zero.
 inline std::vector<double> expand(const Rig& fewer, const Rig& more, const std::vector<double>& x) {
   std::vector<double> out(more.system.num_unknowns(), 0.0);
   for (std::size_t n = 0; n < fewer.plan.nodes.size(); ++n)

@@ -175,7 +175,7 @@ Outcome run(const scene::Scene& scene, const run::ProgressCallback& progress) {
   Outcome outcome;
   Memory memory(outcome.history);
   outcome.summary = run::simulate(scene, {}, memory, progress);
-  // The foreign solvers are oracles: they do not pivot as dependent rows ask for.
+  // The external solvers serve as oracles; their pivoting does not suit dependent rows.
   if (outcome.ok() && scene.solver.kind != scene::SolverKind::monolithic)
     for (const auto& [name, value] : outcome.summary.solver)
       if (name == "unknowns") expect_sound_solutions(outcome.summary.checks.linear_backward_error_max, value);

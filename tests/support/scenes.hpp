@@ -23,21 +23,21 @@ scene::Sensor joint_sensor(const std::string& name, scene::SensorKind kind, cons
 /// A number with all its digits, for texts.
 std::string text(double value);
 
-/// Rows over time. Columns by name; a misspelt one throws.
+/// Rows over time. Columns are found by name; an unknown name throws.
 struct Table {
   std::vector<std::string> columns;
   std::vector<double> times;
-  std::vector<double> step_sizes;  ///< that led to each row; of runs only
+  std::vector<double> step_sizes;  ///< size of the step that ended at each row; of runs only
   std::vector<std::vector<double>> rows;
 
   std::size_t column(const std::string& name) const;
   std::vector<double> of(const std::string& name) const;
   double last(const std::string& name) const { return rows.back()[column(name)]; }
   double first(const std::string& name) const { return rows.front()[column(name)]; }
-  /// Row at a time that is in the table (within 1e-9 s); throws where it is not.
+  /// Row at a time that is in the table (within 1e-9 s); throws if there is none.
   std::size_t row_at(double time) const;
   double at(const std::string& name, double time) const { return rows[row_at(time)][column(name)]; }
-  double largest(const std::string& name) const;  ///< magnitude
+  double largest(const std::string& name) const;  ///< largest magnitude
 };
 
 /// A table of data/reference; its first column is the time.
@@ -49,15 +49,15 @@ struct Outcome {
   bool ok() const { return summary.status == records::RunStatus::ok; }
 };
 
-/// The whole scene in another place: positions, ground, gravity, dead loads and velocities turned and moved by `to`.
-/// Scenes without fixed frames and prescribed motions only.
+/// The whole scene in another place: positions, ground, gravity, dead loads and velocities rotated and translated by
+/// `to`. Only for scenes without fixed frames and prescribed motions.
 scene::Scene moved(scene::Scene scene, const scene::Frame& to);
 
 /// Expects LAPACK's ratio of linear solutions, |r| / (|A| |x| n u), to be at most 30.
 void expect_sound_solutions(double backward_error, double unknowns);
 
-/// Runs a scene in memory on one thread, and expects the linear solutions to be sound. Does not throw where the run
-/// fails: ask ok() and summary.cause.
+/// Runs a scene in memory on one thread, and expects small residuals of the linear solutions (expect_sound_solutions).
+/// Does not throw if the run fails: see ok() and summary.cause.
 Outcome run(const scene::Scene& scene, const run::ProgressCallback& progress = {});
 
 /// Order p from errors at step sizes h and h / ratio: e = C h^p.
@@ -66,7 +66,7 @@ double order_of(double coarse_error, double fine_error, double ratio = 2.0);
 /// Value at h -> 0 from values at h and h / 2 whose error is C h^2.
 inline double extrapolate(double coarse, double fine) { return fine + (fine - coarse) / 3.0; }
 
-/// Largest |a - b| over the rows of `reference`, of one column each, where both hold the time.
+/// Largest |a - b| of one column each over the rows of `reference` whose times `a` has as well.
 double largest_difference(const Table& a, const std::string& column_a, const Table& reference,
                           const std::string& column_b);
 

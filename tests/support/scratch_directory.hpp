@@ -1,5 +1,5 @@
 #pragma once
-/// A folder of one test's own: tests run side by side.
+/// A folder for one test, since tests run at the same time.
 #include <stdlib.h>
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace bough::support {
 
-/// Removed with its contents at the end.
+/// It is removed with its contents at the end.
 class ScratchDirectory {
  public:
   ScratchDirectory() {

@@ -1,6 +1,6 @@
 #pragma once
-/// Where the source tree of this build lies, for tests that read data/. Its path stands in one compiled file only, so
-/// that two checkouts compile everything else from the same command line and share a compiler cache.
+/// Path of the source tree of this build, for tests that read data/. The path is compiled into one file only, so that
+/// two checkouts compile all other files with the same command line and share a compiler cache.
 #include <filesystem>
 
 namespace bough::support {

@@ -1,5 +1,5 @@
 #pragma once
-/// A scene under the test's own step sizes: the verbs of step without the run around them.
+/// Integrates a scene with step sizes chosen by a test, by the functions of the layer step alone.
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace bough::support {
 
-/// What a time integrator computes, as plain numbers.
+/// The results of a time integrator as plain numbers.
 struct Sample {
   double time = 0.0;
   std::vector<double> positions, velocities, multipliers;  ///< R and x of all nodes; twists, own axes; reactions
@@ -18,15 +18,16 @@ struct Sample {
 class Stepper {
  public:
   explicit Stepper(const scene::Scene& scene);  ///< integrator, spectral radius, tolerance: the scene's
-  ~Stepper();                                   ///< expects all linear solutions to have been sound
+  ~Stepper();                                   ///< expects small residuals of all linear solutions
   step::StepOptions& options() { return options_; }
   step::System& system() { return system_; }
   step::State& state() { return state_; }
 
-  /// Consistent start and first step size; throws std::runtime_error with the cause of a failure, as all below.
+  /// Makes the initial state consistent and sets the first step size. Throws std::runtime_error with the cause of a
+  /// failure, as all functions below.
   step::StartReport start(double step_size);
-  void change(double step_size);  ///< of the steps to come
-  void step(double end_time);     ///< by the present step size: end_time says it without round-off
+  void change(double step_size);  ///< sets the size of later steps
+  void step(double end_time);     ///< of the present step size; end_time gives its end without round-off
   Sample sample() const;
 
  private:
@@ -43,10 +44,10 @@ struct Difference {
   void include(const Sample& a, const Sample& b, const Sample& scale);
 };
 
-/// Largest magnitudes over a run, one number in each part: the scale of differences.
+/// Largest magnitudes over a run, one number for each part, as scales of differences.
 Sample scale_of(const std::vector<Sample>& run);
 
-/// Steps of one size from the start, and samples of it and of the ends of the steps of size `sampling`.
+/// Takes steps of one size from the start. Samples are the start and the ends of intervals of length `sampling`.
 std::vector<Sample> march(const scene::Scene& scene, double h, double sampling, int samples);
 
 /// Largest differences over samples [first, last] of `run`, whose sampling is `ratio` times that of the reference.

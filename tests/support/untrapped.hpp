@@ -4,7 +4,7 @@
 
 namespace bough::test {
 
-/// Masks the floating-point traps of this thread while it lives: for a test that makes infinities or NaN on purpose.
+/// Masks the floating-point traps of this thread during its lifetime, for tests that make infinities or NaN on purpose.
 class Untrapped {
  public:
   Untrapped() { feholdexcept(&saved_); }
