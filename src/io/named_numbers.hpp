@@ -36,7 +36,8 @@ class NamedNumbers {
 
   /// Whether some text used a name.
   bool is_used(const std::string& name) const { return used_.count(name) > 0; }
-  /// A hint for an unknown name, such as a similar known one. Empty after the first hundreds of faults, not shown anyway.
+  /// A hint for an unknown name, such as a similar known one. Empty after the first hundreds of faults, since later
+  /// ones are not shown.
   std::string hint_for(const std::string& name);
 
  private:

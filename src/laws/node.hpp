@@ -9,7 +9,7 @@
 
 namespace bough::laws {
 
-/// Collects breakpoints in any order, possibly twice, up to the number asked for.
+/// Collects breakpoints in any order, possibly twice, up to a limit.
 struct BreakList {
   std::vector<double> times;
   std::size_t most = std::numeric_limits<std::size_t>::max();

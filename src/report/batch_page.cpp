@@ -111,7 +111,7 @@ double at_share(const Measured& m, double share) {
 }
 
 Table measure_table(const std::vector<Measured>& all, const std::vector<CaseResult>& results) {
-  // How many cases have a value stands there only where some have none, for the table is nearly as wide as the page.
+  // The number of cases with a value is shown only if some have none, since the table is nearly as wide as the page.
   const bool is_whole =
       std::all_of(all.begin(), all.end(), [&](const Measured& m) { return m.values.size() == results.size(); });
   Table table{{"measure", "mean", "deviation", "least", "in case", "5 %", "median", "95 %", "largest", "in case"}, {}};

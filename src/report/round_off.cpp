@@ -9,7 +9,7 @@
 namespace bough::report {
 namespace {
 
-constexpr double share = 1e-14;  // some fifty units in the last place of what is computed beside it
+constexpr double share = 1e-14;  // about fifty units in the last place of the related quantity
 
 /// The largest extent of all recorded motion; without it, the largest length that a sensor shows.
 double size_of(const RunFiles& run, double largest_length) {

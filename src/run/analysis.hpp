@@ -76,7 +76,7 @@ class Analysis {
 /// Makes the analysis that the scene selects.
 std::unique_ptr<Analysis> make_analysis(const Parts& parts);
 
-/// A pointer that copies what it points to, by its clone().
+/// A pointer that copies its object by clone().
 template <class T>
 class Cloned {
  public:

@@ -32,7 +32,7 @@ FrameTree::FrameTree(const Scene& scene, const FindFrame& find)
   }
 }
 
-/// The ground stands in these frames, or is the first of them: up from the ground, then back.
+/// Poses in the ground of the frame of the analysis, which is the ground, and of all frames that contain it.
 void FrameTree::settle_ground(const Scene& scene) {
   Frame up = Frame::identity();
   bool moves = false;
@@ -46,7 +46,7 @@ void FrameTree::settle_ground(const Scene& scene) {
   }
 }
 
-/// way: from a frame up, to one that stands in a known frame, in nothing or in a frame of the way itself.
+/// way: frames from one upwards, to a frame whose parent is known, missing, or in `way` itself.
 void FrameTree::settle(const Scene& scene, const std::vector<std::size_t>& way) {
   for (auto i = way.rbegin(); i != way.rend(); ++i) {
     OfFrame& frame = frames_[*i];

@@ -16,7 +16,7 @@ double cross(const Point& a, const Point& b, const Point& c) {
 
 double area_of(const Loop& loop) { return moments_of({{loop}}).area; }
 
-/// Whether the open edges a-b and c-d have a point in common; edges that share a corner are not asked for.
+/// Whether the open edges a-b and c-d have a point in common; it must not be called for edges that share a corner.
 bool edges_meet(const Point& a, const Point& b, const Point& c, const Point& d) {
   const double s = cross(a, b, c), t = cross(a, b, d), u = cross(c, d, a), v = cross(c, d, b);
   const auto sign = [](double x) { return (x > 0.0) - (x < 0.0); };

@@ -8,8 +8,8 @@
 namespace bough::scene {
 
 /// One wall: the middle line from `begin` to `end` [m] and its thickness. `before`: walls whose flow runs into this one
-/// at its beginning. Walls stand after those that run into them; a wall without any begins at a free edge, where no
-/// shear flows.
+/// at its beginning. Walls are listed after those that run into them; a wall without any begins at a free edge, where
+/// no shear flows.
 struct Wall {
   std::array<double, 2> begin, end;
   double thickness = 0.0;

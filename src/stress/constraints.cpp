@@ -14,7 +14,7 @@ namespace {
 
 constexpr scene::JointKind hinge = scene::JointKind::revolute;
 
-/// A door of 1 m on as many hinges as asked for, all on one line: 5 rows are enough.
+/// A door of 1 m on a given number of hinges, all on one line: 5 rows are enough.
 scene::Scene door(int hinges, double offset) {
   scene::Scene s;
   s.name = "door";

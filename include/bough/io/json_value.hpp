@@ -149,7 +149,7 @@ std::optional<std::vector<std::string>> split_pointer(std::string_view pointer);
 struct LineColumn {
   int line = 0, column = 0;
 };
-/// Remembers the last position asked for: asking in order costs one pass over the text in total.
+/// Stores the last position, so that queries in the order of the text cost one pass over it in total.
 class LineIndex {
  public:
   explicit LineIndex(std::string_view text);

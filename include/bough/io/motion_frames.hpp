@@ -4,7 +4,7 @@
 ///   {"format":"bough motion 3","frame_floats":n,"curves":[{"name","points","outline","subdomains"}],
 ///    "bodies":[{"name","attachments","mesh"}],"links":[{"name","kind"}],"frames":[name],"arrows":[{"name","kind"}],
 ///    "outlines":[[[x2,x3,x2,x3,...] per loop]],"meshes":[{"points":[x,y,z,...],"triangles":[a,b,c,...]}]}
-/// then numbers as they stand in memory, little-endian, without gaps. First the start, float64:
+/// then binary numbers, little-endian, without gaps. First the start, float64:
 ///   curve point: position 3, axes 9 (row-major, columns are axes) | body: centre 3, axes 9, position 3, attachments
 ///     3 each
 ///   link: first 3, second 3, axes 9 | frame: position 3, axes 9 | arrow: position 3
@@ -31,7 +31,7 @@ namespace bough::io {
 class MotionBytes {
  public:
   explicit MotionBytes(records::MotionParts parts = {}) : parts_(std::move(parts)) {}
-  /// All frames must have the parts of the first one, before which the header and the start stand.
+  /// All frames must have the parts of the first one. Header and start are written before the first frame.
   void append(std::string& bytes, const records::MotionFrame& frame);
 
  private:
@@ -43,10 +43,10 @@ class MotionWriter {
  public:
   explicit MotionWriter(const std::filesystem::path& path, records::MotionParts parts = {})
       : file_(path), bytes_(std::move(parts)) {}
-  /// As MotionBytes::append. std::runtime_error where it cannot be written.
+  /// As MotionBytes::append. Throws std::runtime_error if the file cannot be written.
   void frame(const records::MotionFrame& frame);
   void commit(Durability durability = Durability::now) { file_.commit(durability); }
-  /// Of what stands in the file.
+  /// Record of the bytes in the file.
   [[nodiscard]] FileRecord record() const {
     return {file_.path().filename().string(), file_.bytes_flushed(), file_.digest()};
   }

@@ -7,11 +7,11 @@
 
 namespace bough::io {
 
-/// Rows of a table for people: what it is, then its numbers to nine digits, one cell each. What does not exist for
-/// this motion (the axis of no rotation, the pitch of a translation) says so.
+/// Rows of a table for people: the name of a quantity, then its numbers to nine digits, one per cell. For a quantity
+/// that does not exist (the axis of no rotation, the pitch of a translation) the row says so.
 std::vector<std::vector<std::string>> motion_rows(const motion::MotionReport& report);
 
-/// The report as JSON, numbers that read back to the same bits. What does not exist is left out.
+/// The report as JSON, with numbers that read back to the same bits. Quantities that do not exist are omitted.
 std::string motion_json(const motion::MotionReport& report);
 
 }  // namespace bough::io

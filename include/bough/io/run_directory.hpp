@@ -5,8 +5,8 @@
 ///   columns.json   unit, quantity and part of each of its columns
 ///   motion.pvd, motion/frame_000000.vtu ..., motion.bin   where motion is recorded
 ///                  (a build without BOUGH_WITH_VTK writes motion.bin only)
-///   summary.json   how the run ended, what it was made from, the hash of every file
-///   manifest.json  what in the directory is bough's (manifest.hpp)
+///   summary.json   status, cost and checks of the run, its inputs, the hash of every file
+///   manifest.json  the files in the directory that bough wrote (manifest.hpp)
 /// All of them appear under the directory's name together, at the end (output_folder.hpp).
 #include <filesystem>
 #include <memory>

@@ -71,7 +71,8 @@ struct RuleTable {
   RuleRef root;
   bool has_formulas = false;  ///< {"expression": ...} may stand for any number
   const Rule& resolve(const Rule& rule) const;
-  /// An object with the default members of objects of this rule; made once, lives as long as the table or a copy of it.
+  /// An object with the default members of objects of this rule; made once, valid as long as the table or a copy of it
+  /// exists.
   const JsonValue& defaults_of(const Rule& rule) const;
 
  private:

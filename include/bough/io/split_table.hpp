@@ -24,7 +24,7 @@ struct SplitRow {
   double magnitude(Part p) const;
 };
 
-/// Rows along the abscissa, with what is held fixed.
+/// Rows along the abscissa, and the parameters that are fixed.
 struct SplitSeries {
   std::vector<std::pair<std::string, double>> parameters;
   std::vector<SplitRow> rows;
@@ -39,7 +39,7 @@ struct SplitTable {
 };
 
 /// `<abscissa>,<part>,...`: magnitudes [m/s^2], shortest numbers that read back to the same bits. With several series
-/// their parameters stand in the first columns.
+/// the first columns hold their parameters.
 std::string split_csv(const SplitTable& table);
 
 /// Magnitudes and vectors with the observer and the axes; one object a series, one array a column.

@@ -29,7 +29,7 @@ struct SweepValue {
 struct SweepVariable {
   std::string name;
   std::vector<std::string> pointers;  ///< into the scene, as of overrides: all take the same value
-  std::vector<SweepValue> values;     ///< grid, one at a time: what it takes; list, csv: by row
+  std::vector<SweepValue> values;     ///< grid, one at a time: the values it takes; list, csv: by row
   std::optional<SweepValue> nominal;  ///< one at a time: while others vary
   SweepDistribution distribution;     ///< designs that draw
 };

@@ -10,7 +10,7 @@ namespace bough::laws {
 
 /// Limits of integrals by quadrature; an integral that exceeds one of them is NaN, because the law varies too fast to
 /// be integrated. max_breaks: breakpoints within one panel (panels are 1/64 s long or longer). max_evaluations:
-/// evaluations of the integrand from the start to the time asked for; a smooth law takes 2000 per second of the first
+/// evaluations of the integrand from the start to the time requested; a smooth law takes 2000 per second of the first
 /// minute, fewer later.
 inline constexpr std::size_t max_breaks = 20'000, max_evaluations = 10'000'000;
 

@@ -242,7 +242,7 @@ struct Summary {
   std::int64_t memory_peak_bytes = 0;
   Checks checks;
   std::vector<ChangedVelocity> changed_velocities;  ///< by how much they were changed, the largest first
-  std::vector<UnsureReaction> unsure_reactions;     ///< of joints with sensors of their reactions, as far as looked at
+  std::vector<UnsureReaction> unsure_reactions;     ///< of joints with sensors of their reactions
   bool follows_path = false;                        ///< statics by arc length
   std::vector<LimitPoint> limit_points;             ///< of these, in the order of the path
   std::vector<Bifurcation> bifurcations;            ///< of these, in the order of the path

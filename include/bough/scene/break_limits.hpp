@@ -1,6 +1,6 @@
 #pragma once
 /// Limits of the number of breakpoints of a law. A run ends a step at each breakpoint, so a law with thousands of them
-/// within one step makes the run thousands of times longer than asked for, and with millions the run never ends.
+/// within one step makes the run thousands of times longer than requested, and with millions the run never ends.
 #include <cstddef>
 #include <string>
 

@@ -18,8 +18,8 @@ class PartLengths {
  public:
   PartLengths(const Scene& scene, const Poses& poses);
 
-  /// Of a node, a body, or an inner node of a beam (the length of the beam); 0 for the ground, frames, and what is a
-  /// point.
+  /// Length of a node, a body, or an inner node of a beam (the length of the beam); 0 for the ground, frames and
+  /// points.
   double of(const std::string& place) const;
 
   /// Length of the larger of the two parts that a joint connects. If both are points, the size of the whole scene is

@@ -21,7 +21,7 @@ class Threads {
   Threads& operator=(Threads&&) noexcept;
 
   int count() const;
-  /// Valid while this object lives and stays where it is (moving keeps it valid: the state is on the heap).
+  /// Valid as long as this object exists, also after a move of it (its state is on the heap).
   tree::Walker walker() const;
 
   /// Runs `body()` with the threads kept active between its walks. Otherwise every walk has to wake them, which takes

@@ -73,7 +73,7 @@ class TimedWalker {
   TimedWalker(const TimedWalker&) = delete;
   TimedWalker& operator=(const TimedWalker&) = delete;
 
-  /// Valid while this object lives.
+  /// Valid while this object exists.
   tree::Walker walker();
   /// After watch(false), walks and chunks are passed on without timing, until watch(true). Timing is on at first.
   void watch(bool on);

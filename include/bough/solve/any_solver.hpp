@@ -1,5 +1,5 @@
 #pragma once
-/// Any solver behind one set of verbs, so that a caller can hold one without a template.
+/// One of the linear solvers behind a common interface, so that a caller can store it without a template.
 #include <utility>
 #include <variant>
 
@@ -10,7 +10,7 @@
 
 namespace bough::solve {
 
-/// One of the solvers; the verbs are those of Hierarchical.
+/// One of the solvers. The functions are those of Hierarchical.
 class AnySolver {
  public:
   AnySolver(Hierarchical solver) : solver_(std::move(solver)) {}
@@ -33,7 +33,7 @@ class AnySolver {
   void trust_symmetry(bool mirrored) {
     if (auto* s = std::get_if<Hierarchical>(&solver_)) s->trust_symmetry(mirrored);
   }
-  /// changed: for solvers that can leave the rest as it is; the others do everything anew.
+  /// changed: used by solvers that can keep the factors of other elements; all others factor everything anew.
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, Changed changed = {}) {
     return std::visit(
         [&](auto& s) {
@@ -44,7 +44,7 @@ class AnySolver {
         },
         solver_);
   }
-  /// factor() and, where that went well, solve(): in one sweep where the solver can.
+  /// factor() and, if it succeeds, solve(), in one walk if the solver supports it.
   [[nodiscard]] FactorStatus factor_and_solve(const tree::Walker& walker, Prepare prepare, const double* rhs, double* x,
                                               SolveReport& report) {
     return std::visit(
@@ -62,8 +62,7 @@ class AnySolver {
         },
         solver_);
   }
-  /// check: false: without a backward error (NaN) where the solver can do without and SolveReport's refinement is not
-  /// needed.
+  /// check = false: solvers that support it omit the backward error (NaN) and iterative refinement.
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x, bool check = true) {
     return std::visit(
         [&](auto& s) {
@@ -79,7 +78,7 @@ class AnySolver {
   const FactorStatus& last_status() const {
     return std::visit([](auto& s) -> const FactorStatus& { return s.last_status(); }, solver_);
   }
-  /// Not known of solvers other than the hierarchical one.
+  /// Unknown (default values) for solvers other than the hierarchical one.
   Inertia inertia() {
     auto* s = std::get_if<Hierarchical>(&solver_);
     return s != nullptr && s->last_status().ok() ? s->inertia() : Inertia{};
@@ -90,9 +89,9 @@ class AnySolver {
   std::vector<int> blocks_not_unique() const {
     return std::visit([](auto& s) { return s.blocks_not_unique(); }, solver_);
   }
-  /// The hierarchical solver, or null when another one is held.
+  /// The hierarchical solver, or null if another one is stored.
   const Hierarchical* hierarchical() const { return std::get_if<Hierarchical>(&solver_); }
-  /// The form with global multipliers, or null when another solver is held.
+  /// The form with global multipliers, or null if another solver is stored.
   const Dual* dual() const { return std::get_if<Dual>(&solver_); }
 
  private:

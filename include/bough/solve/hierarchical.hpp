@@ -1,5 +1,6 @@
 #pragma once
-/// The hierarchical direct solver: sub-domains condensed to their interfaces, level by level, then substituted back.
+/// The hierarchical direct solver: sub-domains are condensed to their interfaces level by level, followed by
+/// back-substitution.
 #include <limits>
 #include <memory>
 #include <span>
@@ -21,8 +22,7 @@ namespace bough::solve {
 ///     interior I
 ///   x_I = A_II^-1 (b_I - A_IB x_B),   l_i = (g_i - S_i x_B) / s            downward; l_i: its local multipliers
 ///
-/// Everything is eliminated in scaled variables D_r A D_c (powers of two). The graph and the tree must outlive the
-/// solver.
+/// Elimination is done in scaled variables D_r A D_c (powers of two). The graph and the tree must outlive the solver.
 class Hierarchical {
  public:
   /// Sizes all storage; computes nothing. Preconditions: tree made from this graph; problems_in(options) empty.
@@ -31,64 +31,66 @@ class Hierarchical {
   Hierarchical(Hierarchical&&) noexcept;
   Hierarchical& operator=(Hierarchical&&) noexcept;
 
-  /// Where the assembler writes an element matrix. Values stay until overwritten; elements of a leaf lie next to each
-  /// other. Zero at the start.
+  /// The memory to which the assembler writes an element matrix, initially zero. Values stay until they are
+  /// overwritten; elements of a leaf are adjacent.
   ElementView element(int id);
   ConstElementView element(int id) const;
 
-  /// All elements in the order in which factor() takes them, equal ones of sub-domains in lockstep together.
+  /// All elements in the order in which factor() assembles them; equal elements of sub-domains in lockstep form one
+  /// batch.
   std::span<const ElementBatch> batches() const;
 
-  /// Take the scales anew from the element matrices at the next factor(). The first one always does. With a Prepare
-  /// the scales are those of the matrices present before it runs, so call rescale() after the element matrices have
+  /// Computes the scales anew from the element matrices in the next factor(). The first factor() always does. With a
+  /// Prepare the scales are those of the matrices before it runs, so call rescale() after the element matrices have
   /// been evaluated once.
   void rescale();
 
-  /// Where symmetry is declared. mirrored: whoever wrote the element matrices wrote every entry and its mirror image
-  /// with the same bits; factorizations then read one of the two and compare none, except those that take scales.
-  /// False (the default): every factorization compares.
+  /// For matrices declared symmetric. mirrored: the caller promises that every entry of the element matrices and its
+  /// mirror image have the same bits. Factorizations then read one of the two and compare them only when they compute
+  /// scales. False (the default): every factorization compares them.
   void trust_symmetry(bool mirrored);
 
-  /// Assemble, factor and condense all sub-domains. Allocates only where delayed pivots enlarge a front, where fronts
-  /// leave lanes or registers for the first time, or rows are dependent. With `rhs` (num_unknowns) the right-hand
-  /// side is condensed in the same visits, while a front is in the cache; finish() then solves, until when it must
-  /// last. SolveOptions::partial: sub-domains in which nothing `changed`, nor below them, stay as they are, and no
-  /// Prepare is called for them; all bits are those of a whole factorization. After rescale() and after a failure
-  /// everything is done anew.
+  /// Assembles, factors and condenses all sub-domains. Allocates only if delayed pivots enlarge a front, if fronts
+  /// leave lanes or registers for the first time, or if rows are dependent. With `rhs` (num_unknowns) the right-hand
+  /// side is condensed in the same visits, while a front is in the cache; finish() then solves, and `rhs` must remain
+  /// valid until then. SolveOptions::partial: sub-domains without `changed` elements in themselves and below keep their
+  /// factors, and no Prepare is called for them; all bits equal those of a whole factorization. After rescale() and
+  /// after a failure everything is factored anew.
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, const double* rhs = nullptr,
                                     Changed changed = {});
 
-  /// Solve for the right-hand side that factor() took along: what is left of solve(). Precondition: factor(.., rhs)
-  /// ok, nothing solved since.
+  /// Completes the solution for the right-hand side that was passed to factor(). Precondition: factor(.., rhs) was ok,
+  /// and nothing was solved since.
   [[nodiscard]] SolveReport finish(const tree::Walker& walker, double* x);
 
-  /// Solve with the last factorization. rhs, x: num_unknowns, in the order of the blocks; may be the same array.
-  /// Precondition: factor() ok. Dependent constraint rows: the multipliers are those of least norm (each measured
-  /// against its constraint row, free of units).
+  /// Solves with the last factorization. rhs, x: num_unknowns, in the order of the blocks; may be the same array.
+  /// Precondition: factor() was ok. If constraint rows are dependent, the multipliers are those of least norm (each
+  /// measured relative to its constraint row, without units).
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x);
 
-  /// The same without backward error and refinement, whatever SolveOptions::check says: saves a product with A.
-  /// Dependent rows are checked.
+  /// As solve(), without backward error and refinement regardless of SolveOptions::check, which saves a product with A.
+  /// Dependent rows are still checked.
   [[nodiscard]] SolveReport solve_unchecked(const tree::Walker& walker, const double* rhs, double* x);
 
-  /// y = A x with the element matrices present now (unscaled). y must not be x. No allocation.
+  /// y = A x with the present element matrices (unscaled). y must not be x. No allocation.
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
 
   const FactorStatus& last_status() const;
-  /// How the values are factored. Declared symmetric and found not to be: general from that factorization on, which
-  /// is then done a second time within the same factor(), in storage allocated there once.
+  /// How the values are factored. Values declared symmetric that are not are factored as general ones from then on. The
+  /// factorization that finds this is repeated within the same factor(), in storage allocated there once.
   const SymmetryReport& symmetry() const;
   SolverCounters counters() const;
-  /// Of the last factorization; `negative` is that of the symmetric part of A where it differs little from A.
-  /// Preconditions: SolveOptions::inertia, factor() ok. Allocates only where rows were exchanged, the root is singular.
+  /// Inertia of the last factorization; `negative` is that of the symmetric part of A, if it differs little from A.
+  /// Preconditions: SolveOptions::inertia, factor() was ok. Allocates only if rows were exchanged or the root is
+  /// singular.
   Inertia inertia();
-  /// Interfaces of all sub-domains but the root, in order; computes condition numbers (dense singular values: for
-  /// reports, allocates) of those with at most `widest` unknowns, NaN for others. flops: of the sub-domain's own
-  /// fronts; seconds are not measured here.
+  /// Interfaces of all sub-domains but the root, in order. Condition numbers are computed for those with at most
+  /// `widest` unknowns (dense singular values, for reports; allocates) and are NaN for others. flops: of the
+  /// sub-domain's own fronts; seconds are not measured.
   std::vector<InterfaceReport> interfaces(int widest = std::numeric_limits<int>::max()) const;
-  /// Local multipliers l_i of a sub-domain in the solution for a right-hand side (num_unknowns; solved for anew):
-  /// generalised interface forces in the units of the right-hand side (times 1/s), one per unknown of its boundary
-  /// blocks, in that order. Precondition: factor() ok.
+  /// Local multipliers l_i of a sub-domain in the solution for a right-hand side (num_unknowns), which is computed
+  /// here: generalised interface forces in the units of the right-hand side (times 1/s), one per unknown of its
+  /// boundary blocks, in that order. Precondition: factor() was ok.
   std::vector<double> local_multipliers(tree::SubdomainId subdomain, const double* rhs) const;
   /// Blocks whose multipliers are not unique (they take part in a null vector), ascending. Empty without deficiency.
   std::vector<int> blocks_not_unique() const;

@@ -12,14 +12,14 @@
 
 namespace bough::solve {
 
-/// Same contract as Hierarchical, serial. Dependent constraint rows: if the factorization is singular or nearly so,
-/// the multipliers get a diagonal -d^2 (d^2 = 1e-4 in scaled variables, 1e-7 where rows nearly depend) and the
+/// Same contract as Hierarchical, serial. Dependent constraint rows: if the factorization is singular or nearly so, the
+/// multipliers get a diagonal -d^2 (d^2 = 1e-4 in scaled variables, 1e-7 if rows are nearly dependent), and the
 /// solution is refined with the true matrix; the limit is the solution with least multipliers. The deficiency is then
-/// not counted (-1).
+/// unknown (-1).
 class Monolithic {
  public:
   static bool
-  available();  ///< false when the library was built without KLU; then factor() answers FactorOutcome::backend.
+  available();  ///< false if the library was built without KLU; factor() then returns FactorOutcome::backend.
 
   Monolithic(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options = {});
   ~Monolithic();
@@ -35,7 +35,7 @@ class Monolithic {
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
   const FactorStatus& last_status() const;
   SolverCounters counters() const;
-  std::vector<int> blocks_not_unique() const;  ///< always empty: not known here.
+  std::vector<int> blocks_not_unique() const;  ///< always empty: unknown here.
 
  private:
   struct State;

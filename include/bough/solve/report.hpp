@@ -1,5 +1,5 @@
 #pragma once
-/// What a factorization and a solution have to say: values, never exceptions.
+/// Reports of factorizations and solutions. Failures are values, never exceptions.
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -12,36 +12,37 @@ namespace bough::solve {
 
 enum class FactorOutcome {
   ok,           ///< regular, or singular in dependent constraint rows only (see deficiency).
-  singular,     ///< a motion unknown is held by nothing (under-constrained, or no element touches it).
+  singular,     ///< a motion unknown is not held (under-constrained, or in no element).
   not_finite,   ///< an element matrix holds NaN or infinity.
-  backend,      ///< a foreign solver failed otherwise, or is not part of this build (monolithic only).
+  backend,      ///< an external solver failed otherwise, or is not part of this build (monolithic only).
   unsymmetric,  ///< the chosen library solves symmetric matrices only (CHOLMOD).
 };
 
-/// Outcome of factor(). When several fronts fail the lowest one is told.
+/// Outcome of factor(). If several fronts fail, the lowest one is reported.
 struct FactorStatus {
   FactorOutcome outcome = FactorOutcome::ok;
-  tree::FrontId front = tree::none;  ///< where it showed.
-  int block = -1;                    ///< block with the largest share in what failed; -1 when ok.
+  tree::FrontId front = tree::none;  ///< where the failure was found.
+  int block = -1;                    ///< block with the largest share in the failure; -1 if ok.
   int local = -1;                    ///< unknown within the block.
   double magnitude = 0.0;            ///< the pivot, or the share of the block in the null vector [-].
-  int deficiency = 0;      ///< dependent constraint rows (or null vectors when singular); -1: not known (monolithic).
+  int deficiency = 0;      ///< dependent constraint rows (or null vectors if singular); -1: unknown (monolithic).
   int delayed_pivots = 0;  ///< pivots that moved to a parent front, counted once per move.
   bool ok() const { return outcome == FactorOutcome::ok; }
 };
 
-/// Outcome of solve(). Scaled variables: unit-free.
+/// Outcome of solve(), in scaled variables without units.
 struct SolveReport {
-  /// Of the part of b that can be met, and of A without what was taken for zero (see inconsistency and rank_error).
+  /// For the part of b that has a solution, and for A without entries taken to be zero (see inconsistency and
+  /// rank_error).
   double backward_error = std::numeric_limits<double>::quiet_NaN();  ///< |r| / (|A| |x| + |b|), maximum norms, scaled.
   double componentwise_backward_error =
       std::numeric_limits<double>::quiet_NaN();  ///< max_i |r|_i / (|A||x| + |b|)_i [Oettli, Prager 1964].
   int refinement_steps = 0;
   int deficiency = 0;  ///< as in FactorStatus.
   double inconsistency =
-      0.0;  ///< |Y^T b| / |b|, Y the left null vectors: 0 when dependent constraints agree with each other.
+      0.0;  ///< |Y^T b| / |b|, Y the left null vectors: 0 if dependent constraints agree with each other.
   double rank_error =
-      0.0;  ///< |T x| / (|A| |x| + |b|), T the part of A that was taken for zero because its rows depend on others.
+      0.0;  ///< |T x| / (|A| |x| + |b|), T the part of A taken to be zero because its rows depend on others.
   int inconsistent_block = -1;       ///< block with the largest part of Y Y^T b.
   double inconsistent_amount = 0.0;  ///< that part, in the units of the block's right-hand side.
   double growth =
@@ -49,32 +50,32 @@ struct SolveReport {
   int growth_block = -1;            ///< block with the largest scaled unknown.
   bool finite = true;               ///< false: the solution holds NaN or infinity.
   int interface_iterations = 0;     ///< of the interface problem, refinement included (forms with global multipliers).
-  bool interface_converged = true;  ///< false: the iteration on the interface problem gave up.
+  bool interface_converged = true;  ///< false: the iteration on the interface problem did not converge.
 };
 
 /// Why values that were declared symmetric are not factored as such.
 enum class SymmetryLoss {
-  none,               ///< they are; or they were not declared symmetric.
+  none,               ///< they are, or they were not declared symmetric.
   values,             ///< an element matrix differs from its transpose: SymmetryReport::element.
   plain_elimination,  ///< Elimination::plain condenses by general inverses.
 };
 
-/// How a solver factors, and why.
+/// The factorization that a solver uses, and why.
 struct SymmetryReport {
   Symmetry declared = Symmetry::general;
   Symmetry used = Symmetry::general;
   SymmetryLoss loss = SymmetryLoss::none;
-  int element = -1;         ///< the first found, by visit and by order in it.
+  int element = -1;         ///< the first one that differs, by visit and by order within the visit.
   int block = -1;           ///< its first block.
   double difference = 0.0;  ///< largest entry of its D (A - A^T) D [-], scaled variables; above 1e-9.
 };
 
-/// What the pivots of a factorization say of the eigenvalues.
+/// Signs of eigenvalues, from the pivots of a factorization.
 struct Inertia {
   /// Negative eigenvalues of a symmetric A, by Sylvester's law as many as negative pivots, as long as rows and columns
-  /// are exchanged together (-1: they were not). Eigenvalues that dependent rows make zero are not counted.
+  /// are exchanged together (-1: they were not). Zero eigenvalues from dependent rows are not counted.
   int negative = -1;
-  /// Sign of the determinant of A, symmetric or not; 0: not known (dependent rows).
+  /// Sign of the determinant of A, symmetric or not; 0: unknown (dependent rows).
   int determinant = 0;
 };
 
@@ -93,31 +94,33 @@ struct InterfaceReport {
   int num_floating = 0;  ///< global multipliers: of these, directions in which sub-domains float or nearly do.
   double flops = 0.0;    ///< of the interface problem, one factorization (iterative: the last solution) [flop].
   double seconds =
-      std::numeric_limits<double>::quiet_NaN();  ///< CPU time of the same [s]; NaN where it is not measured apart.
-  int iterations = 0;                            ///< of the last solution; 0 when solved directly.
+      std::numeric_limits<double>::quiet_NaN();  ///< CPU time of the same [s]; NaN if it is not measured separately.
+  int iterations = 0;                            ///< of the last solution; 0 for a direct solution.
 };
 
 /// Running totals of one solver object.
 struct SolverCounters {
   std::int64_t memory_bytes = 0;  ///< numeric storage.
   double factor_flops = 0.0;      ///< estimate of one factorization without delays [flop].
-  double flops_done = 0.0;  ///< the same over all factorizations, without sub-domains that were left alone [flop].
+  double flops_done = 0.0;        ///< the same over all factorizations, without skipped sub-domains [flop].
   std::int64_t factorizations = 0;
   std::int64_t solutions = 0;
   std::int64_t delayed_pivots = 0;         ///< over all factorizations.
   std::int64_t enlarged_fronts = 0;        ///< fronts that took delayed pivots, over all factorizations.
   std::int64_t enlarging_allocations = 0;  ///< heap allocations these needed.
   std::int64_t fronts_in_lanes = 0;        ///< fronts of the tree that are factored in lockstep.
-  double flops_in_lanes = 0.0;             ///< of factor_flops, those of these [flop].
-  std::int64_t fronts_in_registers = 0;    ///< fronts of leaves that go alone, row by row in registers.
-  std::int64_t registers_left = 0;  ///< leaves of those that went the pivoted way as a whole, over all factorizations.
-  std::int64_t lanes_left = 0;      ///< fronts that left their lane for the pivoted path, over all factorizations.
-  /// Declared definite: fronts with a pivot that was not positive or too small, factored by pivoting instead, over
-  /// all factorizations.
+  double flops_in_lanes = 0.0;             ///< the part of factor_flops in these fronts [flop].
+  std::int64_t fronts_in_registers = 0;    ///< fronts of leaves without equals, eliminated row by row in registers.
+  std::int64_t registers_left =
+      0;  ///< leaves of those that were factored by pivoting instead, over all factorizations.
+  std::int64_t lanes_left =
+      0;  ///< fronts that left their lane for scalar elimination with pivoting, over all factorizations.
+  /// Declared definite: fronts with a pivot that was not positive or too small, which were factored by pivoting
+  /// instead, over all factorizations.
   std::int64_t indefinite_fronts = 0;
 };
 
-/// By element: whether its matrix is another than that factored last. Empty: all are.
+/// By element: whether its matrix differs from the one factored last. Empty: all differ.
 using Changed = std::span<const char>;
 
 /// Called at the start of a visit, before the elements are assembled, so that one task evaluates and eliminates them.

@@ -13,23 +13,24 @@
 
 namespace bough::solve {
 
-/// Who factors the one sparse matrix.
+/// The library that factors the sparse matrix.
 enum class Library {
-  sparse_lu,  ///< Eigen's SparseLU: supernodal, partial pivoting, COLAMD [Demmel et al. 1999]. Always there.
+  sparse_lu,  ///< Eigen's SparseLU: supernodal, partial pivoting, COLAMD [Demmel et al. 1999]. Always available.
   umfpack,    ///< UMFPACK: unsymmetric multifrontal [Davis 2004]. GPL: only in builds with BOUGH_WITH_GPL.
   cholmod,  ///< CHOLMOD: L D L^T [Chen et al. 2008]; symmetric matrices only. GPL: only in builds with BOUGH_WITH_GPL.
 };
 
 /// Same contract as Hierarchical, serial; allocates in factor().
 ///
-/// Dependent constraint rows: where two inverse iterations find a vector of multipliers alone that the matrix all but
-/// removes, they get a diagonal -d^2 (d^2 = 1e-7 in scaled variables, 1e-10 for CHOLMOD) and the solution is refined
-/// with the true matrix; the limit is the solution with least multipliers. The deficiency is then not counted (-1).
+/// Dependent constraint rows: if two inverse iterations find a vector of multipliers only that the matrix maps nearly
+/// to zero, the multipliers get a diagonal -d^2 (d^2 = 1e-7 in scaled variables, 1e-10 for CHOLMOD), and the solution
+/// is refined with the true matrix; the limit is the solution with least multipliers. The deficiency is then unknown
+/// (-1).
 /// CHOLMOD always factors that quasi-definite matrix, which needs no pivoting [Vanderbei 1995]; a matrix that is not
 /// symmetric to 1e-9 is refused with FactorOutcome::unsymmetric.
 class SparseOracle {
  public:
-  /// False when this build does not hold the library; then factor() answers FactorOutcome::backend.
+  /// False if this build does not include the library; factor() then returns FactorOutcome::backend.
   static bool available(Library library);
   static std::string_view name_of(Library library);
 
@@ -48,7 +49,7 @@ class SparseOracle {
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
   const FactorStatus& last_status() const;
   SolverCounters counters() const;
-  std::vector<int> blocks_not_unique() const;       ///< always empty: not known here.
+  std::vector<int> blocks_not_unique() const;       ///< always empty: unknown here.
   std::vector<InterfaceReport> interfaces() const;  ///< always empty: there are none.
 
  private:

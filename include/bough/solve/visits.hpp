@@ -1,5 +1,5 @@
 #pragma once
-/// What the hierarchical solver does in one visit of a walk, as planned: sizes and costs, no numbers of a matrix.
+/// Planned visits of the hierarchical solver's walks: sizes and costs, without the numbers of a matrix.
 #include <cstdint>
 #include <vector>
 
@@ -10,7 +10,7 @@
 namespace bough::solve {
 
 /// One visit: several sub-domains in lockstep, or a single one. Costs are those of one lane; in lockstep all lanes
-/// take the time of one.
+/// together take the time of one.
 struct VisitShape {
   std::vector<tree::SubdomainId> subdomains;
   bool in_lanes = false;
@@ -25,7 +25,7 @@ struct VisitShape {
 };
 
 struct VisitShapes {
-  std::vector<VisitShape> visits;  ///< by the ids that walkers hand to visits.
+  std::vector<VisitShape> visits;  ///< by the ids that walkers pass to visits.
   tree::Tree walk;                 ///< the tree that walkers see: its sub-domains are the visits.
 };
 
