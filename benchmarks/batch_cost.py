@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""batch_cost.py PROGRAM SCENARIOS [ROUNDS]   what a batch takes besides the steps of its cases, in processor seconds.
+"""batch_cost.py PROGRAM SCENARIOS [ROUNDS]   cost of a batch besides the steps of its cases, in processor seconds.
 
-Besides steps: what cases of two steps take whose results nobody keeps (starting, reading, planning), and what cases with
-results take more than those without (writing), over the whole; of cases of about 10 and 100 ms, with results in stores
-and in folders. Then two workers with folders against two loops of `bough run` side by side. All that is compared runs in
-turn; medians of ROUNDS rounds, for other work on the machine makes seconds longer."""
+Cost besides steps: the time of cases of two steps without results (starting, reading, planning), and the difference
+between cases with and without results (writing), relative to the whole; for cases of about 10 and 100 ms, with
+results in stores and in folders. Then two workers with folders are compared with two loops of `bough run` at the
+same time. Compared runs alternate; medians of ROUNDS rounds are printed, since other work on the machine makes
+seconds longer."""
 import json
 import os
 import pathlib

@@ -1,6 +1,7 @@
 #!/bin/sh
-# busy.sh BUILD_FOLDER [ROUNDS] [CASES]   what a time step takes beside a loop of the shell: bench_step on one and two threads, quiet and
-# beside the loop in turn, then the medians of all repetitions. The machine must have nothing else to do: the range tells.
+# busy.sh BUILD_FOLDER [ROUNDS] [CASES]   time of a step beside a busy loop of the shell: bench_step on one and two
+# threads, alternately without and with the loop, then the medians of all repetitions. The machine must have no other
+# load; a wide range shows that it had.
 set -eu
 program=$1/benchmarks/bench_step
 [ -x "$program" ] || { echo "no $program" >&2; exit 1; }

@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
-"""ratios.py FOLDER   reads FOLDER/solve.json, step.json, scaling.json, second_thread.json, motion.json and start.json, those that are there, and
-prints, for every case,
+"""ratios.py FOLDER   reads those of FOLDER/solve.json, step.json, scaling.json, second_thread.json, motion.json and
+start.json that exist, and prints for every case
 
     case | bough ms | best peer ms (which) | ratio | bar | 2-thread speed-up | CPU ratio
 
-bough ms: the better of one and two threads. Ratio: best rival over bough; the rivals are those that the bar names. Steps: bough's step over
-KLU's refactorization and solution of the same chain (smaller is better). A figure that misses its bar is marked with '<' (or '>' for
-steps). Medians over the repetitions, wall time. CPU ratio: the same ratio in CPU time, bough on one thread: it says more where the machine
-was busy. Memory: all that bough's solver holds, with and without the matrices it is given, over 8 bytes for each nonzero of L and U in the best
-ordering of a peer that tells them (KLU, MUMPS), unsymmetric cases. Second thread: what it gains on chains over one thread, and the bound of that but for caches, 2 x the time of one thread alone over that
-of two side by side, each with work of its own; of bare arithmetic and reading from benchmarks/bench_machine.json. Motions: CPU nanoseconds of one
-motion and Eigen's time over bough's. Exit 0 whatever the figures are, 2 where no file can be read.
+bough ms: the better of one and two threads. Ratio: best rival over bough; the rivals are those that the bar names.
+Steps: bough's step over KLU's refactorization and solution of the same chain (smaller is better). A figure that
+misses its bar is marked with '<' (or '>' for steps). All are medians over the repetitions, in wall time. CPU ratio:
+the same ratio in CPU time, with bough on one thread; it is more reliable if the machine was busy. Memory: all memory
+of bough's solver, with and without the element matrices, over 8 bytes for each nonzero of L and U in the best
+ordering of a peer that reports them (KLU, MUMPS), for unsymmetric cases. Second thread: its gain over one thread on
+chains, and the bound of that gain apart from caches, 2 x the time of one thread alone over that of two at the same
+time, each with its own work; for arithmetic and reading alone from benchmarks/bench_machine.json. Motions: CPU
+nanoseconds of one motion, and Eigen's time over bough's. Exit status 0 whatever the figures are, 2 if no file can be
+read.
 """
 import json
 import os
@@ -42,7 +45,7 @@ def wants_speed_up(case):
 
 
 def read_medians(path):
-    """{case: {(solver, threads): (wall, CPU) milliseconds}} of the medians in a file of Google Benchmark, in order of size."""
+    """{case: {(solver, threads): (wall, CPU) ms}} of the medians in a file of Google Benchmark, in order of size."""
     with open(path, encoding="utf-8") as file:
         data = json.load(file)
     unit = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
@@ -101,7 +104,7 @@ def solve_rows(table):
 
 
 def memory_rows(path):
-    """Unsymmetric cases: what bough holds, and the least nonzeros of L and U among the peers that tell them."""
+    """Unsymmetric cases: memory of bough, and the least nonzeros of L and U among the peers that report them."""
     with open(path, encoding="utf-8") as file:
         data = json.load(file)
     found = {}
@@ -135,7 +138,7 @@ def step_rows(table):
 
 
 def split_rows(path):
-    """Where the time of a step goes, and how much work it is: the counters of bench_step on one thread."""
+    """Times of the phases of a step, and its work: the counters of bench_step on one thread."""
     names = ("evaluate_ms", "factor_ms", "solve_ms", "update_ms", "output_ms", "iterations_a_step", "factorizations_a_step")
     with open(path, encoding="utf-8") as file:
         rows = json.load(file)["benchmarks"]
@@ -144,7 +147,7 @@ def split_rows(path):
 
 
 def print_scaling(path):
-    """CPU time of a step over the number of links: the largest over the smallest tells how far from linear it grows."""
+    """CPU time of a step over the number of links; largest over smallest shows how far growth is from linear."""
     table = read_medians(path)
     rows = []
     for case, times in table.items():
@@ -157,7 +160,7 @@ def print_scaling(path):
 
 
 def second_thread_rows(paths):
-    """What a second thread gains, and the bound of that but for caches: medians of the counters of rows second_thread/WORK."""
+    """Gain by a second thread, and its bound apart from caches: medians of the counters of rows second_thread/WORK."""
     rows = []
     for path in paths:
         if not os.path.exists(path):
@@ -191,7 +194,7 @@ def motion_rows(path):
 
 
 def start_rows(path):
-    """Medians of whole processes; of a run also what it takes beyond `bough --version`."""
+    """Medians of whole processes; for a run also the time beyond that of `bough --version`."""
     with open(path, encoding="utf-8") as file:
         rows = json.load(file)["benchmarks"]
     times = {row["run_name"].split("/")[1]: (row["real_time"], row["cpu_ms"], row["faults"]) for row in rows

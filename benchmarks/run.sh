@@ -1,7 +1,6 @@
 #!/bin/sh
-# run.sh BUILD_FOLDER   runs all benchmarks: micro (JSON beside the programs), solve (BUILD_FOLDER/solve.json) and
-# step (BUILD_FOLDER/step.json), lean (BUILD_FOLDER/lean.json), what a second thread can gain (BUILD_FOLDER/second_thread.json), motion
-# (BUILD_FOLDER/motion.json), start (BUILD_FOLDER/start.json), then prints the tables of ratios.
+# run.sh BUILD_FOLDER   runs all benchmarks, then prints the tables of ratios: micro (JSON beside the programs), and
+# solve, step, lean, second_thread (the gain by a second thread), motion and start (each to BUILD_FOLDER/NAME.json).
 set -eu
 build=$1
 folder=$build/benchmarks

@@ -1,4 +1,5 @@
-"""A headless Chromium that is handled through its debugging pipe: pages are laid out, looked at and told apart. No packages.
+"""A headless Chromium, controlled through its debugging pipe, which lays out pages and evaluates scripts in them. It
+needs no packages.
 
     with Browser() as browser:
         browser.open("view.html", width=800, dark=True)
@@ -80,7 +81,7 @@ class Browser:
         return message
 
     def _see(self, method, params):
-        """What a page must not do: errors on the console, exceptions, and asking for anything but itself."""
+        """Records faults of a page: errors on the console, exceptions, and requests beyond the page itself."""
         self.events.append(method)
         if method == "Runtime.exceptionThrown":
             self.faults.append("exception: " + json.dumps(params["exceptionDetails"])[:300])
@@ -94,7 +95,7 @@ class Browser:
                 self.faults.append("asks for " + url[:200])
 
     def open(self, page, width=1300, height=1400, dark=False, media="screen", scripts=True):
-        """Loads a page; `faults` then holds what it did wrong. On paper (media "print") the width is that of the paper."""
+        """Loads a page and fills `faults`. On paper (media "print") the width is that of the paper."""
         self.faults, self.events = [], []
         self._page = pathlib.Path(page).resolve().as_uri()
         scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
@@ -104,7 +105,7 @@ class Browser:
         self.send("Page.navigate", url=self._page)
         while "Page.loadEventFired" not in self.events:
             self._receive()
-        # Views say that they have drawn; other scripts are done with the page.
+        # Views report that they have drawn; other scripts have ended when the page is loaded.
         if scripts and self.evaluate("Boolean(document.getElementById('viewer'))"):
             self.evaluate("""new Promise(function (done) { (function look() {
               const is_done = document.documentElement.classList.contains("no-view") || window.boughView && window.boughView.drawn > 0;

@@ -1,11 +1,13 @@
 #!/bin/sh
-# check_dispatch.sh BUILD SOURCE SCRATCH COMPILER   installs a build with BOUGH_DISPATCH into SCRATCH, moves it, and shows that
-#   - the program and the plain libraries hold no AVX instruction, the variants do; public structs have one layout in all;
-#   - every name that a library needs is there in each variant, and no library takes a function from the program;
-#   - the loader maps the libraries of one variant only, also in the build folder, and what runs is what doctor and summaries say;
-#   - histories agree: to the last bit between x86-64-v3 and v4, to round-off with the plain libraries; the gallery's figures hold;
-#   - a program of its own, made with the installed package, gets the same libraries.
-# A variant that this processor cannot run is checked as far as that goes, and named.
+# check_dispatch.sh BUILD SOURCE SCRATCH COMPILER   installs a build with BOUGH_DISPATCH in SCRATCH, moves it, and
+# checks that
+#   - the program and the plain libraries contain no AVX instruction, the variants do; public structs have one layout;
+#   - every name that a library needs exists in each variant, and no library uses a function of the program;
+#   - the loader maps the libraries of one variant only, also in the build folder, and doctor and summaries name it;
+#   - histories agree: to the last bit between x86-64-v3 and v4, to round-off with the plain libraries; the figures
+#     expected by the gallery hold;
+#   - another program, built with the installed package, gets the same libraries.
+# A variant that this processor cannot run is checked as far as possible, and named.
 set -eu
 build=$1 source=$2 scratch=$3 compiler=$4
 rm -rf "$scratch"
@@ -40,7 +42,7 @@ libraries_in() {
   find "$1" -maxdepth 1 -type f -name 'libbough_*.so.*' | sort
 }
 
-# What this machine can run, the widest last.
+# The variants that this machine can run, the widest last.
 runnable=plain
 for variant in $variants; do
   if "$loader" --help | grep -q "^  $variant (supported"; then
@@ -85,7 +87,7 @@ if "$compiler" --version | grep -q 'Free Software Foundation'; then
     mkdir -p "layout/$march"
     (cd "layout/$march" && "$compiler" -std=c++20 -march="$march" -ffp-contract=off -DEIGEN_MAX_ALIGN_BYTES=64 -I"$prefix/include" \
       $(pkg-config --cflags eigen3 2>/dev/null || echo -I/usr/include/eigen3) -fsyntax-only -fdump-lang-class ../../headers.cpp)
-    # A class and the lines of sizes below it. The register's own types are the one thing that may differ.
+    # Each class, and the lines of sizes below it. Only the types of registers may differ.
     sed 's/registers_of_[0-9]*/registers/g' "layout/$march"/*.class |
       awk '/^Class /{name = $0} /size=/{print name ":" $0}' | grep -v 'registers::detail::' | sort -u > "layout/$march.txt"
     cmp "layout/x86-64.txt" "layout/$march.txt" || fail "a struct has another layout with -march=$march"
@@ -100,14 +102,14 @@ if nm -D --undefined-only "$program" | grep registers_of_; then
   fail "the program calls the functions above, whose names differ between the variants"
 fi
 for variant in plain $variants; do
-  # The loader relocates, nothing runs: ldd -r, but that it would look for variants below the plain folder as well.
+  # The loader relocates without running anything. ldd -r would also search the variants below the plain folder.
   LD_LIBRARY_PATH=$(folder_of "$variant") LD_TRACE_LOADED_OBJECTS=1 LD_WARN=yes LD_BIND_NOW=yes \
     "$loader" --glibc-hwcaps-mask none "$program" > ldd.txt 2>&1
   if grep -E 'undefined|not found' ldd.txt; then fail "names are missing in $variant"; fi
   [ "$(grep -c "=> $(folder_of "$variant")/libbough_" ldd.txt)" = "$(echo "$names" | wc -l)" ] || fail "not all libraries are of $variant: $(cat ldd.txt)"
 done
 
-# A cube of beams, clamped at one face and let go: spatial, with many equal sub-domains and large fronts.
+# A cube of beams, clamped at one face and released: spatial, with many equal sub-domains and large fronts.
 python3 - > lattice.json <<'PYTHON'
 import itertools
 import json
@@ -135,14 +137,14 @@ print(json.dumps({
 PYTHON
 cp "$source/data/scenarios/chain.json" chain.json
 
-# run_as VARIANT|plain ARGUMENTS...: the program with no library of a wider instruction set
+# run_as VARIANT|plain ARGUMENTS...: runs the program without libraries of wider instruction sets
 run_as() {
   mask=$1
   shift
   "$loader" --glibc-hwcaps-mask "$mask" "$program" "$@"
 }
 
-# mapped FILE WHO LIBRARIES [COUNT]: the loader's report in FILE tells that all came from there, COUNT of them (all there are)
+# mapped FILE WHO LIBRARIES [COUNT]: checks in the loader's report FILE that COUNT (all) libraries came from there
 mapped() {
   sed -n 's/.*calling init: \(.*libbough_.*\)/\1/p' "$1" | xargs realpath | sort > mapped.txt
   [ "$(xargs -n 1 dirname < mapped.txt | sort -u)" = "$(realpath "$3")" ] && [ "$(wc -l < mapped.txt)" = "${4:-$(echo "$names" | wc -l)}" ] ||
@@ -160,7 +162,7 @@ for level in $runnable; do
   run_as "$level" doctor > doctor.txt || fail "doctor is not well: $(cat doctor.txt)"
   grep "lanes   $(name_of "$level")," doctor.txt || fail "doctor tells another instruction set: $(cat doctor.txt)"
 
-  # Where the libraries' calls end: not in the program, whose copies of shared templates are for the baseline.
+  # The libraries' calls must not end in the program, whose copies of shared templates are compiled for the baseline.
   rm -f debug.*
   LD_BIND_NOW=1 LD_DEBUG=bindings LD_DEBUG_OUTPUT=debug run_as "$level" --version
   sed -n "s/.*binding file \(.*libbough_.*\) \[0\] to \(.*\) \[0\]: .*symbol .\([^']*\)'.*/\1 \2 \3/p" debug.* > bindings.txt
@@ -191,7 +193,8 @@ for scene in chain lattice; do
     [ "$level" = plain ] || cmp "x86-64-v3/$scene/history.csv" "$level/$scene/history.csv" || fail "$scene: $level and x86-64-v3 differ"
   done
   case $runnable in
-    # The total energy hardly changes: its range is no measure. Tens of joules go to and fro in it, 1e-8 of which Newton leaves open.
+    # The total energy hardly changes, so its range is no scale. Tens of joules are exchanged, of which Newton's
+    # tolerance leaves 1e-8.
     *v3*) "$program" compare plain/$scene x86-64-v3/$scene --rel 1e-8 --abs 1e-7 ||
       fail "$scene: plain and x86-64-v3 differ by more than round-off" ;;
   esac
@@ -207,7 +210,7 @@ cmake -S "$source/tests/consumer" -B user -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_
   fail "$(cat user.log)"
 rm -f debug.*
 LD_DEBUG=files LD_DEBUG_OUTPUT=debug user/consumer "$source"
-# It asks for fewer layers than the program.
+# It needs fewer layers than the program.
 wanted=$(LD_TRACE_LOADED_OBJECTS=1 user/consumer | grep -c libbough_)
 [ "$wanted" -gt 0 ] || fail "consumer asks for none of the libraries"
 mapped "$(ls debug.*)" consumer "$(folder_of "$widest")" "$wanted"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""check_html.py [--shots FOLDER] PAGE...   opens each page in a headless browser without network, light and dark at 1300, 800
-and 400 px, on paper, and without scripts. Exit status 1: an error on the console, a request, texts that overlap or lie on
-what is drawn, columns cut, drawings blown up, words of little contrast (page_boxes.js), or a page that shows nothing.
-77: there is no browser."""
+"""check_html.py [--shots FOLDER] PAGE...   opens each page in a headless browser without network: light and dark at
+1300, 800 and 400 px, on paper, and without scripts. Exit status 1: an error on the console, a request, texts that
+overlap other texts or drawings, cut columns, enlarged drawings, words of little contrast (page_boxes.js), or an
+empty page. 77: there is no browser."""
 
 import pathlib
 import sys

@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
-"""Fails on an include against the table of layers.
+"""Fails on an include that the table of layers does not allow.
 
-Files of layer X may include bough/Y/... only where Y stands in the closure of X in USES, and headers of outside
-libraries only where LIBRARIES names the layer. Tests, benchmarks and apps stand above all layers.
-"""
+Files of layer X may include bough/Y/... only if Y is in the closure of X in USES, and headers of external libraries
+only if LIBRARIES names the layer. Tests, benchmarks and apps may include all layers."""
 
 import pathlib
 import re
 import sys
 
-# layer: what it uses directly; it may also use what those use
+# layer: the layers that it uses directly; it may also use those that they use
 USES = {
     "lanes": [],
     "blocks": [],
@@ -31,7 +30,7 @@ USES = {
     "report": ["study", "stress"],
 }
 
-# start of an include: layers that may name it ("apps" may name CLI11 and make the TBB arena)
+# start of an include: the layers that may use it ("apps" may use CLI11 and make the TBB arena)
 LIBRARIES = {
     "tbb/": {"schedule", "apps"},
     "oneapi/": {"schedule", "apps"},

@@ -1,5 +1,5 @@
 #!/bin/sh
-# check_libraries.sh PROGRAM   fails when the program loads, directly or through another library, one whose licence
+# check_libraries.sh PROGRAM   fails if the program loads, directly or through another library, a library whose licence
 # or whose BLAS it must not depend on.
 set -eu
 libraries=$(ldd "$1")

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""check_page.py DOM DATA [SCREENSHOT...]   holds a page to the file beside it.
+"""check_page.py DOM DATA [SCREENSHOT...]   compares a page with its data file.
 
 Every number of the page that names its place in DATA (data-source, a JSON pointer) must be the number there, rounded to
-the digits shown; marks of charts hold it in full (data-y). Every error that DATA holds must stand in the page. A
-screenshot must show something: several colours, and a background that does not cover nearly all.
+the digits shown; marks of charts contain it in full (data-y). The page must contain every error that DATA contains. A
+screenshot must have several colours, and its background must not cover nearly all of it.
 """
 
 import html.parser

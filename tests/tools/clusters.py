@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""clusters.py PROGRAM SWEEPS [slurm] [snakemake]   runs the job files that `bough sweep --export` writes under the real
-engines of Debian's packages (slurm-wlm, snakemake): the collected tables are those of one machine, byte for byte. Slurm is
-one node of this machine with daemons of its own in a scratch folder, which end with this script; it needs root and an
-address that is not that of the loop. Slurm's limit of time stops a shard, which goes on when it is submitted again."""
+"""clusters.py PROGRAM SWEEPS [slurm] [snakemake]   runs the job files that `bough sweep --export` writes with the
+engines of Debian's packages slurm-wlm and snakemake, and checks that the collected tables equal those of one
+machine, byte for byte. Slurm runs as one node on this machine, with daemons in a scratch folder that end with this
+script; it needs root and an address other than loopback. Slurm's time limit stops a shard, which continues when it
+is submitted again."""
 import os
 import pathlib
 import shutil

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""gallery.py PROGRAM OUT SCENE...   one page with a picture of every scene: OUT/index.html, beside it a folder of results
-and a view (OUT/<scene>/view.html) of each. Exit status 1: some scene did not run."""
+"""gallery.py PROGRAM OUT SCENE...   makes one page with a picture of every scene, OUT/index.html, and for each scene a
+folder of results with a view, OUT/<scene>/view.html. Exit status 1: some scene failed."""
 
 import base64
 import concurrent.futures
@@ -18,7 +18,7 @@ img{width:100%;height:auto;border-radius:6px}figcaption{font-size:13px}h1{font-s
 
 
 def draw(program, out, scene, name):
-    """Runs a scene into the folder of a name and draws it; the figure, or what went wrong."""
+    """Runs a scene in a folder of its name and draws it. Returns the figure, or the error."""
     folder = out / name
     words = [program, "run", scene, "--out", folder, "--quiet", "--threads", "1", "--set", "/output/motion=true"]
     run = subprocess.run(words, capture_output=True, text=True, check=False)
@@ -27,7 +27,7 @@ def draw(program, out, scene, name):
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     with open(folder / "history.csv", encoding="utf-8") as file:
         last = float(file.readlines()[-1].split(",")[0])
-    # Well into the run, at no round part of a period.
+    # Well into the run, and not at a simple fraction of a period.
     words = [program, "view", folder, "--png", folder / "picture.png", "--time", str(0.737 * last)]
     view = subprocess.run(words, capture_output=True, text=True, check=False)
     if view.returncode != 0:

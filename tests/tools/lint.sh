@@ -1,5 +1,6 @@
 #!/bin/sh
-# Format, include arrows, file lengths, and that no element is known by its type. Every check runs; the exit status tells whether all passed.
+# Checks the format, the arrows of includes, the lengths of files, and that no code outside of elements depends on the
+# type of an element. Every check runs; the exit status is 0 if all passed.
 set -u
 cd "$(dirname "$0")/../.."
 format=clang-format-14
@@ -14,7 +15,7 @@ else
   failed=1
 fi
 python3 tests/tools/check_includes.py || failed=1
-# Elements tell what they are (elements::Role and its like); nothing outside guesses it from their type or their members.
+# Elements declare what they are (elements::Role etc.); code outside must not guess it from their types or members.
 guesses=$(grep -rnE 'is_same_v<.*elements::|requires( ?\(.*\))? ?\{ *(e|element|own|load)\.' src apps include \
   --include='*.cpp' --include='*.hpp' | grep -v '^\(src\|include/bough\)/elements/')
 if [ -n "$guesses" ]; then

@@ -1,8 +1,8 @@
 #!/usr/bin/env node
-// measure_view.js PAGE [SCREENSHOT.png]   opens a view in headless Chromium with WebGL in software, 1000 x 700, in real time, and prints how
-// long the first picture takes from the start of the navigation (in a browser that draws already), how many pictures a second are drawn while
-// time goes on (lines where shapes are too slow), how much
-// processor time each takes, and how long the shapes take afterwards. Needs node; no packages.
+// measure_view.js PAGE [SCREENSHOT.png]   opens a view in headless Chromium with WebGL in software, 1000 x 700, in real
+// time. It prints the time from the start of the navigation to the first picture (in a browser that has drawn before),
+// the pictures per second while the motion plays (lines if shapes are too slow), the processor time of each, and the
+// time of the shapes afterwards. It needs node, but no packages.
 "use strict";
 const {spawn} = require("child_process"),
   fs = require("fs"),

@@ -1,5 +1,6 @@
-// An expression: what is wrong with a page as it is laid out, a list of texts. Texts that overlap, in drawings and outside, or lie on
-// what is drawn; columns that are cut; drawings blown up; pages wider than the window; words of less contrast than 4.5 to 1.
+// An expression that lists the faults of a page as laid out, as texts: texts that overlap, in drawings and outside, or
+// lie on lines of a drawing; columns that are cut; drawings that are enlarged; pages wider than the window; words with
+// less contrast than 4.5 to 1.
 (function () {
   "use strict";
   const faults = new Set(),
@@ -17,7 +18,7 @@
     if (frame.width > 1.35 * width) faults.add(`a drawing is blown up ${(frame.width / width).toFixed(2)} times`);
     const texts = Array.from(drawing.querySelectorAll("text")).filter((t) => isSeen(t) && t.getBoundingClientRect().width > 0),
       boxes = texts.map((t) => t.getBoundingClientRect());
-    if (texts.length > 300) continue; // drawings of many small parts hide what does not fit
+    if (texts.length > 300) continue; // drawings of many small parts hide texts that do not fit
     boxes.forEach(function (box, i) {
       for (let j = i + 1; j < boxes.length; ++j)
         if (overlap(box, boxes[j])) faults.add(`texts overlap: ${words(texts[i].textContent)} and ${words(texts[j].textContent)}`);
@@ -95,7 +96,7 @@
     for (let a = element; a; a = a.parentElement) layers.push(rgba(getComputedStyle(a).backgroundColor) || [0, 0, 0, 0]);
     return layers.reverse().reduce((under, top) => over(top, under), ground);
   };
-  // Of a drawing what is filled under the middle of the text, in the order in which it is painted.
+  // The filled areas of a drawing under the middle of the text, in the order of painting.
   const behindText = function (text) {
     const box = text.getBoundingClientRect(),
       drawing = text.closest("svg");

@@ -4,13 +4,13 @@ long each takes.
 
     python3 tests/tools/pairs.py OLD NEW [SCENE ...] [--rounds 15] [--twins 10] [--at-most 1.03] [--process-at-most 1.02]
 
-Results: 'bits' where both histories are equal to the last bit. Otherwise the largest difference of a column, relative to
-the range of what its sensor shows, against that of twins: runs of OLD whose masses, stiffnesses and forces differ by a
-rounding each. A difference above that of the worst twin is told as BEYOND, and the exit status is 1.
-Times: medians over the rounds of NEW over OLD, of the whole process (user and system; also in ms) and of the phases of
-its steps (assemble, factor, solve, update). A median of the phases above --at-most, or of the process above
---process-at-most, is told as SLOWER, exit status 1. Processes of few ms need some hundred rounds.
-Without scenes: those of data/scenarios. One thread, nothing but standard Python.
+Results: 'bits' if both histories are equal to the last bit. Otherwise the largest difference of a column relative to
+the range of its sensor, compared with that of twins: runs of OLD in which each mass, stiffness and force is changed
+by one rounding. A difference above that of the worst twin is reported as BEYOND, with exit status 1.
+Times: medians over the rounds of NEW over OLD, of the whole process (user and system; also in ms) and of the phases
+of its steps (assemble, factor, solve, update). A median of the phases above --at-most, or of the process above
+--process-at-most, is reported as SLOWER, with exit status 1. Processes of few ms need some hundred rounds.
+Without scenes, those of data/scenarios are run. One thread; needs only standard Python.
 """
 import argparse
 import csv
@@ -31,7 +31,7 @@ PHASES = ("assemble", "factor", "solve", "update")
 
 
 def run(program, scene, out):
-    """Processor time of a run [s], its summary and its history: names and rows; None where it failed."""
+    """Processor time of a run [s], its summary and its history (names and rows); None if it failed."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([program, "run", scene, "--out", out, "--quiet", "--threads", "1"], capture_output=True,
                           text=True)
@@ -48,7 +48,7 @@ def run(program, scene, out):
 
 
 def perturbed(value, draw, inside=False):
-    """The scene with each number under a key of PERTURBED changed by a rounding."""
+    """The scene, with each number under a key of PERTURBED changed by one rounding."""
     if isinstance(value, dict):
         return {k: perturbed(v, draw, inside or k in PERTURBED) for k, v in value.items() if k != "expected"}
     if isinstance(value, list):
@@ -59,7 +59,7 @@ def perturbed(value, draw, inside=False):
 
 
 def difference(a, b):
-    """The largest difference of a column over the range of its sensor's columns, and the column's name."""
+    """The largest difference of a column relative to the range of its sensor's columns, and the name of the column."""
     names, rows = a
     if names != b[0]:
         return float("inf"), "columns differ"
@@ -85,7 +85,7 @@ def phases(summary):
 
 
 def compare(scene, args, scratch):
-    """One scene: a line of text, and whether it is as it must be."""
+    """One scene: a line of text, and whether the result is acceptable."""
     title = os.path.splitext(os.path.basename(scene))[0]
     process, steps, spent = [], [], []
     first = None
@@ -144,8 +144,9 @@ def main():
     root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     scenes = args.scenes or sorted(glob.glob(os.path.join(root, "data", "scenarios", "*.json")))
     good = True
-    # Copies beside NEW, made alike: where and how the file of a program was written decides much of a small scene, for its
-    # pages are mapped one by one or many at once. The same program took 6.1 ms as the linker wrote it, 5.2 as a copy.
+    # Both programs are copied to files beside NEW: how the file of a program was written affects the time of small
+    # scenes, since its pages are mapped singly or in groups. The same program took 6.1 ms as the linker wrote it,
+    # 5.2 as a copy.
     beside = os.path.dirname(os.path.abspath(args.new))
     with tempfile.TemporaryDirectory() as scratch, tempfile.TemporaryDirectory(dir=beside) as programs:
         args.old = shutil.copy(args.old, os.path.join(programs, "old"))

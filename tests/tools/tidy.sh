@@ -1,6 +1,6 @@
 #!/bin/sh
-# clang-tidy on the library and the program, from the compile commands of the dev-clang preset. Reports; a finding of
-# the naming rules, of bugprone or of performance fails.
+# Runs clang-tidy on the library and the program with the compile commands of the dev-clang preset, and fails on
+# findings of the naming rules, of bugprone or of performance.
 set -eu
 cd "$(dirname "$0")/../.."
 cmake --preset dev-clang > /dev/null

@@ -1,5 +1,5 @@
-// An expression: handles a view as a reader does and gives what it does not do, a list of texts: time, views, selection, colours, ghosts
-// and traces change the picture; plots follow; text of names stays text.
+// An expression that operates a view as a reader does and lists the faults, as texts: time, views, selection, colours,
+// ghosts and traces must change the picture; plots must follow; names must remain plain text.
 (async function () {
   "use strict";
   const faults = [],
@@ -53,7 +53,7 @@
       const event = {bubbles: true, pointerId: 1, pointerType: "mouse", button: 0, buttons: 1, clientX: x, clientY: y};
       view.canvas.dispatchEvent(new PointerEvent(kind, event));
     };
-    view.canvas.setPointerCapture = view.canvas.releasePointerCapture = function () {}; // the pointer is none that is there
+    view.canvas.setPointerCapture = view.canvas.releasePointerCapture = function () {}; // there is no real pointer
     differs(function () {
       drag("pointerdown", middle[0], middle[1]);
       drag("pointermove", middle[0] + 60, middle[1] + 25);

@@ -1,11 +1,11 @@
-"""Campaigns against the program: what no test of a single case tries.
+"""Campaigns against the program, for faults that tests of single cases do not find.
 
     python3 tests/tools/campaign --program build/release/bough [PART ...] [--seed N] [--scale X]
 
 Every part is a module of this folder with two functions: add_arguments(parser) adds options of its own, each named
 --<part>-...; run(options) returns an Outcome. Counts of cases grow with --scale; --scale 1 is a run of minutes. Equal
 seeds give equal cases.
-Exit status: 0 all cases ended as they must, 1 some did not, 2 bad arguments, 77 a part cannot run here.
+Exit status: 0 all cases ended as required, 1 some did not, 2 bad arguments, 77 a part cannot run here.
 """
 import argparse
 import importlib

@@ -1,8 +1,7 @@
 """Failures injected by strace at the k-th write, fsync, rename, mkdir, open and mmap of verbs that write.
 
-Every run has to end with a status that the README names and a word; afterwards the former good results or the new ones
-stand whole.
-"""
+Every run has to end with a status that the README names and with a message. Afterwards the former good results or
+the new ones must be complete."""
 import collections
 import os
 import pathlib
@@ -29,7 +28,7 @@ def add_arguments(parser):
 
 
 def calls_of(program, words, place, folder):
-    """How often a command makes each call, in the thread or process that makes most: strace counts in each."""
+    """Number of calls of each kind by a command, in the thread or process that makes most (strace counts each)."""
     trace = folder / "trace"
     subprocess.run(["strace", "-f", "-o", trace, "-e", "trace=" + ",".join(CALLS), program, *words], cwd=place,
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)

@@ -2,9 +2,8 @@
 process (fuzz_inputs, built with the tests), which also runs small scenes for some steps; a share goes to the program
 itself. --scale 1 is 100 000 and 2000 inputs.
 
-What is asked of every input: it is dealt with in 2 s of processor time and 512 MB, by exit status 0, 1 or 2 and in
-words that a terminal may show; a run that says ok holds finite numbers only.
-"""
+Every input has to be processed in 2 s of processor time and 512 MB, with exit status 0, 1 or 2 and with messages
+that are safe for a terminal. A run with status ok must contain only finite numbers."""
 import json
 import math
 import pathlib
@@ -99,7 +98,7 @@ def encoded(kind, text, overrides):
 
 
 class Readers:
-    """The process fuzz_inputs: started again after an input that ends it."""
+    """The process fuzz_inputs, which is started again after an input that ends it."""
 
     def __init__(self, program, folder):
         self.command = [str(program), str(folder)]

@@ -1,9 +1,8 @@
 """Processes killed at random moments: verbs that write, ended by SIGKILL or SIGTERM from the first instruction to
 after the last.
 
-Afterwards no process is left, no file stands cut under its final name, the former good results or the new ones are
-whole, and the next run works as if nothing had been.
-"""
+Afterwards no process may be left, no file may be incomplete under its final name, the former good results or the new
+ones must be complete, and the next run must work as usual."""
 import os
 import pathlib
 import random

@@ -1,7 +1,8 @@
 """Limits of the system, at several sizes over all verbs, and budgets of `bough check` for heavy inputs.
 
-Under a limit a run may fail: with a word and exit status 0, 1 or 2, never by a signal. A limit under which not even
-`bough --version` starts is left out. A check takes below 2 s of processor time and 512 MB, whatever it is given.
+Under a limit a run may fail, but only with a message and exit status 0, 1 or 2, never by a signal. A limit under which
+even `bough --version` does not start is skipped. A check must take less than 2 s of processor time and 512 MB for any
+input.
 """
 import json
 import pathlib
@@ -27,7 +28,7 @@ def add_arguments(parser):
 
 
 def verbs(folder, source):
-    """Words of every verb that ends within seconds. The scene has a motion to view; out is a run of it."""
+    """Arguments of every verb that ends within seconds. The scene records its motion; out is a run of it."""
     scene, out = folder / "scene.json", folder / "out"
     (folder / "scenes").mkdir()
     small = json.dumps(fuzz.SMALL[0])

@@ -80,7 +80,7 @@ def places(value, found=None):
 
 
 class Raw:
-    """A value that is written as it stands."""
+    """A value that is written without changes."""
     texts = []
 
     @classmethod

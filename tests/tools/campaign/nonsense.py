@@ -1,9 +1,8 @@
-"""Nonsense scenes: each has to be told with the name of what is wrong, and the gallery has to pass without an alarm.
+"""Nonsense scenes: each must be reported with the name of the faulty part, and the gallery must pass without an alarm.
 
-The scenes are in nonsense_scenes.py. A case is told where the commands up to its verb say all its names and one of its
-words, and none gives advice that is wrong for it; at least 95 % have to be. A scene of the gallery is alarmed where
-`bough check` says more than "ok", or `bough plan` finds something locked, loose or massless in it.
-"""
+The scenes are in nonsense_scenes.py. A case counts as reported if the commands up to its verb print all its names
+and one of its words, and no wrong advice; at least 95 % must be reported. A scene of the gallery gives an alarm if
+`bough check` prints more than "ok", or if `bough plan` finds locked, unsupported or massless parts in it."""
 import json
 import pathlib
 import re
@@ -26,7 +25,7 @@ def add_arguments(parser):
 
 
 def says(program, verb, scene, folder):
-    """The text of one verb about a scene file, and what went wrong beside."""
+    """The text that a verb prints about a scene file, and faults of the run itself."""
     command = [program, verb, scene] + (["--out", folder / "out"] if verb == "run" else [])
     result = run_program(command, seconds=20)
     text = re.sub(r"\s+", " ", (result.out + b" " + result.err).decode("utf-8", "replace"))
@@ -39,7 +38,7 @@ def says(program, verb, scene, folder):
 
 
 def judge(program, case, folder):
-    """What is said about a case, and why that will not do; "" where it will."""
+    """The text about a case, and why it is not acceptable ("" if it is)."""
     scene = folder / "scene.json"
     scene.write_text(case.scene if isinstance(case.scene, str) else json.dumps(case.scene))
     said, reason = "", ""
@@ -61,7 +60,7 @@ def judge(program, case, folder):
 
 
 def alarms_in_gallery(program, source):
-    """Scenes that make sense and are told otherwise."""
+    """Sensible scenes that give an alarm."""
     found = []
     scenes = [scene for folder in ("scenarios", "studies/scenes")
               for scene in sorted((source / "data" / folder).glob("*.json"))]

@@ -1,9 +1,8 @@
-"""Scenes that make no sense, each with what has to be said about it.
+"""Scenes that make no sense, each with the required content of the message.
 
-A case is a sound base scene with one thing wrong in it. `verb` is the latest command that may tell it: what can be
-known from the file alone belongs to `check`, what follows from the plan to `plan`, what only the computation shows to
-`run`. The message has to name every word of `names` and one of `words`; it must not give the advice in `wrong`.
-"""
+A case is a sensible base scene with one fault. `verb` is the latest command that may report it: faults of the file
+alone belong to `check`, faults that follow from the plan to `plan`, and faults that only the computation shows to
+`run`. The message must contain every word of `names` and one of `words`; it must not give the advice in `wrong`."""
 
 import copy
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""One run of the program: what it is given, what it may use, what came of it."""
+"""One run of the program: its arguments, its limits, and its outcome."""
 import dataclasses
 import os
 import re
@@ -15,7 +15,7 @@ CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")  # all but tabs and ends 
 
 @dataclasses.dataclass
 class Outcome:
-    """What a part of a campaign found. A failure is a line of text with what reproduces it."""
+    """The findings of a part of a campaign. A failure is a line of text that says how to reproduce it."""
     counts: dict = dataclasses.field(default_factory=dict)
     failures: list = dataclasses.field(default_factory=list)
     skipped: str = ""
@@ -33,7 +33,7 @@ class Result:
 
 
 def run(command, seconds, cwd=None, limits=None, stdin=b"", environment=None):
-    """Runs a command for some seconds at most. limits: {resource.RLIMIT_...: value}."""
+    """Runs a command for at most `seconds`. limits: {resource.RLIMIT_...: value}."""
     def set_limits():
         os.setpgid(0, 0)
         for which, value in (limits or {}).items():
@@ -67,7 +67,7 @@ def run(command, seconds, cwd=None, limits=None, stdin=b"", environment=None):
 
 
 def faults_of(result, what="the program"):
-    """What no run may do, whatever it is given: foreign exit status, crash, hang, bad bytes for a terminal, silence."""
+    """Faults of a run: undocumented exit status, crash, hang, bytes unsafe for a terminal, no message."""
     faults = []
     if result.timed_out:
         return [f"{what} did not end within {result.seconds:.1f} s"]

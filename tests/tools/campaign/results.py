@@ -1,4 +1,4 @@
-"""Folders of results as kills and faults leave them: what may be there, and what may not."""
+"""Checks of folders of results after kills and injected failures."""
 import json
 import pathlib
 import shutil
@@ -24,7 +24,7 @@ STUDY = {
 
 
 class Bench:
-    """A folder with scenes and with good former results of each verb, from which every case starts anew."""
+    """A folder with scenes and with good former results of each verb, from which every case starts."""
 
     def __init__(self, program, folder, end_time=0.2):
         self.program, self.folder = program, pathlib.Path(folder)
@@ -61,7 +61,7 @@ class Bench:
         return self.place
 
     def faults(self, folders):
-        """What is wrong with folders that held good results before: these, or the new ones, have to stand whole."""
+        """Faults of folders that had good results before: these or the new ones must be complete."""
         faults = []
         for name in folders:
             folder = self.place / name
@@ -87,7 +87,7 @@ class Bench:
         return faults
 
     def faults_of_next(self, words, folders):
-        """The same command once more, undisturbed: it has to work, and to leave no folder of a writer that is gone."""
+        """Runs the same command again, undisturbed: it must work, and leave no folder of a killed writer."""
         result = run([self.program, *words], 60, cwd=self.place)
         faults = self.faults(folders)
         if result.status != 0:
@@ -97,7 +97,7 @@ class Bench:
 
 
 def faults_of_files(folder):
-    """No file under a final name may be cut."""
+    """Faults of files: none may be incomplete under its final name."""
     faults = []
     for path in folder.rglob("*"):
         if not path.is_file() or path.name.endswith(".partial") or ".bough-new" in str(path):
