@@ -273,9 +273,13 @@ std::string pvd_text(const std::vector<PvdEntry>& entries) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  "
       "<Collection>\n";
+  const bool grows = std::adjacent_find(entries.begin(), entries.end(), [](const PvdEntry& a, const PvdEntry& b) {
+                       return !(a.time < b.time);
+                     }) == entries.end();
+  int number = 0;
   for (const PvdEntry& entry : entries) {
     text += "    <DataSet timestep=\"";
-    append_number(text, entry.time);
+    append_number(text, grows ? entry.time : number++);
     text += "\" group=\"\" part=\"0\" file=\"" + xml_escaped(entry.file) + "\"/>\n";
   }
   return text + "  </Collection>\n</VTKFile>\n";

@@ -8,6 +8,7 @@
 #include "bough/results/balance.hpp"
 #include "bough/scene/components.hpp"
 #include "observe_parts.hpp"
+#include "stand_in.hpp"
 
 namespace bough::results {
 
@@ -438,23 +439,14 @@ records::MotionFrame eval_motion(const step::System& system, const step::State& 
 
 namespace {
 
-/// Shape drawn for a body without one: the cuboid of its mass and inertia if its axes are principal axes, edge a1^2 = 6
-/// (J2 + J3 - J1) / m; otherwise the sphere with the mean of its principal values. None for a point mass.
-std::optional<scene::BodyShape> stand_in(const scene::Body& body) {
-  const Mat3<double>& J = body.inertia;
-  const double trace = J(0, 0) + J(1, 1) + J(2, 2);
-  if (body.is_point_mass || !(body.mass > 0.0) || !(trace > 0.0)) return std::nullopt;
-  const double off = std::max({std::abs(J(0, 1)), std::abs(J(0, 2)), std::abs(J(1, 2))});
-  if (off > 1e-9 * trace) return scene::Sphere{std::sqrt(2.5 * trace / (3.0 * body.mass))};
-  scene::Box box{};
-  constexpr double thinnest = 0.01;  // of the largest edge, so that flat bodies remain visible
-  double largest = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    box.size[i] = std::sqrt(std::max(0.0, 6.0 * (trace - 2.0 * J(i, i)) / body.mass));
-    largest = std::max(largest, box.size[i]);
-  }
-  for (int i = 0; i < 3; ++i) box.size[i] = std::max(box.size[i], thinnest * largest);
-  return box;
+/// Places at which a body is held, from its centre of mass, in its own axes.
+std::vector<Vec3<double>> arms_of(const plan::BodyPlan& body) {
+  std::vector<Vec3<double>> arms;
+  const Port& own = body.frame;
+  for (const Port& port : body.attachments)
+    if (port.node == own.node && port.node != elements::ground)
+      arms.push_back(lanes::transpose(own.offset.R) * (port.offset.x - own.offset.x) - body.center);
+  return arms;
 }
 
 }  // namespace
@@ -480,15 +472,18 @@ records::MotionParts make_parts(const scene::Scene& scene, const step::System& s
   }
   // Copies of one part have equal surfaces, which are stored once.
   std::map<std::pair<std::vector<std::array<double, 3>>, std::vector<std::array<int, 3>>>, int> known;
+  std::map<std::string, std::vector<Vec3<double>>> arms;
+  for (const plan::BodyPlan& body : plan.bodies) arms[body.name] = arms_of(body);
   for (const scene::Body& b : scene.bodies) {
     int& surface = body_of.emplace(b.name, -1).first->second;
-    const std::optional<scene::BodyShape> shape = b.shape ? b.shape : stand_in(b);
-    if (!shape && !b.looks) continue;
-    scene::Mesh mesh = b.looks ? *b.looks : scene::mesh_of(*shape);
+    std::optional<scene::Mesh> mesh = b.looks   ? *b.looks
+                                      : b.shape ? scene::mesh_of(*b.shape)
+                                                : stand_in(b, arms[b.name]);
+    if (!mesh) continue;
     const auto [place, is_new] =
-        known.emplace(std::pair(mesh.points, mesh.triangles), static_cast<int>(parts.meshes.size()));
+        known.emplace(std::pair(mesh->points, mesh->triangles), static_cast<int>(parts.meshes.size()));
     surface = place->second;
-    if (is_new) parts.meshes.push_back(std::move(mesh));
+    if (is_new) parts.meshes.push_back(std::move(*mesh));
   }
   for (const plan::BodyPlan& body : plan.bodies) parts.bodies.push_back(body_of.at(body.name));
   std::map<std::string, std::string> kind_of;

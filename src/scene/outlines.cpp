@@ -71,17 +71,17 @@ std::array<double, 3> turned(int axis, double along, double second, double third
   return x;
 }
 
-/// Triangles between consecutive rings of equally many points.
-Mesh lofted(int axis, const Rings& rings) {
+/// Triangles between consecutive rings of equally many points, and from the last to the first if it is a torus.
+Mesh lofted(int axis, const Rings& rings, bool is_torus = false) {
   Mesh mesh;
   const int n = static_cast<int>(rings.front().second.size()), m = static_cast<int>(rings.size());
   for (const auto& [along, loop] : rings)
     for (const Point& p : loop) mesh.points.push_back(turned(axis, along, p[0], p[1]));
-  for (int r = 0; r + 1 < m; ++r)
+  for (int r = 0; r + (is_torus ? 0 : 1) < m; ++r)
     for (int k = 0; k < n; ++k) {
-      const int a = r * n + k, b = r * n + (k + 1) % n;
-      mesh.triangles.push_back({a, b, b + n});
-      mesh.triangles.push_back({a, b + n, a + n});
+      const int next = (k + 1) % n, low = r * n, high = (r + 1) % m * n;
+      mesh.triangles.push_back({low + k, low + next, high + next});
+      mesh.triangles.push_back({low + k, high + next, high + k});
     }
   return mesh;
 }
@@ -150,7 +150,7 @@ Mesh mesh(const Cone& s) {
 Mesh mesh(const Ring& s) {
   const Loop outer = round_loop(s.outer_radius, s.outer_radius), inner = round_loop(s.inner_radius, s.inner_radius);
   const double a = -0.5 * s.length, b = 0.5 * s.length;
-  return lofted(s.axis, {{a, inner}, {a, outer}, {b, outer}, {b, inner}, {a, inner}});
+  return lofted(s.axis, {{a, inner}, {a, outer}, {b, outer}, {b, inner}}, true);
 }
 Mesh mesh(const Extrusion& s) {
   const Outline outline = centered(s.outline);

@@ -234,6 +234,11 @@ TEST(MotionFile, damaged_files_are_refused_in_words_and_frames_cut_off_do_not_co
   EXPECT_EQ(read_motion_file(scratch / "cut.bin", 10).frames.size(), 2u);
 }
 
+TEST(Pvd, numbers_the_frames_where_load_factors_turn_back) {
+  const std::string pvd = pvd_text({{0.0, "a"}, {0.9, "b"}, {0.4, "c"}});
+  EXPECT_NE(pvd.find("timestep=\"1\" group=\"\" part=\"0\" file=\"b\""), std::string::npos) << pvd;
+  EXPECT_NE(pvd.find("timestep=\"2\" group=\"\" part=\"0\" file=\"c\""), std::string::npos) << pvd;
+}
 TEST(Pvd, lists_the_frames_with_their_times) {
   const std::string pvd = pvd_text({{0.0, "motion/frame_000000.vtu"}, {0.1, "a&b\".vtu"}});
   EXPECT_NE(pvd.find("timestep=\"0.1\" group=\"\" part=\"0\" file=\"a&amp;b&quot;.vtu\""), std::string::npos) << pvd;

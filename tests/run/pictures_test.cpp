@@ -1,11 +1,13 @@
 /// What pictures of a run hold, and how many of them there are.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "bough/io/read_scene.hpp"
 #include "bough/run/simulate.hpp"
+#include "bough/scene/outlines.hpp"
 
 namespace bough::run {
 namespace {
@@ -74,6 +76,48 @@ TEST(Pictures, springs_and_dampers_are_told_apart) {
   EXPECT_EQ(kinds["s"], "spring");
   EXPECT_EQ(kinds["d"], "damper");
   EXPECT_EQ(kinds["b"], "spring and damper");
+}
+
+/// Largest distance of a surface's points along axis 0 to 2 from the centre of mass.
+double reach(const scene::Mesh& mesh, std::size_t axis) {
+  double most = 0.0;
+  for (const auto& p : mesh.points) most = std::max(most, std::abs(p[axis]));
+  return most;
+}
+
+TEST(Pictures, bodies_without_a_shape_are_solids_of_their_inertia_or_bars_to_where_they_are_held) {
+  // A disc of radius 0.5 and length 0.2, Jt = m (3 r^2 + l^2)/12, and a cuboid of 0.6 x 0.4 x 0.2,
+  // J1 = m (b^2 + c^2)/12.
+  const Pictures p = pictures_of(R"({"schema_version": 1,
+    "bodies": [
+      {"name": "disc", "mass": 2, "inertia": [0.1316666666666667, 0.25, 0.1316666666666667], "position": [5, 0, 0]},
+      {"name": "ball", "mass": 2.5, "inertia": [0.04, 0.04, 0.04], "position": [10, 0, 0]},
+      {"name": "block", "mass": 12, "inertia": [0.2, 0.4, 0.52], "position": [15, 0, 0]},
+      {"name": "link", "mass": 1, "inertia": [1, 1, 1], "position": [1, 0, 0],
+       "rotation": {"axis": [0, 0, 1], "angle": 0.4}},
+      {"name": "end", "kind": "point_mass", "mass": 1, "position": [3, 0, 0]}],
+    "joints": [
+      {"name": "pin", "kind": "revolute", "first": "ground", "second": "link", "position": [0, 0, 0],
+       "axis": [0, 0, 1]},
+      {"name": "ball joint", "kind": "spherical", "first": "link", "second": "end", "position": [3, 0, 0]}],
+    "analysis": {"kind": "dynamic", "end_time": 0.1, "step_size": 0.05}, "output": {"motion": true}})");
+  ASSERT_FALSE(p.frames.empty());
+  std::map<std::string, scene::Mesh> of;
+  for (std::size_t k = 0; k < p.frames[0].bodies.size(); ++k)
+    if (p.all_parts.bodies.at(k) >= 0)
+      of[p.frames[0].bodies[k].name] = p.all_parts.meshes.at(static_cast<std::size_t>(p.all_parts.bodies[k]));
+  ASSERT_EQ(of.size(), 4u) << "a point mass has no surface";
+  EXPECT_NEAR(reach(of["disc"], 1), 0.1, 1e-9);
+  EXPECT_NEAR(reach(of["disc"], 0), 0.5, 0.006) << "polygons of the circle's area";
+  EXPECT_NEAR(scene::volume_of(of["disc"]), 0.25 * 3.14159265358979 * 0.2, 1e-9);
+  EXPECT_NEAR(reach(of["ball"], 2), 0.2, 0.003);
+  EXPECT_NEAR(reach(of["block"], 0), 0.3, 1e-9);
+  EXPECT_NEAR(reach(of["block"], 1), 0.2, 1e-9);
+  EXPECT_NEAR(reach(of["block"], 2), 0.1, 1e-9);
+  // Bars of radius 0.1 from (1, 0, 0) to (0, 0, 0) and (3, 0, 0), in axes turned by 0.4.
+  EXPECT_NEAR(reach(of["link"], 0), 2.0 * std::cos(0.4) + 0.1 * std::sin(0.4), 0.002);
+  EXPECT_NEAR(reach(of["link"], 1), 2.0 * std::sin(0.4) + 0.1 * std::cos(0.4), 0.002);
+  EXPECT_NEAR(reach(of["link"], 2), 0.1, 0.002);
 }
 
 TEST(Pictures, of_a_small_structure_every_picture_is_a_file_for_other_programs_too) {

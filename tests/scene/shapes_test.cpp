@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "bough/scene/outlines.hpp"
@@ -190,6 +191,18 @@ TEST(Bodies, surfaces_enclose_the_volume_around_the_centre_of_mass) {
     // A frustum of the polygon has exactly the volume of the round one but for a tip of a millionth.
     EXPECT_NEAR(s.volume, volume_of(shape), 3e-6 * s.volume) << shape.index();
     for (const double x : s.first) EXPECT_NEAR(x, 0.0, 2e-6 * s.volume * size) << shape.index();
+  }
+}
+
+TEST(Bodies, surfaces_are_closed_every_edge_is_run_through_once_in_either_direction) {
+  for (const BodyShape& shape : bodies()) {
+    std::map<std::pair<int, int>, int> edges;
+    for (const auto& t : mesh_of(shape).triangles)
+      for (std::size_t k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
+    for (const auto& [edge, count] : edges) {
+      EXPECT_EQ(count, 1) << shape.index();
+      EXPECT_TRUE(edges.contains({edge.second, edge.first})) << shape.index();
+    }
   }
 }
 

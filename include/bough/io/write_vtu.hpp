@@ -23,6 +23,8 @@ struct PvdEntry {
   double time = 0.0;
   std::string file;  ///< relative to the PVD file
 };
+/// Readers sort pictures by their time steps. Where times do not grow, as load factors along a path do not, the time
+/// steps are therefore the numbers of the pictures; the files keep their times as `TimeValue`.
 std::string pvd_text(const std::vector<PvdEntry>& entries);
 
 }  // namespace bough::io
