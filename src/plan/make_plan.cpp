@@ -347,13 +347,14 @@ void Builder::measure_joints() {
 
 void Builder::make_graph() {
   blocks::BlockGraph& g = plan.graph;
-  std::map<int, JointPlan*> joint_of_element;
-  for (JointPlan& j : plan.joints)
-    if (!j.rows.empty()) joint_of_element[j.element] = &j;
+  plan.joint_of_element.assign(plan.directory.size(), -1);
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    plan.joint_of_element[static_cast<std::size_t>(plan.joints[j].element)] = static_cast<int>(j);
   plan.block_of_node.assign(plan.nodes.size(), 0);
+  std::vector<char> holds(plan.joints.size(), 0);
   for (const HeldNode& h : plan.held) {
     plan.block_of_node[static_cast<std::size_t>(h.node)] = -1;
-    for (int j : h.joints) joint_of_element.erase(plan.joints[static_cast<std::size_t>(j)].element);
+    for (int j : h.joints) holds[static_cast<std::size_t>(j)] = 1;
   }
   int num_blocks = 0;
   for (int& block : plan.block_of_node)
@@ -365,14 +366,15 @@ void Builder::make_graph() {
       for (const Port& p : e.ports)
         if (p.node != elements::ground && plan.block_of_node[static_cast<std::size_t>(p.node)] >= 0)
           g.element_blocks.push_back(plan.block_of_node[static_cast<std::size_t>(p.node)]);
-      const auto joint = joint_of_element.find(static_cast<int>(id));
-      if (joint != joint_of_element.end()) {
-        joint->second->block = g.num_blocks();
-        g.element_blocks.push_back(g.num_blocks());
-        g.block_size.push_back(static_cast<int>(joint->second->rows.size()));
-        g.block_kind.push_back(blocks::BlockKind::multiplier);
-      }
     });
+    const int j = plan.joint_of_element[id];
+    if (j >= 0 && holds[static_cast<std::size_t>(j)] == 0 && !plan.joints[static_cast<std::size_t>(j)].rows.empty()) {
+      JointPlan& joint = plan.joints[static_cast<std::size_t>(j)];
+      joint.block = g.num_blocks();
+      g.element_blocks.push_back(g.num_blocks());
+      g.block_size.push_back(static_cast<int>(joint.rows.size()));
+      g.block_kind.push_back(blocks::BlockKind::multiplier);
+    }
     g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
   }
 }

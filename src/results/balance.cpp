@@ -125,7 +125,7 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
 
 double WorkMeter::step(const step::System& system, const step::State& state) {
   const plan::Plan& plan = system.plan();
-  const Field f = system.field_of(state, nodes_, scratch_);
+  const Field f = system.instant().field_of(state, nodes_, scratch_);
   double work = 0.0, free_mass = mass_;
   dissipation_rate_ = 0.0;
   force_ = Vec3<double>::zero();
@@ -146,13 +146,14 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
         Drive* drive = drives_.data() + w.first_drive;
         for (int k = 0; k < e.num_rows; ++k, ++drive)
           if (e.rows[k].law >= 0)
-            advance_drive(*drive, system.law_values()[static_cast<std::size_t>(e.rows[k].law)], -multipliers[k]);
+            advance_drive(*drive, system.instant().law_values()[static_cast<std::size_t>(e.rows[k].law)],
+                          -multipliers[k]);
         if (e.num_efforts > 0) {
           const elements::JointMotion m = elements::eval_joint_motion(e, f, turns);
           for (int k = 0; k < e.num_efforts; ++k, ++drive)
             if (e.efforts[k].law >= 0)
               advance_drive(*drive, e.efforts[k].coordinate == elements::Coordinate::angle ? m.angle : m.relative.x[2],
-                            system.law_values()[static_cast<std::size_t>(e.efforts[k].law)]);
+                            system.instant().law_values()[static_cast<std::size_t>(e.efforts[k].law)]);
         }
       } else if constexpr (E::role == elements::Role::load) {
         work += advance_load(e, f, ports_.data() + w.first_port);

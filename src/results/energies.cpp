@@ -115,7 +115,7 @@ void EnergyMeter::add(const step::System& system, const step::State& state, cons
                       elements::Energies& sum) {
   const auto count = static_cast<std::int64_t>(kind.groups.size());
   if (count == 0) return;
-  const elements::Field field = system.field(state);
+  const elements::Field field = system.instant().field(state);
   const std::vector<E>& array = plan::array_of<E>(system.plan().elements);
   parts_.assign(static_cast<std::size_t>((count + chunk_groups - 1) / chunk_groups), {});
   auto body = [&](std::int64_t begin, std::int64_t end) {
@@ -130,7 +130,7 @@ void EnergyMeter::add(const step::System& system, const step::State& state, cons
 Energies EnergyMeter::eval(const step::System& system, const step::State& state) {
   elements::Energies sum;
   std::apply([&](const auto&... kind) { (add(system, state, kind, sum), ...); }, kinds_);
-  const elements::Field field = system.field(state);
+  const elements::Field field = system.instant().field(state);
   Energies e;
   e.kinetic = sum.kinetic;
   e.strain = sum.strain;

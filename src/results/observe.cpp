@@ -52,7 +52,7 @@ PortMotion<Series> with_unsettled(const PortMotion<double>& p, const Port& port,
 }
 
 /// Adds the residual of an element to `sum`. In statics it includes the first-order effect of that increment, f + K
-/// eta; see step::System::settle.
+/// eta; see step/settle.hpp.
 template <class E>
 void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& f, const step::State& state,
                           double* sum) {
@@ -140,7 +140,7 @@ void with_beam_element(const plan::Plan& plan, int id, F&& f) {
 
 /// Motion of a sensor's point.
 PointMotion eval_sensor_point(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
-  const Field f = system.field(state);
+  const Field f = system.instant().field(state);
   if (s.beam < 0) return motion_of_port(s.port, f);
   PointMotion point;
   const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
@@ -206,7 +206,7 @@ struct ElementForce {
 void eval_joint_sensor(const step::System& system, const step::State& state, const plan::SensorPlan& s,
                        std::vector<double>& values) {
   const plan::JointPlan& joint = system.plan().joints[static_cast<std::size_t>(s.joint)];
-  const Field f = system.field(state);
+  const Field f = system.instant().field(state);
   plan::with_element(
       system.plan().elements, system.plan().directory[static_cast<std::size_t>(joint.element)], [&](const auto& e) {
         if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint) {
@@ -243,7 +243,7 @@ struct SensorReader {
     return *measured;
   }
   void append_section(std::vector<double>& values, const plan::SensorPlan& s) const {
-    const Field f = system.field(state);
+    const Field f = system.instant().field(state);
     const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
     const auto [k, local] = locate(beam, s.sensor.station);
     const auto element = static_cast<std::size_t>(k);
@@ -273,9 +273,9 @@ struct SensorReader {
       case scene::SensorKind::total_energy:
         return values.push_back(energies().kinetic + energies().strain + energies().potential);
       case scene::SensorKind::acceleration_split:
-        return append_split(s, system.field(state), eval_sensor_point(system, state, s), values);
+        return append_split(s, system.instant().field(state), eval_sensor_point(system, state, s), values);
       default:
-        append_point(s, system.field(state), eval_sensor_point(system, state, s), values);
+        append_point(s, system.instant().field(state), eval_sensor_point(system, state, s), values);
     }
   }
 };
@@ -304,7 +304,7 @@ void eval_motion_sensors(const step::System& system, const step::State& state, s
     else if (s.joint >= 0)
       eval_joint_sensor(system, state, s, values);
     else
-      append_point(s, system.field(state), eval_sensor_point(system, state, s), values);
+      append_point(s, system.instant().field(state), eval_sensor_point(system, state, s), values);
   }
 }
 
@@ -412,7 +412,7 @@ void add_arrows(const plan::Plan& plan, const Field& f, std::vector<records::Arr
 
 records::MotionFrame eval_motion(const step::System& system, const step::State& state) {
   const plan::Plan& plan = system.plan();
-  const Field f = system.field(state);
+  const Field f = system.instant().field(state);
   records::MotionFrame frame;
   frame.time = state.time;
   const int parts = intervals_of(plan);

@@ -41,7 +41,7 @@ Vec3<double> SpringWatch::rate_of(const elements::Spring& e, const elements::Fie
 /// Positions decide most cases. Velocities are used where the line has reversed, and in the first call.
 void SpringWatch::look(const step::System& system, const step::State& state) {
   if (seen_.empty() || passed_) return;
-  const elements::Field f = system.field(state);
+  const elements::Field f = system.instant().field(state);
   const auto& springs = plan::array_of<elements::Spring>(system.plan().elements);
   for (Seen& s : seen_) {
     const elements::Spring& e = springs[static_cast<std::size_t>(s.spring)];

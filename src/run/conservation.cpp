@@ -34,7 +34,7 @@ void Conservation::add_step(const step::State& state, double step_size) {
 
 void Conservation::check(const step::State& state, double step_size, records::Checks& c, FiniteGate& gate,
                          ErrorWatch* error_watch) {
-  const step::Violations gaps = system_.constraint_violations(state);
+  const step::Violations gaps = system_.constraints().violations(state);
   gate.look_at("the violation of constraints", gaps.position, state.time);
   c.constraint_violation_position = std::max(c.constraint_violation_position, gaps.position);
   if (gaps.relative_position > c.relative_violation_position) {

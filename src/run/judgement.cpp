@@ -36,15 +36,15 @@ void estimate_solution_error(step::System& system, const step::State& state, Sum
   if (system.counts().factorizations == 0) return;
   constexpr double least_motion = 1e-12;  // of the size of the structure: less is a few roundings of positions
   const plan::Plan& plan = system.plan();
-  std::vector<double> rhs(system.num_unknowns()), x(system.num_unknowns());
+  std::vector<double> rhs(system.places().size()), x(system.places().size());
   if (system.evaluate(state, {}, false)) return;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
   if (system.linear().solve(rhs.data(), x.data())) return;
   double moved = least_motion, shift = 0.0;
-  const std::vector<elements::NodeMotion>& nodes = system.nodes(state);
+  const std::vector<elements::NodeMotion>& nodes = nodes_in_space(system.plan(), state);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const motion::Frame<double>& from = plan.nodes[n].pose;
-    const motion::Vec6<double> eta = system.node_part(x.data(), static_cast<int>(n));
+    const motion::Vec6<double> eta = system.places().node_part(x.data(), static_cast<int>(n));
     for (int i = 0; i < 3; ++i) {
       moved = std::max(moved, std::abs(nodes[n].x.hi[i] - from.x[i]) / plan.length_scale);
       shift = std::max({shift, std::abs(eta[i]) / plan.length_scale, std::abs(eta[3 + i])});

@@ -29,7 +29,7 @@ std::int64_t bytes_of(const step::System& system) {
       sizeof(elements::NodeMotion) + sizeof(motion::Quaternion<double>) + 2 * sizeof(motion::Vec6<double>);
   constexpr std::int64_t states = 5, per_node_plan = 2600;  // plan, names, lists, the scene
   return elements * 2 + element_unknowns * 3 * 8 + nodes * (states * of_state + per_node_plan) +
-         static_cast<std::int64_t>(system.num_unknowns()) * 6 * 8;
+         static_cast<std::int64_t>(system.places().size()) * 6 * 8;
 }
 
 struct Built {

@@ -39,7 +39,7 @@ ReactionWatch::ReactionWatch(const step::System& system) : plan_(system.plan()) 
     for (std::size_t i = 0; i < j.rows.size(); ++i) {
       const auto row = static_cast<std::size_t>(j.rows[i]);
       w.rows.push_back({static_cast<std::size_t>(j.multiplier_begin) + row,
-                        static_cast<std::size_t>(system.block_begin(j.block)) + i,
+                        static_cast<std::size_t>(system.places().block_begin(j.block)) + i,
                         elements::is_length(e.rows[row].kind) ? 1.0 : 1.0 / system.moment_arm()});
     }
     w.found.joint = j.name;

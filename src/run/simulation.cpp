@@ -177,7 +177,7 @@ void Simulation::restore(const Moment& moment) {
   p.analysis = moment.analysis;
   p.stage = moment.stage;
   p.system.linear().forget_factor();
-  p.system.met_round_off() = {};
+  p.system.round_off().met() = {};
   if (p.stage != Impl::Stage::made) p.analysis->come_back();
 }
 

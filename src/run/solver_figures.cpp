@@ -24,7 +24,7 @@ double norm_of(step::System& system, const solve::Hierarchical& solver) {
          k < g.element_begin[static_cast<std::size_t>(e) + 1]; ++k) {
       const int block = g.element_blocks[static_cast<std::size_t>(k)];
       for (int i = 0; i < g.block_size[static_cast<std::size_t>(block)]; ++i)
-        unknowns.push_back(static_cast<std::size_t>(system.block_begin(block) + i));
+        unknowns.push_back(static_cast<std::size_t>(system.places().block_begin(block) + i));
     }
     const solve::ConstElementView a = solver.element(e);
     for (std::size_t i = 0, at = 0; i < unknowns.size(); ++i)
@@ -116,8 +116,8 @@ void add_backward_errors(step::System& system, const solve::Hierarchical& solver
         tree.fronts[static_cast<std::size_t>(tree.front_of_block[static_cast<std::size_t>(block)])];
     records::LevelFigures& level =
         levels[static_cast<std::size_t>(tree.subdomains[static_cast<std::size_t>(front.subdomain)].level)];
-    for (auto i = static_cast<std::size_t>(system.block_begin(block));
-         i < static_cast<std::size_t>(system.block_begin(block + 1)); ++i)
+    for (auto i = static_cast<std::size_t>(system.places().block_begin(block));
+         i < static_cast<std::size_t>(system.places().block_begin(block + 1)); ++i)
       level.backward_error = std::max(level.backward_error, std::abs(b[i] - product[i]) * rows[i] / size);
   }
 }

@@ -36,7 +36,7 @@ struct TrustLimits {
   double violation_step = 1e-3;
   /// Unbalanced force of steps in time accepted at the round-off floor, relative to the largest force. Reactions and
   /// section forces have this error. Reaching the floor alone is no reason for doubt, since the tolerance may just ask
-  /// for more digits than there are. In statics no force stays unbalanced, see step::System::settle.
+  /// for more digits than there are. In statics no force stays unbalanced, see step/settle.hpp.
   double unbalanced = 1e-6;
   /// Rejected steps per accepted step: above this, the step size does not suit the problem.
   double rejected = 0.1;

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "bough/motion/vectors_on.hpp"
+#include "element_parts.hpp"
 #include "moving_nodes.hpp"
 #include "newton_iteration.hpp"
-#include "system_parts.hpp"
 
 namespace bough::step {
 
@@ -49,7 +49,7 @@ struct Integrator {
   /// contracts only slowly. Writes all of `state`, its nodes in one pass.
   std::optional<Trouble> predict(System& system, State& state) const {
     state.step_size = start.step_size;
-    system.predict_multipliers(start, state);
+    system.corrections().predict_multipliers(start, state);
     state.turns = start.turns;
     return start.visit([&]<class G>(const NodesOn<G>& from) {
       NodesOn<G>& nodes = state.resize_as<G>(start);
@@ -102,7 +102,7 @@ void note_whole_end(System& system, const State& start, State& state) {
   state.predictor_order = least_missed(whole.misses);
   state.local_error = whole.error;
   state.increment = whole.increment;
-  system.note_multipliers(start, state);
+  system.corrections().note_multipliers(start, state);
 }
 
 Integrator make_rule(const StepOptions& options, const State& start) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "newton.hpp"
+#include "settle.hpp"
 
 namespace bough::step {
 
@@ -24,7 +25,7 @@ constexpr double divergence = 1e3;   ///< a larger change of relative motions me
 
 ArcLengthPath::ArcLengthPath(System& system, const StepOptions& options)
     : system_(system), options_(options), start_(make_initial_state(system.plan())) {
-  load_.assign(system.num_unknowns(), 0.0);
+  load_.assign(system.places().size(), 0.0);
   tangent_ = correction_ = x_ = by_spring_ = load_;
   moved_.assign(system.plan().nodes.size(), Vec6<double>::zero());
   direction_ = moved_;
@@ -32,7 +33,7 @@ ArcLengthPath::ArcLengthPath(System& system, const StepOptions& options)
 }
 
 Vec6<double> ArcLengthPath::node_part(const std::vector<double>& x, std::size_t node) const {
-  return system_.node_part(x.data(), static_cast<int>(node));
+  return system_.places().node_part(x.data(), static_cast<int>(node));
 }
 
 double ArcLengthPath::inner(const Vec6<double>& a, const Vec6<double>& b) const {
@@ -48,7 +49,8 @@ double ArcLengthPath::square(const Vectors& v) const {
 }
 
 Vec6<double> ArcLengthPath::way_between(const State& from, const State& to, std::size_t node) const {
-  const elements::NodeMotion &a = system_.nodes(from)[node], &b = system_.nodes(to)[node];
+  const elements::NodeMotion &a = nodes_in_space(system_.plan(), from)[node],
+                             &b = nodes_in_space(system_.plan(), to)[node];
   return motion::Se3::log(
       motion::relative(motion::PreciseFrame<double>{a.R, a.x}, motion::PreciseFrame<double>{b.R, b.x}));
 }
@@ -97,7 +99,7 @@ std::optional<ArcLengthPath::Spring> ArcLengthPath::find_spring(const solve::Fac
   const blocks::BlockGraph& g = system_.plan().graph;
   const auto size_of = [&](int block) { return g.block_size[static_cast<std::size_t>(block)]; };
   Spring spring;
-  spring.unknown = static_cast<std::size_t>(system_.block_begin(status.block) + status.local);
+  spring.unknown = static_cast<std::size_t>(system_.places().block_begin(status.block) + status.local);
   double work = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < x_.size(); ++i) {
     work += std::abs(load_[i] * x_[i]);
@@ -228,7 +230,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
   set_at_rest(state);
   state.time = start_.time + length * slope_;
   state.unsettled.clear();
-  system_.apply_along_tree(state, x_.data(), length);
+  system_.corrections().apply_along_tree(state, x_.data(), length);
   double previous = 0.0, change_of_load = std::abs(length * slope_);
   for (int k = 0;; ++k) {
     if (const auto t = system_.set_time(state.time)) return fail(t->text);
@@ -254,7 +256,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
     const auto df = keep_length(length);
     if (!df) return fail("the step along the path has no direction");
     previous = report.change;
-    report.change = system_.relative_size(state, correction_.data());
+    report.change = system_.corrections().relative_size(state, correction_.data());
     change_of_load = std::abs(*df);
     if (report.iterations < StepReport::remembered_changes)
       report.change_list[static_cast<std::size_t>(report.iterations)] = report.change;
@@ -262,7 +264,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
     if (!std::isfinite(report.change)) return fail("the iteration left finite numbers");
     if (report.change > divergence)
       return fail("the iteration diverges: " + describe(system_, report.residual, options_.tolerance));
-    system_.apply_along_tree(state, correction_.data(), 1.0);
+    system_.corrections().apply_along_tree(state, correction_.data(), 1.0);
     state.time += *df;
   }
   set_moved(state);
@@ -270,7 +272,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
   for (std::size_t n = 0; n < moved_.size(); ++n) along += inner(moved_[n], direction_[n]);
   if (along < least_alignment * length) return fail("the path bends sharply, or the step turned back");
   if (const auto t = check_shape(system_, state)) return fail(t->text);
-  system_.settle(state);
+  settle(system_, state);
   return report;
 }
 

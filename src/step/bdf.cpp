@@ -37,7 +37,7 @@ Bdf::Bdf(System& system, int order)
     : system_(system), order_(order), c_(order == 2 ? second : third), begin_(make_initial_state(system.plan())) {
   alpha_ = first_ = second_ = begin_;
   begin_.visit([&]<class G>(const NodesOn<G>& nodes) { history_.emplace<HistoryOn<G>>().resize(nodes.motion.size()); });
-  steady_error_.assign(system.num_unknowns(), 0.0);
+  steady_error_.assign(system.places().size(), 0.0);
 }
 
 template <class G>
@@ -129,7 +129,7 @@ void Bdf::eval_steady_error(const State& point) {
         const Vector snap = (1.0 / (apart * apart)) * (c - b - (b - a));
         error = (-0.25 * h_ * h_ * h_) * (snap + On::template bracket<double>(v, jerk));
       }
-      system_.set_node_part(steady_error_.data(), static_cast<int>(n), error);
+      system_.places().set_node_part(steady_error_.data(), static_cast<int>(n), error);
     }
   });
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "newton.hpp"
+#include "settle.hpp"
 
 namespace bough::step {
 
@@ -22,19 +23,19 @@ constexpr double divergence = 1e3;  ///< a larger change of relative motions mea
 void apply_damped(System& system, State& state, double size) {
   const std::vector<double>& x = system.work().x;
   if (size <= taken_by_node) {
-    system.apply(state, x.data());
+    system.corrections().apply(state, x.data());
     return;
   }
-  if (size <= taken_whole) return system.apply_along_tree(state, x.data(), 1.0);
+  if (size <= taken_whole) return system.corrections().apply_along_tree(state, x.data(), 1.0);
   State& before = system.work().before;
   before = state;
   double start = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) start += system.residual()[i] * x[i];
   double s = 1.0;
   for (int k = 1;; ++k) {
-    system.apply_along_tree(state, x.data(), s);
+    system.corrections().apply_along_tree(state, x.data(), s);
     const bool finite = !system.evaluate(state, {}, false);
-    const double g = finite ? system.power_along_tree(x.data()) : 0.0;
+    const double g = finite ? system.corrections().power_along_tree(system.residual().data(), x.data()) : 0.0;
     if (finite && (g * start >= 0.0 || std::abs(g) <= loose * std::abs(start))) return;
     if (k == max_trials) return;
     s *= finite ? std::clamp(start / (start - g), 0.1, 0.9) : 0.5;
@@ -73,7 +74,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
     for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
     if (const auto t = system.linear().solve(rhs.data(), x.data())) return fail(t->text);
     previous = report.change;
-    report.change = system.relative_size(state, x.data());
+    report.change = system.corrections().relative_size(state, x.data());
     if (report.iterations < StepReport::remembered_changes)
       report.change_list[static_cast<std::size_t>(report.iterations)] = report.change;
     ++report.iterations;
@@ -83,7 +84,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
     apply_damped(system, state, report.change);
   }
   if (const auto t = check_shape(system, state)) return fail(t->text);
-  system.settle(state);
+  settle(system, state);
   return report;
 }
 

@@ -33,7 +33,7 @@ class Filter {
     moved_.change_all([&]<class G>(NodesOn<G>& nodes) {
       nodes.motion = state_.on<G>().motion;
       for (std::size_t n = 0; n < nodes.motion.size(); ++n)
-        (by_mass ? nodes.motion[n].a : nodes.motion[n].v) += system_.part_on<G>(x.data(), static_cast<int>(n));
+        (by_mass ? nodes.motion[n].a : nodes.motion[n].v) += system_.places().part_on<G>(x.data(), static_cast<int>(n));
     });
     if (system_.evaluate(moved_, {}, false)) return false;
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += system_.residual()[i];
@@ -60,8 +60,8 @@ double inner(const System& system, const std::vector<double>& a, const std::vect
   const double arm = system.moment_arm();
   double sum = 0.0;
   for (std::size_t n = 0; n < system.plan().nodes.size(); ++n) {
-    const Vec6<double> u = system.node_part(a.data(), static_cast<int>(n)),
-                       w = system.node_part(b.data(), static_cast<int>(n));
+    const Vec6<double> u = system.places().node_part(a.data(), static_cast<int>(n)),
+                       w = system.places().node_part(b.data(), static_cast<int>(n));
     sum += lanes::dot(lanes::linear_part(u), lanes::linear_part(w)) +
            arm * arm * lanes::dot(lanes::angular_part(u), lanes::angular_part(w));
   }
@@ -79,7 +79,7 @@ int largest_node(const System& system, const std::vector<double>& x) {
   int found = -1;
   double largest = 0.0;
   for (std::size_t n = 0; n < system.plan().nodes.size(); ++n) {
-    const Vec6<double> u = system.node_part(x.data(), static_cast<int>(n));
+    const Vec6<double> u = system.places().node_part(x.data(), static_cast<int>(n));
     const double size = lanes::dot(lanes::linear_part(u), lanes::linear_part(u)) +
                         arm * arm * lanes::dot(lanes::angular_part(u), lanes::angular_part(u));
     if (size > largest) {
@@ -112,7 +112,7 @@ std::optional<GrowingVibration> find_growing_vibration(System& system, const Sta
   };
   Filter filter(system, state, shift);
   if (!filter.prepare()) return std::nullopt;
-  std::vector<double> x = any_vector(system.num_unknowns()), once, twice;
+  std::vector<double> x = any_vector(system.places().size()), once, twice;
   double ratio = 0.0;
   for (int k = 0; k < applications; ++k) {
     const double before = std::sqrt(inner(system, x, x));

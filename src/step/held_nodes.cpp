@@ -4,16 +4,14 @@
 #include <array>
 #include <cmath>
 
-#include "system_parts.hpp"
+#include "element_parts.hpp"
 
 namespace bough::step {
 
 using motion::Vec6;
 
 HeldNodes::HeldNodes(const plan::Plan& plan) : plan_(plan), kind_(plan.directory.size(), Kind::whole) {
-  std::vector<int> joint_of_element(plan.directory.size(), -1), held_of_node(plan.nodes.size(), -1);
-  for (std::size_t j = 0; j < plan.joints.size(); ++j)
-    joint_of_element[static_cast<std::size_t>(plan.joints[j].element)] = static_cast<int>(j);
+  std::vector<int> held_of_node(plan.nodes.size(), -1);
   for (std::size_t h = 0; h < plan.held.size(); ++h) {
     held_of_node[static_cast<std::size_t>(plan.held[h].node)] = static_cast<int>(h);
     for (int j : plan.held[h].joints)
@@ -23,7 +21,7 @@ HeldNodes::HeldNodes(const plan::Plan& plan) : plan_(plan), kind_(plan.directory
   for (std::size_t e = 0; e < plan.directory.size(); ++e) {
     int unknown = 0, part = 0;
     std::vector<std::int8_t> kept;
-    for_each_part(plan, e, joint_of_element[e], [&](int block, int size, int node) {
+    for_each_part(plan, e, [&](int block, int size, int node) {
       const int held = node < 0 ? -1 : held_of_node[static_cast<std::size_t>(node)];
       if (held >= 0 && kind_[e] != Kind::holds) {
         kind_[e] = Kind::trimmed;
@@ -72,18 +70,19 @@ void add_product(const E& e, const double* K, int part, Increment&& increment, V
 
 }  // namespace
 
-void HeldNodes::recover_multipliers(const System& system, State& state, const Vec6List* more, bool in_plane) const {
+void HeldNodes::recover_multipliers(const Instant& instant, const tree::Walker& walker, State& state,
+                                    const Vec6List* more, bool in_plane) const {
   const bool is_settled = state.unsettled.empty();
   elements::Field space;
   elements::FieldOn<motion::Se2, double> plane;
   if (in_plane)
-    plane = system.field_on<motion::Se2>(state);
+    plane = instant.field_on<motion::Se2>(state);
   else
-    space = system.field(state);
+    space = instant.field(state);
   const auto evaluate = [&]<class G>(const elements::FieldOn<G, double>& field, std::size_t id, double* residual,
                                      auto&& take) {
     std::array<double, elements::max_rows> scratch;
-    const int j = system.joint_of_element(static_cast<int>(id));
+    const int j = plan_.joint_of_element[id];
     const double* multipliers =
         j < 0 ? nullptr : multipliers_on<G>(plan_.joints[static_cast<std::size_t>(j)], state, scratch.data());
     plan::with_element(plan::arrays_on<G>(plan_), plan_.directory[id], [&](const auto& e) {
@@ -121,28 +120,28 @@ void HeldNodes::recover_multipliers(const System& system, State& state, const Ve
       }
     }
   };
-  system.walker().for_each_chunk(static_cast<std::int64_t>(plan_.held.size()), element_grain,
-                                 tree::make_chunk(by_node));
+  walker.for_each_chunk(static_cast<std::int64_t>(plan_.held.size()), element_grain, tree::make_chunk(by_node));
 }
 
-double HeldNodes::largest_impulse(const System& system, const State& state, const double* x) const {
-  const elements::Field field = system.field(state, {0.0, 0.0, true});
+double HeldNodes::largest_impulse(const Instant& instant, const UnknownPlaces& places, const State& state,
+                                  const double* x) const {
+  const elements::Field field = instant.field(state, {0.0, 0.0, true});
   const auto add_forces = [&](const Use& use, int, Vec6<double>& forces) {
     std::array<double, most_unknowns> residual;
     std::array<double, most_unknowns * most_unknowns> tangent;
-    const int j = system.joint_of_element(static_cast<int>(use.element));
+    const int j = plan_.joint_of_element[use.element];
     const plan::JointPlan* joint = j < 0 ? nullptr : &plan_.joints[static_cast<std::size_t>(j)];
     plan::with_element(plan_.elements, plan_.directory[use.element], [&](const auto& e) {
       elements::evaluate(e, field, joint == nullptr ? nullptr : state.multipliers.data() + joint->multiplier_begin,
                          j < 0 ? 0.0 : state.turns[static_cast<std::size_t>(j)], residual.data(), tangent.data());
       add_product(
-          e, tangent.data(), use.part, [&](int node) { return system.node_part(x, node); }, forces);
+          e, tangent.data(), use.part, [&](int node) { return places.node_part(x, node); }, forces);
       if (joint == nullptr || joint->block < 0) return;
       const int n = elements::num_unknowns(e), first_row = n - elements::num_multipliers(e);
       for (std::size_t k = 0; k < joint->rows.size(); ++k)
         for (int i = 0; i < 6; ++i)
           forces[i] += tangent[static_cast<std::size_t>((6 * use.part + i) * n + first_row + joint->rows[k])] *
-                       x[system.block_begin(joint->block) + static_cast<std::int64_t>(k)];
+                       x[places.block_begin(joint->block) + static_cast<std::int64_t>(k)];
     });
   };
   double most = 0.0;

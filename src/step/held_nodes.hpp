@@ -8,11 +8,11 @@
 
 #include "bough/plan/plan.hpp"
 #include "bough/solve/element_view.hpp"
-#include "bough/step/state.hpp"
+#include "bough/step/instant.hpp"
+#include "bough/step/unknown_places.hpp"
+#include "bough/tree/walker.hpp"
 
 namespace bough::step {
-
-class System;
 
 class HeldNodes {
  public:
@@ -32,9 +32,11 @@ class HeldNodes {
   /// Sets the multipliers of all joints that hold nodes, from W multipliers = -(forces of all other elements on the
   /// node). In statics these forces include the first-order correction f + K eta (State::unsettled). more: additional
   /// forces by node, or null. in_plane: evaluates the elements over SE(2) instead of those over SE(3).
-  void recover_multipliers(const System& system, State& state, const Vec6List* more, bool in_plane) const;
+  void recover_multipliers(const Instant& instant, const tree::Walker& walker, State& state, const Vec6List* more,
+                           bool in_plane) const;
   /// Largest entry of W^-1 M eta over all held nodes; eta are the increments of nodes in the vector x of unknowns.
-  double largest_impulse(const System& system, const State& state, const double* x) const;
+  double largest_impulse(const Instant& instant, const UnknownPlaces& places, const State& state,
+                         const double* x) const;
 
  private:
   enum class Kind : std::uint8_t { whole, trimmed, holds };

@@ -64,6 +64,42 @@ elements::Field Instant::surroundings(const elements::Slopes& slopes, bool with_
   return f;
 }
 
+elements::Field Instant::field(const State& state, const elements::Slopes& slopes, bool with_inertia) const {
+  elements::Field f = surroundings(slopes, with_inertia);
+  f.nodes = nodes_in_space(plan_, state).data();
+  return f;
+}
+
+elements::Field Instant::field_of(const State& state, std::span<const int> nodes,
+                                  std::vector<elements::NodeMotion>& scratch) const {
+  if (!state.is_planar()) return field(state);
+  elements::Field f = surroundings({}, true);
+  scratch.resize(plan_.nodes.size());
+  copy_nodes_in_space(plan_, state, nodes, scratch);
+  f.nodes = scratch.data();
+  return f;
+}
+
+template <>
+elements::Field Instant::field_on<motion::Se3>(const State& state, const elements::Slopes& slopes,
+                                               bool with_inertia) const {
+  return field(state, slopes, with_inertia);
+}
+
+template <>
+elements::FieldOn<motion::Se2, double> Instant::field_on<motion::Se2>(const State& state,
+                                                                      const elements::Slopes& slopes,
+                                                                      bool with_inertia) const {
+  const elements::Field space = surroundings(slopes, with_inertia);
+  elements::FieldOn<motion::Se2, double> f;
+  f.nodes = state.on<motion::Se2>().motion.data();
+  f.slopes = slopes;
+  f.around.gravity = motion::plane_part(lanes::transpose_times(plan_.planar->axes, space.around.gravity));
+  f.around.laws = space.around.laws;
+  f.around.has_inertia = space.around.has_inertia;
+  return f;
+}
+
 const std::vector<lanes::Taylor<double, 1>>& Instant::rate_series() const {
   for (std::size_t i = 0; i < rate_series_.size(); ++i) {
     rate_series_[i].c[0] = values_[i];

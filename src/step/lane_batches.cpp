@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "element_parts.hpp"
 #include "reduced_elements.hpp"
-#include "system_parts.hpp"
 
 namespace bough::step {
 
@@ -54,7 +54,7 @@ void LaneBatches<G>::place_rows(const solve::ElementBatch& batch, int num_rows, 
   int joints[elements::num_lanes];
   for (std::size_t l = 0; l < elements::num_lanes; ++l) {
     const int id = batch.element[l] >= 0 ? batch.element[l] : batch.element[static_cast<std::size_t>(slot.first)];
-    joints[l] = joint_of_element_[static_cast<std::size_t>(id)];
+    joints[l] = plan_->joint_of_element[static_cast<std::size_t>(id)];
   }
   slot.num_rows = num_rows;
   for (int r = 0; r < slot.num_rows; ++r)
@@ -115,16 +115,14 @@ void LaneBatches<G>::gather_singles() {
 template <class G>
 bool LaneBatches<G>::leaves_out(int element) const {
   const auto id = static_cast<std::size_t>(element);
-  return (held_ != nullptr && held_->leaves_out(id)) || is_idle_joint(*plan_, joint_of_element_[id]);
+  return (held_ != nullptr && held_->leaves_out(id)) || is_idle_joint(*plan_, plan_->joint_of_element[id]);
 }
 
 template <class G>
-void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
-                          const std::vector<int>& joint_of_element, const HeldNodes* held) {
+void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches, const HeldNodes* held) {
   plan_ = &plan;
   held_ = held;
   is_reduced_ = are_elements_reduced(plan);
-  joint_of_element_ = joint_of_element;
   batches_.assign(batches.begin(), batches.end());
   for (solve::ElementBatch& batch : batches_)
     for (int& id : batch.element)
@@ -242,8 +240,8 @@ void LaneBatches<G>::reduce_lanes(const solve::ElementBatch& batch, const elemen
     if (id < 0) continue;
     const auto place = static_cast<std::size_t>(id);
     const auto& e = array[static_cast<std::size_t>(plan_->directory[place].index)];
-    const int j = joint_of_element_[place], n = elements::num_unknowns(e);
-    const plan::JointPlan* const joint = j < 0 ? nullptr : &plan_->joints[static_cast<std::size_t>(j)];
+    const int n = elements::num_unknowns(e);
+    const plan::JointPlan* const joint = plan_->joint_of(place);
     const auto take = [&whole, l](const elements::LanePack* from, int count) {
       for (int i = 0; i < count; ++i) whole[static_cast<std::size_t>(i)] = from[i][l];
       return whole.data();

@@ -29,7 +29,7 @@ struct LaneArraysOf<std::tuple<std::vector<E>...>> {
 
 /// Destination of the results of elements.
 struct ElementResults {
-  double* parts;              ///< as System::parts_
+  double* parts;              ///< as ResidualSums::parts
   const std::int64_t* begin;  ///< by element: half the offset of its parts
   solve::AnySolver* solver;   ///< receives tangents; null: tangents are not computed
 
@@ -49,8 +49,7 @@ class LaneBatches {
   /// with elements of the same kind from nearby batches, in the first of these. A batch is evaluated in lanes if it
   /// then holds at least `least_lanes` elements that differ only in the values of their data. Joints that hold nodes at
   /// rest are omitted, since the solver does not see them.
-  void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
-            const std::vector<int>& joint_of_element, const HeldNodes* held);
+  void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches, const HeldNodes* held);
 
   /// Sets the motions of frames of prescribed motion, equal in all lanes. Needed only if the scene has such frames.
   void set_frames(const plan::FrameMotions& frames);
@@ -98,7 +97,6 @@ class LaneBatches {
   bool is_reduced_ = false;  ///< nodes have fewer unknowns than the elements' group has
   const HeldNodes* held_ = nullptr;
   std::vector<solve::ElementBatch> batches_;
-  std::span<const int> joint_of_element_;
   std::vector<Slot> slots_;
   std::vector<Uniform> uniform_;
   std::vector<int> places_;  ///< apart from the elements, which are large, so that they stay in the caches

@@ -40,6 +40,7 @@ LinearSolution::LinearSolution(const plan::Plan& plan, const scene::Solver& solv
 void LinearSolution::begin_matrices(bool are_symmetric) {
   solver_->trust_symmetry(are_symmetric);
   is_of_matrices_ = false;
+  ++num_matrices_;
 }
 
 bool LinearSolution::has_factor(const elements::Slopes& s) const {

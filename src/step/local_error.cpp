@@ -166,7 +166,7 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   Largest change;
   ErrorParts most;
   for (std::size_t n = 0; n < now_.size(); ++n) {
-    now_[n] = (1.0 / h) * system.node_part(x.data(), static_cast<int>(n));
+    now_[n] = (1.0 / h) * system.places().node_part(x.data(), static_cast<int>(n));
     const Watched& w = watched_[n];
     if (!w.place) continue;
     Largest error;

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "bough/elements/strain_path.hpp"
-#include "bough/step/system.hpp"
-#include "system_parts.hpp"
+#include "bough/step/corrections.hpp"
+#include "element_parts.hpp"
 
 namespace bough::step {
 
@@ -215,22 +215,22 @@ void with_num_nodes(int num_nodes, F&& f) {
 
 }  // namespace
 
-void System::apply_along_tree(State& state, const double* x, double factor) {
+void Corrections::apply_along_tree(State& state, const double* x, double factor) {
   PhaseTimer timer{clock_, counts_.update};
   MotionTree& tree = motion_tree_;
-  const elements::Field before = field(state);
+  const elements::Field before = instant_.field(state);
   auto by_group = [&](std::int64_t begin, std::int64_t end) {
     for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
       with_num_nodes(tree.beams[k].num_nodes, [&](auto n) {
         move_sections<n()>(
-            plan_, tree.beams[k], before, [&](int node) { return node_part(x, node); }, factor,
+            plan_, tree.beams[k], before, [&](int node) { return places_.node_part(x, node); }, factor,
             tree.sections.data() + tree.beams[k].first_section);
       });
   };
   walker_.for_each_chunk(static_cast<std::int64_t>(tree.beams.size()), batch_grain, tree::make_chunk(by_group));
   for (const MotionTree::Link& link : tree.links) {
     const auto node = static_cast<std::size_t>(link.node);
-    const Vec6<double> eta = node_part(x, link.node);
+    const Vec6<double> eta = places_.node_part(x, link.node);
     if (link.parent < 0) {
       tree.own_twists[node] = eta;
       tree.motions[node] = motion_of(factor * eta);
@@ -241,7 +241,7 @@ void System::apply_along_tree(State& state, const double* x, double factor) {
     const Frame<double> H{lanes::transpose_times(a.R, b.R), lanes::transpose_times(a.R, motion::difference(b.x, a.x))};
     RigidMotion own;
     if (link.section < 0) {  // joints take their relative increment exactly: hinges rotate, slides translate
-      tree.own_twists[node] = eta - motion::inverse_adjoint_times(H, node_part(x, link.parent));
+      tree.own_twists[node] = eta - motion::inverse_adjoint_times(H, places_.node_part(x, link.parent));
       own = motion_of(factor * tree.own_twists[node]);
     } else {
       const MotionTree::Section& section = tree.sections[static_cast<std::size_t>(link.section)];
@@ -260,7 +260,7 @@ void System::apply_along_tree(State& state, const double* x, double factor) {
   add_multipliers(state, x, factor);
 }
 
-double System::power_along_tree(const double* x) {
+double Corrections::power_along_tree(const double* residual, const double* x) {
   MotionTree& tree = motion_tree_;
   auto by_group = [&](std::int64_t begin, std::int64_t end) {
     for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
@@ -280,10 +280,9 @@ double System::power_along_tree(const double* x) {
     if (link.parent >= 0)
       tree.twists[node] +=
           motion::inverse_adjoint_times(tree.relative[node], tree.twists[static_cast<std::size_t>(link.parent)]);
-    power += lanes::dot(node_part(residual_.data(), link.node), tree.twists[node]);
+    power += lanes::dot(places_.node_part(residual, link.node), tree.twists[node]);
   }
-  for_each_multiplier(
-      *this, [&](int, std::size_t, std::size_t unknown, std::size_t) { power += residual_[unknown] * x[unknown]; });
+  for (const UnknownPlaces::Multiplier& at : places_.multipliers()) power += residual[at.unknown] * x[at.unknown];
   return power;
 }
 

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "bough/motion/vectors_on.hpp"
+#include "element_parts.hpp"
 #include "node_lanes.hpp"
-#include "system_parts.hpp"
 
 namespace bough::step {
 

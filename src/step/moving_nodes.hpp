@@ -11,6 +11,9 @@
 
 namespace bough::step {
 
+/// A change whose square may not be finite: the iteration is lost.
+inline constexpr double too_far = 1e100;
+
 /// Maps a vector of unknowns to increments of nodes. `begin` is the first unknown of each node, -1 for a node without
 /// unknowns.
 struct IncrementsOf {
@@ -58,7 +61,7 @@ template <class G>
 Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
                                 NodesOn<G>& state, std::size_t begin, std::size_t end);
 
-/// The largest squared relative displacement or rotation of the pairs (System::relative_size); infinite if one exceeds
+/// The largest squared relative displacement or rotation of the pairs (Corrections::relative_size); infinite if one exceeds
 /// the bound too_far or is not a number.
 template <class G>
 double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const double* x,

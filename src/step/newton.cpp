@@ -1,11 +1,12 @@
 #include "newton.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
-#include "system_parts.hpp"
+#include "element_parts.hpp"
 
 namespace bough::step {
 
@@ -47,7 +48,7 @@ IterationGoal make_goal(const State& start) {
 bool is_settled(const System& system, const ResidualSize& r, double tolerance, const IterationGoal& goal, double error,
                 double share) {
   const double arm = system.moment_arm(), usual = left_open * tolerance;
-  const ResidualSize& noise = system.met_round_off().size();
+  const ResidualSize& noise = system.round_off().met().size();
   const auto within = [&](double part, double whole, double rounding, double left) {
     return share * part <= std::max(left * whole, std::min(tolerance * whole, noise_spread * rounding));
   };
@@ -59,7 +60,7 @@ bool is_settled(const System& system, const ResidualSize& r, double tolerance, c
   if (!within(r.length, system.plan().length_scale, 0.0, usual) || !within(r.angle, 1.0, 0.0, usual)) return false;
   if (!forces_within(usual)) return false;
   if (goal.residual >= usual || error <= goal.round_off || forces_within(goal.residual)) return true;
-  const ResidualSize& floor = system.round_off_of_poses();
+  const ResidualSize& floor = system.round_off().of_poses();
   return share * r.force <= std::max(floor.force, goal.residual * force) &&
          share * r.moment <= std::max(floor.moment, goal.residual * moment);
 }
@@ -67,7 +68,7 @@ bool is_settled(const System& system, const ResidualSize& r, double tolerance, c
 bool is_noise(const System& system, const ResidualSize& r, double tolerance, double size, double expected) {
   constexpr double too_much = 16.0;  // more than a merely slower contraction explains
   if (size > tolerance || size <= too_much * expected) return false;
-  const ResidualSize& floor = system.round_off_floor();
+  const ResidualSize& floor = system.round_off().floor();
   return r.force <= floor.force && r.moment <= floor.moment;
 }
 
@@ -76,7 +77,7 @@ bool is_closed(const System& system, const ResidualSize& r, double tolerance) {
 }
 
 bool is_at_floor(const System& system, const ResidualSize& r, double tolerance) {
-  const ResidualSize& floor = system.round_off_floor();
+  const ResidualSize& floor = system.round_off().floor();
   return r.force <= std::max(roundings * floor.force, tolerance * r.force_scale) &&
          r.moment <= std::max(roundings * floor.moment, tolerance * r.moment_scale) &&
          r.length <= std::max(floor.length, tolerance * system.plan().length_scale) &&
@@ -103,7 +104,7 @@ std::string partners(System& system, int joint) {
 }  // namespace
 
 std::string describe(System& system, ResidualSize r, double tolerance) {
-  if (r.worst_force_node < 0 && r.worst_moment_node < 0 && r.worst_joint < 0) system.name_worst(r);
+  if (r.worst_force_node < 0 && r.worst_moment_node < 0 && r.worst_joint < 0) system.sums().name_worst(r);
   char text[200];
   const double length = system.plan().length_scale;
   if ((r.length > tolerance * length || r.angle > tolerance) && r.worst_joint >= 0) {
@@ -122,6 +123,24 @@ std::string describe(System& system, ResidualSize r, double tolerance) {
 }
 
 namespace {
+
+constexpr double folded =
+    -0.95;  ///< cosine of the angle between the ends of a beam element, below which it is bent too far
+
+/// The smallest of the numbers that threads note.
+class FirstBad {
+ public:
+  explicit FirstBad(std::int64_t none) : first_(none) {}
+  void note(std::int64_t id) {
+    std::int64_t known = first_.load(std::memory_order_relaxed);
+    while (id < known && !first_.compare_exchange_weak(known, id, std::memory_order_relaxed)) {
+    }
+  }
+  std::int64_t get() const { return first_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::int64_t> first_;
+};
 
 /// Whether joint `joint` of the plan flipped to its opposite pose, which satisfies the same constraints.
 bool is_flipped(const plan::Plan&, std::size_t, const elements::Joint& e, const elements::Field& f) {
@@ -176,7 +195,7 @@ std::optional<Trouble> describe_shape(const System& system, std::int64_t bad) {
   const plan::Plan& plan = system.plan();
   if (bad == static_cast<std::int64_t>(plan.directory.size())) return std::nullopt;
   const std::string& owner = plan.element_owner[static_cast<std::size_t>(bad)];
-  if (system.joint_of_element(static_cast<int>(bad)) >= 0)
+  if (system.plan().joint_of_element[static_cast<std::size_t>(bad)] >= 0)
     return Trouble{"joint '" + owner + "' flipped to the opposite pose within one step"};
   return Trouble{"an element of beam '" + owner + "' bends by nearly half a turn; use more elements"};
 }
@@ -192,7 +211,7 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
       for (std::int64_t id = begin; id < end; ++id)
         plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
           if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint) {
-            const auto joint = static_cast<std::size_t>(system.joint_of_element(static_cast<int>(id)));
+            const auto joint = static_cast<std::size_t>(system.plan().joint_of_element[static_cast<std::size_t>(id)]);
             if (is_flipped(plan, joint, e, f)) first_bad.note(id);
           } else if constexpr (std::decay_t<decltype(e)>::role == elements::Role::beam) {
             if (is_folded(e, f)) first_bad.note(id);
@@ -202,9 +221,9 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
     system.walker().for_each_chunk(count, element_grain, tree::make_chunk(by_element));
   };
   if (state.is_planar())
-    look(system.field_on<motion::Se2>(state));
+    look(system.instant().field_on<motion::Se2>(state));
   else
-    look(system.field(state));
+    look(system.instant().field(state));
   return describe_shape(system, first_bad.get());
 }
 
@@ -244,9 +263,9 @@ void accept_turns(const System& system, State& state) {
                                    tree::make_chunk(by_joint));
   };
   if (state.is_planar())
-    count(system.field_on<motion::Se2>(state));
+    count(system.instant().field_on<motion::Se2>(state));
   else
-    count(system.field(state));
+    count(system.instant().field(state));
 }
 
 }  // namespace bough::step

@@ -31,7 +31,7 @@ const StepReport& NewtonIteration::converge() {
   if (options_.single_solution) return report_;
   if (count() > 1) system_.linear().set_last_contraction(contraction_);
   system_.linear().note_service(served_);
-  system_.met_round_off().count_iteration();
+  system_.round_off().met().count_iteration();
   return report_;
 }
 
@@ -61,7 +61,7 @@ bool NewtonIteration::is_converged() {
   if (still && is_settled_at(error)) return true;
   const bool lies_still = shrunk_ > shrinks && change <= least_change;
   if (has_rate && change < tolerance && is_noise_at(lies_still ? 0.0 : expected_)) {
-    system_.met_round_off().note(report_.residual);
+    system_.round_off().met().note(report_.residual);
     if (still && is_settled_at(error)) return true;
   }
   if (!(change < tolerance)) return false;
@@ -115,7 +115,7 @@ std::optional<Trouble> NewtonIteration::correct(State& state) {
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system_.residual()[i];
   if (auto t = system_.linear().solve(rhs.data(), x.data(), false)) return t;
   previous_ = report_.change;
-  report_.change = system_.apply(state, x.data());
+  report_.change = system_.corrections().apply(state, x.data());
   if (count() < StepReport::remembered_changes) report_.change_list[static_cast<std::size_t>(count())] = report_.change;
   ++report_.iterations;
   if (!std::isfinite(report_.change)) return Trouble{"the iteration left finite numbers"};

@@ -4,7 +4,7 @@
 
 #include "bough/lanes/transpose.hpp"
 #include "bough/step/state.hpp"
-#include "system_parts.hpp"
+#include "element_parts.hpp"
 
 namespace bough::step {
 

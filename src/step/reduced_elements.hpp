@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "system_parts.hpp"
+#include "element_parts.hpp"
 
 namespace bough::step {
 

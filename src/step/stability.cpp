@@ -40,7 +40,8 @@ Stability::Stability(System& system) : system_(system) {
       const int n = g.block_size[at(b)];
       if (g.block_kind[at(b)] == blocks::BlockKind::motion && seen[at(b)]++ == 0)
         for (int i = 0; i < n; ++i)
-          diagonal_.push_back({at(system.block_begin(b) + i), e, static_cast<std::int64_t>(row + i) * size + row + i,
+          diagonal_.push_back({at(system.places().block_begin(b) + i), e,
+                               static_cast<std::int64_t>(row + i) * size + row + i,
                                plan.unknowns.is_length(i) ? of_length : 1.0});
       row += n;
     }
@@ -97,7 +98,7 @@ void Stability::copy_tangents() {
 
 void Stability::add_to_diagonal(double shift, double relative_shift) {
   if (relative_shift > 0.0) {
-    sizes_.assign(system_.num_unknowns(), 0.0);
+    sizes_.assign(system_.places().size(), 0.0);
     const blocks::BlockGraph& g = system_.plan().graph;
     for (int e = 0; e < g.num_elements(); ++e) {
       std::int64_t n = 0, row = 0;
@@ -107,7 +108,7 @@ void Stability::add_to_diagonal(double shift, double relative_shift) {
       for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k) {
         const int b = g.element_blocks[at(k)];
         for (int i = 0; i < g.block_size[at(b)]; ++i, ++row)
-          sizes_[at(system_.block_begin(b) + i)] += std::abs(a[row * n + row]);
+          sizes_[at(system_.places().block_begin(b) + i)] += std::abs(a[row * n + row]);
       }
     }
   }
@@ -157,7 +158,7 @@ double Stability::round_off(const std::vector<double>& x) const {
       const int b = g.element_blocks[at(k)];
       const bool moves = g.block_kind[at(b)] == blocks::BlockKind::motion;
       for (int i = 0; i < g.block_size[at(b)]; ++i)
-        own.push_back(moves ? std::abs(x[at(system_.block_begin(b) + i)]) : 0.0);
+        own.push_back(moves ? std::abs(x[at(system_.places().block_begin(b) + i)]) : 0.0);
     }
     const solve::ConstElementView a = system_.linear().solver().element(e);
     for (std::size_t i = 0; i < own.size(); ++i)
@@ -170,7 +171,7 @@ double Stability::round_off(const std::vector<double>& x) const {
 /// The first shift is zero. Once the shift is large enough, the smallest eigenvalues of K + shift N belong to the most
 /// negative ones of K, to which inverse iteration then converges.
 std::optional<UnstableMode> Stability::find_mode(const State& state) {
-  std::vector<double> x(system_.num_unknowns(), 0.0), y(x.size(), 0.0);
+  std::vector<double> x(system_.places().size(), 0.0), y(x.size(), 0.0);
   double shift = 0.0;
   bool is_stable = false;
   for (int k = 0; k < most_shifts && !is_stable; ++k) {
@@ -195,8 +196,8 @@ UnstableMode Stability::mode_of(const State& state, const std::vector<double>& x
   double most_moved = 0.0, most_turned = 0.0;
   const plan::Plan& plan = system_.plan();
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
-    const Vec6<double> eta = system_.node_part(x.data(), static_cast<int>(n));
-    const motion::Mat3<double>& R = system_.nodes(state)[n].R;
+    const Vec6<double> eta = system_.places().node_part(x.data(), static_cast<int>(n));
+    const motion::Mat3<double>& R = nodes_in_space(system_.plan(), state)[n].R;
     const Vec3<double> u = R * lanes::linear_part(eta), w = R * lanes::angular_part(eta);
     if (length_of(u) > most_moved) {
       most_moved = length_of(u);

@@ -2,8 +2,9 @@
 
 #include "bough/motion/vectors_on.hpp"
 #include "bough/step/advance.hpp"
+#include "bough/step/residual_rate.hpp"
+#include "element_parts.hpp"
 #include "start_parts.hpp"
-#include "system_parts.hpp"
 
 namespace bough::step {
 
@@ -15,7 +16,7 @@ constexpr elements::Slopes mass_slopes{0.0, 0.0, true};
 
 template <class G>
 typename G::template Vector<double> part_on(const System& system, const std::vector<double>& x, std::size_t node) {
-  return system.part_on<G>(x.data(), static_cast<int>(node));
+  return system.places().part_on<G>(x.data(), static_cast<int>(node));
 }
 
 constexpr double closed = 1e-13;  ///< relative constraint violation below which no further correction is made
@@ -27,8 +28,7 @@ constexpr double still = 1e-12;  ///< relative violation that a rate may cause i
 /// Copies values by multiplier into the constraint rows of a vector of unknowns: to[unknown of multiplier m] = from(m).
 template <class From>
 void set_rows(const System& system, std::vector<double>& to, From&& from) {
-  for_each_multiplier(
-      system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) { to[unknown] = from(multiplier); });
+  for (const UnknownPlaces::Multiplier& at : system.places().multipliers()) to[at.unknown] = from(at.multiplier);
 }
 
 /// Evaluates and factors the matrix [M G^T; G 0] at the present positions.
@@ -79,9 +79,9 @@ double speed_scale(const System& system, const State& state) {
 /// nearest in the mass metric. The mass matrix must be factored. `report` receives the size of the change.
 std::optional<Trouble> project_velocities(System& system, State& state, const std::vector<double>* offset,
                                           StartReport* report) {
-  std::vector<double> rhs(system.num_unknowns(), 0.0), x(system.num_unknowns());
+  std::vector<double> rhs(system.places().size(), 0.0), x(system.places().size());
   std::vector<Taylor<double, 3>> series;
-  system.constraint_series(state, nullptr, 0.0, series);
+  system.constraints().series(state, nullptr, 0.0, series);
   set_rows(system, rhs, [&](std::size_t m) { return -series[m].c[1] + (offset != nullptr ? (*offset)[m] : 0.0); });
   if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
   if (report != nullptr) {
@@ -90,9 +90,8 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
       return largest_entry<G>(system, [&](std::size_t n) { return part_on<G>(system, x, n); });
     });
     report->velocity_change = change > 0.0 ? change / std::max(before, change) : 0.0;
-    for_each_multiplier(system, [&](int, std::size_t, std::size_t unknown, std::size_t) {
-      report->velocity_impulse = std::max(report->velocity_impulse, std::abs(x[unknown]));
-    });
+    for (const UnknownPlaces::Multiplier& at : system.places().multipliers())
+      report->velocity_impulse = std::max(report->velocity_impulse, std::abs(x[at.unknown]));
     report->velocity_impulse = std::max(report->velocity_impulse, system.largest_held_impulse(state, x.data()));
   }
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
@@ -103,12 +102,10 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
 
 /// Computes G d by multiplier, d being a motion as a vector of unknowns. The present element matrices must contain G.
 void eval_rates(System& system, const std::vector<double>& d, std::vector<double>& rates) {
-  std::vector<double> product(system.num_unknowns());
+  std::vector<double> product(system.places().size());
   system.linear().multiply(d.data(), product.data());
   rates.assign(static_cast<std::size_t>(system.plan().num_multipliers), 0.0);
-  for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
-    rates[multiplier] = product[unknown];
-  });
+  for (const UnknownPlaces::Multiplier& at : system.places().multipliers()) rates[at.multiplier] = product[at.unknown];
 }
 
 /// Sets dq, and if asked for dv/dt, of all nodes to zero.
@@ -137,23 +134,22 @@ std::optional<Trouble> set_normal_velocities(System& system, State& state, const
 }
 
 std::optional<Trouble> solve_accelerations(System& system, State& state) {
-  std::vector<double> rhs(system.num_unknowns()), x(system.num_unknowns());
+  std::vector<double> rhs(system.places().size()), x(system.places().size());
   std::vector<Taylor<double, 3>> series;
   state.change_all([](auto& nodes) {
     for (auto& n : nodes.motion) n.a = std::decay_t<decltype(nodes)>::Vector::zero();
   });
   std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
   if (auto t = system.evaluate(state, mass_slopes, false)) return t;
-  system.constraint_series(state, nullptr, 0.0, series);
+  system.constraints().series(state, nullptr, 0.0, series);
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
   set_rows(system, rhs, [&](std::size_t m) { return -2.0 * series[m].c[2]; });
   if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) nodes.motion[n].a = part_on<G>(system, x, n);
   });
-  for_each_multiplier(system, [&](int, std::size_t multiplier, std::size_t unknown, std::size_t) {
-    state.multipliers[multiplier] = x[unknown];
-  });
+  for (const UnknownPlaces::Multiplier& at : system.places().multipliers())
+    state.multipliers[at.multiplier] = x[at.unknown];
   system.recover_multipliers(state);
   return std::nullopt;
 }
@@ -162,23 +158,23 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
   StartReport report;
   if (const auto t = system.set_time(state.time, laws::Side::right)) return failed(t->text);
   set_unmoved(state, true);
-  std::vector<double> rhs(system.num_unknowns(), 0.0), x(system.num_unknowns());
+  std::vector<double> rhs(system.places().size(), 0.0), x(system.places().size());
   int worst = 0;
 
   if (const auto t = factor_mass(system, state)) return failed(t->text);
-  double gap = system.relative_violation(state, 0, &worst);
+  double gap = system.constraints().relative_violation(state, 0, &worst);
   report.gap = gap;
   report.open_joint = gap > 0.0 ? worst : -1;
   for (int k = 0; fix_positions && gap > closed && k < 30; ++k) {
     std::vector<Taylor<double, 3>> series;
-    system.constraint_series(state, nullptr, 0.0, series);
+    system.constraints().series(state, nullptr, 0.0, series);
     std::fill(rhs.begin(), rhs.end(), 0.0);
     set_rows(system, rhs, [&](std::size_t m) { return -series[m].c[0]; });
     if (const auto t = system.linear().solve(rhs.data(), x.data())) return failed(t->text);
     set_rows(system, x, [](std::size_t) { return 0.0; });  // the impulses of this projection are not reactions
     State trial = state;
-    const double change = system.apply(trial, x.data());
-    const double next = system.relative_violation(trial, 0, &worst);
+    const double change = system.corrections().apply(trial, x.data());
+    const double next = system.constraints().relative_violation(trial, 0, &worst);
     if (!(next < gap)) break;  // round-off prevents a smaller violation
     report.position_correction = std::max(report.position_correction, change);
     state = std::move(trial);
@@ -188,7 +184,7 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
   if (gap > open) {
     char text[80];
     std::snprintf(text, sizeof text, " cannot be closed at time %.6g: a gap of %.3g is left", state.time,
-                  system.constraint_violation(state, 0));
+                  system.constraints().violation(state, 0));
     return failed(contradicting(system, worst, system.linear().solver().blocks_not_unique()) + text +
                   (fix_positions ? "" : "; what drives it jumps there"));
   }
@@ -198,10 +194,10 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
   if (const auto t = project_velocities(system, state, nullptr, &report)) return failed(t->text);
   speed = std::max(speed, speed_scale(system, state));
   if (report.velocity_change * speed <= still / step_size) report.velocity_change = 0.0;
-  if (system.relative_violation(state, 1, &worst) > apart * speed + still / step_size) {
+  if (system.constraints().relative_violation(state, 1, &worst) > apart * speed + still / step_size) {
     char text[80];
     std::snprintf(text, sizeof text, " cannot move as asked at time %.6g: a rate of %.3g is left", state.time,
-                  system.constraint_violation(state, 1));
+                  system.constraints().violation(state, 1));
     return failed(contradicting(system, worst, system.linear().solver().blocks_not_unique()) + text);
   }
 
@@ -217,10 +213,10 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   // modes faster than the step are filtered, smooth ones change by O(h) only.
   const double acceleration = (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h);
   const elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false};
-  std::vector<double> rate, rhs(system.num_unknowns()), x(system.num_unknowns());
+  std::vector<double> rate, rhs(system.places().size()), x(system.places().size());
   std::vector<Taylor<double, 3>> series;
-  system.evaluate_rate(state, rate, h);
-  system.constraint_series(state, nullptr, h, series);
+  evaluate_rate(system, state, rate, h);
+  system.constraints().series(state, nullptr, h, series);
   if (const auto t = system.evaluate(state, slopes, true)) return failed(t->text);
   if (const auto t = system.linear().factor(true, slopes)) return failed(t->text);
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -acceleration * rate[i];
@@ -238,7 +234,7 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
       nodes.algorithmic[n] = node.a + (c.shift() * h) * jerk;
       nodes.acceleration_trend[n] = h * jerk;
       nodes.trend_change[n] = NodesOn<G>::Vector::zero();
-      system.set_node_part(
+      system.places().set_node_part(
           steady_error.data(), static_cast<int>(n),
           typename NodesOn<G>::Vector((-h * h) *
                                       ((c.beta + 0.5 * c.shift() - 1.0 / 6.0) * jerk -

@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "bough/plan/element_cost.hpp"
-#include "system_parts.hpp"
+#include "element_parts.hpp"
 
 namespace bough::step {
 
@@ -47,7 +47,7 @@ void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, Step
 StepCost estimate_step_cost(const System& system) {
   const plan::Plan& plan = system.plan();
   StepCost cost;
-  for (const solve::ElementBatch& batch : system.batches()) add_elements(plan, batch, cost);
+  for (const solve::ElementBatch& batch : system.elements().batches()) add_elements(plan, batch, cost);
   const solve::SolverCounters counters = system.linear().solver().counters();
   const auto bytes = static_cast<double>(counters.memory_bytes);
   double alone = 0.0, in_registers = 0.0;  // fronts

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include "bough/elements/rows.hpp"
+#include "element_parts.hpp"
 #include "moving_nodes.hpp"
 #include "newton.hpp"
-#include "system_parts.hpp"
 #include "variational_on.hpp"
 
 namespace bough::step {
@@ -39,7 +40,7 @@ VariationalOn<G>::VariationalOn(System& system, const scene::Solver& solver, dou
   impulses_.assign(static_cast<std::size_t>(system.plan().num_multipliers), 0.0);
   row_goals_ = impulses_;
   series_.resize(impulses_.size());
-  rhs_.assign(system.num_unknowns(), 0.0);
+  rhs_.assign(system.places().size(), 0.0);
   x_ = rhs_;
 }
 
@@ -74,7 +75,7 @@ double VariationalOn<G>::elastic_inertia(double h) const {
 /// Sets the momenta that belong to the velocities in steps of size h.
 template <class G>
 std::optional<Trouble> VariationalOn<G>::set_momenta(State& state, double h) {
-  const Field field = system_.template field_on<G>(state);
+  const Field field = system_.instant().template field_on<G>(state);
   if (auto t = sums_.evaluate(system_, field, state.turns, elastic_inertia(h), Sums::Want::momenta)) return t;
   Vectors& momentum = state.change<G>().momentum;
   for (std::size_t n = 0; n < D_.size(); ++n) momentum[n] = sums_.momentum(n);
@@ -117,9 +118,9 @@ template <class G>
 std::optional<Trouble> VariationalOn<G>::evaluate_step(const State& next, double h, ResidualSize& size) {
   PhaseTimer timer{system_.clock(), system_.counts().assemble};
   ++system_.counts().evaluations;
-  const Field middle = system_.template field_on<G>(mid_);
+  const Field middle = system_.instant().template field_on<G>(mid_);
   if (auto t = sums_.evaluate(system_, middle, base_.turns, elastic_inertia(h), Sums::Want::forces)) return t;
-  Field end = system_.template field_on<G>(next);
+  Field end = system_.instant().template field_on<G>(next);
   end.around.laws = end_laws_.data();
   after_.evaluate(system_, end, base_.turns);
   for (Vector& f : residual_) f = Vector::zero();
@@ -156,11 +157,11 @@ std::optional<Trouble> VariationalOn<G>::evaluate_step(const State& next, double
   }
   for (const Place& p : after_.places())
     for (int k = 0; k < p.joint->num_rows; ++k) {
-      const elements::RowKind kind = p.joint->rows[k].kind;
-      const bool is_length = kind == elements::RowKind::along || kind == elements::RowKind::screw;
+      const bool is_length = elements::is_length(p.joint->rows[k].kind);
       const double gap = std::abs(after_.value(p, k));
       if (!std::isfinite(gap)) return Trouble{"the constraints of a joint are not finite"};
-      if (gap > std::max(size.length, size.angle)) size.worst_joint = system_.joint_of_element(p.element);
+      if (gap > std::max(size.length, size.angle))
+        size.worst_joint = system_.plan().joint_of_element[static_cast<std::size_t>(p.element)];
       (is_length ? size.length : size.angle) = std::max(is_length ? size.length : size.angle, gap);
     }
   return std::nullopt;
@@ -169,7 +170,7 @@ std::optional<Trouble> VariationalOn<G>::evaluate_step(const State& next, double
 /// Round-off floor of the residual, from the momenta and the present element matrices.
 template <class G>
 ResidualSize VariationalOn<G>::round_off_floor(double h) const {
-  ResidualSize floor = system_.round_off_floor();
+  ResidualSize floor = system_.round_off().floor();
   constexpr double eps = std::numeric_limits<double>::epsilon();
   for (std::size_t n = 0; n < D_.size(); ++n)
     for (int i = 0; i < G::dof; ++i) {
@@ -212,14 +213,14 @@ void VariationalOn<G>::add_elastic_tangent(const E& e, const Field& field, doubl
 template <class G>
 void VariationalOn<G>::evaluate_tangent(const elements::Slopes& slopes, double h) {
   PhaseTimer timer{system_.clock(), system_.counts().assemble};
-  const Field field = system_.template field_on<G>(mid_, slopes);
+  const Field field = system_.instant().template field_on<G>(mid_, slopes);
   const plan::Plan& plan = system_.plan();
   constexpr double no_multipliers[elements::max_rows] = {};
-  system_.begin_matrices();
+  system_.linear().begin_matrices();
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const int id = system_.linear().tree().element_order[static_cast<std::size_t>(k)];
-      const int joint = system_.joint_of_element(id);
+      const int joint = system_.plan().joint_of_element[static_cast<std::size_t>(id)];
       plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
         using E = std::decay_t<decltype(e)>;
         double residual[G::dof * E::num_ports + E::num_multipliers];
@@ -229,7 +230,7 @@ void VariationalOn<G>::evaluate_tangent(const elements::Slopes& slopes, double h
         elements::add_gyroscopic(e, field, 1.0 / h, matrix.data());
         add_elastic_tangent(e, field, h, matrix.data());
         if constexpr (E::role == elements::Role::joint) set_rows_of(id, matrix.data());
-        system_.set_matrix(id, elements::num_unknowns(e), matrix.data());
+        system_.elements().set_matrix(id, elements::num_unknowns(e), matrix.data());
       });
     }
   };
@@ -305,13 +306,13 @@ StepReport VariationalOn<G>::iterate(State& next, const StepOptions& options, do
       if (const auto t = system_.linear().factor(k == 0, slopes)) return fail(*t);
     }
     for (std::size_t n = 0; n < D_.size(); ++n)
-      system_.set_node_part(rhs_.data(), static_cast<int>(n), Vector(-1.0 * residual_[n]));
+      system_.places().set_node_part(rhs_.data(), static_cast<int>(n), Vector(-1.0 * residual_[n]));
     set_rows([&](const Place& place, int row) { return -after_.value(place, row); });
     if (const auto t = system_.linear().solve(rhs_.data(), x_.data())) return fail(*t);
     for (std::size_t n = 0; n < D_.size(); ++n)
       D_[n] += 2.0 * On::template inverse_tangent_times<double>(Vector(0.5 * D_[n]), node_part(n));
     previous = report.change;
-    report.change = 2.0 * system_.apply(mid_, x_.data());
+    report.change = 2.0 * system_.corrections().apply(mid_, x_.data());
     if (report.iterations < StepReport::remembered_changes)
       report.change_list[static_cast<std::size_t>(report.iterations)] = report.change;
     ++report.iterations;
@@ -341,9 +342,9 @@ StepReport VariationalOn<G>::try_step(State& state, const StepOptions& options, 
   if (state.last_step > 0.0 && state.last_step != h)
     if (failed(set_momenta(base_, h))) return report;
   if (failed(system_.set_time(end_time, laws::Side::left))) return report;
-  end_laws_ = system_.law_values();
+  end_laws_ = system_.instant().law_values();
   if (failed(system_.set_time(end_time - 0.5 * h, laws::Side::left))) return report;
-  before_.evaluate(system_, system_.template field_on<G>(base_), base_.turns);
+  before_.evaluate(system_, system_.instant().template field_on<G>(base_), base_.turns);
   mid_.multipliers = state.multipliers;
   predict(h);
   report = iterate(state, options, h);

@@ -113,11 +113,11 @@ class VariationalOn final : public Integrator {
   void compare_rates(const State& state, double h);
   double largest(const Vectors& vectors) const;
 
-  Vector node_part(std::size_t node) const { return system_.part_on<G>(x_.data(), static_cast<int>(node)); }
-  bool is_held(std::size_t node) const { return system_.node_begin(static_cast<int>(node)) < 0; }
+  Vector node_part(std::size_t node) const { return system_.places().part_on<G>(x_.data(), static_cast<int>(node)); }
+  bool is_held(std::size_t node) const { return system_.places().node_begin(static_cast<int>(node)) < 0; }
   void set_rows_of(int element, double* matrix) const;
   std::size_t row_unknown(const Place& p, int k) const {
-    return static_cast<std::size_t>(system_.block_begin(p.plan->block) + k);
+    return static_cast<std::size_t>(system_.places().block_begin(p.plan->block) + k);
   }
   template <class From>
   void set_rows(From&& from) {  ///< sets the constraint rows of rhs_ from a function of joint and row

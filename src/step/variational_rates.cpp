@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "element_parts.hpp"
 #include "moving_nodes.hpp"
-#include "system_parts.hpp"
 #include "variational_on.hpp"
 
 namespace bough::step {
@@ -31,8 +31,8 @@ std::optional<Trouble> VariationalOn<G>::factor_mass(const State& state, double 
   mass_step_ = 0.0;
   if (const auto t = mass_.set_time(state.time, laws::Side::left)) return t;
   if (const auto t = mass_.evaluate(state, mass_slopes, true)) return t;
-  const Field field = mass_.template field_on<G>(state);
-  mass_.begin_matrices();
+  const Field field = mass_.instant().template field_on<G>(state);
+  mass_.linear().begin_matrices();
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k)
       plan::with_element(plan::arrays_on<G>(mass_.plan()), mass_.plan().directory[static_cast<std::size_t>(k)],
@@ -40,7 +40,7 @@ std::optional<Trouble> VariationalOn<G>::factor_mass(const State& state, double 
                            constexpr int most = G::dof * std::decay_t<decltype(e)>::num_ports + elements::max_rows;
                            double elastic[most * most] = {};
                            elements::add_elastic_mass(e, field, elastic_inertia(h), elastic);
-                           mass_.add_matrix(static_cast<int>(k), elements::num_unknowns(e), elastic);
+                           mass_.elements().add_matrix(static_cast<int>(k), elements::num_unknowns(e), elastic);
                          });
   };
   mass_.walker().for_each_chunk(static_cast<std::int64_t>(mass_.plan().directory.size()), element_grain,
@@ -66,11 +66,12 @@ std::optional<Trouble> VariationalOn<G>::solve_mass(State& moving, std::vector<d
   for (const Vector& g : goal_)
     for (int i = 0; i < G::dof; ++i) scale = std::max(scale, std::abs(g[i]));
   for (int k = 0; k < most; ++k) {
-    const Field field = system_.template field_on<G>(moving);
+    const Field field = system_.instant().template field_on<G>(moving);
     if (auto t = sums_.evaluate(system_, field, moving.turns, elastic_inertia(h), Sums::Want::momenta)) return t;
     for (std::size_t n = 0; n < goal_.size(); ++n) left_[n] = goal_[n] - sums_.momentum(n);
     after_.add_forces(multipliers.data(), -1.0, left_);
-    for (std::size_t n = 0; n < goal_.size(); ++n) system_.set_node_part(rhs_.data(), static_cast<int>(n), left_[n]);
+    for (std::size_t n = 0; n < goal_.size(); ++n)
+      system_.places().set_node_part(rhs_.data(), static_cast<int>(n), left_[n]);
     set_rows([&](const Place& place, int row) { return row_goals_[place.multiplier(row)]; });
     if (auto t = mass_.linear().solve(rhs_.data(), x_.data())) return t;
     const double change = add_solution(moving, multipliers, scale);
@@ -121,7 +122,7 @@ template <class G>
 std::optional<Trouble> VariationalOn<G>::solve_velocities(State& state, double h) {
   Nodes& moved = change(state);
   for (std::size_t n = 0; n < D_.size(); ++n) moved[n].v = (2.0 / h) * D_[n] - nodes(base_)[n].v;
-  system_.constraint_series(state, nullptr, 0.0, series_);
+  system_.constraints().series(state, nullptr, 0.0, series_);
   for (std::size_t m = 0; m < impulses_.size(); ++m) {
     row_goals_[m] = -series_[m].c[1];
     impulses_[m] = 0.0;
@@ -143,7 +144,7 @@ std::optional<Trouble> VariationalOn<G>::solve_accelerations(State& state, doubl
   // started from earlier multipliers it does not.
   if (mass_step_ > 0.0 && mass_.linear().solver().last_status().deficiency != 0)
     std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
-  system_.constraint_series(state, nullptr, 0.0, series_);
+  system_.constraints().series(state, nullptr, 0.0, series_);
   for (std::size_t m = 0; m < impulses_.size(); ++m) row_goals_[m] = -2.0 * series_[m].c[2];
   NodesOn<G>& mid = mid_.change<G>();
   mid.motion = nodes(state);
@@ -155,7 +156,7 @@ std::optional<Trouble> VariationalOn<G>::solve_accelerations(State& state, doubl
   for (auto& n : mid.motion) n.a = Vector::zero();
   if (auto t = system_.evaluate(mid_, {}, false)) return t;
   for (std::size_t n = 0; n < D_.size(); ++n) {
-    goal_[n] = -1.0 * system_.part_on<G>(system_.residual().data(), static_cast<int>(n));
+    goal_[n] = -1.0 * system_.places().part_on<G>(system_.residual().data(), static_cast<int>(n));
     mid.motion[n].v = nodes(state)[n].a;
   }
   if (auto t = solve_mass(mid_, state.multipliers, h, 1e-12)) return t;
@@ -170,7 +171,7 @@ std::optional<Trouble> VariationalOn<G>::solve_accelerations(State& state, doubl
 template <class G>
 std::optional<Trouble> VariationalOn<G>::recover_multipliers(State& state, double h) {
   if (system_.plan().held.empty()) return std::nullopt;
-  if (auto t = sums_.evaluate(system_, system_.template field_on<G>(mid_), state.turns, elastic_inertia(h),
+  if (auto t = sums_.evaluate(system_, system_.instant().template field_on<G>(mid_), state.turns, elastic_inertia(h),
                               Sums::Want::momenta))
     return t;
   Nodes& moved = change(state);

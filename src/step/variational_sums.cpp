@@ -1,7 +1,7 @@
 /// Momenta and forces of a state, summed by node, and its constraint rows.
 #include <cmath>
 
-#include "system_parts.hpp"
+#include "element_parts.hpp"
 #include "variational_on.hpp"
 
 namespace bough::step {
@@ -42,7 +42,7 @@ std::optional<Trouble> MomentumSums<G>::evaluate(const System& system, const ele
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const auto id = static_cast<std::size_t>(tree.element_order[static_cast<std::size_t>(k)]);
-      const int joint = system.joint_of_element(static_cast<int>(id));
+      const int joint = system.plan().joint_of_element[static_cast<std::size_t>(id)];
       const auto at = static_cast<std::size_t>(begin_[id]);
       plan::with_element(plan::arrays_on<G>(plan), plan.directory[id], [&](const auto& e) {
         elements::evaluate_momentum(e, field, joint < 0 ? 0.0 : turns[static_cast<std::size_t>(joint)], elastic_inertia,
@@ -108,8 +108,9 @@ void ConstraintRows<G>::evaluate(const System& system, const elements::FieldOn<G
   auto by_joint = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const Place& p = places_[static_cast<std::size_t>(k)];
-      elements::evaluate_rows(*p.joint, field, turns[static_cast<std::size_t>(system.joint_of_element(p.element))],
-                              values_.data() + p.value_begin, gradients_.data() + p.gradient_begin);
+      const int joint = system.plan().joint_of_element[static_cast<std::size_t>(p.element)];
+      elements::evaluate_rows(*p.joint, field, turns[static_cast<std::size_t>(joint)], values_.data() + p.value_begin,
+                              gradients_.data() + p.gradient_begin);
     }
   };
   system.walker().for_each_chunk(static_cast<std::int64_t>(places_.size()), element_grain, tree::make_chunk(by_joint));

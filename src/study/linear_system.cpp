@@ -28,10 +28,10 @@ struct Entry {
 
 /// Columns of the sum of the element matrices; rows ascending, contributions in the order of the elements.
 std::vector<std::vector<Entry>> gather_columns(step::System& system) {
-  std::vector<std::vector<Entry>> columns(system.num_unknowns());
+  std::vector<std::vector<Entry>> columns(system.places().size());
   std::vector<std::int64_t> place;
   for (int e = 0; e < system.plan().graph.num_elements(); ++e) {
-    const solve::ConstElementView a = system.matrix_of(e, place);
+    const solve::ConstElementView a = system.elements().matrix_of(e, place);
     const auto n = static_cast<std::int64_t>(place.size());
     for (std::int64_t i = 0; i < n; ++i)
       for (std::int64_t j = 0; j < n; ++j) {
@@ -116,9 +116,9 @@ const char* node_text(plan::Motions motions) {
 std::vector<UnknownBlock> make_blocks(const step::System& system) {
   const plan::Plan& plan = system.plan();
   std::vector<UnknownBlock> out;
-  for (int b = 0; b < system.num_blocks(); ++b) {
-    UnknownBlock block{system.linear().owners().name(b), "", static_cast<int>(system.block_begin(b)),
-                       system.block_size(b)};
+  for (int b = 0; b < system.places().num_blocks(); ++b) {
+    UnknownBlock block{system.linear().owners().name(b), "", static_cast<int>(system.places().block_begin(b)),
+                       system.places().block_size(b)};
     const int joint = system.linear().owners().joint(b);
     if (joint < 0) {
       block.components = node_text(plan.unknowns.motions);

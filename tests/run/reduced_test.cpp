@@ -125,7 +125,7 @@ void compare(const scene::Scene& scene, const elements::Slopes& slopes) {
   const std::vector<double> residual = expand(flat, whole, flat.system.residual());
   EXPECT_LT(largest_difference(residual, whole.system.residual()), 1e-12 * largest_of(residual));
   // So for the tangent, column by column.
-  std::vector<double> x(flat.system.num_unknowns(), 0.0), product(x.size()), other(whole.system.num_unknowns());
+  std::vector<double> x(flat.system.places().size(), 0.0), product(x.size()), other(whole.system.places().size());
   for (std::size_t i = 0; i < x.size(); ++i) {
     x[i] = 1.0;
     flat.system.linear().multiply(x.data(), product.data());
@@ -218,7 +218,7 @@ TEST(Unknowns, of_a_plane_are_three_a_node_and_the_rows_that_hold_in_it) {
   EXPECT_EQ(rows("ball"), 2u);
   EXPECT_EQ(rows("tube"), 2u);
   EXPECT_EQ(rows("crank"), 3u);  // two displacements and the angle that is driven
-  EXPECT_EQ(rig.system.num_unknowns(),
+  EXPECT_EQ(rig.system.places().size(),
             3 * (rig.plan.nodes.size() - 1) + 2 + 2 + 2 + 2 + 3 + 1);  // of all but the wall; held rotation of the mass
 }
 
@@ -330,7 +330,7 @@ scene::Scene masses(const std::string& second) {
 TEST(Unknowns, of_point_masses_on_a_line_are_one_each) {
   const Rig rig(masses("[0, 0, -2]"));
   EXPECT_EQ(rig.plan.unknowns.motions, plan::Motions::line);
-  EXPECT_EQ(rig.system.num_unknowns(), 2u);
+  EXPECT_EQ(rig.system.places().size(), 2u);
   EXPECT_TRUE(decision(rig.plan, "translation").reason.find("nothing turns") != std::string::npos);
   EXPECT_FALSE(decision(rig.plan, "translation").taken);
 }
@@ -338,7 +338,7 @@ TEST(Unknowns, of_point_masses_on_a_line_are_one_each) {
 TEST(Unknowns, of_point_masses_are_three_each) {
   const Rig rig(masses("[0.5, 0.2, -2]"));
   EXPECT_EQ(rig.plan.unknowns.motions, plan::Motions::translation);
-  EXPECT_EQ(rig.system.num_unknowns(), 6u);
+  EXPECT_EQ(rig.system.places().size(), 6u);
   EXPECT_EQ(decision(rig.plan, "line").reason, "'a': it takes hold off the line");
 }
 

@@ -64,7 +64,7 @@ Drift drift_of(const std::string& text, double h, double duration) {
   results::EnergyMeter meter(s.system().plan());
   const motion::Vec6<double> first = meter.eval(s.system(), s.state()).momentum;
   const auto spin = [&s] {
-    const elements::NodeMotion& n = s.system().nodes(s.state()).front();
+    const elements::NodeMotion& n = nodes_in_space(s.system().plan(), s.state()).front();
     return n.R * motion::Vec3<double>{{1.0 * n.v[3], 2.0 * n.v[4], 3.0 * n.v[5]}};
   };
   const motion::Vec3<double> first_spin = spin();

@@ -40,7 +40,7 @@ Direct::Direct(const scene::Scene& scene)
 Vec3<double> Direct::position(const std::string& node) const {
   for (std::size_t i = 0; i < plan.nodes.size(); ++i)
     if (plan.nodes[i].name == node) {
-      const motion::PositionPair<double>& x = system.nodes(state)[i].x;
+      const motion::PositionPair<double>& x = nodes_in_space(system.plan(), state)[i].x;
       return x.hi + x.lo;
     }
   throw std::out_of_range(node);

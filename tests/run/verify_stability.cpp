@@ -157,7 +157,7 @@ int dense_unstable(const step::System& system) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
   std::vector<std::int64_t> unknowns;
   for (int e = 0; e < system.plan().graph.num_elements(); ++e) {
-    const solve::ConstElementView a = system.matrix_of(e, unknowns);
+    const solve::ConstElementView a = system.elements().matrix_of(e, unknowns);
     const std::size_t size = unknowns.size();
     for (std::size_t i = 0; i < size; ++i)
       for (std::size_t j = 0; j < size; ++j) {
@@ -169,7 +169,7 @@ int dense_unstable(const step::System& system) {
   const blocks::BlockGraph& g = system.plan().graph;
   std::vector<Eigen::Index> motion, rows;
   for (int b = 0; b < g.num_blocks(); ++b)
-    for (std::int64_t u = system.block_begin(b); u < system.block_begin(b + 1); ++u)
+    for (std::int64_t u = system.places().block_begin(b); u < system.places().block_begin(b + 1); ++u)
       (g.block_kind[static_cast<std::size_t>(b)] == blocks::BlockKind::motion ? motion : rows).push_back(u);
   Eigen::MatrixXd K = A(motion, motion), G = A(rows, motion);
   const Eigen::VectorXd scale = K.diagonal().cwiseAbs().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();

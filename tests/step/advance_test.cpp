@@ -28,7 +28,7 @@ TEST(Advance, symmetric_parts_are_mirror_images_bit_by_bit) {
   ASSERT_TRUE(rig.system.linear().takes_symmetric_parts());
   std::vector<std::int64_t> unknowns;
   for (int e = 0; e < rig.plan.graph.num_elements(); ++e) {
-    const solve::ConstElementView a = rig.system.matrix_of(e, unknowns);
+    const solve::ConstElementView a = rig.system.elements().matrix_of(e, unknowns);
     const auto n = static_cast<std::int64_t>(unknowns.size());
     for (std::int64_t i = 0; i < n; ++i)
       for (std::int64_t j = 0; j < i; ++j)

@@ -50,7 +50,7 @@ long allocations_of_steps(const scene::Scene& scene, int steps) {
     if (!advance(system, state, options, k * 1e-3).converged) return -1;
     if (check_shape(system, state)) return -1;
     accept_turns(system, state);
-    (void)system.constraint_violation(state, 1);
+    (void)system.constraints().violation(state, 1);
   }
   return allocations - first;
 }

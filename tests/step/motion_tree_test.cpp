@@ -31,7 +31,7 @@ struct Fixture {
   plan::Plan plan = plan::make_plan(scene);
   System system{plan, scene.solver, schedule::make_serial_walker()};
   State state = make_initial_state(plan);
-  std::vector<double> x = std::vector<double>(system.num_unknowns());
+  std::vector<double> x = std::vector<double>(system.places().size());
 
   Fixture() {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::sin(1.0 + 2.7 * static_cast<double>(i));
@@ -73,8 +73,8 @@ TEST(MotionTree, moves_nodes_as_they_move_alone_to_first_order) {
     std::vector<double> x = f.x;
     for (double& v : x) v *= size;
     State alone = f.state, carried = f.state;
-    f.system.apply(alone, x.data());
-    f.system.apply_along_tree(carried, x.data(), 1.0);
+    f.system.corrections().apply(alone, x.data());
+    f.system.corrections().apply_along_tree(carried, x.data(), 1.0);
     const double d = largest(f.plan, alone, carried);
     EXPECT_LT(d, 100.0 * size * size);
     if (last > 0.0) {
@@ -90,9 +90,9 @@ TEST(MotionTree, tells_the_power_at_the_end_of_the_path) {
   constexpr double s = 0.3, h = 1e-6;
   for (std::size_t k = 0; k < f.x.size(); ++k) f.x[k] *= 0.2;
   State before = f.state, after = f.state, at = f.state;
-  f.system.apply_along_tree(before, f.x.data(), s - h);
-  f.system.apply_along_tree(after, f.x.data(), s + h);
-  f.system.apply_along_tree(at, f.x.data(), s);
+  f.system.corrections().apply_along_tree(before, f.x.data(), s - h);
+  f.system.corrections().apply_along_tree(after, f.x.data(), s + h);
+  f.system.corrections().apply_along_tree(at, f.x.data(), s);
   ASSERT_FALSE(f.system.evaluate(at, {}, false));
   double expected = 0.0, scale = 0.0;
   const auto add = [&](double force, double speed) {
@@ -101,16 +101,16 @@ TEST(MotionTree, tells_the_power_at_the_end_of_the_path) {
   };
   for (std::size_t n = 0; n < at.num_nodes(); ++n) {
     const motion::Vec6<double> twist = (0.5 / h) * difference(f.plan, before, after, n);
-    const auto begin = static_cast<std::size_t>(f.system.block_begin(static_cast<int>(n)));
+    const auto begin = static_cast<std::size_t>(f.system.places().block_begin(static_cast<int>(n)));
     for (std::size_t i = 0; i < 6; ++i) add(f.system.residual()[begin + i], twist[static_cast<int>(i)]);
   }
   for (const plan::JointPlan& j : f.plan.joints) {
-    const auto begin = static_cast<std::size_t>(f.system.block_begin(j.block));
+    const auto begin = static_cast<std::size_t>(f.system.places().block_begin(j.block));
     const int size = f.plan.graph.block_size[static_cast<std::size_t>(j.block)];
     for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i)
       add(f.system.residual()[begin + i], f.x[begin + i]);
   }
-  EXPECT_NEAR(f.system.power_along_tree(f.x.data()), expected, 1e-8 * scale);
+  EXPECT_NEAR(f.system.corrections().power_along_tree(f.system.residual().data(), f.x.data()), expected, 1e-8 * scale);
 }
 
 }  // namespace

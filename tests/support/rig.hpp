@@ -22,7 +22,7 @@ struct Rig {
         state(step::make_initial_state(plan)) {}
 
   /// The nodes in space.
-  const std::vector<elements::NodeMotion>& nodes() const { return system.nodes(state); }
+  const std::vector<elements::NodeMotion>& nodes() const { return nodes_in_space(system.plan(), state); }
 
   /// A consistent start and steps of generalized-alpha.
   void run(int steps, double h) {
@@ -54,15 +54,16 @@ inline void expect_same_nodes(const step::State& a, const step::State& b) {
 
 /// A vector of the system with fewer unknowns, in the unknowns of the system with more; the additional ones are zero.
 inline std::vector<double> expand(const Rig& fewer, const Rig& more, const std::vector<double>& x) {
-  std::vector<double> out(more.system.num_unknowns(), 0.0);
+  std::vector<double> out(more.system.places().size(), 0.0);
   for (std::size_t n = 0; n < fewer.plan.nodes.size(); ++n)
-    more.system.set_node_part(out.data(), static_cast<int>(n), fewer.system.node_part(x.data(), static_cast<int>(n)));
+    more.system.places().set_node_part(out.data(), static_cast<int>(n),
+                                       fewer.system.places().node_part(x.data(), static_cast<int>(n)));
   for (std::size_t j = 0; j < fewer.plan.joints.size(); ++j) {
     const plan::JointPlan &from = fewer.plan.joints[j], &to = more.plan.joints[j];
     for (std::size_t r = 0; r < from.rows.size() && from.block >= 0; ++r) {
       const auto row = std::find(to.rows.begin(), to.rows.end(), from.rows[r]) - to.rows.begin();
-      out[static_cast<std::size_t>(more.system.block_begin(to.block) + row)] =
-          x[static_cast<std::size_t>(fewer.system.block_begin(from.block)) + r];
+      out[static_cast<std::size_t>(more.system.places().block_begin(to.block) + row)] =
+          x[static_cast<std::size_t>(fewer.system.places().block_begin(from.block)) + r];
     }
   }
   return out;

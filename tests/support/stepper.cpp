@@ -34,7 +34,7 @@ Stepper::Stepper(const scene::Scene& scene)
 }
 
 Stepper::~Stepper() {
-  expect_sound_solutions(system_.counts().backward_error_max, static_cast<double>(system_.num_unknowns()));
+  expect_sound_solutions(system_.counts().backward_error_max, static_cast<double>(system_.places().size()));
 }
 
 step::StartReport Stepper::start(double step_size) {
@@ -59,7 +59,7 @@ void Stepper::step(double end_time) {
 Sample Stepper::sample() const {
   Sample s;
   s.time = state_.time;
-  for (const elements::NodeMotion& n : system_.nodes(state_)) {
+  for (const elements::NodeMotion& n : nodes_in_space(system_.plan(), state_)) {
     s.positions.insert(s.positions.end(), n.R.m, n.R.m + 9);
     for (int i = 0; i < 3; ++i) s.positions.push_back(n.x.hi[i] + n.x.lo[i]);
     s.velocities.insert(s.velocities.end(), n.v.v, n.v.v + 6);

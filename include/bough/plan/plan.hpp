@@ -165,6 +165,7 @@ struct Plan {
   std::vector<ElementPlace> directory;     ///< by global element id
   std::vector<std::string> element_owner;  ///< name of the part of the scene that each element belongs to
   std::vector<JointPlan> joints;
+  std::vector<int> joint_of_element;  ///< index in joints, by global element id; -1: the element is no joint
   int num_multipliers = 0;
   std::vector<BeamPlan> beams;
   std::vector<LawPlan> laws;
@@ -186,6 +187,12 @@ struct Plan {
   double length_scale = 1.0;       ///< [m], size of the structure
   Mobility mobility;
   std::vector<std::string> notes;  ///< choices that the plan made where the scene leaves them open, in words
+
+  /// The joint whose rows an element evaluates; null: the element is no joint.
+  const JointPlan* joint_of(std::size_t element) const {
+    const int j = joint_of_element[element];
+    return j < 0 ? nullptr : &joints[static_cast<std::size_t>(j)];
+  }
 };
 
 /// The elements on the group G. Those in space always exist.

@@ -1,12 +1,14 @@
 #pragma once
 /// What surrounds a scene at one time: values of its time functions, and frames of prescribed motion.
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "bough/elements/evaluate.hpp"
 #include "bough/lanes/taylor.hpp"
 #include "bough/plan/frames.hpp"
 #include "bough/plan/plan.hpp"
+#include "bough/step/state.hpp"
 #include "bough/step/trouble.hpp"
 
 namespace bough::step {
@@ -25,8 +27,16 @@ class Instant {
   /// itself.
   const elements::CarrierMotion* observer() const { return plan_.observer < 0 ? nullptr : &frames_.observer; }
   const plan::FrameMotions& frames() const { return frames_; }
-  /// Gravity, laws and frames: all of a field but the nodes.
-  elements::Field surroundings(const elements::Slopes& slopes, bool with_inertia) const;
+  /// Gravity, laws and frames with the nodes of a state in space, whatever the group of the scene: what elements,
+  /// sensors and balances in space evaluate. The field refers to the state.
+  elements::Field field(const State& state, const elements::Slopes& slopes = {}, bool with_inertia = true) const;
+  /// The same with some of the nodes only; the others must not be read. scratch: holds these nodes.
+  elements::Field field_of(const State& state, std::span<const int> nodes,
+                           std::vector<elements::NodeMotion>& scratch) const;
+  /// The same with the nodes on the group G, which must be SE(3) or the group of the scene.
+  template <class G>
+  elements::FieldOn<G, double> field_on(const State& state, const elements::Slopes& slopes = {},
+                                        bool with_inertia = true) const;
 
   /// Laws with their first derivative, and with three. They tell two: the third is a one-sided difference over a step
   /// to come, 0 where `step_size` is, since it enters terms of order h^2 alone. Kept until asked for again.
@@ -38,6 +48,8 @@ class Instant {
  private:
   void set_frames();
   void set_turned_laws();
+  /// All of a field but the nodes.
+  elements::Field surroundings(const elements::Slopes& slopes, bool with_inertia) const;
 
   const plan::Plan& plan_;
   double time_ = 0.0;
@@ -47,5 +59,10 @@ class Instant {
   mutable Series series_;
   mutable std::vector<lanes::Taylor<double, 1>> rate_series_;
 };
+template <>
+elements::Field Instant::field_on<motion::Se3>(const State&, const elements::Slopes&, bool) const;
+template <>
+elements::FieldOn<motion::Se2, double> Instant::field_on<motion::Se2>(const State&, const elements::Slopes&,
+                                                                      bool) const;
 
 }  // namespace bough::step

@@ -48,7 +48,9 @@ class LinearSolution {
 
   /// To be called before element matrices are written: what is known of those present holds no longer. are_symmetric:
   /// they will be, to the last bit.
-  void begin_matrices(bool are_symmetric);
+  void begin_matrices(bool are_symmetric = false);
+  /// Counts the calls of begin_matrices: what was derived from the element matrices holds while it does not change.
+  long num_matrices() const { return num_matrices_; }
   /// Factors the element matrices now present, made with these slopes.
   [[nodiscard]] std::optional<Trouble> factor(bool rescale, const elements::Slopes& slopes);
   /// Whether the present factor was made with these slopes (of some earlier state).
@@ -104,6 +106,7 @@ class LinearSolution {
   elements::Slopes factored_;  ///< slopes of the present factor
   bool is_factored_ = false;
   bool is_of_matrices_ = false;
+  long num_matrices_ = 0;
   bool is_trusted_ = false;  ///< it, or one like it, gave a solution that needed no refinement
   int unchecked_ = 0;        ///< solutions since the last that was checked
   bool takes_symmetric_parts_;

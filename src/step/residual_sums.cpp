@@ -1,18 +1,20 @@
-/// System: sums of the elements' parts by block and by held node, and how large they are.
+#include "bough/step/residual_sums.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "bough/lanes/pack.hpp"
-#include "bough/step/system.hpp"
+#include "element_parts.hpp"
 #include "held_nodes.hpp"
-#include "system_parts.hpp"
+#include "node_size.hpp"
 
 namespace bough::step {
 
 namespace {
+
+constexpr std::array<double, most_unknowns> no_magnitudes{};
 
 /// The bits of sizes are ordered as the sizes are, with those of what is not finite above all others, and no trap
 /// minds to compare them.
@@ -45,39 +47,27 @@ struct Registers {
   std::array<std::int64_t, Size> largest() const { return __builtin_bit_cast(std::array<std::int64_t, Size>, most); }
 };
 
-double largest_of_three(const double* a) { return std::max(std::max(std::abs(a[0]), std::abs(a[1])), std::abs(a[2])); }
-
-struct NodeSize {
-  double force, moment;
-};
-/// Largest entries of the force and the moment at a node.
-inline NodeSize size_up(plan::Motions motions, const double* a) {
-  switch (motions) {
-    case plan::Motions::spatial:
-      return {largest_of_three(a), largest_of_three(a + 3)};
-    case plan::Motions::planar:
-      return {std::max(std::abs(a[0]), std::abs(a[1])), std::abs(a[2])};
-    case plan::Motions::translation:
-      return {largest_of_three(a), 0.0};
-    case plan::Motions::line:
-      break;
-  }
-  return {std::abs(a[0]), 0.0};
-}
-
 }  // namespace
 
+ResidualSums::ResidualSums(const plan::Plan& plan, const UnknownPlaces& places, const BlockOwners& owners,
+                           const HeldNodes* held)
+    : plan_(plan), places_(places), residual_(places.size(), 0.0), is_length_(places.size(), 0) {
+  place_parts(owners, held);
+  for (const UnknownPlaces::Multiplier& m : places.multipliers()) is_length_[m.unknown] = m.is_of_length;
+  chunk_sizes_.resize((sums_.size() + block_grain - 1) / block_grain, {{}, true});
+}
+
 /// Where the parts of elements lie, and which of them add up to a block, or to the forces on a node that is held.
-void System::place_parts() {
-  const auto count = static_cast<std::size_t>(num_blocks());
+void ResidualSums::place_parts(const BlockOwners& owners, const HeldNodes* held) {
+  const auto count = static_cast<std::size_t>(places_.num_blocks());
   std::vector<std::vector<std::int64_t>> uses(count + plan_.held.size());
   std::vector<std::size_t> held_of_node(plan_.nodes.size(), 0);
   for (std::size_t h = 0; h < plan_.held.size(); ++h) held_of_node[static_cast<std::size_t>(plan_.held[h].node)] = h;
   element_begin_.assign(1, 0);
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
     std::int64_t at = element_begin_.back();
-    const bool counts = !held_ || !held_->leaves_out(e);
-    for_each_part(plan_, e, joint_of_element_[e], [&](int block, int size, int node) {
+    const bool counts = held == nullptr || !held->leaves_out(e);
+    for_each_part(plan_, e, [&](int block, int size, int node) {
       if (block >= 0)
         uses[static_cast<std::size_t>(block)].push_back(2 * at);
       else if (counts && node >= 0)
@@ -87,34 +77,34 @@ void System::place_parts() {
     element_begin_.push_back(at);
   }
   parts_.assign(static_cast<std::size_t>(2 * element_begin_.back()), 0.0);
-  for (const int block : plan_.block_of_node) node_begin_.push_back(block < 0 ? -1 : block_begin(block));
   const auto add = [&](const std::vector<std::int64_t>& list, std::int64_t unknown, int size, int owner) {
     const auto begin = static_cast<std::int64_t>(uses_.size());
     uses_.insert(uses_.end(), list.begin(), list.end());
     sums_.push_back({begin, static_cast<std::int64_t>(uses_.size()), unknown, size, owner});
   };
-  const BlockOwners& owners = linear_.owners();
-  for (int b = 0; b < num_blocks(); ++b)
-    if (owners.node(b) >= 0) add(uses[static_cast<std::size_t>(b)], block_begin(b), block_size(b), owners.node(b));
+  for (int b = 0; b < places_.num_blocks(); ++b)
+    if (owners.node(b) >= 0)
+      add(uses[static_cast<std::size_t>(b)], places_.block_begin(b), places_.block_size(b), owners.node(b));
   num_node_sums_ = static_cast<std::int64_t>(sums_.size());
-  for (int b = 0; b < num_blocks(); ++b)
-    if (owners.joint(b) >= 0) add(uses[static_cast<std::size_t>(b)], block_begin(b), block_size(b), owners.joint(b));
+  for (int b = 0; b < places_.num_blocks(); ++b)
+    if (owners.joint(b) >= 0)
+      add(uses[static_cast<std::size_t>(b)], places_.block_begin(b), places_.block_size(b), owners.joint(b));
   num_row_sums_ = static_cast<std::int64_t>(sums_.size()) - num_node_sums_;
   for (std::size_t h = 0; h < plan_.held.size(); ++h)
     add(uses[count + h], -1, plan_.unknowns.count, plan_.held[h].node);
 }
 
-/// Of an element that is evaluated alone.
-void System::set_parts(std::size_t element, const double* residual, const double* magnitude) {
-  const int j = joint_of_element_[element];
+void ResidualSums::set_parts(std::size_t element, const double* residual, const double* magnitude) {
+  const plan::JointPlan* const joint = plan_.joint_of(element);
   const auto size = static_cast<int>(element_begin_[element + 1] - element_begin_[element]);
-  const int rows = j < 0 ? 0 : static_cast<int>(plan_.joints[static_cast<std::size_t>(j)].rows.size());
+  const int rows = joint == nullptr ? 0 : static_cast<int>(joint->rows.size());
+  if (magnitude == nullptr) magnitude = no_magnitudes.data();
   join_parts(plan_.unknowns.count, size, rows, residual, magnitude, parts_.data() + 2 * element_begin_[element]);
 }
 
 /// Adds up parts of nodes that have unknowns, in a fixed order.
 template <int Count>
-System::ChunkSize System::sum_nodes(std::size_t begin, std::size_t end) {
+ResidualSums::ChunkSize ResidualSums::sum_nodes(std::size_t begin, std::size_t end) {
   Registers<2 * Count> sums;
   for (std::size_t k = begin; k < end; ++k) {
     const Sum& to = sums_[k];
@@ -144,7 +134,7 @@ System::ChunkSize System::sum_nodes(std::size_t begin, std::size_t end) {
 }
 
 /// Rows are those of one joint each: nothing is added up.
-void System::copy_rows(std::size_t begin, std::size_t end, ChunkSize& chunk) {
+void ResidualSums::copy_rows(std::size_t begin, std::size_t end, ChunkSize& chunk) {
   std::int64_t most[2] = {0, 0};  // of angles, of lengths
   for (std::size_t k = begin; k < end; ++k) {
     const Sum& to = sums_[k];
@@ -163,7 +153,7 @@ void System::copy_rows(std::size_t begin, std::size_t end, ChunkSize& chunk) {
 }
 
 /// Forces on a node that is held: balanced by the joints that hold it, they only tell how large forces are.
-void System::sum_held_node(const Sum& sum, ChunkSize& chunk) const {
+void ResidualSums::sum_held_node(const Sum& sum, ChunkSize& chunk) const {
   std::array<double, 12> total{};
   for (std::int64_t use = sum.use_begin; use < sum.use_end; ++use)
     for (int i = 0; i < 2 * sum.size; ++i)
@@ -177,7 +167,7 @@ void System::sum_held_node(const Sum& sum, ChunkSize& chunk) const {
 }
 
 /// Sums [begin, end), a chunk, and how large they are.
-void System::sum_parts(std::int64_t begin, std::int64_t end) {
+void ResidualSums::sum_chunk(std::int64_t begin, std::int64_t end) {
   const auto until = [begin, end](std::int64_t last) { return static_cast<std::size_t>(std::clamp(last, begin, end)); };
   const std::size_t nodes_end = until(num_node_sums_), rows_end = until(num_node_sums_ + num_row_sums_);
   auto k = static_cast<std::size_t>(begin);
@@ -190,7 +180,7 @@ void System::sum_parts(std::int64_t begin, std::int64_t end) {
   chunk_sizes_[static_cast<std::size_t>(begin / block_grain)] = chunk;
 }
 
-ResidualSize System::residual_size() const {
+ResidualSize ResidualSums::size() const {
   ResidualSize s;
   for (const ChunkSize& chunk : chunk_sizes_) {
     const ResidualSize& c = chunk.size;
@@ -204,7 +194,7 @@ ResidualSize System::residual_size() const {
   return s;
 }
 
-void System::name_worst(ResidualSize& size) const {
+void ResidualSums::name_worst(ResidualSize& size) const {
   ResidualSize most;
   for (std::size_t k = 0; k < static_cast<std::size_t>(num_node_sums_ + num_row_sums_); ++k) {
     const Sum& sum = sums_[k];
@@ -225,57 +215,20 @@ void System::name_worst(ResidualSize& size) const {
   }
 }
 
-const ResidualSize& System::round_off_floor() const {
-  if (!round_off_floor_) round_off_floor_ = sum_round_off([](int) { return true; });
-  return *round_off_floor_;
+void ResidualSums::sum(const tree::Walker& walker) {
+  auto by_sum = [&](std::int64_t begin, std::int64_t end) { sum_chunk(begin, end); };
+  walker.for_each_chunk(static_cast<std::int64_t>(sums_.size()), block_grain, tree::make_chunk(by_sum));
 }
 
-const ResidualSize& System::round_off_of_poses() const {
-  const auto is_between = [this](int element) {
-    bool is = false;
-    plan::with_element(plan_.elements, plan_.directory[static_cast<std::size_t>(element)],
-                       [&is](const auto& e) { is = std::decay_t<decltype(e)>::num_ports > 1; });
-    return is;
-  };
-  if (!round_off_of_poses_) round_off_of_poses_ = sum_round_off(is_between);
-  return *round_off_of_poses_;
+bool ResidualSums::is_finite() const {
+  return std::all_of(chunk_sizes_.begin(), chunk_sizes_.end(), [](const ChunkSize& c) { return c.is_finite; });
 }
 
-template <class Counts>
-ResidualSize System::sum_round_off(Counts&& counts) const {
-  constexpr double eps = std::numeric_limits<double>::epsilon();
-  std::vector<double>& floor = floor_;
-  std::vector<std::int64_t>& unknowns = floor_unknowns_;
-  floor.assign(num_unknowns(), 0.0);
-  const auto count = static_cast<std::size_t>(plan_.unknowns.count);
-  for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
-    if (!counts(static_cast<int>(e))) continue;
-    const solve::ConstElementView K = matrix_of(static_cast<int>(e), unknowns);
-    const int j = joint_of_element_[e];
-    const std::size_t n = unknowns.size(), rows = j < 0 || plan_.joints[static_cast<std::size_t>(j)].block < 0
-                                                      ? 0
-                                                      : plan_.joints[static_cast<std::size_t>(j)].rows.size();
-    const std::size_t node_columns = n - rows;  // which come first
-    for (std::size_t row = 0; row < n; ++row) {
-      if (unknowns[row] < 0) continue;
-      double sum = 0.0;
-      for (std::size_t col = 0; col < node_columns; ++col)
-        if (unknowns[col] >= 0)
-          sum += std::abs(K[static_cast<std::int64_t>(row * n + col)]) *
-                 (plan_.unknowns.is_length(static_cast<int>(col % count)) ? element_length_[e] : 1.0);
-      floor[static_cast<std::size_t>(unknowns[row])] += eps * sum;
-    }
-  }
-  ResidualSize s;
-  for (int b = 0; b < num_blocks(); ++b) {
-    if (linear_.owners().joint(b) >= 0) continue;
-    const NodeSize size = size_up(plan_.unknowns.motions, floor.data() + block_begin(b));
-    s.force = std::max(s.force, size.force);
-    s.moment = std::max(s.moment, size.moment);
-  }
-  s.length = 8.0 * eps * plan_.length_scale;
-  s.angle = 8.0 * eps;
-  return s;
+std::optional<std::size_t> ResidualSums::first_not_finite() const {
+  for (std::size_t e = 0; e < plan_.directory.size(); ++e)
+    for (std::int64_t i = 2 * element_begin_[e]; i < 2 * element_begin_[e + 1]; ++i)
+      if (!std::isfinite(parts_[static_cast<std::size_t>(i)])) return e;
+  return std::nullopt;
 }
 
 }  // namespace bough::step

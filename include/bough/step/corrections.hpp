@@ -1,0 +1,68 @@
+#pragma once
+/// Corrections of a state: solutions of the linear system, applied to nodes and multipliers, and their sizes.
+#include <array>
+#include <vector>
+
+#include "bough/step/cpu_clock.hpp"
+#include "bough/step/element_evaluation.hpp"
+#include "bough/step/motion_tree.hpp"
+
+namespace bough::step {
+
+struct IncrementsOf;
+struct PairLanes;
+
+/// Squared errors of predictions by polynomials of order 0, 1 and 2 through past values.
+using Misses = std::array<double, 3>;
+/// The order with the smallest error; of equal ones the lowest.
+int least_missed(const Misses& misses);
+
+class Corrections {
+ public:
+  Corrections(const plan::Plan& plan, const UnknownPlaces& places, const Instant& instant,
+              const ElementLengths& lengths, const tree::Walker& walker, CpuClock& clock, WorkCounts& counts);
+  ~Corrections();
+
+  /// Size of a correction: the largest change of relative motions, of elements' nodes with respect to each other,
+  /// lengths relative to the element [-] and angles [rad], which no rigid motion of the whole changes:
+  ///   |R_b w_b - R_a w_a|,  |R_b u_b - R_a u_a - (R_a w_a) x (x_b - x_a)| / length          for increments (u; w) of
+  ///     nodes a and b
+  double relative_size(const State& state, const double* x) const;
+  /// Applies a solution: each node moves by its own increment, H <- H exp(eta), multipliers grow by theirs. Returns
+  /// relative_size.
+  double apply(State& state, const double* x);
+  /// Applies `factor` of a solution, nodes carrying each other along the motion tree; statics only (State's dq does not
+  /// change).
+  ///   S_b = (H_ab^-1 S_a H_ab) exp(factor (eta_b - Ad(H_ab)^-1 eta_a)),  H_b <- H_b S_b   for a node b that a carries
+  /// It agrees with apply to first order, but relative motions take their increments exactly: a beam that bends far in
+  /// one correction is not stretched, as it is where nodes move independently, along their tangents.
+  void apply_along_tree(State& state, const double* x, double factor);
+  /// Power of a residual at the end of the path that apply_along_tree took last with `x`:  sum of residual .
+  /// d(increment)/d(factor).
+  double power_along_tree(const double* residual, const double* x);
+  /// Adds `factor` times the multipliers of a solution.
+  void add_multipliers(State& state, const double* x, double factor) const;
+
+  /// Predicts the multipliers at the end of the next step of generalized-alpha, by the polynomial of
+  /// State::multiplier_order.
+  void predict_multipliers(const State& start, State& state) const;
+  /// Stores what the next prediction needs of the step between the two states.
+  void note_multipliers(const State& start, State& state) const;
+
+ private:
+  void find_pairs();
+  IncrementsOf increments() const;
+
+  const plan::Plan& plan_;
+  const UnknownPlaces& places_;
+  const Instant& instant_;
+  const ElementLengths& lengths_;
+  tree::Walker walker_;
+  CpuClock& clock_;
+  WorkCounts& counts_;
+  MotionTree motion_tree_;        ///< empty in dynamics
+  std::vector<PairLanes> pairs_;  ///< pairs of nodes whose relative motions relative_size measures
+  mutable std::vector<double> chunk_max_;
+};
+
+}  // namespace bough::step

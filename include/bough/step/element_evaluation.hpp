@@ -1,0 +1,76 @@
+#pragma once
+/// Evaluation of all elements at a state: residuals and tangents, and the matrices that the solver gets from them.
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bough/step/instant.hpp"
+#include "bough/step/linear_solution.hpp"
+#include "bough/step/residual_sums.hpp"
+#include "bough/step/unknown_places.hpp"
+
+namespace bough::step {
+
+template <class G>
+class LaneBatches;
+class HeldNodes;
+struct ElementResults;
+
+/// Lengths by which relative changes of elements and moments are judged.
+struct ElementLengths {
+  std::vector<double> of_element;  ///< of the reference axis, where an element has one, else Plan::length_scale [m]
+  /// Arm that turns the scale of forces into one of moments: the longest reference axis, or Plan::length_scale [m].
+  double moment_arm = 0.0;
+};
+ElementLengths measure_elements(const plan::Plan& plan);
+
+class ElementEvaluation {
+ public:
+  /// held: may be null. Residuals go to `sums`, tangents to the storage of the solver of `linear`.
+  ElementEvaluation(const plan::Plan& plan, const Instant& instant, const HeldNodes* held, ResidualSums& sums,
+                    LinearSolution& linear, const tree::Walker& walker);
+  ~ElementEvaluation();
+
+  /// To be called when the frames of prescribed motion of the instant have moved.
+  void take_frames();
+  /// Evaluates all elements on the group of the scene and writes their parts and, if `tangent`, their tangents.
+  void evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
+  /// Writes the parts of elements evaluated in space, as sensors see them, taken to the unknowns of a plane; without
+  /// magnitudes. Nodes keep more digits in the plane than they have in space, so these elements respond with other
+  /// forces.
+  void evaluate_as_seen(const State& state);
+  /// Groups of elements that are evaluated together.
+  std::span<const solve::ElementBatch> batches() const;
+
+  /// Puts an element's matrix, row-major in all of its unknowns, in the place of its tangent, or adds it there. Several
+  /// threads may do so for different elements. LinearSolution::begin_matrices has to be called before.
+  void set_matrix(int element, int num_unknowns, const double* entries);
+  void add_matrix(int element, int num_unknowns, const double* entries);
+  /// An element's matrix now present, row-major, and the unknowns of its rows.
+  solve::ConstElementView matrix_of(int element, std::vector<std::int64_t>& unknowns) const;
+
+ private:
+  template <class G>
+  const LaneBatches<G>& lanes_on() const;
+  template <class G>
+  void evaluate_on(const State& state, const elements::FieldOn<G, double>& field, bool tangent);
+  template <class G>
+  void evaluate_alone(std::size_t id, const State& state, const elements::FieldOn<G, double>& field,
+                      const ElementResults& to);
+  template <class E>
+  void evaluate_reduced(const E& e, std::size_t id, const elements::Field& field, const double* multipliers,
+                        double turns, bool tangent);
+  /// Puts (A + A^T) / 2 in place of the tangents of a batch.
+  void symmetrise(const solve::ElementBatch& batch);
+
+  const plan::Plan& plan_;
+  const Instant& instant_;
+  const HeldNodes* held_;
+  ResidualSums& sums_;
+  LinearSolution& linear_;
+  tree::Walker walker_;
+  std::unique_ptr<LaneBatches<motion::Se3>> spatial_lanes_;
+  std::unique_ptr<LaneBatches<motion::Se2>> planar_lanes_;  ///< of a scene in a plane; else null
+};
+
+}  // namespace bough::step

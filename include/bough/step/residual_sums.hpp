@@ -1,0 +1,80 @@
+#pragma once
+/// Sums of what elements contribute to the residual, by node and by joint, and the sizes of these sums.
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bough/step/linear_solution.hpp"
+#include "bough/step/unknown_places.hpp"
+#include "bough/tree/walker.hpp"
+
+namespace bough::step {
+
+class HeldNodes;
+
+/// Largest entries of a residual: forces, moments, and violations of constraints of lengths and of angles.
+struct ResidualSize {
+  double force = 0.0, moment = 0.0;              ///< |sum of contributions|
+  double force_scale = 0.0, moment_scale = 0.0;  ///< largest sum of |contributions| at a node
+  double length = 0.0, angle = 0.0;              ///< constraint violations
+  int worst_force_node = -1, worst_moment_node = -1, worst_joint = -1;
+};
+
+/// Each element writes its contributions, and the magnitudes of their terms, to a place of its own, its *parts*. The
+/// parts are added up in a fixed order, so that sums do not depend on the number of threads.
+class ResidualSums {
+ public:
+  /// held: may be null.
+  ResidualSums(const plan::Plan& plan, const UnknownPlaces& places, const BlockOwners& owners, const HeldNodes* held);
+
+  /// The parts of element e begin at 2 begins()[e]: for each of its nodes, then for its rows, the entries of the
+  /// residual followed by the magnitudes of these entries.
+  double* parts() { return parts_.data(); }
+  const std::int64_t* begins() const { return element_begin_.data(); }
+  /// Sets the parts of an element. magnitude: null for zeros.
+  void set_parts(std::size_t element, const double* residual, const double* magnitude);
+
+  /// Adds up the parts of all elements.
+  void sum(const tree::Walker& walker);
+  /// The residual, by unknown.
+  const std::vector<double>& values() const { return residual_; }
+  /// Without the worst nodes and joint: name_worst finds these, for messages.
+  ResidualSize size() const;
+  void name_worst(ResidualSize& size) const;
+  bool is_finite() const;
+  /// The first element with a part that is not finite.
+  std::optional<std::size_t> first_not_finite() const;
+
+ private:
+  /// A sum of parts: of a block or, after all blocks, of the forces on a held node.
+  struct Sum {
+    std::int64_t use_begin, use_end;  ///< range in uses_
+    std::int64_t unknown;             ///< the first
+    int size;
+    int owner;  ///< node or joint
+  };
+  struct ChunkSize {
+    ResidualSize size;
+    bool is_finite;
+  };
+
+  void place_parts(const BlockOwners& owners, const HeldNodes* held);
+  template <int Count>
+  ChunkSize sum_nodes(std::size_t begin, std::size_t end);
+  void copy_rows(std::size_t begin, std::size_t end, ChunkSize& chunk);
+  void sum_held_node(const Sum& sum, ChunkSize& chunk) const;
+  void sum_chunk(std::int64_t begin, std::int64_t end);
+
+  const plan::Plan& plan_;
+  const UnknownPlaces& places_;
+  std::vector<std::int64_t> element_begin_;  ///< by element: number of unknowns of all elements before it
+  std::vector<double> parts_;
+  std::vector<Sum> sums_;  ///< nodes, then joints, then held nodes, each in the order of blocks
+  std::int64_t num_node_sums_ = 0, num_row_sums_ = 0;
+  std::vector<std::int64_t> uses_;  ///< offsets in parts_ of the parts that add up, in a fixed order
+  std::vector<double> residual_;
+  std::vector<ChunkSize> chunk_sizes_;  ///< by chunk of sums
+  std::vector<char> is_length_;         ///< by unknown: whether it is the multiplier of a constraint of a length
+};
+
+}  // namespace bough::step

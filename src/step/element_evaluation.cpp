@@ -1,0 +1,218 @@
+#include "bough/step/element_evaluation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
+#include "element_parts.hpp"
+#include "held_nodes.hpp"
+#include "lane_batches.hpp"
+#include "reduced_elements.hpp"
+
+namespace bough::step {
+
+namespace {
+
+/// Of the reference axis, where an element has one.
+template <class E>
+double length_of(const E& e, double fallback) {
+  if constexpr (E::data_axes == elements::DataAxes::section) return e.length;
+  return fallback;
+}
+
+/// Number of unknowns of an element in the linear system.
+int num_unknowns_of(const plan::Plan& plan, std::size_t element) {
+  int n = 0;
+  const blocks::BlockGraph& g = plan.graph;
+  for (std::int64_t k = g.element_begin[element]; k < g.element_begin[element + 1]; ++k)
+    n += g.block_size[static_cast<std::size_t>(g.element_blocks[static_cast<std::size_t>(k)])];
+  return n;
+}
+
+}  // namespace
+
+ElementLengths measure_elements(const plan::Plan& plan) {
+  ElementLengths lengths;
+  lengths.of_element.resize(plan.directory.size());
+  for (std::size_t e = 0; e < plan.directory.size(); ++e)
+    plan::with_element(plan.elements, plan.directory[e], [&](const auto& element) {
+      lengths.of_element[e] = length_of(element, plan.length_scale);
+      if constexpr (std::decay_t<decltype(element)>::data_axes == elements::DataAxes::section)
+        lengths.moment_arm = std::max(lengths.moment_arm, element.length);
+    });
+  if (lengths.moment_arm == 0.0) lengths.moment_arm = plan.length_scale;
+  return lengths;
+}
+
+ElementEvaluation::ElementEvaluation(const plan::Plan& plan, const Instant& instant, const HeldNodes* held,
+                                     ResidualSums& sums, LinearSolution& linear, const tree::Walker& walker)
+    : plan_(plan),
+      instant_(instant),
+      held_(held),
+      sums_(sums),
+      linear_(linear),
+      walker_(walker),
+      spatial_lanes_(std::make_unique<LaneBatches<motion::Se3>>()) {
+  const std::span<const solve::ElementBatch> batches = linear.solver().batches();
+  if (plan.planar) {
+    planar_lanes_ = std::make_unique<LaneBatches<motion::Se2>>();
+    planar_lanes_->make(plan, batches, held);
+  } else {
+    spatial_lanes_->make(plan, batches, held);
+  }
+}
+
+ElementEvaluation::~ElementEvaluation() = default;
+
+void ElementEvaluation::take_frames() {
+  if (!plan_.frames.empty()) spatial_lanes_->set_frames(instant_.frames());
+}
+
+std::span<const solve::ElementBatch> ElementEvaluation::batches() const {
+  return planar_lanes_ ? planar_lanes_->batches() : spatial_lanes_->batches();
+}
+
+template <>
+const LaneBatches<motion::Se3>& ElementEvaluation::lanes_on<motion::Se3>() const {
+  return *spatial_lanes_;
+}
+template <>
+const LaneBatches<motion::Se2>& ElementEvaluation::lanes_on<motion::Se2>() const {
+  return *planar_lanes_;
+}
+template <class G>
+void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const elements::FieldOn<G, double>& f,
+                                       const ElementResults& to) {
+  if (held_ && held_->leaves_out(id)) return;
+  const int j = plan_.joint_of_element[id];
+  if (is_idle_joint(plan_, j)) return;
+  std::array<double, elements::max_rows> scratch;
+  const double* multipliers = nullptr;
+  double turns = 0.0;
+  if (j >= 0) {
+    multipliers = multipliers_on<G>(plan_.joints[static_cast<std::size_t>(j)], state, scratch.data());
+    turns = state.turns[static_cast<std::size_t>(j)];
+  }
+  plan::with_element(plan::arrays_on<G>(plan_), plan_.directory[id], [&](const auto& e) {
+    if constexpr (std::is_same_v<G, motion::Se3>)
+      if (are_elements_reduced(plan_)) return evaluate_reduced(e, id, f, multipliers, turns, to.want_tangents());
+    std::array<double, most_unknowns> residual, magnitude;
+    std::array<double, most_unknowns * most_unknowns> tangent_entries;
+    const solve::ElementView view = to.want_tangents() ? to.tangent_of(static_cast<int>(id)) : solve::ElementView{};
+    const bool is_direct = view.stride == 1 && !(held_ && held_->trims(id));
+    elements::evaluate(e, f, multipliers, turns, residual.data(),
+                       !to.want_tangents() ? nullptr
+                       : is_direct         ? view.first
+                                           : tangent_entries.data());
+    elements::eval_magnitude(e, f, residual.data(), magnitude.data());
+    sums_.set_parts(id, residual.data(), magnitude.data());
+    if (to.want_tangents() && !is_direct)
+      write_matrix(
+          held_, id, elements::num_unknowns(e), [&](int i) { return tangent_entries[static_cast<std::size_t>(i)]; },
+          view);
+  });
+}
+
+/// The element in six unknowns a node, then in those that the scene has.
+template <class E>
+void ElementEvaluation::evaluate_reduced(const E& e, std::size_t id, const elements::Field& f,
+                                         const double* multipliers, double turns, bool tangent) {
+  std::array<double, most_unknowns * most_unknowns> entries, reduced;
+  std::array<double, most_unknowns> residual, magnitude, reduced_residual, sizes;
+  elements::evaluate(e, f, multipliers, turns, residual.data(), tangent ? entries.data() : nullptr);
+  elements::eval_magnitude(e, f, residual.data(), magnitude.data());
+  const plan::JointPlan* const joint = plan_.joint_of(id);
+  reduce_vector(plan_.unknowns, e, joint, residual.data(), reduced_residual.data());
+  reduce_sizes(plan_.unknowns, e, joint, magnitude.data(), sizes.data());
+  sums_.set_parts(id, reduced_residual.data(), sizes.data());
+  if (!tangent) return;
+  const int n = reduce_matrix(plan_.unknowns, e, joint, entries.data(), reduced.data());
+  write_matrix(
+      held_, id, n, [&](int i) { return reduced[static_cast<std::size_t>(i)]; },
+      linear_.solver().element(static_cast<int>(id)));
+}
+
+void ElementEvaluation::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
+  if (tangent) linear_.begin_matrices(linear_.takes_symmetric_parts());
+  if (state.is_planar())
+    evaluate_on(state, instant_.field_on<motion::Se2>(state, slopes), tangent);
+  else
+    evaluate_on(state, instant_.field(state, slopes), tangent);
+}
+
+void ElementEvaluation::evaluate_as_seen(const State& state) {
+  const elements::Field f = instant_.field(state);
+  auto by_element = [&](std::int64_t begin, std::int64_t end) {
+    std::array<double, most_unknowns> residual, reduced;
+    for (auto id = static_cast<std::size_t>(begin); id < static_cast<std::size_t>(end); ++id) {
+      if (held_ && held_->leaves_out(id)) continue;
+      const plan::JointPlan* const joint = plan_.joint_of(id);
+      const double* multipliers = joint == nullptr ? nullptr : state.multipliers.data() + joint->multiplier_begin;
+      const double turns = joint == nullptr ? 0.0 : state.turns[static_cast<std::size_t>(plan_.joint_of_element[id])];
+      plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
+        elements::evaluate(e, f, multipliers, turns, residual.data(), nullptr);
+        reduce_vector(plan_.unknowns, e, joint, residual.data(), reduced.data());
+        sums_.set_parts(id, reduced.data(), nullptr);
+      });
+    }
+  };
+  walker_.for_each_chunk(static_cast<std::int64_t>(plan_.directory.size()), element_grain,
+                         tree::make_chunk(by_element));
+}
+
+void ElementEvaluation::set_matrix(int element, int num_unknowns, const double* entries) {
+  const solve::ElementView view = linear_.solver().element(element);
+  for_each_kept(held_, static_cast<std::size_t>(element), num_unknowns,
+                [&](std::int64_t place, int i) { view[place] = entries[i]; });
+}
+
+void ElementEvaluation::add_matrix(int element, int num_unknowns, const double* entries) {
+  const solve::ElementView view = linear_.solver().element(element);
+  for_each_kept(held_, static_cast<std::size_t>(element), num_unknowns,
+                [&](std::int64_t place, int i) { view[place] += entries[i]; });
+}
+
+void ElementEvaluation::symmetrise(const solve::ElementBatch& batch) {
+  for (int id : batch.element) {
+    if (id < 0) continue;
+    const int n = num_unknowns_of(plan_, static_cast<std::size_t>(id));
+    const solve::ElementView view = linear_.solver().element(id);
+    for (int i = 1; i < n; ++i)
+      for (int j = 0; j < i; ++j) view[i * n + j] = view[j * n + i] = 0.5 * (view[i * n + j] + view[j * n + i]);
+  }
+}
+
+template <class G>
+void ElementEvaluation::evaluate_on(const State& state, const elements::FieldOn<G, double>& field, bool tangent) {
+  const LaneBatches<G>& lanes = lanes_on<G>();
+  const std::span<const solve::ElementBatch> batches = lanes.batches();
+  const ElementResults results{sums_.parts(), sums_.begins(), tangent ? &linear_.solver() : nullptr};
+  auto by_batch = [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const auto batch = static_cast<std::size_t>(k);
+      if (lanes.holds(batch))
+        lanes.evaluate(batch, state, field, results);
+      else
+        for (int id : batches[batch].element)
+          if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, field, results);
+      if (tangent && linear_.takes_symmetric_parts()) symmetrise(batches[batch]);
+    }
+  };
+  walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain,
+                         tree::make_chunk(by_batch, tree::Work::evaluate));
+}
+
+solve::ConstElementView ElementEvaluation::matrix_of(int element, std::vector<std::int64_t>& unknowns) const {
+  unknowns.clear();
+  const auto e = static_cast<std::size_t>(element);
+  const blocks::BlockGraph& g = plan_.graph;
+  for (std::int64_t k = g.element_begin[e]; k < g.element_begin[e + 1]; ++k) {
+    const int block = g.element_blocks[static_cast<std::size_t>(k)];
+    const std::vector<std::int64_t>& begin = linear_.tree().unknown_begin;
+    for (std::int64_t u = begin[static_cast<std::size_t>(block)]; u < begin[static_cast<std::size_t>(block) + 1]; ++u)
+      unknowns.push_back(u);
+  }
+  return linear_.solver().element(element);
+}
+
+}  // namespace bough::step

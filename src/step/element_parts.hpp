@@ -1,0 +1,54 @@
+#pragma once
+/// The parts of an element's residual, and sizes of the pieces of work that are shared among threads. Internal to step.
+#include <cstddef>
+#include <cstdint>
+
+#include "bough/plan/plan.hpp"
+#include "bough/step/state.hpp"
+
+namespace bough::step {
+
+inline constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
+
+/// Numbers of items that a task takes at once; chunks do not depend on the number of threads. Pairs of nodes are
+/// counted by eights.
+inline constexpr std::int64_t element_grain = 256, block_grain = 64, pair_grain = 16, batch_grain = 8;
+
+inline constexpr int least_lanes = 3;  ///< elements that are evaluated as eight
+
+/// Calls f(block, size, node) for every part of an element's unknowns, in their order: its nodes, then, with node -1,
+/// the rows of a joint. block -1: these have no unknowns in the linear system.
+template <class F>
+void for_each_part(const plan::Plan& plan, std::size_t element, F&& f) {
+  plan::with_element(plan.elements, plan.directory[element], [&](const auto& e) {
+    for (const elements::Port& p : e.ports)
+      if (p.node != elements::ground)
+        f(plan.block_of_node[static_cast<std::size_t>(p.node)], plan.unknowns.count, p.node);
+  });
+  const plan::JointPlan* const joint = plan.joint_of(element);
+  if (joint != nullptr && !joint->rows.empty()) f(joint->block, static_cast<int>(joint->rows.size()), -1);
+}
+
+/// Entries of an element's residual and of its magnitude in the order of ResidualSums::parts: for its nodes, of
+/// `node_unknowns` each, and its rows.
+template <class S>
+void join_parts(int node_unknowns, int num_unknowns, int num_rows, const S* residual, const S* magnitude, S* parts) {
+  const int forces = num_unknowns - num_rows;
+  for (int begin = 0, end = 0; begin < num_unknowns; begin = end) {
+    end = begin < forces ? begin + node_unknowns : num_unknowns;
+    for (int i = begin; i < end; ++i) *parts++ = residual[i];
+    for (int i = begin; i < end; ++i) *parts++ = magnitude[i];
+  }
+}
+
+/// The multipliers that an element on the group G of a joint takes: in space of all rows, in a plane of those that
+/// are kept there, which `scratch` takes.
+template <class G>
+const double* multipliers_on(const plan::JointPlan& joint, const State& state, double* scratch) {
+  const double* from = state.multipliers.data() + joint.multiplier_begin;
+  if constexpr (std::is_same_v<G, motion::Se3>) return from;
+  for (std::size_t r = 0; r < joint.rows.size(); ++r) scratch[r] = from[joint.rows[r]];
+  return scratch;
+}
+
+}  // namespace bough::step
