@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <numeric>
+#include <memory>
 #include <unordered_map>
 
 #include "arguments.hpp"
@@ -53,26 +53,13 @@ class CaseProgress {
 /// The page of what has ended so far, rewritten so rarely that it takes a small part of the time.
 class LivePage {
  public:
-  /// results: those of all cases but `left`, which are to come.
-  LivePage(const std::string& title, const io::OutputCollection& collection,
-           const std::vector<study::CaseResult>& results, const std::vector<std::size_t>& left)
-      : title_(title), collection_(collection) {
-    for (std::size_t i = 0, next = 0; i < results.size(); ++i) {
-      if (next < left.size() && left[next] == i)
-        ++next;
-      else
-        done_.push_back(results[i]);
-    }
-    num_before_ = done_.size();
-  }
+  LivePage(const std::string& title, const io::OutputCollection& collection) : title_(title), collection_(collection) {}
 
-  void take(const study::CaseResult& result, std::size_t left) {
-    const std::size_t all = num_before_ + left;
+  void take(const study::CaseTable& results, bool goes_on) {
     constexpr double least_seconds = 5.0, part = 0.02;
-    done_.push_back(result);
     const auto start = Clock::now();
-    if (seconds(start - written_at_) < std::max(least_seconds, took_ / part) || done_.size() == all) return;
-    write_batch_page(collection_, done_, title_, {}, all);
+    if (seconds(start - written_at_) < std::max(least_seconds, took_ / part) || !goes_on) return;
+    write_batch_page(collection_, results, title_, {}, true);
     written_at_ = Clock::now();
     took_ = seconds(written_at_ - start);
   }
@@ -82,26 +69,23 @@ class LivePage {
   static double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
   const std::string& title_;
   const io::OutputCollection& collection_;
-  std::vector<study::CaseResult> done_;
-  std::size_t num_before_ = 0;
   Clock::time_point written_at_ = Clock::now();
   double took_ = 0.0;
 };
 
 /// Large cases first, so that none is left to run alone at the end. Only a thousand are looked at: of more, the last
 /// ones are a small part of the whole.
-std::vector<std::size_t> order_of(const std::vector<study::BatchCase>& cases, int threads, const CaseSource& source) {
+void sort_by_size(std::vector<std::size_t>& order, const study::CaseList& cases, int threads,
+                  const CaseSource& source) {
   constexpr std::size_t most = 1000;
-  std::vector<std::size_t> order(cases.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (threads < 2 || cases.size() > most) return order;
-  std::vector<double> seconds;
-  for (const study::BatchCase& c : cases) {
-    const io::SceneFile file = source.read(c);
-    seconds.push_back(file.ok() ? run::estimate_run(file.scene).seconds() : 0.0);
+  if (threads < 2 || order.size() > most) return;
+  std::unordered_map<std::size_t, double> seconds;
+  for (const std::size_t i : order) {
+    const io::SceneFile file = source.read(cases.at(i));
+    seconds[i] = file.ok() ? run::estimate_run(file.scene).seconds() : 0.0;
   }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return seconds[a] > seconds[b]; });
-  return order;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return seconds.at(a) > seconds.at(b); });
 }
 
 }  // namespace
@@ -117,18 +101,15 @@ bool has_results(const study::BatchCase& which, const study::CaseReport& report,
 }
 
 /// Takes from the journal what is done, with its results where these are to be kept; returns which cases are left.
-std::vector<std::size_t> take_over(const std::vector<study::BatchCase>& cases, const std::vector<std::string>& keys,
-                                   const study::Journal& journal, const CaseSettings& settings,
-                                   std::vector<study::CaseResult>& results) {
+std::vector<std::size_t> take_over(const std::vector<std::string>& keys, const study::Records& records,
+                                   const CaseSettings& settings, study::CaseTable& results) {
   std::vector<std::size_t> left;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const study::CaseResult* done = journal.find(keys[i]);
-    if (done == nullptr || !study::is_final(*done) || !has_results(cases[i], done->report, settings)) {
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const std::optional<study::CaseResult> done = records.find(keys[i]);
+    if (done && study::is_final(*done) && has_results(results.cases().at(i), done->report, settings))
+      results.set(i, *done);
+    else
       left.push_back(i);
-      continue;
-    }
-    results[i] = *done;
-    results[i].which = cases[i];
   }
   return left;
 }
@@ -148,12 +129,12 @@ int threads_asked_for(const study::BatchCase& which, const CaseSource& source) {
 /// policy. Where it may name files, the hash of these and of its text, too. One with problems is the text of its file
 /// and what it changes there. Of cases that are the same each has a key of its own, so that none takes the results of
 /// another.
-std::vector<std::string> keys_of(const std::vector<study::BatchCase>& cases, const CaseSettings& settings,
-                                 const CaseSource& source) {
+std::vector<std::string> keys_of(const study::CaseList& cases, const CaseSettings& settings, const CaseSource& source) {
   std::vector<std::string> keys;
   std::unordered_map<std::string, std::size_t> met;
   const std::string policy = policy_of(settings);
-  for (const study::BatchCase& c : cases) {
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const study::BatchCase c = cases.at(i);
     const std::string text = source.text(c), scene = io::canonical_scene(text, c.overrides);
     const bool may_name_files = text.find("file") != std::string::npos || scene.find("file") != std::string::npos;
     const std::string files = may_name_files ? source.read(c).hash : std::string();
@@ -187,8 +168,8 @@ std::string policy_of(const CaseArguments& arguments) {
   return arguments.retries > 0 ? "retries " + std::to_string(arguments.retries) : std::string();
 }
 
-std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& given,
-                                         const CaseSource& source, const io::OutputCollection& collection) {
+study::CaseTable run_cases(const study::CaseList& cases, const CaseSettings& given, const CaseSource& source,
+                           const io::OutputCollection& collection) {
   const auto start = std::chrono::steady_clock::now();
   CaseSettings settings = given;
   if (settings.threads <= 0) settings.threads = default_threads();
@@ -206,69 +187,75 @@ std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& ca
     collection.write(study::keys_file, study::keys_csv(cases, keys));
     collection.write(study::shard_file, study::shard_text(*settings.shard_record));
   }
-  std::vector<study::CaseResult> results(cases.size());
-  const std::vector<std::size_t> left = take_over(cases, keys, journal, settings, results);
+  const auto threads = std::make_shared<std::unordered_map<std::size_t, int>>();  // of cases that ask for more than one
+  study::CaseTable results(study::CaseList(cases.size(), [cases, threads](std::size_t i) {
+    study::BatchCase one = cases.at(i);
+    if (const auto at = threads->find(i); at != threads->end()) one.threads = at->second;
+    return one;
+  }));
+  study::BatchOptions options;
+  options.order = take_over(keys, journal.records(), settings, results);
+  journal.forget_records();
+  const std::size_t num_left = options.order.size();
   if (settings.resume && !settings.quiet)
-    std::cout << cases.size() - left.size() << " of " << cases.size() << " cases are done" << std::endl;
-
-  std::vector<study::BatchCase> to_run;
-  for (const std::size_t i : left) {
-    to_run.push_back(cases[i]);
-    to_run.back().threads = threads_asked_for(cases[i], source);
-  }
+    std::cout << cases.size() - num_left << " of " << cases.size() << " cases are done" << std::endl;
+  for (const std::size_t i : options.order)
+    if (const int asked = threads_asked_for(cases.at(i), source); asked > 1) (*threads)[i] = asked;
   catch_interrupts();
   constexpr double program_bytes = 128e6;  // what the program itself and its reader take
-  study::BatchOptions options;
   options.threads = settings.threads;
   options.time_limit = settings.time_limit;
   options.resident_limit = settings.memory_limit + program_bytes;
-  options.order = order_of(to_run, settings.threads, source);
+  sort_by_size(options.order, cases, settings.threads, source);
   constexpr std::size_t most_failed_folders = 1000;
   FolderAllowance failed_folders(most_failed_folders);
   CaseProgress progress(settings.quiet);
-  LivePage page(settings.title, collection, results, left);
-  std::unordered_map<std::string, std::string> key_of_name;
-  for (const std::size_t i : left) key_of_name[cases[i].name] = keys[i];
-  std::vector<study::CaseResult> run = study::run_batch(
-      to_run, options,
+  LivePage page(settings.title, collection);
+  std::size_t done = 0;
+  results = study::run_batch(
+      std::move(results), options,
       [&](const study::BatchCase& which, study::CaseReport& report, io::SharedText& rows) {
         return run_case(which, settings, source, failed_folders, report, rows);
       },
-      [&](const study::CaseResult& result, std::size_t done, std::size_t all) {
-        if (study::is_final(result)) journal.add(key_of_name.at(result.which.name), result);
-        progress.tell(result, done, all);
-        page.take(result, all);
+      [&](const study::CaseResult& result, std::size_t which, const study::CaseTable& all) {
+        if (study::is_final(result)) journal.add(keys[which], result);
+        progress.tell(result, ++done, num_left);
+        page.take(all, done < num_left);
       },
       [&] {
         const std::chrono::duration<double> age = std::chrono::steady_clock::now() - start;
         return interrupted() || (settings.stop_after > 0.0 && age.count() >= settings.stop_after);
       });
-  for (std::size_t k = 0; k < left.size(); ++k) results[left[k]] = std::move(run[k]);
   io::sync_stores(settings.out);
   return results;
 }
 
-int finish_cases(const std::vector<study::CaseResult>& results,
-                 const std::vector<study::MeasureSensitivity>& sensitivities, const CaseSettings& settings,
-                 const io::OutputCollection& collection, const std::string& table) {
-  collection.write("batch.csv", table.empty() ? study::batch_csv(results) : table);
-  collection.write("batch.json", study::batch_json(results, settings.title, sensitivities));
-  collection.write("cost.csv", study::cost_csv(results));
-  write_batch_page(collection, results, settings.title, sensitivities, results.size());
+int finish_cases(const study::CaseTable& results, const std::vector<study::MeasureSensitivity>& sensitivities,
+                 const CaseSettings& settings, const io::OutputCollection& collection,
+                 const study::Collected* collected) {
+  std::function<std::string(std::size_t)> machine_of;
+  if (collected != nullptr && !collected->machines.empty())
+    machine_of = [collected](std::size_t i) { return collected->machine_of_case(i); };
+  collection.write("batch.csv", [&](const io::TextSink& sink) { study::write_batch_csv(results, sink, machine_of); });
+  collection.write("batch.json", [&](const io::TextSink& sink) {
+    study::write_batch_json(results, settings.title, sensitivities, sink);
+  });
+  collection.write("cost.csv", [&](const io::TextSink& sink) { study::write_cost_csv(results, sink); });
+  write_batch_page(collection, results, settings.title, sensitivities, false);
   if (!sensitivities.empty()) collection.write("sensitivities.csv", study::sensitivities_csv(sensitivities));
 
-  const auto count = [&](const auto& condition) { return std::count_if(results.begin(), results.end(), condition); };
-  const auto num_failed = count([](const study::CaseResult& r) {
-    return r.status != study::CaseStatus::ok && r.status != study::CaseStatus::figures_fail;
-  });
-  const auto num_not_as_expected = count([](const study::CaseResult& r) { return r.report.expected_fails > 0; });
+  std::size_t num_failed = 0, num_not_as_expected = 0, num_stopped = 0;
+  for (const study::CaseResult& r : results) {
+    num_failed += r.status != study::CaseStatus::ok && r.status != study::CaseStatus::figures_fail ? 1 : 0;
+    num_not_as_expected += r.report.expected_fails > 0 ? 1 : 0;
+    num_stopped += r.status == study::CaseStatus::interrupted ? 1 : 0;
+  }
   if (!settings.quiet) {
     std::cout << results.size() << " cases, " << num_failed << " not done, " << num_not_as_expected
               << " with an expected figure that fails: " << (settings.out / "batch.csv").string() << "\n";
   }
-  const auto num_stopped = count([](const study::CaseResult& r) { return r.status == study::CaseStatus::interrupted; });
   if (num_stopped > 0) {
-    std::cerr << (table.empty() ? "stopped: " : "not whole: ") << num_stopped
+    std::cerr << (collected == nullptr ? "stopped: " : "not whole: ") << num_stopped
               << " cases are left; the same command with --resume goes on\n";
     return exit_stopped;
   }

@@ -35,18 +35,18 @@ struct CaseSource {
 /// Runs the cases, large ones first where they are few enough to be looked at before.
 /// batch.html is rewritten from time to time. Every case that ends is written into journal.jsonl at once; cases that a
 /// journal taken over holds are not run again. Throws io::OutputRefused where another batch writes into the folder.
-std::vector<study::CaseResult> run_cases(const std::vector<study::BatchCase>& cases, const CaseSettings& settings,
-                                         const CaseSource& source, const io::OutputCollection& collection);
+study::CaseTable run_cases(const study::CaseList& cases, const CaseSettings& settings, const CaseSource& source,
+                           const io::OutputCollection& collection);
 
 /// What a retried case depends on besides its scene and what it changes there: of its key.
 std::string policy_of(const CaseArguments& arguments);
 
-/// table: batch.csv, where it is another one than that of the results. Writes batch.csv, batch.json, batch.html,
+/// collected: of shards that were collected, where the results come from. Writes batch.csv, batch.json, batch.html,
 /// cost.csv and, where there are sensitivities, sensitivities.csv; tells what came of the cases and returns the exit
 /// status.
-int finish_cases(const std::vector<study::CaseResult>& results,
-                 const std::vector<study::MeasureSensitivity>& sensitivities, const CaseSettings& settings,
-                 const io::OutputCollection& collection, const std::string& table = {});
+int finish_cases(const study::CaseTable& results, const std::vector<study::MeasureSensitivity>& sensitivities,
+                 const CaseSettings& settings, const io::OutputCollection& collection,
+                 const study::Collected* collected = nullptr);
 
 /// Indices of sensitivity as tables, on standard output.
 void print_sensitivities(const std::vector<study::MeasureSensitivity>& sensitivities);

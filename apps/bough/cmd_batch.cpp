@@ -19,17 +19,19 @@ int batch(const BatchArguments& arguments) {
   WholeBatch whole{.verb = "batch", .source = arguments.folder, .inputs = {arguments.folder}};
   std::optional<study::Shard> shard;
   if (!arguments.shard.empty()) shard = shard_asked_for(arguments.shard);
+  std::vector<study::BatchCase> cases;
   try {
-    whole.cases = study::cases_in(arguments.folder, shard ? folder_of(arguments, *shard) : arguments.out);
+    cases = study::cases_in(arguments.folder, shard ? folder_of(arguments, *shard) : arguments.out);
   } catch (const std::exception& error) {
     std::cerr << "bough: " << cause_of(error) << "\n";
     return exit_bad_input;
   }
   whole.list = "case\n";
-  for (study::BatchCase& c : whole.cases) {
+  for (study::BatchCase& c : cases) {
     c.overrides = arguments.overrides;
     whole.list += io::csv_field(c.name) + '\n';
   }
+  whole.cases = study::CaseList(std::move(cases));
   CaseSettings settings{arguments, arguments.folder.string(), kept_of(arguments, whole.cases.size())};
   const CaseSource source{[](const study::BatchCase& which) { return io::read_scene(which.scene, which.overrides); },
                           [](const study::BatchCase& which) {
@@ -39,7 +41,7 @@ int batch(const BatchArguments& arguments) {
                           }};
   whole.work = [&] {
     std::vector<double> work;
-    for (const study::BatchCase& c : whole.cases) work.push_back(work_of(source.read(c)));
+    for (std::size_t i = 0; i < whole.cases.size(); ++i) work.push_back(work_of(source.read(whole.cases.at(i))));
     return work;
   };
   if (shard || !arguments.job_engine.empty())

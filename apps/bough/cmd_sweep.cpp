@@ -16,39 +16,48 @@
 namespace bough::app {
 namespace {
 
-std::vector<study::BatchCase> batch_cases(const io::SweepSpec& spec, const study::SweepCases& made,
-                                          const SweepArguments& arguments, const std::filesystem::path& out) {
-  std::vector<study::BatchCase> cases;
-  for (const study::SweepCase& c : made.cases) {
-    if (!arguments.only.empty() &&
-        std::find(arguments.only.begin(), arguments.only.end(), c.name) == arguments.only.end())
-      continue;
+/// The list refers to what it is made from.
+study::CaseList batch_cases(const io::SweepSpec& spec, const study::SweepCases& made, const SweepArguments& arguments,
+                            const std::filesystem::path& out) {
+  study::CaseList cases(made.size(), [&spec, &made, &arguments, out](std::size_t i) {
+    const study::SweepCase c = made.at(i);
     study::BatchCase one{c.name, spec.scene_file, out / c.name, study::overrides_of(spec, c), {}};
     one.overrides.insert(one.overrides.end(), arguments.overrides.begin(), arguments.overrides.end());
-    for (std::size_t k = 0; k < made.variables.size(); ++k)
-      one.inputs.emplace_back(made.variables[k], c.inputs[k].text);
-    cases.push_back(std::move(one));
-  }
-  return cases;
+    for (std::size_t k = 0; k < made.variables().size(); ++k)
+      one.inputs.emplace_back(made.variables()[k], c.inputs[k].text);
+    return one;
+  });
+  if (arguments.only.empty()) return cases;
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < made.size(); ++i)
+    if (std::find(arguments.only.begin(), arguments.only.end(), made.name(i)) != arguments.only.end())
+      some.push_back(i);
+  return study::chosen(cases, std::move(some));
+}
+
+bool has_case(const study::SweepCases& made, const std::string& name) {
+  for (std::size_t i = 0; i < made.size(); ++i)
+    if (made.name(i) == name) return true;
+  return false;
 }
 
 /// Lists the cases and what they will take, and runs none. Of many it looks at a thousand.
-int print_plan(const std::vector<study::BatchCase>& cases, std::size_t left_out, int threads,
-               const CaseSource& source) {
+int print_plan(const study::CaseList& cases, std::size_t left_out, int threads, const CaseSource& source) {
   constexpr std::size_t most_rows = 50, most_looks = 1000;
   const std::size_t every = std::max<std::size_t>(1, cases.size() / most_looks);
   std::vector<std::vector<std::string>> rows = {{"case"}};
-  for (std::size_t k = 0; !cases.empty() && k < cases.front().inputs.size(); ++k)
-    rows[0].push_back(cases.front().inputs[k].first);
+  if (cases.size() > 0)
+    for (const auto& [name, value] : cases.at(0).inputs) rows[0].push_back(name);
   for (const char* name : {"unknowns", "steps", "time", "memory"}) rows[0].emplace_back(name);
   double seconds = 0.0, most_bytes = 0.0;
   std::size_t bad = 0, looked_at = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (i >= most_rows && i % every != 0) continue;
     ++looked_at;
-    std::vector<std::string> row = {cases[i].name};
-    for (const auto& [name, value] : cases[i].inputs) row.push_back(value);
-    const io::SceneFile file = source.read(cases[i]);
+    const study::BatchCase c = cases.at(i);
+    std::vector<std::string> row = {c.name};
+    for (const auto& [name, value] : c.inputs) row.push_back(value);
+    const io::SceneFile file = source.read(c);
     if (file.ok()) {
       const run::Estimate e = run::estimate_run(file.scene);
       seconds += e.seconds();
@@ -78,13 +87,13 @@ std::filesystem::path folder_of(const io::SweepSpec& spec) {
 
 std::vector<double> work_of_cases(const io::SweepSpec& spec, const study::SweepCases& made,
                                   const std::vector<std::string>& overrides) {
-  std::vector<std::vector<io::SweepValue>> rows;
-  for (const study::SweepCase& c : made.cases) rows.push_back(c.inputs);
-  return study::predicted_work(rows, [&](const std::vector<io::SweepValue>& inputs) {
-    std::vector<std::string> changes = study::overrides_of(spec, {"", inputs});
-    changes.insert(changes.end(), overrides.begin(), overrides.end());
-    return work_of(io::read_scene_text(spec.scene_text, spec.scene_name, changes, folder_of(spec)));
-  });
+  return study::predicted_work(
+      made.size(), [&made](std::size_t i) { return made.inputs(i); },
+      [&](const std::vector<io::SweepValue>& inputs) {
+        std::vector<std::string> changes = study::overrides_of(spec, {"", inputs});
+        changes.insert(changes.end(), overrides.begin(), overrides.end());
+        return work_of(io::read_scene_text(spec.scene_text, spec.scene_name, changes, folder_of(spec)));
+      });
 }
 
 }  // namespace
@@ -117,12 +126,11 @@ int sweep(const SweepArguments& arguments) {
   }
   whole.cases = batch_cases(file.spec, made, arguments, shard ? folder_of(arguments, *shard) : arguments.out);
   for (const std::string& name : arguments.only)
-    if (std::none_of(whole.cases.begin(), whole.cases.end(),
-                     [&](const study::BatchCase& c) { return c.name == name; })) {
+    if (!has_case(made, name)) {
       std::cerr << "bough: the sweep has no case " << name << "\n";
       return exit_bad_input;
     }
-  if (whole.cases.empty()) {
+  if (whole.cases.size() == 0) {
     std::cerr << "bough: the conditions of the sweep leave no case\n";
     return exit_bad_input;
   }
@@ -132,7 +140,7 @@ int sweep(const SweepArguments& arguments) {
                     },
                     [&](const study::BatchCase&) { return file.spec.scene_text; }};
   if (arguments.dry_run)
-    return print_plan(whole.cases, made.left_out, arguments.threads > 0 ? arguments.threads : default_threads(),
+    return print_plan(whole.cases, made.left_out(), arguments.threads > 0 ? arguments.threads : default_threads(),
                       source);
   if (!runs_here) return export_jobs(whole, arguments, source);
 
@@ -142,10 +150,10 @@ int sweep(const SweepArguments& arguments) {
     whole.work = [&] { return work_of_cases(file.spec, made, arguments.overrides); };
     take_shard(*shard, source, whole, settings);
   } else {
-    source.cases_table = whole.list;
+    source.cases_table = std::move(whole.list);
   }
   const io::OutputCollection collection(settings.out, "sweep", whole.inputs);
-  const std::vector<study::CaseResult> results = run_cases(whole.cases, settings, source, collection);
+  const study::CaseTable results = run_cases(whole.cases, settings, source, collection);
   std::vector<study::MeasureSensitivity> sensitivities;  // of a shard they would be those of some rows
   if (!shard) sensitivities = study::sensitivities_of(file.spec, results);
   if (!arguments.quiet) print_sensitivities(sensitivities);

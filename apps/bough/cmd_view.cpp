@@ -30,12 +30,16 @@ bool unpack_case(const std::filesystem::path& batch, const std::string& which) {
   for (const auto& entry : std::filesystem::directory_iterator(batch, ignored))
     if (std::filesystem::exists(entry.path() / study::shard_file, ignored)) places.push_back(entry.path());
   for (const std::filesystem::path& place : places) {
-    std::string whole;
-    for (const auto& [key, result] : study::read_records(place / study::journal_file, whole)) {
-      if (result.which.name != which || !result.report.stored) continue;
-      const auto files = io::read_stored(place, *result.report.stored);
+    std::vector<study::CaseResult> found;
+    study::for_each_record(place / study::journal_file,
+                           [&](const std::string&, const study::CaseResult& result, std::string_view) {
+                             if (result.which.name == which && result.report.stored) found.push_back(result);
+                           });
+    for (; !found.empty(); found.pop_back()) {  // the last one first
+      const auto files = io::read_stored(place, *found.back().report.stored);
       if (!files) continue;
-      const bool is_good = result.status == study::CaseStatus::ok || result.status == study::CaseStatus::figures_fail;
+      const study::CaseStatus status = found.back().status;
+      const bool is_good = status == study::CaseStatus::ok || status == study::CaseStatus::figures_fail;
       (void)io::unpack_run(*files, is_good ? io::FolderState::good : io::FolderState::failed, batch / which);
       return true;
     }

@@ -56,14 +56,14 @@ int collect(const BatchArguments& arguments) {
     std::cerr << "bough: the rows come from machines with different arithmetic, so their last digits are not those of "
                  "one: the column \"machine\" of batch.csv says which is from where\n";
   std::vector<study::MeasureSensitivity> sensitivities;
-  if (all.record.verb == "sweep" && !all.results.empty())
+  if (all.record.verb == "sweep" && all.results.size() > 0)
     sensitivities =
         sensitivities_of(all, arguments.folder.empty() ? std::filesystem::path(all.record.source) : arguments.folder);
   if (!arguments.quiet) print_sensitivities(sensitivities);
   const CaseSettings settings{arguments, all.record.title};
   const io::OutputCollection collection(arguments.out, all.record.verb, {});
   collection.write_once(study::cases_file, all.list);
-  return finish_cases(all.results, sensitivities, settings, collection, study::collected_csv(all));
+  return finish_cases(all.results, sensitivities, settings, collection, &all);
 }
 
 }  // namespace bough::app

@@ -23,10 +23,9 @@ std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
   return name;
 }
 
-void write_batch_page(const io::OutputCollection& folder, const std::vector<study::CaseResult>& results,
-                      const std::string& title, const std::vector<study::MeasureSensitivity>& sensitivities,
-                      std::size_t num_cases) {
-  folder.write("batch.html", report::batch_page(results, title, sensitivities, num_cases));
+void write_batch_page(const io::OutputCollection& folder, const study::CaseTable& results, const std::string& title,
+                      const std::vector<study::MeasureSensitivity>& sensitivities, bool goes_on) {
+  folder.write("batch.html", report::batch_page(results, title, sensitivities, goes_on));
 }
 
 void write_split_picture(const std::filesystem::path& path, const io::SplitTable& table) {

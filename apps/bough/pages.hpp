@@ -29,10 +29,9 @@ std::string write_profile_page(io::OutputFolder& folder, const std::string& name
 std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
                               const std::vector<stress::StressCase>& cases, const stress::StressOptions& options);
 
-/// The page of a batch or sweep, of `num_cases` cases; does nothing without reports.
-void write_batch_page(const io::OutputCollection& folder, const std::vector<study::CaseResult>& results,
-                      const std::string& title, const std::vector<study::MeasureSensitivity>& sensitivities,
-                      std::size_t num_cases);
+/// The page of a batch or sweep, which may go on; does nothing without reports.
+void write_batch_page(const io::OutputCollection& folder, const study::CaseTable& results, const std::string& title,
+                      const std::vector<study::MeasureSensitivity>& sensitivities, bool goes_on);
 
 /// The split of an acceleration as SVG. Precondition: can_draw.
 void write_split_picture(const std::filesystem::path& path, const io::SplitTable& table);

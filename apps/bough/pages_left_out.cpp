@@ -25,8 +25,8 @@ std::string write_stress_page(io::OutputFolder&, const std::string&, const std::
   return {};
 }
 
-void write_batch_page(const io::OutputCollection&, const std::vector<study::CaseResult>&, const std::string&,
-                      const std::vector<study::MeasureSensitivity>&, std::size_t) {}
+void write_batch_page(const io::OutputCollection&, const study::CaseTable&, const std::string&,
+                      const std::vector<study::MeasureSensitivity>&, bool) {}
 
 void write_split_picture(const std::filesystem::path&, const io::SplitTable&) {}
 

@@ -24,7 +24,8 @@ std::string content_of(const WholeBatch& batch, const CaseArguments& arguments, 
   io::Digest digest;
   digest.add(policy_of(arguments));
   std::string before;
-  for (const study::BatchCase& c : batch.cases) {
+  for (std::size_t i = 0; i < batch.cases.size(); ++i) {
+    const study::BatchCase c = batch.cases.at(i);
     std::string text = source.text(c);
     if (text != before) digest.add(text);
     before = std::move(text);
@@ -82,16 +83,16 @@ void take_shard(const study::Shard& shard, const CaseSource& source, WholeBatch&
                                              study::this_machine()};
   settings.out = folder_of(settings, shard);
   const std::vector<std::size_t> shards = study::shards_of(batch.work(), shard.count);
-  std::vector<study::BatchCase> own;
+  std::vector<std::size_t> own;
   for (std::size_t i = 0; i < batch.cases.size(); ++i)
-    if (shards[i] + 1 == shard.number) own.push_back(std::move(batch.cases[i]));
-  batch.cases = std::move(own);
+    if (shards[i] + 1 == shard.number) own.push_back(i);
+  batch.cases = study::chosen(batch.cases, std::move(own));
 }
 
 namespace {
 
 /// Seconds of all cases and memory of the largest, from at most a thousand of them.
-run::Estimate predicted(const std::vector<study::BatchCase>& cases, const CaseSource& source, double& seconds) {
+run::Estimate predicted(const study::CaseList& cases, const CaseSource& source, double& seconds) {
   constexpr std::size_t most_looks = 1000;
   run::Estimate largest;
   std::size_t looked_at = 0;
@@ -99,7 +100,7 @@ run::Estimate predicted(const std::vector<study::BatchCase>& cases, const CaseSo
   seconds = 0.0;
   for (std::size_t i = 0; i < cases.size(); i += every) {
     ++looked_at;
-    const io::SceneFile file = source.read(cases[i]);
+    const io::SceneFile file = source.read(cases.at(i));
     if (!file.ok()) continue;
     const run::Estimate e = run::estimate_run(file.scene);
     seconds += e.seconds();

@@ -13,7 +13,7 @@ struct WholeBatch {
   std::string verb;
   std::filesystem::path source;               ///< folder of scenes, or file of a sweep
   std::vector<std::filesystem::path> inputs;  ///< that results must not replace
-  std::vector<study::BatchCase> cases = {};
+  study::CaseList cases = {};
   std::string list = {};                           ///< cases.csv
   std::function<std::vector<double>()> work = {};  ///< predicted, by case
 };

@@ -359,6 +359,13 @@ void OutputCollection::write(const std::string& name, std::string_view text) con
   write_listed_file(folder_, made_by_, name, text);
 }
 
+void OutputCollection::write(const std::string& name, const TextWriter& writer) const {
+  list_file(folder_, made_by_, name);
+  AtomicFile file(folder_ / name);
+  writer([&file](std::string_view text) { file.write(text); });
+  file.commit();
+}
+
 void OutputCollection::write_once(const std::string& name, std::string_view text) const {
   write_listed_file_once(folder_, made_by_, name, text);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
@@ -50,24 +51,74 @@ std::optional<double> measure_of(const CaseResult& r, const std::string& name) {
 
 }  // namespace
 
-Cases cases_of(const std::vector<CaseResult>& results, const std::vector<Measured>& measured) {
-  Cases cases{{}, {"case", "status", "cause", "doubts"}, cases_shown(results)};
-  for (const CaseResult& r : results)
-    for (const auto& [name, value] : r.which.inputs)
+std::vector<Measured> measured_in(const study::CaseTable& results) {
+  std::vector<Measured> all;
+  for (const study::CaseTable::Measure& measure : results.measures()) {
+    Measured m{measure.name, {}, {}, measure.unit, measure.is_indicator};
+    const std::vector<std::optional<double>> values = results.values_of(measure.name);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (values[i]) m.cases.push_back(static_cast<std::uint32_t>(i));
+    std::stable_sort(m.cases.begin(), m.cases.end(),
+                     [&values](std::uint32_t a, std::uint32_t b) { return *values[a] < *values[b]; });
+    for (const std::uint32_t i : m.cases) m.values.push_back(*values[i]);
+    all.push_back(std::move(m));
+  }
+  return all;
+}
+
+std::vector<std::uint32_t> ended_cases(const study::CaseTable& results, bool goes_on) {
+  std::vector<std::uint32_t> ended;
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (!goes_on || results.has(i)) ended.push_back(static_cast<std::uint32_t>(i));
+  return ended;
+}
+
+std::vector<std::size_t> cases_shown(const study::CaseTable& results, const std::vector<std::uint32_t>& ended,
+                                     const std::vector<Measured>& measured, std::size_t most) {
+  if (ended.size() <= most) return {ended.begin(), ended.end()};
+  std::set<std::size_t> chosen;
+  for (std::size_t k = 0; chosen.size() < most / 2 && k < ended.size(); ++k) {  // the extreme values, from outside in
+    const std::size_t before = chosen.size();
+    for (const Measured& m : measured) {
+      if (2 * k >= m.cases.size()) continue;
+      chosen.insert(m.cases[k]);
+      chosen.insert(m.cases[m.cases.size() - 1 - k]);
+    }
+    if (chosen.size() == before && k > ended.size() / 2) break;
+  }
+  for (std::size_t i = 0; i < ended.size() && chosen.size() < 3 * most / 4; ++i)
+    if (!is_good(results.status(ended[i]))) chosen.insert(ended[i]);
+  // A sample at equal distances: cases of random designs have no order.
+  const std::size_t left = most - std::min(most, chosen.size());
+  for (std::size_t k = 0; k < left; ++k) chosen.insert(ended[k * ended.size() / left]);
+  return {chosen.begin(), chosen.end()};
+}
+
+Cases cases_of(const study::CaseTable& results, const std::vector<std::uint32_t>& ended,
+               const std::vector<Measured>& measured) {
+  Cases cases{{}, {"case", "status", "cause", "doubts"}, {}, {}};
+  for (const std::size_t i : cases_shown(results, ended, measured, most_cases_shown)) {
+    cases.shown.push_back(results.at(i));
+    for (const auto& [name, value] : cases.shown.back().which.inputs)
       if (std::find(cases.inputs.begin(), cases.inputs.end(), name) == cases.inputs.end()) cases.inputs.push_back(name);
+  }
   cases.columns.insert(cases.columns.end(), cases.inputs.begin(), cases.inputs.end());
-  for (const Measured& m : measured) cases.columns.push_back(m.name);
+  cases.headings = cases.columns;
+  for (const Measured& m : measured) {
+    cases.columns.push_back(m.name);
+    cases.headings.push_back(m.title());
+  }
   cases.columns.emplace_back("steps");
+  cases.headings.emplace_back("steps");
   return cases;
 }
 
-Table case_table(const Cases& cases, const std::vector<CaseResult>& results, const std::vector<Measured>& measured) {
-  Table table{cases.columns, {}};
+Table case_table(const Cases& cases, const std::vector<Measured>& measured) {
+  Table table{cases.headings, {}};
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const std::size_t i : cases.shown) {
-    const CaseResult& r = results[i];
+  for (const CaseResult& r : cases.shown) {
     std::vector<Cell> row{{r.which.name},
-                          {std::string(study::text_of(r.status)), is_good(r) ? Tone::good : Tone::bad},
+                          {std::string(study::text_of(r.status)), is_good(r.status) ? Tone::good : Tone::bad},
                           {cause_of(r)},
                           {doubts_of(r)}};
     for (const std::string& name : cases.inputs) {
@@ -83,8 +134,7 @@ Table case_table(const Cases& cases, const std::vector<CaseResult>& results, con
   return table;
 }
 
-std::string cases_json(const Cases& cases, const std::vector<CaseResult>& results,
-                       const std::vector<Measured>& measured) {
+std::string cases_json(const Cases& cases, const std::vector<Measured>& measured) {
   io::JsonText json;
   json.begin_object();
   json.member("inputs", static_cast<long long>(cases.inputs.size()));
@@ -92,14 +142,17 @@ std::string cases_json(const Cases& cases, const std::vector<CaseResult>& result
   json.begin_array();
   for (const std::string& name : cases.columns) json.value(std::string_view(name));
   json.end_array();
+  json.key("headings");
+  json.begin_array();
+  for (const std::string& heading : cases.headings) json.value(std::string_view(heading));
+  json.end_array();
   json.key("numeric");
   json.begin_array();
   for (std::size_t k = 0; k < cases.columns.size(); ++k) json.value(k >= 4);
   json.end_array();
   json.key("rows");
   json.begin_array();
-  for (const std::size_t i : cases.shown) {
-    const CaseResult& r = results[i];
+  for (const CaseResult& r : cases.shown) {
     json.begin_array();
     json.value(std::string_view(r.which.name));
     json.value(study::text_of(r.status));

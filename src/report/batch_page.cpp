@@ -6,7 +6,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 
 #include "batch_cases.hpp"
 #include "batch_script.hpp"
@@ -21,41 +20,14 @@ namespace {
 
 using study::CaseResult;
 using study::CaseStatus;
+using study::CaseTable;
 
-std::vector<Measured> measured_in(const std::vector<CaseResult>& results) {
-  std::vector<Measured> all;
-  std::map<std::string, std::size_t> index;
-  for (std::size_t i = 0; i < results.size(); ++i)
-    for (std::size_t k = 0; k < results[i].report.measures.size(); ++k) {
-      const records::MeasureResult& m = results[i].report.measures[k];
-      const auto [at, is_new] = index.try_emplace(m.name, all.size());
-      if (is_new) all.push_back({m.name, {}, {}});
-      if (k < results[i].report.units.size()) all[at->second].unit = results[i].report.units[k];
-      if (!m.value) continue;
-      all[at->second].values.push_back(*m.value);
-      all[at->second].cases.push_back(i);
-    }
-  for (Measured& m : all) {
-    std::vector<std::size_t> order(m.values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&m](std::size_t a, std::size_t b) { return m.values[a] < m.values[b]; });
-    Measured sorted{m.name, {}, {}, m.unit};
-    for (const std::size_t k : order) {
-      sorted.values.push_back(m.values[k]);
-      sorted.cases.push_back(m.cases[k]);
-    }
-    m = std::move(sorted);
-  }
-  return all;
-}
-
-Table status_table(const std::vector<CaseResult>& results) {
+Table status_table(const CaseTable& results, const std::vector<std::uint32_t>& ended) {
   std::map<CaseStatus, std::size_t> counts;
-  for (const CaseResult& r : results) ++counts[r.status];
+  for (const std::uint32_t i : ended) ++counts[results.status(i)];
   Table table{{"status", "cases"}, {}};
   for (const auto& [status, count] : counts)
-    table.rows.push_back({{std::string(study::text_of(status)), status == CaseStatus::ok ? Tone::good : Tone::bad},
+    table.rows.push_back({{std::string(study::text_of(status)), is_good(status) ? Tone::good : Tone::bad},
                           number_cell(static_cast<double>(count), 9)});
   return table;
 }
@@ -74,34 +46,33 @@ std::string kind_of(const std::string& cause) {
 }
 
 /// Failures by cause, the most frequent first.
-Table failure_table(const std::vector<CaseResult>& results) {
+Table failure_table(const CaseTable& results, const std::vector<std::uint32_t>& ended) {
+  constexpr std::size_t most_groups = 50, most_names = 5;
   struct Group {
-    std::string status, example;
-    std::vector<std::string> cases;
+    std::string status, example, names;
+    std::size_t count = 0;
   };
   std::map<std::string, Group> groups;
-  for (const CaseResult& r : results) {
-    if (is_good(r)) continue;
+  for (const std::uint32_t i : ended) {
+    if (is_good(results.status(i))) continue;
+    const CaseResult r = results.at(i);
     Group& g = groups[std::string(study::text_of(r.status)) + " " + kind_of(r.cause)];
-    if (g.cases.empty()) {
+    if (g.count == 0) {
       g.status = study::text_of(r.status);
       g.example = r.cause;
     }
-    g.cases.push_back(r.which.name);
+    if (g.count < most_names) g.names += (g.count > 0 ? ", " : "") + r.which.name;
+    if (g.count == most_names) g.names += ", ...";
+    ++g.count;
   }
   std::vector<const Group*> order;
   for (const auto& [key, group] : groups) order.push_back(&group);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Group* a, const Group* b) { return a->cases.size() > b->cases.size(); });
-  constexpr std::size_t most_groups = 50, most_names = 5;
+  std::stable_sort(order.begin(), order.end(), [](const Group* a, const Group* b) { return a->count > b->count; });
   Table table{{"status", "cause, of the first", "cases", "which"}, {}};
   for (const Group* g : order) {
     if (table.rows.size() == most_groups) break;
-    std::string names;
-    for (std::size_t k = 0; k < std::min(most_names, g->cases.size()); ++k) names += (k > 0 ? ", " : "") + g->cases[k];
-    if (g->cases.size() > most_names) names += ", ...";
     table.rows.push_back(
-        {{g->status, Tone::bad}, {g->example}, number_cell(static_cast<double>(g->cases.size()), 9), {names}});
+        {{g->status, Tone::bad}, {g->example}, number_cell(static_cast<double>(g->count), 9), {g->names}});
   }
   return table;
 }
@@ -110,10 +81,10 @@ double at_share(const Measured& m, double share) {
   return m.values[static_cast<std::size_t>(share * static_cast<double>(m.values.size() - 1) + 0.5)];
 }
 
-Table measure_table(const std::vector<Measured>& all, const std::vector<CaseResult>& results) {
+Table measure_table(const std::vector<Measured>& all, const CaseTable& results, std::size_t num_ended) {
   // The number of cases with a value is shown only if some have none, since the table is nearly as wide as the page.
   const bool is_whole =
-      std::all_of(all.begin(), all.end(), [&](const Measured& m) { return m.values.size() == results.size(); });
+      std::all_of(all.begin(), all.end(), [&](const Measured& m) { return m.values.size() == num_ended; });
   Table table{{"measure", "mean", "deviation", "least", "in case", "5 %", "median", "95 %", "largest", "in case"}, {}};
   if (!is_whole) table.head.insert(table.head.begin() + 1, "cases");
   for (const Measured& m : all) {
@@ -127,23 +98,23 @@ Table measure_table(const std::vector<Measured>& all, const std::vector<CaseResu
                           number_cell(m.values.size() > 1 ? std::sqrt(squares / (count - 1.0))
                                                           : std::numeric_limits<double>::quiet_NaN()),
                           number_cell(m.values.front(), 5),
-                          {results[m.cases.front()].which.name},
+                          {results.cases().at(m.cases.front()).name},
                           number_cell(at_share(m, 0.05), 5),
                           number_cell(at_share(m, 0.5), 5),
                           number_cell(at_share(m, 0.95), 5),
                           number_cell(m.values.back(), 5),
-                          {results[m.cases.back()].which.name}});
+                          {results.cases().at(m.cases.back()).name}});
     if (!is_whole) table.rows.back().insert(table.rows.back().begin() + 1, number_cell(count, 9));
   }
   return table;
 }
 
-/// Of a measure that is 1 where something happens and 0 where it does not: how often it does, with the interval of
-/// Wilson (J. Am. Stat. Assoc. 22, 1927) for the probability.
+/// Of an indicator: in how many cases it is 1, with the interval of Wilson (J. Am. Stat. Assoc. 22, 1927) for the
+/// probability. A count that happens to be 0 or 1 in all cases is none.
 std::optional<std::string> share_text(const Measured& m) {
   const auto is = [&m](double x) { return std::count(m.values.begin(), m.values.end(), x); };
   const double n = static_cast<double>(m.values.size()), hits = static_cast<double>(is(1.0));
-  if (m.values.empty() || !m.unit.empty() || hits + static_cast<double>(is(0.0)) != n) return std::nullopt;
+  if (m.values.empty() || !m.is_indicator) return std::nullopt;
   constexpr double z = 1.959963984540054;  // of 95 %
   const double p = hits / n, middle = (p + 0.5 * z * z / n) / (1.0 + z * z / n);
   const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + 0.25 * z * z / (n * n));
@@ -271,49 +242,28 @@ void add_sensitivities(Document& page, const std::vector<study::MeasureSensitivi
 
 }  // namespace
 
-std::vector<std::size_t> cases_shown(const std::vector<CaseResult>& results, std::size_t most) {
-  std::vector<std::size_t> all(results.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  if (all.size() <= most) return all;
-  std::set<std::size_t> chosen;
-  const std::vector<Measured> measured = measured_in(results);
-  for (std::size_t k = 0; chosen.size() < most / 2 && k < results.size(); ++k) {  // the extreme values, from outside in
-    const std::size_t before = chosen.size();
-    for (const Measured& m : measured) {
-      if (2 * k >= m.cases.size()) continue;
-      chosen.insert(m.cases[k]);
-      chosen.insert(m.cases[m.cases.size() - 1 - k]);
-    }
-    if (chosen.size() == before && k > results.size() / 2) break;
-  }
-  for (std::size_t i = 0; i < results.size() && chosen.size() < 3 * most / 4; ++i)
-    if (!is_good(results[i])) chosen.insert(i);
-  // A sample at equal distances: cases of random designs have no order.
-  const std::size_t left = most - std::min(most, chosen.size());
-  for (std::size_t k = 0; k < left; ++k) chosen.insert(k * results.size() / left);
-  return {chosen.begin(), chosen.end()};
-}
-
-std::string batch_page(const std::vector<CaseResult>& results, const std::string& title,
-                       const std::vector<study::MeasureSensitivity>& sensitivities, std::size_t num_cases) {
-  const auto good = static_cast<std::size_t>(std::count_if(results.begin(), results.end(), is_good));
-  std::string lead = std::to_string(results.size()) + " cases, " + std::to_string(good) + " ok.";
-  if (results.size() < num_cases)
-    lead += " The batch goes on: " + std::to_string(num_cases - results.size()) + " of " + std::to_string(num_cases) +
-            " are left.";
+std::string batch_page(const CaseTable& results, const std::string& title,
+                       const std::vector<study::MeasureSensitivity>& sensitivities, bool goes_on) {
+  const std::vector<std::uint32_t> ended = ended_cases(results, goes_on);
+  const auto good = static_cast<std::size_t>(
+      std::count_if(ended.begin(), ended.end(), [&](std::uint32_t i) { return is_good(results.status(i)); }));
+  std::string lead = std::to_string(ended.size()) + " cases, " + std::to_string(good) + " ok.";
+  if (goes_on)
+    lead += " The batch goes on: " + std::to_string(results.size() - ended.size()) + " of " +
+            std::to_string(results.size()) + " are left.";
   Document page(title, lead);
   page.section("What came of them");
-  page.table(status_table(results));
-  if (good < results.size()) {
+  page.table(status_table(results, ended));
+  if (good < ended.size()) {
     page.subsection("Causes");
-    page.table(failure_table(results));
+    page.table(failure_table(results, ended));
   }
   const std::vector<Measured> measured = measured_in(results);
   if (!measured.empty()) {
     page.section("What was measured");
     for (const Measured& m : measured)
       if (const std::optional<std::string> share = share_text(m)) page.paragraph(*share);
-    page.table(measure_table(measured, results));
+    page.table(measure_table(measured, results, ended.size()));
     constexpr std::size_t most_histograms = 24;
     std::vector<std::string> drawings;
     for (const Measured& m : measured)
@@ -322,17 +272,17 @@ std::string batch_page(const std::vector<CaseResult>& results, const std::string
   }
   add_sensitivities(page, sensitivities);
   page.section("Cases");
-  const Cases cases = cases_of(results, measured);
+  const Cases cases = cases_of(results, ended, measured);
   page.paragraph(
-      cases.shown.size() < results.size()
+      cases.shown.size() < ended.size()
           ? "The extreme cases of every measure, failures and a sample, " + std::to_string(cases.shown.size()) +
                 " in all; batch.csv holds every case."
           : "A click on a heading sorts, one on a row or point selects; selected cases have links to their views.",
       Tone::soft);
   page.markup("<div id=\"scatter\"></div>\n<div id=\"cases\">\n");
-  page.table(case_table(cases, results, measured));
+  page.table(case_table(cases, measured));
   page.markup("</div>\n");
-  page.program("batch", cases_json(cases, results, measured), batch_script);
+  page.program("batch", cases_json(cases, measured), batch_script);
   return page.html();
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// The script of batch.html: sorts, filters and selects the rows of the table of cases, which stands in the page, and
 /// draws any column against any. `batch` is a JSON value in the page, with the rows and columns of the table:
-/// {"columns": [names], "numeric": [true, ...], "rows": [[cells], ...]}; a cell is a number, a text or null. All text
-/// goes into the page as text nodes.
+/// {"columns": [names], "headings": [names with units], "numeric": [true, ...], "rows": [[cells], ...]}; a cell is a
+/// number, a text or null. All text goes into the page as text nodes.
 #include <string_view>
 
 namespace bough::report {
@@ -11,7 +11,7 @@ inline constexpr std::string_view batch_script = R"js(
 (function () {
   "use strict";
   var data = JSON.parse(document.getElementById("batch").textContent), svgNs = "http://www.w3.org/2000/svg";
-  var columns = data.columns, numeric = data.numeric, rows = data.rows, order = rows.map(function (r, i) { return i; });
+  var columns = data.columns, headings = data.headings, numeric = data.numeric, rows = data.rows, order = rows.map(function (r, i) { return i; });
   var selected = {}, sortBy = -1, down = false;
   function el(parent, name, text) {
     var e = document.createElement(name);
@@ -129,8 +129,8 @@ inline constexpr std::string_view batch_script = R"js(
       draw_svg("text", {"class": "soft tiny", x: px(vx), y: 368, "text-anchor": s === 0 ? "start" : s === 1 ? "end" : "middle"}, shown(vx));
       draw_svg("text", {"class": "soft tiny", x: 84, y: py(vy) + 4, "text-anchor": "end"}, shown(vy));
     });
-    draw_svg("text", {"class": "ink tiny", x: 510, y: 390, "text-anchor": "middle"}, columns[cx]);
-    draw_svg("text", {"class": "ink tiny", x: 90, y: 18}, columns[cy]);
+    draw_svg("text", {"class": "ink tiny", x: 510, y: 390, "text-anchor": "middle"}, headings[cx]);
+    draw_svg("text", {"class": "ink tiny", x: 90, y: 18}, headings[cy]);
     points.forEach(function (i) {
       var e = draw_svg("circle", {cx: px(rows[i][cx]), cy: py(rows[i][cy]), r: selected[i] ? 6 : 3, "class": "point solid " + (selected[i] ? "s1" : "s0")});
       var t = document.createElementNS(svgNs, "title");

@@ -142,9 +142,28 @@ std::string unit_of(const scene::Measure& measure, const records::HistoryHeader&
     case MeasureKind::equivalent_range:
       break;
   }
-  for (std::size_t k = 0; k < std::min(header.columns.size(), header.about.size()); ++k)
-    if (measure.expression.empty() && header.columns[k] == measure.quantity) return header.about[k].unit;
-  return "";
+  const auto unit_of_column = [&header](const std::string& name) {
+    const auto at = static_cast<std::size_t>(std::find(header.columns.begin(), header.columns.end(), name) -
+                                             header.columns.begin());
+    return at < header.about.size() ? header.about[at].unit : std::string();
+  };
+  if (measure.expression.empty()) return unit_of_column(measure.quantity);
+  std::vector<std::string> names, units;
+  for (const auto& [name, column] : measure.names) {
+    names.push_back(name);
+    units.push_back(unit_of_column(column));
+  }
+  return laws::Formula(measure.expression, names).unit(units);
+}
+
+bool is_indicator(const scene::Measure& measure) {
+  if (measure.expression.empty()) return false;
+  const bool is_of_one_step = measure.kind == MeasureKind::max || measure.kind == MeasureKind::min ||
+                              (measure.kind == MeasureKind::value && !measure.time);
+  if (!is_of_one_step) return false;
+  std::vector<std::string> names;
+  for (const auto& [name, column] : measure.names) names.push_back(name);
+  return laws::Formula(measure.expression, names).is_zero_or_one();
 }
 
 std::vector<records::MeasureResult> Measures::results() const {

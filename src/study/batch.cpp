@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "bough/io/read_scene.hpp"
 #include "bough/io/run_directory.hpp"
@@ -90,26 +92,6 @@ CaseResult result_of_ended(const BatchCase& which, int wait_status, double secon
 
 }  // namespace
 
-std::string_view text_of(CaseStatus status) {
-  switch (status) {
-    case CaseStatus::ok:
-      return "ok";
-    case CaseStatus::figures_fail:
-      return "figures_fail";
-    case CaseStatus::failed:
-      return "failed";
-    case CaseStatus::interrupted:
-      return "interrupted";
-    case CaseStatus::bad_input:
-      return "bad_input";
-    case CaseStatus::crashed:
-      return "crashed";
-    case CaseStatus::timed_out:
-      return "timed_out";
-  }
-  return "failed";
-}
-
 std::vector<BatchCase> cases_in(const fs::path& folder, const fs::path& out) {
   std::error_code error;
   std::vector<BatchCase> cases;
@@ -136,62 +118,65 @@ CaseResult not_started(const BatchCase& which, const std::string& why) {
 /// A batch in progress.
 class Batch {
  public:
-  Batch(const std::vector<BatchCase>& cases, const BatchOptions& options, const RunCase& run_case, const CaseDone& done)
-      : cases_(cases), options_(options), run_case_(run_case), done_(done), results_(cases.size()) {
-    order_ = options.order;
-    for (std::size_t k = order_.size(); k < cases.size(); ++k) order_.push_back(k);
+  Batch(CaseTable table, const BatchOptions& options, const RunCase& run_case, const CaseDone& done)
+      : options_(options), run_case_(run_case), done_(done), table_(std::move(table)) {
+    const std::size_t count = options.order.empty() ? table_.size() : options.order.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t which = options.order.empty() ? k : options.order[k];
+      if (!table_.has(which)) order_.push_back(which);
+    }
   }
 
-  std::vector<CaseResult> run(const std::function<bool()>& stop) {
-    while (next_ < order_.size() || num_busy_ > 0) {
+  CaseTable run(const std::function<bool()>& stop) {
+    while (next_ < order_.size() || !busy_.empty()) {
       if (!stopping_ && stop()) {
         stopping_ = true;
         for (Worker& w : workers_)
           if (w.is_busy()) w.ask_to_stop();
       }
-      if (stopping_ && num_busy_ == 0) break;
+      if (stopping_ && busy_.empty()) break;
       while (!stopping_ && next_ < order_.size() && hand_out()) {
       }
       if (!collect()) wait();
     }
-    for (; next_ < order_.size(); ++next_) {
-      CaseResult& result = results_[order_[next_]];
-      result.which = cases_[order_[next_]];
-      result.status = CaseStatus::interrupted;
-      result.cause = "not started";
-    }
-    return std::move(results_);
+    return std::move(table_);
   }
 
  private:
   /// Number of threads of a case: as many as it asks for, but never more than there are.
-  int threads_of(std::size_t which) const { return std::clamp(cases_[which].threads, 1, options_.threads); }
+  int threads_of(const BatchCase& which) const { return std::clamp(which.threads, 1, options_.threads); }
 
   /// Gives the next case to a worker. False if all threads are busy, or if fewer are free than the case asks for. Later
   /// cases do not overtake it, since it might then wait forever.
   bool hand_out() {
-    if (num_busy_threads_ + threads_of(order_[next_]) > options_.threads) return false;
+    if (num_busy_threads_ >= options_.threads) return false;
+    const std::size_t which = order_[next_];
+    if (!head_) head_ = table_.cases().at(which);
+    if (num_busy_threads_ + threads_of(*head_) > options_.threads) return false;
     auto idle = std::find_if(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.is_busy(); });
     if (idle == workers_.end()) {
       if (workers_.size() >= static_cast<std::size_t>(options_.threads)) return false;
       try {
-        workers_.emplace_back(cases_, run_case_, workers_);
+        workers_.emplace_back(table_.cases(), run_case_, workers_);
       } catch (const std::system_error& error) {
         if (!workers_.empty()) return false;  // the batch continues with fewer workers
-        const std::size_t which = order_[next_++];
-        finish(which, not_started(cases_[which], error.code().message()));
+        finish(which, not_started(take_head(), error.code().message()));
         return true;
       }
       idle = workers_.end() - 1;
     }
-    if (!idle->give(order_[next_])) {
+    if (!idle->give(which)) {
       workers_.erase(idle);
       return true;  // the case goes to another worker
     }
-    num_busy_threads_ += threads_of(order_[next_]);
-    ++next_;
-    ++num_busy_;
+    num_busy_threads_ += threads_of(*head_);
+    busy_.emplace(which, take_head());
     return true;
+  }
+
+  BatchCase take_head() {
+    ++next_;
+    return *std::exchange(head_, std::nullopt);
   }
 
   /// The rows that the present case of a worker has written, for a folder of its own. Only the first 1000 cases that
@@ -201,9 +186,9 @@ class Batch {
     return w.rows().empty() || num_kept_++ >= most ? std::string_view() : w.rows();
   }
 
-  void finish(std::size_t which, CaseResult result) {
-    results_[which] = std::move(result);
-    done_(results_[which], ++num_done_, cases_.size());
+  void finish(std::size_t which, const CaseResult& result) {
+    table_.set(which, result);
+    done_(result, which, table_);
   }
 
   /// True if a case has ended.
@@ -218,12 +203,12 @@ class Batch {
       const std::optional<WorkerAnswer> answer = w.answer();
       const bool has_ended = w.has_ended();
       if (answer || (is_busy && has_ended)) {
-        --num_busy_;
-        num_busy_threads_ -= threads_of(which);
+        const BatchCase one = std::move(busy_.extract(which).mapped());
+        num_busy_threads_ -= threads_of(one);
         any_ended = true;
-        finish(which, answer ? result_of(cases_[which], *answer, seconds, is_late)
-                             : result_of_ended(cases_[which], w.reap(), seconds, is_late, w.killed_for_memory(),
-                                               rows_to_keep(w)));
+        finish(which, answer
+                          ? result_of(one, *answer, seconds, is_late)
+                          : result_of_ended(one, w.reap(), seconds, is_late, w.killed_for_memory(), rows_to_keep(w)));
       }
       // A worker that was told to stop would stop its next case as well.
       if (has_ended || (w.was_asked_to_stop() && !w.is_busy())) {
@@ -252,23 +237,24 @@ class Batch {
     (void)::poll(pipes.data(), pipes.size(), poll_milliseconds);
   }
 
-  const std::vector<BatchCase>& cases_;
   const BatchOptions& options_;
   const RunCase& run_case_;
   const CaseDone& done_;
-  std::vector<CaseResult> results_;
+  CaseTable table_;
   std::vector<std::size_t> order_;
   std::vector<Worker> workers_;
-  std::size_t next_ = 0, num_busy_ = 0, num_done_ = 0, num_kept_ = 0;
+  std::optional<BatchCase> head_;          ///< the next case, order_[next_], once it was made
+  std::map<std::size_t, BatchCase> busy_;  ///< those that workers run
+  std::size_t next_ = 0, num_kept_ = 0;
   int num_busy_threads_ = 0;
   bool stopping_ = false;
 };
 
 }  // namespace
 
-std::vector<CaseResult> run_batch(const std::vector<BatchCase>& cases, const BatchOptions& options,
-                                  const RunCase& run_case, const CaseDone& done, const std::function<bool()>& stop) {
-  return Batch(cases, options, run_case, done).run(stop);
+CaseTable run_batch(CaseTable table, const BatchOptions& options, const RunCase& run_case, const CaseDone& done,
+                    const std::function<bool()>& stop) {
+  return Batch(std::move(table), options, run_case, done).run(stop);
 }
 
 }  // namespace bough::study

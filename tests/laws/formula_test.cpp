@@ -57,5 +57,42 @@ TEST(Formula, values_come_by_name) {
   }
 }
 
+std::string unit(const std::string& formula) {
+  const std::vector<std::string> names = {"x", "y", "v", "f", "a", "n"}, units = {"m", "m", "m/s", "N", "rad", ""};
+  return Formula(formula, names).unit(units);
+}
+
+TEST(Formula, units_follow_from_those_of_the_variables) {
+  EXPECT_EQ(unit("x"), "m");
+  EXPECT_EQ(unit("0.9 - max(x - 1e3*step(v + 8), -y)"), "m");
+  EXPECT_EQ(unit("sqrt(x^2 + y^2)"), "m");
+  EXPECT_EQ(unit("sqrt(x*x + y*y)"), "m");
+  EXPECT_EQ(unit("v*v"), "(m/s)^2");
+  EXPECT_EQ(unit("f^0.5"), "N^0.5");
+  EXPECT_EQ(unit("1/x"), "");  // the 1 may have a unit
+  EXPECT_EQ(unit("n/x"), "m^-1");
+  EXPECT_EQ(unit("x/y"), "");
+  EXPECT_EQ(unit("x/y*v"), "m/s");
+  EXPECT_EQ(unit("n*x + sin(a)*y"), "m");
+  EXPECT_EQ(unit("atan(x/y)"), "rad");
+  EXPECT_EQ(unit("abs(a) - 0.1"), "rad");
+  EXPECT_EQ(unit("step(x)*step(y)"), "");
+}
+
+TEST(Formula, a_unit_that_does_not_follow_is_not_told) {
+  for (const char* formula : {"2*x", "x + v", "x*f", "x + 9.81*n*v", "x^n", "min(x, f)", "3", "x + x^2"})
+    EXPECT_EQ(unit(formula), "") << formula;
+}
+
+TEST(Formula, what_is_always_0_or_1_is_found_by_its_form) {
+  const std::vector<std::string> names = {"x", "y"};
+  for (const char* formula : {"step(x)", "step(x - 1)*step(2 - x)", "1 - step(x)", "max(step(x), step(y), 0)", "1",
+                              "min(1, step(x)^2)", "abs(1 - step(y))"})
+    EXPECT_TRUE(Formula(formula, names).is_zero_or_one()) << formula;
+  for (const char* formula : {"x", "step(x) + step(y)", "2*step(x)", "sign(x)", "step(x) - 1", "0.5", "step(x)^-1",
+                              "step(x)/step(y)", "1 - x", "max(step(x), y)"})
+    EXPECT_FALSE(Formula(formula, names).is_zero_or_one()) << formula;
+}
+
 }  // namespace
 }  // namespace bough::laws

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "batch_cases.hpp"
+
 namespace bough::report {
 namespace {
 
@@ -35,7 +37,7 @@ TEST(BatchPage, no_text_of_a_scene_ends_a_script_or_opens_an_element) {
   results[1].report.measures[0].name = evil;
   results[1].report.doubts = {evil};
   study::MeasureSensitivity s{evil, {evil}, {"morris", {"mu"}, {{{1.0, {}, {}}}}, 4, {}, {}}};
-  const std::string page = batch_page(results, evil, {s}, 2);
+  const std::string page = batch_page(results, evil, {s});
   EXPECT_EQ(count_of(page, "<script"), 2u);
   EXPECT_EQ(count_of(page, "</script"), 2u);
   EXPECT_EQ(count_of(page, "<img"), 0u);
@@ -50,11 +52,20 @@ TEST(BatchPage, failures_are_grouped_by_cause_whatever_numbers_it_holds) {
     results.back().status = CaseStatus::failed;
     results.back().cause = "the step at time 0." + std::to_string(k) + " fails";
   }
-  const std::string page = batch_page(results, "t", {}, 9);
+  const std::string page = batch_page(results, "t", {});
   EXPECT_EQ(count_of(page, ">failed</td>"), 2u + 3u);  // a status, one cause, and the cases
   EXPECT_NE(page.find("3, 6, 9"), std::string::npos);
   EXPECT_NE(page.find("9 cases, 6 ok."), std::string::npos);
-  EXPECT_NE(batch_page(results, "t", {}, 20).find("11 of 20 are left"), std::string::npos);
+  std::vector<study::BatchCase> cases(20);
+  for (std::size_t k = 0; k < results.size(); ++k) cases[2 * k] = results[k].which;
+  study::CaseTable some{study::CaseList(cases)};
+  for (std::size_t k = 0; k < results.size(); ++k) some.set(2 * k, results[k]);
+  const std::string live = batch_page(some, "t", {}, true), stopped = batch_page(some, "t", {});
+  EXPECT_NE(live.find("11 of 20 are left"), std::string::npos);
+  EXPECT_EQ(count_of(live, "interrupted"), 0u);
+  EXPECT_NE(live.find("3, 6, 9"), std::string::npos);
+  EXPECT_NE(stopped.find("20 cases, 6 ok."), std::string::npos);
+  EXPECT_GT(count_of(stopped, "not started"), 10u);
 }
 
 TEST(BatchPage, of_many_cases_extremes_failures_and_a_sample_are_shown) {
@@ -62,7 +73,9 @@ TEST(BatchPage, of_many_cases_extremes_failures_and_a_sample_are_shown) {
   for (std::size_t k = 0; k < 30'000; ++k)
     results.push_back(result_of(k, 1.0 + static_cast<double>((k * 7919) % 30'011)));
   results[12'345].status = CaseStatus::crashed;
-  const std::vector<std::size_t> shown = cases_shown(results);
+  const study::CaseTable table = results;
+  const std::vector<std::uint32_t> ended = ended_cases(table, false);
+  const std::vector<std::size_t> shown = cases_shown(table, ended, measured_in(table), most_cases_shown);
   EXPECT_LE(shown.size(), 2000u);
   EXPECT_GT(shown.size(), 1500u);
   EXPECT_TRUE(std::is_sorted(shown.begin(), shown.end()));
@@ -74,12 +87,14 @@ TEST(BatchPage, of_many_cases_extremes_failures_and_a_sample_are_shown) {
       is_shown(static_cast<std::size_t>(std::min_element(results.begin(), results.end(), less) - results.begin())));
   EXPECT_TRUE(
       is_shown(static_cast<std::size_t>(std::max_element(results.begin(), results.end(), less) - results.begin())));
-  EXPECT_LT(batch_page(results, "t", {}, results.size()).size(),
+  EXPECT_LT(batch_page(results, "t", {}).size(),
             1'500'000u);  // twice 2000 rows: as a table and as numbers
 }
 
 TEST(BatchPage, an_empty_batch_is_a_page) {
-  EXPECT_NE(batch_page({}, "t", {}, 5).find("5 of 5 are left"), std::string::npos);
+  const study::CaseTable none(study::CaseList(std::vector<study::BatchCase>(5)));
+  EXPECT_NE(batch_page(none, "t", {}, true).find("5 of 5 are left"), std::string::npos);
+  EXPECT_NE(batch_page({}, "t", {}).find("0 cases"), std::string::npos);
 }
 
 }  // namespace
@@ -87,17 +102,17 @@ TEST(BatchPage, tells_units_and_with_what_probability_something_happens) {
   std::vector<CaseResult> results;
   for (int k = 0; k < 10; ++k) {
     results.push_back(result_of(static_cast<std::size_t>(k), 0.1 * k));
-    results.back().report.measures = {{"tip", 0.1 * k}, {"too near", k < 2 ? 1.0 : 0.0}};
-    results.back().report.units = {"m", ""};
+    results.back().report.measures = {{"tip", 0.1 * k}, {"too near", k < 2 ? 1.0 : 0.0}, {"cycles", 1.0}};
+    results.back().report.units = {"m", "", ""};
+    results.back().report.indicators = {1};
   }
-  const std::string page = batch_page(results, "t", {}, 10);
-  EXPECT_NE(page.find("tip [m]"), std::string::npos);
+  const std::string page = batch_page(results, "t", {});
+  EXPECT_GE(count_of(page, "tip [m]"), 4u);  // of the statistics, a histogram, the table of cases and the chart
   // Wilson's interval of 2 of 10: (0.2 + 1.921/10 -+ 1.96 sqrt(0.016 + 0.00960)) / 1.384
   EXPECT_NE(page.find("too near: in 2 of 10 cases, 20 %."), std::string::npos);
   EXPECT_NE(page.find("between 5.67 and 51 %"), std::string::npos);
   EXPECT_EQ(page.find("tip: in"), std::string::npos);
-  results.back().report.measures[1].value = 0.5;
-  EXPECT_EQ(batch_page(results, "t", {}, 10).find("too near: in"), std::string::npos);
+  EXPECT_EQ(page.find("cycles: in"), std::string::npos) << "a number that happens to be 1 in all cases";
 }
 
 }  // namespace bough::report

@@ -17,9 +17,13 @@
 #include "bough/io/run_directory.hpp"
 #include "cases/case_report.hpp"
 #include "io/write_samples.hpp"
+#include "support/batch_texts.hpp"
 
 namespace bough::study {
 namespace {
+
+using support::batch_csv;
+using support::batch_json;
 
 /// A folder of cases named by what becomes of them.
 class Batch : public testing::Test {
@@ -32,7 +36,8 @@ class Batch : public testing::Test {
     o.time_limit = time_limit;
     return o;
   }
-  std::vector<BatchCase> cases() const { return cases_in(scratch_ / "in", scratch_ / "out"); }
+  CaseTable cases() const { return CaseTable(list()); }
+  std::vector<BatchCase> list() const { return cases_in(scratch_ / "in", scratch_ / "out"); }
 
   static int run_case(const BatchCase& which, CaseReport& report, io::SharedText&) {
     if (which.name.starts_with("bad")) {
@@ -71,10 +76,10 @@ class Batch : public testing::Test {
     return summary.status == records::RunStatus::ok ? 0 : 1;
   }
 
-  std::vector<CaseResult> run(const BatchOptions& o) {
+  CaseTable run(const BatchOptions& o) {
     std::filesystem::create_directories(scratch_ / "out");
     return run_batch(
-        cases(), o, run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+        cases(), o, run_case, [](const auto&...) {}, [] { return false; });
   }
 
   io::ScratchDirectory scratch_;
@@ -151,12 +156,14 @@ TEST(CaseReports, go_through_a_pipe_with_all_their_bits) {
   r.constraint_error = 1e-17 / 3.0;
   r.measures = {{"a", 0.1 + 0.2}, {"b", {}}, {"c", -5e-324}};
   r.units = {"m", "", "rad/s"};
+  r.indicators = {1};
   const std::string text = text_of(r);
   CaseReport back;
   ASSERT_TRUE(report_of(text, back));
   EXPECT_EQ(text_of(back), text);
   EXPECT_EQ(back.measures[2].value, -5e-324);
   EXPECT_EQ(back.units, r.units);
+  EXPECT_EQ(back.indicators, r.indicators);
   for (std::size_t n = 0; n + 2 < text.size(); ++n) {
     CaseReport part;
     EXPECT_FALSE(report_of(text.substr(0, n), part)) << n;
@@ -242,7 +249,7 @@ TEST_F(Batch, rows_of_a_case_without_a_folder_are_kept_when_its_process_dies) {
         run.end(summary);
         return 0;
       },
-      [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+      [](const auto&...) {}, [] { return false; });
   ASSERT_EQ(results.size(), 4u);
   EXPECT_EQ(results[0].status, CaseStatus::ok);
   for (const std::size_t k : {1, 3}) {
@@ -279,7 +286,7 @@ TEST_F(Batch, a_case_that_holds_more_memory_than_it_may_is_killed_alone) {
         std::this_thread::sleep_for(std::chrono::seconds(60));
         return 0;
       },
-      [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+      [](const auto&...) {}, [] { return false; });
   EXPECT_EQ(results.at(0).status, CaseStatus::ok);
   EXPECT_EQ(results.at(1).status, CaseStatus::ok);
   EXPECT_EQ(results.at(2).status, CaseStatus::failed);
@@ -289,11 +296,11 @@ TEST_F(Batch, a_case_that_holds_more_memory_than_it_may_is_killed_alone) {
 TEST_F(Batch, cases_that_ask_for_threads_never_have_more_than_there_are) {
   const std::vector<int> wanted = {1, 2, 3, 1, 9, 2, 1, 1, 0};
   for (std::size_t k = 0; k < wanted.size(); ++k) add("case_" + std::to_string(k));
-  std::vector<BatchCase> asking = cases();
+  std::vector<BatchCase> asking = list();
   for (std::size_t k = 0; k < wanted.size(); ++k) asking[k].threads = wanted[k];
   auto* counts = shared<std::atomic<int>>(2);  // threads in use, and the most of them
   const auto results = run_batch(
-      asking, options(3),
+      CaseTable(asking), options(3),
       [counts](const BatchCase& which, CaseReport&, io::SharedText&) {
         const int own = std::clamp(which.threads, 1, 3), now = counts[0] += own;
         for (int most = counts[1]; most < now && !counts[1].compare_exchange_weak(most, now);) {
@@ -302,7 +309,7 @@ TEST_F(Batch, cases_that_ask_for_threads_never_have_more_than_there_are) {
         counts[0] -= own;
         return 0;
       },
-      [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+      [](const auto&...) {}, [] { return false; });
   for (const CaseResult& r : results) EXPECT_EQ(r.status, CaseStatus::ok) << r.which.name;
   EXPECT_EQ(counts[1], 3);
 }
@@ -319,7 +326,7 @@ TEST_F(Batch, its_cases_end_with_it) {
           std::this_thread::sleep_for(std::chrono::seconds(60));
           return 0;
         },
-        [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+        [](const auto&...) {}, [] { return false; });
     _exit(0);
   }
   while (!std::filesystem::exists(mark)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -338,7 +345,7 @@ TEST_F(Batch, its_cases_end_with_it) {
 
 TEST_F(Batch, names_of_dots_stay_within_the_folder) {
   for (const char* name : {"..", "...", "a"}) add(name);
-  for (const BatchCase& which : cases())
+  for (const BatchCase& which : list())
     EXPECT_EQ(which.directory.lexically_normal().parent_path(), scratch_ / "out") << which.name;
 }
 
@@ -352,7 +359,7 @@ TEST_F(Batch, a_worker_serves_many_cases_and_is_replaced_where_it_dies) {
         report.doubts = {std::to_string(getpid())};
         return code;
       },
-      [](const CaseResult&, std::size_t, std::size_t) {}, [] { return false; });
+      [](const auto&...) {}, [] { return false; });
   ASSERT_EQ(results.size(), 5u);  // by name: crashes, good_1 to good_4
   EXPECT_EQ(results[0].status, CaseStatus::crashed);
   for (std::size_t k = 1; k < 5; ++k) {
@@ -366,14 +373,14 @@ TEST_F(Batch, stopping_ends_what_runs_and_starts_nothing_more) {
   std::filesystem::create_directories(scratch_ / "out");
   int asked = 0;
   const auto results = run_batch(
-      cases(), options(2), run_case, [](const CaseResult&, std::size_t, std::size_t) {}, [&] { return ++asked > 3; });
+      cases(), options(2), run_case, [](const auto&...) {}, [&] { return ++asked > 3; });
   EXPECT_EQ(results.at(0).status, CaseStatus::crashed) << "these children do not catch SIGTERM";
   EXPECT_EQ(results.at(2).status, CaseStatus::interrupted);
   EXPECT_EQ(results.at(2).cause, "not started");
 }
 
 TEST_F(Batch, a_folder_without_scenes_is_refused) {
-  EXPECT_THROW((void)cases(), std::runtime_error);
+  EXPECT_THROW((void)list(), std::runtime_error);
   EXPECT_THROW((void)cases_in(scratch_ / "none", scratch_ / "out"), std::runtime_error);
 }
 

@@ -21,6 +21,8 @@
 #include "bough/io/run_store.hpp"
 #include "bough/study/cases.hpp"
 #include "bough/study/collect.hpp"
+#include "cases/case_report.hpp"
+#include "support/batch_texts.hpp"
 
 namespace {
 
@@ -72,7 +74,7 @@ void read_sweep(std::string_view text) {
   } catch (const std::runtime_error&) {
     return;
   }
-  if (cases.cases.size() > 1000) return;
+  if (cases.size() > 1000) return;
   const std::string list = study::cases_csv(cases);
   require(study::adopt_cases(list, cases).empty());
   require(study::cases_csv(cases) == list);
@@ -94,18 +96,26 @@ std::string hashed(std::string_view text) {
 void read_journal(std::string_view text) {
   const fs::path file = scratch() / "journal.jsonl";
   write(file, text);
-  std::string whole;
-  (void)study::read_records(file, whole);
+  (void)study::read_records(file);
   write(file, hashed(text));
-  whole.clear();
-  const study::Records records = study::read_records(file, whole);
-  write(file, whole);
-  std::string again;
-  require(study::read_records(file, again).size() == records.size() && again == whole);
+  std::string whole, again;
   std::vector<study::CaseResult> results;
-  for (const auto& [key, result] : records) results.push_back(result);
-  (void)study::batch_csv(results);
-  (void)study::batch_json(results, "fuzz");
+  const auto take = [&](std::string& lines) {
+    return [&](const std::string&, const study::CaseResult& result, std::string_view line) {
+      lines += line;
+      results.push_back(result);
+    };
+  };
+  study::for_each_record(file, take(whole));
+  const std::size_t count = results.size();
+  write(file, whole);
+  study::for_each_record(file, take(again));
+  require(results.size() == 2 * count && again == whole);
+  const study::CaseTable table(results);
+  require(support::batch_csv(table) == support::batch_csv(results));
+  for (std::size_t i = 0; i < count; ++i)
+    require(study::text_of(table.at(i).report) == study::text_of(results[i].report));
+  (void)support::batch_json(table, "fuzz");
 }
 
 void read_store(std::string_view text) {
@@ -135,7 +145,7 @@ void collect(std::string_view text) {
   try {
     const study::Collected all = study::collect_shards({shards});
     require(all.results.size() >= all.missing.size());
-    (void)study::collected_csv(all);
+    if (all.machines.empty()) (void)support::batch_csv(all.results);
   } catch (const std::runtime_error&) {
   }
 }

@@ -182,25 +182,42 @@ TEST(Sampling, cases_are_all_combinations_with_conditions_kept) {
   spec.designs[1].variables[0].name = "c";
   spec.designs[1].variables[0].pointers = {"/parameters/c"};
   const SweepCases all = make_cases(spec);
-  ASSERT_EQ(all.cases.size(), 18u);
-  EXPECT_EQ(all.cases[0].name, "01");
-  EXPECT_EQ(all.cases[3].inputs[1].number, 4.0);
-  EXPECT_EQ(all.cases[0].inputs[2].text, all.cases[15].inputs[2].text);
-  EXPECT_EQ(overrides_of(spec, all.cases[4]).size(), 4u);
+  ASSERT_EQ(all.size(), 18u);
+  EXPECT_EQ(all.at(0).name, "01");
+  EXPECT_EQ(all.at(3).inputs[1].number, 4.0);
+  EXPECT_EQ(all.at(0).inputs[2].text, all.at(15).inputs[2].text);
+  EXPECT_EQ(overrides_of(spec, all.at(4)).size(), 4u);
   const std::vector<std::string> names = {"a", "b", "c"};
   spec.where.push_back({"a*b", laws::Formula("a*b", names), names, 4.5, 8.5});
   const SweepCases some = make_cases(spec);
-  EXPECT_EQ(some.cases.size(), 9u);  // 1*5, 2*3, 2*4
-  EXPECT_EQ(some.left_out, 9u);
-  EXPECT_EQ(some.cases[0].name, "07");  // names do not depend on conditions
-  EXPECT_EQ(some.cases[0].inputs[2].text, all.cases[6].inputs[2].text);
+  EXPECT_EQ(some.size(), 9u);  // 1*5, 2*3, 2*4
+  EXPECT_EQ(some.left_out(), 9u);
+  EXPECT_EQ(some.at(0).name, "07");  // names do not depend on conditions
+  EXPECT_EQ(some.at(0).inputs[2].text, all.at(6).inputs[2].text);
 }
 
 TEST(Sampling, what_is_drawn_has_twelve_digits_and_reads_back) {
-  for (const auto& row : rows_of(design_of(SweepDesignKind::random, 2, 200), 0))
+  for_each_row(design_of(SweepDesignKind::random, 2, 200), 0, [](const std::vector<io::SweepValue>& row) {
     for (const io::SweepValue& v : row) {
       EXPECT_LE(v.text.size(), 18u);
       EXPECT_EQ(std::stod(v.text), v.number);
+    }
+  });
+}
+
+TEST(Sampling, cases_keep_values_of_any_kind_as_they_are_written) {
+  const std::vector<io::SweepValue> rows[] = {{{"1e3", 1000.0}, {"\"word\"", {}}, {"0.1", 0.1}},
+                                              {{"1000", 1000.0}, {"[1, 2]", {}}, {"0.30000000000000004", 0.1 + 0.2}},
+                                              {{"-0", -0.0}, {"true", {}}, {"0.123456789012", 0.123456789012}}};
+  SweepCases cases({"a", "b", "c"});
+  for (const auto& row : rows) cases.add(row);
+  cases.leave_out();
+  ASSERT_EQ(cases.size(), 3u);
+  EXPECT_EQ(cases.left_out(), 1u);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(cases.at(i).inputs[k].text, rows[i][k].text);
+      EXPECT_EQ(cases.at(i).inputs[k].number, rows[i][k].number);
     }
 }
 

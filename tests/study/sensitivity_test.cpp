@@ -36,11 +36,11 @@ io::SweepDistribution distribution(io::SweepDistribution::Kind kind, double a, d
 
 std::vector<std::optional<double>> values_of(const SweepDesign& d, const Function& f) {
   std::vector<std::optional<double>> values;
-  for (const auto& row : rows_of(d, 0)) {
+  for_each_row(d, 0, [&](const std::vector<io::SweepValue>& row) {
     std::vector<double> x;
     for (const io::SweepValue& v : row) x.push_back(*v.number);
     values.push_back(f(x));
-  }
+  });
   return values;
 }
 

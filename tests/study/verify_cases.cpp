@@ -16,7 +16,9 @@ TEST(VerifyCases, indices_of_a_cantilever_are_those_of_its_formula) {
   const io::SweepFile file = io::read_sweep(support::source_dir() / "data" / "sweeps" / "cantilever_indices.json");
   for (const io::Problem& p : file.problems) FAIL() << p.text();
   std::vector<CaseResult> results;
-  for (const SweepCase& c : make_cases(file.spec).cases) {
+  const SweepCases cases = make_cases(file.spec);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const SweepCase c = cases.at(i);
     const io::SceneFile scene = io::read_scene_text(file.spec.scene_text, "cantilever", overrides_of(file.spec, c));
     ASSERT_TRUE(scene.ok());
     const run::MemoryRun run = run::run_in_memory(scene.scene);

@@ -2,6 +2,7 @@
 /// JSON written in the order of the calls, indented, valid whatever the values are.
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace bough::io {
@@ -29,6 +30,8 @@ class JsonText {
     value(v);
   }
 
+  /// The text so far, which is then forgotten: a long one can be written piece by piece, with text() as the last.
+  [[nodiscard]] std::string take() { return std::exchange(text_, {}); }
   /// The text with a final newline.
   [[nodiscard]] std::string text() const { return text_ + "\n"; }
 

@@ -7,6 +7,7 @@
 
 #include "bough/io/folder_lock.hpp"
 #include "bough/io/manifest.hpp"
+#include "bough/io/text_sink.hpp"
 
 namespace bough::io {
 
@@ -82,6 +83,8 @@ class OutputCollection {
   OutputCollection(std::filesystem::path folder, std::string made_by,
                    const std::vector<std::filesystem::path>& inputs = {});
   void write(const std::string& name, std::string_view text) const;
+  /// A long text, which is never in memory as a whole.
+  void write(const std::string& name, const TextWriter& writer) const;
   /// For files that many processes write with equal content: written only if it does not exist yet.
   void write_once(const std::string& name, std::string_view text) const;
   /// Lists a file that another process writes there.

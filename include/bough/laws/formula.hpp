@@ -34,6 +34,14 @@ class Formula {
   /// The values are in the order of the names. The result may be infinite or NaN. Does not allocate.
   double operator()(std::span<const double> values) const;
 
+  /// Unit of the value, from those of the variables in the order of their names (empty: a pure number). Empty if the
+  /// value is a pure number, or if its unit does not follow: sides of sums, min and max have one unit, which numbers
+  /// in them take; numbers in products with a unit may have one of their own, so that 2*x has none that is known.
+  [[nodiscard]] std::string unit(std::span<const std::string> units) const;
+  /// Whether the value, where it is finite, is 0 or 1 whatever the variables are: made of `step`, products, min, max,
+  /// and 1 minus such.
+  [[nodiscard]] bool is_zero_or_one() const;
+
  private:
   std::shared_ptr<const struct Program> program_;
 };

@@ -28,7 +28,7 @@ struct ShardRecord {
 std::string shard_text(const ShardRecord& record);
 
 /// "case,key" and a line a case.
-std::string keys_csv(const std::vector<BatchCase>& cases, const std::vector<std::string>& keys);
+std::string keys_csv(const CaseList& cases, const std::vector<std::string>& keys);
 
 /// All cases with what they change: header "case" and the variables, JSON values.
 std::string cases_csv(const SweepCases& cases);
@@ -42,11 +42,16 @@ std::string adopt_cases(const std::string& table, SweepCases& cases);
 struct Collected {
   ShardRecord record;                ///< that of the first shard; its shard number has no meaning
   std::string list;                  ///< cases.csv
-  std::vector<CaseResult> results;   ///< in the order of the list; those of missing cases are marked as not started
+  CaseTable results;                 ///< in the order of the list; missing cases have none
   std::vector<std::string> missing;  ///< cases without a row
   std::size_t num_shards = 0;
   std::vector<std::string> machines;    ///< instruction sets and libraries, where there are several; else empty
   std::vector<std::size_t> machine_of;  ///< of each case, into `machines`
+
+  /// For the column `machine` of batch.csv; empty for a missing case.
+  [[nodiscard]] std::string machine_of_case(std::size_t i) const {
+    return results.has(i) ? machines[machine_of[i]] : std::string();
+  }
 };
 
 /// Reads shards: folders that contain one, or folders of such folders. The list of all cases is in the parent folder of
@@ -54,8 +59,5 @@ struct Collected {
 /// explanation where there is no shard or no list, where shards belong to another list, scene, options or program, and
 /// where two rows of one case differ although they were made under equal conditions.
 Collected collect_shards(const std::vector<std::filesystem::path>& folders);
-
-/// batch_csv with a column `machine` at its end where several machines have computed the rows.
-std::string collected_csv(const Collected& collected);
 
 }  // namespace bough::study

@@ -2,12 +2,15 @@
 /// A record of the finished cases of a batch, in a file that survives kills and power failures.
 #include <chrono>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
-#include "bough/study/batch.hpp"
+#include "bough/study/case_table.hpp"
 
 namespace bough::study {
 
@@ -27,10 +30,28 @@ std::string key_of(const std::string& scene, std::span<const std::string> overri
 /// by a time limit are not final, nor are those whose results could not be written.
 bool is_final(const CaseResult& result);
 
-using Records = std::unordered_map<std::string, CaseResult>;  ///< by key
+/// Calls with each complete record of a journal in turn, with its key and line; with none if there is no file. Of the
+/// case its name is set.
+void for_each_record(
+    const std::filesystem::path& file,
+    const std::function<void(const std::string& key, const CaseResult& result, std::string_view line)>& call);
 
-/// The complete records of a journal that another process wrote; none if there is no file. whole: their text.
-Records read_records(const std::filesystem::path& file, std::string& whole);
+/// Results by key, in little memory.
+class Records {
+ public:
+  /// Replaces one with the same key.
+  void add(const std::string& key, const CaseResult& result);
+  /// Nothing if there is none; all but `which` is set.
+  [[nodiscard]] std::optional<CaseResult> find(const std::string& key) const;
+  [[nodiscard]] std::size_t size() const { return row_of_.size(); }
+
+ private:
+  std::unordered_map<std::string, std::size_t> row_of_;
+  PackedResults rows_;
+};
+
+/// All complete records of a journal.
+Records read_records(const std::filesystem::path& file);
 
 /// The file has one line per case: a hash, a blank, and the record as JSON. A record counts only if its line is
 /// complete and its hash matches, so a line cut off by a kill or a full disk is ignored. Forked child processes hold
@@ -44,9 +65,9 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// The result of a case with this key; null if there is none.
-  const CaseResult* find(const std::string& key) const;
-  std::size_t size() const { return records_.size(); }
+  /// The records that were there; they may be dropped once they are taken over.
+  [[nodiscard]] const Records& records() const { return records_; }
+  void forget_records() { records_ = {}; }
 
   /// Returns when the operating system has the record, so that no kill can lose it. It is on the disk within a fifth of
   /// a second: waiting for the disk after every case would dominate the time of small cases. Cases lost in a power

@@ -35,7 +35,8 @@ std::vector<std::size_t> shards_of(const std::vector<double>& work, std::size_t 
 
 /// Predicted work of every row: unknowns times steps, or any other count. Each variable is first varied alone to find
 /// out whether it changes the work. `look` is called once for all rows that agree in the variables that do.
-std::vector<double> predicted_work(const std::vector<std::vector<io::SweepValue>>& rows,
+std::vector<double> predicted_work(std::size_t count,
+                                   const std::function<std::vector<io::SweepValue>(std::size_t)>& row_of,
                                    const std::function<double(const std::vector<io::SweepValue>&)>& look);
 
 }  // namespace bough::study

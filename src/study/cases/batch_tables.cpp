@@ -1,7 +1,5 @@
-#include <algorithm>
-#include <map>
-#include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "bough/io/history.hpp"
 #include "bough/io/json_text.hpp"
@@ -51,19 +49,20 @@ void append_cells(std::string& text, const std::vector<std::string>& cells) {
 
 }  // namespace
 
-std::string batch_csv(const std::vector<CaseResult>& results) {
+void write_batch_csv(const CaseTable& results, const io::TextSink& sink,
+                     const std::function<std::string(std::size_t)>& machine_of) {
   Columns inputs, measures;
-  for (const CaseResult& r : results) {
-    for (const auto& [name, value] : r.which.inputs) inputs.add(name);
-    for (const records::MeasureResult& m : r.report.measures) measures.add(m.name);
-  }
+  for (std::size_t i = 0; i < results.size(); ++i)
+    for (const auto& [name, value] : results.cases().at(i).inputs) inputs.add(name);
+  for (const CaseTable::Measure& m : results.measures()) measures.add(m.name);
   std::string text =
       "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails,doubts,"
       "energy_error,constraint_error";
   for (const Columns* columns : {&inputs, &measures})
     for (const std::string& name : columns->names()) text += ',' + text_field(name);
-  text += '\n';
-  for (const CaseResult& r : results) {
+  text += machine_of ? ",machine\n" : "\n";
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const CaseResult r = results.at(i);
     text += text_field(r.which.name) + ',' + std::string(text_of(r.status)) + ',' + text_field(r.cause);
     for (const long n : {r.report.accepted, r.report.rejected, r.report.newton_iterations,
                          static_cast<long>(r.report.expected_holds), static_cast<long>(r.report.expected_fails)})
@@ -79,9 +78,12 @@ std::string batch_csv(const std::vector<CaseResult>& results) {
       if (m.value) io::append_number(out[measures.at(m.name)], *m.value);
     append_cells(text, in);
     append_cells(text, out);
+    if (machine_of) text += ',' + machine_of(i);
     text += '\n';
+    sink(text);
+    text.clear();
   }
-  return text;
+  sink(text);  // the head, where there is no case
 }
 
 namespace {
@@ -119,18 +121,17 @@ void write_sensitivities(io::JsonText& json, const std::vector<MeasureSensitivit
 }
 
 /// Of measures that have one, by name, for a table says nothing of them.
-void write_units(io::JsonText& json, const std::vector<CaseResult>& results) {
-  std::set<std::string> told;
-  for (const CaseResult& r : results)
-    for (std::size_t k = 0; k < std::min(r.report.units.size(), r.report.measures.size()); ++k) {
-      if (r.report.units[k].empty() || !told.insert(r.report.measures[k].name).second) continue;
-      if (told.size() == 1) {
-        json.key("units");
-        json.begin_object();
-      }
-      json.member(r.report.measures[k].name, std::string_view(r.report.units[k]));
+void write_units(io::JsonText& json, const CaseTable& results) {
+  bool any = false;
+  for (const CaseTable::Measure& m : results.measures()) {
+    if (m.unit.empty()) continue;
+    if (!std::exchange(any, true)) {
+      json.key("units");
+      json.begin_object();
     }
-  if (!told.empty()) json.end_object();
+    json.member(m.name, std::string_view(m.unit));
+  }
+  if (any) json.end_object();
 }
 
 }  // namespace
@@ -153,8 +154,8 @@ std::string sensitivities_csv(const std::vector<MeasureSensitivity>& sensitiviti
   return text;
 }
 
-std::string batch_json(const std::vector<CaseResult>& results, const std::string& title,
-                       const std::vector<MeasureSensitivity>& sensitivities) {
+void write_batch_json(const CaseTable& results, const std::string& title,
+                      const std::vector<MeasureSensitivity>& sensitivities, const io::TextSink& sink) {
   io::JsonText json;
   json.begin_object();
   json.member("title", std::string_view(title));
@@ -192,19 +193,19 @@ std::string batch_json(const std::vector<CaseResult>& results, const std::string
       if (m.value) json.member(m.name, *m.value);
     json.end_object();
     json.end_object();
+    sink(json.take());
   }
   json.end_array();
   if (!sensitivities.empty()) write_sensitivities(json, sensitivities);
   json.end_object();
-  return json.text();
+  sink(json.text());
 }
 
-std::string cost_csv(const std::vector<CaseResult>& results) {
-  std::string text = "case,wall_seconds,cpu_seconds,peak_megabytes\n";
+void write_cost_csv(const CaseTable& results, const io::TextSink& sink) {
+  sink("case,wall_seconds,cpu_seconds,peak_megabytes\n");
   for (const CaseResult& r : results)
-    text += text_field(r.which.name) + ',' + io::rounded_text(r.cost.wall_seconds, 4) + ',' +
-            io::rounded_text(r.cost.cpu_seconds, 4) + ',' + io::rounded_text(1e-6 * r.cost.peak_bytes, 4) + '\n';
-  return text;
+    sink(text_field(r.which.name) + ',' + io::rounded_text(r.cost.wall_seconds, 4) + ',' +
+         io::rounded_text(r.cost.cpu_seconds, 4) + ',' + io::rounded_text(1e-6 * r.cost.peak_bytes, 4) + '\n');
 }
 
 }  // namespace bough::study

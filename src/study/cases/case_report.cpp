@@ -42,7 +42,11 @@ void CaseReport::take(const records::Summary& summary, const scene::Scene& scene
     if (std::find(doubts.begin(), doubts.end(), d.about) == doubts.end()) doubts.push_back(d.about);
   measures = summary.measures;
   units.clear();
-  for (const scene::Measure& m : scene.measures) units.push_back(run::unit_of(m, summary.header));
+  indicators.clear();
+  for (const scene::Measure& m : scene.measures) {
+    if (run::is_indicator(m)) indicators.push_back(units.size());
+    units.push_back(run::unit_of(m, summary.header));
+  }
   const records::Checks& checks = summary.checks;
   energy_error = constraint_error = std::nullopt;
   if (checks.evaluated && checks.energy_scale > 0.0) energy_error = checks.energy_balance / checks.energy_scale;
@@ -98,6 +102,10 @@ std::string text_of(const CaseReport& r) {
   json.begin_array();
   for (const std::string& unit : r.units) json.value(std::string_view(unit));
   json.end_array();
+  json.key("indicators");
+  json.begin_array();
+  for (const std::size_t k : r.indicators) json.value(static_cast<long long>(k));
+  json.end_array();
   json.end_object();
   return json.text();
 }
@@ -121,9 +129,9 @@ bool report_of(std::string_view text, CaseReport& r) {
   };
   r.cause = root->find("cause")->text;
   r.directory = root->find("directory")->text.str();
-  if (const io::JsonValue* stored = root->find("stored"); stored != nullptr && stored->items.size() == 2 &&
-                                                          stored->items[1].number >= 0.0 &&
-                                                          stored->items[1].number < 0x1p63)
+  if (const io::JsonValue* stored = root->find("stored");
+      stored != nullptr && stored->items.size() == 2 && stored->items[1].number >= 0.0 &&
+      stored->items[1].number < 0x1p63 && !stored->items[0].text.str().empty())
     r.stored = io::StoredPlace{stored->items[0].text.str(), static_cast<std::uint64_t>(stored->items[1].number)};
   r.was_interrupted = root->find("interrupted")->truth;
   r.is_unwritten = root->find("unwritten") != nullptr;
@@ -143,6 +151,12 @@ bool report_of(std::string_view text, CaseReport& r) {
   }
   if (const io::JsonValue* units = root->find("units"); units != nullptr)
     for (const io::JsonValue& unit : units->items) r.units.push_back(unit.text);
+  if (const io::JsonValue* indicators = root->find("indicators"); indicators != nullptr)
+    for (const io::JsonValue& k : indicators->items) {
+      const double least = r.indicators.empty() ? 0.0 : static_cast<double>(r.indicators.back()) + 1.0;
+      if (k.number >= least && k.number < static_cast<double>(r.measures.size()))
+        r.indicators.push_back(static_cast<std::size_t>(k.number));
+    }
   return true;
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "bough/io/number_text.hpp"
 #include "bough/study/cases.hpp"
@@ -46,22 +48,25 @@ UnitRow shifted_sobol(const SweepDesign& d, std::uint32_t number, std::uint32_t 
   return u;
 }
 
-std::vector<UnitRow> latin_hypercube(const SweepDesign& d, std::uint32_t number) {
-  std::vector<UnitRow> rows(d.samples, UnitRow(d.variables.size()));
-  for (std::size_t k = 0; k < d.variables.size(); ++k) {
-    const std::vector<std::uint32_t> order = permutation(d.seed, stream_of(number, k, 1), d.samples);
-    for (std::uint32_t r = 0; r < d.samples; ++r)
-      rows[r][k] = (order[r] + uniform_draw(d.seed, stream_of(number, k, 0), r)) / d.samples;
+using TakeUnitRow = std::function<void(const UnitRow&)>;
+
+void latin_hypercube(const SweepDesign& d, std::uint32_t number, const TakeUnitRow& take) {
+  std::vector<std::vector<std::uint32_t>> orders;
+  for (std::size_t k = 0; k < d.variables.size(); ++k)
+    orders.push_back(permutation(d.seed, stream_of(number, k, 1), d.samples));
+  UnitRow row(d.variables.size());
+  for (std::uint32_t r = 0; r < d.samples; ++r) {
+    for (std::size_t k = 0; k < row.size(); ++k)
+      row[k] = (orders[k][r] + uniform_draw(d.seed, stream_of(number, k, 0), r)) / d.samples;
+    take(row);
   }
-  return rows;
 }
 
 /// Trajectories of Morris 1991: from a point of the grid each variable moves once by half the levels, up or down, in an
 /// order that is drawn. A level is the middle of its stratum, so that no distribution is asked for its ends.
-std::vector<UnitRow> morris(const SweepDesign& d, std::uint32_t number) {
+void morris(const SweepDesign& d, std::uint32_t number, const TakeUnitRow& take) {
   const std::size_t n = d.variables.size();
   const int half = d.levels / 2;
-  std::vector<UnitRow> rows;
   for (std::uint32_t trajectory = 0; trajectory < d.samples; ++trajectory) {
     std::vector<int> level(n), step(n);
     std::vector<std::pair<double, std::size_t>> order(n);
@@ -76,7 +81,7 @@ std::vector<UnitRow> morris(const SweepDesign& d, std::uint32_t number) {
     const auto add = [&] {
       UnitRow row(n);
       for (std::size_t k = 0; k < n; ++k) row[k] = (level[k] + 0.5) / d.levels;
-      rows.push_back(std::move(row));
+      take(row);
     };
     add();
     for (const auto& [draw, k] : order) {
@@ -84,58 +89,73 @@ std::vector<UnitRow> morris(const SweepDesign& d, std::uint32_t number) {
       add();
     }
   }
-  return rows;
 }
 
 /// For each sample: a point a, a point b, and for each variable a with that variable of b.
-std::vector<UnitRow> saltelli(const SweepDesign& d, std::uint32_t number) {
+void saltelli(const SweepDesign& d, std::uint32_t number, const TakeUnitRow& take) {
   const std::size_t n = d.variables.size();
-  std::vector<UnitRow> rows;
   for (std::uint32_t r = 0; r < d.samples; ++r) {
     const UnitRow both = shifted_sobol(d, number, r, 2 * n);
     const auto middle = both.begin() + static_cast<std::ptrdiff_t>(n);
-    rows.emplace_back(both.begin(), middle);
-    rows.emplace_back(middle, both.end());
+    const UnitRow first(both.begin(), middle);
+    take(first);
+    take({middle, both.end()});
     for (std::size_t k = 0; k < n; ++k) {
-      rows.emplace_back(both.begin(), middle);
-      rows.back()[k] = both[n + k];
+      UnitRow mixed = first;
+      mixed[k] = both[n + k];
+      take(mixed);
     }
   }
-  return rows;
 }
 
-std::vector<Row> zipped(const SweepDesign& d) {
-  std::vector<Row> rows(d.variables.front().values.size());
-  for (std::size_t r = 0; r < rows.size(); ++r)
-    for (const SweepVariable& v : d.variables) rows[r].push_back(v.values.at(r));
-  return rows;
-}
-
-std::vector<Row> grid(const SweepDesign& d) {
-  std::vector<Row> rows{{}};
-  for (const SweepVariable& v : d.variables) {
-    std::vector<Row> longer;
-    for (const Row& row : rows)
-      for (const SweepValue& x : v.values) {
-        longer.push_back(row);
-        longer.back().push_back(x);
-      }
-    rows = std::move(longer);
+void for_each_unit_row(const SweepDesign& d, std::uint32_t number, const TakeUnitRow& take) {
+  if (d.kind == SweepDesignKind::latin_hypercube) return latin_hypercube(d, number, take);
+  if (d.kind == SweepDesignKind::morris) return morris(d, number, take);
+  if (d.kind == SweepDesignKind::saltelli) return saltelli(d, number, take);
+  UnitRow row(d.variables.size());
+  for (std::uint32_t r = 0; r < d.samples; ++r) {
+    if (d.kind == SweepDesignKind::sobol)
+      row = shifted_sobol(d, number, r, d.variables.size());
+    else
+      for (std::size_t k = 0; k < row.size(); ++k) row[k] = uniform_draw(d.seed, stream_of(number, k, 0), r);
+    take(row);
   }
-  return rows;
 }
 
-std::vector<Row> one_at_a_time(const SweepDesign& d) {
+using TakeRow = std::function<void(const Row&)>;
+
+void zipped(const SweepDesign& d, const TakeRow& take) {
+  Row row(d.variables.size());
+  for (std::size_t r = 0; r < d.variables.front().values.size(); ++r) {
+    for (std::size_t k = 0; k < row.size(); ++k) row[k] = d.variables[k].values.at(r);
+    take(row);
+  }
+}
+
+/// All combinations, the last variable fastest.
+void grid(const SweepDesign& d, const TakeRow& take) {
+  Row row(d.variables.size());
+  const std::function<void(std::size_t)> vary = [&](std::size_t k) {
+    if (k == row.size()) return take(row);
+    for (const SweepValue& x : d.variables[k].values) {
+      row[k] = x;
+      vary(k + 1);
+    }
+  };
+  vary(0);
+}
+
+void one_at_a_time(const SweepDesign& d, const TakeRow& take) {
   Row nominal;
   for (const SweepVariable& v : d.variables) nominal.push_back(*v.nominal);
-  std::vector<Row> rows{nominal};
+  take(nominal);
   for (std::size_t k = 0; k < d.variables.size(); ++k)
     for (const SweepValue& x : d.variables[k].values) {
       if (x.text == nominal[k].text) continue;  // this case exists already
-      rows.push_back(nominal);
-      rows.back()[k] = x;
+      Row row = nominal;
+      row[k] = x;
+      take(row);
     }
-  return rows;
 }
 
 /// Number of rows of a design, computed before any row is made.
@@ -178,75 +198,95 @@ bool is_kept(const io::SweepSpec& spec, const std::vector<std::string>& variable
 }  // namespace
 
 std::vector<UnitRow> unit_rows_of(const SweepDesign& d, std::uint32_t number) {
-  if (d.kind == SweepDesignKind::latin_hypercube) return latin_hypercube(d, number);
-  if (d.kind == SweepDesignKind::morris) return morris(d, number);
-  if (d.kind == SweepDesignKind::saltelli) return saltelli(d, number);
   std::vector<UnitRow> rows;
-  for (std::uint32_t r = 0; r < d.samples; ++r) {
-    if (d.kind == SweepDesignKind::sobol) {
-      rows.push_back(shifted_sobol(d, number, r, d.variables.size()));
-      continue;
-    }
-    rows.emplace_back();
-    for (std::size_t k = 0; k < d.variables.size(); ++k)
-      rows.back().push_back(uniform_draw(d.seed, stream_of(number, k, 0), r));
-  }
+  for_each_unit_row(d, number, [&rows](const UnitRow& row) { rows.push_back(row); });
   return rows;
 }
 
-std::vector<Row> rows_of(const SweepDesign& d, std::uint32_t number) {
+void for_each_row(const SweepDesign& d, std::uint32_t number, const TakeRow& take) {
   switch (d.kind) {
     case SweepDesignKind::list:
     case SweepDesignKind::csv:
-      return zipped(d);
+      return zipped(d, take);
     case SweepDesignKind::grid:
-      return grid(d);
+      return grid(d, take);
     case SweepDesignKind::one_at_a_time:
-      return one_at_a_time(d);
+      return one_at_a_time(d, take);
     default:
       break;
   }
-  std::vector<Row> rows;
-  for (const UnitRow& u : unit_rows_of(d, number)) {
-    rows.emplace_back();
-    for (std::size_t k = 0; k < u.size(); ++k)
-      rows.back().push_back(value_of(quantile(d.variables[k].distribution, u[k])));
+  Row row(d.variables.size());
+  for_each_unit_row(d, number, [&](const UnitRow& u) {
+    for (std::size_t k = 0; k < u.size(); ++k) row[k] = value_of(quantile(d.variables[k].distribution, u[k]));
+    take(row);
+  });
+}
+
+std::string SweepCases::name(std::size_t i) const {
+  std::string name = std::to_string(numbers_[i] + 1);
+  const std::size_t width = std::to_string(all_).size();
+  return name.insert(0, width - name.size(), '0');
+}
+
+std::vector<SweepValue> SweepCases::inputs(std::size_t i) const {
+  std::vector<SweepValue> values;
+  for (std::size_t k = i * variables_.size(); k < (i + 1) * variables_.size(); ++k) {
+    const std::uint32_t word = words_.empty() ? 0 : words_[k];
+    values.push_back(word == 0 ? value_of(cells_[k]) : values_[word - 1]);
   }
-  return rows;
+  return values;
+}
+
+SweepCases::Cell SweepCases::cell_of(const SweepValue& value) {
+  if (value.number && value_of(*value.number).text == value.text) return {*value.number, 0};
+  const auto [at, is_new] = word_of_.try_emplace(value.text, static_cast<std::uint32_t>(values_.size() + 1));
+  if (is_new) values_.push_back(value);
+  return {0.0, at->second};
+}
+
+void SweepCases::add(const std::vector<SweepValue>& inputs) {
+  numbers_.push_back(static_cast<std::uint32_t>(all_++));
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    cells_.push_back(0.0);
+    if (!words_.empty()) words_.push_back(0);
+    set(numbers_.size() - 1, k, inputs[k]);
+  }
+}
+
+void SweepCases::set(std::size_t i, std::size_t variable, const SweepValue& value) {
+  const std::size_t at = i * variables_.size() + variable;
+  const Cell cell = cell_of(value);
+  cells_[at] = cell.number;
+  if (words_.empty() && cell.word != 0) words_.resize(cells_.size());
+  if (!words_.empty()) words_[at] = cell.word;
 }
 
 SweepCases make_cases(const io::SweepSpec& spec) {
-  SweepCases made;
+  std::vector<std::string> variables;
   double count = 1.0;
   for (const SweepDesign& d : spec.designs) {
     count *= count_of(d);
-    for (const SweepVariable& v : d.variables) made.variables.push_back(v.name);
+    for (const SweepVariable& v : d.variables) variables.push_back(v.name);
   }
   if (count > static_cast<double>(io::most_sweep_cases))
     throw std::runtime_error("the sweep has " + io::rounded_text(count, 3) + " cases, and at most " +
                              std::to_string(io::most_sweep_cases) + " are taken");
-  std::vector<Row> all{{}};
-  for (std::uint32_t i = 0; i < spec.designs.size(); ++i) {
-    const std::vector<Row> rows = rows_of(spec.designs[i], i);
-    std::vector<Row> longer;
-    longer.reserve(all.size() * rows.size());
-    for (const Row& first : all)
-      for (const Row& second : rows) {
-        longer.push_back(first);
-        longer.back().insert(longer.back().end(), second.begin(), second.end());
-      }
-    all = std::move(longer);
-  }
-  const std::size_t width = std::to_string(all.size()).size();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!is_kept(spec, made.variables, all[i])) {
-      ++made.left_out;
-      continue;
-    }
-    std::string name = std::to_string(i + 1);
-    name.insert(0, width - name.size(), '0');
-    made.cases.push_back({std::move(name), std::move(all[i])});
-  }
+  const std::function<void(std::size_t, const Row&, const TakeRow&)> combine = [&](std::size_t design, const Row& first,
+                                                                                   const TakeRow& take) {
+    if (design == spec.designs.size()) return take(first);
+    for_each_row(spec.designs[design], static_cast<std::uint32_t>(design), [&](const Row& second) {
+      Row longer = first;
+      longer.insert(longer.end(), second.begin(), second.end());
+      combine(design + 1, longer, take);
+    });
+  };
+  SweepCases made(variables);
+  combine(0, {}, [&](const Row& row) {
+    if (is_kept(spec, variables, row))
+      made.add(row);
+    else
+      made.leave_out();
+  });
   return made;
 }
 

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <map>
-#include <set>
+#include <memory>
 #include <stdexcept>
+#include <string_view>
+#include <unordered_map>
 
 #include "bough/io/csv_table.hpp"
 #include "bough/io/digest.hpp"
@@ -143,19 +144,19 @@ std::string shard_text(const ShardRecord& record) {
   return json.text();
 }
 
-std::string keys_csv(const std::vector<BatchCase>& cases, const std::vector<std::string>& keys) {
+std::string keys_csv(const CaseList& cases, const std::vector<std::string>& keys) {
   std::string text = "case,key\n";
-  for (std::size_t i = 0; i < cases.size(); ++i) text += io::csv_field(cases[i].name) + ',' + keys[i] + '\n';
+  for (std::size_t i = 0; i < cases.size(); ++i) text += io::csv_field(cases.at(i).name) + ',' + keys[i] + '\n';
   return text;
 }
 
 std::string cases_csv(const SweepCases& cases) {
   std::string text = "case";
-  for (const std::string& name : cases.variables) text += ',' + io::csv_field(name);
+  for (const std::string& name : cases.variables()) text += ',' + io::csv_field(name);
   text += '\n';
-  for (const SweepCase& c : cases.cases) {
-    text += io::csv_field(c.name);
-    for (const io::SweepValue& v : c.inputs) text += ',' + io::csv_field(v.text);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    text += io::csv_field(cases.name(i));
+    for (const io::SweepValue& v : cases.inputs(i)) text += ',' + io::csv_field(v.text);
     text += '\n';
   }
   return text;
@@ -165,26 +166,26 @@ std::string adopt_cases(const std::string& text, SweepCases& cases) {
   constexpr double last_digits = 1e-9;  // relative, of values drawn with 12 digits
   io::CsvTable table;
   if (std::string rule = table.read(text); !rule.empty()) return rule;
-  if (table.columns.size() != cases.variables.size() + 1 || table.rows.size() != cases.cases.size())
+  const std::vector<std::string>& variables = cases.variables();
+  if (table.columns.size() != variables.size() + 1 || table.rows.size() != cases.size())
     return "it has " + std::to_string(table.rows.size()) + " cases of " + std::to_string(table.columns.size() - 1) +
-           " variables, and there are " + std::to_string(cases.cases.size()) + " of " +
-           std::to_string(cases.variables.size());
-  for (std::size_t k = 0; k < cases.variables.size(); ++k)
+           " variables, and there are " + std::to_string(cases.size()) + " of " + std::to_string(variables.size());
+  for (std::size_t k = 0; k < variables.size(); ++k)
     if (io::CsvTable header;
-        header.read(io::csv_field(cases.variables[k])).empty() && header.columns.front() != table.columns[k + 1])
-      return "it has the variable " + table.columns[k + 1] + " in the place of " + cases.variables[k];
+        header.read(io::csv_field(variables[k])).empty() && header.columns.front() != table.columns[k + 1])
+      return "it has the variable " + table.columns[k + 1] + " in the place of " + variables[k];
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    SweepCase& c = cases.cases[i];
+    const SweepCase c = cases.at(i);
     if (table.rows[i][0] != c.name) return "it has case " + table.rows[i][0] + " in the place of " + c.name;
     for (std::size_t k = 0; k < c.inputs.size(); ++k) {
       const std::string& given = table.rows[i][k + 1];
-      io::SweepValue& value = c.inputs[k];
+      const io::SweepValue& value = c.inputs[k];
       double x = 0.0;
       if (given == value.text) continue;
       if (!value.number || !io::read_number(given, x) ||
           !(std::abs(x - *value.number) <= last_digits * std::abs(*value.number)))
-        return "case " + c.name + " has " + cases.variables[k] + " = " + given + " there and " + value.text + " here";
-      value = {given, x};
+        return "case " + c.name + " has " + variables[k] + " = " + given + " there and " + value.text + " here";
+      cases.set(i, k, {given, x});
     }
   }
   return "";
@@ -196,16 +197,16 @@ Collected collect_shards(const std::vector<fs::path>& folders) {
   all.num_shards = shards.size();
   all.record = read_record(shards.front() / shard_file);
   all.list = case_list(shards, folders, all.record);
-  const io::CsvTable cases = table_of_file(cases_file, all.list);
-  std::unordered_map<std::string, std::size_t> place_of;
-  for (const std::vector<std::string>& row : cases.rows) {
-    place_of.emplace(row[0], all.results.size());
-    all.results.emplace_back();
-    CaseResult& result = all.results.back();
-    result.which.name = row[0];
-    for (std::size_t k = 1; k < row.size(); ++k) result.which.inputs.emplace_back(cases.columns[k], row[k]);
-  }
-  std::vector<bool> is_there(all.results.size(), false);
+  const auto cases = std::make_shared<const io::CsvTable>(table_of_file(cases_file, all.list));
+  std::unordered_map<std::string_view, std::size_t> place_of;
+  for (std::size_t i = 0; i < cases->rows.size(); ++i) place_of.emplace(cases->rows[i][0], i);
+  all.results = CaseTable(CaseList(cases->rows.size(), [cases](std::size_t i) {
+    BatchCase one;
+    one.name = cases->rows[i][0];
+    for (std::size_t k = 1; k < cases->rows[i].size(); ++k)
+      one.inputs.emplace_back(cases->columns[k], cases->rows[i][k]);
+    return one;
+  }));
   all.machine_of.assign(all.results.size(), 0);
   for (const fs::path& folder : shards) {
     const ShardRecord record = read_record(folder / shard_file);
@@ -214,55 +215,28 @@ Collected collect_shards(const std::vector<fs::path>& folders) {
     auto at = std::find(all.machines.begin(), all.machines.end(), machine);
     if (at == all.machines.end()) at = all.machines.insert(at, machine);
     const auto number = static_cast<std::size_t>(at - all.machines.begin());
-    std::string whole;
-    Records records = read_records(folder / journal_file, whole);
+    const Records records = read_records(folder / journal_file);
     const io::CsvTable keys = table_of_file(folder / keys_file, text_of_file(folder / keys_file));
     if (keys.columns.size() != 2) throw std::runtime_error((folder / keys_file).string() + " has not two columns");
     for (const std::vector<std::string>& row : keys.rows) {
       const auto place = place_of.find(row[0]);
-      const auto found = records.find(row[1]);
+      const std::optional<CaseResult> found = records.find(row[1]);
       if (place == place_of.end())
         throw std::runtime_error(folder.string() + ": no case of the list is called " + row[0]);
-      if (found == records.end()) continue;
-      CaseResult& result = all.results[place->second];
-      found->second.which = result.which;
-      if (is_there[place->second] && all.machine_of[place->second] == number &&
-          content_of(result) != content_of(found->second))
+      if (!found) continue;
+      const std::size_t i = place->second;
+      if (all.results.has(i) && all.machine_of[i] == number && content_of(all.results[i]) != content_of(*found))
         throw std::runtime_error("case " + row[0] + " is in two shards, one of them " + folder.string() +
                                  ", with rows that differ");
-      if (is_there[place->second]) continue;
-      is_there[place->second] = true;
-      all.machine_of[place->second] = number;
-      result = std::move(found->second);
+      if (all.results.has(i)) continue;
+      all.machine_of[i] = number;
+      all.results.set(i, *found);
     }
   }
-  for (std::size_t i = 0; i < is_there.size(); ++i) {
-    if (is_there[i]) continue;
-    all.missing.push_back(all.results[i].which.name);
-    all.results[i].status = CaseStatus::interrupted;
-    all.results[i].cause = "not started";
-  }
+  for (std::size_t i = 0; i < all.results.size(); ++i)
+    if (!all.results.has(i)) all.missing.push_back(cases->rows[i][0]);
   if (all.machines.size() == 1) all.machines.clear();
   return all;
-}
-
-std::string collected_csv(const Collected& collected) {
-  const std::string text = batch_csv(collected.results);
-  if (collected.machines.empty()) return text;
-  std::string marked;
-  std::size_t row = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);  // fields have no line ends
-    const bool is_missing = row > 0 && collected.results[row - 1].cause == "not started";
-    marked += text.substr(begin, end - begin) + ',' +
-              (row == 0     ? std::string("machine")
-               : is_missing ? std::string()
-                            : collected.machines[collected.machine_of[row - 1]]) +
-              '\n';
-    begin = end + 1;
-    ++row;
-  }
-  return marked;
 }
 
 }  // namespace bough::study

@@ -148,25 +148,50 @@ int open_mine(const std::filesystem::path& file, int flags) {
 
 }  // namespace
 
-Records read_records(const std::filesystem::path& file, std::string& whole) {
-  Records records;
+void for_each_record(
+    const std::filesystem::path& file,
+    const std::function<void(const std::string& key, const CaseResult& result, std::string_view line)>& call) {
   std::ifstream in(file, std::ios::binary);
   for (std::string line; in && std::getline(in, line);) {
     if (in.eof()) break;  // its end is missing
     std::string key;
     CaseResult result;
     if (!read_record(line, key, result)) continue;
-    records[key] = std::move(result);
-    whole += line + "\n";
+    line += '\n';
+    call(key, result, line);
   }
+}
+
+void Records::add(const std::string& key, const CaseResult& result) {
+  const auto [at, is_new] = row_of_.try_emplace(key, rows_.size());
+  if (is_new)
+    rows_.add(result);
+  else
+    rows_.set(at->second, result);
+}
+
+std::optional<CaseResult> Records::find(const std::string& key) const {
+  const auto at = row_of_.find(key);
+  return at == row_of_.end() ? std::nullopt : std::optional(rows_.at(at->second));
+}
+
+Records read_records(const std::filesystem::path& file) {
+  Records records;
+  for_each_record(file, [&records](const std::string& key, const CaseResult& result, std::string_view) {
+    records.add(key, result);
+  });
   return records;
 }
 
 Journal::Journal(std::filesystem::path file, bool resumes) : file_(std::move(file)) {
   const int former = open_mine(file_, O_RDWR | O_CREAT);  // held until the new file is locked
-  std::string kept;
-  if (resumes) records_ = read_records(file_, kept);
-  io::write_file(file_, kept);  // complete records, durable before any is added
+  io::AtomicFile kept(file_);
+  if (resumes)
+    for_each_record(file_, [&](const std::string& key, const CaseResult& result, std::string_view line) {
+      records_.add(key, result);
+      kept.write(line);
+    });
+  kept.commit();  // complete records, durable before any is added
   descriptor_ = open_mine(file_, O_WRONLY | O_APPEND);
   ::close(former);
 }
@@ -175,11 +200,6 @@ Journal::~Journal() {
   if (descriptor_ < 0) return;
   (void)::fdatasync(descriptor_);
   ::close(descriptor_);
-}
-
-const CaseResult* Journal::find(const std::string& key) const {
-  const auto at = records_.find(key);
-  return at == records_.end() ? nullptr : &at->second;
 }
 
 void Journal::add(const std::string& key, const CaseResult& result) {

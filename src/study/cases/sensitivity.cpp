@@ -204,24 +204,23 @@ std::optional<Sensitivity> sobol_indices(std::size_t n, Values values, std::uint
   return s;
 }
 
-std::vector<MeasureSensitivity> sensitivities_of(const io::SweepSpec& spec, const std::vector<CaseResult>& results) {
+std::vector<MeasureSensitivity> sensitivities_of(const io::SweepSpec& spec, const CaseTable& results) {
   if (spec.designs.size() != 1) return {};
-  std::vector<std::string> variables, measures;
-  for (const io::SweepVariable& v : spec.designs.front().variables) variables.push_back(v.name);
-  for (const CaseResult& r : results)
-    for (const records::MeasureResult& m : r.report.measures)
-      if (std::find(measures.begin(), measures.end(), m.name) == measures.end()) measures.push_back(m.name);
+  const io::SweepDesign& design = spec.designs.front();
+  std::vector<std::string> variables;
+  for (const io::SweepVariable& v : design.variables) variables.push_back(v.name);
+  std::size_t num_rows = 0;
+  for_each_row(design, 0, [&num_rows](const auto&) { ++num_rows; });
+  std::vector<std::size_t> row_of;
+  for (std::size_t i = 0; i < results.size(); ++i)
+    row_of.push_back(std::stoul(results.cases().at(i).name) - 1);  // the name of a case is its number
   std::vector<MeasureSensitivity> all;
-  const std::size_t num_rows = rows_of(spec.designs.front(), 0).size();
-  for (const std::string& measure : measures) {
+  for (const CaseTable::Measure& measure : results.measures()) {
+    const std::vector<std::optional<double>> of_cases = results.values_of(measure.name);
     std::vector<std::optional<double>> values(num_rows);
-    for (const CaseResult& r : results) {
-      const std::size_t row = std::stoul(r.which.name) - 1;  // the name of a case is its number
-      for (const records::MeasureResult& m : r.report.measures)
-        if (m.name == measure) values.at(row) = m.value;
-    }
-    if (std::optional<Sensitivity> s = sensitivity_of(spec.designs.front(), 0, values))
-      all.push_back({measure, variables, std::move(*s)});
+    for (std::size_t i = 0; i < of_cases.size(); ++i) values.at(row_of[i]) = of_cases[i];
+    if (std::optional<Sensitivity> s = sensitivity_of(design, 0, values))
+      all.push_back({measure.name, variables, std::move(*s)});
   }
   return all;
 }
@@ -237,10 +236,10 @@ std::optional<Sensitivity> sensitivity_of(const io::SweepDesign& design, std::ui
     case SweepDesignKind::latin_hypercube:
     case SweepDesignKind::sobol: {
       std::vector<std::vector<double>> inputs;
-      for (const std::vector<io::SweepValue>& row : rows_of(design, number)) {
+      for_each_row(design, number, [&inputs](const std::vector<io::SweepValue>& row) {
         inputs.emplace_back();
         for (const io::SweepValue& v : row) inputs.back().push_back(v.number.value_or(0.0));
-      }
+      });
       return regression(inputs, values);
     }
     default:

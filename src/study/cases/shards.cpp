@@ -140,10 +140,11 @@ namespace {
 using Row = std::vector<io::SweepValue>;
 
 /// Some of the values of a variable, the first and the last among them.
-std::vector<io::SweepValue> some_values(const std::vector<Row>& rows, std::size_t variable) {
+std::vector<io::SweepValue> some_values(std::size_t count, const std::function<Row(std::size_t)>& row_of,
+                                        std::size_t variable) {
   constexpr std::size_t most = 9;
   std::vector<io::SweepValue> values;
-  for (const Row& row : rows) values.push_back(row[variable]);
+  for (std::size_t i = 0; i < count; ++i) values.push_back(std::move(row_of(i)[variable]));
   const auto less = [](const io::SweepValue& a, const io::SweepValue& b) {
     return a.number && b.number ? *a.number < *b.number : a.text < b.text;
   };
@@ -162,13 +163,15 @@ std::vector<io::SweepValue> some_values(const std::vector<Row>& rows, std::size_
 
 }  // namespace
 
-std::vector<double> predicted_work(const std::vector<Row>& rows, const std::function<double(const Row&)>& look) {
+std::vector<double> predicted_work(std::size_t count, const std::function<Row(std::size_t)>& row_of,
+                                   const std::function<double(const Row&)>& look) {
   std::vector<double> work;
-  if (rows.empty()) return work;
+  if (count == 0) return work;
   std::vector<std::size_t> deciding;
-  const double of_first = look(rows.front()), of_last = look(rows.back());
-  for (std::size_t k = 0; k < rows.front().size(); ++k) {
-    const std::vector<io::SweepValue> values = some_values(rows, k);
+  const Row first = row_of(0), last = row_of(count - 1);
+  const double of_first = look(first), of_last = look(last);
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    const std::vector<io::SweepValue> values = some_values(count, row_of, k);
     const auto changes = [&](const Row& base, double of_base) {
       return std::any_of(values.begin(), values.end(), [&](const io::SweepValue& value) {
         Row row = base;
@@ -176,10 +179,11 @@ std::vector<double> predicted_work(const std::vector<Row>& rows, const std::func
         return look(row) != of_base;
       });
     };
-    if (changes(rows.front(), of_first) || changes(rows.back(), of_last)) deciding.push_back(k);
+    if (changes(first, of_first) || changes(last, of_last)) deciding.push_back(k);
   }
   std::unordered_map<std::string, double> known;
-  for (const Row& row : rows) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Row row = row_of(i);
     std::string key;
     for (const std::size_t k : deciding) key += row[k].text + '\n';
     const auto [at, is_new] = known.try_emplace(key, 0.0);

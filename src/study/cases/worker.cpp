@@ -90,7 +90,7 @@ std::string answer_text(const BatchCase& which, const RunCase& run_case, io::Sha
 
 }  // namespace
 
-Worker::Worker(const std::vector<BatchCase>& cases, const RunCase& run_case, const std::vector<Worker>& others) {
+Worker::Worker(const CaseList& cases, const RunCase& run_case, const std::vector<Worker>& others) {
   int to[2], from[2];
   if (::pipe2(to, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category());
   if (::pipe2(from, O_CLOEXEC) != 0) {
@@ -123,9 +123,9 @@ Worker::Worker(const std::vector<BatchCase>& cases, const RunCase& run_case, con
   ::fcntl(from_, F_SETFL, O_NONBLOCK);
 }
 
-void Worker::serve(const std::vector<BatchCase>& cases, const RunCase& run_case) {
+void Worker::serve(const CaseList& cases, const RunCase& run_case) {
   std::size_t which = 0;
-  while (read_case(to_, which) && write_all(from_, answer_text(cases[which], run_case, rows_))) {
+  while (read_case(to_, which) && write_all(from_, answer_text(cases.at(which), run_case, rows_))) {
   }
   ::_exit(0);  // no buffers or objects of the parent are flushed or destroyed twice
 }

@@ -24,7 +24,7 @@ struct WorkerAnswer {
 class Worker {
  public:
   /// others: the new process closes their pipes. Throws std::system_error where no process can be started.
-  Worker(const std::vector<BatchCase>& cases, const RunCase& run_case, const std::vector<Worker>& others);
+  Worker(const CaseList& cases, const RunCase& run_case, const std::vector<Worker>& others);
   Worker(Worker&& other) noexcept { *this = std::move(other); }
   Worker& operator=(Worker&& other) noexcept;
   ~Worker() { end(); }
@@ -55,7 +55,7 @@ class Worker {
   std::string_view rows() const { return rows_.text(); }
 
  private:
-  [[noreturn]] void serve(const std::vector<BatchCase>& cases, const RunCase& run_case);
+  [[noreturn]] void serve(const CaseList& cases, const RunCase& run_case);
   void end();
 
   static constexpr std::size_t most_rows = 64 << 20;  ///< [bytes] of a history; more goes into folders as it comes
