@@ -12,12 +12,12 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// Columns that are cleared and added to in one go: they stay in the cache nearest to the core but one.
+/// Number of columns that are cleared and filled together, so that they stay in the second cache.
 constexpr int doubles_in_cache = 1 << 16;
-/// Symmetric fronts from this size on are cleared below the diagonal alone; of shorter columns that would cost more
-/// than it saves.
+/// Symmetric fronts from this size on are cleared only below the diagonal; for shorter columns this costs more than it
+/// saves.
 constexpr int cleared_by_columns = 160;
-/// Reading, adding and writing an entry takes as long as so many operations of an elimination.
+/// Time of reading, adding and writing an entry, in operations of an elimination.
 constexpr double flops_of_an_entry = 8.0;
 
 }  // namespace
@@ -50,8 +50,8 @@ void Hierarchical::State::assemble_front(tree::FrontId f) {
     if (!is_scalar(c)) add_lane_child(c, d);
 }
 
-/// Clears columns [first, last), all on one side of `full`, and adds what the children on the scalar path hold for
-/// them, child by child.
+/// Clears columns [first, last), all on one side of `full`, and adds the contributions of the children on the scalar
+/// path, child by child.
 void Hierarchical::State::fill_columns(tree::FrontId f, int first, int last) {
   const FrontData& d = data(f);
   const FrontParts parts(d.matrix());
@@ -78,8 +78,8 @@ void Hierarchical::State::fill_columns(tree::FrontId f, int first, int last) {
   }
 }
 
-/// Columns [first, last) of the parent: what waits in the child, and its Schur complement; symmetric: what is not
-/// above the diagonal.
+/// Adds to columns [first, last) of the parent the delayed unknowns of the child and its Schur complement; symmetric:
+/// only on and below the diagonal.
 void Hierarchical::State::add_child(tree::FrontId child, const FrontData& parent, int first, int last) {
   const FrontData& c = data(child);
   const int waiting = c.num_delayed(), delayed = c.delayed_to;
@@ -87,8 +87,8 @@ void Hierarchical::State::add_child(tree::FrontId child, const FrontData& parent
   const Run* runs_begin = runs.data() + run_begin[at(child)];
   const FrontParts from(c.matrix()), to(parent.matrix());
   const bool is_lower = parent.is_symmetric();
-  // Column j of the child to column k of the parent: what waits from row `first_waiting` on, the boundary from row
-  // `skip` of `run` on.
+  // Column j of the child to column k of the parent: delayed unknowns from row `first_waiting` on, the boundary from
+  // row `skip` of `run` on.
   const auto add_column = [&](int j, int k, int first_waiting, const Run* run, int skip) {
     const double *top = from.top(j) + c.pivots, *bottom = from.bottom(j);
     double *to_top = to.top(k), *to_bottom = to.bottom(k) - parent.full;
@@ -135,7 +135,7 @@ void Hierarchical::State::add_child_both_ways(tree::FrontId child, const FrontDa
   });
 }
 
-/// += D_r A_e D_c, the element's blocks at their rows of the front; symmetric: what is not above the diagonal.
+/// += D_r A_e D_c, with the element's blocks at their rows of the front; symmetric: only on and below the diagonal.
 void Hierarchical::State::add_element(int position, FrontData& d) {
   const int e = tree.element_order[at(position)];
   const int* rows = tree.scatter.data() + tree.scatter_begin[at(position)];
@@ -144,7 +144,7 @@ void Hierarchical::State::add_element(int position, FrontData& d) {
   const ConstElementView matrix = elements.view(e);
   const auto& block_size = elements.graph().block_size;
   const FrontParts parts(d.matrix());
-  // Where a matrix is its own mirror image its rows, which lie together, serve as columns.
+  // If a matrix equals its mirror image, its contiguous rows are used as columns.
   const bool is_contiguous = d.is_symmetric() && matrix.stride == 1;
   for (int q = 0, j0 = 0; q < count; ++q) {
     const int bj = blocks[q], nj = block_size[at(bj)];

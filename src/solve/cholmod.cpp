@@ -1,4 +1,4 @@
-/// CHOLMOD behind the four verbs of a backend. Compiled only into builds with BOUGH_WITH_GPL.
+/// CHOLMOD with the four functions of a backend. Compiled only in builds with BOUGH_WITH_GPL.
 #include <cholmod.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Eigen's decompositions of small dense matrices, compiled once: each takes longer to compile than all the rest of a
+/// Eigen's decompositions of small dense matrices, compiled once, since each takes longer to compile than the rest of a
 /// file that uses it.
 #pragma once
 
@@ -7,21 +7,21 @@
 
 namespace bough::solve {
 
-/// A^-1 by partial pivoting; not finite where a pivot is zero.
+/// A^-1 by partial pivoting; not finite if a pivot is zero.
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
 
-/// A^-1 B by full pivoting; nothing where A has not full rank.
+/// A^-1 B by full pivoting; no value if A does not have full rank.
 std::optional<Eigen::MatrixXd> solve_if_regular(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// In falling order.
+/// Singular values in descending order.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
 
-/// Of a symmetric matrix, its lower triangle; in rising order.
+/// Eigenvalues of a symmetric matrix, from its lower triangle, in ascending order.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 
 struct RightSingularVectors {
-  Eigen::VectorXd values;   ///< in falling order
-  Eigen::MatrixXd vectors;  ///< a column each
+  Eigen::VectorXd values;   ///< in descending order
+  Eigen::MatrixXd vectors;  ///< one per column
 };
 RightSingularVectors right_singular_vectors(const Eigen::MatrixXd& a);
 

@@ -6,15 +6,15 @@
 
 namespace bough::solve {
 
-/// c -= a b. c: m x n, a: m x k, b: k x n; every entry is one sum over k upward, taken off at once for each 96 terms,
-/// whatever the blocking.
+/// c -= a b. c: m x n, a: m x k, b: k x n. Every entry is one sum over ascending k, subtracted at once for every 96
+/// terms, independent of the blocking.
 void subtract_product(int m, int n, int k, const double* a, int lda, const double* b, int ldb, double* c, int ldc);
 
 /// A front being factored: the first `full` rows and columns are fully summed. Either one square (u null, leading
-/// dimension size), or in three parts, of which the last can be given up when the parent has read it:
+/// dimension size), or in three parts, of which the memory of the last can be reused after the parent has read it:
 ///   [ a  u ]     a: size x full, u: full x (size - full), s: (size - full) x (size - full)
 ///   [ .  s ]
-/// Symmetric: the lower triangles of a and s alone; u is not there, above the diagonals stands nothing of meaning.
+/// Symmetric: only the lower triangles of a and s; there is no u, and entries above the diagonals are undefined.
 struct FrontMatrix {
   double* a = nullptr;
   int size = 0;
@@ -27,11 +27,11 @@ struct FrontMatrix {
   int ldu = 0;
   double* s = nullptr;
   int lds = 0;
-  double* d =
-      nullptr;  ///< symmetric: 2 x full, the diagonal of D and what stands below it (nonzero: a pivot of two rows begins)
+  /// Symmetric: 2 x full, the diagonal of D and the entries below it (nonzero: a pivot of two rows begins).
+  double* d = nullptr;
 };
 
-/// The parts of a front, wherever they stand.
+/// The parts of a front in any storage.
 struct FrontParts {
   double *a, *u, *s;
   std::ptrdiff_t lda, ldu, lds;
@@ -43,57 +43,58 @@ struct FrontParts {
     u = a + full * lda;
     s = u + full;
   }
-  /// Column j, rows [0, full) of it where j is not fully summed.
+  /// Column j; its rows [0, full) if j is not fully summed.
   double* top(int j) const { return j < full ? a + j * lda : u + (j - full) * ldu; }
   /// Rows from `full` on of column j.
   double* bottom(int j) const { return j < full ? a + j * lda + full : s + (j - full) * lds; }
 };
 
-/// Which pivots may be taken.
+/// Conditions for accepting a pivot.
 struct PivotRule {
-  double threshold = 0.02;  ///< at least this share of the column's largest entry, boundary rows included
-  double least = 1e-9;      ///< at least this
+  double threshold = 0.02;  ///< smallest ratio to the column's largest entry, boundary rows included
+  double least = 1e-9;      ///< smallest magnitude
 };
 
-/// Eliminates as many fully summed unknowns as the rule allows, the diagonal preferred, rows exchanged within the
-/// fully summed ones only; leaves L (unit, below), U and the Schur complement in place, the refused rows and columns
-/// last among the fully summed.
+/// Eliminates as many fully summed unknowns as the rule allows. The diagonal is preferred, and rows are exchanged only
+/// within the fully summed ones. Afterwards L (unit, below), U and the Schur complement are in place, with the rejected
+/// rows and columns last among the fully summed ones.
 ///   P A Q = [L11 0; L21 I] [U11 U12; 0 S]
-/// The update of what remains goes to the walker's threads where it is large; bits do not depend on that.
-/// Returns the number of pivots, or -1 when an entry is not finite.
+/// A large update of the remaining columns is distributed to the walker's threads; bits do not depend on this. Returns
+/// the number of pivots, or -1 if an entry is not finite.
 int eliminate_with_threshold(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
 
 /// The same for a symmetric front (lower triangle; d given): P A P^T = L D L^T, D of blocks of one and two rows. A
-/// pivot of two rows, p and the largest entry of its column among the candidates at hand, is taken if |D^-1| times
+/// pivot of two rows, p and the largest entry of its column among the present candidates, is accepted if |D^-1| times
 /// the largest entries of its columns stays below 1 / threshold [Duff, Reid 1983].
 int eliminate_symmetric(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
 
-/// The same where it is expected to be positive definite: no search, no exchange, D diagonal. Stops at a pivot that
-/// is not finite, below `least`, or below `least` times what it was before, and where a panel takes more than 1 /
-/// threshold off a diagonal below it: no definite matrix does whose diagonal is about one, and no entry grows by
-/// more. Returns the number of pivots: below `full` the front is spoilt, to be assembled once more.
+/// The same for a front that is expected to be positive definite: no search, no exchange, D diagonal. Stops at a pivot
+/// that is not finite, below `least`, or below `least` times its original value, and if a panel subtracts more than 1 /
+/// threshold from a diagonal below it. This cannot occur in a definite matrix with a diagonal of about one, and no
+/// entry grows by more. Returns the number of pivots. If it is below `full`, the front has been overwritten and must be
+/// assembled once more.
 int eliminate_definite(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
 
-/// Goes on from `pivots` up to `most` with complete pivoting over the remaining fully summed block (precondition: no
+/// Continues from `pivots` up to `most` with complete pivoting over the remaining fully summed block (precondition: no
 /// boundary), as long as the largest entry reaches `least`. row_weight, column_weight: one factor for each remaining
 /// row and column by which entries are compared, permuted along; or null for ones. Returns the number of pivots
 /// reached.
 int eliminate_completely(FrontMatrix& front, int pivots, int most, double least, double* row_weight = nullptr,
                          double* column_weight = nullptr);
 
-/// f = L^-1 f for the first `pivots` entries, the rest reduced: f_B -= L21 y. f already permuted.
+/// f = L^-1 f for the first `pivots` entries, and f_B -= L21 y for the others. f must be permuted already.
 void substitute_forward(const FrontMatrix& front, int pivots, double* f);
 /// y = U11^-1 (y - U12 x_B), symmetric: L11^-T (D^-1 y - L21^T x_B); x: size entries, y in the first `pivots`, x_B in
 /// the others.
 void substitute_backward(const FrontMatrix& front, int pivots, double* x);
-/// Left vectors: z^T = -z_B^T L21 L11^-1 in the first `pivots` entries, z_B in the others; then add nothing else
-/// (rows are permuted).
+/// Left vectors: z^T = -z_B^T L21 L11^-1 in the first `pivots` entries, z_B in the others. Rows are permuted, so
+/// nothing may be added afterwards.
 void substitute_backward_left(const FrontMatrix& front, int pivots, double* z);
 
 /// The same for a square.
 inline FrontMatrix make_square(const double* a, int size, int full) {
   FrontMatrix f;
-  f.a = const_cast<double*>(a);  // substitutions read only
+  f.a = const_cast<double*>(a);  // substitutions do not write it
   f.size = size;
   f.full = full;
   return f;

@@ -15,8 +15,8 @@ namespace {
 
 using namespace tiles;
 
-/// The square of a panel: its unit L by rows, in groups of `width` rows, one column after the other, as packed
-/// products take it.
+/// The square of a panel: its unit L by rows, in groups of `width` rows, one column after the other, in the layout of
+/// packed products.
 struct Square {
   alignas(64) double l[deepest * deepest];
   double inverse[deepest];  ///< of D
@@ -45,7 +45,7 @@ inline void store_rows(int m, const Lanes* rows, double* column) {
   }
 }
 
-/// t = rows of `width` columns less their part in the pivots [0, depth): x is L D of the rows, b a group of L.
+/// t = rows of `width` columns minus their part in the pivots [0, depth): x is L D of the rows, b a group of L.
 template <int registers>
 inline void reduce_tile(int depth, const double* x, const double* b, Lanes (&t)[width][registers]) {
   for (int p = 0; p < depth; ++p) {
@@ -61,8 +61,8 @@ inline void reduce_tile(int depth, const double* x, const double* b, Lanes (&t)[
   }
 }
 
-/// L of m rows, at most registers x width, in the columns [0, columns) of a panel, in place; x: room for L D of them,
-/// packed. reduction: what each row's diagonal loses by these pivots.
+/// L of m rows, at most registers x width, in the columns [0, columns) of a panel, in place; x: memory for their L D,
+/// packed. reduction: the amount that these pivots subtract from each row's diagonal.
 template <int registers>
 inline void solve_rows(int m, int columns, const Square& square, double* a, std::ptrdiff_t lda, double* x,
                        double* reduction) {
@@ -97,14 +97,15 @@ inline void solve_rows(int m, int columns, const Square& square, double* a, std:
   for (int r = 0; r < registers; ++r) store(reduction + r * width, lost[r]);
 }
 
-/// Whether a pivot is finite and not below a positive bar. Compared as bits: NaN traps nothing.
+/// Whether a pivot is finite and not below a positive limit. Compared as bits, so that NaN causes no trap.
 bool holds(double pivot, double least) {
   const auto bits = std::bit_cast<std::int64_t>(pivot);
   return bits >= std::bit_cast<std::int64_t>(least) &&
          bits < std::bit_cast<std::int64_t>(std::numeric_limits<double>::infinity());
 }
 
-/// L D L^T of a square in place, `width` rows after the other. least: of each pivot. Returns the pivots that hold.
+/// L D L^T of a square in place, `width` rows after the other. least: lower limit of each pivot. Returns the number of
+/// accepted pivots.
 int eliminate_square(double* a, std::ptrdiff_t lda, const double* least, double* d, Square& square) {
   alignas(64) double x[width * deepest], reduction[width];
   for (int k0 = 0; k0 < square.depth; k0 += width) {
@@ -139,8 +140,8 @@ int eliminate_definite(FrontMatrix& f, const PivotRule& rule, const tree::Walker
   Square square;
   for (int k = 0; k < f.full;) {
     const int end = end_of_panel(k, f.full, outer_panel);
-    // Against one, which scaled diagonals were near when scales were taken, and against what the pivot was before its
-    // front was eliminated.
+    // Relative to one, about which scaled diagonals were when the scales were computed, and to the pivot's value before
+    // its front was eliminated.
     double least[deepest];
     if (k == 0)
       for (int i = 0; i < f.full; ++i) f.d[2 * i] = v.top(i)[i];

@@ -46,14 +46,14 @@ void eliminate_one(const FrontParts& v, int k, int end) {
   }
 }
 
-/// Pivots within columns [k, end), which alone are updated. Returns the new k; -1 when not finite.
+/// Eliminates pivots within columns [k, end), and updates only these. Returns the new k; -1 if an entry is not finite.
 int eliminate_panel(const FrontParts& v, FrontMatrix& f, const PivotRule& rule, int k, int end) {
-  int open = end;  // columns [open, end) were refused in this round
+  int open = end;  // columns [open, end) were rejected in this round
   bool progress = false;
   for (;;) {
     if (k == open) {
       if (open == end || !progress) return k;
-      open = end;  // the refused columns have changed: another round
+      open = end;  // the rejected columns have changed: another round
       progress = false;
     }
     const double* column = v.top(k);
@@ -115,7 +115,7 @@ void solve_and_pack(int depth, const double* l, std::ptrdiff_t ldl, int n, doubl
   }
 }
 
-/// Columns [first, last), at most a chunk and all on one side of `full`, catch up with pivots [begin, k).
+/// Updates columns [first, last), at most a chunk and all on one side of `full`, by pivots [begin, k).
 void catch_up(const FrontParts& v, int begin, int k, int first, int last) {
   using namespace tiles;
   alignas(64) double packed[deepest * chunk];
@@ -139,7 +139,7 @@ void catch_up(const FrontParts& v, int begin, int k, int first, int last) {
 
 int eliminate_with_threshold(FrontMatrix& f, const PivotRule& rule, const tree::Walker* walker) {
   const FrontParts v(f);
-  int k = 0, tried = 0;  // columns [k, tried) were refused by earlier panels and go along with the next one
+  int k = 0, tried = 0;  // columns [k, tried) were rejected by earlier panels and are tried again with the next one
   while (tried < f.full) {
     const int begin = k, end = end_of_panel(tried, f.full, outer_panel);
     while (tried < end) {

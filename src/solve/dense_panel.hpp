@@ -1,6 +1,6 @@
 #pragma once
-/// What the eliminations of a front share: panels, the search of a column, chunks of columns for threads. Internal to
-/// solve.
+/// Common parts of the eliminations of a front: panels, the search of a column, chunks of columns for threads. Internal
+/// to solve.
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -11,16 +11,15 @@
 
 namespace bough::solve {
 
-constexpr int outer_panel = 64;  ///< pivots of one update of all that remains
-constexpr int inner_panel = 8;   ///< pivots that are taken one by one before the panel catches up
+constexpr int outer_panel = 64;  ///< pivots of one update of all remaining columns
+constexpr int inner_panel = 8;   ///< pivots that are eliminated one by one before the panel is updated
 
-/// End of the panel that begins at `begin`: not much is left alone.
+/// End of the panel that begins at `begin`, chosen so that no small last panel remains.
 inline int end_of_panel(int begin, int end, int width) {
   return end - begin <= width + width / 2 ? end : begin + width;
 }
 
-/// Largest magnitude of rows [begin, end), compared as bits: infinity and NaN come out on top, above every finite
-/// number.
+/// Largest magnitude of rows [begin, end), compared as bits, in which infinity and NaN are above every finite number.
 inline double find_largest(const double* column, int begin, int end) {
   constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
   std::uint64_t largest = 0;
@@ -28,8 +27,8 @@ inline double find_largest(const double* column, int begin, int end) {
   return std::bit_cast<double>(largest);
 }
 
-/// update(first, last) for chunks of the columns [begin, full) and [full, size), by the walker's threads where the
-/// work is worth it. flops: of one column.
+/// Calls update(first, last) for chunks of the columns [begin, full) and [full, size), on the walker's threads if the
+/// work is large enough. flops: of one column.
 template <class Update>
 void for_chunks_of_columns(int begin, int full, int size, double flops, const tree::Walker* walker,
                            const Update& update) {
@@ -50,8 +49,8 @@ void for_chunks_of_columns(int begin, int full, int size, double flops, const tr
   }
 }
 
-/// Symmetric: columns [first, last), at most a chunk and all on one side of `full`, catch up with the pivots [begin,
-/// k), whose D is d.
+/// Symmetric: updates columns [first, last), at most a chunk and all on one side of `full`, by the pivots [begin, k),
+/// whose D is d.
 void catch_up_symmetric(const FrontParts& front, const double* d, int begin, int k, int first, int last);
 
 }  // namespace bough::solve

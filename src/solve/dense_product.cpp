@@ -27,7 +27,7 @@ void pack_rows(int m, int k, const double* a, std::ptrdiff_t lda, double* packed
   }
 }
 
-/// m x n entries of c, at most registers x width by width; columns of a stand `step` apart.
+/// m x n entries of c, at most registers x width by width; columns of a are `step` apart.
 template <int registers, int step>
 inline void run_tile(int m, int n, int k, const double* a, const double* b, double* c, std::ptrdiff_t ldc) {
   constexpr int high = registers * width;
@@ -74,7 +74,7 @@ inline void run_tile(int m, int n, int k, const double* a, const double* b, doub
   }
 }
 
-/// From column `diagonal` on, registers that stand above the diagonal are left out.
+/// From column `diagonal` on, registers above the diagonal are omitted.
 template <int registers>
 void run_row_of_tiles(int m, int n, int k, const double* a, std::ptrdiff_t lda, const double* packed, double* c,
                       std::ptrdiff_t ldc, int diagonal) {

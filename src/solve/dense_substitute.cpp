@@ -20,7 +20,7 @@ using tiles::store_some;
 using tiles::take_product;
 using tiles::width;
 
-constexpr int block = 8;  ///< most columns that go together: a vector is read once for all, and the memory is kept busy
+constexpr int block = 8;  ///< largest number of columns processed together: a vector is read once, and loads overlap
 
 /// Calls f with C = count as a constant, 1 <= count <= block.
 template <class F>
@@ -60,8 +60,8 @@ void take_product_with(int n, int k, const double* a, std::ptrdiff_t lda, const 
                [&](auto count) { take_columns<decltype(count)::value>(n, a + j * lda, lda, y + j, f); });
 }
 
-/// Products of C columns with x, each in eight partial sums, whatever the width of the registers: columns that go
-/// together keep the memory busy.
+/// Products of C columns with x, each in eight partial sums for any width of the registers. Several columns at once let
+/// loads from memory overlap.
 template <int C>
 void sum_products(int n, const double* a, std::ptrdiff_t lda, const double* x, double* to) {
   constexpr int registers = 8 / width;
@@ -81,8 +81,8 @@ void sum_products(int n, const double* a, std::ptrdiff_t lda, const double* x, d
   for (int c = 0; c < C; ++c) to[c] = tiles::sum_of_eight(sum[c]);
 }
 
-// Triangles of C rows, in registers: through memory every product would wait for the one before it to be written and
-// read again.
+// Triangles of C rows are processed in registers: in memory every product would wait until the previous one is written
+// and read again.
 
 /// f[0, C) <- L^-1 f, L unit lower.
 template <int C>
@@ -166,7 +166,7 @@ void substitute_backward(const FrontMatrix& front, int pivots, double* x) {
         continue;
       }
       const double ratio = d[0] / d[1], other = d[2] / d[1], scale = 1.0 / (d[1] * (ratio * other - 1.0));
-      const double first = x[k], second = x[k + 1];  // D^-1 of two rows, divided by what stands off its diagonal
+      const double first = x[k], second = x[k + 1];  // D^-1 of two rows, divided by its off-diagonal entry
       x[k] = (other * first - second) * scale;
       x[k + 1] = (ratio * second - first) * scale;
       ++k;

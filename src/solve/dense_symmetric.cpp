@@ -12,7 +12,7 @@ namespace bough::solve {
 
 namespace {
 
-/// Unknowns p < q change places; both columns are up to date, and those between them.
+/// Exchanges unknowns p < q; both columns and those between them are up to date.
 void swap_unknowns(const FrontParts& v, FrontMatrix& f, int p, int q) {
   if (p == q) return;
   for (int c = 0; c < p; ++c) std::swap(v.top(c)[p], v.top(c)[q]);
@@ -82,9 +82,9 @@ void eliminate_two(const FrontParts& v, double* d, int k, int end) {
   }
 }
 
-/// Pivots within columns [k, end), which alone are updated. Returns the new k; -1 when not finite.
+/// Eliminates pivots within columns [k, end), and updates only these. Returns the new k; -1 if an entry is not finite.
 int eliminate_panel(const FrontParts& v, FrontMatrix& f, const PivotRule& rule, int k, int end) {
-  int open = end;  // columns [open, end) were refused in this round
+  int open = end;  // columns [open, end) were rejected in this round
   bool progress = false;
   for (;;) {
     if (k == open) {
@@ -160,7 +160,7 @@ void catch_up_symmetric(const FrontParts& v, const double* d, int begin, int k, 
 
 int eliminate_symmetric(FrontMatrix& f, const PivotRule& rule, const tree::Walker* walker) {
   const FrontParts v(f);
-  int k = 0, tried = 0;  // unknowns [k, tried) were refused by earlier panels and go along with the next one
+  int k = 0, tried = 0;  // unknowns [k, tried) were rejected by earlier panels and are tried again with the next one
   while (tried < f.full) {
     const int begin = k, end = end_of_panel(tried, f.full, outer_panel);
     while (tried < end) {

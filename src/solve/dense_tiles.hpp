@@ -1,8 +1,8 @@
 #pragma once
-/// Registers, and the product of packed panels: what the dense kernels are made of. Internal to solve.
+/// Registers, and the product of packed panels, used by the dense kernels. Internal to solve.
 ///
-/// Products are fused (rounded once) where the instruction set has it, in vectors and in what is left over alike, so
-/// an entry's bits do not depend on where in a tile it stands. All loops run upward.
+/// Products are fused (rounded once) if the instruction set supports it, in vectors as well as in remaining scalars, so
+/// the bits of an entry do not depend on its position in a tile. All loops ascend.
 #include <cstddef>
 #include <cstring>
 #if defined(__FMA__) || defined(__AVX512F__)
@@ -20,7 +20,7 @@ constexpr int width = 2;
 #endif
 typedef double Lanes __attribute__((vector_size(width * sizeof(double))));
 
-constexpr int tile_registers = 3;                  ///< registers that a tile is high
+constexpr int tile_registers = 3;                  ///< height of a tile in registers
 constexpr int tile_rows = tile_registers * width;  ///< by `width` columns
 constexpr int deepest = 96;                        ///< pivots in one update
 constexpr int chunk = 96;                          ///< columns of one update: a multiple of every width
@@ -159,7 +159,7 @@ inline double* group_of(double* packed, int k, int group) {
 }
 
 /// c -= a b with b packed (k rows; groups of `width` columns filled up with zeros). c: m x n, a: m x k.
-/// `lower`: only entries (i, j) with i >= j are wanted; others may be overwritten.
+/// `lower`: only entries (i, j) with i >= j are needed; others may be overwritten.
 void subtract_packed(int m, int n, int k, const double* a, std::ptrdiff_t lda, const double* packed, double* c,
                      std::ptrdiff_t ldc, bool lower = false);
 

@@ -63,7 +63,7 @@ void Dual::State::visit_leaves(const tree::Walker& walker, bool up, const std::f
   }
 }
 
-/// x (scaled, zero before) from the interface: every leaf's boundary, merged, then the insides.
+/// x (scaled, zero before) from the interface: the boundary of every leaf, then the interiors.
 void Dual::State::recover(const tree::Walker& walker, const Eigen::VectorXd& solution, double* x) {
   visit_leaves(walker, false, [&](LeafInterface& leaf) { recover_leaf(leaf, solution); });
   for (std::size_t i = 0; i < mesh.size(); ++i) x[mesh[i]] = solution(static_cast<int>(i));
@@ -138,7 +138,7 @@ SolveReport Dual::solve(const tree::Walker& walker, const double* rhs, double* x
   s.converged = true;
   Eigen::VectorXd b = Eigen::Map<const Eigen::VectorXd>(rhs, s.tree.num_unknowns());
   if (s.null_left.cols() >
-      0) {  // dependent rows that disagree have no solution: the nearest right-hand side that has one is solved
+      0) {  // contradicting dependent rows have no solution: the nearest right-hand side that has one is used
     const Eigen::Map<const Eigen::VectorXd> row(s.scales.row.data(), b.size());
     const Eigen::VectorXd scaled = row.cwiseProduct(b), share = s.null_left.transpose() * scaled;
     const Eigen::VectorXd part = s.null_left * share;
@@ -153,8 +153,8 @@ SolveReport Dual::solve(const tree::Walker& walker, const double* rhs, double* x
       report.inconsistent_amount =
           part.segment(first, size).cwiseQuotient(row.segment(first, size)).cwiseAbs().maxCoeff();
     }
-    // Less is round-off of the null vectors. Taken out, it would move what the load leaves at rest (a planar
-    // mechanism out of its plane).
+    // A smaller contradiction is round-off of the null vectors. Its removal would move parts that the load leaves at
+    // rest (a planar mechanism out of its plane).
     if (report.inconsistency > contradiction) b -= part.cwiseQuotient(row);
   }
   solve_and_refine(walker, s.elements, s.scales, s.options, s.options.refinement_steps,

@@ -1,4 +1,4 @@
-/// What the interface problem leaves over: null vectors of the whole matrix, or unknowns that are eliminated after all.
+/// Remaining unknowns of the interface problem: null vectors of the whole matrix, or unknowns that can be eliminated.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,14 +13,14 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// Distance to a singular matrix at which motion counts as free: round-off leaves up to some 1e-14 of a sharpened
-/// null vector, since the left-over rows and columns are no orthogonal basis. A structure that close to floating (a
-/// static chain of two thousand beams) is refused.
+/// Distance to a singular matrix at which motion counts as free: round-off leaves up to some 1e-14 of a refined null
+/// vector, since the remaining rows and columns are not an orthogonal basis. A structure that is so close to floating
+/// (a static chain of two thousand beams) is rejected.
 constexpr double free_motion = 1e-13;
 }  // namespace
 
-/// With the left-over columns (rows) of the interface problem held at unit vectors in turn: what the whole matrix all
-/// but removes.
+/// Vectors that the whole matrix maps nearly to zero, with the remaining columns (rows) of the interface problem set to
+/// one unit vector after the other.
 void Dual::State::eval_candidates(const tree::Walker& walker, Matrix& right, Matrix* left) {
   const int m = interface.size, k = m - interface.pivots;
   const auto n = static_cast<Eigen::Index>(tree.num_unknowns());
@@ -64,8 +64,8 @@ void Dual::State::eval_candidates(const tree::Walker& walker, Matrix& right, Mat
   }
 }
 
-/// One step of refinement: z <- z - A^+ A z, A^+ the solution with the left-over unknowns held. Sub-domain pivots
-/// down to 1e-6 blur z.
+/// One step of refinement: z <- z - A^+ A z, with A^+ the solution for fixed remaining unknowns. Pivots of sub-domains
+/// down to 1e-6 reduce the accuracy of z.
 void Dual::State::sharpen(const tree::Walker& walker, Matrix& candidates) {
   const Eigen::Map<const Vector> row(scales.row.data(), candidates.rows());
   const Eigen::Map<const Vector> column(scales.column.data(), candidates.rows());
@@ -79,8 +79,8 @@ void Dual::State::sharpen(const tree::Walker& walker, Matrix& candidates) {
   }
 }
 
-/// How many of the directions that the candidates span the matrix removes: |A z| / |z| by a product with the element
-/// matrices themselves.
+/// Number of directions in the span of the candidates that the matrix maps to zero, by |A z| / |z| with a product with
+/// the element matrices themselves.
 int Dual::State::count_null_vectors(const tree::Walker& walker, const Matrix& candidates) {
   const Matrix Q = orthonormal_basis(candidates.colwise().normalized());
   const Eigen::Map<const Vector> row(scales.row.data(), Q.rows()), column(scales.column.data(), Q.rows());
@@ -120,7 +120,7 @@ void Dual::State::decide_rank(const tree::Walker& walker) {
 
 /// Orthonormal null vectors, the right ones in exact scaling, and the verdict.
 void Dual::State::find_null_vectors(const tree::Walker& walker) {
-  Matrix right, left;  // the members stay empty meanwhile: solutions are projected on them
+  Matrix right, left;  // the members stay empty meanwhile, since solutions are projected on them
   eval_candidates(walker, right, &left);
   sharpen(walker, right);
   null_right = right;

@@ -19,16 +19,16 @@ struct Tie {
 /// A boundary unknown of a leaf.
 struct BoundaryUnknown {
   int unknown;
-  int coarse;     ///< its place on the interface mesh, or -1
-  bool is_first;  ///< carries the load
+  int coarse;     ///< its index in the interface mesh, or -1
+  bool is_first;  ///< the copy to which the load is applied
 };
 
-/// One sub-domain condensed to its boundary, then to its ties: local order is refused unknowns, boundary unknowns,
-/// those of the interface mesh last.
+/// One sub-domain condensed to its boundary, then to its ties. The local order is: rejected unknowns, boundary
+/// unknowns, and last those of the interface mesh.
 struct LeafInterface {
   tree::SubdomainId id = tree::none;
   std::vector<BoundaryUnknown> boundary;             ///< in the order of the leaf's boundary blocks
-  std::vector<int> order;                            ///< local -> position among what LeafFronts keeps
+  std::vector<int> order;                            ///< local -> position among the unknowns kept by LeafFronts
   std::vector<std::pair<int, double>> ties;          ///< (tie, sign)
   std::vector<int> tie_boundary;                     ///< by entry of ties: position in boundary
   std::vector<int> tie_row, tie_column;              ///< the same: row and column in the factored matrix
@@ -58,7 +58,7 @@ struct DenseStage {
 struct Dual::State {
   State(const blocks::BlockGraph& graph, const tree::Tree& tree, const DualOptions& form, const SolveOptions& options);
 
-  // global.cpp: what is torn and tied, sub-domain by sub-domain
+  // global.cpp: copies and ties, sub-domain by sub-domain
   void tear(const blocks::BlockGraph& graph);
   void factor_leaf(LeafInterface& leaf);
   void condense_load(LeafInterface& leaf, const double* b);
@@ -100,15 +100,15 @@ struct Dual::State {
   LeafFronts fronts;
   std::vector<LeafInterface> leaves;
   std::vector<int> leaf_of_subdomain;
-  std::vector<int> untouched;  ///< places on the mesh of unknowns that no element touches
+  std::vector<int> untouched;  ///< indices in the mesh of unknowns in no element
   std::vector<Tie> ties;
-  std::vector<int> mesh;         ///< unknowns of the interface mesh (hybrid), then those that no element touches
-  std::vector<double> copies;    ///< by unknown: 1 / number of copies, where there are several
-  int num_coarse = 0;            ///< w: mesh, then what is left over in each leaf
-  DenseStage coarse, interface;  ///< w eliminated before the multipliers (hybrid); the rest
+  std::vector<int> mesh;         ///< unknowns of the interface mesh (hybrid), then those in no element
+  std::vector<double> copies;    ///< by unknown: 1 / number of copies, if there are several
+  int num_coarse = 0;            ///< size of w: the mesh, then the remaining unknowns of each leaf
+  DenseStage coarse, interface;  ///< w, eliminated before the multipliers (hybrid); the others
   std::vector<double> tie_scale;
   Eigen::MatrixXd reduced,
-      preconditioner;  ///< the interface problem before its elimination; iterative: what preconditions it
+      preconditioner;  ///< the interface problem before its elimination; iterative: its preconditioner
   bool is_symmetric = false;
   Eigen::MatrixXd null_right, null_left;
   int iterations = 0;

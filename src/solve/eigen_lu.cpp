@@ -1,4 +1,4 @@
-/// Eigen's SparseLU behind the four verbs of a backend.
+/// Eigen's SparseLU with the four functions of a backend.
 #include <Eigen/SparseLU>
 
 #include "sparse_matrix.hpp"
@@ -28,7 +28,7 @@ bool EigenLu::solve(const double* b, double* x) {
   return impl_->lu.info() == Eigen::Success;
 }
 
-/// A bound from the fill: every entry of L meets the mean row of U.
+/// A bound from the fill: every entry of L is multiplied with a row of U of mean length.
 double EigenLu::flops() const {
   const auto n = static_cast<double>(impl_->lu.rows());
   return n > 0.0 ? 2.0 * static_cast<double>(impl_->lu.nnzL()) * static_cast<double>(impl_->lu.nnzU()) / n : 0.0;

@@ -160,7 +160,7 @@ std::vector<ElementBatch> ElementStore::single_batches() const {
 
 namespace {
 
-/// Bit by bit: what has been made symmetric is found so in a fraction of the time that differences take.
+/// Compares bits: matrices that were made symmetric are recognised in a fraction of the time that differences take.
 bool is_mirrored(const ConstElementView& a, int n) {
   std::uint64_t differ = 0;
   for (std::int64_t i = 1; i < n; ++i)
@@ -177,7 +177,7 @@ double ElementStore::asymmetry_of(int e, const Scales& scales) const {
   const std::int64_t step = a.stride, n = size_of(e) * step;
   const int* blocks = blocks_of(e);
   const int count = num_blocks_of(e);
-  std::uint64_t most = 0;  // as bits: infinity and NaN come out on top
+  std::uint64_t most = 0;  // as bits, in which infinity and NaN are the largest
   for (int p = 0, i0 = 0; p < count; ++p) {
     const int rows = graph_.block_size[at(blocks[p])];
     const double* row_scale = scales.column.data() + tree_.unknown_begin[at(blocks[p])];

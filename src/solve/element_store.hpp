@@ -1,5 +1,5 @@
 #pragma once
-/// Element matrices, products with them, and the scales taken from them. Internal to solve; shared by both solvers.
+/// Element matrices, products with them, and the scales computed from them. Internal to solve; shared by both solvers.
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -14,18 +14,18 @@
 namespace bough::solve {
 
 /// Scales D_r, D_c: powers of two. Motion unknowns: both 2^round(-log2(a)/2), a = sum over the elements of |diagonal|
-/// (row norm where that is 0). Multipliers: column and row by the inverse 2-norm of the constraint's column and row
-/// in scaled motion unknowns. A tangent K + C/h + M/h^2 then has diagonal near 1 and constraint rows of norm near 1
-/// for every h.
+/// (row norm if that is 0). Multipliers: column and row by the inverse 2-norm of the constraint's column and row in
+/// scaled motion unknowns. A tangent K + C/h + M/h^2 then has diagonal near 1 and constraint rows of norm near 1 for
+/// every h.
 struct Scales {
   std::vector<double> row, column;
-  std::vector<double>
-      weight;  ///< column / exact column scale, in [2^-1/2, 2^1/2]: measures multipliers free of the rounding
+  /// column / exact column scale, in [2^-1/2, 2^1/2], to measure multipliers without the rounding of scales.
+  std::vector<double> weight;
   std::int64_t empty_unknown = -1;  ///< first unknown whose row or column is zero, or -1
   bool finite = true;
 };
 
-/// An element whose matrix differs from its transpose, or is not finite; none: -1.
+/// An element whose matrix differs from its transpose, or is not finite; -1: none.
 struct Asymmetry {
   int element = -1;
   double difference = 0.0;
@@ -33,7 +33,7 @@ struct Asymmetry {
   static bool shows(double difference) { return !std::isfinite(difference) || difference > 1e-9; }
 };
 
-/// Of two magnitudes; what is not a number comes out on top, and stays there.
+/// Larger of two magnitudes; NaN counts as the largest.
 inline double larger(double a, double b) { return std::islessequal(b, a) || std::isnan(a) ? a : b; }
 
 class ElementStore {
@@ -59,12 +59,12 @@ class ElementStore {
     return static_cast<int>(graph_.element_begin[e + 1] - graph_.element_begin[e]);
   }
 
-  /// y = A x. Rows are independent: every row adds its elements in ascending order.
+  /// y = A x. Rows are computed independently; every row adds its elements in ascending order.
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
 
   struct Errors {
     double normwise = 0.0, componentwise = 0.0;
-    double size = 0.0;  ///< |A| |x| + |b|, which the normwise error is relative to.
+    double size = 0.0;  ///< |A| |x| + |b|, the reference of the normwise error.
     bool finite = true;
   };
   /// r = b - A x and the backward errors of x in scaled variables.
@@ -72,15 +72,15 @@ class ElementStore {
 
   /// Serial, one pass over the element matrices. No allocation. scratch: num_unknowns numbers, overwritten.
   void eval_scales(Scales& scales, std::vector<double>& scratch) const;
-  /// Largest entry of D (A - A^T) D of one element, D the scales of columns; infinity or NaN where A is not finite.
+  /// Largest entry of D (A - A^T) D of one element, D the scales of columns; infinity or NaN if A is not finite.
   double asymmetry_of(int element, const Scales& scales) const;
   /// Largest row sum of magnitudes of the scaled matrix. Serial.
   double eval_norm(const Scales& scales) const;
-  /// r = b - A x for the rows of some blocks; most: {|r|, |b|} scaled, raised.
+  /// r = b - A x for the rows of some blocks; raises `most`, {|r|, |b|} scaled.
   void eval_rows(const Scales& scales, std::span<const int> blocks, const double* x, const double* b, double* r,
                  double* most) const;
   const double* values() const { return values_.data(); }
-  /// Every element alone, by leaf.
+  /// Batches of one element each, by leaf.
   std::vector<ElementBatch> single_batches() const;
 
   std::int64_t memory_bytes() const;

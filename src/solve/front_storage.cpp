@@ -10,8 +10,8 @@ namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 constexpr int line = 8;       ///< doubles of a cache line
-constexpr int alias = 512;    ///< columns this far apart fall on the same lines of the cache
-constexpr int unpadded = 32;  ///< shorter columns of u stand without gaps
+constexpr int alias = 512;    ///< columns with this distance are on the same lines of the cache
+constexpr int unpadded = 32;  ///< shorter columns of u are stored without gaps
 
 int leading_dimension(int rows) {
   const int padded = (rows + line - 1) / line * line;
@@ -82,7 +82,8 @@ class SchurPlanner {
     return true;
   }
 
-  /// Regions of grandchildren in the factor, the large ones first: all that they hold has been read when it is written.
+  /// Places regions of grandchildren in the factor, the largest first: their contents have been read when the factor is
+  /// written.
   void host_grandchildren(tree::FrontId f) {
     std::vector<tree::FrontId> grandchildren;
     for (tree::FrontId c : children(f))
@@ -99,7 +100,7 @@ class SchurPlanner {
     }
   }
 
-  /// Calls visit(child, where its own region begins in the region of children); answers how long that is.
+  /// Calls visit(child, begin of its own region in the region of children) and returns the length of that region.
   template <class Visit>
   std::int64_t for_children(tree::FrontId f, Visit&& visit) const {
     const bool sequential = is_sequential(f);
@@ -118,13 +119,14 @@ class SchurPlanner {
     return for_children(f, [](tree::FrontId, std::int64_t) {});
   }
 
-  /// What its own region needs, and the other one of each of its children.
+  /// Computes the size of its own region, and of the other region of each child.
   void measure(tree::FrontId f) {
     host_grandchildren(f);
     const bool sequential = is_sequential(f);
     std::int64_t below = 0;
     for (tree::FrontId c : children(f)) {
-      const std::int64_t other = need_[at(c)].other = region_of_children(c);  // without those that are hosted now
+      const std::int64_t other = need_[at(c)].other =
+          region_of_children(c);  // without those in the factor of their grandparent
       below = sequential ? std::max(below, other) : below + other;
     }
     need_[at(f)].own = std::max(schur_[at(f)], below);

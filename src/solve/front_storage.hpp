@@ -1,5 +1,5 @@
 #pragma once
-/// How much memory the parts of a front take and where Schur complements stand. Internal to solve.
+/// Sizes of the parts of a front, and places of Schur complements in memory. Internal to solve.
 #include <cstdint>
 #include <vector>
 
@@ -16,20 +16,20 @@ struct FrontShape {
   std::int64_t factor_size() const { return a + d + u; }
 };
 
-/// Where Schur complements stand, by front: from `begin` on, in the factor of the front `host` or, where that is
-/// tree::none, in a pool.
+/// Places of Schur complements, by front: from `begin` on in the factor of the front `host`, or in a pool if that is
+/// tree::none.
 struct SchurPlaces {
   std::vector<std::int64_t> begin;
   std::vector<tree::FrontId> host;
   std::int64_t pool = 0;  ///< its size [doubles]
 };
 
-/// Schur complements are given up when the parent has been eliminated. Until a front is assembled, the place of its
-/// factor holds what its grandchildren left, as far as there is room. In the pool fronts of even and odd depth have
-/// places of their own, and a front's place holds what its grandchildren left. Fronts of one leaf are eliminated one
-/// after the other and share, sub-domains that may be visited at once never do. in_lanes: by front, negative for
-/// those that have such a place. keep_all: nothing is shared. is_symmetric: of the smallest factors that there will
-/// be.
+/// The memory of a Schur complement is reused after the parent has been eliminated. Until a front is assembled, the
+/// memory of its factor holds Schur complements of its grandchildren, if there is room. The pool has separate regions
+/// for fronts of even and odd depth, and a front uses the region of its grandchildren. Fronts of one leaf are
+/// eliminated one after the other and share memory; sub-domains that may be visited at the same time never do.
+/// in_lanes: by front, negative for fronts that need a place. keep_all: nothing is shared. is_symmetric: sizes of
+/// factors are those of symmetric fronts, the smallest possible.
 SchurPlaces plan_schur(const tree::Tree& tree, const std::vector<int>& in_lanes, bool keep_all, bool is_symmetric);
 
 }  // namespace bough::solve

@@ -1,4 +1,4 @@
-/// What the forms with global multipliers tear and tie, and the sub-domains between the ties.
+/// Copies and ties of the forms with global multipliers, and the sub-domains between the ties.
 #include <algorithm>
 
 #include "dual_state.hpp"
@@ -8,14 +8,14 @@ namespace bough::solve {
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// Pivots of a sub-domain below this, scaled, are left over: directions in which it floats or nearly does. Those
-/// taken amplify round-off by its inverse at most; what is left over is kept with its true remainder, so nothing is
-/// lost either way.
+/// Pivots of a sub-domain below this, scaled, are not eliminated: directions in which it floats or nearly does.
+/// Accepted pivots amplify round-off at most by its inverse; the others are kept with their true matrix, so no accuracy
+/// is lost in either case.
 constexpr double floating_pivot = 1e-6;
 }  // namespace
 
-/// Finds the copies of every boundary block. A block of several leaves is on the interface mesh or is torn: m - 1
-/// ties to its first copy.
+/// Finds the copies of every boundary block. A block of several leaves is in the interface mesh, or has m - 1 ties to
+/// its first copy.
 void Dual::State::tear(const blocks::BlockGraph& graph) {
   std::vector<std::vector<int>> leaves_of(at(graph.num_blocks()));
   std::vector<char> is_inside(at(graph.num_blocks()), 0);
@@ -68,7 +68,7 @@ void Dual::State::tear(const blocks::BlockGraph& graph) {
   }
 }
 
-/// Condenses the leaf, then eliminates all of its boundary that holds it and is not on the interface mesh.
+/// Condenses the leaf, then eliminates the part of its boundary that holds it and is not in the interface mesh.
 void Dual::State::factor_leaf(LeafInterface& leaf) {
   leaf.failed =
       !fronts.factor(leaf.id, scales, {options.pivot_threshold, std::max(options.tiny_pivot, floating_pivot)});
@@ -99,7 +99,7 @@ void Dual::State::factor_leaf(LeafInterface& leaf) {
   if (!leaf.failed) eval_responses(leaf);
 }
 
-/// H = A^+ at the ties, R and Q: one substitution for each tie and each unknown that keeps its place.
+/// H = A^+ at the ties, R and Q: one substitution for each tie and each unknown of w.
 void Dual::State::eval_responses(LeafInterface& leaf) {
   const int count = static_cast<int>(leaf.ties.size()), kept = leaf.num_kept(), m = leaf.size;
   leaf.flexibility.resize(count, count);
@@ -137,8 +137,8 @@ void Dual::State::eval_responses(LeafInterface& leaf) {
   }
 }
 
-/// The load of the leaf's kept unknowns in local order: what its inside hands up, and the boundary's own where this
-/// is its first leaf.
+/// The load of the leaf's kept unknowns in local order: the condensed load of its interior, and that of the boundary if
+/// this is its first leaf.
 void Dual::State::condense_load(LeafInterface& leaf, const double* b) {
   const double* inside = fronts.forward(leaf.id, b);
   const int refused = fronts.num_refused(leaf.id);
@@ -151,7 +151,7 @@ void Dual::State::condense_load(LeafInterface& leaf, const double* b) {
   }
 }
 
-/// e and d of one leaf: its load condensed to what keeps its place, and what it does to the ties alone.
+/// e and d of one leaf: its load condensed to w, and the effect of the load on the ties.
 void Dual::State::add_interface_load(LeafInterface& leaf, Eigen::VectorXd& rhs) {
   double* x = leaf.work.data();
   for (int i = 0; i < leaf.size; ++i) x[i] = leaf.load[at(i < leaf.full ? leaf.row_from[at(i)] : i)];
@@ -179,8 +179,7 @@ void Dual::State::recover_leaf(LeafInterface& leaf, const Eigen::VectorXd& solut
   for (int i = 0; i < leaf.size; ++i) leaf.x[at(i < leaf.full ? leaf.columns[at(i)] : i)] = x[i];
 }
 
-/// The rows' vector y of the leaf with y^T A = y_l^T B in the eliminated columns, y_w in the rows that keep their
-/// place.
+/// The left vector y of the leaf with y^T A = y_l^T B in the eliminated columns and y_w in the rows of w.
 void Dual::State::recover_leaf_left(LeafInterface& leaf, const Eigen::VectorXd& vector) {
   double* y = leaf.work.data();
   const int m = leaf.size, p = leaf.pivots;

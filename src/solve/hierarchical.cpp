@@ -39,7 +39,7 @@ void Hierarchical::State::lose_symmetry(const Asymmetry& found) {
   symmetry.block = elements.blocks_of(found.element)[0];
   symmetry.difference = found.difference;
   LanePlan general = make_lane_plan(elements.graph(), tree, options.lanes);
-  general.batches = std::move(lanes.batches);  // the same; callers look at the old ones
+  general.batches = std::move(lanes.batches);  // equal contents; callers refer to the old ones
   lanes = std::move(general);
   registers = make_register_plan(elements.graph(), tree, lanes, false);
   size_factors();
@@ -78,7 +78,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   if (s.scales_wanted) {
     s.elements.eval_scales(s.scales, s.residual);
     s.check_all_symmetric();
-    if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal but for the order of a sum
+    if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal except for the order of a sum
     s.norm = s.elements.eval_norm(s.scales);
     s.lane_scales.set(s.lanes, s.tree, s.scales);
     s.register_scales.set(s.registers, s.scales, s.options.tiny_pivot);
@@ -97,7 +97,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   if (s.is_symmetric()) {
     s.check_visits_symmetric();
     if (!s.is_symmetric()) {
-      prepare = {};  // element matrices are there
+      prepare = {};  // the element matrices are present
       walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
     }
   }
@@ -105,7 +105,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   ++s.counters.factorizations;
   for (std::size_t g = 0; g < s.is_redone.size(); ++g)
     if (s.is_redone[g] != 0) s.counters.flops_done += s.group_flops[g];
-  if (s.is_redone.back() == 0) return s.status = before;  // nor has the root: nothing is new
+  if (s.is_redone.back() == 0) return s.status = before;  // nothing has changed, not even in the root
   for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
   for (std::size_t g = 0; g < s.left_registers.size(); ++g) {
     if (s.left_registers[g] == 0) continue;
@@ -134,8 +134,8 @@ void Hierarchical::State::check_all_symmetric() {
   }
 }
 
-/// What the visits found. What is not finite may stand above the diagonal, where no front has seen it; it says
-/// nothing about symmetry.
+/// Findings of the visits. A number that is not finite may be above the diagonal, which no front reads; it gives no
+/// information about symmetry.
 void Hierarchical::State::check_visits_symmetric() {
   for (const Asymmetry& a : asymmetries) {
     if (a.element < 0) continue;
@@ -149,7 +149,7 @@ void Hierarchical::State::check_visits_symmetric() {
   }
 }
 
-/// What a front on the scalar path adds to status and counters.
+/// Adds a front on the scalar path to status and counters.
 void Hierarchical::State::count_front(tree::FrontId f) {
   const FrontData& d = data(f);
   if (d.failed && (status.outcome != FactorOutcome::not_finite || f < status.front)) {
@@ -193,8 +193,8 @@ SolveReport Hierarchical::solve_unchecked(const tree::Walker& walker, const doub
   return {};
 }
 
-/// The solution goes straight to x_out. The right-hand side is copied only where it is changed, or overwritten before
-/// it is looked at again.
+/// The solution is written directly to x_out. The right-hand side is copied only if it is changed, or overwritten
+/// before it is read again.
 void Hierarchical::State::take(const double* b, double* x_out, bool looks_again) {
   given = b;
   x = x_out;
@@ -203,20 +203,19 @@ void Hierarchical::State::take(const double* b, double* x_out, bool looks_again)
   given = rhs.data();
 }
 
-/// The backward error of the solution in x, which is refined where asked for.
+/// The backward error of the solution in x, which is refined if required.
 SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
   const std::size_t n = residual.size();
   SolveReport report;
   report.deficiency = null_space.dimension;
   ++counters.solutions;
   eval_inconsistency(given, report);
-  // Dependent rows that disagree have no solution: what was solved, and is checked, is the nearest right-hand side
-  // that has one.
+  // Contradicting dependent rows have no solution: the nearest right-hand side that has one was solved, and is checked.
   if (null_space.dimension > 0)
     for (std::size_t i = 0; i < n; ++i) rhs[i] -= correction[i] / scales.row[i];
   if (options.check == SolveCheck::none) return report;
   ElementStore::Errors errors;
-  if (null_space.dimension > 0) {  // multipliers were made least after the walk: the lanes do not hold them
+  if (null_space.dimension > 0) {  // multipliers of least norm were computed after the walk and are not in the lanes
     errors = eval_met_residual(walker, report);
     set_growth(largest_x(), largest_rhs(), report);
   } else {
@@ -231,7 +230,7 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
     for (std::size_t i = 0; i < n; ++i) x[i] += correction[i];
     const double rank_error = report.rank_error;
     const ElementStore::Errors refined = eval_met_residual(walker, report);
-    if (!(refined.normwise < errors.normwise)) {  // as good as it gets: keep the better one
+    if (!(refined.normwise < errors.normwise)) {  // no further improvement: keep the better one
       report.rank_error = rank_error;
       std::copy(correction.begin(), correction.end(), x);
       break;

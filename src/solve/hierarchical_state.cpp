@@ -66,7 +66,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   if (options.elimination == Elimination::plain) plain.resize(at(tree.num_subdomains()));
   lane_vectors.assign(lanes.unknowns.size(), 0.0);
   lane_tops.assign(at(std::max<std::int64_t>(lanes.top_size, 1) * lanes_wide),
-                   0.0);  // tops without unknowns, too, point into it
+                   0.0);  // tops without unknowns also point into it
   scalar_lanes.assign(lanes.fronts.size(), 0);
   left_registers.assign(lanes.groups.size(), 0);
   sizes.resize(lanes.groups.size());
@@ -128,7 +128,7 @@ void Hierarchical::State::add_runs(const blocks::BlockGraph& graph, const tree::
       continue;
     }
     const int to = tree.parent_row[at(k)];
-    const bool is_split = to == front(f.parent).num_eliminated;  // the parent's boundary is another part of it
+    const bool is_split = to == front(f.parent).num_eliminated;  // the parent's boundary is stored in another part
     if (runs.size() > first && runs.back().to + runs.back().length == to && !is_split) {
       runs.back().length += length;
     } else {

@@ -25,12 +25,12 @@ struct Run {
   int length;
 };
 
-/// Numbers of one front. All pointers go into the pools of State, but where pivots wait, or lanes and registers did
-/// not do.
+/// Data of one front. All pointers refer to the pools of State, except for fronts with delayed pivots, and for fronts
+/// that left lanes or registers.
 struct FrontData {
   double* a = nullptr;  ///< the parts of FrontMatrix
   double* u = nullptr;
-  double* s = nullptr;  ///< may be used again as soon as the parent is done
+  double* s = nullptr;  ///< may be reused after the parent has been eliminated
   double* d = nullptr;  ///< null: not factored as a symmetric one
   int lda = 0, ldu = 0, lds = 0;
   double* vector = nullptr;  ///< size: right-hand side, then [y; g]
@@ -39,17 +39,17 @@ struct FrontData {
   int* row_from = nullptr;  ///< full: row before pivoting
   int size = 0, full = 0, pivots = 0;
   int delayed_in = 0;          ///< unknowns that children could not eliminate: they come first
-  int delayed_to = 0;          ///< row of the parent of the first that it could not eliminate itself
+  int delayed_to = 0;          ///< row of the parent of the first unknown that it delays itself
   bool failed = false;         ///< not finite here or below
   bool is_indefinite = false;  ///< declared definite, and a pivot was not
-  bool allocated = false;      ///< the enlarging took heap memory in this factorization
+  bool allocated = false;      ///< enlarging it allocated memory in this factorization
   int num_delayed() const { return full - pivots; }
   bool is_symmetric() const { return d != nullptr; }
   void set_parts(const FrontShape& shape, double* factor, double* schur);
   FrontMatrix matrix() const { return {a, size, full, rows, columns, row_from, lda, u, ldu, s, lds, d}; }
 };
 
-/// Own memory of a front enlarged by delayed pivots; kept for the next time.
+/// Memory of a front enlarged by delayed pivots, kept for the next time.
 struct Enlarged {
   LaneDoubles a;
   std::vector<double> vector;
@@ -59,7 +59,7 @@ struct Enlarged {
 /// Dependent rows found at the root, and what follows from them.
 struct NullSpace {
   int dimension = 0;
-  bool took_vectors = false;  ///< candidates were looked for in the storage of the condensed right-hand side
+  bool took_vectors = false;  ///< the storage of the condensed right-hand side was used for candidates
   std::vector<double> right;  ///< dimension x unknowns, orthonormal in the weighted norm; scaled variables
   std::vector<double> left;   ///< dimension x unknowns, orthonormal
 };
@@ -73,7 +73,7 @@ struct RootCopy {
   int negative = -1;       ///< eigenvalues, once counted
 };
 
-/// Root pivots below this, scaled, are looked at before they are used.
+/// Root pivots below this, scaled, are examined before they are used.
 constexpr double suspect_pivot = 1e-5;
 
 /// Textbook condensation of one interface: F and F^-1 as they were computed.
@@ -87,16 +87,17 @@ struct SolutionSizes {
   double residual = 0.0, rhs = 0.0, x = 0.0;
 };
 
-/// Doubles of Schur complements and vectors that a visit has on its stack.
+/// Largest number of doubles of Schur complements and vectors on the stack of a visit.
 constexpr std::int64_t room_of_scratch = 1 << 14;
 
-/// Unknowns of a front whose substitutions take their scratch from the stack, not from behind its vector.
+/// Largest number of unknowns of a front whose substitutions have their scratch on the stack instead of behind its
+/// vector.
 constexpr std::int64_t room_of_vector = 1 << 11;
-/// Doubles of a vector and what stands behind it.
+/// Doubles of a vector and of the scratch behind it.
 inline std::int64_t vector_size(std::int64_t unknowns) { return unknowns <= room_of_vector ? unknowns : 2 * unknowns; }
 
 struct Hierarchical::State {
-  /// keep_all: all Schur complements last until the next factorization, for reports.
+  /// keep_all: all Schur complements are kept until the next factorization, for reports.
   State(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options, bool keep_all);
 
   const tree::Tree& tree;
@@ -116,8 +117,8 @@ struct Hierarchical::State {
   bool trusts_symmetry = false;
   std::vector<Asymmetry> asymmetries;  ///< by group: the first that the visit found
   bool keeps_all = false;
-  bool all_are_due = true;          ///< the next factorization leaves nothing alone
-  std::vector<char> is_redone;      ///< by group: whether the factorization at hand visits it
+  bool all_are_due = true;          ///< the next factorization visits all groups
+  std::vector<char> is_redone;      ///< by group: whether the present factorization visits it
   std::vector<double> group_flops;  ///< of one visit
   SchurPlaces schur_places;
   LaneDoubles factor_pool, schur_pool;
@@ -125,42 +126,42 @@ struct Hierarchical::State {
   std::vector<int> index_pool;
   std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool)
   std::vector<Run> runs;
-  std::vector<tree::FrontId> scalar_fronts;  ///< that are never in lanes, nor in registers
+  std::vector<tree::FrontId> scalar_fronts;  ///< fronts that are never in lanes or registers
   std::vector<PlainInterface> plain;         ///< by sub-domain; empty unless elimination is plain
   NullSpace null_space;
   RootCopy root_copy;              ///< SolveOptions::inertia
   std::vector<int> row_of_column;  ///< scratch of inertia()
-  double* x = nullptr;             ///< of the solution at hand: the caller's array
+  double* x = nullptr;             ///< of the present solution: the caller's array
   const double* given = nullptr;   ///< its right-hand side
-  std::vector<double> rhs;         ///< of its own, where the caller's would not last
+  std::vector<double> rhs;         ///< a copy, if the caller's would be overwritten
   std::vector<double> residual;    ///< and scratch
   std::vector<double> correction;
 
   // Sub-domains in lockstep: packs of eight lanes.
   LaneDoubles lane_scratch, lane_tops, lane_factors;
-  LaneDoubles lane_vectors;  ///< of eliminated unknowns: what forward substitution leaves
+  LaneDoubles lane_vectors;  ///< of eliminated unknowns, after forward substitution
   LaneScales lane_scales;
-  std::vector<double*>
-      group_scratch;  ///< by group, during its visit: where Schur complements and vectors stand that do not outlast it
+  /// By group, during its visit: memory of Schur complements and vectors that are not needed afterwards.
+  std::vector<double*> group_scratch;
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
-  // Leaves alone, their small fronts in registers.
+  // Leaves without equals, with their small fronts in registers.
   RegisterScaleStore register_scales;
   LaneDoubles register_factors, register_schur;
-  std::vector<double> register_vectors;  ///< of eliminated unknowns: what forward substitution leaves
-  std::vector<char> left_registers;      ///< by group: in this factorization all its fronts went the pivoted way
+  std::vector<double> register_vectors;  ///< of eliminated unknowns, after forward substitution
+  std::vector<char> left_registers;      ///< by group: in this factorization all its fronts were factored with pivoting
   std::vector<SolutionSizes> sizes;      ///< by group
-  std::unique_ptr<Hierarchical> twin;    ///< the same without lanes, for reports that need every front whole
-  std::int64_t twin_factorization = -1;  ///< what it holds
-  bool exceeds_caches =
-      false;  ///< matrices and factors do not stay there from one walk to the next: read ahead, written past them
-  bool reads_factors_ahead = false;  ///< nor do factors alone in the nearer ones
-  double norm = 0.0;                 ///< of the scaled matrix, rows, when the scales were taken
+  std::unique_ptr<Hierarchical> twin;    ///< a solver without lanes, for reports that need all Schur complements
+  std::int64_t twin_factorization = -1;  ///< number of the factorization that it has
+  /// Matrices and factors do not stay in the caches between walks: they are prefetched, and written past the caches.
+  bool exceeds_caches = false;
+  bool reads_factors_ahead = false;  ///< factors do not stay in the nearer caches
+  double norm = 0.0;                 ///< largest row sum of the scaled matrix when the scales were computed
 
   FactorStatus status;
   SolverCounters counters;
-  const double* visit_rhs = nullptr;  ///< right-hand side of the walk at hand
-  tree::Mark mark;                    ///< of the walk at hand
-  tree::Walker factor_walker;         ///< of the factorization at hand: shares out large fronts
+  const double* visit_rhs = nullptr;  ///< right-hand side of the present walk
+  tree::Mark mark;                    ///< of the present walk
+  tree::Walker factor_walker;         ///< of the present factorization: distributes the work on large fronts
 
   // lane_walks.cpp, residual_walks.cpp: visits of groups
   bool is_due(int group, Changed changed) const;
@@ -214,7 +215,7 @@ struct Hierarchical::State {
     return index < 0 ||
            (scalar_lanes[static_cast<std::size_t>(index)] >> lanes.lane[static_cast<std::size_t>(f)] & 1) != 0;
   }
-  /// body(as many doubles as the front has unknowns).
+  /// Calls body with as many doubles as the front has unknowns.
   template <class Body>
   static void with_vector(FrontData& d, Body&& body);
   template <class Body>
@@ -275,7 +276,7 @@ struct Hierarchical::State {
   const FrontData& data(tree::FrontId f) const { return fronts[static_cast<std::size_t>(f)]; }
 };
 
-/// Schur complements and vectors that the visit alone needs stand on its stack, which stays in the cache.
+/// Schur complements and vectors that only the visit needs are on its stack, which stays in the cache.
 template <class Visit>
 void Hierarchical::State::with_scratch(int index, Visit&& visit) {
   const bool fits = lanes.groups[static_cast<std::size_t>(index)].scratch * lanes_wide <= room_of_scratch;

@@ -14,12 +14,12 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr double coarse_pivot =
-    1e-6;  ///< unknowns of the coarse problem below this, scaled, go along with the multipliers
+    1e-6;  ///< unknowns of the coarse problem with pivots below this, scaled, are eliminated with the multipliers
 /// Flexibility of a tie, against the largest of its leaf, below which it is round-off: joints hold that direction.
-/// Scaled to one, the round-off of a direction held on both sides (a dependent row) would pass for stiffness.
+/// Scaled to one, the round-off of a direction held on both sides (a dependent row) would be taken for stiffness.
 constexpr double held = 1e-6;
 constexpr double suspect_pivot =
-    1e-6;  ///< pivots of the interface problem below this are looked at before they are used
+    1e-6;  ///< pivots of the interface problem below this are examined before they are used
 }  // namespace
 
 void DenseStage::reset(int new_size, int new_full) {
@@ -40,8 +40,8 @@ double DenseStage::flops() const {
   return sum;
 }
 
-/// By block: hybrid, whether it is on the interface mesh. Cross points are; then every leaf without one gives a
-/// motion block, rather one that it shares with another leaf still without.
+/// By block: hybrid, whether it is in the interface mesh. Cross points are; then every leaf without one adds a motion
+/// block, preferably one shared with another leaf without one.
 std::vector<char> Dual::State::choose_local(const std::vector<std::vector<int>>& leaves_of_block) const {
   std::vector<char> is_local(leaves_of_block.size(), 0), has_local(leaves.size(), 0);
   if (form.form == DualForm::global) return is_local;
@@ -66,7 +66,7 @@ std::vector<char> Dual::State::choose_local(const std::vector<std::vector<int>>&
   return is_local;
 }
 
-/// Places of w: the mesh, then what each leaf leaves over.
+/// Indices of w: the mesh, then the remaining unknowns of each leaf.
 void Dual::State::number_coarse() {
   num_coarse = static_cast<int>(mesh.size());
   for (LeafInterface& leaf : leaves) {
@@ -108,7 +108,8 @@ void Dual::State::assemble_interface() {
   }
 }
 
-/// Eliminates w as far as it goes (hybrid), then the rest down to what decide_rank() must look at (direct).
+/// Eliminates w as far as possible (hybrid), then the others down to the pivots that decide_rank() must examine
+/// (direct).
 void Dual::State::factor_interface() {
   const double start = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   number_coarse();
@@ -176,7 +177,7 @@ void Dual::State::solve_interface(const Vector& rhs, Vector& x) {
   back_substitute(rest, x);
 }
 
-/// Singular values of the flexibility with unit diagonal, on the forces that do no work on what is still left of w.
+/// Singular values of the flexibility with unit diagonal, on the forces that do no work on the remaining unknowns of w.
 double Dual::State::eval_condition() const {
   const int waiting = coarse.full > 0 ? coarse.full - coarse.pivots : num_coarse;
   const int count = num_ties();

@@ -1,4 +1,4 @@
-/// Signs of pivots: how many eigenvalues are negative, by Sylvester's law of inertia.
+/// Signs of pivots: the number of negative eigenvalues by Sylvester's law of inertia.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// Pivots met so far.
+/// Counts of the pivots so far.
 struct PivotSigns {
   int negative = 0;
   bool moved_together = true;  ///< no row was exchanged without its column
@@ -35,7 +35,7 @@ struct PivotSigns {
   }
 };
 
-/// 1 or -1; what is left of `image` has no meaning.
+/// 1 or -1. `image` is undefined afterwards.
 int sign_of_permutation(std::vector<int>& image) {
   int sign = 1;
   for (std::size_t i = 0; i < image.size(); ++i)
@@ -58,12 +58,12 @@ void Hierarchical::State::keep_root(const FrontData& root) {
     std::copy_n(root.a + j * at(root.lda), n, root_copy.entries.begin() + static_cast<std::ptrdiff_t>(j * n));
 }
 
-/// The root is eliminated with pivots of any size there, some off the diagonal: here once more, symmetrically. Where
-/// nothing large enough is left the eigenvalues of that block are asked for; as many as rows depend on others, the
-/// smallest, are zero.
+/// The root was eliminated with pivots of any size, some off the diagonal; here it is eliminated again, symmetrically.
+/// If no pivot is large enough, the eigenvalues of the remaining block are computed; the smallest, as many as there are
+/// dependent rows, are zero.
 int Hierarchical::State::count_negative_in_root() {
   RootCopy& r = root_copy;
-  if (r.negative >= 0) return r.negative;  // the copy is spent
+  if (r.negative >= 0) return r.negative;  // the copy has been overwritten
   const int n = r.size;
   const std::size_t size = at(n);
   const bool has_both = !is_symmetric();

@@ -19,7 +19,7 @@ struct Outcome {
   bool converged = false;
 };
 
-/// [Hestenes, Stiefel 1952]; gives up where the matrix shows itself not positive definite.
+/// Conjugate gradients [Hestenes, Stiefel 1952]; stops if the matrix turns out not to be positive definite.
 Outcome conjugate_gradients(const Matrix& A, const Matrix& preconditioner, const Vector& b, Vector& x, int most) {
   Outcome o;
   const double goal = iteration_tolerance * b.norm();
@@ -41,7 +41,7 @@ Outcome conjugate_gradients(const Matrix& A, const Matrix& preconditioner, const
   return o;
 }
 
-/// [Saad, Schultz 1986], preconditioned on the right, not restarted: at most as many iterations as unknowns.
+/// GMRES [Saad, Schultz 1986], preconditioned on the right, not restarted: at most as many iterations as unknowns.
 Outcome gmres(const Matrix& A, const Matrix& preconditioner, const Vector& b, Vector& x, int most) {
   Outcome o;
   const double beta = b.norm();
@@ -83,9 +83,9 @@ Outcome gmres(const Matrix& A, const Matrix& preconditioner, const Vector& b, Ve
 }
 }  // namespace
 
-/// Each tie weighs the boundary stiffnesses of its two sides, half and half: M = sum 1/2 B_i S_i B_i^T 1/2 (Dirichlet
-/// preconditioner [Farhat, Mandel, Roux 1994]); S_i: the leaf's boundary with what is not tied eliminated or, on the
-/// interface mesh, held.
+/// Each tie averages the boundary stiffnesses of its two sides: M = sum 1/2 B_i S_i B_i^T 1/2 (Dirichlet preconditioner
+/// [Farhat, Mandel, Roux 1994]); S_i: the leaf's boundary, with unknowns without ties eliminated or, in the interface
+/// mesh, fixed.
 void Dual::State::assemble_preconditioner() {
   const int waiting = static_cast<int>(reduced.rows()) - num_ties();
   preconditioner = Matrix::Identity(reduced.rows(), reduced.rows());
@@ -140,7 +140,7 @@ bool Dual::State::iterate(const Vector& rhs, Vector& x) {
   const Outcome o = gmres(reduced, preconditioner, rhs, x, n);
   iterations += o.iterations;
   if (o.converged) return true;
-  // A preconditioner that loses directions (joints at the tie itself) is left out.
+  // A singular preconditioner (joints at the tie itself) is not used.
   const Outcome bare = gmres(reduced, Matrix::Identity(n, n), rhs, x, n);
   iterations += bare.iterations;
   return bare.converged;

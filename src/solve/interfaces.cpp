@@ -1,5 +1,5 @@
-/// The method's own quantities: interface flexibility, its conditioning, local multipliers, and the textbook
-/// condensation through it.
+/// Quantities of the method: interface flexibility, its condition, local multipliers, and the textbook condensation
+/// through it.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -18,8 +18,8 @@ using Map = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
 
 }  // namespace
 
-/// |diagonal| that the sub-domain's own elements have at its interface, scaled; where only joints of it hold a motion
-/// unknown, the diagonal that the whole has there, 1; for multipliers 0.
+/// |diagonal| of the sub-domain's own elements at its interface, scaled; if only its joints hold a motion unknown, the
+/// diagonal of the whole matrix, 1; for multipliers 0.
 std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s) const {
   const tree::Subdomain& sub = tree.subdomains[at(s)];
   const tree::Front& top = front(sub.top());
@@ -48,7 +48,7 @@ std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s
       k += size;
     }
   }
-  constexpr double round_off = 1e-12;  // joints alone leave noise there, not always zero
+  constexpr double round_off = 1e-12;  // joints alone give round-off there, not always zero
   int row = 0;
   for (int b : boundary)
     for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u, ++row)
@@ -56,7 +56,8 @@ std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s
   return stiffness;
 }
 
-/// S <- s^2 F^-1 - P with F = s^2 (S + P)^-1: exact on paper; in floating point P drowns S. For comparison only.
+/// S <- s^2 F^-1 - P with F = s^2 (S + P)^-1: mathematically exact, but in floating point S is lost beside a large P.
+/// For comparison only.
 void Hierarchical::State::condense_through_flexibility(tree::SubdomainId s) {
   FrontData& d = data(tree.subdomains[at(s)].top());
   PlainInterface& interface = plain[at(s)];
@@ -109,9 +110,9 @@ tree::Walker serial_walker() {
 
 }  // namespace
 
-/// Only factors are kept, not the Schur complements that reports look at: these come from a factorization of the same
-/// matrices and scales that keeps them whole (symmetric ones have one triangle), without lanes, made when first asked
-/// for.
+/// Only factors are kept, not the Schur complements that reports need. These come from a factorization of the same
+/// matrices and scales that stores all of them (symmetric ones as one triangle), without lanes, made at the first
+/// report.
 const Hierarchical& Hierarchical::reporting_solver() const {
   State& s = *state_;
   if ((s.keeps_all && s.lanes.fronts.empty() && !s.is_symmetric()) || s.counters.factorizations == 0) return *this;
@@ -164,7 +165,7 @@ std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
         motion.push_back(i);
       }
       const std::optional<Matrix> flexibility = solve_if_regular(stiffened, Matrix::Identity(n, n));
-      if (!flexibility) {  // rows that are empty here: what they hold is settled further up
+      if (!flexibility) {  // rows that are empty here belong to unknowns that are held further up
         reports.push_back(report);
         continue;
       }
@@ -196,7 +197,7 @@ std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s, const d
   const FrontData& d = state.data(state.tree.subdomains[at(s)].top());
   const tree::Front& top = state.front(state.tree.subdomains[at(s)].top());
   const int n = d.size - d.full;
-  Eigen::VectorXd x(d.size - d.pivots);  // unknowns that wait, then the boundary
+  Eigen::VectorXd x(d.size - d.pivots);  // delayed unknowns, then the boundary
   for (int i = d.pivots; i < d.full; ++i)
     x(i - d.pivots) = solution[at(d.columns[i])] / state.scales.column[at(d.columns[i])];
   std::vector<std::size_t> unknowns;

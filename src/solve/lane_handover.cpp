@@ -1,5 +1,5 @@
-/// The hand-over between lanes and the scalar path: fronts that leave a lane, and what lanes and single fronts give
-/// each other.
+/// Transfers between lanes and the scalar path: fronts that leave a lane, Schur complements, right-hand sides and
+/// solutions.
 #include <array>
 
 #include "hierarchical_state.hpp"
@@ -11,7 +11,7 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 }  // namespace
 
-/// Lanes with unknowns that wait, or a failure below: these can only be taken over on the scalar path.
+/// Lanes with delayed unknowns, or with a failure below, which can be processed only on the scalar path.
 LaneSet Hierarchical::State::lanes_to_leave(const LaneFront& f) const {
   unsigned leave = 0;
   for (int c = f.child_begin; c < f.child_end; ++c) {
@@ -27,7 +27,7 @@ LaneSet Hierarchical::State::lanes_to_leave(const LaneFront& f) const {
   return static_cast<LaneSet>(leave);
 }
 
-/// The pivoted scalar path for one lane; its Schur complement goes back into the lane where no unknown waits.
+/// Scalar elimination with pivoting for one lane. Its Schur complement returns to the lane if no unknown is delayed.
 void Hierarchical::State::factor_lane_alone(int index, int lane, bool is_indefinite) {
   const LaneFront& f = lanes.fronts[at(index)];
   const tree::FrontId id = f.front[at(lane)];
@@ -47,7 +47,7 @@ void Hierarchical::State::factor_lane_alone(int index, int lane, bool is_indefin
   });
 }
 
-/// Adds the Schur complement that a lane holds to a front on the scalar path, scaled.
+/// Adds the Schur complement of a lane to a front on the scalar path, scaled.
 void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent) {
   const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
   const int lane = lanes.lane[at(child)];
@@ -61,7 +61,7 @@ void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent)
     for_boundary(child, [&](int i, std::size_t row) {
       const int k = to[at(i)];
       if (parent.is_symmetric() && k < to[at(j)]) return;
-      const bool is_mirrored = f.is_symmetric && i < j;  // the root, where its rank is decided
+      const bool is_mirrored = f.is_symmetric && i < j;  // the root, when its rank is determined
       const std::int64_t entry =
           is_mirrored ? static_cast<std::int64_t>(i) * f.boundary + j : static_cast<std::int64_t>(j) * f.boundary + i;
       (k < parent.full ? top : bottom)[k] += scales.row[row] * schur[entry * wide + lane] * scales.column[column];
@@ -69,7 +69,7 @@ void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent)
   });
 }
 
-/// Adds the condensed right-hand side that a lane holds to a front on the scalar path, scaled.
+/// Adds the condensed right-hand side of a lane to a front on the scalar path, scaled.
 void Hierarchical::State::add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent) {
   const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
   const double* g = vector_of(f) + f.eliminated * wide + lanes.lane[at(child)];

@@ -37,7 +37,7 @@ inline void update_head(const double* l, std::ptrdiff_t ld, double* head, std::p
     for (int i = 1; i < K; ++i) store(head + j * step + i * wide, u[j][i]);
 }
 
-/// Columns [column, column + C) of the left part catch up with the K pivots from k0.
+/// Updates columns [column, column + C) of the left part by the K pivots from k0 on.
 template <int K, int C>
 inline void update_left(const Front& f, int k0, int column) {
   const std::ptrdiff_t ld = f.ld();
@@ -176,7 +176,7 @@ void backward_left_lanes(const double* factor, int n, int e, double* v) {
 
 namespace {
 
-/// N packs, one after the other, to places that are `step` doubles apart: written, or added to what is there.
+/// Writes or adds N packs, one after the other, to targets that are `step` doubles apart.
 template <int N, bool is_first>
 inline void move_packs(const double* from, double* to, std::ptrdiff_t step) {
   for (int l = 0; l < wide; l += width) {
@@ -197,8 +197,7 @@ inline void move_run(const double* from, int count, double* to, std::ptrdiff_t s
   if (count > 0) with_size(count, [&](auto n) { move_packs<decltype(n)::value, is_first>(from, to, step); });
 }
 
-/// Lanes of a pack in the order in which another one takes them: lane from_lane[l] comes to lane l, zero where that
-/// is negative.
+/// Lanes of a pack in the order of another one: lane from_lane[l] goes to lane l, or zero if that is negative.
 class LaneChoice {
  public:
   explicit LaneChoice(const std::int8_t* from_lane) {
@@ -233,7 +232,7 @@ class LaneChoice {
 }  // namespace
 
 void move_block(const double* source, const LaneMove& move, double* target) {
-  // The source is read in the order in which it lies; the target's few lines stay in the nearest cache.
+  // The source is read in its order in memory; the few lines of the target stay in the nearest cache.
   const bool by_row = move.column_step == 1;
   const int outer = by_row ? move.rows : move.columns, inner = by_row ? move.columns : move.rows;
   const std::ptrdiff_t from_step = static_cast<std::ptrdiff_t>(by_row ? move.row_step : move.column_step) * wide;

@@ -1,6 +1,6 @@
 #pragma once
-/// Dense kernels over eight fronts in lockstep: entry k of lane l at [8 k + l], columns one after the other. No row
-/// is exchanged; what grows too much is told lane by lane. Lanes never mix, so a lane's numbers do not depend on its
+/// Dense kernels over eight fronts in lockstep: entry k of lane l at [8 k + l], columns one after the other. No row is
+/// exchanged; lanes with too much growth are reported. Lanes never mix, so the numbers of a lane do not depend on its
 /// neighbours or on the width of the registers. Internal to solve.
 #include <cstdint>
 
@@ -16,26 +16,27 @@ class Transfers;
 /// Bit l: lane l.
 using LaneSet = std::uint8_t;
 
-/// Which pivots may stand where they are.
+/// Conditions for a pivot without exchange.
 struct LanePivotRule {
-  double threshold = 1e-3;  ///< at least this share of the column's largest entry, rows scaled
-  double least = 1e-10;     ///< at least this, rows and columns scaled
+  double threshold = 1e-3;  ///< smallest ratio to the column's largest entry, rows scaled
+  double least = 1e-10;     ///< smallest magnitude, rows and columns scaled
 };
 
 /// Eliminates the first e of n unknowns. factor: e columns of n entries, then n - e columns of e entries; schur: the
 /// other columns' rows below. After: L (unit) below the diagonal, the inverse pivots on it, U above and in the
-/// further columns, the Schur complement. row_scale: n packs, inverse_column_scale: e packs. Lanes with a pivot
-/// against the rule are answered; they hold an identity from there on. beside: steps elimination_steps(n, e) times.
+/// further columns, the Schur complement. row_scale: n packs, inverse_column_scale: e packs. Returns the lanes with a
+/// pivot that violates the rule; they contain an identity from there on. beside: steps elimination_steps(n, e) times.
 LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const double* row_scale,
                         const double* inverse_column_scale, const LanePivotRule& rule, Transfers& beside);
 
-/// The same for symmetric fronts, L D L^T. factor: e columns of n entries, schur as above; of both only what is not
-/// above the diagonal is read. After: L (unit) below the diagonal, the inverse of D on it, the Schur complement on
-/// and below its diagonal; above stands nothing of meaning.
+/// The same for symmetric fronts, L D L^T. factor: e columns of n entries, schur as above; entries above the diagonals
+/// are not read. After: L (unit) below the diagonal, the inverse of D on it, the Schur complement on and below its
+/// diagonal; entries above are undefined.
 LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, const double* scale,
                                   const double* inverse_scale, const LanePivotRule& rule, Transfers& beside);
-/// The same where they are expected to be positive definite: pivots are to be positive, at least `least`, scaled, and
-/// `least` times what they were, and no panel may take more than 1 / threshold, scaled, off a diagonal below.
+/// The same for fronts that are expected to be positive definite: pivots must be positive, at least `least`, scaled,
+/// and at least `least` times their original values, and no panel may subtract more than 1 / threshold, scaled, from a
+/// diagonal below.
 LaneSet eliminate_lanes_definite(double* factor, double* schur, int n, int e, const double* scale,
                                  const double* inverse_scale, const LanePivotRule& rule, Transfers& beside);
 int elimination_steps(int n, int e);
@@ -52,28 +53,27 @@ void backward_lanes(const double* factor, int n, int e, double* v);
 void backward_lanes_symmetric(const double* factor, int n, int e, double* v);
 void backward_left_lanes(const double* factor, int n, int e, double* v);
 
-/// target (+)= the block of a move: rows x columns packs, or of a triangle what is not above the diagonal.
+/// target (+)= the block of a move: rows x columns packs; of a triangle only entries on and below the diagonal.
 void move_block(const double* source, const LaneMove& move, double* target);
-/// The same of a child's Schur complement whose lane from_lane[l] goes to lane l, or nothing where that is negative.
+/// The same for a child's Schur complement: its lane from_lane[l] goes to lane l, or zero if that is negative.
 void move_block(const double* source, const LaneMove& move, const std::int8_t* from_lane, double* target);
 
 /// y_i += sum_j element_ij x_j for a block as above.
 void multiply_block_lanes(const double* element, int stride, int p, int q, const double* x, double* y);
 
 /// Largest of |a_ij - a_ji| scale_i scale_j over all lanes of an element, `count` blocks at their places in the front
-/// whose row scales are given; not a number comes out as infinity or NaN.
+/// whose row scales are given; infinity or NaN if there is a NaN.
 double largest_asymmetry_lanes(const double* element, int size, const Place* places, int count,
                                const double* row_scale);
 
-/// Largest of |v_i| scale_i over `count` packs and all lanes; not a number comes out as infinity or NaN.
+/// Largest of |v_i| scale_i over `count` packs and all lanes; infinity or NaN if there is a NaN.
 double largest_scaled(const double* v, const double* scale, int count);
 
-/// Asks for `count` packs to be brought to the second cache. Not inline: g++ takes a function that only prefetches
-/// for pure, and drops calls of it.
+/// Prefetches `count` packs to the second cache. It is not inline, since g++ regards a function that only prefetches as
+/// pure and removes its calls.
 void prefetch_packs(const double* packs, int count);
 
-/// to += from, `count` packs; with `from_lane` lane l of `to` takes lane from_lane[l], or nothing where that is
-/// negative.
+/// to += from, `count` packs; with `from_lane` lane l of `to` takes lane from_lane[l], or zero if that is negative.
 void add_packs(const double* from, int count, double* to);
 void add_packs(const double* from, int count, double* to, const std::int8_t* from_lane);
 

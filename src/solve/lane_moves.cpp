@@ -1,4 +1,4 @@
-/// The way of every block into the common fronts of a group, and where their Schur complements lie.
+/// Transfers of every block into the common fronts of a group, and the memory of their Schur complements.
 #include <algorithm>
 
 #include "lane_planner.hpp"
@@ -33,7 +33,7 @@ void LanePlanner::add_moves(LaneFront& f) {
         }
         LaneMove where;
         place(where, i, j);
-        const bool above = i < e && j >= e;  // U12 and the Schur complement do not lie next to each other
+        const bool above = i < e && j >= e;  // U12 and the Schur complement are not adjacent
         int count = 0;
         for (; i < row + rows && reached[at(static_cast<std::int64_t>(j) * n + i)] == 0 && !(above && i == e);
              ++i, ++count)
@@ -42,7 +42,7 @@ void LanePlanner::add_moves(LaneFront& f) {
       }
   };
   const auto add = [&](LaneMove move, int row, int column) {
-    if (is_symmetric_ && row < column) return;  // blocks are the same or apart
+    if (is_symmetric_ && row < column) return;  // blocks are equal or disjoint
     move.is_triangle = is_symmetric_ && row == column;
     place(move, row, column);
     int already = 0, places = 0;
@@ -97,7 +97,7 @@ void LanePlanner::add_moves(LaneFront& f) {
   share_moves(f);
 }
 
-/// Takes the lists of one of the last fronts whose lists were new, where they are the same.
+/// Uses the lists of one of the last fronts with new lists if they are equal.
 void LanePlanner::share_moves(LaneFront& f) {
   constexpr std::size_t remembered = 32;
   const auto same = [](const auto& list, int begin_a, int end_a, int begin_b, int end_b) {

@@ -9,12 +9,11 @@ namespace bough::solve {
 
 namespace {
 
-/// Largest front that goes in lanes: eight of them must stay in the cache nearest to the core but one.
+/// Largest front in lanes: eight of them must stay in the second cache.
 constexpr int largest_in_lanes = 64;
-/// A single sub-domain goes through the kernel of eight only while its fronts are so small that their overhead counts
-/// most.
+/// A single sub-domain uses the kernel of eight only if its fronts are so small that their overhead dominates.
 constexpr int largest_alone = 24;
-/// Lanes go together while the fronts that fit all of them cost at most this much more than those of the larger one.
+/// Sub-domains share a group while the common fronts cost at most this much more than those of the larger one.
 constexpr double most_padding = 1.35;
 constexpr double most_inner_padding = 3.0;
 
@@ -81,12 +80,12 @@ std::optional<LanePlanner::Match> LanePlanner::match(tree::SubdomainId a, tree::
 
 bool LanePlanner::fits(tree::SubdomainId a, tree::SubdomainId b) const {
   const auto m = match(a, b);
-  // Inner sub-domains are one front each: a poor fit there costs less than to part all that lies below.
+  // Inner sub-domains are one front each: a poor fit there costs less than separating all sub-domains below.
   return m && m->common <= (subdomain(a).is_leaf() ? most_padding : most_inner_padding) * std::max(m->a, m->b);
 }
 
-/// The last pack of a class may have lanes to spare: they take another class, such as the one leaf at the end of a
-/// chain, where the pack grows by less than one of its own would cost.
+/// The last pack of a class may have unused lanes. They take another class, such as the single leaf at the end of a
+/// chain, if the pack grows by less than a separate one would cost.
 void LanePlanner::fill_packs(Classes& classes) const {
   for (std::size_t b = 0; b < classes.size();) {
     const auto takes = [&](const std::vector<tree::SubdomainId>& members) {
@@ -122,7 +121,7 @@ int LanePlanner::form(std::vector<tree::SubdomainId> subdomains, bool below_lane
   std::vector<int> children;
   for (const auto& members : classes)
     for (std::size_t i = 0, end = 0; i < members.size(); i = end) {
-      // Two leaves are sooner done one by one, and by two threads.
+      // Two leaves are faster one by one, on two threads.
       end = members.size() == 2 && goes_in_registers({members.front()}, in_lanes) &&
                     goes_in_registers({members.back()}, in_lanes)
                 ? i + 1

@@ -1,6 +1,6 @@
 #pragma once
-/// Which sub-domains are factored in lockstep, one to a SIMD lane, and how their fronts fit together. Symbolic, made
-/// once. Internal to solve.
+/// The sub-domains that are factored in lockstep, one per SIMD lane, and their common fronts. Symbolic, made once.
+/// Internal to solve.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -12,9 +12,9 @@
 
 namespace bough::solve {
 
-/// Up to eight equal elements of eight equal fronts: one pack an entry.
+/// Up to eight equal elements of eight equal fronts: one pack per entry.
 struct LaneElement {
-  std::array<int, lanes_wide> element;  ///< ids, -1 where a lane has none
+  std::array<int, lanes_wide> element;  ///< ids; -1 for an unused lane
   int size = 0;                         ///< unknowns
   std::int64_t place_begin = 0;         ///< LanePlan::places of its blocks [place_begin, place_end)
   std::int64_t place_end = 0;
@@ -27,8 +27,8 @@ struct Place {
   int length;  ///< unknowns
 };
 
-/// One block of an element or of a child's Schur complement on its way into a front; offsets and steps in packs.
-/// Fronts that are put together alike share their moves and gaps, which are read with every front.
+/// The transfer of one block of an element or of a child's Schur complement into a front; offsets and steps in packs.
+/// Fronts with equal transfers share their lists of moves and gaps, which are read with every front.
 struct LaneMove {
   std::int64_t source = 0;  ///< from LaneFront::values, or from the child's Schur complement
   std::int64_t target = 0;  ///< from the factor, or from the Schur complement of the front
@@ -37,12 +37,12 @@ struct LaneMove {
   int target_step = 0;                ///< between columns of the target
   int child = -1;                     ///< index from LaneFront::child_begin on; -1: an element
   bool to_schur = false;
-  bool is_triangle = false;  ///< a block of the diagonal of a symmetric front: what stands above is left out
-  bool is_first = false;     ///< nothing is there yet: written, not added
+  bool is_triangle = false;  ///< a block on the diagonal of a symmetric front: entries above the diagonal are omitted
+  bool is_first = false;     ///< the first at its target: written, not added
   bool operator==(const LaneMove&) const = default;
 };
 
-/// A run of packs that no element and no child reaches.
+/// A run of packs to which no element and no child contributes.
 struct LaneGap {
   std::int64_t target;
   int count;
@@ -57,7 +57,7 @@ struct LaneRun {
   int length;
 };
 
-/// A child of a front in lockstep: lane l of the parent takes lane from[l] of the child front, or nothing (-1).
+/// A child of a front in lockstep: lane l of the parent takes lane from[l] of the child front, or none (-1).
 struct LaneChild {
   int front;  ///< index in LanePlan::fronts
   bool is_identity;
@@ -67,21 +67,21 @@ struct LaneChild {
 
 /// Up to eight fronts of the tree in lockstep. A lane with fewer unknowns is filled up with rows of the identity.
 struct LaneFront {
-  std::array<tree::FrontId, lanes_wide> front;  ///< tree::none where the lane is empty
-  int eliminated = 0, boundary = 0;             ///< unknowns, the most of all lanes
+  std::array<tree::FrontId, lanes_wide> front;  ///< tree::none for an empty lane
+  int eliminated = 0, boundary = 0;             ///< numbers of unknowns, the largest of all lanes
   bool has_padding = false;                     ///< some lane has fewer unknowns to eliminate
   int element_begin = 0, element_end = 0;       ///< LanePlan::elements
   int child_begin = 0, child_end = 0;           ///< LanePlan::children
   int move_begin = 0, move_end = 0;             ///< LanePlan::moves
   int gap_begin = 0, gap_end = 0;               ///< LanePlan::gaps
   std::int64_t values = 0;                      ///< first pack of its element matrices, in the element store
-  std::int64_t schur =
-      0;  ///< first pack of the Schur complement, then of the vector: in the group's scratch; of a top where it lasts
+  /// First pack of the Schur complement, then of the vector: in the group's scratch; for a top in permanent memory.
+  std::int64_t schur = 0;
   std::int64_t factor = 0;    ///< first pack of the factor: e columns of all n rows, then the b columns of U12
   std::int64_t unknown = 0;   ///< first of 8 x eliminated unknowns (-1: padding), lanes innermost
-  bool is_symmetric = false;  ///< no U12; blocks above the diagonal have no place
+  bool is_symmetric = false;  ///< no U12; blocks above the diagonal are not stored
   int group = 0;              ///< LanePlan::groups
-  bool is_top = false;        ///< its Schur complement lasts until the parent group is visited
+  bool is_top = false;        ///< its Schur complement is kept until the parent group is visited
   int size() const { return eliminated + boundary; }
   std::int64_t schur_size() const { return static_cast<std::int64_t>(boundary) * boundary; }
   std::int64_t factor_size() const {
@@ -93,10 +93,10 @@ struct LaneFront {
 struct LaneGroup {
   std::vector<tree::SubdomainId> subdomains;
   bool in_lanes = false;
-  bool in_registers = false;  ///< a leaf alone, whose small fronts stand row by row in registers (RegisterPlan)
+  bool in_registers = false;  ///< a leaf without equals, whose small fronts are eliminated in registers (RegisterPlan)
   int front_begin = 0, front_end = 0;      ///< LanePlan::fronts, children first; in lanes only
   int element_begin = 0, element_end = 0;  ///< positions in LanePlan::batches
-  std::int64_t scratch = 0;  ///< packs of Schur complements and vectors that are needed during the visit alone
+  std::int64_t scratch = 0;  ///< packs of Schur complements and vectors that are needed only during the visit
 };
 
 struct LanePlan {
@@ -120,8 +120,8 @@ struct LanePlan {
   std::vector<int> element_stride;             ///< by element
 };
 
-/// Groups the sub-domains of a tree. A function of graph and tree alone, batches and places in the element store
-/// whatever the symmetry. `use_lanes` false: every sub-domain alone, on the scalar path.
+/// Groups the sub-domains of a tree. The result depends only on graph and tree; batches and positions in the element
+/// store do not depend on the symmetry. `use_lanes` false: every sub-domain is a group on the scalar path.
 LanePlan make_lane_plan(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes,
                         Symmetry symmetry = Symmetry::general);
 

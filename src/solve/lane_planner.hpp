@@ -1,6 +1,6 @@
 #pragma once
-/// Makes a LanePlan: which sub-domains go together (lane_plan.cpp), their common fronts (lane_fronts.cpp), and the
-/// way of every block into them (lane_moves.cpp). Internal to solve.
+/// Makes a LanePlan: the groups of sub-domains (lane_plan.cpp), their common fronts (lane_fronts.cpp), and the transfer
+/// of every block into them (lane_moves.cpp). Internal to solve.
 #include <optional>
 
 #include "lane_plan.hpp"
@@ -28,9 +28,9 @@ class LanePlanner {
   // groups
   /// Largest front of every subtree, and whether a sub-domain's own fronts are a path.
   void measure_subdomains();
-  /// Front of lane s that stands at position k of `count` common fronts, or none. Paths are aligned at their tops.
+  /// Front of lane s at position k of `count` common fronts, or none. Paths are aligned at their tops.
   tree::FrontId front_at(tree::SubdomainId s, int k, int count) const;
-  /// Flops of two sub-domains, and of the fronts that fit both; none: their fronts do not correspond.
+  /// Flops of two sub-domains, and of the common fronts of both; none: their fronts do not correspond.
   struct Match {
     double common, a, b;
   };
@@ -38,9 +38,9 @@ class LanePlanner {
   bool fits(tree::SubdomainId a, tree::SubdomainId b) const;
   /// Makes the group of these sub-domains and, before it, the groups below. `in_lanes`: the parent's group is.
   int form(std::vector<tree::SubdomainId> subdomains, bool below_lanes, int level);
-  /// Whether a group is a leaf whose fronts stand in registers.
+  /// Whether a group is a leaf whose fronts are eliminated in registers.
   bool goes_in_registers(const std::vector<tree::SubdomainId>& subdomains, bool below_lanes) const;
-  using Classes = std::vector<std::vector<tree::SubdomainId>>;  ///< sub-domains that go together
+  using Classes = std::vector<std::vector<tree::SubdomainId>>;  ///< sub-domains that can share groups
   void place_child(tree::SubdomainId s, Classes& classes) const;
   void fill_packs(Classes& classes) const;
   int close(std::vector<tree::SubdomainId> subdomains, bool in_lanes, const std::vector<int>& children);
@@ -51,19 +51,19 @@ class LanePlanner {
   void add_batch(const ElementBatch& batch, int size);
   void add_fronts(LaneGroup& group, tree::Subdomain& node);
   void add_unknowns(LaneFront& f);
-  /// Row of the common front for a row of a lane's own.
+  /// Row of the common front for a row of a lane's front.
   int common_row(const LaneFront& f, int lane, int row) const;
   void add_elements(LaneFront& f);
   LaneElement& find_slot(const LaneFront& f, int lane, const std::vector<Place>& places);
   void add_children(LaneFront& f);
 
-  // ways into them
-  /// Every block of every contributor with its place, in fixed order: what comes first is written, what follows is
-  /// added, what is left is a gap. So no front is cleared as a whole.
+  // transfers into them
+  /// Lists every block of every contributor with its target, in fixed order. The first one at a target is written,
+  /// later ones are added, and the rest is a gap. So no front is cleared as a whole.
   void add_moves(LaneFront& f);
   void share_moves(LaneFront& f);
-  /// Schur complements and vectors live until the parent has taken them on the way up, and vectors from there on the
-  /// way down: first fit in the group's scratch. Those of the top last.
+  /// Places Schur complements and vectors in the group's scratch by first fit. They are needed until the parent has
+  /// read them on the way up; vectors also on the way down. Those of the top are kept.
   void place_work(LaneGroup& group);
 
   const blocks::BlockGraph& graph_;
@@ -74,7 +74,7 @@ class LanePlanner {
   struct MoveLists {
     int move_begin, move_end, gap_begin, gap_end;
   };
-  std::vector<MoveLists> move_lists_;  ///< the last that were new
+  std::vector<MoveLists> move_lists_;  ///< the last new lists
   LanePlan plan_;
 };
 

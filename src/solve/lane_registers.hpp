@@ -1,5 +1,5 @@
 #pragma once
-/// Registers of lanes, and the product of packs: what the kernels of eight fronts are made of. Internal to solve.
+/// Registers of lanes, and the product of packs, used by the kernels of eight fronts. Internal to solve.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace packs {
 
 constexpr int wide = lanes_wide;
 constexpr int width =
-    std::min(lanes::register_doubles, wide);  ///< lanes in a register; a pack is swept register by register
+    std::min(lanes::register_doubles, wide);  ///< lanes in a register; a pack is processed register by register
 
 #if defined(__SSE2__)
 typedef double Real __attribute__((vector_size(width * sizeof(double))));
@@ -33,8 +33,8 @@ inline Real load(const double* p) {
 }
 inline void store(double* p, const Real& v) { std::memcpy(p, &v, sizeof v); }
 
-/// c - a b, rounded once where the instruction set has it, as the products of dense_tiles.hpp. Elsewhere std::fma
-/// would be a call for every number.
+/// c - a b, rounded once if the instruction set supports it, as the products of dense_tiles.hpp. Otherwise std::fma
+/// would be a function call for every number.
 inline Real minus_product(const Real& c, const Real& a, const Real& b) {
 #if defined(__AVX512F__)
   return Real(_mm512_fnmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
@@ -68,7 +68,7 @@ inline Real magnitude(const Real& x) {
   std::memcpy(&r, &bits, sizeof r);
   return r;
 }
-/// Greater magnitude, compared as bits: infinity and NaN come out on top.
+/// Greater magnitude, compared as bits, in which infinity and NaN are the largest.
 inline Real greater_of(const Real& a, const Real& b) {
   Flag x, y;
   std::memcpy(&x, &a, sizeof x);
@@ -108,7 +108,7 @@ inline void subtract_columns(int m, int k, const double* a, std::ptrdiff_t la, c
   for (; i < m; ++i) subtract_tile<1, C>(k, a + i * wide, la, b, lb, c + i * wide, lc);
 }
 
-/// Where one register of lanes of a front lies.
+/// The memory of one register of lanes of a front.
 struct Front {
   double *left, *upper, *schur;  ///< n x e; e x b, symmetric: null; b x b
   int n, e;
@@ -189,8 +189,8 @@ inline void with_size(int k, const Triangle& triangle) {
 constexpr int panel_width = 6;  ///< pivots of one update
 
 /// LU of the K x K block at (k0, k0), in place; the inverse pivots on the diagonal. `refused`: lanes whose pivot is
-/// tiny, not finite, or small against the block's part of its column. Symmetric: only what is not above the diagonal
-/// is read. Definite: `inverse_column_scale` holds what each pivot has to reach.
+/// tiny, not finite, or small relative to the block's part of its column. Symmetric: entries above the diagonal are not
+/// read. Definite: `inverse_column_scale` contains the lower limit of each pivot.
 template <int K, Symmetry symmetry>
 inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
                                 const LanePivotRule& rule) {
@@ -206,8 +206,8 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
           symmetry != Symmetry::general && i < j ? load(block + i * ld + j * wide) : load(block + j * ld + i * wide);
 #pragma GCC unroll 8
   for (int k = 0; k < K; ++k) {
-    // Compared as bits: a NaN or infinity on either side refuses, and traps nothing; so does a sign. What the pivot
-    // is to its column is decided beside the division, which would else wait for it.
+    // Compared as bits: a NaN or infinity on either side rejects without a trap, and so does a negative sign. The pivot
+    // is compared with its column in parallel with the division, which would otherwise wait for the result.
     Real size = a[k][k], least = load(inverse_column_scale + (k0 + k) * wide);
     if constexpr (symmetry != Symmetry::definite) {
       size = magnitude(size * load(row_scale + (k0 + k) * wide));
@@ -240,8 +240,8 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
   return refused;
 }
 
-/// L of R rows below the block, and the largest of each column, rows scaled; definite: the most that is taken off a
-/// diagonal, scaled. Symmetric: L D to `products`, row by row, six packs a row.
+/// L of R rows below the block, and the largest entry of each column, rows scaled; definite: the largest amount
+/// subtracted from a diagonal, scaled. Symmetric: L D is written to `products`, row by row, six packs per row.
 template <int K, Symmetry symmetry, int R>
 inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld, const double* row_scale, Real* largest,
                            [[maybe_unused]] double* products) {
@@ -280,8 +280,8 @@ inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld,
     }
 }
 
-/// The columns of a panel: their block, and L below. What is refused is neutralised and answered. beside: a step for
-/// every four rows or rest.
+/// The columns of a panel: their block, and L below. Rejected lanes are replaced by an identity and returned. beside:
+/// one step for every four rows or fewer.
 template <int K, Symmetry symmetry>
 inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
                                 const LanePivotRule& rule, double* products, Transfers& beside) {
@@ -302,8 +302,8 @@ inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale,
   for (; i + 4 <= f.n; i += 4) rows(i, std::integral_constant<int, 4>{});
   for (; i + 2 <= f.n; i += 2) rows(i, std::integral_constant<int, 2>{});
   for (; i < f.n; ++i) rows(i, std::integral_constant<int, 1>{});
-  // A pivot is small against its column where an entry of L, rows scaled, is above 1 / threshold; definite: where
-  // more is taken off a diagonal.
+  // A pivot is small relative to its column if an entry of L, rows scaled, is above 1 / threshold; definite: if more
+  // than this is subtracted from a diagonal.
   Flag good = ~Flag{};
   if constexpr (symmetry == Symmetry::definite)
     good = bits_of(rule.threshold * largest[0]) <= bits_of(Real{} + 1.0);
@@ -313,7 +313,8 @@ inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale,
   unsigned grown = 0;
   for (int l = 0; l < width; ++l) grown |= good[l] == 0 ? 1u << l : 0u;
   if (grown != 0) neutralise(f, grown);
-  for (int l = 0; symmetry != Symmetry::general && l < width; ++l)  // or updates would bring back what was not finite
+  for (int l = 0; symmetry != Symmetry::general && l < width;
+       ++l)  // otherwise updates would reintroduce numbers that are not finite
     for (int r = 0; (grown >> l & 1u) != 0 && r < (f.n - k0 - K) * panel_width; ++r) products[r * wide + l] = 0.0;
   return refused | grown;
 }

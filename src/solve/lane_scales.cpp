@@ -7,7 +7,7 @@ namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 
-/// Of its row and inverse column scales.
+/// Size of its row and inverse column scales.
 std::int64_t size_of(const LaneFront& f) { return static_cast<std::int64_t>(f.size() + f.eliminated) * wide; }
 
 /// Row scales, then inverse column scales of one front.

@@ -9,14 +9,14 @@
 
 namespace bough::solve {
 
-/// Row scales of every row of a front and inverse column scales of what it eliminates, in packs; 1 for padding.
-/// Fronts whose scales are the same in every lane, as those of equal links are, share them: what every factorization
-/// reads then stays in the nearest cache.
+/// Row scales of every row of a front and inverse column scales of its eliminated unknowns, in packs; 1 for padding.
+/// Fronts with equal scales in every lane, as those of equal links, share them, so that they stay in the nearest cache.
 class LaneScales {
  public:
-  /// Room for scales of all fronts, if they all should differ; memory that is not written is not taken from the system.
+  /// Reserves memory for the scales of all fronts if all differ; memory that is not written is not taken from the
+  /// system.
   explicit LaneScales(const LanePlan& lanes);
-  /// Takes the scales of all fronts of that plan anew. No allocation.
+  /// Computes the scales of all fronts of the plan anew. No allocation.
   void set(const LanePlan& lanes, const tree::Tree& tree, const Scales& scales);
   const double* row(int front) const { return numbers_.of(front); }
   const double* inverse_column(const LaneFront& f, int front) const { return row(front) + f.size() * lanes_wide; }

@@ -10,7 +10,7 @@ namespace {
 
 using namespace packs;
 
-/// c(C x C) -= a(C x k) b(k x C) on and below the diagonal; what stands above is not touched.
+/// c(C x C) -= a(C x k) b(k x C) on and below the diagonal; entries above are not changed.
 template <int C>
 inline void subtract_corner(int k, const double* a, std::ptrdiff_t la, const double* b, std::ptrdiff_t lb, double* c,
                             std::ptrdiff_t lc) {
@@ -29,8 +29,8 @@ inline void subtract_corner(int k, const double* a, std::ptrdiff_t la, const dou
     for (int i = j; i < C; ++i) store(c + j * lc + i * wide, sum[j][i]);
 }
 
-/// Columns [column, column + C) of the front, from the diagonal down, catch up with the K pivots from k0. products: L
-/// D of the rows below them.
+/// Updates columns [column, column + C) of the front, from the diagonal down, by the K pivots from k0 on. products: L D
+/// of the rows below them.
 template <int K, int C>
 inline void update(const Front& f, int k0, int column, const double* products) {
   const std::ptrdiff_t ld = f.ld(), of_row = static_cast<std::ptrdiff_t>(panel_width) * wide;
@@ -43,7 +43,7 @@ inline void update(const Front& f, int k0, int column, const double* products) {
   subtract_columns<C>(f.n - column - C, K, l + C * wide, ld, u, of_row, target + C * wide, step);
 }
 
-/// One register of lanes. bar: the inverse scales; definite: what each pivot has to reach.
+/// One register of lanes. bar: the inverse scales; definite: the lower limit of each pivot.
 template <Symmetry symmetry>
 unsigned eliminate_register(const Front& f, const double* scale, const double* bar, const LanePivotRule& rule,
                             Transfers& beside) {
@@ -66,7 +66,7 @@ unsigned eliminate_register(const Front& f, const double* scale, const double* b
   return failed;
 }
 
-/// Definite: what the pivots have to reach, against the unknown's scale and against its diagonal before the front is
+/// Definite: lower limits of the pivots, relative to the unknown's scale and to its diagonal before the front is
 /// eliminated.
 void eval_bars(const Front& f, const double* scale, const double* inverse_scale, double least, double* bar) {
   for (int k = 0; k < f.e; ++k) {

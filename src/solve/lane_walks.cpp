@@ -23,7 +23,7 @@ bool Hierarchical::State::is_due(int index, Changed changed) const {
   return false;
 }
 
-/// Its factors stay; only a right-hand side goes on upward.
+/// Its factors are kept; only a right-hand side continues upward.
 void Hierarchical::State::leave_group(int index) {
   const LaneGroup& group = lanes.groups[at(index)];
   for (const tree::SubdomainId s : group.subdomains)
@@ -56,9 +56,9 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   mark(tree::Stage::forward);
 }
 
-/// Where factors do not fit into any cache a front is eliminated aside and then written to memory past the caches,
-/// while the next one is eliminated: there it would have to be read before it is written, which is half of the
-/// traffic.
+/// If factors do not fit into any cache, a front is eliminated in separate memory and then written past the caches
+/// while the next one is eliminated. Eliminated in place, its memory would be read before it is written, which is half
+/// of the traffic.
 void Hierarchical::State::factor_lanes(int index) {
   const LaneGroup& group = lanes.groups[at(index)];
   constexpr std::int64_t room = 1 << 11;  // packs
@@ -76,8 +76,8 @@ void Hierarchical::State::factor_lanes(int index) {
   if (exceeds_caches) Transfers::end_writes();
 }
 
-/// What the next front of a walk up reads: where a factorization does not fit into the caches, waiting for lines of
-/// memory would take half of its time.
+/// Prefetches the input of the next front of an upward walk: if a factorization does not fit into the caches, waiting
+/// for memory would take half of its time.
 void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
   const LaneFront& f = lanes.fronts[at(index)];
   if (f.is_symmetric && trusts_symmetry) {  // one triangle
@@ -104,8 +104,8 @@ void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
     if (unknown[l] >= 0) __builtin_prefetch(visit_rhs + unknown[l]);
 }
 
-/// The same for the substitutions of a solution: what they read of the factor of a front, in the order in which they
-/// do, its vector, and the unknowns that it is gathered from or scattered to.
+/// The same for the substitutions of a solution: the parts of a front's factor in the order in which they are read, its
+/// vector, and the unknowns that it is gathered from or scattered to.
 void Hierarchical::State::prefetch_factor(int index, bool downward) const {
   const LaneFront& f = lanes.fronts[at(index)];
   const double* factor = lane_factors.data() + f.factor * wide;
@@ -120,8 +120,8 @@ void Hierarchical::State::prefetch_factor(int index, bool downward) const {
   for (std::int64_t k = e; k-- > 0;) prefetch_packs(factor + k * n * wide, static_cast<int>(k + 1));
 }
 
-/// Looks at the element matrices of a front, just before it takes them: values that are symmetric once need not stay
-/// so.
+/// Checks the element matrices of a front just before they are assembled: values that are symmetric once need not
+/// remain symmetric.
 void Hierarchical::State::check_front_symmetric(int index) {
   const LaneFront& f = lanes.fronts[at(index)];
   for (int i = f.element_begin; i < f.element_end; ++i) {
@@ -178,8 +178,8 @@ void Hierarchical::State::backward_group(int index) {
   }
 }
 
-/// Factors a front, and condenses the right-hand side of the walk where there is one. factor: where the factor is to
-/// stand. transfers: done meanwhile, together with what the next front reads.
+/// Factors a front, and condenses the right-hand side of the walk if there is one. factor: memory of the factor.
+/// transfers: done meanwhile, together with the prefetches for the next front.
 void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers& transfers) {
   const LaneFront& f = lanes.fronts[at(index)];
   const int n = f.size(), e = f.eliminated;
@@ -231,7 +231,7 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
   mark(tree::Stage::forward);
 }
 
-/// What the visits of a walk up have left in the boundaries of the children.
+/// Adds the results of an upward walk in the boundaries of the children.
 void Hierarchical::State::add_children_vectors(const LaneFront& f, double* v) {
   for (int c = f.child_begin; c < f.child_end; ++c) {
     const LaneChild& child = lanes.children[at(c)];
@@ -307,7 +307,7 @@ void Hierarchical::State::backward_lane_front(int index) {
   }
 }
 
-/// Left vectors, for null spaces: gathers its boundary from `left`, unscaled, and puts its own part there.
+/// Left vectors, for null spaces: gathers the boundary from `left`, unscaled, and writes its own part there.
 void Hierarchical::State::backward_left_lane_front(int index, std::vector<double>& left) {
   const LaneFront& f = lanes.fronts[at(index)];
   alignas(64) double v[most_lane_rows * wide];

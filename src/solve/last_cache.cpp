@@ -10,8 +10,8 @@ namespace bough::solve {
 
 namespace {
 
-/// Bytes of the last cache that the first processor reaches; 0: not known. The system's own files come first: on
-/// processors with several such caches sysconf may tell the sum of all of them.
+/// Bytes of the last cache of the first processor; 0: unknown. The system's files are read first, since sysconf may
+/// return the sum of all such caches of a processor.
 std::size_t find_last_cache() {
   std::size_t bytes = 0;
   for (int index = 0; index < 8; ++index) {

@@ -4,8 +4,8 @@
 
 namespace bough::solve {
 
-/// Whether so many bytes do not stay in what a run may hope for of the last cache beside others: an eighth of it, but
-/// 16 MB at least.
+/// Whether so many bytes exceed the part of the last cache that a run can count on beside other programs: an eighth of
+/// it, but at least 16 MB.
 bool exceeds_share_of_caches(std::size_t bytes);
 
 }  // namespace bough::solve

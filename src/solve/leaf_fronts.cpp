@@ -11,7 +11,7 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 LeafFronts::LeafFronts(const ElementStore& elements, const tree::Tree& tree)
     : elements_(elements), tree_(tree), fronts_(at(tree.num_fronts())) {}
 
-/// Calls add(child, place in this front of each row the child hands up).
+/// Calls add(child, row of this front for each row that the child passes up).
 template <class Add>
 void LeafFronts::for_children(tree::FrontId f, Add&& add) const {
   const tree::Front& shape = tree_.fronts[at(f)];

@@ -1,6 +1,5 @@
 #pragma once
-/// The leaves of the tree condensed to their boundaries, for the forms that go on from there in their own way.
-/// Internal to solve.
+/// The leaves of the tree condensed to their boundaries, for the forms with global multipliers. Internal to solve.
 #include <vector>
 
 #include "dense.hpp"
@@ -8,30 +7,30 @@
 
 namespace bough::solve {
 
-/// One front after another, scalar, as the tree lays them out. A leaf's condensed matrix holds the unknowns whose
-/// pivots were refused in it (first) and those of its boundary blocks. Leaves are independent: verbs of different
-/// leaves may run at the same time.
+/// Eliminates one front after the other in scalar arithmetic, as laid out by the tree. A leaf's condensed matrix
+/// contains the unknowns whose pivots were rejected in it (first) and those of its boundary blocks. Leaves are
+/// independent: functions for different leaves may run at the same time.
 class LeafFronts {
  public:
   LeafFronts(const ElementStore& elements, const tree::Tree& tree);
 
-  /// False when an entry is not finite. Allocates.
+  /// False if an entry is not finite. Allocates.
   bool factor(tree::SubdomainId leaf, const Scales& scales, const PivotRule& rule);
   int num_refused(tree::SubdomainId leaf) const { return top(leaf).full - top(leaf).pivots; }
   int num_kept(tree::SubdomainId leaf) const { return top(leaf).size - top(leaf).pivots; }
-  /// Global unknowns of the refused rows and columns.
+  /// Global unknowns of the rejected rows and columns.
   const int* refused_rows(tree::SubdomainId leaf) const { return top(leaf).rows.data() + top(leaf).pivots; }
   const int* refused_columns(tree::SubdomainId leaf) const { return top(leaf).columns.data() + top(leaf).pivots; }
   double condensed(tree::SubdomainId leaf, int i, int j) const;
 
-  /// Condenses the loads of the unknowns inside (b: all unknowns, scaled). The result, num_kept entries, stays until
-  /// the next call.
+  /// Condenses the loads of the interior unknowns (b: all unknowns, scaled). The result, num_kept entries, is valid
+  /// until the next call.
   const double* forward(tree::SubdomainId leaf, const double* b);
-  /// The load of the interior becomes zero, as for null vectors.
+  /// Sets the load of the interior to zero, as for null vectors.
   void clear_load(tree::SubdomainId leaf);
-  /// Sets the unknowns inside from those kept (x: all unknowns, scaled).
+  /// Computes the interior unknowns from the kept ones (x: all unknowns, scaled).
   void backward(tree::SubdomainId leaf, double* x);
-  /// The same for vectors y with y^T A = 0 inside.
+  /// The same for vectors y with y^T A = 0 in the interior.
   void backward_left(tree::SubdomainId leaf, double* y);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Memory that begins on a cache line, so that a pack of eight doubles never straddles two; what is large on large
-/// pages, so that columns of a front are not one miss of the page table each. Internal to solve.
+/// Memory that begins on a cache line, so that a pack of eight doubles never straddles two. Large blocks are on large
+/// pages, so that not every column of a front causes a miss of the page table. Internal to solve.
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -15,7 +15,7 @@ struct LineAllocator {
   using value_type = T;
   LineAllocator() = default;
   template <class U>
-  LineAllocator(const LineAllocator<U>&) {}  // NOLINT(google-explicit-constructor): as the standard asks
+  LineAllocator(const LineAllocator<U>&) {}  // NOLINT(google-explicit-constructor): as the standard requires
   T* allocate(std::size_t n) {
 #if defined(__linux__)
     if (is_large(n)) return static_cast<T*>(map_large_pages(bytes_of(n)));
@@ -35,7 +35,7 @@ struct LineAllocator {
   static bool is_large(std::size_t n) { return n * sizeof(T) >= 2 * large_page; }
   static std::size_t bytes_of(std::size_t n) { return (n * sizeof(T) + large_page - 1) / large_page * large_page; }
 #if defined(__linux__)
-  /// From the system itself: what a heap hands out again stands on the small pages that it was first written on.
+  /// Allocated from the system, since memory that a heap reuses is on the small pages on which it was first written.
   static void* map_large_pages(std::size_t bytes) {
     void* room = ::mmap(nullptr, bytes + large_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (room == MAP_FAILED) throw std::bad_alloc();
@@ -43,7 +43,7 @@ struct LineAllocator {
     const std::size_t before = (large_page - reinterpret_cast<std::uintptr_t>(begin) % large_page) % large_page;
     if (before > 0) (void)::munmap(begin, before);
     (void)::munmap(begin + before + bytes, large_page - before);
-    (void)::madvise(begin + before, bytes, MADV_HUGEPAGE);  // a wish: nothing is lost where it is not met
+    (void)::madvise(begin + before, bytes, MADV_HUGEPAGE);  // a hint: failure has no consequences
     return begin + before;
   }
 #endif

@@ -16,18 +16,18 @@ namespace bough::solve {
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// d^2 in scaled variables, lowered from the multipliers' diagonal where rows depend on each other. Refinement on the
-/// system as it is contracts by about d^2 a step; what round-off leaves along null vectors is eps / d^2, which a
-/// larger d^2 keeps small at the price of some steps more.
+/// d^2 in scaled variables, subtracted from the multipliers' diagonal if rows depend on each other. Refinement with the
+/// true system contracts by about d^2 per step. Round-off along null vectors is eps / d^2, which a larger d^2 reduces
+/// at the cost of some more steps.
 constexpr double regularisation = 1e-4;
-/// Where a row nearly depends on others, at a distance below the root of the above, refinement stalls; this one then
-/// takes over.
+/// If a row nearly depends on others, at a distance below the square root of the above, refinement stalls; then this
+/// value is used.
 constexpr double weak_regularisation = 1e-7;
-[[maybe_unused]] constexpr int most_refinements = 10;  ///< where regularised
+[[maybe_unused]] constexpr int most_refinements = 10;  ///< if regularised
 constexpr double refined_enough =
     5e-16;  ///< backward error of an oracle: KLU's pivots of 1e-3 of their column may leave more
 [[maybe_unused]] constexpr double least_rcond =
-    1e-11;  ///< of the pivots: below, rows are taken to depend on each other; errors of 1e-5 could hide there
+    1e-11;  ///< of the pivots: below, rows count as dependent; otherwise errors of 1e-5 could remain undetected
 }  // namespace
 
 struct Monolithic::State {
@@ -83,7 +83,7 @@ Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, c
     for (int other : list) {
       before[at(b)].push_back(rows);
       rows +=
-          other == b && !is_motion(b) ? 1 : graph.block_size[at(other)];  // a multiplier keeps its diagonal entry only
+          other == b && !is_motion(b) ? 1 : graph.block_size[at(other)];  // a multiplier has only its diagonal entry
     }
     for (int j = 0; j < graph.block_size[at(b)]; ++j) {
       for (int other : list) {
@@ -111,7 +111,7 @@ Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, c
   values.assign(row_index.size(), 0.0);
 #ifdef BOUGH_HAS_KLU
   klu_defaults(&common);
-  common.scale = 0;  // scaled here
+  common.scale = 0;  // values are scaled already
   common.halt_if_singular = 1;
 #endif
 }
@@ -164,7 +164,7 @@ void Monolithic::State::assemble(double lowered) {
 }
 
 #ifdef BOUGH_HAS_KLU
-/// Factors the values; a fresh pivot order unless the old one serves. False when singular or nearly so.
+/// Factors the values, with a new pivot order unless the old one can be used. False if singular or nearly so.
 bool Monolithic::State::factor_values(bool fresh) {
   const int n = static_cast<int>(rhs.size());
   if (n == 0) return true;
@@ -297,7 +297,7 @@ SolveReport Monolithic::solve(const tree::Walker& walker, const double* rhs, dou
       s.assemble(weak_regularisation);
       if (s.factor_values(true)) {
         errors = refine();
-      } else {  // take up the stronger one again
+      } else {  // use the stronger one again
         s.assemble(regularisation);
         if (s.factor_values(true)) errors = refine();
       }

@@ -1,4 +1,4 @@
-/// What is left at the root without a pivot: null vectors, least multipliers, consistency.
+/// Unknowns without a pivot at the root: null vectors, multipliers of least norm, consistency.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// Combinations of the columns that are orthonormal after rows are multiplied by `weight`. The second sweep takes out
-/// what the condition of the columns has left in the first.
+/// Combinations of the columns that are orthonormal after rows are multiplied by `weight`. The second sweep removes
+/// errors of the first that are due to the condition of the columns.
 void orthonormalise(std::vector<double>& vectors, int count, const Eigen::VectorXd& weight) {
   Eigen::Map<Eigen::MatrixXd> V(vectors.data(), weight.size(), count);
   for (int sweep = 0; sweep < 2; ++sweep) {
@@ -24,10 +24,10 @@ void orthonormalise(std::vector<double>& vectors, int count, const Eigen::Vector
 }
 
 /// Whether the constraint forces of a vector (scaled) cancel at every node: G^T y = 0 against |G|^T |y|, in the units
-/// of the scene. Where rows really depend they do, whatever masses there are. Behind a light body between heavy ones
-/// they do not, although in scaled variables, in which the light body moves by much, the singular value is only the
-/// ratio of the masses. A thirtieth of what meets at a node passes, and what is 3e-5 of the largest: loops that are
-/// still open, by 1e-5 as rank_tolerance has it.
+/// of the scene. If rows are truly dependent they do, for any masses. Behind a light body between heavy ones they do
+/// not, although in scaled variables, in which the light body moves much, the singular value is only the ratio of the
+/// masses. A thirtieth of the forces at a node is tolerated, and 3e-5 of the largest, for loops that are still open by
+/// 1e-5, as rank_tolerance allows.
 bool forces_cancel(const ElementStore& elements, const tree::Tree& tree, const bool* is_constraint,
                    const std::vector<double>& column_scale, const double* z) {
   constexpr double passing = 3e-2, insignificant = 1e-3;
@@ -62,8 +62,8 @@ bool forces_cancel(const ElementStore& elements, const tree::Tree& tree, const b
 
 }  // namespace
 
-/// With the k left-over rows and columns of the root held at unit vectors in turn: right vectors z by
-/// back-substitution, left ones y with L. Then y_i^T A z_j is the left-over block of the root.
+/// Right vectors z by back-substitution and left vectors y with L, with the k remaining rows and columns of the root
+/// set to one unit vector after the other. Then y_i^T A z_j is the remaining block of the root.
 void Hierarchical::State::eval_null_candidates() {
   const FrontData& root = fronts.back();
   const int k = root.num_delayed();
@@ -72,7 +72,7 @@ void Hierarchical::State::eval_null_candidates() {
   null_space.right.assign(at(k) * n, 0.0);
   null_space.left.assign(at(k) * n, 0.0);
   correction.resize(n);
-  x = correction.data();  // no solution is at hand
+  x = correction.data();  // there is no present solution
   for (FrontData& d : fronts) std::fill(d.vector, d.vector + d.pivots, 0.0);
   for (int v = 0; v < k; ++v) {
     for (int i = 0; i < k; ++i) {
@@ -112,7 +112,7 @@ void Hierarchical::State::eval_null_candidates() {
   }
 }
 
-/// Left vectors of a front on the scalar path: its boundary from `left`, unscaled, its own part into it.
+/// Left vectors of a front on the scalar path: reads its boundary from `left`, unscaled, and writes its own part there.
 void Hierarchical::State::backward_left_front(tree::FrontId f, std::vector<double>& left) {
   FrontData& d = data(f);
   with_vector(d, [&](double* z) {
@@ -123,10 +123,10 @@ void Hierarchical::State::backward_left_front(tree::FrontId f, std::vector<doubl
   });
 }
 
-/// The left-over block T of the root is small, but small against what? With Z = Q_z R_z and Y = Q_y R_y the smallest
+/// The remaining block T of the root is small, and needs a scale. With Z = Q_z R_z and Y = Q_y R_y the smallest
 /// singular values of A are, nearly, those of R_y^-T T R_z^-1: the distances to singular matrices. Directions without
-/// motion count as dependent rows below rank_tolerance where their forces cancel as well, others as singular below
-/// singular_tolerance; all the rest is eliminated after all.
+/// motion are dependent rows below rank_tolerance if their forces cancel as well, others make the matrix singular below
+/// singular_tolerance; all others are eliminated.
 void Hierarchical::State::decide_rank() {
   FrontData& root = fronts.back();
   const int m = root.num_delayed();
@@ -157,7 +157,7 @@ void Hierarchical::State::decide_rank() {
   };
   int dependent = 0;
   if (core.norm() <= options.rank_tolerance && motion_share(basis) <= options.null_motion_tolerance && all_cancel()) {
-    dependent = m;  // the usual case: constraint rows that depend, and nothing else
+    dependent = m;  // the usual case: only dependent constraint rows
   } else {
     const RightSingularVectors singular = right_singular_vectors(core);
     for (int j = 0; j < m; ++j) {
@@ -178,7 +178,7 @@ void Hierarchical::State::decide_rank() {
                                      row_weight.data(), column_weight.data());
 }
 
-/// Orthonormal null vectors of what is left now, and the verdict.
+/// Orthonormal null vectors of the remaining unknowns, and the resulting status.
 void Hierarchical::State::find_null_space() {
   const int k = fronts.back().num_delayed();
   null_space.dimension = k;
@@ -188,7 +188,7 @@ void Hierarchical::State::find_null_space() {
   orthonormalise(null_space.right, k,
                  Eigen::Map<const Eigen::VectorXd>(scales.weight.data(), static_cast<Eigen::Index>(n)));
   orthonormalise(null_space.left, k, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(n)));
-  // A null vector with motion in it: something is held by nothing.
+  // A null vector with motion: a part of the structure is not held.
   double worst = 0.0;
   std::size_t unknown = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -218,16 +218,16 @@ void Hierarchical::State::project_multipliers() {
     const double* z = null_space.right.data() + at(v) * n;
     double c = 0.0;
     for (std::size_t i = 0; i < n; ++i) c += x[i] / scales.column[i] * z[i] * scales.weight[i] * scales.weight[i];
-    // With the little motion that is in it: without it the equations would not be met.
+    // Includes the small motion of the null vector; without it the equations would not be satisfied.
     for (std::size_t i = 0; i < n; ++i) x[i] -= c * z[i] * scales.column[i];
   }
 }
 
-/// Where rows depend the matrix that is solved with is A_k, A with the left-over block T of the root for zero: its
-/// null vectors are exact, and its solutions are those of A but for T x in the left-over rows. The residual is that
-/// of A_k; |T x|, what deciding on the rank has cost, is told apart. T is the singular value that was taken for zero,
-/// times the lengths of the null vectors in units of the left-over rows and columns, which are long where a direction
-/// hardly lives in these.
+/// If rows are dependent, the matrix of the solution is A_k, A with zero instead of the remaining block T of the root:
+/// its null vectors are exact, and its solutions are those of A except for T x in the remaining rows. The residual is
+/// that of A_k; |T x|, the error by the decision on the rank, is reported separately. T is the singular value that was
+/// taken to be zero, times the lengths of the null vectors in units of the remaining rows and columns, which are long
+/// if a direction has small components there.
 ElementStore::Errors Hierarchical::State::eval_met_residual(const tree::Walker& walker, SolveReport& report) {
   ElementStore::Errors errors = elements.eval_residual(walker, scales, x, given, residual.data());
   if (null_space.dimension == 0 || !errors.finite || !(errors.size > 0.0)) return errors;

@@ -1,6 +1,6 @@
 #pragma once
-/// Solution with refinement against the element matrices, for the solvers beside the hierarchical one. Internal to
-/// solve.
+/// Solution with iterative refinement by the element matrices, for the solvers other than the hierarchical one.
+/// Internal to solve.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace bough::solve {
 
-/// Evaluates the elements of all leaves, as the first thing of a factorization.
+/// Evaluates the elements of all leaves, the first step of a factorization.
 inline void run_prepare(const tree::Tree& tree, const tree::Walker& walker, const Prepare& prepare) {
   if (prepare.run == nullptr) return;
   auto visit = [&](tree::SubdomainId id) {
@@ -23,7 +23,7 @@ inline void run_prepare(const tree::Tree& tree, const tree::Walker& walker, cons
   walker.walk_up(tree, tree::make_visit(visit));
 }
 
-/// The block that holds an unknown.
+/// The block of an unknown.
 inline int block_of_unknown(const tree::Tree& tree, std::int64_t unknown) {
   return static_cast<int>(std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), unknown) -
                           tree.unknown_begin.begin()) -
@@ -40,14 +40,15 @@ inline int find_not_finite_block(const ElementStore& elements) {
   return -1;
 }
 
-/// Scaled x, right-hand side and what refinement needs; sized once.
+/// Scaled x, right-hand side and scratch of refinement; sized once.
 struct RefineBuffers {
   explicit RefineBuffers(std::size_t n) : scaled_rhs(n), scaled(n), rhs(n), x(n), trial(n), residual(n) {}
   std::vector<double> scaled_rhs, scaled, rhs, x, trial, residual;
 };
 
 /// x = A^-1 rhs by apply(scaled right-hand side, scaled solution), then at most `most` steps of refinement while they
-/// help and the normwise backward error is above refinement_above. Fills the report's backward errors, steps, growth.
+/// reduce the error and the normwise backward error is above refinement_above. Fills the report's backward errors,
+/// steps, growth.
 template <class Apply>
 void solve_and_refine(const tree::Walker& walker, ElementStore& elements, const Scales& scales,
                       const SolveOptions& options, int most, bool check, RefineBuffers& w, const double* rhs, double* x,
@@ -78,7 +79,7 @@ void solve_and_refine(const tree::Walker& walker, ElementStore& elements, const 
       run(w.residual, w.trial);
       for (std::size_t i = 0; i < n; ++i) w.trial[i] += w.x[i];
       const auto refined = elements.eval_residual(walker, scales, w.trial.data(), w.rhs.data(), w.residual.data());
-      if (!(refined.normwise < errors.normwise)) break;  // as good as it gets: keep the better one
+      if (!(refined.normwise < errors.normwise)) break;  // no further improvement: keep the better one
       errors = refined;
       std::swap(w.x, w.trial);
       ++report.refinement_steps;

@@ -16,8 +16,8 @@ using rows::Eight;
 using rows::eight;
 using rows::Mask;
 
-/// What the elimination of up to eight pivots, all in one column of registers, needs. Pointers begin at the first
-/// pivot's row and register.
+/// Data for the elimination of up to eight pivots, all in one column of registers. Pointers begin at the first pivot's
+/// row and register.
 struct Panel {
   double* rows;
   int step;        ///< between rows
@@ -31,7 +31,7 @@ struct Panel {
   double* schur;
   int schur_step;
   const double *column, *inverse_column, *least;
-  std::uint64_t magnitude;  ///< bits of a pivot that count
+  std::uint64_t magnitude;  ///< bits of a pivot that are compared
   double threshold;
   bool is_definite;
 };
@@ -42,8 +42,8 @@ constexpr Mask first_lanes(int count) {
   return static_cast<Mask>(count >= eight ? 0xff : count <= 0 ? 0 : (1 << count) - 1);
 }
 
-/// C rows from row i on catch up with the K pivots, p their rows; symmetric: as they were before they were divided,
-/// which then stand in f.rows.
+/// Updates C rows from row i on by the K pivots, p their rows; symmetric: the rows before division, which are in
+/// f.rows.
 template <int R, int K, int C, bool is_symmetric>
 [[gnu::always_inline]] inline void update_rows(const Panel& f, const Eight (&p)[K][R], int i) {
   Eight t[C][R];
@@ -76,7 +76,7 @@ template <int R, int K, int C, bool is_symmetric>
       const int count = f.schur_step / eight;  // R or one less
 #pragma GCC unroll 8
       for (int q = 0; q < R; ++q) {
-        const Eight& high = t[c][q + 1 < R ? q + 1 : q];  // beyond the last register stands nothing that is asked for
+        const Eight& high = t[c][q + 1 < R ? q + 1 : q];  // entries beyond the last register are not used
         if (q + 2 < R || (q + 2 == R && count == R)) {
           rows::store(to + q * eight, rows::shifted<K, LastLane::as_it_comes>(t[c][q], high));
         } else if (q + 2 == R) {
@@ -92,10 +92,10 @@ template <int R, int K, int C, bool is_symmetric>
   }
 }
 
-/// K pivots, whose rows have R registers from their own on.
+/// Eliminates K pivots, whose rows have R registers from that of the pivot on.
 template <int R, int K, bool is_symmetric>
 bool eliminate_panel(const Panel& given) {
-  const Panel f = given;  // of its own: stores of rows may change anything that has an address elsewhere
+  const Panel f = given;  // a local copy, since stores of rows may alias any object with an address elsewhere
   Eight p[K][R];
 #pragma GCC unroll 8
   for (int k = 0; k < K; ++k)
@@ -107,18 +107,19 @@ bool eliminate_panel(const Panel& given) {
   Eight z = {};
 #pragma GCC unroll 8
   for (int k = 0; k < K; ++k) {
-    // Compared as bits: a NaN or infinity refuses, and traps nothing; where pivots are to be positive so does a sign.
+    // Compared as bits: a NaN or infinity rejects the pivot without a trap, and so does a negative sign if pivots must
+    // be positive.
     const auto size = std::bit_cast<std::uint64_t>(pivot) & f.magnitude;
     const auto least = std::bit_cast<std::uint64_t>(f.least[k]);
     if (size - least >= static_cast<std::uint64_t>(packs::infinite_bits) - least) return false;
     const double inverse_pivot = 1.0 / pivot;
     const packs::Real inverse = packs::Real{} + inverse_pivot;
-    if (k + 1 < K) {  // the next one alone, by the same operations as its row below: divisions wait for nothing else
+    if (k + 1 < K) {  // the next pivot first, by the same operations as its row below, so that its division can start
       const double beside = rows::lane_of(p[k][0], k + 1), u = beside * inverse_pivot;
       pivot = is_symmetric ? tiles::take_product(u, beside, rows::lane_of(p[k + 1][0], k + 1))
                            : tiles::take_product(rows::lane_of(p[k + 1][0], k), u, rows::lane_of(p[k + 1][0], k + 1));
     }
-    // What rows grow by: squares of the entries of U, scaled; definite: what is taken off the diagonals.
+    // Growth of rows: squares of the entries of U, scaled; definite: amounts subtracted from the diagonals.
     const packs::Real weight = packs::Real{} + f.inverse_column[k], column = packs::Real{} + f.column[k];
     Eight u[R];
 #pragma GCC unroll 8

@@ -96,14 +96,14 @@ class RegisterPlanner {
     f.child_end = static_cast<int>(plan_.children.size());
   }
 
-  /// Blocks of a source: rows and columns in the same order, runs that stay together there and in the front.
+  /// Blocks of a source: rows and columns in the same order, as runs that are adjacent there and in the front.
   void add_source(const std::vector<LaneRun>& runs, RegisterFront& f, int child, std::int64_t source, int step) {
     for (const LaneRun& rows : runs)
       for (const LaneRun& columns : runs)
         for (int i = 0, count = 0; i < rows.length; i += count)
           for (int r = columns.to / row_register, width = 0; r * row_register < columns.to + columns.length;
                r += width) {
-            // Rows and registers are written first or added to; where that changes, the move ends.
+            // Registers of rows are written first or added to; a move ends where this changes.
             const auto is_reached = [&](int k, int q) { return reached_[at((rows.to + k) * f.registers() + q)]; };
             RegisterMove move;
             move.is_first = !is_reached(i, r);
@@ -133,7 +133,7 @@ class RegisterPlanner {
           }
   }
 
-  /// What a child has condensed of the right-hand side: the last lane of its rows to that of the front's.
+  /// The condensed right-hand side of a child: the last lane of its rows to that of the front's rows.
   void add_condensed(const std::vector<LaneRun>& runs, const RegisterFront& f, int child, int step) {
     const int last = f.registers() - 1;
     for (const LaneRun& run : runs)
@@ -154,7 +154,7 @@ class RegisterPlanner {
       }
   }
 
-  /// Whether the same registers of two rows have been reached, in some columns.
+  /// Whether the same registers of two rows were written before, in some columns.
   bool alike(int a, int b, const LaneRun& columns, const RegisterFront& f) const {
     for (int r = columns.to / row_register; r * row_register < columns.to + columns.length; ++r)
       if (reached_[at(a * f.registers() + r)] != reached_[at(b * f.registers() + r)]) return false;
@@ -199,7 +199,7 @@ class RegisterPlanner {
     share_moves(f);
   }
 
-  /// Fronts that are put together alike share their lists, which then stay in the nearest cache.
+  /// Fronts with equal lists share them, so that the lists stay in the nearest cache.
   void share_moves(RegisterFront& f) {
     constexpr std::size_t remembered = 32;
     for (const Lists& known : lists_) {
@@ -220,7 +220,7 @@ class RegisterPlanner {
     lists_.push_back({f.move_begin, f.move_end, f.gap_begin, f.gap_end});
   }
 
-  /// The rows that a front hands up live until its parent has taken them: first fit.
+  /// Places the rows that a front passes up by first fit; they are needed until its parent has read them.
   void place_schur(RegisterGroup& group) {
     struct Live {
       std::int64_t begin, end;
@@ -254,8 +254,8 @@ class RegisterPlanner {
   const LanePlan& lanes_;
   const bool is_symmetric_;
   std::vector<int> newly_;     ///< scratch
-  std::vector<bool> reached_;  ///< by row and register of the front at hand
-  std::vector<Lists> lists_;   ///< the last that were new
+  std::vector<bool> reached_;  ///< by row and register of the present front
+  std::vector<Lists> lists_;   ///< the last new lists
   RegisterPlan plan_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Eight entries of a row: one register, or as many as it takes. Internal to solve.
+/// Eight entries of a row, in one register or in several narrower ones. Internal to solve.
 #include <cstdint>
 
 #include "lane_registers.hpp"
@@ -54,8 +54,8 @@ inline void take_lane(Eight& v, int to, const Eight& from, int lane) {
   v.r[0] = Real(_mm512_mask_permutexvar_pd(__m512d(v.r[0]), static_cast<Mask>(1 << to), _mm512_set1_epi64(lane),
                                            __m512d(from.r[0])));
 }
-/// Lanes [shift, shift + 8) of two that follow each other; the last one is the last of `low` or of `high` instead, if
-/// asked for.
+/// Lanes [shift, shift + 8) of `low` followed by `high`; if requested, the last lane is the last of `low` or of `high`
+/// instead.
 template <int shift, LastLane last>
 inline Eight shifted(const Eight& low, const Eight& high) {
   const auto lane = [](int l) {
@@ -68,7 +68,7 @@ inline Eight shifted(const Eight& low, const Eight& high) {
 }
 #else
 #if defined(__AVX__)
-/// Four words, all bits set where the mask says so.
+/// Four words, with all bits set where the mask is set.
 inline __m256i words_of(int mask) {
   alignas(32) static constexpr long long words[8] = {0, 0, 0, 0, -1, -1, -1, -1};
   return _mm256_setr_epi64x(words[(mask << 2 & 4)], words[(mask << 1 & 4)], words[mask & 4], words[(mask >> 1 & 4)]);

@@ -4,8 +4,7 @@ namespace bough::solve {
 
 namespace {
 
-std::int64_t size_of(
-    const RegisterFront& f) {  // columns, inverse columns, bars: whole registers may be read of all of them
+std::int64_t size_of(const RegisterFront& f) {  // columns, inverse columns, limits: whole registers of each may be read
   return (f.step() + 2 * f.eliminated + row_register - 1) / row_register * row_register;
 }
 

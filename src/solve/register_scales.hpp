@@ -9,13 +9,13 @@
 
 namespace bough::solve {
 
-/// RegisterScales of every front; fronts whose scales are the same share them.
+/// RegisterScales of every front; fronts with equal scales share them.
 class RegisterScaleStore {
  public:
-  /// Room for scales of all fronts, if they all should differ.
+  /// Reserves memory for the scales of all fronts if all differ.
   explicit RegisterScaleStore(const RegisterPlan& plan);
-  /// Takes the scales of all fronts of that plan anew. No allocation.
-  /// least: what pivots have to reach, rows and columns scaled.
+  /// Computes the scales of all fronts of the plan anew. No allocation. least: lower limit of pivots, rows and columns
+  /// scaled.
   void set(const RegisterPlan& plan, const Scales& scales, double least);
   RegisterScales of(const RegisterFront& f, int index) const {
     const double* column = numbers_.of(index);

@@ -1,4 +1,4 @@
-/// Visits of leaves whose fronts stand in registers.
+/// Visits of leaves whose fronts are in registers.
 #include <algorithm>
 
 #include "hierarchical_state.hpp"
@@ -10,7 +10,7 @@ namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int largest_factor = (largest_in_registers * largest_in_registers / row_register + 1) * row_register;
 constexpr std::int64_t lines_of(std::int64_t numbers) { return (numbers + row_register - 1) / row_register; }
-constexpr int ahead = 2;  ///< fronts: what they read is fetched so long before
+constexpr int ahead = 2;  ///< number of fronts by which their input is prefetched ahead
 void fetch(const double* numbers, std::int64_t count) {
   for (std::int64_t i = 0; i < count; i += row_register) __builtin_prefetch(numbers + i, 0, 3);
 }
@@ -18,8 +18,7 @@ constexpr int largest_step = (largest_in_registers / row_register + 1) * row_reg
 
 }  // namespace
 
-/// False: a pivot would not stand where it is. The leaf then goes the pivoted way as a whole, from its element
-/// matrices.
+/// False: a pivot was rejected. The whole leaf is then factored with pivoting, from its element matrices.
 bool Hierarchical::State::factor_registers(int group, const double* b) {
   const RegisterGroup& own = registers.groups[at(group)];
   const RegisterKind kind = is_definite()    ? RegisterKind::definite
@@ -28,8 +27,7 @@ bool Hierarchical::State::factor_registers(int group, const double* b) {
   alignas(64) double rows[largest_in_registers * largest_step];
   double* place = register_schur.data() + own.schur;
   alignas(64) double aside[2][largest_factor];
-  Transfers
-      transfers;  // where factors exceed the caches, they are written past them while the next front is put together
+  Transfers transfers;  // if factors exceed the caches, they are written past them while the next front is assembled
   for (int k = own.front_begin; k < own.front_end; ++k) {
     const RegisterFront& f = registers.fronts[at(k)];
     const int step = f.step();
@@ -74,8 +72,8 @@ bool Hierarchical::State::factor_registers(int group, const double* b) {
   return true;
 }
 
-/// A front's right-hand side: what the children have condensed, then its own, which the visit that factors adds last,
-/// too.
+/// A front's right-hand side: the condensed parts of the children, then its own, in the same order as in a visit that
+/// factors.
 void Hierarchical::State::gather_register_rhs(const RegisterFront& f, const double* b, double* t) const {
   std::fill_n(t, f.size(), 0.0);
   for (int c = f.child_begin; c < f.child_end; ++c) {
@@ -101,13 +99,13 @@ void Hierarchical::State::export_schur(const RegisterFront& f, const double* sch
   d.delayed_in = d.delayed_to = 0;
   d.failed = d.allocated = d.is_indefinite = false;
   d.vector = vector_pool.data() + vector_begin[at(f.front)];
-  // No pivot waits, so nothing is read of the factor: it may stand anywhere.
+  // No pivot is delayed, so the factor is not read, and its address is arbitrary.
   d.set_parts(FrontShape(d.size, d.full, is_symmetric()), d.vector, schur_place(f.front));
   const int step = f.schur_step();
   for_boundary(f.front, [&](int i, std::size_t row) {
     const double* from = schur + i * step;
     const double scale = scales.row[row];
-    // Symmetric: the upper triangle stands in the rows, the lower one is asked for in the columns.
+    // Symmetric: rows contain the upper triangle, and columns need the lower one.
     if (is_symmetric()) {
       for_boundary(f.front, [&](int k, std::size_t column) {
         if (k >= i) d.s[static_cast<std::int64_t>(i) * d.lds + k] = scale * from[k] * scales.column[column];
@@ -146,7 +144,7 @@ void Hierarchical::State::backward_registers(int group) {
       const RegisterFront& next = registers.fronts[at(k - ahead)];
       fetch(register_factors.data() + next.factor, static_cast<std::int64_t>(next.eliminated) * next.size());
     }
-    // Mostly both are one run, which is read and written where it stands.
+    // Usually both are one run, which is read and written in place.
     double of_boundary[largest_in_registers], of_own[largest_in_registers];
     const double* boundary = of_boundary;
     double* to = of_own;
@@ -167,7 +165,7 @@ void Hierarchical::State::backward_registers(int group) {
   }
 }
 
-/// Left vectors, for null spaces: boundaries from `left`, unscaled, and what is eliminated into it.
+/// Left vectors, for null spaces: reads boundaries from `left`, unscaled, and writes the eliminated unknowns there.
 void Hierarchical::State::backward_left_registers(int group, std::vector<double>& left) const {
   const RegisterGroup& own = registers.groups[at(group)];
   for (int k = own.front_end; k-- > own.front_begin;) {

@@ -1,4 +1,4 @@
-/// Residuals of solutions, in the visits of a walk up.
+/// Residuals of solutions, in the visits of an upward walk.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -34,7 +34,7 @@ void Hierarchical::State::residual_group(int index) {
   size.rhs = most[1];
 }
 
-/// b - A x in the rows eliminated here; the elements' part in the boundary goes to the parent, like a condensed
+/// b - A x in the rows eliminated here; the elements' part in the boundary is passed to the parent, like a condensed
 /// right-hand side.
 void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
   const LaneFront& f = lanes.fronts[at(index)];

@@ -10,15 +10,15 @@ namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
-/// An unknown with little or nothing on the diagonal may still resist through a constraint to one that does (the
-/// turning of a massless bar that carries a mass): a row g then lends it g_u^2 / sum_{v != u} g_v^2 / a_v. Taken
-/// where the own diagonal is weaker by `weak`; scaled by noise instead, such an unknown would dwarf the others in its
-/// rows and make them look dependent. strict: rows all of whose other unknowns have a diagonal; it is their own one
-/// that they lend, not what they have borrowed, else the rows of many hinges on one body, which couple its unknowns
-/// in ever other ratios, raise these without end. bare: a node between joints, to which no such row leads, takes the
-/// sum over what has one in the row's other blocks, and the most of its rows; what its own block could give way to is
-/// held by its other joints, or by nothing at all. What was lent in a bare sweep stands negative until its end and
-/// does not lend on. Answers whether something was lent.
+/// An unknown with a small or zero diagonal may be held through a constraint by unknowns with a larger one (the
+/// rotation of a massless bar with a mass at its end). A row g then gives it the diagonal g_u^2 / sum_{v != u} g_v^2 /
+/// a_v, which is used if its own diagonal is smaller by the factor `weak`. Scaled by round-off instead, such an unknown
+/// would dominate the others in its rows and make them look dependent. strict: only rows of which all other unknowns
+/// have a diagonal are used, and with their given diagonals; otherwise the rows of many hinges on one body, which
+/// couple its unknowns in different ratios, would raise these without limit. bare: a node with only joints, to which no
+/// such row leads, takes the sum over the unknowns with a diagonal in the row's other blocks, and the largest of its
+/// rows; motions of its own block are held by its other joints, or not at all. Diagonals given in a bare sweep are
+/// negative until its end and are not passed on in it. Returns whether a diagonal was given.
 bool ElementStore::lend_diagonals(Lending lending, const std::vector<double>& given,
                                   std::vector<double>& diagonal) const {
   constexpr double weak = 1e-6;
@@ -40,17 +40,18 @@ bool ElementStore::lend_diagonals(Lending lending, const std::vector<double>& gi
         const ConstElementView g = view(touch.element).from((touch.offset + i) * ne);
         double largest = 0.0;
         for_motion([&](std::size_t, std::int64_t j, int) { largest = std::max(largest, std::abs(g[j])); });
-        // Entries that are round-off couple nothing: the mobility behind them would be lent a thousand times over.
+        // Entries that are round-off do not couple unknowns: the mobility behind them would be amplified a thousand
+        // times.
         const auto couples = [&](std::int64_t j) { return std::abs(g[j]) > 1e-8 * largest; };
         for_motion([&](std::size_t u, std::int64_t j, int own) {
           if (!couples(j)) return;
-          // A joint to the ground that is a little out of line with the node's axes holds u, and drags on its
-          // neighbours by tiny shares. Where these are no stronger than u they say nothing about it.
+          // A joint to the ground that is slightly misaligned with the node's axes holds u, and couples it weakly to
+          // its neighbours. If these are not stiffer than u, they give no information about it.
           const auto is_dragged = [&](std::size_t v, std::int64_t k, int other) {
             constexpr double tiny_share = 1e-3;
             return other == own && std::abs(g[k]) < tiny_share * std::abs(g[j]) && given[u] >= weak * given[v];
           };
-          double others = 0.0;  // mobility of the row's other unknowns; one without any diagonal gives way freely
+          double others = 0.0;  // mobility of the row's other unknowns; one without a diagonal moves freely
           bool held = true;
           for_motion([&](std::size_t v, std::int64_t k, int other) {
             if (v == u || !couples(k)) return;
@@ -79,8 +80,9 @@ bool ElementStore::lend_diagonals(Lending lending, const std::vector<double>& gi
   return has_lent;
 }
 
-/// given: the sums of |diagonal| before rows lend any. Strictly once: rows that couple in other ratios would raise
-/// each other without end. Bare nodes borrow from nothing, so only once each; what has borrowed lends on.
+/// given: the sums of |diagonal| before any are added. The strict sweep is done once, since rows with different
+/// coupling ratios would raise each other without limit. Bare nodes have no diagonal before, so each gets one only once
+/// and passes it on in later sweeps.
 void ElementStore::lift_weak_diagonals(std::vector<double>& given, std::vector<double>& diagonal) const {
   given = diagonal;
   lend_diagonals(Lending::strict, given, diagonal);
@@ -96,7 +98,7 @@ void ElementStore::eval_scales(Scales& s, std::vector<double>& scratch) const {
   std::fill(exact_column.begin(), exact_column.end(), 0.0);
   std::fill(s.weight.begin(), s.weight.end(), 0.0);
   const auto is_motion = [&](std::int64_t b) { return graph_.block_kind[at(b)] == blocks::BlockKind::motion; };
-  // Motion: row gathers |diagonal|, column the largest entry of the row, weight that of the column.
+  // Motion: row sums |diagonal|, column has the largest entry of the row, weight that of the column.
   double probe = 0.0;  // NaN as soon as something is not finite
   for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
     if (!is_motion(b)) continue;

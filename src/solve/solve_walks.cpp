@@ -20,7 +20,7 @@ void Hierarchical::State::forward_front(tree::FrontId f) {
   substitute_forward(d.matrix(), d.pivots, d.vector);
 }
 
-/// Its right-hand side and what the children have condensed, rows as they are assembled.
+/// Its right-hand side and the condensed parts of the children, with rows in the order of assembly.
 void Hierarchical::State::gather_rhs(tree::FrontId f, double* gathered) {
   const tree::Front& shape = front(f);
   const FrontData& d = data(f);
@@ -60,8 +60,8 @@ void Hierarchical::State::backward_front(tree::FrontId f) {
   });
 }
 
-/// x = solution of A x = b, which may be the same array; unknowns left over at the root (dependent rows) are zero,
-/// then multipliers are made least.
+/// x = solution of A x = b, which may be the same array. Remaining unknowns of the root (dependent rows) are zero at
+/// first; then the multipliers of least norm are computed.
 void Hierarchical::State::solve_into_x(const tree::Walker& walker, const double* b) {
   visit_rhs = b;
   auto forward = [this](int group) { forward_group(group); };
@@ -77,7 +77,7 @@ void Hierarchical::State::back_substitute(const tree::Walker& walker) {
   if (null_space.dimension > 0) project_multipliers();
 }
 
-/// residual = b - A x of the solution just found, and its size.
+/// residual = b - A x of the last solution, and its size.
 ElementStore::Errors Hierarchical::State::eval_residual(const tree::Walker& walker, const double* b,
                                                         SolveReport& report) {
   visit_rhs = b;
@@ -112,7 +112,7 @@ double Hierarchical::State::largest_rhs() const {
 void Hierarchical::State::set_growth(double x_size, double rhs_size, SolveReport& report) const {
   if (rhs_size == 0.0 || x_size == 0.0) return;
   report.growth = x_size / rhs_size;
-  constexpr double suspicious = 1e10;  // below it nobody asks which unknown is the largest
+  constexpr double suspicious = 1e10;  // below it the largest unknown is not needed
   if (report.growth < suspicious) return;
   std::size_t largest = 0;
   for (std::size_t i = 0; i < residual.size(); ++i)

@@ -63,7 +63,7 @@ void SparseAssembly::assemble(const ElementStore& elements, const Scales& scales
 }
 
 double SparseAssembly::asymmetry() const {
-  const SparseMatrix transposed = matrix_.transpose();  // the pattern is symmetric: entries lie side by side
+  const SparseMatrix transposed = matrix_.transpose();  // the pattern is symmetric: entries are at the same positions
   double most = 0.0;
   for (Eigen::Index k = 0; k < matrix_.nonZeros(); ++k)
     most = std::max(most, std::abs(matrix_.valuePtr()[k] - transposed.valuePtr()[k]));

@@ -1,5 +1,5 @@
 #pragma once
-/// One sparse matrix from the element matrices, and what factors it. Internal to solve.
+/// One sparse matrix from the element matrices, and the libraries that factor it. Internal to solve.
 #include <Eigen/SparseCore>
 #include <cstdint>
 #include <memory>
@@ -28,7 +28,7 @@ class SparseAssembly {
   std::vector<std::uint8_t> is_multiplier_;
 };
 
-/// Eigen's SparseLU. Backends share these four verbs: factor, solve (x must not be b), flops, memory_bytes.
+/// Eigen's SparseLU. Backends have these four functions: factor, solve (x must not be b), flops, memory_bytes.
 class EigenLu {
  public:
   EigenLu();

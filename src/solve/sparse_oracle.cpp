@@ -14,15 +14,15 @@ namespace bough::solve {
 namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// d^2 in scaled variables: refinement contracts by about d^2 a step, null vectors pick up eps / d^2: half the digits
-/// each.
+/// d^2 in scaled variables: refinement contracts by about d^2 per step, and errors along null vectors are eps / d^2;
+/// the value balances both.
 constexpr double regularisation = 1e-7;
-/// CHOLMOD refines what is not singular too, and must get there where constraints are soft: less, and more steps.
+/// CHOLMOD also refines regular matrices, and must converge for soft constraints: a smaller value and more steps.
 constexpr double cholmod_regularisation = 1e-10;
 constexpr int cholmod_steps = 30;
 /// Growth |A^-1 v| / |v| above which rows may depend, and above which the matrix is singular, in scaled variables.
 constexpr double suspect_growth = 1e12, singular_growth = 1e15;
-/// Asymmetry of the scaled matrix that L D L^T still serves: refinement makes up for it.
+/// Largest asymmetry of the scaled matrix for L D L^T, which refinement corrects.
 constexpr double most_asymmetry = 1e-9;
 }  // namespace
 
@@ -73,8 +73,7 @@ bool SparseOracle::State::factor_lowered(double lowered) {
   return std::visit([&](auto& b) { return b.factor(sparse.matrix()); }, backend);
 }
 
-/// Two inverse iterations from a vector without pattern: a lower bound of |A^-1|, rarely far below. Infinite when it
-/// overflows.
+/// Two inverse iterations from a random vector: a lower bound of |A^-1|, usually close to it. Infinite on overflow.
 double SparseOracle::State::eval_growth(std::size_t& largest) {
   const std::size_t n = probe.size();
   std::uint32_t bits = 12345;
@@ -98,7 +97,7 @@ double SparseOracle::State::eval_growth(std::size_t& largest) {
   return growth;
 }
 
-/// Whether the vector that the matrix shrinks most moves anything: then it is no dependence of rows, the matrix is
+/// Whether the vector that the matrix reduces most contains motion: then rows are not dependent, but the matrix is
 /// ill-conditioned.
 bool SparseOracle::State::has_motion_in_response() const {
   const auto& graph = elements.graph();
@@ -112,8 +111,8 @@ bool SparseOracle::State::has_motion_in_response() const {
   return motion > options.null_motion_tolerance * options.null_motion_tolerance * whole;
 }
 
-/// Share of b that no x reaches, 0 below 1e-8: against |b| alone, since the multipliers of rows that contradict grow
-/// without bound.
+/// Share of b outside the range of A, 0 below 1e-8. It is relative to |b| alone, since the multipliers of contradicting
+/// rows grow without bound.
 double SparseOracle::State::eval_inconsistency(const tree::Walker& walker, const double* rhs, const double* x) {
   const auto errors = elements.eval_residual(walker, scales, x, rhs, buffers.residual.data());
   double left = 0.0, whole = 0.0;

@@ -1,4 +1,4 @@
-/// UMFPACK behind the four verbs of a backend. Compiled only into builds with BOUGH_WITH_GPL.
+/// UMFPACK with the four functions of a backend. Compiled only in builds with BOUGH_WITH_GPL.
 #include <umfpack.h>
 
 #include "sparse_matrix.hpp"

@@ -1,4 +1,4 @@
-/// The upward walk of factor(): size, eliminate.
+/// The upward walk of factor(): sizes fronts and eliminates.
 #include <algorithm>
 
 #include "front_storage.hpp"
@@ -24,7 +24,7 @@ void Hierarchical::State::factor_front(tree::FrontId f) {
   mark(tree::Stage::eliminate);
 }
 
-/// Room for the children's delayed unknowns; own memory only if there are any.
+/// Makes room for the children's delayed unknowns, in separate memory if there are any.
 void Hierarchical::State::size_front(tree::FrontId f) {
   const tree::Front& shape = front(f);
   FrontData& d = data(f);
@@ -49,7 +49,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
     const FrontShape parts(d.size, d.full, is_symmetric);
     const std::size_t doubles = at(parts.factor_size() + parts.s), n = at(vector_size(d.size));
     if (own.a.capacity() < doubles || own.vector.capacity() < n) {
-      // some room to grow: deficiencies come and go during a run
+      // with a reserve, since numbers of delayed pivots vary during a run
       const FrontShape room(d.size + 4, d.full + 4, false);
       own.a.reserve(std::max(doubles, at(room.factor_size() + room.s)));
       own.vector.reserve(at(vector_size(d.size + 4)));
@@ -67,7 +67,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   d.row_from = d.columns + d.full;
 }
 
-/// Where its Schur complement stands until its parent has been eliminated.
+/// Memory of its Schur complement until its parent has been eliminated.
 double* Hierarchical::State::schur_place(tree::FrontId f) {
   const tree::FrontId host = schur_places.host[at(f)];
   return (host == tree::none ? schur_pool.data() : factor_pool.data() + factor_begin[at(host)]) +
@@ -87,18 +87,18 @@ void FrontData::set_parts(const FrontShape& shape, double* factor, double* schur
 void Hierarchical::State::eliminate_front(tree::FrontId f) {
   FrontData& d = data(f);
   if (d.failed) {
-    d.pivots = d.full;  // nothing moves up from here
+    d.pivots = d.full;  // no unknown is delayed from here
     return;
   }
   FrontMatrix matrix = d.matrix();
   const bool is_root = f + 1 == tree.num_fronts();
   if (is_root && options.inertia) keep_root(d);
-  // At the root the easy pivots go first, then the others by complete pivoting down to what decide_rank() must look at.
+  // At the root, large pivots are eliminated first, then the others by complete pivoting down to those that
+  // decide_rank() must examine.
   const PivotRule rule{is_root ? std::max(options.pivot_threshold, 0.1) : options.pivot_threshold,
                        is_root ? 1e-2 : options.tiny_pivot};
   if (is_definite() && !d.is_indefinite && d.delayed_in == 0) {
-    // At the root as well: pivots that are all positive are those of a definite matrix, whose rank there is nothing
-    // to decide about.
+    // Also at the root: if all pivots are positive, the matrix is definite and has full rank.
     d.pivots = eliminate_definite(matrix, {options.pivot_threshold, options.tiny_pivot}, &factor_walker);
     if (d.pivots == d.full) return;
     d.is_indefinite = true;
@@ -106,7 +106,7 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
   }
   if (d.is_symmetric()) {
     d.pivots = eliminate_symmetric(matrix, {rule.threshold, is_root ? suspect_pivot : rule.least}, &factor_walker);
-    if (d.pivots >= 0 && d.pivots < d.full && is_root) {  // the rank is decided on rows and columns apart
+    if (d.pivots >= 0 && d.pivots < d.full && is_root) {  // the rank is found by complete pivoting
       d.d = nullptr;
       d.pivots = 0;
       assemble_front(f);
