@@ -18,7 +18,7 @@ summary{cursor:pointer;margin:8px 0}
 .stage canvas:focus-visible{outline:2px solid #2a78d6;outline-offset:2px}
 .tip{position:absolute;pointer-events:none;max-width:170px;padding:1px 7px;border-radius:4px;background:#0b0b0b;color:#fff;font-size:13px;overflow-wrap:anywhere}
 .legend{position:absolute;right:10px;top:8px;font-size:12px;text-align:right;pointer-events:none;background:#fcfcfbcc;padding:0 4px;border-radius:4px}
-.ramp{display:flex;width:168px}.ramp i{flex:1;height:10px}.ends{display:flex;justify-content:space-between;width:168px}
+.ramp{display:flex;width:168px}.ramp i{flex:1;height:10px}.domains i{display:inline-block;width:12px;height:10px;margin:0 3px 0 8px}.ends{display:flex;justify-content:space-between;width:168px}
 .triad{position:absolute;left:6px;bottom:6px;width:60px;height:60px;pointer-events:none}.triad svg{border-radius:0}
 .rule{position:absolute;left:78px;bottom:10px;font-size:12px;pointer-events:none}.rule i{display:block;height:5px;border:1.5px solid currentColor;border-top:0}
 .bar{display:flex;flex-wrap:wrap;gap:6px 10px;align-items:center;margin:8px 0}.bar input[type=range]{flex:1;min-width:120px}.bar button:first-child{min-width:4.6em}

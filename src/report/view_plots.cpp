@@ -40,6 +40,19 @@ std::vector<std::size_t> rows_of(const io::History& history, const std::vector<s
   return rows;
 }
 
+/// A number near values that vary by less than a thousandth of themselves: single precision would show them in stairs.
+/// 0 where they vary more.
+double middle_of(const std::vector<double>& values) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const double v : values)
+    if (std::isfinite(v)) {
+      low = std::min(low, v);
+      high = std::max(high, v);
+    }
+  const bool varies_little = high > low && high - low < 1e-3 * std::max(std::abs(low), std::abs(high));
+  return varies_little ? low + 0.5 * (high - low) : 0.0;
+}
+
 }  // namespace
 
 std::string plot_data(const io::History& history, const std::vector<double>& round_off, Arrays& arrays) {
@@ -62,13 +75,21 @@ std::string plot_data(const io::History& history, const std::vector<double>& rou
             "\",\"columns\":[";
     for (std::size_t k = 0; k < group.columns.size(); ++k) {
       const std::size_t c = group.columns[k];
+      std::vector<double> exact;
+      for (const std::size_t r : rows) exact.push_back(history.rows[r].values[c]);
+      const double middle = middle_of(exact);
       std::vector<float> values;
-      for (const std::size_t r : rows) values.push_back(static_cast<float>(history.rows[r].values[c]));
+      for (const double v : exact) values.push_back(static_cast<float>(v - middle));
       const std::string name = prefix + "." + std::to_string(k);
       arrays.add(name, "f32", values);
       json += (k > 0 ? ",{" : "{") +
               ("\"label\":" + io::json_string(io::split_column(history.header.columns[c]).component)) +
-              ",\"values\":\"" + name + "\"}";
+              ",\"values\":\"" + name + "\"";
+      if (middle != 0.0) {
+        json += ",\"from\":";
+        io::append_number(json, middle);
+      }
+      json += '}';
     }
     json += "]}";
   }

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""check_pages.py PROGRAM SOURCE [SHOTS]   makes every kind of page and looks at it in a headless browser (check_html.py): views of
-runs, two runs over each other, stiff cases, a study, a profile, a sweep, a batch. Views are handled as a reader does
-(view_behaviour.js): drag, wheel, play, select, colours, ghosts, traces, plots. Names that look like markup, long ones and
-right-to-left ones stay text. Exit status 77: there is no browser."""
+"""check_pages.py PROGRAM SOURCE [SHOTS]   makes every kind of page and checks it in a headless browser (check_html.py):
+views of runs, two runs over each other, stiff cases, studies, a profile, a sweep, a batch, the gallery. Views are
+operated as by a reader (view_behaviour.js): drag, wheel, play, select, colours, ghosts, traces, plots. The files that
+they save are read, and colours are compared as readers with two kinds of cones see them (view_maps.js). Names that look
+like markup, long ones and right-to-left ones have to remain text. Exit status 77: there is no browser."""
 
+import csv
+import io
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -16,6 +20,7 @@ SHOTS = pathlib.Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else None
 sys.path.insert(0, str(SOURCE / "tests/tools"))
 import browser  # noqa: E402
 import check_html  # noqa: E402
+import check_page  # noqa: E402
 
 MARKUP = "<script>wasCalled=1<img src=x onerror=wasCalled=1>"
 LONG, HEBREW = "n" * 100, "שלום עולם"
@@ -48,6 +53,27 @@ NAMES = {
 }
 
 
+# A small body that travels a thousand times its size, and a pendulum whose hinge transmits no moment.
+FAR = {
+    "schema_version": 1,
+    "bodies": [{"name": "ball", "mass": 1, "shape": {"kind": "box", "size": [0.5, 0.4, 0.3]}, "position": [3, 2, 1]},
+               {"name": "plate", "mass": 1, "shape": {"kind": "box", "size": [0.5, 0.4, 0.01]}, "position": [4, 2, 1]}],
+    "joints": [{"name": "hinge", "kind": "revolute", "first": "ball", "second": "plate", "position": [3.5, 2, 1],
+                "axis": [0, 1, 0]}],
+    "initial_velocities": [{"of": "ball", "velocity": [700, 300, 650]}, {"of": "plate", "velocity": [700, 300, 650]}],
+    "sensors": [{"name": "ball", "kind": "position", "at": "ball"}],
+    "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.01}, "output": {"motion": True},
+}
+SWING = {
+    "schema_version": 1, "gravity": [7.848, -5.886, 0],
+    "bodies": [{"name": "bob", "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [0.48, 0.64, -0.6]}],
+    "joints": [{"name": "hinge", "kind": "revolute", "first": "ground", "second": "bob", "position": [0, 0, 0],
+                "axis": [0.36, 0.48, 0.8]}],
+    "sensors": [{"name": "hinge", "kind": "joint_reaction", "joint": "hinge"}],
+    "analysis": {"kind": "dynamic", "end_time": 0.5, "step_size": 0.01}, "output": {"motion": True},
+}
+
+
 def call(*words, status=0):
     done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False)
     if done.returncode != status:
@@ -67,15 +93,23 @@ def make_pages():
     """Views that are handled, and all pages."""
     short = ["--set", "/analysis/end_time=0.5"]
     views = [make_view(name, SOURCE / f"data/gallery/{name}.json", *short) for name in ("robot_arm", "rotor")]
+    views.append(make_view("rotor_on_vehicle", SOURCE / "data/scenarios/rotor_on_vehicle.json", *short))
     views.append(make_view("names", NAMES))
     pages = views + [make_view("parts", PARTS)]
     pages.append(make_view("one_plot", {**PARTS, "sensors": [{"name": "angle", "kind": "joint_angle", "joint": "hinge"}]}))
     pages.append(make_view("no_motion", {**PARTS, "output": {"motion": False}}))
+    pages += [make_view("far", FAR), make_view("swing", SWING)]
+    pages.append(make_view("roll_up", SOURCE / "data/scenarios/roll_up.json", "--set", "/output/motion=true"))
     make_view("softer", PARTS, "--set", "/springs/coil/stiffness=20")
     call("view", "softer", "parts")
     pages.append("softer/view.html")
     call("stress", "--case", "condition", "--out", "stress", "--quiet")
-    call("study", SOURCE / "data/studies/princeton_beam.json", "--out", "study", "--threads", 1, "--repetitions", 1, "--quiet")
+    for name in ("princeton_beam", "four_bar"):
+        call("study", SOURCE / f"data/studies/{name}.json", "--out", f"study_{name}", "--threads", 2,
+             "--repetitions", 1, "--quiet")
+    subprocess.run([sys.executable, SOURCE / "tests/tools/gallery.py", PROGRAM, "gallery",
+                    *(SOURCE / f"data/scenarios/{s}.json" for s in ("pendulum", "heavy_top", "slider_crank")),
+                    "names.json"], check=True, stdout=subprocess.DEVNULL)
     call("profile", SOURCE / "data/scenarios/four_bar_planar.json", "--out", "profile", "--steps", 10, "--quiet")
     sweep = json.loads((SOURCE / "data/sweeps/rotor_clearance.json").read_text(encoding="utf-8"))
     sweep["scene"] = str(SOURCE / "data/sweeps" / sweep["scene"])
@@ -87,7 +121,108 @@ def make_pages():
     for name, scene in [("good", PARTS), ("bad", {**PARTS, "gravity": 1}), (HEBREW, NAMES)]:
         (folder / f"{name}.json").write_text(json.dumps(scene), encoding="utf-8")
     call("batch", folder, "--out", "batch", "--quiet", status=1)
-    return views, pages + ["stress/stress.html", "study/study.html", "profile/profile.html", "sweep/batch.html", "batch/batch.html"]
+    return views, pages + ["stress/stress.html", "study_princeton_beam/study.html", "study_four_bar/study.html",
+                           "gallery/index.html", "profile/profile.html", "sweep/batch.html", "batch/batch.html"]
+
+
+def check_saved(chromium, page):
+    """What the buttons PNG and CSV save: the picture in the size of the canvas, and rows of the history."""
+    faults = []
+    chromium.open(page)
+    chromium.evaluate("boughView.setTime(0.6 * boughView.runs[0].times.at(-1))")
+    press = "document.evaluate(\"//button[.='%s']\", document, null, 9).singleNodeValue.click()"
+    name, picture = chromium.saved(press % "PNG")
+    pathlib.Path("saved.png").write_bytes(picture)
+    size = chromium.evaluate("[boughView.canvas.width, boughView.canvas.height]")
+    told = list(struct.unpack(">II", picture[16:24])) if picture[:4] == b"\x89PNG" else None
+    if told != size or not name.endswith(".png"):
+        faults.append(f"{page}: the PNG {name} has the size {told}, the canvas {size}")
+    elif check_page.colours_of("saved.png")[0] < 20:
+        faults.append(f"{page}: the PNG shows nothing")
+    with open(pathlib.Path(page).parent / "history.csv", encoding="utf-8", newline="") as file:
+        history = {round(float(row[0]), 9): [float(v) for v in row] for row in list(csv.reader(file))[1:]}
+    first, last = 0.25 * max(history), 0.75 * max(history)
+    chromium.evaluate(f"boughView.plots[0].zoom({first}, {last})")
+    name, text = chromium.saved(press % "CSV")
+    head, *shown = list(csv.reader(io.StringIO(text.decode("utf-8"))))
+    if not name.endswith(".csv") or head[0] != "time [s]" or "[" not in head[1]:
+        faults.append(f"{page}: the CSV {name} begins with {head}")
+    for row in shown:
+        # The page holds single precision and shows eight digits.
+        values = history.get(round(float(row[0]), 9), [])
+        near = [any(abs(float(v) - w) <= 1e-6 * max(1e-3, abs(w)) for w in values) for v in row[1:]]
+        if not first <= float(row[0]) <= last or not all(near):
+            return faults + [f"{page}: the CSV has the row {row}, which is not of the history, or not shown"]
+    if len(shown) < 0.4 * len(history):
+        faults.append(f"{page}: the CSV has {len(shown)} rows, the history {len(history)}")
+    return faults + chromium.faults
+
+
+def check_calm(chromium, page):
+    """For a reader who asks for less motion, the picture plays in few steps and not again and again."""
+    faults = []
+    count = """new Promise(function (done) {
+      const times = new Set(), view = boughView;
+      view.play(true);
+      const timer = setInterval(() => times.add(view.state.time), 10);
+      setTimeout(function () { clearInterval(timer); view.play(false); done([times.size, view.state.loop]); }, 2000); })"""
+    for calm in (False, True):
+        chromium.open(page, calm=calm)
+        steps, loops = chromium.evaluate(count)
+        if calm != (steps <= 6) or loops == calm:
+            faults.append(f"{page}: {steps} instants in 2 s, {'again' if loops else 'once'}, less motion: {calm}")
+        faults += chromium.faults
+    return faults
+
+
+def check_far(chromium, page):
+    """A structure that travels far beside its size is followed: it fills the picture and stays in its middle."""
+    faults = []
+    chromium.open(page)
+    if not chromium.evaluate("boughView.state.follow"):
+        faults.append(f"{page}: a structure that travels far is not followed")
+    see = """(function (share) {
+      const view = boughView, [run] = view.runs;
+      view.setTime(share * run.times.at(-1));
+      view.state.moving = -1e9;
+      view.draw();
+      const at = run.bodies.map((b) => {
+        const p = new THREE.Vector3().fromArray(view.scenes[0].poses.x, 3 * b.track).project(view.camera);
+        return [p.x, p.y];
+      });
+      const c = document.createElement("canvas"), k = c.getContext("2d");
+      [c.width, c.height] = [view.canvas.width, view.canvas.height];
+      k.drawImage(view.canvas, 0, 0);
+      const pixels = new Uint32Array(k.getImageData(0, 0, c.width, c.height).data.buffer), ground = pixels[0];
+      return [at, pixels.reduce((n, p) => n + (p !== ground), 0) / pixels.length];
+    })(%s)"""
+    for share in (0, 0.31, 0.77, 1):
+        places, filled = chromium.evaluate(see % share)
+        if any(abs(x) > 0.9 or abs(y) > 0.9 for x, y in places) or filled < 0.03:
+            faults.append(f"{page}: at {share} of the run bodies are at {places}, {100 * filled:.2f} % is drawn")
+    chromium.evaluate("boughView.follow(false), boughView.fit()")
+    places, _ = chromium.evaluate(see % 1)
+    if any(abs(x) > 1 or abs(y) > 1 for x, y in places):
+        faults.append(f"{page}: the whole motion does not fit into the picture: {places}")
+    return faults + chromium.faults
+
+
+def check_zero(chromium, page, zeros):
+    """Plots of round-off, `zeros` of them, say so and have no scale but zero; none has a scale of round-off."""
+    chromium.open(page)
+    seen = chromium.evaluate("""Array.from(document.querySelectorAll(".plot")).map((p) =>
+      Array.from(p.querySelectorAll("svg text")).map((t) => t.textContent))""")
+    zero = [texts for texts in seen if "zero to round-off" in texts]
+    if len(zero) != zeros or any(texts[0] != "0" or texts[1] != "zero to round-off" for texts in zero):
+        return [f"{page}: plots of round-off: {seen}"]
+    if len(zero) == len(seen) or any("e-" in t for texts in seen for t in texts):
+        return [f"{page}: scales of plots: {seen}"]
+    return chromium.faults
+
+
+def check_maps(chromium, page):
+    chromium.open(page)
+    return chromium.evaluate((SOURCE / "tests/tools/view_maps.js").read_text(encoding="utf-8"))
 
 
 def main():
@@ -107,10 +242,19 @@ def main():
                 for width in (1300, 400):
                     chromium.open(page, width=width)
                     found += [f"{page}, {width} px: {fault}" for fault in chromium.evaluate(behaviour) + chromium.faults]
-            print(f"{page}: {len(found)} faults")
+            print(f"{page}: {len(found)} faults", flush=True)
+            faults += found
+        saved = [check_saved(chromium, page) for page in ("robot_arm/view.html", "names/view.html")]
+        more = {"saved files": sum(saved, []), "less motion": check_calm(chromium, "robot_arm/view.html"),
+                "far travel": check_far(chromium, "far/view.html"),
+                "zero": check_zero(chromium, "roll_up/view.html", 1) + check_zero(chromium, "swing/view.html", 0),
+                "maps of colours": check_maps(chromium, "robot_arm/view.html")}
+        for name, found in more.items():
+            print(f"{name}: {len(found)} faults")
             faults += found
     print("\n".join(faults))
     return 1 if faults else 0
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())

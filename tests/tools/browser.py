@@ -13,6 +13,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import time
 
 FLAGS = ["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run", "--use-gl=angle", "--use-angle=swiftshader",
          "--enable-unsafe-swiftshader", "--proxy-server=127.0.0.1:9", "--hide-scrollbars", "--remote-debugging-pipe"]
@@ -94,11 +95,13 @@ class Browser:
             if url != self._page and not url.startswith(("data:", "blob:")):
                 self.faults.append("asks for " + url[:200])
 
-    def open(self, page, width=1300, height=1400, dark=False, media="screen", scripts=True):
-        """Loads a page and fills `faults`. On paper (media "print") the width is that of the paper."""
+    def open(self, page, width=1300, height=1400, dark=False, media="screen", scripts=True, calm=False):
+        """Loads a page and fills `faults`. On paper (media "print") the width is that of the paper; a calm reader asks
+        for less motion."""
         self.faults, self.events = [], []
         self._page = pathlib.Path(page).resolve().as_uri()
-        scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
+        scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
+                  {"name": "prefers-reduced-motion", "value": "reduce" if calm else ""}]
         self.send("Emulation.setEmulatedMedia", media=media, features=scheme)
         self.send("Emulation.setScriptExecutionDisabled", value=not scripts)
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
@@ -116,6 +119,18 @@ class Browser:
         if "exceptionDetails" in answer:
             raise RuntimeError(json.dumps(answer["exceptionDetails"])[:600])
         return answer["result"].get("value")
+
+    def saved(self, act):
+        """Name and bytes of the file that a page saves after an expression; waits for it for ten seconds."""
+        folder = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+        self.send("Page.setDownloadBehavior", behavior="allow", downloadPath=str(folder))
+        self.evaluate(act)
+        for _ in range(200):
+            done = [f for f in folder.iterdir() if f.suffix != ".crdownload" and not f.name.startswith(".")]
+            if done and done[0].stat().st_size:
+                return done[0].name, done[0].read_bytes()
+            time.sleep(0.05)
+        raise RuntimeError("nothing was saved after " + act)
 
     def screenshot(self, file):
         """The whole page as PNG."""

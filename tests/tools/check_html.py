@@ -20,8 +20,8 @@ def look(chromium, page, shots):
     for name, how in MODES:
         chromium.open(page, **how)
         seen = chromium.evaluate(BOXES) + chromium.faults
-        if not chromium.evaluate("document.querySelectorAll('svg, canvas, table').length"):
-            seen.append("no drawing and no table")
+        if not chromium.evaluate("document.querySelectorAll('svg, canvas, table, img').length"):
+            seen.append("no drawing, no picture and no table")
         faults += [f"{page}, {name}: {fault}" for fault in seen]
         if shots:
             chromium.screenshot(shots / f"{page.parent.name}-{page.stem}-{name.replace(', ', '-').replace(' ', '_')}.png")

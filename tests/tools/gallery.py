@@ -13,7 +13,7 @@ import sys
 
 STYLE = """:root{color-scheme:light dark}body{margin:0 auto;max-width:1240px;padding:20px;font:15px/1.5 system-ui,sans-serif}
 main{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,380px),1fr));gap:16px}figure{margin:0}
-img{width:100%;height:auto;border-radius:6px}figcaption{font-size:13px}h1{font-size:22px}
+img{width:100%;height:auto;border-radius:6px}figcaption{font-size:13px;overflow-wrap:anywhere}figure{min-width:0}h1{font-size:22px}
 @media print{main{grid-template-columns:1fr 1fr}figure{break-inside:avoid}}"""
 
 

@@ -18,6 +18,10 @@
     if (frame.width > 1.35 * width) faults.add(`a drawing is blown up ${(frame.width / width).toFixed(2)} times`);
     const texts = Array.from(drawing.querySelectorAll("text")).filter((t) => isSeen(t) && t.getBoundingClientRect().width > 0),
       boxes = texts.map((t) => t.getBoundingClientRect());
+    // Labels of one axis that read alike tell nothing.
+    const labels = texts.filter((t) => t.getAttribute("text-anchor") === "end").map((t) => t.getAttribute("x") + " " + t.textContent);
+    for (const label of labels)
+      if (labels.filter((l) => l === label).length > 1) faults.add(`labels of an axis read alike: ${words(label)}`);
     if (texts.length > 300) continue; // drawings of many small parts hide texts that do not fit
     boxes.forEach(function (box, i) {
       for (let j = i + 1; j < boxes.length; ++j)

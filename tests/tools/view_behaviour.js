@@ -98,6 +98,25 @@
         if (q.name === "speed") check(picture() !== before, "colours by speed do not change the picture");
       }
     check(document.querySelector(".legend").textContent.length > 0, "there is no legend");
+    if (run.quantities.some((q) => q.name === "speed")) {
+      view.setQuantity("speed");
+      differs(function () {
+        view.setMap("cividis");
+      }, "another map of colours");
+      view.setMap("viridis");
+    }
+    if (run.quantities.some((q) => q.name === "sub-domain")) {
+      view.setQuantity("");
+      differs(function () {
+        view.setQuantity("sub-domain");
+      }, "colours by sub-domain");
+      const leaves = new Set(run.curves.flatMap((c) => c.subdomains));
+      check(
+        document.querySelectorAll(".legend .domains span").length === (leaves.size <= 7 ? leaves.size : 0) &&
+          /sub-domain/.test(document.querySelector(".legend").textContent),
+        "the legend does not name the sub-domains",
+      );
+    }
     view.setQuantity("");
     view.setTime(0);
     view.addGhost();

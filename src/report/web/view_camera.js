@@ -18,6 +18,13 @@ class ViewCamera {
       return r;
     });
     this.projected = new THREE.Vector3();
+    // Where parts are in the places of all tracks. Frames are fitted only while they are shown: they may travel far away.
+    const tracks = new Set(run.data.pointTrack);
+    for (const b of run.bodies) tracks.add(b.track);
+    for (const l of run.links) tracks.add(l.first).add(l.second);
+    for (const a of run.arrows) tracks.add(a.track);
+    this.seesFrames = !tracks.size;
+    this.partPlaces = Uint32Array.from(tracks, (t) => 3 * t);
     this.buildTriad();
     // Where an instant is so small beside the motion that nothing would be seen of it, the structure is followed.
     const {elements} = new THREE.Matrix4(),
@@ -113,7 +120,8 @@ class ViewCamera {
         if (u + r > high[c]) high[c] = u + r;
       }
     };
-    for (let i = 0; i < x.length; i += 3) see(i, 0);
+    if (this.seesFrames) for (let i = 0; i < x.length; i += 3) see(i, 0);
+    else for (const i of this.partPlaces) see(i, 0);
     for (const b of run.bodies) if (b.mesh >= 0) see(3 * b.track, this.radii[b.mesh]);
   }
   zoomBy(f) {

@@ -77,9 +77,14 @@ function makeChoices(view, holder) {
     (v) => (state.speed = Number(v)),
   );
   speedList.value = String(state.speed);
-  check("loop", true, (v) => (state.loop = v));
+  const looped = check("loop", state.loop, (v) => (state.loop = v));
+  view.calm.addEventListener("change", function () {
+    looped.checked = state.loop = !view.calm.matches;
+  });
   const quantities = run.quantities.map((q) => [q.name, withUnit(q.label, q.unit)]),
     quantityList = select("colour", [["", "none"]].concat(quantities), (v) => view.setQuantity(v));
+  const mapList = select("map", Object.keys(colorMaps).map((n) => [n, n]), (v) => view.setMap(v));
+  mapList.parentElement.hidden = true; // until a quantity is shown
   select(
     "displacements times",
     [1, 2, 5, 10, 20, 50, 100, 1000].map((s) => [s, s]),
@@ -92,7 +97,7 @@ function makeChoices(view, holder) {
     partList = select("part", [["", "none"]].concat(names.map((n) => [n, n])), (v) => view.select(v));
   const followed = check("follow", false, (v) => view.follow(v));
   check("shapes", true, (v) => (state.shapes = v));
-  check("frames", false, (v) => view.scenes.forEach((s) => (s.frames.visible = v)));
+  check("frames", false, (v) => view.showFrames(v));
   check("joint axes", false, (v) => view.scenes.forEach((s) => (s.axes.visible = v)));
   const listed = new Set(names);
   return {
@@ -100,7 +105,11 @@ function makeChoices(view, holder) {
       followed.checked = on;
       view.follow(on);
     },
-    showQuantity: (name) => (quantityList.value = name),
+    showQuantity: function (name) {
+      quantityList.value = name;
+      mapList.parentElement.hidden = name === "" || name === "sub-domain";
+    },
+    showMap: (name) => (mapList.value = name),
     showSelected: (name) => (partList.value = listed.has(name) ? name : ""),
   };
 }
@@ -121,7 +130,7 @@ function makeLooks(view, holder) {
   button("ghost", "keeps the picture of this instant (g)", view.addGhost);
   button("trace", "the way of the selected part (t)", view.addTrace);
   button("clear", "removes ghosts and traces (c)", view.clearExtras);
-  button("PNG", "saves the picture", view.savePicture);
+  button("PNG", "saves the picture", () => view.savePicture());
 }
 
 function listenToKeys(view) {

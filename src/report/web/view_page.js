@@ -12,8 +12,13 @@ async function startView() {
     selected: "",
     follow: false,
     shapes: true,
+    quantity: "",
+    map: "viridis",
   };
-  const view = {runs: runs, state: state};
+  // A reader who asks for less motion gets it in steps, twice a second, and once.
+  const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
+  state.loop = !calm.matches;
+  const view = {runs: runs, state: state, calm: calm};
   window.boughView = view;
   startPlots(view);
   if (!first.times.length || !first.data.step || !first.data.step.length) return showDrawing("");
@@ -92,6 +97,10 @@ function startViews(view, seen) {
     seen.fit(state.scale, timesSeen());
     seen.followed = null;
   };
+  view.showFrames = function (on) {
+    seen.seesFrames = on;
+    for (const s of view.scenes) s.frames.visible = on;
+  };
   view.zoomBy = (f) => seen.zoomBy(f);
   view.partAt = (px, py) => view.scenes[0].partAt(px, py, (x, i) => seen.project(x, i));
   view.follow = function (on) {
@@ -155,18 +164,19 @@ function startColors(view, renderer, legend, choices, dark) {
   const [first] = view.runs;
   const use = function () {
     renderer.setClearColor(dark.matches ? "#1a1a19" : "#fcfcfb");
-    const quantity = first.quantities.find((q) => q.name === view.state.quantity) || null;
+    const {state} = view,
+      quantity = first.quantities.find((q) => q.name === state.quantity) || null;
     for (const s of view.scenes)
-      s.paint.use(quantity, dark.matches ? "#6da7ec" : "#2a78d6", dark.matches ? "#f2b632" : "#b3261e");
+      s.paint.use(quantity, state.map, dark.matches ? "#6da7ec" : "#2a78d6", dark.matches ? "#f2b632" : "#b3261e");
     legend.replaceChildren();
     view.request();
     if (!quantity) return;
     make(legend, "div", {}, withUnit(quantity.label, quantity.unit));
-    if (quantity.name === "sub-domain") return;
+    if (quantity.name === "sub-domain") return showDomains(legend, first);
     const ramp = make(legend, "div", {class: "ramp"}),
       ends = make(legend, "div", {class: "ends"});
     for (let k = 0; k < 24; ++k) {
-      const c = viridisAt(k / 23).map((v) => Math.round(255 * v));
+      const c = mapAt(state.map, k / 23).map((v) => Math.round(255 * v));
       make(ramp, "i").style.background = "rgb(" + c.join(",") + ")";
     }
     for (const s of [0, 0.5, 1]) make(ends, "span", {}, number(quantity.low + s * (quantity.high - quantity.low), 3));
@@ -176,8 +186,27 @@ function startColors(view, renderer, legend, choices, dark) {
     choices.showQuantity(name);
     use();
   };
+  view.setMap = function (name) {
+    view.state.map = name;
+    choices.showMap(name);
+    use();
+  };
   dark.addEventListener("change", use);
   use();
+}
+
+// Which sub-domain has which colour, or where there are more than colours, how many there are.
+function showDomains(legend, run) {
+  const leaves = Array.from(new Set(run.curves.flatMap((c) => c.subdomains))).sort((a, b) => a - b);
+  if (leaves.length > domainPalette.length) {
+    make(legend, "div", {}, leaves.length + " of them, " + domainPalette.length + " colours in turn");
+    return;
+  }
+  const row = make(legend, "div", {class: "domains"});
+  for (const leaf of leaves) {
+    make(row, "i").style.background = domainColor(leaf);
+    make(row, "span", {}, String(leaf));
+  }
 }
 
 // Pictures: while something moves and shapes take too long, lines; the shapes a moment after.

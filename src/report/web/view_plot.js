@@ -25,6 +25,13 @@ function valueAt(times, values, time) {
   return times.length < 2 ? values[0] : values[k] + f * (values[k + 1] - values[k]);
 }
 
+// A round number that is taken from labels: where values differ by so little that their labels would be long, or alike.
+function baseOf([low, high]) {
+  if (high - low >= 1e-3 * Math.max(Math.abs(low), Math.abs(high))) return 0;
+  const step = Math.pow(10, Math.ceil(Math.log10(high - low)));
+  return Number((step * Math.round((low + high) / 2 / step)).toPrecision(12));
+}
+
 class Plot {
   // series: [{label, times, values, dashed}], one unit; xLabel with its unit; roundOff: values below it are zero
   constructor(parent, title, unit, xLabel, series, roundOff, onTime) {
@@ -145,7 +152,7 @@ class Plot {
     else if (this.isRoundOff(list)) return [-100 * this.roundOff, 100 * this.roundOff]; // on the line of zero
     const least = 1e-12 * Math.max(Math.abs(low), Math.abs(high));
     if (high - low <= least) {
-      const pad = Math.max(Math.abs(high) * 0.1, 1e-300) || 1;
+      const pad = Math.abs(high) * 0.1 || 1;
       low -= pad;
       high += pad;
     }
@@ -168,8 +175,9 @@ class Plot {
       first = shared || this.scaleOf([this.series[0]]);
     const yOf = (v, scale) => this.bottom - ((this.bottom - this.top) * (v - scale[0])) / (scale[1] - scale[0]);
     const isZero = this.isRoundOff(shared ? this.series : [this.series[0]]);
-    for (const t of isZero ? (this.log ? [] : [0]) : roundTicks(first[0], first[1], 4)) {
-      const y = yOf(t, first);
+    const base = this.log ? 0 : baseOf(first);
+    for (const t of isZero ? (this.log ? [] : [0]) : roundTicks(first[0] - base, first[1] - base, 4)) {
+      const y = yOf(base + t, first);
       if (y < this.top - 1 || y > this.bottom + 1) continue;
       svg(box, "line", {class: "grid", x1: this.left, x2: this.right, y1: y, y2: y});
       svg(
@@ -197,7 +205,9 @@ class Plot {
       box,
       "text",
       {class: "tiny soft", x: 6, y: height - 5},
-      this.own ? "scale of " + this.series[0].label : this.unit ? "in " + this.unit : "pure number",
+      (this.own ? "scale of " + this.series[0].label : this.unit ? "in " + this.unit : "pure number") +
+        (base > 0 ? ", minus " : base < 0 ? ", plus " : "") +
+        (base ? number(Math.abs(base), 8) : ""),
     );
     svg(box, "line", {class: "axis", x1: this.left, x2: this.right, y1: this.bottom, y2: this.bottom});
     this.series.forEach((s, k) => {
@@ -331,7 +341,7 @@ class Plot {
           "," +
           this.series
             .map(function (s) {
-              return number(s.times === this.series[0].times ? s.values[k] : valueAt(s.times, s.values, t), 8);
+              return number(s.times === this.series[0].times ? s.values[k] : valueAt(s.times, s.values, t), s.digits);
             }, this)
             .join(","),
       );

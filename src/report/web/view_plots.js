@@ -9,7 +9,9 @@ function startPlots(view) {
   const seriesOf = function (run, plot, dashed, mark) {
     const times = run.data[plot.times];
     return plot.columns.map(function (c, k) {
-      return {label: c.label + mark, times: times, values: run.data[c.values], dashed: dashed, color: k % 6};
+      const around = run.data[c.values], // in single precision from a number of double precision, where that is given
+        values = c.from ? Float64Array.from(around, (v) => c.from + v) : around;
+      return {label: c.label + mark, times: times, values: values, dashed: dashed, color: k % 6, digits: c.from ? 15 : 8};
     });
   };
   const onTime = function (time, isHover) {
@@ -30,13 +32,14 @@ function startPlots(view) {
     if (!other) return;
     const times = a.data[plot.times];
     const difference = plot.columns.map(function (c, k) {
-      const theirs = b.data[other.columns[k].values],
+      const theirs = series[plot.columns.length + k].values,
         t2 = b.data[other.times],
-        mine = a.data[c.values];
+        mine = series[k].values;
       return {
         label: c.label + " A - B",
         times: times,
         color: k % 6,
+        digits: 8,
         values: mine.map(function (v, r) {
           return v - valueAt(t2, theirs, times[r]);
         }),

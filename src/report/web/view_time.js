@@ -1,5 +1,6 @@
 // Time: playing, stepping, and what shows it. Picture, clock and plots follow one time.
-const showEvery = 100; // [ms]
+const showEvery = 100, // [ms]
+  calmEvery = 500; // between the steps of a reader who asks for less motion [ms]
 
 function startTime(view, bar) {
   const {state} = view,
@@ -38,7 +39,13 @@ function startTime(view, bar) {
   let lastStamp = 0;
   function tick(stamp) {
     if (!state.playing) return;
-    let time = state.time + (lastStamp ? Math.min(0.25, (stamp - lastStamp) / 1000) * state.speed : 0);
+    const isCalm = view.calm.matches;
+    if (isCalm && lastStamp && stamp - lastStamp < calmEvery) {
+      requestAnimationFrame(tick);
+      return;
+    }
+    const most = isCalm ? 2 * calmEvery : 250; // of a page that was hidden, time does not run on
+    let time = state.time + (lastStamp ? (Math.min(most, stamp - lastStamp) / 1000) * state.speed : 0);
     lastStamp = stamp;
     if (time >= end) {
       if (!state.loop) {
