@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "bough/io/number_text.hpp"
 #include "bough/motion/so3.hpp"
 #include "bough/scene/outlines.hpp"
 #include "packed.hpp"
+#include "pixel_text.hpp"
 
 namespace bough::report {
 namespace {
@@ -19,7 +21,8 @@ using Vec3 = motion::Vec3<double>;
 using Mat3 = motion::Mat3<double>;
 using Color = std::array<double, 3>;  ///< 0 to 1
 
-constexpr int samples = 2;  ///< per pixel and direction: edges are smoothed by averaging
+constexpr double in_front = 1e300;  ///< depth of what covers everything else
+constexpr int samples = 2;          ///< per pixel and direction: edges are smoothed by averaging
 
 Vec3 vec(const double* x) {
   Vec3 v;
@@ -82,6 +85,16 @@ class Canvas {
           put(cx + dx, cy + dy, a.depth + s * (b.depth - a.depth) + nearer, color);
         }
     }
+  }
+
+  /// A rectangle over everything else [px].
+  void cover(double x, double y, double width, double height, const Color& color) {
+    const auto pixel = [](double v) { return static_cast<int>(std::lround(samples * v)); };
+    for (int j = std::max(0, pixel(y)); j < std::min(height_, pixel(y + height)); ++j)
+      for (int i = std::max(0, pixel(x)); i < std::min(width_, pixel(x + width)); ++i) put(i, j, in_front, color);
+  }
+  void label(double x, double y, std::string_view text, const Color& color) {
+    for (const auto& [i, j] : dots_of(text)) cover(x + 2.0 * i, y + 2.0 * j, 2.0, 2.0, color);
   }
 
   std::string png() const {
@@ -173,6 +186,8 @@ class Camera {
     return {x0_ + scale_ * p.u, y0_ - scale_ * p.v, dot(toward_, x)};
   }
   double extent() const { return extent_; }
+  double pixels_per_length() const { return scale_ / samples; }  ///< [px/m]
+  Point2 on_paper(const Vec3& direction) const { return projection_(direction.v); }
   /// Brightness of a surface with this normal, 0 to 1: a lamp beside the viewer, both sides of a surface alike.
   double light(const Vec3& n) const {
     const double size = std::sqrt(dot(n, n));
@@ -233,13 +248,14 @@ Color shaded(const Color& color, double light) { return {color[0] * light, color
 class Painter {
  public:
   Painter(const RunFiles& run, const records::MotionFrame& instant, const RasterOptions& options)
-      : run_(run), camera_(run, instant, options), canvas_(options.width, options.height) {}
+      : run_(run), options_(options), camera_(run, instant, options), canvas_(options.width, options.height) {}
 
   std::string paint(const records::MotionFrame& f) {
     for (std::size_t k = 0; k < f.curves.size(); ++k) beam(f.curves[k], k);
     for (std::size_t k = 0; k < f.bodies.size(); ++k) body(f.bodies[k], k);
     for (std::size_t k = 0; k < f.links.size(); ++k) link(f.links[k], k);
     arrows(f);
+    if (options_.width >= 400 && options_.height >= 250) caption(f.time);
     return canvas_.png();
   }
 
@@ -367,7 +383,37 @@ class Painter {
     }
   }
 
+  /// Axes, a scale and the time, in the margin below the structure.
+  void caption(double time) {
+    constexpr Color ink = {0.27, 0.27, 0.26}, axis_colors[3] = {{0.8, 0.2, 0.2}, {0.1, 0.5, 0.2}, {0.2, 0.36, 0.85}};
+    const double base = options_.height - 20.0;
+    const Vec3 directions[3] = {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point2 p = camera_.on_paper(directions[k]);
+      if (std::hypot(p.u, p.v) < 0.15) continue;
+      const auto end = [&](double length) {
+        return Canvas::Corner{26.0 + length * p.u, base - 4.0 - length * p.v, in_front};
+      };
+      const Canvas::Corner from = end(0.0), to = end(16.0), name = end(26.0);
+      canvas_.line({samples * from.x, samples * from.y, in_front}, {samples * to.x, samples * to.y, in_front},
+                   1.6 * samples, axis_colors[k], 0.0);
+      canvas_.label(name.x - 5.0, name.y - 7.0, std::string_view("xyz").substr(k, 1), ink);
+    }
+    const double most = 120.0 / camera_.pixels_per_length(), power = std::pow(10.0, std::floor(std::log10(most)));
+    const double length = power * (5.0 * power <= most ? 5.0 : 2.0 * power <= most ? 2.0 : 1.0);
+    const double pixels = length * camera_.pixels_per_length(), left = 70.0;
+    canvas_.cover(left, base + 5.0, pixels, 2.0, ink);
+    canvas_.cover(left, base - 1.0, 2.0, 8.0, ink);
+    canvas_.cover(left + pixels - 2.0, base - 1.0, 2.0, 8.0, ink);
+    const std::string words = io::rounded_text(length, 3) + " m";
+    canvas_.label(left + pixels + 10.0, base - 6.0, words, ink);
+    const std::string when =
+        is_static(run_) ? "load factor " + io::rounded_text(time, 3) : "t = " + io::rounded_text(time, 4) + " s";
+    canvas_.label(options_.width - 20.0 - 2.0 * letter_step * static_cast<double>(when.size()), base - 6.0, when, ink);
+  }
+
   const RunFiles& run_;
+  RasterOptions options_;
   Camera camera_;
   Canvas canvas_;
 };

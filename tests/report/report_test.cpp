@@ -3,6 +3,7 @@
 #include <regex>
 
 #include "../../src/report/packed.hpp"
+#include "../../src/report/pixel_text.hpp"
 #include "../../src/report/round_off.hpp"
 #include "../../src/report/svg_text.hpp"
 #include "bough/io/atomic_file.hpp"
@@ -251,6 +252,9 @@ TEST_F(Page, pictures_are_the_same_bytes_for_the_same_instant_and_others_for_ano
   EXPECT_EQ(png.substr(1, 3), "PNG");
   EXPECT_EQ(picture_png(files, 0.2), png);
   EXPECT_NE(picture_png(files, 0.4), png);
+  for (const std::string_view known : {"0123456789.-+e", "t = s", "load factor", "m", "xyz"})
+    for (const char c : known) EXPECT_EQ(dots_of(std::string_view(&c, 1)).empty(), c == ' ') << c;
+  EXPECT_EQ(dots_of("m 1").back()[0], 2 * letter_step + 3) << "letters stand side by side";
 }
 
 TEST(Packed, texts_have_the_published_hashes_and_codes) {

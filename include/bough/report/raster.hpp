@@ -14,7 +14,8 @@ struct RasterOptions {
 
 /// The motion at a time, interpolated between recorded frames. Precondition: run.motion is not empty.
 /// Beams with their sections (those without one as lines), bodies with their surfaces or as spokes, springs and joints
-/// as lines and squares, point loads as arrows. The scale is that of the box of all frames.
+/// as lines and squares, point loads as arrows. The scale is that of the box of all frames. Pictures of at least
+/// 400 x 250 pixels show the axes, a length to scale and the time below.
 std::string picture_png(const RunFiles& run, double time, const RasterOptions& options = {});
 
 }  // namespace bough::report
