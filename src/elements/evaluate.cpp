@@ -65,11 +65,6 @@ JointMotion eval_joint_motion(const Joint& joint, const Field& field, double tur
   return m;
 }
 
-double eval_joint_angle(const Joint& joint, const Field& field, double turns) {
-  const Mat3<double> a = eval_port_rotation(joint.ports[0], field), b = eval_port_rotation(joint.ports[1], field);
-  return eval_angle(lanes::transpose_times(a, b), turns);
-}
-
 BOUGH_INSTANTIATE_ELEMENT(RigidBody)
 BOUGH_INSTANTIATE_ELEMENT(PointLoad)
 BOUGH_INSTANTIATE_ELEMENT(Spring)

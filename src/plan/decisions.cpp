@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "bough/plan/element_cost.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -103,7 +102,7 @@ void Builder::settle() {
   double work = 0.0;
   for_each_array(plan.elements, [&](const auto& array) {
     using E = typename std::decay_t<decltype(array)>::value_type;
-    work += 1e9 * cost<E>.alone * static_cast<double>(array.size());
+    work += 1e9 * E::cost.alone * static_cast<double>(array.size());
     for (const E& e : array) {
       damped += dissipates(e) ? 1 : 0;
     }
@@ -165,7 +164,7 @@ void Builder::settle() {
          "the scene small: a "
          "few sub-domains leave most lanes empty",
          !one_matrix && work >= lanes_break_even, one_matrix ? "the solver is monolithic" : text);
-  const double own_work = (plan.planar ? planar_residual : 1.0) * work;
+  const double own_work = (plan.planar ? elements::planar_residual : 1.0) * work;
   std::snprintf(text, sizeof text, "one evaluation of the elements is about %.0f us of work; tasks pay above %.0f us",
                 1e-3 * own_work, 1e-3 * task_break_even);
   decide("small", "one thread, no tasks. Taken where the work of an evaluation is below a measured break-even",

@@ -58,6 +58,18 @@ class Restriction {
   const Mat3<double>&B_, &inertial_;
 };
 
+/// Whether the rows kept in the plane would also be satisfied after half a turn. A row for which the pose after half a
+/// turn is an admissible pose of the joint, such as a row of one axis only, has no wrong branch.
+bool has_branch(const elements::Joint& e, const std::vector<int>& rows) {
+  const auto is_kept = [&rows](int row) { return std::find(rows.begin(), rows.end(), row) != rows.end(); };
+  for (int k = 0; k < e.num_rows; ++k) {
+    if (e.rows[k].kind != RowKind::across) continue;
+    if (elements::aligns_all_axes(e, k)) return is_kept(k) || is_kept(k + 1) || is_kept(k + 2);
+    if (e.rows[k].j == 2 && is_kept(k)) return true;
+  }
+  return false;
+}
+
 class Flattener {
  public:
   Flattener(const Builder& builder, const PlanarModel& model) : b_(builder), model_(model) {}
@@ -82,6 +94,9 @@ class Flattener {
     PlanarJoint r;
     r.ports[0] = port(e.ports[0], Ba);
     r.ports[1] = port(e.ports[1], Bb);
+    r.has_branch = has_branch(e, rows);
+    const double along = lanes::column(axes_at(e.ports[0]), 2)[2];
+    r.axis_sign = std::abs(along) > 0.5 ? (along > 0.0 ? 1 : -1) : 0;
     for (int row : rows) {
       const elements::ConstraintRow& from = e.rows[row];
       elements::ConstraintRowOn<motion::Se2, double>& to = r.rows[r.num_rows++];
@@ -121,10 +136,6 @@ class Flattener {
       r.x.lo[i] = lanes::dot(along, lo);
     }
     return r;
-  }
-  double turn_sign(const elements::Joint& e) const {
-    const double along = lanes::column(axes_at(e.ports[0]), 2)[2];
-    return std::abs(along) > 0.5 ? std::copysign(1.0, along) : 0.0;
   }
 
  private:
@@ -177,18 +188,6 @@ class Flattener {
   const PlanarModel& model_;
 };
 
-/// Whether the rows kept in the plane would also be satisfied after half a turn. A row for which the pose after half a
-/// turn is an admissible pose of the joint, such as a row of one axis only, has no wrong branch.
-bool has_branch(const elements::Joint& e, const std::vector<int>& rows) {
-  const auto is_kept = [&rows](int row) { return std::find(rows.begin(), rows.end(), row) != rows.end(); };
-  for (int k = 0; k < e.num_rows; ++k) {
-    if (e.rows[k].kind != RowKind::across) continue;
-    if (elements::aligns_all_axes(e, k)) return is_kept(k) || is_kept(k + 1) || is_kept(k + 2);
-    if (e.rows[k].j == 2 && is_kept(k)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 void Builder::add_planar_elements(const Mat3<double>& axes) {
@@ -211,12 +210,6 @@ void Builder::add_planar_elements(const Mat3<double>& axes) {
   };
   fill(std::make_index_sequence<std::tuple_size_v<ElementArrays>>{});
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) model.nodes.push_back(flatten.node(n));
-  for (const JointPlan& j : plan.joints) {
-    const auto& e = array_of<elements::Joint>(
-        plan.elements)[static_cast<std::size_t>(plan.directory[static_cast<std::size_t>(j.element)].index)];
-    model.turn_sign.push_back(flatten.turn_sign(e));
-    model.has_branch.push_back(has_branch(e, j.rows));
-  }
 }
 
 }  // namespace bough::plan

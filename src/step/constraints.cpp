@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bough/elements/rows.hpp"
+#include "reduced_elements.hpp"
 
 namespace bough::step {
 
@@ -52,6 +53,7 @@ Violations Constraints::violations(const State& state) const {
     Violations& most = parts_[static_cast<std::size_t>(begin / joint_grain)];
     T rows[elements::max_rows];
     for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
+      if (is_idle_joint(plan_, static_cast<int>(j))) continue;  // no motion changes its rows, which the start closed
       const elements::Joint& e = element_of(plan_, j);
       elements::evaluate_constraint_rates(e, f, laws.data(), state.turns[j], rows);
       for (int row = 0; row < e.num_rows; ++row) {

@@ -8,6 +8,30 @@
 
 namespace bough::step {
 
+namespace {
+
+/// Keeps those of an element's unknowns, six a node, that nodes have in the scene, in residual, magnitude and matrix
+/// (P f and P K P^T where P takes components as they are). matrix: may be null. to: receives it, may be the same.
+/// Returns the number of unknowns that are kept.
+int select_lanes(const plan::NodeUnknowns& unknowns, int num_unknowns, elements::LanePack* residual,
+                 elements::LanePack* magnitude, const elements::LanePack* matrix, elements::LanePack* to) {
+  std::array<int, most_unknowns> kept;
+  int n = 0;
+  for (int node = 0; node < num_unknowns; node += 6)
+    for (int i = 0; i < unknowns.count; ++i)
+      kept[static_cast<std::size_t>(n++)] = node + unknowns.component[static_cast<std::size_t>(i)];
+  for (int i = 0; i < n; ++i) {
+    const int row = kept[static_cast<std::size_t>(i)];
+    residual[i] = residual[row];
+    magnitude[i] = magnitude[row];
+    for (int j = 0; j < n && matrix != nullptr; ++j)
+      *to++ = matrix[row * num_unknowns + kept[static_cast<std::size_t>(j)]];
+  }
+  return n;
+}
+
+}  // namespace
+
 template <class G>
 template <std::size_t I>
 void LaneBatches<G>::add(const solve::ElementBatch& batch, Slot& slot) {
@@ -205,24 +229,28 @@ void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& s
   around.around.has_inertia = field.around.has_inertia;
   around.around.nodes_turn = field.around.nodes_turn;
   Pack residual[most], magnitude[most], parts[2 * most], spare[most * most];
-  const bool is_direct =  // written directly only to full batches: the solver's empty lanes must stay empty
-      to.want_tangents() && slot.present == wide && batch.stride == wide && !slot.is_trimmed && !is_reduced_;
-  Pack* matrix = nullptr;
-  if (is_direct) matrix = reinterpret_cast<Pack*>(to.tangent_of(batch.element[0]).first);
-  if (to.want_tangents() && !is_direct) matrix = spare;
+  // Only full batches are written directly: the solver's empty lanes must stay empty.
+  const bool may_be_direct = to.want_tangents() && slot.present == wide && batch.stride == wide && !slot.is_trimmed;
+  Pack* const direct = may_be_direct ? reinterpret_cast<Pack*>(to.tangent_of(batch.element[0]).first) : nullptr;
+  Pack* matrix = direct != nullptr && !is_reduced_ ? direct : to.want_tangents() ? spare : nullptr;
   evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
+  int size = n, unknowns_per_node = G::dof;
   if constexpr (std::is_same_v<G, motion::Se3>)
-    if (is_reduced_) return reduce_lanes<I>(batch, residual, magnitude, matrix, to);
-  join_parts(G::dof, n, slot.num_rows, residual, magnitude, parts);
+    if (is_reduced_) {
+      if (rows > 0 || !plan_->unknowns.basis.empty()) return reduce_lanes<I>(batch, residual, magnitude, matrix, to);
+      unknowns_per_node = plan_->unknowns.count;
+      size = select_lanes(plan_->unknowns, n, residual, magnitude, matrix, direct != nullptr ? direct : spare);
+    }
+  join_parts(unknowns_per_node, size, slot.num_rows, residual, magnitude, parts);
   double nowhere[2 * most], *to_parts[wide];
   for (int l = 0; l < wide; ++l) {
     const int id = batch.element[static_cast<std::size_t>(l)];
     to_parts[l] = id < 0 ? nowhere : to.parts_of(id);
-    if (to.want_tangents() && !is_direct && id >= 0)
+    if (to.want_tangents() && direct == nullptr && id >= 0)
       write_matrix(
-          held_, static_cast<std::size_t>(id), n, [&](int i) { return spare[i][l]; }, to.tangent_of(id));
+          held_, static_cast<std::size_t>(id), size, [&](int i) { return spare[i][l]; }, to.tangent_of(id));
   }
-  lanes::scatter_lanes(parts, 2 * n, to_parts);
+  lanes::scatter_lanes(parts, 2 * size, to_parts);
 }
 
 /// Results of a batch of elements in space in the unknowns that their nodes have.

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "bough/elements/limits.hpp"
 #include "element_parts.hpp"
 
 namespace bough::step {
@@ -124,9 +125,6 @@ std::string describe(System& system, ResidualSize r, double tolerance) {
 
 namespace {
 
-constexpr double folded =
-    -0.95;  ///< cosine of the angle between the ends of a beam element, below which it is bent too far
-
 /// The smallest of the numbers that threads note.
 class FirstBad {
  public:
@@ -141,54 +139,6 @@ class FirstBad {
  private:
   std::atomic<std::int64_t> first_;
 };
-
-/// Whether joint `joint` of the plan flipped to its opposite pose, which satisfies the same constraints.
-bool is_flipped(const plan::Plan&, std::size_t, const elements::Joint& e, const elements::Field& f) {
-  motion::Mat3<double> R;
-  bool is_known = false;
-  for (int k = 0; k < e.num_rows; ++k) {
-    if (e.rows[k].kind != elements::RowKind::across) continue;
-    if (!is_known) R = lanes::transpose_times(eval_port_rotation(e.ports[0], f), eval_port_rotation(e.ports[1], f));
-    is_known = true;
-    if (elements::aligns_all_axes(e, k)) return R(0, 0) < 0.0 || R(1, 1) < 0.0 || R(2, 2) < 0.0;
-    if (e.rows[k].j == 2 && R(2, 2) < 0.0) return true;
-  }
-  return false;
-}
-
-/// Relative rotation of port `port` with respect to the first port, in a plane: (cos, sin).
-template <class E>
-motion::Vec2<double> eval_turn(const E& e, int port, const elements::FieldOn<motion::Se2, double>& f) {
-  return motion::conjugate_times(eval_port_rotation(e.ports[0], f), eval_port_rotation(e.ports[port], f));
-}
-
-bool is_flipped(const plan::Plan& plan, std::size_t joint, const elements::JointOn<motion::Se2>& e,
-                const elements::FieldOn<motion::Se2, double>& f) {
-  return plan.planar->has_branch[joint] != 0 && eval_turn(e, 1, f)[0] < 0.0;
-}
-
-/// Whether a beam turns by nearly half a turn over its length: cos(angle) = (trace(R_a^T R_b) - 1) / 2.
-template <class E>
-bool is_folded(const E& e, const elements::Field& f) {
-  const motion::Mat3<double> first = eval_port_rotation(e.ports[0], f);
-  for (int i = 1; i < E::num_ports; ++i) {
-    const motion::Mat3<double> other = eval_port_rotation(e.ports[i], f);
-    double trace = 0.0;
-    for (int k = 0; k < 9; ++k) trace += first.m[k] * other.m[k];
-    if (0.5 * (trace - 1.0) < folded) return true;
-  }
-  return false;
-}
-template <class E>
-bool is_folded(const E& e, const elements::FieldOn<motion::Se2, double>& f) {
-  for (int i = 1; i < E::num_ports; ++i)
-    if (eval_turn(e, i, f)[0] < folded) return true;
-  return false;
-}
-
-}  // namespace
-
-namespace {
 
 /// The message on the first element that failed the check; none if `bad` is the number of elements.
 std::optional<Trouble> describe_shape(const System& system, std::int64_t bad) {
@@ -210,12 +160,7 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
     auto by_element = [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t id = begin; id < end; ++id)
         plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
-          if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint) {
-            const auto joint = static_cast<std::size_t>(system.plan().joint_of_element[static_cast<std::size_t>(id)]);
-            if (is_flipped(plan, joint, e, f)) first_bad.note(id);
-          } else if constexpr (std::decay_t<decltype(e)>::role == elements::Role::beam) {
-            if (is_folded(e, f)) first_bad.note(id);
-          }
+          if (elements::passed_limit(e, f) != elements::Limit::none) first_bad.note(id);
         });
     };
     system.walker().for_each_chunk(count, element_grain, tree::make_chunk(by_element));
@@ -227,25 +172,6 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
   return describe_shape(system, first_bad.get());
 }
 
-namespace {
-
-double eval_angle(const plan::Plan&, std::size_t, const elements::Joint& e, const elements::Field& f, double turns) {
-  return elements::eval_joint_angle(e, f, turns);
-}
-/// The angle is that of the ports' rotations, with the sign of the joint's axis along the plane's normal. A joint whose
-/// axis lies in the plane does not turn.
-double eval_angle(const plan::Plan& plan, std::size_t joint, const elements::JointOn<motion::Se2>& e,
-                  const elements::FieldOn<motion::Se2, double>& f, double turns) {
-  constexpr double whole = 6.283185307179586476925;
-  const double sign = plan.planar->turn_sign[joint];
-  if (sign == 0.0) return turns;
-  const motion::Vec2<double> turn = eval_turn(e, 1, f);
-  const double angle = sign * motion::angle_of(turn[0], turn[1]);
-  return angle + whole * std::round((turns - angle) / whole);  // the branch nearest to the last accepted angle
-}
-
-}  // namespace
-
 void accept_turns(const System& system, State& state) {
   const plan::Plan& plan = system.plan();
   const auto count = [&]<class G>(const elements::FieldOn<G, double>& f) {
@@ -255,7 +181,7 @@ void accept_turns(const System& system, State& state) {
         plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(plan.joints[j].element)],
                            [&](const auto& e) {
                              if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
-                               state.turns[j] = eval_angle(plan, j, e, f, state.turns[j]);
+                               state.turns[j] = elements::eval_joint_angle(e, f, state.turns[j]);
                            });
       }
     };

@@ -1,5 +1,6 @@
 #include "bough/step/state.hpp"
 
+#include "bough/elements/limits.hpp"
 #include "bough/plan/frames.hpp"
 #include "moving_nodes.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <type_traits>
 
-#include "bough/plan/element_cost.hpp"
 #include "element_parts.hpp"
 
 namespace bough::step {
@@ -11,7 +10,7 @@ namespace {
 
 // Fitted by hand to the phases of steps of chains, cantilevers and lattices (bench_step, bench_lean). The costs of
 // elements are those of the machine of src/elements/README.md.
-constexpr double planar_tangent = 0.15, planar_node = 0.14;  ///< relative to one in space, as plan::planar_residual
+constexpr double planar_tangent = 0.15, planar_node = 0.14;  ///< relative to one in space, as elements::planar_residual
 constexpr double per_sum = 20e-9;   ///< gathering, summing and measuring residuals, per element and evaluation [s]
 constexpr double per_node = 90e-9;  ///< moving a node with its velocity and acceleration, per iteration [s]
 // Fronts in registers, as in swept chains: 0.10 us in addition to their flops and 0.03 us per solution, on a machine
@@ -35,9 +34,9 @@ void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, Step
   if (first < 0) return;
   const bool in_lanes = present >= least_lanes;
   plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(first)], [&](const auto& element) {
-    const plan::ElementCost& c = plan::cost<std::decay_t<decltype(element)>>;
+    const elements::Cost& c = std::decay_t<decltype(element)>::cost;
     const double count = in_lanes ? solve::lanes_wide : present, sums = present * per_sum;
-    cost.residual += (plan.planar ? plan::planar_residual : 1.0) * count * (in_lanes ? c.lane : c.alone) + sums;
+    cost.residual += (plan.planar ? elements::planar_residual : 1.0) * count * (in_lanes ? c.lane : c.alone) + sums;
     cost.tangent += (plan.planar ? planar_tangent : 1.0) * count * (in_lanes ? c.lane_tangent : c.alone_tangent) + sums;
   });
 }

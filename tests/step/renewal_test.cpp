@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "bough/plan/element_cost.hpp"
 #include "bough/step/step_cost.hpp"
 #include "lattice_scene.hpp"
 #include "small_scenes.hpp"
@@ -54,7 +53,7 @@ TEST(StepCost, counts_elements_as_they_are_evaluated) {
   ASSERT_GT(alone, rig.plan.graph.num_elements() / 2);
   const auto beams = static_cast<double>(plan::array_of<elements::Beam<2>>(rig.plan.elements).size());
   ASSERT_EQ(beams, static_cast<double>(rig.plan.directory.size()));
-  const plan::ElementCost& cost = plan::cost<elements::Beam<2>>;
+  const elements::Cost& cost = elements::Beam<2>::cost;
   const StepCost step = estimate_step_cost(rig.system);
   EXPECT_GE(step.residual, beams * cost.lane);
   EXPECT_LT(step.residual, beams * 0.5 * cost.alone);

@@ -157,6 +157,7 @@ struct LineLoadOn {
   int law = 0;
 
   static constexpr Role role = Role::load;
+  static constexpr Cost cost{200e-9 * N, 800e-9 * N, 30e-9 * N, 250e-9 * N};
   static constexpr bool has_stiffness_matrix = false, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::section;
   template <class A, class B, class Visit>

@@ -17,6 +17,7 @@ struct RigidBodyOn {
   bool is_point = false;  ///< mass holds m alone: products with its zeros are left out
 
   static constexpr Role role = Role::body;
+  static constexpr Cost cost = small_cost;
   static constexpr bool has_stiffness_matrix = false, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::port;
   template <class A, class B, class Visit>
@@ -86,6 +87,7 @@ struct PointLoadOn {
   int law = 0;
 
   static constexpr Role role = Role::load;
+  static constexpr Cost cost = small_cost;
   static constexpr bool has_stiffness_matrix = false, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::port;
   template <class A, class B, class Visit>
@@ -126,6 +128,7 @@ struct SpringOn {
   C stiffness = 0.0, rest_length = 0.0, damping = 0.0;
 
   static constexpr Role role = Role::coupling;
+  static constexpr Cost cost = small_cost;
   static constexpr bool has_stiffness_matrix = false, acts_along_line = true;
   static constexpr DataAxes data_axes = DataAxes::none;
   template <class A, class B, class Visit>
@@ -202,6 +205,7 @@ struct BushingOn {
   bool has_damping = false;
 
   static constexpr Role role = Role::coupling;
+  static constexpr Cost cost{240e-9, 870e-9, 33e-9, 184e-9};
   static constexpr bool has_stiffness_matrix = true, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::port;
   template <class A, class B, class Visit>

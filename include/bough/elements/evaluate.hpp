@@ -196,8 +196,6 @@ struct JointMotion {
   double angle_rate = 0.0;
 };
 JointMotion eval_joint_motion(const Joint& joint, const Field& field, double turns);
-/// Only the angle of eval_joint_motion.
-double eval_joint_angle(const Joint& joint, const Field& field, double turns);
 
 /// Wrench of the first body on the second at the second's joint frame, in that frame's axes [N, N m].
 Vec6<double> eval_reaction(const Joint& joint, const Field& field, const double* multipliers, double turns);

@@ -55,8 +55,13 @@ struct JointOn {
   int num_rows = 0;
   EffortOn<G, C> efforts[max_efforts];
   int num_efforts = 0;
+  /// Of a scene in a plane: the sign of the joint's axis along the normal of the plane, 0 where the axis lies in the
+  /// plane and the joint does not turn; and whether the rows would also be satisfied after half a turn.
+  int axis_sign = 1;
+  bool has_branch = false;
 
   static constexpr Role role = Role::joint;
+  static constexpr Cost cost{250e-9, 900e-9, 40e-9, 190e-9};
   static constexpr bool has_stiffness_matrix = false, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::none;
   template <class A, class B, class Visit>

@@ -51,6 +51,17 @@ enum class DataAxes : std::uint8_t {
   section,  ///< the same, and axis 1 is the reference axis
 };
 
+/// Seconds of one evaluation of an element in space, alone and as one of eight lanes: residual, and residual with
+/// tangent. For decisions and predictions of run times, in which only ratios count; measured by bench_elements on the
+/// machine of src/elements/README.md.
+struct Cost {
+  double alone, alone_tangent, lane, lane_tangent;
+};
+/// Cost of a residual in a plane relative to one in space, fitted by hand to steps of chains and lattices (bench_step,
+/// bench_lean).
+inline constexpr double planar_residual = 0.37;
+inline constexpr Cost small_cost{60e-9, 200e-9, 15e-9, 60e-9};  ///< of bodies, springs and point loads
+
 /// Whether a constant contributes, so that its terms have to be computed. A pack contributes if one of its lanes does:
 /// for the other lanes the terms are zero times a finite number and add nothing.
 inline bool is_present(double x) { return x != 0.0; }

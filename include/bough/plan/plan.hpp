@@ -148,10 +148,6 @@ struct PlanarModel {
   motion::Vec3<double> origin;    ///< origin of the coordinates in the plane
   PlanarArrays elements;          ///< at the indices of Plan::elements
   std::vector<PlanarNode> nodes;  ///< in the order of Plan::nodes
-  /// For each joint the sign of its angle in the plane; 0 where its axis lies in the plane.
-  std::vector<double> turn_sign;
-  /// For each joint whether its rows hold an angle in the plane that would also satisfy them after half a turn.
-  std::vector<char> has_branch;
 };
 
 struct Plan {
