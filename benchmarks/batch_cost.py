@@ -6,6 +6,7 @@ between cases with and without results (writing), relative to the whole; for cas
 results in stores and in folders. Then two workers with folders are compared with two loops of `bough run` at the
 same time. Compared runs alternate; medians of ROUNDS rounds are printed, since other work on the machine makes
 seconds longer."""
+import itertools
 import json
 import os
 import pathlib
@@ -17,6 +18,7 @@ import tempfile
 
 program, scenarios = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
 rounds = int(sys.argv[3]) if len(sys.argv) > 3 else 5
+numbers = itertools.count()
 scene = scenarios / "rod_chain.json"  # ten rods, 1 ms a step
 
 
@@ -36,7 +38,8 @@ def sweep(folder, name, cases, end, keep, threads=1):
         "set": [{"pointer": "/analysis/end_time", "value": end}, {"pointer": "/expected", "value": []}],
         "designs": [{"kind": "random", "samples": cases, "variables": [
             {"name": "g", "distribution": {"kind": "uniform", "low": 9, "high": 10}}]}]}))
-    return cpu([program, "sweep", str(file), "--out", str(folder / name), "--keep", keep, "--threads", str(threads), "--quiet"]) / cases
+    out = folder / f"{name} {next(numbers)}"  # a new one: removing and replacing former results is not writing
+    return cpu([program, "sweep", str(file), "--out", str(out), "--keep", keep, "--threads", str(threads), "--quiet"]) / cases
 
 
 with tempfile.TemporaryDirectory(dir=os.environ.get("BOUGH_SCRATCH")) as folder:

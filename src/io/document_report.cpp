@@ -141,7 +141,7 @@ std::string Report::summary(const JsonValue& v) const {
   const JsonValue& told = name != nullptr && name->is(JsonKind::string) ? *name : v;
   const std::string written = excerpt(told.source, told.offset, told.length);
   if (!told.is_made) return written;
-  if (told.is(JsonKind::string)) return "\"" + shown(told.text.str()) + "\"";
+  if (told.is(JsonKind::string)) return shown_in_quotes(told.text.str());
   return written + " = " + rounded_text(told.number, 6);
 }
 

@@ -162,4 +162,10 @@ std::string shown(std::string_view text, std::size_t limit) {
   return r;
 }
 
+std::string shown_in_quotes(std::string_view text, std::size_t limit) {
+  std::string r = "\"";
+  for (const char c : shown(text, limit)) r += c == '"' ? std::string("\\\"") : std::string(1, c);
+  return r + "\"";
+}
+
 }  // namespace bough::io

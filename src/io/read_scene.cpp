@@ -33,7 +33,7 @@ void add_scene_problems(const Converter& converter, Report& report) {
     if (!p.key.empty()) pointer += "/" + p.key;
     PlacedFault f{pointer, p.value, p.rule, p.hint};
     const bool is_name = !f.value.empty() && f.value.find_first_not_of("-+.0123456789eE, ") != std::string::npos;
-    if (is_name) f.value = "\"" + shown(f.value) + "\"";
+    if (is_name) f.value = shown_in_quotes(f.value);
     report.add(f, p.is_warning);
     report.count_others(p.more, p.is_warning);
   }

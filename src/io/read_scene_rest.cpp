@@ -168,6 +168,18 @@ void Converter::read_measured_names(const Value& v, const std::string& at, scene
     names.push_back(name);
     m.names.emplace_back(name, of->items[i].text);
   }
+  const auto is_measure = [&](const auto& named) {
+    const std::string sensor = named.second.substr(0, named.second.find('.'));
+    return named.second != m.name && measure_names_.count(named.second) > 0 &&
+           std::none_of(scene.sensors.begin(), scene.sensors.end(), [&](const auto& s) { return s.name == sensor; });
+  };
+  const auto num_measures = static_cast<std::size_t>(std::count_if(m.names.begin(), m.names.end(), is_measure));
+  m.is_of_measures = num_measures > 0;
+  if (num_measures > 0 && num_measures < m.names.size())
+    fault(at + "/of", "names quantities of sensors and measures, and an expression is of the ones or of the others");
+  if (m.is_of_measures && (m.kind != scene::MeasureKind::value || m.time))
+    fault(at, "measures are numbers of the whole run, so their expression has no figure over time",
+          "leave out \"figure\" and \"time\"");
   if (names.empty())
     return fault(at, "an expression needs the key \"of\" with its quantities", "\"of\": {\"x\": \"tip.x\"}");
   try {

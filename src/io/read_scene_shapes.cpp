@@ -15,7 +15,7 @@ std::optional<scene::Outline> Converter::outline(const Value& v, const std::stri
                                              ? OrFault<scene::Outline>(std::in_place_index<1>, std::get<1>(text))
                                              : outline_of_text(std::get<0>(text));
     if (read.index() == 1) {
-      fault(at + "/file", std::get<1>(read), "", "\"" + shown(file->text.str()) + "\"");
+      fault(at + "/file", std::get<1>(read), "", shown_in_quotes(file->text.str()));
       return std::nullopt;
     }
     outline = std::get<0>(read);
@@ -43,7 +43,7 @@ void Converter::body_looks(const Value& v, const std::string& at, scene::Body& b
   const OrFault<std::string> text = files.read(name, max_file_bytes);
   const OrFault<scene::Mesh> read = text.index() == 1 ? OrFault<scene::Mesh>(std::in_place_index<1>, std::get<1>(text))
                                                       : mesh_of_text(std::get<0>(text), ending);
-  const auto wrong = [&](const std::string& words) { fault(at + "/looks/file", words, "", "\"" + shown(name) + "\""); };
+  const auto wrong = [&](const std::string& words) { fault(at + "/looks/file", words, "", shown_in_quotes(name)); };
   if (read.index() == 1) return wrong(std::get<1>(read));
   scene::Mesh mesh = std::get<0>(read);
   if (!files.count(mesh)) return wrong("all surfaces of the scene together are too large for pictures");

@@ -129,8 +129,8 @@ laws::Law ValueConverter::law(const Value& v, const std::string& at) {
   } catch (const laws::LawError& e) {
     if (const Value* formula = v.find("expression"))
       fault(at + "/expression", e.what(),
-            "at character " + std::to_string(e.position + 1) + ": \"" +
-                shown(formula->text.str().substr(std::min(e.position, formula->text.str().size())), 20) + "\"");
+            "at character " + std::to_string(e.position + 1) + ": " +
+                shown_in_quotes(formula->text.str().substr(std::min(e.position, formula->text.str().size())), 20));
     else
       fault(at, e.what());
     return {};

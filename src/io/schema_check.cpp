@@ -149,7 +149,7 @@ class Checker {
       x = laws::eval_constant(formula.text);
     } catch (const laws::LawError& e) {
       const std::string& text = formula.text;
-      return fail(formula, at, e.what(), "at \"" + shown(text.substr(std::min(e.position, text.size())), 20) + "\"");
+      return fail(formula, at, e.what(), "at " + shown_in_quotes(text.substr(std::min(e.position, text.size())), 20));
     }
     if (!std::isfinite(x)) return fail(formula, at, "gives " + shown_number(x) + ", and numbers are finite");
     value.kind = JsonKind::number;

@@ -13,7 +13,7 @@ bool Measures::is_figure(const scene::Measure& measure) {
 
 Measures::Measures(const scene::Scene& scene, const records::HistoryHeader& header) {
   for (const scene::Measure& m : scene.measures)
-    if (!is_figure(m)) measures_.push_back({&m, quantity_of(m, header)});
+    if (!is_figure(m) && !m.is_of_measures) measures_.push_back({&m, quantity_of(m, header)});
 }
 
 std::size_t Measures::quantity_of(const scene::Measure& measure, const records::HistoryHeader& header) {
@@ -121,7 +121,11 @@ std::optional<double> figure_of(const scene::Measure& m, const Series& s) {
 
 }  // namespace
 
-std::string unit_of(const scene::Measure& measure, const records::HistoryHeader& header) {
+namespace {
+
+/// unit_of_quantity: of those that the measure names.
+std::string unit_of(const scene::Measure& measure, const records::HistoryHeader& header,
+                    const std::function<std::string(const std::string&)>& unit_of_quantity) {
   switch (measure.kind) {
     case MeasureKind::time_of_max:
     case MeasureKind::time_of_min:
@@ -142,18 +146,51 @@ std::string unit_of(const scene::Measure& measure, const records::HistoryHeader&
     case MeasureKind::equivalent_range:
       break;
   }
-  const auto unit_of_column = [&header](const std::string& name) {
+  if (measure.expression.empty()) return unit_of_quantity(measure.quantity);
+  std::vector<std::string> names, units;
+  for (const auto& [name, column] : measure.names) {
+    names.push_back(name);
+    units.push_back(unit_of_quantity(column));
+  }
+  return laws::Formula(measure.expression, names).unit(units);
+}
+
+}  // namespace
+
+std::vector<std::string> units_of_measures(const scene::Scene& scene, const records::HistoryHeader& header) {
+  std::vector<std::string> units;
+  const auto unit_of_column = [&](const std::string& name) {
     const auto at = static_cast<std::size_t>(std::find(header.columns.begin(), header.columns.end(), name) -
                                              header.columns.begin());
     return at < header.about.size() ? header.about[at].unit : std::string();
   };
-  if (measure.expression.empty()) return unit_of_column(measure.quantity);
-  std::vector<std::string> names, units;
-  for (const auto& [name, column] : measure.names) {
-    names.push_back(name);
-    units.push_back(unit_of_column(column));
+  const auto unit_of_measure = [&](const std::string& name) {
+    for (std::size_t k = 0; k < units.size(); ++k)
+      if (scene.measures[k].name == name) return units[k];
+    return std::string();
+  };
+  for (const scene::Measure& m : scene.measures) {
+    if (m.is_of_measures)
+      units.push_back(unit_of(m, header, unit_of_measure));
+    else
+      units.push_back(unit_of(m, header, unit_of_column));
   }
-  return laws::Formula(measure.expression, names).unit(units);
+  return units;
+}
+
+std::optional<double> value_of_measures(const scene::Measure& measure,
+                                        std::span<const records::MeasureResult> earlier) {
+  std::vector<std::string> names;
+  std::vector<double> values;
+  for (const auto& [name, other] : measure.names) {
+    const auto at =
+        std::find_if(earlier.begin(), earlier.end(), [&other = other](const auto& m) { return m.name == other; });
+    if (at == earlier.end() || !at->value) return std::nullopt;
+    names.push_back(name);
+    values.push_back(*at->value);
+  }
+  const double value = laws::Formula(measure.expression, names)(values);
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 bool is_indicator(const scene::Measure& measure) {

@@ -131,6 +131,10 @@ void Recording::take_figures() {
     if (Measures::is_figure(m)) {
       how = s.expected[next_figure++];
       if (how.reached && how.has_value && std::isfinite(how.value)) measured.value = how.value;
+    } else if (m.is_of_measures) {
+      measured.value = value_of_measures(m, s.measures);
+      how.taken = "from other measures";
+      how.reached = true;
     } else {
       measured = of_whole_run[next_measure++];
       how.taken = "from the ends of all accepted steps";

@@ -158,7 +158,8 @@ void check_quantity(ProblemList& list, const char* section, std::size_t i, const
 void check_measure(ProblemList& list, std::size_t i) {
   const Measure& m = list.scene.measures[i];
   if (m.expression.empty()) check_quantity(list, "measures", i, "quantity", m.quantity);
-  for (const auto& [name, quantity] : m.names) check_quantity(list, "measures", i, "of/" + name, quantity);
+  if (!m.is_of_measures)
+    for (const auto& [name, quantity] : m.names) check_quantity(list, "measures", i, "of/" + name, quantity);
   const std::string figure = to_string(m.kind);
   const bool is_static = list.scene.analysis.kind == AnalysisKind::statics;
   const bool is_of_time = m.kind == MeasureKind::period || m.kind == MeasureKind::dominant_frequency ||

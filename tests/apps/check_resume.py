@@ -17,7 +17,9 @@ failures = []
 
 
 def run(words):
-    return subprocess.run([program, *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+    """Its status, followed by what it said if it failed."""
+    done = subprocess.run([program, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    return "0" if done.returncode == 0 else f"{done.returncode} ({done.stderr[-300:].strip()})"
 
 
 def disturb(words, out, whole, seconds):
@@ -32,10 +34,11 @@ def disturb(words, out, whole, seconds):
         if which == signal.SIGTERM and status not in (0, 3, -signal.SIGTERM):
             failures.append(f"{words[0]}: status {status} after SIGTERM")
     status = run([*words, "--out", out, "--resume"])
-    if status != 0:
+    if status != "0":
         failures.append(f"{words[0]}: status {status} of --resume")
     for name in TABLES:
-        if (pathlib.Path(out) / name).read_bytes() != (whole / name).read_bytes():
+        table = pathlib.Path(out) / name
+        if not table.exists() or table.read_bytes() != (whole / name).read_bytes():
             failures.append(f"{words[0]}: {name} is not that of an undisturbed run")
 
 
@@ -51,7 +54,7 @@ with tempfile.TemporaryDirectory() as folder:
     for number, words in enumerate(commands):
         whole = folder / f"whole{number}"
         start = time.monotonic()
-        if run([*words, "--out", str(whole)]) != 0:
+        if run([*words, "--out", str(whole)]) != "0":
             failures.append(f"{words[0]}: the undisturbed run failed")
         seconds = time.monotonic() - start
         for k in range(kills // len(commands) + 1):

@@ -175,6 +175,35 @@ TEST(Measures, measures_change_no_bit_of_the_run) {
   EXPECT_EQ(measured.summary.measures.size(), 1u);
 }
 
+TEST(Measures, a_measure_may_be_one_of_earlier_measures) {
+  const scene::Scene scene = support::scene_of(std::string("{") + oscillator + R"x(, "measures": [
+      {"name": "top", "quantity": "a.x", "figure": "max"},
+      {"name": "speed", "expression": "abs(v)", "of": {"v": "v.vx"}, "figure": "max"},
+      {"name": "ratio", "expression": "v/(w*(x - 1))", "of": {"x": "top", "v": "speed"}, "value": 1, "tolerance": 1e-2},
+      {"name": "above", "expression": "step(x - 1.5)", "of": {"x": "top"}},
+      {"name": "below", "expression": "1 - a", "of": {"a": "above"}},
+      {"name": "late", "quantity": "a.x", "time": 5},
+      {"name": "none", "expression": "x + y", "of": {"x": "top", "y": "late"}},
+      {"name": "infinite", "expression": "1/x", "of": {"x": "below"}}]})x");
+  const support::Outcome run = support::run(scene);
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  std::map<std::string, std::optional<double>> by_name;
+  for (const records::MeasureResult& m : run.summary.measures) by_name[m.name] = m.value;
+  ASSERT_EQ(by_name.size(), 8u);
+  EXPECT_DOUBLE_EQ(by_name["ratio"].value(), *by_name["speed"] / (2.0 * pi * (*by_name["top"] - 1.0)));
+  EXPECT_EQ(by_name["above"].value(), 1.0);
+  EXPECT_EQ(by_name["below"].value(), 0.0);
+  EXPECT_FALSE(by_name["none"].has_value());
+  EXPECT_FALSE(by_name["infinite"].has_value());
+  ASSERT_EQ(run.summary.expected.size(), 1u);
+  EXPECT_EQ(run.summary.expected[0].verdict(), "holds");
+  EXPECT_EQ(units_of_measures(scene, run.summary.header),
+            (std::vector<std::string>{"m", "m/s", "", "", "", "m", "m", ""}));
+  std::vector<bool> indicators;
+  for (const scene::Measure& m : scene.measures) indicators.push_back(is_indicator(m));
+  EXPECT_EQ(indicators, (std::vector<bool>{false, false, false, true, false, false, false, false}));
+}
+
 TEST(Measures, what_is_wrong_with_a_measure_is_told) {
   const std::pair<const char*, const char*> cases[] = {
       {R"({"name": "m", "quantity": "b.x"})", "no sensor"},
@@ -183,6 +212,11 @@ TEST(Measures, what_is_wrong_with_a_measure_is_told) {
       {R"({"name": "m", "expression": "1"})", "\"of\""},
       {R"({"name": "m", "expression": "x + y", "of": {"x": "a.x"}})", "y"},
       {R"({"name": "m", "expression": "x", "of": {"x": "a.w"}})", "components"},
+      {R"({"name": "m", "expression": "m", "of": {"m": "m"}})", "no sensor"},
+      {R"({"name": "n", "quantity": "a.x"}, {"name": "m", "expression": "n", "of": {"n": "n"}, "figure": "max"})",
+       "leave out"},
+      {R"({"name": "n", "quantity": "a.x"}, {"name": "m", "expression": "n + x", "of": {"n": "n", "x": "a.x"}})",
+       "of the others"},
       {R"({"name": "m", "quantity": "a.x", "figure": "settling_time"})", "band"},
       {R"({"name": "m", "quantity": "a.x", "figure": "maximum"})", "has to be"},
       {R"({"name": "m", "quantity": "a.x", "figure": "max", "time": 1})", "whole run"},

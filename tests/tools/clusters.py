@@ -108,9 +108,13 @@ def with_slurm(folder, sweep, whole):
             first = log.read_text().splitlines()[:1]
             if first and "shard" in first[0]:
                 print(log.name, first[0])
-        # a limit of time, with SIGTERM ahead of it: slow cases, one task, submitted until it is done
-        slow = folder / "slow"
-        words = ["--set", "/analysis/step_size=3e-6", "--keep", "none"]
+        # A limit of time, with SIGTERM before it: cases that take about 70 s in one task, submitted until they are done.
+        # Slurm looks at limits every half a minute only, so shorter ones may end before the signal.
+        slow, step = folder / "slow", 2e-5
+        options = lambda step: ["--set", f"/analysis/step_size={step:g}", "--keep", "none"]
+        start = time.monotonic()
+        run([program, "sweep", sweep, "--out", folder / "timed", "--threads", 1, "--quiet", *options(step)], folder)
+        words = options(step * (time.monotonic() - start) / 70.0)
         run([program, "sweep", sweep, "--out", folder / "slow whole", "--threads", 2, "--quiet", *words], folder)
         run([program, "sweep", sweep, "--out", slow, "--export", "slurm", "--tasks", 1, "--threads", 1, *words], folder)
         for attempt in range(10):

@@ -163,5 +163,7 @@ class LineIndex {
 
 /// A part of a text for display: control characters and bad UTF-8 escaped, cut after `limit` characters.
 std::string shown(std::string_view text, std::size_t limit = 60);
+/// The same in quotes, with a backslash before quotes within.
+std::string shown_in_quotes(std::string_view text, std::size_t limit = 60);
 
 }  // namespace bough::io

@@ -41,8 +41,12 @@ std::vector<LoadCycle> rainflow_of(std::span<const double> values);
 /// Range of `number` equal cycles that cause the same damage: (sum n_i r_i^m / number)^(1/m), m = exponent.
 double equivalent_range(std::span<const LoadCycle> cycles, double exponent, double number);
 
-/// Unit of a measure; empty for a pure number, and where it does not follow from an expression (laws::Formula::unit).
-std::string unit_of(const scene::Measure& measure, const records::HistoryHeader& header);
+/// Units of all measures of a scene; empty for pure numbers, and where the unit does not follow from an expression
+/// (laws::Formula::unit).
+std::vector<std::string> units_of_measures(const scene::Scene& scene, const records::HistoryHeader& header);
+
+/// Value of a measure of earlier ones; none where one of them has none.
+std::optional<double> value_of_measures(const scene::Measure& measure, std::span<const records::MeasureResult> earlier);
 
 /// Whether a measure is 1 where something happens in a run and 0 elsewhere, by its expression: the largest, the least or
 /// the last value of one that is always 0 or 1.

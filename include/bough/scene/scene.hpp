@@ -350,6 +350,7 @@ struct Measure {
   std::string quantity;    ///< "<sensor>.<component>" or "<sensor>"; empty: the expression
   std::string expression;  ///< of `names`
   std::vector<std::pair<std::string, std::string>> names;  ///< in the expression, each with its quantity
+  bool is_of_measures = false;  ///< these quantities are earlier measures, and the value is that of the expression
   MeasureKind kind = MeasureKind::value;
   std::optional<double> time;    ///< of `value`; none: at the end
   std::optional<double> level;   ///< of `period`; none: 0

@@ -41,12 +41,10 @@ void CaseReport::take(const records::Summary& summary, const scene::Scene& scene
   for (const records::Doubt& d : summary.doubts)
     if (std::find(doubts.begin(), doubts.end(), d.about) == doubts.end()) doubts.push_back(d.about);
   measures = summary.measures;
-  units.clear();
+  units = run::units_of_measures(scene, summary.header);
   indicators.clear();
-  for (const scene::Measure& m : scene.measures) {
-    if (run::is_indicator(m)) indicators.push_back(units.size());
-    units.push_back(run::unit_of(m, summary.header));
-  }
+  for (std::size_t k = 0; k < scene.measures.size(); ++k)
+    if (run::is_indicator(scene.measures[k])) indicators.push_back(k);
   const records::Checks& checks = summary.checks;
   energy_error = constraint_error = std::nullopt;
   if (checks.evaluated && checks.energy_scale > 0.0) energy_error = checks.energy_balance / checks.energy_scale;

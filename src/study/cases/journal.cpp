@@ -137,9 +137,11 @@ int open_locked(const std::filesystem::path& file, int flags) {
   return -1;
 }
 
-/// As open_locked, but waits a moment for cases of a killed batch, which are about to end.
+/// As open_locked, but waits up to six seconds for workers of a killed batch: one that has called fsync ends only when
+/// the disk has answered.
 int open_mine(const std::filesystem::path& file, int flags) {
-  for (int k = 0; k < 100; ++k) {
+  constexpr int most_tries = 300;
+  for (int k = 0; k < most_tries; ++k) {
     if (const int descriptor = open_locked(file, flags); descriptor >= 0) return descriptor;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
