@@ -166,7 +166,8 @@ def read_npy(path, columns=None):
 
 
 def read(directory):
-    """The results of a run."""
+    """The results of a run: of its folder, or of the hidden one beside it, .NAME.bough-new, which a run fills until it is
+    done and which a run that was killed leaves behind; that one has no units."""
     return Run(directory)
 
 
@@ -216,11 +217,14 @@ def _number(text):
 
 def _read_table(directory):
     """Names of the columns, and all rows: those of history.npy where the history is long, else of history.csv, of which
-    rows that a crash cut off are left out."""
-    with open(directory / "history.csv", encoding="utf-8", newline="") as file:
+    rows that a crash cut off are left out. While a run goes on, and after it was killed, both end with .partial."""
+    table, twin = directory / "history.csv", directory / "history.npy"
+    if not table.exists():
+        table, twin = directory / "history.csv.partial", directory / "history.npy.partial"
+    with open(table, encoding="utf-8", newline="") as file:
         names = next(csv.reader(file))
-        if (directory / "history.npy").exists():
-            return names, read_npy(directory / "history.npy", len(names))
+        if twin.exists():
+            return names, read_npy(twin, len(names))
         rows = [row.split(",") for row in file.read().split("\n")]
     whole = [row for row in rows if len(row) == len(names)]
     return names, numpy.array(whole, dtype=float).reshape(len(whole), len(names))

@@ -4,8 +4,10 @@ units, values to the last bit, pictures against the history, errors in words. Ex
 import json
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
+import time
 
 try:
     import numpy
@@ -89,6 +91,25 @@ def main():
     cut = bough.read_npy(folder / "cut.npy")
     missing = -(-70 // (8 * len(long.columns)))
     assert len(cut) == 11001 - missing and numpy.array_equal(cut, loaded[:-missing])
+
+    # A run that is killed leaves its rows in the folder that it fills: both files tell them, the same to the last bit.
+    (folder / "killed").mkdir()
+    words = [sys.argv[1], "run", scene, "--out", folder / "killed/out", "--quiet", "--set", "/analysis/step_size=1e-5",
+             "--set", "/analysis/end_time=1000"]
+    run = subprocess.Popen(words)
+    until, twin = time.monotonic() + 60, []
+    while time.monotonic() < until and run.poll() is None and not (twin and twin[0].stat().st_size > 1_000_000):
+        twin = list((folder / "killed").rglob("history.npy.partial"))
+        time.sleep(0.05)
+    run.kill()
+    run.wait()
+    assert twin, "no history.npy.partial within a minute"
+    left = bough.read(twin[0].parent)
+    assert left.status == "unfinished" and len(left) > 10_001 and left.columns == long.columns, len(left)
+    assert numpy.array_equal(left._table[:5000], loaded[:5000]), "not the rows of the run that was not killed"
+    rows = twin[0].with_name("history.csv.partial").read_text().splitlines()
+    for k in [0, 9999, 10001, min(len(rows) - 3, len(left) - 1)]:
+        assert [float(v) for v in rows[k + 1].split(",")] == list(left._table[k]), k
 
     try:
         bough.run(scene, folder / "bad", set={"/analysis/step_size": -1})

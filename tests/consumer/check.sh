@@ -43,6 +43,10 @@ cmake --install "$build" --prefix "$prefix" > "$scratch/$kind/install.log"
 cmake -G Ninja -S "$project" -B "$user" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" $hidden
 cmake --build "$user"
 "$user/consumer" "$source"
+if [ "$kind" = static ] && [ -x "$prefix/bin/bough" ] && command -v python3 > /dev/null; then
+  # What is installed for notebooks works there; 77: there is no NumPy.
+  python3 "$source/tests/apps/check_python.py" "$prefix/bin/bough" "$prefix/share/bough/python" || [ $? = 77 ]
+fi
 [ "$kind" = minimal ] || exit 0
 
 left_out='metis|klu|libamd|libbtf|colamd|suitesparse|nlohmann|muparser|CLI11'
