@@ -95,7 +95,8 @@ std::vector<std::vector<std::size_t>> parts_of(const Table& table) {
 /// Rows of a table as cards in windows up to a width.
 std::string cards_style(std::string_view width, const std::string& table) {
   std::string rules = "@media screen and (max-width:" + std::string(width) + "){";
-  rules += table + " thead{display:none}" + table + "," + table + " tbody," + table + " tr{display:block}";
+  rules += table + " thead{display:none}" + table + "," + table + " caption," + table + " tbody," + table +
+           " tr{display:block}";
   rules += table + " tr{padding:6px 0;border-bottom:1px solid #a9a8a0}";
   rules += table +
            " td{display:flex;gap:12px;justify-content:space-between;min-width:0;padding:1px "

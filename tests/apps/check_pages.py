@@ -93,7 +93,8 @@ def make_pages():
     """Views that are handled, and all pages."""
     short = ["--set", "/analysis/end_time=0.5"]
     views = [make_view(name, SOURCE / f"data/gallery/{name}.json", *short) for name in ("robot_arm", "rotor")]
-    views.append(make_view("rotor_on_vehicle", SOURCE / "data/scenarios/rotor_on_vehicle.json", *short))
+    views.append(make_view("rotor_on_vehicle", SOURCE / "data/scenarios/rotor_on_vehicle.json", *short,
+                           "--set", "/output/motion=true"))
     views.append(make_view("names", NAMES))
     pages = views + [make_view("parts", PARTS)]
     pages.append(make_view("one_plot", {**PARTS, "sensors": [{"name": "angle", "kind": "joint_angle", "joint": "hinge"}]}))
@@ -220,6 +221,19 @@ def check_zero(chromium, page, zeros):
     return chromium.faults
 
 
+def check_pairs(chromium, page):
+    """Of two runs, each plot lays columns of one name over each other, and the next one shows their difference."""
+    chromium.open(page)
+    plots = chromium.evaluate("boughView.plots.map((p) => [p.title, p.unit, p.series.map((s) => s.label)])")
+    faults = [] if plots else [f"{page}: no plots"]
+    for (title, unit, labels), (_, unit_of_gap, gaps) in zip(plots[::2], plots[1::2]):
+        half = len(labels) // 2
+        names = [label.removesuffix(" A") for label in labels[:half]]
+        if [n + " B" for n in names] != labels[half:] or [n + " A - B" for n in names] != gaps or unit != unit_of_gap:
+            faults.append(f"{page}: {title} [{unit}] lays {labels} over each other, difference {gaps} [{unit_of_gap}]")
+    return faults + chromium.faults
+
+
 def check_maps(chromium, page):
     chromium.open(page)
     return chromium.evaluate((SOURCE / "tests/tools/view_maps.js").read_text(encoding="utf-8"))
@@ -248,6 +262,7 @@ def main():
         more = {"saved files": sum(saved, []), "less motion": check_calm(chromium, "robot_arm/view.html"),
                 "far travel": check_far(chromium, "far/view.html"),
                 "zero": check_zero(chromium, "roll_up/view.html", 1) + check_zero(chromium, "swing/view.html", 0),
+                "two runs": check_pairs(chromium, "softer/view.html"),
                 "maps of colours": check_maps(chromium, "robot_arm/view.html")}
         for name, found in more.items():
             print(f"{name}: {len(found)} faults")

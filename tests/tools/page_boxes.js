@@ -76,7 +76,7 @@
       faults.add(`columns are cut: ${words(table.textContent)}`);
   }
   // A column is a letter wide where its words break into letters.
-  for (const cell of document.querySelectorAll("td, th")) {
+  for (const cell of document.querySelectorAll("td, th, caption, figcaption, p, li, summary, h1, h2, h3")) {
     const text = cell.textContent.trim(),
       box = cell.getBoundingClientRect();
     if (text.length > 3 && isSeen(cell) && box.width < 30 && box.height > 60) faults.add(`a column is a letter wide: ${words(text)}`);

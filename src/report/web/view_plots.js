@@ -22,7 +22,9 @@ function startPlots(view) {
     const other =
       b &&
       b.plots.find(function (p) {
-        return p.title === plot.title && p.columns.length === plot.columns.length;
+        // Forces and moments of one sensor have one title.
+        const same = p.title === plot.title && p.unit === plot.unit && p.columns.length === plot.columns.length;
+        return same && p.columns.every((c, k) => c.label === plot.columns[k].label);
       });
     const series = seriesOf(a, plot, false, b ? " A" : "").concat(other ? seriesOf(b, other, true, " B") : []);
     const roundOff = Math.max(plot.roundOff, other ? other.roundOff : 0);
