@@ -38,6 +38,7 @@ h3{font-size:15px;margin:18px 0 4px}caption{text-align:left;padding:0 0 4px;colo
 td.number,th.number{text-align:right}td.number{white-space:nowrap}td:first-child{min-width:9em}.good{color:#00684a}.bad{color:#b3261e}.soft-text{color:#52514e}a{color:#1c5cab}
 tr.chosen td{background:#fbe3d8}th button{min-width:0;padding:0;border:0;background:none;font-weight:600;color:inherit;cursor:pointer}
 #cases td{cursor:default}
+@media screen and (max-width:640px){figure,#scatter{overflow-x:auto}svg[viewBox^="0 0 960"]{min-width:640px}}
 @media (prefers-color-scheme:dark){.cards td::before{color:#c3c2b7!important}tr.chosen td{background:#5a2f1c}body{background:#0d0d0d;color:#fff}.lead,.reading{color:#c3c2b7}td,th{border-color:#383835}
 .plot{background:#1a1a19}.plot.lit{outline-color:#f2b632}.plot-tools{color:#c3c2b7}.legend{background:#1a1a19cc}.key.s3 i{color:#9085e9}.tip{background:#fff;color:#0b0b0b}
 caption,figcaption,.soft-text{color:#c3c2b7}.good{color:#5ad0a5}.bad{color:#ff8a80}a{color:#86b6ef}}

@@ -18,6 +18,8 @@
     if (frame.width > 1.35 * width) faults.add(`a drawing is blown up ${(frame.width / width).toFixed(2)} times`);
     const texts = Array.from(drawing.querySelectorAll("text")).filter((t) => isSeen(t) && t.getBoundingClientRect().width > 0),
       boxes = texts.map((t) => t.getBoundingClientRect());
+    const size = Math.min(...texts.map((t) => (parseFloat(getComputedStyle(t).fontSize) * frame.width) / width));
+    if (size < 7) faults.add(`texts of a drawing are ${size.toFixed(1)} px high: ${words(texts[0].textContent)}`);
     // Labels of one axis that read alike tell nothing.
     const labels = texts.filter((t) => t.getAttribute("text-anchor") === "end").map((t) => t.getAttribute("x") + " " + t.textContent);
     for (const label of labels)
