@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""batch_many.py PROGRAM SCENARIOS [CASES] [few|none]   what very many cases cost besides their steps: a sweep of CASES (100000)
-pendulums of five steps with one variable and two measures, by one worker; the same once more with --resume; what a million
-would take in proportion. `few` stores their results, `none` keeps the rows only."""
+"""batch_many.py PROGRAM SCENARIOS [CASES] [few|none]   what very many cases cost besides their steps
+
+A sweep of CASES (100000) pendulums of five steps with one variable and two measures, by one worker; the same once more
+with --resume; what a million would take in proportion. `few` stores their results, `none` keeps the rows only."""
 import json
 import os
 import pathlib
@@ -38,7 +39,8 @@ def sweep(folder, count):
     file.write_text(json.dumps({
         "schema_version": 1, "scene": str(scenarios / "pendulum.json"),
         "set": [{"pointer": "/analysis/end_time", "value": 0.01}, {"pointer": "/expected", "value": []}],
-        "measures": [{"name": "low", "quantity": "bob.z", "figure": "min"}, {"name": "mean", "quantity": "bob.x", "figure": "mean"}],
+        "measures": [{"name": "low", "quantity": "bob.z", "figure": "min"},
+                     {"name": "mean", "quantity": "bob.x", "figure": "mean"}],
         "designs": [{"kind": "random", "samples": count, "variables": [
             {"name": "g", "pointer": "/gravity/2", "distribution": {"kind": "uniform", "low": -10, "high": -9}}]}]}))
     return file
@@ -58,5 +60,6 @@ with tempfile.TemporaryDirectory(dir=os.environ.get("BOUGH_SCRATCH")) as folder:
     again, memory_again = run(["sweep", sweep(folder, cases), "--out", out, "--keep", keep, "--threads", 1, "--resume"])
     print(f"--resume where all is done: {again:.1f} s, {memory_again:.0f} MB in the parent")
     share = 1e6 / cases
-    print(f"1000000 cases in proportion: {share * seconds / 60:.0f} min on one thread, {least + share * (memory - least):.0f} MB in "
-          f"the parent ({least + share * (memory_again - least):.0f} MB to resume), {share * size / 1e3:.1f} GB in {len(files)} files")
+    print(f"1000000 cases in proportion: {share * seconds / 60:.0f} min on one thread, "
+          f"{least + share * (memory - least):.0f} MB in the parent, "
+          f"{least + share * (memory_again - least):.0f} MB to resume, {share * size / 1e3:.1f} GB in {len(files)} files")

@@ -19,8 +19,9 @@ void add_measure_rules(RuleTable& t) {
        may("quantity", text_rule(""), "\"<sensor>.<component>\", or \"<sensor>\" for a scalar."),
        may("expression", text_rule(""), "In place of a quantity: a formula of the names in `of` and of parameters."),
        may("of", made(std::move(of)),
-           "Of an expression: its quantities, or the names of measures that come before this one; then its value is that "
-           "of the formula, without a figure."),
+           "Of an expression: its quantities, or names of measures that come before this one; its value is then that "
+           "of "
+           "the formula, without a figure."),
        may("figure", word_rule("", figures),
            "value, max, min, time_of_max, time_of_min, range (peak to peak), period: as of expected figures. mean, "
            "rms: over "

@@ -108,7 +108,7 @@ def with_slurm(folder, sweep, whole):
             first = log.read_text().splitlines()[:1]
             if first and "shard" in first[0]:
                 print(log.name, first[0])
-        # A limit of time, with SIGTERM before it: cases that take about 70 s in one task, submitted until they are done.
+        # A limit of time, with SIGTERM before it: about 70 s of cases in one task, submitted until they are done.
         # Slurm looks at limits every half a minute only, so shorter ones may end before the signal.
         slow, step = folder / "slow", 2e-5
         options = lambda step: ["--set", f"/analysis/step_size={step:g}", "--keep", "none"]

@@ -48,8 +48,8 @@ std::vector<std::string> units_of_measures(const scene::Scene& scene, const reco
 /// Value of a measure of earlier ones; none where one of them has none.
 std::optional<double> value_of_measures(const scene::Measure& measure, std::span<const records::MeasureResult> earlier);
 
-/// Whether a measure is 1 where something happens in a run and 0 elsewhere, by its expression: the largest, the least or
-/// the last value of one that is always 0 or 1.
+/// Whether a measure is 1 where something happens in a run and 0 elsewhere, by its expression: the largest, the least
+/// or the last value of one that is always 0 or 1.
 bool is_indicator(const scene::Measure& measure);
 
 /// Records the quantities of a scene's measures during a run and computes their figures at its end.
