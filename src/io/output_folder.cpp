@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <system_error>
+#include <thread>
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/digest.hpp"
@@ -178,12 +180,15 @@ std::string OutputFolder::taken_by_another() const {
   return "cannot write into " + shown_.string() + ": another run is writing it";
 }
 
-/// Makes the staging folder and locks it. Another process that holds it may end in the meantime and remove it.
+/// Makes the staging folder and locks it. Another process that holds it may end in the meantime and remove it. A second
+/// is waited for one that was killed: the worker of a batch lets go of its journal, so that the next batch begins, some
+/// time before it lets go of the folder of its case.
 void OutputFolder::claim_staging() {
-  constexpr int most_tries = 3;
+  constexpr int most_tries = 50;
   for (int k = 0; k < most_tries; ++k) {
     if (::mkdir(staging_.c_str(), 0777) != 0 && errno != EEXIST) fail(shown_, errno);
     if (lock_.take(staging_)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   throw std::runtime_error(taken_by_another());
 }

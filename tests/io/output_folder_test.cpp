@@ -252,6 +252,27 @@ TEST_F(Output, takes_over_from_a_writer_that_was_killed_before_its_first_file_ha
   EXPECT_EQ(names_in(scratch_.path()), std::vector<std::string>{"out"});
 }
 
+TEST_F(Output, waits_for_a_writer_that_is_about_to_end) {
+  write("former");
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    OutputFolder folder(out_, "test", names);
+    folder.write("a.txt", "unfinished");
+    (void)::write(ready[1], "", 1);
+    usleep(200'000);
+    _exit(9);
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  write("second");
+  EXPECT_EQ(text_of(out_ / "a.txt"), "second");
+  EXPECT_EQ(names_in(scratch_.path()), std::vector<std::string>{"out"});
+  waitpid(child, nullptr, 0);
+  for (const int end : ready) close(end);
+}
+
 TEST_F(Output, takes_folders_of_other_results_along) {
   write("first");
   {
