@@ -1,5 +1,6 @@
 #include "bough/report/page.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bough/io/columns.hpp"
@@ -44,14 +45,13 @@ void add_plots(Document& page, const RunFiles& run) {
   if (groups.empty() || run.history.rows.empty()) return;
   page.section("Sensors");
   std::string html = "<div id=\"plots\" class=\"plots\">\n";
-  const std::string_view time_label = is_static(run) ? "load factor" : "time [s]";
   const std::vector<double> round_off = round_off_of(run);
   for (std::size_t k = 0; k < std::min(groups.size(), most_plots); ++k) {
     const std::size_t first = groups[k].columns.front();
     const std::string unit =
         first < run.history.header.about.size() ? run.history.header.about[first].unit : std::string();
     const std::string title = io::title_of(groups[k]) + (unit.empty() ? "" : " [" + unit + "]");
-    html += "<figure>\n" + make_plot(run.history, title, groups[k].columns, time_label, round_off[first]).svg +
+    html += "<figure>\n" + make_plot(run.history, title, groups[k].columns, time_label(run), round_off[first]).svg +
             "</figure>\n";
   }
   page.markup(html + "</div>\n");
@@ -132,6 +132,36 @@ bool is_static(const RunFiles& run) {
   return false;
 }
 
+bool turns_back(const RunFiles& run) {
+  const std::vector<records::HistoryRow>& rows = run.history.rows;
+  return is_static(run) &&
+         std::adjacent_find(rows.begin(), rows.end(), [](const records::HistoryRow& a, const records::HistoryRow& b) {
+           return !(a.time < b.time);
+         }) != rows.end();
+}
+
+RunFiles by_step(RunFiles run) {
+  records::HistoryHeader& header = run.history.header;
+  std::vector<records::HistoryRow>& rows = run.history.rows;
+  header.columns.insert(header.columns.begin(), "load factor");
+  if (!header.about.empty()) header.about.insert(header.about.begin(), records::HistoryHeader::About{});
+  std::size_t row = 0;
+  for (records::MotionFrame& frame : run.motion) {  // every picture is that of a row, both are in order
+    while (row + 1 < rows.size() && std::abs(rows[row].time - frame.time) > 1e-12) ++row;
+    frame.time = static_cast<double>(row++);
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].values.insert(rows[k].values.begin(), rows[k].time);
+    rows[k].time = static_cast<double>(k);
+  }
+  run.is_by_step = true;
+  return run;
+}
+
+std::string_view time_label(const RunFiles& run) {
+  return run.is_by_step ? "step" : is_static(run) ? "load factor" : "time [s]";
+}
+
 RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames) {
   RunFiles run;
   run.name = std::filesystem::absolute(directory).lexically_normal().stem().string();
@@ -148,6 +178,12 @@ RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames
 }
 
 std::string page_html(const RunFiles& run, const PictureOptions& options, const RunFiles* other) {
+  if (!run.is_by_step && (turns_back(run) || (other != nullptr && turns_back(*other)))) {
+    const RunFiles second = other != nullptr ? by_step(*other) : RunFiles{};
+    PictureOptions by_steps = options;
+    by_steps.is_by_step = true;
+    return page_html(by_step(run), by_steps, other != nullptr ? &second : nullptr);
+  }
   const std::string title = run.summary && !run.summary->title.empty() ? run.summary->title : run.name;
   Document page(title);
   add_heading(page, run);

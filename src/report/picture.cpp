@@ -195,7 +195,7 @@ std::string axis_triad(const Sheet& sheet) {
 }
 
 std::string color_ramp(const Sheet& sheet, const std::vector<double>& times, const std::vector<int>& colors,
-                       bool is_static) {
+                       const PictureOptions& options) {
   const double step =
       std::max(26.0, 170.0 / static_cast<double>(times.size()));  // the first and the last time have to fit side by
                                                                   // side
@@ -206,8 +206,11 @@ std::string color_ramp(const Sheet& sheet, const std::vector<double>& times, con
     const double x = left + step * static_cast<double>(k);
     text += path_element("beams t" + std::to_string(colors[k]), level_stroke(x + 3.0, y, step - 6.0));
   }
-  text += text_element("tiny soft", left - 8.0, y + 4.0, "end", is_static ? "position at load" : "position at");
-  const char* unit = is_static ? "" : " s";
+  text += text_element("tiny soft", left - 8.0, y + 4.0, "end",
+                       options.is_by_step  ? "position at step"
+                       : options.is_static ? "position at load"
+                                           : "position at");
+  const char* unit = options.is_static || options.is_by_step ? "" : " s";
   const bool several = times.size() > 1;
   text += text_element("tiny soft", several ? left : right, y + 22.0, several ? "start" : "end",
                        io::rounded_text(times.front(), 4) + unit);
@@ -272,7 +275,7 @@ Picture make_picture(const std::vector<records::MotionFrame>& frames, const Pict
                 std::string(name_of(picture.view)) + "\">\n" +
                 "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n<g id=\"positions\">\n" + positions +
                 "</g>\n" + scale_bar(sheet) + axis_triad(sheet) + legend(sheet, frames) +
-                color_ramp(sheet, times, colors, options.is_static) + "</svg>\n";
+                color_ramp(sheet, times, colors, options) + "</svg>\n";
   return picture;
 }
 

@@ -412,7 +412,7 @@ std::string view_data(const RunFiles& run, std::size_t most_bytes) {
   for (const MotionFrame& f : run.motion) frames.push_back(&f);
   const std::string head = "{\"name\":" + io::json_string(run.name) +
                            ",\"isStatic\":" + (is_static(run) ? "true" : "false") + ",\"timeLabel\":\"" +
-                           (is_static(run) ? "load factor" : "time [s]") + "\",";
+                           std::string(time_label(run)) + "\",";
   constexpr std::size_t many_points = 8000;
   std::size_t num_points = 0;
   if (!frames.empty())

@@ -95,6 +95,7 @@ def make_pages():
     views = [make_view(name, SOURCE / f"data/gallery/{name}.json", *short) for name in ("robot_arm", "rotor")]
     views.append(make_view("rotor_on_vehicle", SOURCE / "data/scenarios/rotor_on_vehicle.json", *short,
                            "--set", "/output/motion=true"))
+    views.append(make_view("deep_arch", SOURCE / "data/scenarios/deep_arch.json", "--set", "/output/motion=true"))
     views.append(make_view("names", NAMES))
     pages = views + [make_view("parts", PARTS)]
     pages.append(make_view("one_plot", {**PARTS, "sensors": [{"name": "angle", "kind": "joint_angle", "joint": "hinge"}]}))

@@ -222,6 +222,31 @@ std::string without_script(const std::string& html) {
   return html.substr(0, begin);
 }
 
+TEST_F(Page, of_a_path_whose_load_factor_turns_back_counts_steps) {
+  RunFiles run = written(true);
+  EXPECT_FALSE(turns_back(run)) << "time never does";
+  run.summary->options.emplace_back("/analysis/kind", "static");
+  EXPECT_FALSE(turns_back(run));
+  const double factors[] = {0.0, 0.3, 0.2, 0.1, 0.1};
+  ASSERT_EQ(run.history.rows.size(), 5u);
+  ASSERT_EQ(run.motion.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) run.history.rows[k].time = run.motion[k].time = factors[k];
+  run.motion.erase(run.motion.begin() + 1);  // a picture may be left out
+  ASSERT_TRUE(turns_back(run));
+  const RunFiles steps = by_step(run);
+  EXPECT_EQ(steps.history.header.columns.front(), "load factor");
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(steps.history.rows[k].time, static_cast<double>(k));
+    EXPECT_EQ(steps.history.rows[k].values.front(), factors[k]);
+    EXPECT_EQ(steps.history.rows[k].values.size(), run.history.rows[k].values.size() + 1);
+  }
+  const double numbers[] = {0.0, 2.0, 3.0, 4.0};
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(steps.motion[k].time, numbers[k]);
+  const std::string html = page_html(run, {});
+  EXPECT_NE(html.find("\"timeLabel\":\"step\""), std::string::npos);
+  EXPECT_NE(html.find("position at step"), std::string::npos);
+}
+
 TEST_F(Page, stands_alone_and_asks_for_nothing_from_elsewhere) {
   const std::string html = without_script(page_html(written(true), {}));
   EXPECT_EQ(count_of(html, "http://"), count_of(html, "http://www.w3.org/2000/svg")) << "names of formats only";

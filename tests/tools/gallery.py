@@ -26,7 +26,7 @@ def draw(program, out, scene, name):
         return None, f"{scene.name}: {run.stderr.strip()}"
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     with open(folder / "history.csv", encoding="utf-8") as file:
-        last = float(file.readlines()[-1].split(",")[0])
+        last = max(float(line.split(",")[0]) for line in file.readlines()[1:])  # load factors may turn back
     # Well into the run, and not at a simple fraction of a period.
     words = [program, "view", folder, "--png", folder / "picture.png", "--time", str(0.737 * last)]
     view = subprocess.run(words, capture_output=True, text=True, check=False)

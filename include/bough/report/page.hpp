@@ -18,6 +18,7 @@ struct RunFiles {
   io::History history;
   std::vector<records::MotionFrame> motion;  ///< empty: not recorded
   records::MotionParts parts;                ///< of it
+  bool is_by_step = false;                   ///< times are numbers of steps: see by_step()
 };
 
 /// Reads a result directory. Throws std::runtime_error if it is incomplete or has files of different runs
@@ -25,6 +26,14 @@ struct RunFiles {
 RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames = 301);
 
 bool is_static(const RunFiles& run);  ///< its histories are functions of the load factor
+
+/// The run with the number of the step instead of the load factor, which becomes a sensor. Along a path load factors may
+/// turn back, so that nothing is a function of them.
+RunFiles by_step(RunFiles run);
+bool turns_back(const RunFiles& run);  ///< the load factor of some step is not above that of the step before
+
+/// What histories are drawn over, with its unit.
+std::string_view time_label(const RunFiles& run);
 
 /// The caller sets options.is_static. other: a second run, which is laid over the first; their differences are plotted.
 std::string page_html(const RunFiles& run, const PictureOptions& options, const RunFiles* other = nullptr);

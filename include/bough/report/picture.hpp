@@ -9,8 +9,9 @@ namespace bough::report {
 
 struct PictureOptions {
   View view = View::automatic;
-  int num_positions = 9;   ///< superposed, 1 to 9
-  bool is_static = false;  ///< frames are labelled by the load factor instead of the time [s]
+  int num_positions = 9;    ///< superposed, 1 to 9
+  bool is_static = false;   ///< frames are labelled by the load factor instead of the time [s]
+  bool is_by_step = false;  ///< frames are labelled by the number of their step (by_step)
 };
 
 /// The drawing, and the path data of what it shows.

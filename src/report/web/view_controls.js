@@ -25,7 +25,7 @@ function makeBar(view, holder) {
     },
     showTime: function (time) {
       slider.value = span > 0 ? (1000 * (time - begin)) / span : 0;
-      clock.textContent = (run.isStatic ? "load factor " : "t = ") + number(time, 5) + (run.isStatic ? "" : " s");
+      clock.textContent = (run.isStatic ? run.timeLabel + " " : "t = ") + number(time, 5) + (run.isStatic ? "" : " s");
     },
   };
 }
