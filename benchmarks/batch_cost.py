@@ -63,10 +63,10 @@ with tempfile.TemporaryDirectory(dir=os.environ.get("BOUGH_SCRATCH")) as folder:
     loop.write_text("#!/bin/sh\nfor i in $(seq %d); do %s run %s --set /analysis/end_time=%g --set '/expected=[]' "
                     "--set /parameters/g=9.$i --threads 1 --quiet --out $1/$i || exit 1; done\n" % (count // 2, program, scene, end))
     both = folder / "both.sh"
-    both.write_text(f"#!/bin/sh\nsh {loop} {folder}/a & sh {loop} {folder}/b; wait\n")
+    both.write_text(f"#!/bin/sh\nsh {loop} {folder}/a$1 & sh {loop} {folder}/b$1; wait\n")
     ratios = []
     for _ in range(rounds):
-        solo = cpu(["sh", str(both)]) / count
+        solo = cpu(["sh", str(both), str(next(numbers))]) / count
         batch = sweep(folder, "two", count, end, "all", threads=2)
         ratios.append(batch / solo)
     print(f"two workers with folders over two loops of single runs: {statistics.median(ratios):.2f} "
