@@ -4,8 +4,9 @@
 Cost besides steps: the time of cases of two steps without results (starting, reading, planning), and the difference
 between cases with and without results (writing), relative to the whole; for cases of about 10 and 100 ms, with
 results in stores and in folders. Then two workers with folders are compared with two loops of `bough run` at the
-same time. Compared runs alternate; medians of ROUNDS rounds are printed, since other work on the machine makes
-seconds longer."""
+same time. Compared runs alternate, each into a new folder; medians of ROUNDS rounds are printed, since other work on
+the machine makes seconds longer. Folders are written below the folder BOUGH_SCRATCH, if it is given: what they cost
+depends on its file system (on ext4 without a journal 1.4 ms of the kernel for each folder, in memory 0.15 ms)."""
 import itertools
 import json
 import os
