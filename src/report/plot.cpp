@@ -81,8 +81,12 @@ std::vector<Line> lines_of(const io::History& history, const std::vector<std::si
 }
 
 /// Name of the component, with the constant that was subtracted.
-std::string legend_text(const io::History& history, const Line& line) {
-  const std::string component = io::split_column(history.header.columns[line.column]).component;
+/// Component of a column, without what the title says already: "x" of "razi_x" in the plot "split, razi".
+std::string legend_text(const io::History& history, const Line& line, std::string_view title) {
+  std::string component = io::split_column(history.header.columns[line.column]).component;
+  const std::size_t mark = component.rfind('_');
+  if (mark != std::string::npos && title.find(", " + component.substr(0, mark)) != std::string_view::npos)
+    component.erase(0, mark + 1);
   if (line.offset == 0.0) return component;
   return component + (line.offset > 0.0 ? " - " : " + ") + io::rounded_text(std::abs(line.offset), 6);
 }
@@ -159,12 +163,13 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
   constexpr double character = 9.0, title_character = 8.0;
   double legend_x = right,
          needed = 24.0 + title_character * static_cast<double>(std::min<std::size_t>(title.size(), 49));
-  for (const Line& line : lines) needed += 32.0 + character * static_cast<double>(legend_text(history, line).size());
+  for (const Line& line : lines)
+    needed += 32.0 + character * static_cast<double>(legend_text(history, line, title).size());
   const double legend_y = needed > right ? 35.0 : 20.0;
   for (std::size_t k = columns.size(); k-- > 0;) {
     const std::string color = "curve s" + std::to_string(k % num_colors);
     plot.svg += path_element(color, column_path(history, lines[k], scale));
-    const std::string component = legend_text(history, lines[k]);
+    const std::string component = legend_text(history, lines[k], title);
     if (columns.size() < 2 || component.empty()) continue;
     plot.svg += text_element("tiny soft", legend_x, legend_y, "end", component);
     legend_x -= character * static_cast<double>(component.size()) + 6.0;

@@ -100,7 +100,8 @@ def make_pages():
     pages = views + [make_view("parts", PARTS)]
     pages.append(make_view("one_plot", {**PARTS, "sensors": [{"name": "angle", "kind": "joint_angle", "joint": "hinge"}]}))
     pages.append(make_view("no_motion", {**PARTS, "output": {"motion": False}}))
-    pages += [make_view("far", FAR), make_view("swing", SWING)]
+    pages += [make_view("far", FAR), make_view("swing", SWING),
+              make_view("splits", SOURCE / "data/scenarios/heavy_top_precession.json")]
     pages.append(make_view("roll_up", SOURCE / "data/scenarios/roll_up.json", "--set", "/output/motion=true"))
     make_view("softer", PARTS, "--set", "/springs/coil/stiffness=20")
     call("view", "softer", "parts")
