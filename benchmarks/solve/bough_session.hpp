@@ -50,7 +50,7 @@ class BoughSession final : public Session {
     const tree::Walker walker = threads_.walker();
     if (!storage_->solver.factor(walker, {}, problem_.rhs.data()).ok()) return false;
     x.resize(problem_.rhs.size());
-    return storage_->solver.finish(walker, x.data()).finite;
+    return storage_->solver.finish(walker, problem_.rhs.data(), x.data()).finite;
   }
   double memory_bytes() const override { return static_cast<double>(storage_->solver.counters().memory_bytes); }
   double factor_flops() const override { return storage_->solver.counters().factor_flops; }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bough/step/arc_length.hpp"
-#include "load_steps.hpp"
 #include "path_search.hpp"
+#include "statics.hpp"
 
 namespace bough::run {
 

@@ -1,23 +1,11 @@
 #pragma once
 /// Statics by load steps.
+#include <memory>
 #include <vector>
 
-#include "analysis.hpp"
-#include "stability_watch.hpp"
+#include "statics.hpp"
 
 namespace bough::run {
-
-/// Common base of static analyses, which watch the stability of the equilibria that they find.
-class Statics : public Analysis {
- public:
-  void sum_up() override;
-
- protected:
-  explicit Statics(const Parts& parts) : Analysis(parts), stability_(parts.scene, parts.system) {}
-  Statics(const Statics&) = default;
-
-  StabilityWatch stability_;
-};
 
 /// Load steps of equal width. A load step is divided at load factors at which figures are requested. A failed step is
 /// halved, and doubled again after success.

@@ -4,12 +4,9 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 
 #include "bough/schedule/serial.hpp"
-#include "crowding.hpp"
-#include "helper.hpp"
 #ifdef BOUGH_HAS_TBB
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -32,9 +29,6 @@ struct Threads::State {
   State(int n, double grain) : count(n), grain_flops(grain) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
-#ifdef BOUGH_HAS_TBB
-  ~State() { dismiss_helper(); }
-#endif
 
   int count;
   double grain_flops;
@@ -60,60 +54,23 @@ struct Threads::State {
     return arena;
   }
 
-  Crowding crowding;
-  bool assumes_crowding = false;
-  bool is_walking = false;
-  std::optional<Helper> helper;  ///< while the processors are crowded
-  tbb::task_group serving;       ///< the task in which the helper serves
-
-  /// Called between walks: decides whether there is a helper. It is used with two threads only: with more, the others
-  /// continue while one has no processor.
-  void look_around() {
-    tbb::task_arena& threads = started();
-    if (count != 2 || is_walking) return;
-    const bool is_crowded = assumes_crowding || (!outnumbers_processors && delay_microseconds == 0 && crowding.look());
-    if (!is_crowded) return dismiss_helper();
-    if (!helper) helper.emplace().set_tireless(assumes_crowding);
-    if (helper->call()) threads.enqueue(serving.defer([this] { helper->serve(); }));
-  }
-
-  /// Waits for the helper to leave. If no thread has taken up its task yet, the waiting thread runs it.
-  void dismiss_helper() {
-    if (!helper) return;
-    helper->dismiss();
-    arena.execute([this] { serving.wait(); });
-    helper.reset();
-  }
-
   void walk_up(const tree::Tree& tree, tree::Visit visit) {
-    walk(
-        tree, [&] { visit_up(tree, tree.root(), visit); }, [&] { helper->walk_up(tree, visit); });
+    walk(tree, [&] { visit_up(tree, tree.root(), visit); });
   }
 
   void walk_down(const tree::Tree& tree, tree::Visit visit) {
-    walk(
-        tree, [&] { visit_down(tree, tree.root(), visit); }, [&] { helper->walk_down(tree, visit); });
+    walk(tree, [&] { visit_down(tree, tree.root(), visit); });
   }
 
-  template <class ByTasks, class ByHelper>
-  void walk(const tree::Tree& tree, ByTasks&& by_tasks, ByHelper&& by_helper) {
-    if (is_whole(tree.subdomains[at(tree.root())])) return by_tasks();  // no task is made
-    look_around();
-    is_walking = true;
-    if (helper)
-      by_helper();
-    else
-      arena.execute(by_tasks);
-    is_walking = false;
+  template <class Visits>
+  void walk(const tree::Tree& tree, Visits&& visits) {
+    if (is_whole(tree.subdomains[at(tree.root())])) return visits();  // no task is made
+    started().execute(visits);
   }
 
   /// For calls outside of walks or inside a visit.
   void share_chunks(std::int64_t count_items, std::int64_t grain, tree::Chunk chunk) {
-    look_around();
-    if (helper)
-      helper->run_chunks(count_items, grain, chunk);
-    else
-      arena.execute([&] { run_chunks(count_items, grain, chunk); });
+    started().execute([&] { run_chunks(count_items, grain, chunk); });
   }
 
   [[nodiscard]] bool is_whole(const tree::Subdomain& s) const { return s.is_leaf() || s.subtree_flops < grain_flops; }
@@ -236,12 +193,6 @@ void Threads::keep_together(const std::function<void()>& body) const {
 void Threads::set_random_delay(unsigned microseconds, unsigned seed) {
   state_->delay_microseconds = microseconds;
   state_->delay_state = seed;
-}
-
-void Threads::assume_crowding(bool yes) {
-#ifdef BOUGH_HAS_TBB
-  state_->assumes_crowding = yes;
-#endif
 }
 
 }  // namespace bough::schedule

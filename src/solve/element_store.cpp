@@ -199,24 +199,40 @@ double ElementStore::asymmetry_of(int e, const Scales& scales) const {
   return std::bit_cast<double>(most);
 }
 
-double ElementStore::eval_norm(const Scales& scales) const {
-  double norm = 0.0;
-  for (std::int64_t b = 0; b < graph_.num_blocks(); ++b)
-    for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
-      double sum = 0.0;
-      for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
-        const int e = touches_[at(t)].element;
-        const ConstElementView a = view(e).from(static_cast<std::int64_t>(touches_[at(t)].offset + i) * size_of(e));
-        std::int64_t c = 0;
-        for (int k = 0; k < num_blocks_of(e); ++k) {
-          const int other = blocks_of(e)[k];
-          for (int j = 0; j < graph_.block_size[at(other)]; ++j)
-            sum += std::abs(a[c++]) * scales.column[at(tree_.unknown_begin[at(other)] + j)];
+ElementStore::Sizes ElementStore::eval_sizes(const tree::Walker& walker, const Scales& scales) {
+  constexpr double least_of_own = 0.25;  // rounded to powers of two, a scaled diagonal is between 1/2 and 2
+  std::fill(chunk_.begin(), chunk_.end(), 0.0);
+  auto body = [&](std::int64_t begin, std::int64_t end) {
+    double* most = chunk_.data() + 4 * (begin / chunk_blocks);  // row sum; scaled diagonal, and its inverse
+    for (std::int64_t b = begin; b < end; ++b)
+      for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
+        const std::int64_t row = tree_.unknown_begin[at(b)] + i;
+        double sum = 0.0, diagonal = 0.0;
+        for (std::int64_t t = touch_begin_[at(b)]; t < touch_begin_[at(b) + 1]; ++t) {
+          const int e = touches_[at(t)].element, own = touches_[at(t)].offset + i;
+          const ConstElementView a = view(e).from(static_cast<std::int64_t>(own) * size_of(e));
+          diagonal += std::abs(a[own]);
+          std::int64_t c = 0;
+          for (int k = 0; k < num_blocks_of(e); ++k) {
+            const int other = blocks_of(e)[k];
+            for (int j = 0; j < graph_.block_size[at(other)]; ++j)
+              sum += std::abs(a[c++]) * scales.column[at(tree_.unknown_begin[at(other)] + j)];
+          }
         }
+        most[0] = larger(most[0], sum * scales.row[at(row)]);
+        if (graph_.block_kind[at(b)] == blocks::BlockKind::multiplier || diagonal == 0.0) continue;
+        const double square = scales.row[at(row)] * scales.column[at(row)];
+        most[1] = larger(most[1], diagonal * square);
+        if (scales.diagonal[at(row)] * square > least_of_own) most[2] = larger(most[2], 1.0 / (diagonal * square));
       }
-      norm = std::max(norm, sum * scales.row[at(tree_.unknown_begin[at(b)] + i)]);
-    }
-  return norm;
+  };
+  walker.for_each_chunk(graph_.num_blocks(), chunk_blocks, tree::make_chunk(body));
+  Sizes sizes;
+  for (std::size_t c = 0; c + 3 < chunk_.size(); c += 4) {
+    sizes.norm = larger(sizes.norm, chunk_[c]);
+    sizes.drift = larger(sizes.drift, larger(chunk_[c + 1], chunk_[c + 2]));
+  }
+  return sizes;
 }
 
 void ElementStore::eval_rows(const Scales& scales, std::span<const int> blocks, const double* x, const double* b,

@@ -21,6 +21,8 @@ struct Scales {
   std::vector<double> row, column;
   /// column / exact column scale, in [2^-1/2, 2^1/2], to measure multipliers without the rounding of scales.
   std::vector<double> weight;
+  std::vector<double>
+      diagonal;  ///< of motion unknowns, the sum over the elements of |diagonal| for which they were made
   std::int64_t empty_unknown = -1;  ///< first unknown whose row or column is zero, or -1
   bool finite = true;
 };
@@ -74,8 +76,14 @@ class ElementStore {
   void eval_scales(Scales& scales, std::vector<double>& scratch) const;
   /// Largest entry of D (A - A^T) D of one element, D the scales of columns; infinity or NaN if A is not finite.
   double asymmetry_of(int element, const Scales& scales) const;
-  /// Largest row sum of magnitudes of the scaled matrix. Serial.
-  double eval_norm(const Scales& scales) const;
+  /// Of the present matrices in given scales, which may be those of earlier matrices.
+  struct Sizes {
+    double norm = 0.0;  ///< largest row sum of magnitudes
+    /// Largest scaled sum over the elements of |diagonal| of a motion unknown, or the inverse of one, if it was near 1
+    /// when the scales were made: weak diagonals do not determine a scale.
+    double drift = 0.0;
+  };
+  Sizes eval_sizes(const tree::Walker& walker, const Scales& scales);
   /// r = b - A x for the rows of some blocks; raises `most`, {|r|, |b|} scaled.
   void eval_rows(const Scales& scales, std::span<const int> blocks, const double* x, const double* b, double* r,
                  double* most) const;

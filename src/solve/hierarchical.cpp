@@ -70,28 +70,21 @@ void Hierarchical::multiply(const tree::Walker& walker, const double* x, double*
   state_->elements.multiply(walker, x, y);
 }
 
-FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, const double* rhs, Changed changed) {
+FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, const double* rhs) {
   State& s = *state_;
-  const FactorStatus before = std::exchange(s.status, {});
-  if (s.scales_wanted || !s.options.partial || changed.empty() || !before.ok()) s.all_are_due = true;
-  s.visit_rhs = s.given = rhs;
+  s.status = {};
+  s.visit_rhs = rhs;
   if (s.scales_wanted) {
     s.elements.eval_scales(s.scales, s.residual);
+    s.measured_factorization = State::never;
     s.check_all_symmetric();
     if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal except for the order of a sum
-    s.norm = s.elements.eval_norm(s.scales);
     s.lane_scales.set(s.lanes, s.tree, s.scales);
     s.register_scales.set(s.registers, s.scales, s.options.tiny_pivot);
   }
   s.scales_wanted = false;
   s.factor_walker = walker;
-  auto visit = [&s, &prepare, changed](int group) {
-    s.is_redone[at(group)] = s.is_due(group, changed) ? 1 : 0;
-    if (s.is_redone[at(group)] != 0)
-      s.factor_group(group, prepare);
-    else
-      s.leave_group(group);
-  };
+  auto visit = [&s, &prepare](int group) { s.factor_group(group, prepare); };
   s.mark = walker.mark;
   walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
   if (s.is_symmetric()) {
@@ -101,15 +94,11 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
       walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
     }
   }
-  s.all_are_due = false;
   ++s.counters.factorizations;
-  for (std::size_t g = 0; g < s.is_redone.size(); ++g)
-    if (s.is_redone[g] != 0) s.counters.flops_done += s.group_flops[g];
-  if (s.is_redone.back() == 0) return s.status = before;  // nothing has changed, not even in the root
   for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
   for (std::size_t g = 0; g < s.left_registers.size(); ++g) {
     if (s.left_registers[g] == 0) continue;
-    s.counters.registers_left += s.is_redone[g];
+    ++s.counters.registers_left;
     for (int f = s.registers.groups[g].front_begin; f < s.registers.groups[g].front_end; ++f)
       s.count_front(s.registers.fronts[at(f)].front);
   }
@@ -164,13 +153,13 @@ void Hierarchical::State::count_front(tree::FrontId f) {
   if (f + 1 < tree.num_fronts()) status.delayed_pivots += d.num_delayed();
 }
 
-SolveReport Hierarchical::finish(const tree::Walker& walker, double* x) {
+SolveReport Hierarchical::finish(const tree::Walker& walker, const double* rhs, double* x) {
   State& s = *state_;
-  s.take(s.given, x, s.checks());
+  s.take(rhs, x, s.checks());
   if (s.null_space.took_vectors) {  // the condensed right-hand side is lost
-    s.solve_into_x(walker, s.given);
+    s.solve_into_x(walker, rhs);
   } else {
-    s.visit_rhs = s.given;
+    s.visit_rhs = rhs;
     s.forward_group(static_cast<int>(s.lanes.groups.size()) - 1);
     s.back_substitute(walker);
   }
@@ -203,6 +192,19 @@ void Hierarchical::State::take(const double* b, double* x_out, bool looks_again)
   given = rhs.data();
 }
 
+/// Measures the matrices of the present factorization in its scales, which may be those of an earlier one. If they have
+/// drifted, the next factorization computes new scales: thresholds of pivots and ranks hold for entries near 1. A
+/// measurement reads all matrices, so it serves the next few factorizations, too. now: it does not.
+void Hierarchical::State::measure_matrices(const tree::Walker& walker, bool now) {
+  constexpr double largest_drift = 64.0;
+  constexpr std::int64_t serves = 8;
+  if (counters.factorizations - measured_factorization < (now ? 1 : serves)) return;
+  measured_factorization = counters.factorizations;
+  const ElementStore::Sizes sizes = elements.eval_sizes(walker, scales);
+  norm = sizes.norm;
+  scales_wanted = scales_wanted || sizes.drift > largest_drift;
+}
+
 /// The backward error of the solution in x, which is refined if required.
 SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
   const std::size_t n = residual.size();
@@ -214,6 +216,7 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
   if (null_space.dimension > 0)
     for (std::size_t i = 0; i < n; ++i) rhs[i] -= correction[i] / scales.row[i];
   if (options.check == SolveCheck::none) return report;
+  measure_matrices(walker, false);
   ElementStore::Errors errors;
   if (null_space.dimension > 0) {  // multipliers of least norm were computed after the walk and are not in the lanes
     errors = eval_met_residual(walker, report);
@@ -222,6 +225,12 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
     errors = eval_residual(walker, given, report);
     if (options.check == SolveCheck::componentwise)
       errors = elements.eval_residual(walker, scales, x, given, residual.data());
+  }
+  if (errors.finite && errors.normwise > options.refinement_above && null_space.dimension == 0) {
+    measure_matrices(walker, true);  // refined solutions are compared in the norm of the present matrices
+    errors.normwise *= errors.size;
+    errors.size = norm * largest_x() + largest_rhs();
+    if (errors.size > 0.0) errors.normwise /= errors.size;
   }
   while (errors.finite && errors.normwise > options.refinement_above &&
          report.refinement_steps < options.refinement_steps) {

@@ -23,6 +23,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
       register_scales(registers) {
   const std::size_t n = at(tree.num_unknowns()), num_fronts = at(tree.num_fronts());
   scales.row.assign(n, 1.0);
+  scales.diagonal.assign(n, 0.0);
   scales.column.assign(n, 1.0);
   scales.weight.assign(n, 1.0);
   is_constraint = std::make_unique<bool[]>(n);
@@ -36,7 +37,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     symmetry.used = Symmetry::general;
     symmetry.loss = SymmetryLoss::plain_elimination;
   }
-  keeps_all = keep_all || options.partial || options.elimination == Elimination::plain;
+  keeps_all = keep_all || options.elimination == Elimination::plain;
   vector_begin.assign(1, 0);
   index_begin.assign(1, 0);
   own_begin.assign(1, 0);
@@ -84,9 +85,6 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
 void Hierarchical::State::size_factors() {
   factor_begin.assign(1, 0);
   counters.factor_flops = counters.flops_in_lanes = 0.0;
-  group_flops.assign(lanes.groups.size(), 0.0);
-  is_redone.assign(lanes.groups.size(), 0);
-  all_are_due = true;
   for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
     const tree::Front& f = front(id);
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
@@ -95,7 +93,6 @@ void Hierarchical::State::size_factors() {
                            (in_lanes || registers.front_of[at(id)] >= 0 ? 0 : shape.factor_size()));
     const double flops = is_symmetric() ? 0.5 * f.flops : f.flops;
     counters.factor_flops += flops;
-    group_flops[at(lanes.group_of_subdomain[at(f.subdomain)])] += flops;
     if (in_lanes) counters.flops_in_lanes += flops;
   }
   factor_pool.resize(at(factor_begin.back()));

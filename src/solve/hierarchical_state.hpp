@@ -2,6 +2,7 @@
 /// All storage of the hierarchical solver. Internal to solve.
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "bough/solve/hierarchical.hpp"
@@ -117,9 +118,6 @@ struct Hierarchical::State {
   bool trusts_symmetry = false;
   std::vector<Asymmetry> asymmetries;  ///< by group: the first that the visit found
   bool keeps_all = false;
-  bool all_are_due = true;          ///< the next factorization visits all groups
-  std::vector<char> is_redone;      ///< by group: whether the present factorization visits it
-  std::vector<double> group_flops;  ///< of one visit
   SchurPlaces schur_places;
   LaneDoubles factor_pool, schur_pool;
   std::vector<double> vector_pool;
@@ -150,12 +148,15 @@ struct Hierarchical::State {
   std::vector<double> register_vectors;  ///< of eliminated unknowns, after forward substitution
   std::vector<char> left_registers;      ///< by group: in this factorization all its fronts were factored with pivoting
   std::vector<SolutionSizes> sizes;      ///< by group
+  std::mutex reporting;                  ///< held while the twin is made
   std::unique_ptr<Hierarchical> twin;    ///< a solver without lanes, for reports that need all Schur complements
   std::int64_t twin_factorization = -1;  ///< number of the factorization that it has
   /// Matrices and factors do not stay in the caches between walks: they are prefetched, and written past the caches.
   bool exceeds_caches = false;
   bool reads_factors_ahead = false;  ///< factors do not stay in the nearer caches
-  double norm = 0.0;                 ///< largest row sum of the scaled matrix when the scales were computed
+  static constexpr std::int64_t never = -1000;
+  double norm = 0.0;  ///< largest row sum of the scaled matrix of measured_factorization
+  std::int64_t measured_factorization = never;
 
   FactorStatus status;
   SolverCounters counters;
@@ -164,8 +165,6 @@ struct Hierarchical::State {
   tree::Walker factor_walker;         ///< of the present factorization: distributes the work on large fronts
 
   // lane_walks.cpp, residual_walks.cpp: visits of groups
-  bool is_due(int group, Changed changed) const;
-  void leave_group(int group);
   void factor_group(int group, const Prepare& prepare);
   void forward_group(int group);
   void backward_group(int group);
@@ -253,6 +252,7 @@ struct Hierarchical::State {
   void backward_front(tree::FrontId f);
   bool checks() const { return options.check != SolveCheck::none; }
   void take(const double* b, double* x_out, bool looks_again);
+  void measure_matrices(const tree::Walker& walker, bool now);
   SolveReport check_solution(const tree::Walker& walker);
   void back_substitute(const tree::Walker& walker);
   void solve_into_x(const tree::Walker& walker, const double* b);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "decompositions.hpp"
 #include "hierarchical_state.hpp"
@@ -115,6 +116,7 @@ tree::Walker serial_walker() {
 /// report.
 const Hierarchical& Hierarchical::reporting_solver() const {
   State& s = *state_;
+  const std::lock_guard lock(s.reporting);
   if ((s.keeps_all && s.lanes.fronts.empty() && !s.is_symmetric()) || s.counters.factorizations == 0) return *this;
   if (s.twin == nullptr) {
     SolveOptions options = s.options;
@@ -130,7 +132,6 @@ const Hierarchical& Hierarchical::reporting_solver() const {
       for (int k = 0; k < n * n; ++k) twin.elements.view(e)[k] = s.elements.view(e)[k];
     }
     twin.scales = s.scales;
-    twin.norm = s.norm;
     twin.scales_wanted = false;
     (void)s.twin->factor(serial_walker());
     s.twin_factorization = s.counters.factorizations;

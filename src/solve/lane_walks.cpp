@@ -12,28 +12,6 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 }  // namespace
 
-bool Hierarchical::State::is_due(int index, Changed changed) const {
-  if (all_are_due) return true;
-  for (const tree::SubdomainId child : lanes.walk.children(lanes.walk.subdomains[at(index)]))
-    if (is_redone[at(child)] != 0) return true;
-  const LaneGroup& group = lanes.groups[at(index)];
-  for (int b = group.element_begin; b < group.element_end; ++b)
-    for (const int e : lanes.batches[at(b)].element)
-      if (e >= 0 && changed[at(e)] != 0) return true;
-  return false;
-}
-
-/// Its factors are kept; only a right-hand side continues upward.
-void Hierarchical::State::leave_group(int index) {
-  const LaneGroup& group = lanes.groups[at(index)];
-  for (const tree::SubdomainId s : group.subdomains)
-    for (tree::FrontId f = tree.subdomains[at(s)].front_begin; f < tree.subdomains[at(s)].front_end; ++f)
-      data(f).allocated = false;
-  if (visit_rhs == nullptr || group.subdomains.front() == tree.root()) return;
-  forward_group(index);
-  mark(tree::Stage::forward);
-}
-
 void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   const LaneGroup& group = lanes.groups[at(index)];
   if (prepare.run != nullptr && group.element_begin < group.element_end)

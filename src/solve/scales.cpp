@@ -117,6 +117,7 @@ void ElementStore::eval_scales(Scales& s, std::vector<double>& scratch) const {
       }
     }
   }
+  s.diagonal = exact_row;
   lift_weak_diagonals(scratch, exact_row);
   s.empty_unknown = -1;
   const auto empty = [&](std::size_t i) {

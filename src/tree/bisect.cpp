@@ -24,6 +24,7 @@ Bisector::Bisector(const Adjacency& adjacency, unsigned seed)
       weight_(at(adjacency.graph->num_elements())),
       touches_(at(adjacency.graph->num_blocks()), 0),
       position_(at(adjacency.graph->num_elements()), -1),
+      spread_(at(adjacency.graph->num_blocks()), 0),
       removed_(at(adjacency.graph->num_blocks()), 0),
       local_(at(adjacency.graph->num_blocks()), -1),
       side_touches_(at(adjacency.graph->num_blocks()), 0) {
@@ -61,7 +62,8 @@ Bisector::Pieces Bisector::find_pieces(const std::vector<int>& elements) const {
       stack.pop_back();
       weight += weight_of(e);
       for (int b : adjacency_.blocks_of(e)) {
-        if (!connects(b)) continue;
+        if (!connects(b) || spread_[at(b)]) continue;
+        spread_[at(b)] = 1;  // once, or a hub would cost the square of its arms
         for (int other : adjacency_.elements_of(b)) {
           const int j = position_[at(other)];
           if (pieces.of_element[at(j)] >= 0) continue;
@@ -72,7 +74,10 @@ Bisector::Pieces Bisector::find_pieces(const std::vector<int>& elements) const {
     }
     pieces.weight.push_back(weight);
   }
-  for (int e : elements) position_[at(e)] = -1;
+  for (int e : elements) {
+    position_[at(e)] = -1;
+    for (int b : adjacency_.blocks_of(e)) spread_[at(b)] = 0;
+  }
   return pieces;
 }
 

@@ -55,6 +55,7 @@ class Bisector {
   std::vector<int> touches_;           ///< by block: elements of the loaded set that hold it
   std::vector<int> loaded_;            ///< blocks with touches_ > 0
   mutable std::vector<int> position_;  ///< by element: position in the present set, or -1 (scratch)
+  mutable std::vector<char> spread_;   ///< by block: find_pieces has gone on to its elements (scratch)
   std::vector<char> removed_;          ///< by block: separator of the present cut
   std::vector<int> local_;             ///< by block: vertex number in a separator graph, or -1
   std::vector<int> side_touches_;      ///< by block: elements of the present side that hold it (scratch)

@@ -4,6 +4,9 @@
 #include "bisect.hpp"
 #ifdef BOUGH_HAS_METIS
 #include <metis.h>
+#include <stdlib.h>
+
+#include <mutex>
 #endif
 
 namespace bough::tree {
@@ -76,6 +79,28 @@ std::vector<int> separate_by_levels(const std::vector<int>& row_begin, const std
   return part;
 }
 
+#ifdef BOUGH_HAS_METIS
+/// METIS draws from the process-wide generator of rand(). While this object lives, that generator has a state of its
+/// own, and no other thread runs METIS: separators depend on the seed alone, and the state of the host's generator is
+/// as it was afterwards.
+class OwnRandomState {
+ public:
+  OwnRandomState() : lock_(in_use()), host_(initstate(1, state_, sizeof state_)) {}
+  ~OwnRandomState() { setstate(host_); }
+  OwnRandomState(const OwnRandomState&) = delete;
+  OwnRandomState& operator=(const OwnRandomState&) = delete;
+
+ private:
+  static std::mutex& in_use() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  std::lock_guard<std::mutex> lock_;
+  char state_[128];
+  char* host_;
+};
+#endif
+
 }  // namespace
 
 std::vector<int> separate_vertices(const VertexGraph& graph, unsigned seed) {
@@ -90,8 +115,12 @@ std::vector<int> separate_vertices(const VertexGraph& graph, unsigned seed) {
     idx_t options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = static_cast<idx_t>(seed);
-    const int status =
-        METIS_ComputeVertexSeparator(&nvtxs, xadj.data(), adjncy.data(), vwgt.data(), options, &sepsize, part.data());
+    int status = METIS_ERROR;
+    {
+      const OwnRandomState own;
+      status =
+          METIS_ComputeVertexSeparator(&nvtxs, xadj.data(), adjncy.data(), vwgt.data(), options, &sepsize, part.data());
+    }
     const auto filled = [&](idx_t p) { return std::find(part.begin(), part.end(), p) != part.end(); };
     if (status == METIS_OK && filled(0) && filled(1)) return {part.begin(), part.end()};
   }

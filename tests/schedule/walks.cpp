@@ -2,13 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <memory>
+#include <new>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
-#include "../../src/schedule/crowding.hpp"
 #include "bough/schedule/serial.hpp"
 #include "bough/schedule/threads.hpp"
 #include "solve/random_scene.hpp"
@@ -54,96 +52,25 @@ void expect_chunks(const tree::Walker& walker) {
     }
 }
 
-void spin_for(std::chrono::microseconds time) {
-  for (const auto end = std::chrono::steady_clock::now() + time; std::chrono::steady_clock::now() < end;) {
-  }
-}
-
-TEST(Walks, BesideAnotherProgramKeepTheirOrders) {
-  for (const Scene& scene : make_all_families(3)) {
-    const tree::Tree t = tree::make_tree(scene.graph, {.leaf_size = 2});
-    schedule::Threads threads(2, 0.0);
-    for (int repetition = 0; repetition < 20; ++repetition) {
-      threads.assume_crowding(repetition % 5 != 4);  // comes and goes
-      const auto look = [&] {
-        expect_orders(t, threads.walker());
-        expect_chunks(threads.walker());
+TEST(Walks, PassOnAnExceptionAndGoOnAfterwards) {
+  const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
+  for (int count : {1, 2, 4}) {
+    schedule::Threads threads(count, 0.0);
+    const tree::Walker walker = threads.walker();
+    for (tree::SubdomainId bad = 0; bad < t.num_subdomains(); bad += 3) {
+      auto visit = [&](tree::SubdomainId s) {
+        if (s == bad) throw std::bad_alloc();
       };
-      if (repetition % 2 == 0)
-        threads.keep_together(look);
-      else
-        look();
+      EXPECT_THROW(walker.walk_up(t, tree::make_visit(visit)), std::bad_alloc) << count;
+      EXPECT_THROW(walker.walk_down(t, tree::make_visit(visit)), std::bad_alloc) << count;
+      auto chunk = [&](std::int64_t begin, std::int64_t) {
+        if (begin == bad) throw std::bad_alloc();
+      };
+      EXPECT_THROW(walker.for_each_chunk(t.num_subdomains(), 1, tree::make_chunk(chunk)), std::bad_alloc) << count;
     }
+    expect_orders(t, walker);
+    expect_chunks(walker);
   }
-}
-
-/// Until the second thread has visited something; false: it never did.
-bool is_helped(schedule::Threads& threads, const tree::Tree& t, bool by_chunks) {
-  const auto self = std::this_thread::get_id();
-  std::atomic<int> by_other{0}, all{0};
-  const auto work = [&] {
-    spin_for(std::chrono::microseconds(100));
-    by_other += std::this_thread::get_id() != self;
-    ++all;
-  };
-  auto visit = [&](tree::SubdomainId) { work(); };
-  auto chunk = [&](std::int64_t, std::int64_t) { work(); };
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  for (int walks = 1; by_other == 0; ++walks) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    if (by_chunks) {
-      threads.walker().for_each_chunk(20, 1, tree::make_chunk(chunk));
-      EXPECT_EQ(all, 20 * walks);
-    } else {
-      threads.walker().walk_up(t, tree::make_visit(visit));
-      EXPECT_EQ(all, (2 * walks - 1) * t.num_subdomains());
-      threads.walker().walk_down(t, tree::make_visit(visit));
-      EXPECT_EQ(all, 2 * walks * t.num_subdomains());
-    }
-  }
-  return true;
-}
-
-TEST(Walks, BesideAnotherProgramAreHelpedByTheSecondThread) {
-  const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
-  schedule::Threads threads(2, 0.0);
-  threads.assume_crowding(true);
-  EXPECT_TRUE(is_helped(threads, t, false));
-  EXPECT_TRUE(is_helped(threads, t, true));
-}
-
-/// oneTBB may have one thread for all objects of the process: whoever has walked beside another program must not keep
-/// it.
-TEST(Walks, BesideAnotherProgramLeaveTheSecondThreadToOthers) {
-  const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
-  schedule::Threads first(2, 0.0), second(2, 0.0);
-  first.assume_crowding(true);
-  for (int repetition = 0; repetition < 3; ++repetition) {
-    ASSERT_TRUE(is_helped(first, t, false));  // again after it was left, too
-    ASSERT_TRUE(is_helped(second, t, false));
-  }
-}
-
-/// Many more spinning threads than processors in this process are as good as other programs.
-TEST(Walks, NoticeThatProcessorsAreCrowded) {
-  const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
-  std::atomic<bool> is_over{false};
-  std::vector<std::jthread> others;
-  for (unsigned k = 0; k < 4 * std::thread::hardware_concurrency(); ++k)
-    others.emplace_back([&] {
-      while (!is_over) {
-      }
-    });
-  schedule::Crowding crowding;
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!crowding.look() && std::chrono::steady_clock::now() < end) spin_for(std::chrono::milliseconds(1));
-  EXPECT_TRUE(crowding.look());
-  expect_orders(t, schedule::Threads(2, 0.0).walker());
-  is_over = true;
-  others.clear();
-  while (crowding.look() && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  EXPECT_FALSE(crowding.look());  // nothing runs that could be interrupted
 }
 
 thread_local int visits_at_hand = 0;
@@ -152,9 +79,8 @@ TEST(Walks, LetVisitsShareOutChunksAndTakeNoOtherVisitMeanwhile) {
   const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
   for (int count : {1, 2, 4}) {
     schedule::Threads threads(count, 0.0);
-    for (unsigned repetition = 0; repetition < 40; ++repetition) {
+    for (unsigned repetition = 0; repetition < 20; ++repetition) {
       threads.set_random_delay(30, repetition + 1);
-      threads.assume_crowding(repetition >= 20);
       const tree::Walker walker = threads.walker();
       std::atomic<int> nested{0}, items{0};
       auto visit = [&](tree::SubdomainId) {

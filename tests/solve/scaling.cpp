@@ -136,6 +136,53 @@ TEST(Scaling, ASecondFactorKeepsTheScalesUntilAskedOtherwise) {
   EXPECT_LE(s.report.backward_error, 1e-15);
 }
 
+constexpr int measured_every = 8;  // factorizations
+
+/// Thresholds hold for scaled entries near 1. Entries that leave this range are noticed when a solution is checked.
+TEST(Scaling, MatricesThatDriftGetNewScales) {
+  Scene scene = make_chain(1, 9, 2);
+  Solved s(scene, {}, {});
+  ASSERT_TRUE(s.factor().ok());
+  s.solve(s.random_rhs(1));
+  const double before = s.solver.column_scale()[0];
+  const auto grow = [&](double factor) {
+    for (auto& e : scene.elements)
+      if (e.rows() == 12) e *= factor;  // beams
+    write_elements(scene, s.solver);
+    for (int k = 0; k <= measured_every; ++k) {
+      ASSERT_TRUE(s.factor().ok());
+      s.solve(s.random_rhs(2));
+    }
+  };
+  grow(8.0);  // too little
+  EXPECT_EQ(s.solver.column_scale()[0], before);
+  grow(1e4);
+  EXPECT_LT(s.solver.column_scale()[0], 0.1 * before);
+}
+
+/// The backward error is relative to the present matrix, whenever its scales were computed.
+TEST(Scaling, BackwardErrorsAreThoseOfThePresentMatrix) {
+  Scene scene = make_chain(1, 9, 2);
+  for (const double factor : {1e-3, 1e3}) {
+    Scene other = scene;
+    for (auto& e : other.elements) e *= factor;
+    Solved stale(scene, {}, {.check = solve::SolveCheck::backward_error, .refinement_steps = 0}),
+        fresh(other, {}, {.check = solve::SolveCheck::backward_error, .refinement_steps = 0});
+    ASSERT_TRUE(fresh.factor().ok());
+    const Eigen::VectorXd b = fresh.random_rhs(1);
+    fresh.solve(b);
+    ASSERT_TRUE(stale.factor().ok());
+    stale.solve(b);
+    write_elements(other, stale.solver);
+    for (int k = 0; k < measured_every; ++k) {
+      ASSERT_TRUE(stale.factor().ok());
+      stale.solve(b);
+    }
+    EXPECT_LT(stale.report.backward_error, 30.0 * fresh.report.backward_error) << factor;
+    EXPECT_GT(stale.report.backward_error, fresh.report.backward_error / 30.0) << factor;
+  }
+}
+
 TEST(Scaling, ExtremeStiffnessRatiosStaySolvable) {
   for (double ratio : {1e-12, 1e12}) {
     Scene scene = make_chain(3, 3, 4);

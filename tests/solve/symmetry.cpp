@@ -68,15 +68,6 @@ TEST(Symmetry, DeclaredValuesAreFactoredAsSuchInLessMemory) {
   // Schur complements stand in the places of factors, of which half are left.
   EXPECT_LT(static_cast<double>(s.solver.counters().memory_bytes),
             0.92 * static_cast<double>(general.solver.counters().memory_bytes));
-  // Where all Schur complements last, only factors differ: U12 is left out, a block diagonal of two numbers a row
-  // comes in.
-  Solved s_all(lattice, {}, {.symmetry = Symmetry::symmetric, .partial = true, .lanes = false}),
-      all(lattice, {}, {.partial = true, .lanes = false});
-  double left_out = 0.0;
-  for (const tree::Front& f : all.tree.fronts)
-    left_out += static_cast<double>(f.num_eliminated) * (f.num_boundary - 2) - 8.0;  // up to a line
-  EXPECT_GE(static_cast<double>(all.solver.counters().memory_bytes - s_all.solver.counters().memory_bytes),
-            sizeof(double) * left_out);
 }
 
 TEST(Symmetry, ValuesThatAreNotAreNamedAndFactoredAsIfNothingHadBeenDeclared) {

@@ -41,8 +41,6 @@ TEST(Threads, GiveTheSameBitsForAnyCountAndAnyTiming) {
         EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), leaf))) << scene.name << " " << count;
         threads.set_random_delay(20, static_cast<unsigned>(count));
         EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), leaf))) << scene.name << " delayed " << count;
-        threads.assume_crowding(true);
-        EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), leaf))) << scene.name << " crowded " << count;
       }
     }
 }
@@ -59,8 +57,6 @@ TEST(Threads, ShareLargeFrontsAndGiveTheSameBits) {
       EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), 0, symmetry))) << count;
       threads.set_random_delay(20, static_cast<unsigned>(count));
       EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), 0, symmetry))) << "delayed " << count;
-      threads.assume_crowding(true);
-      EXPECT_TRUE(same_bits(serial, run(scene, threads.walker(), 0, symmetry))) << "crowded " << count;
     }
     if (symmetry == Symmetry::definite) scene = make_definite(std::move(scene));  // first it is not
   }

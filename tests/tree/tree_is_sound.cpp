@@ -1,10 +1,12 @@
 /// Laws of the tree: everything is in it once, in the right order, and the cost grows as it should.
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <initializer_list>
 #include <set>
 #include <string>
+#include <thread>
 
 #include "bough/tree/tree.hpp"
 #include "solve/random_scene.hpp"
@@ -196,6 +198,36 @@ blocks::BlockGraph make_planar_chain(int links) {
     }
   }
   return g;
+}
+
+/// Partitioners may draw random numbers from a generator that all threads of the process share.
+TEST(Tree, IsTheSameWhereSeveralThreadsMakeTreesAtOnce) {
+  std::vector<Scene> scenes;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const int size = 5 + static_cast<int>(seed % 7);
+    scenes.push_back(make_lattice(seed, size, size + 2));
+  }
+  std::vector<std::vector<int>> serial, together(scenes.size());
+  for (const Scene& scene : scenes) serial.push_back(tree::make_tree(scene.graph, {}).element_order);
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t first = 0; first < 4; ++first)
+      threads.emplace_back([&, first] {
+        for (std::size_t i = first; i < scenes.size(); i += 4)
+          together[i] = tree::make_tree(scenes[i].graph, {}).element_order;
+      });
+  }
+  for (std::size_t i = 0; i < scenes.size(); ++i) EXPECT_EQ(serial[i], together[i]) << i;
+}
+
+TEST(Tree, LeavesTheGeneratorOfTheHostAlone) {
+  const Scene scene = make_lattice(1, 12, 12);
+  srand(7);
+  const int first = rand(), second = rand();
+  srand(7);
+  EXPECT_EQ(rand(), first);
+  (void)tree::make_tree(scene.graph, {});
+  EXPECT_EQ(rand(), second);
 }
 
 /// One leaf that is not like the others costs as much as eight that are. The first has one interface, the others two.

@@ -30,8 +30,6 @@ class Threads {
 
   /// For tests: every task and chunk first spins for a pseudo-random time below `microseconds`. 0 turns it off.
   void set_random_delay(unsigned microseconds, unsigned seed);
-  /// For tests: the two threads behave as if another program used the processors.
-  void assume_crowding(bool yes);
 
  private:
   struct State;

@@ -33,27 +33,19 @@ class AnySolver {
   void trust_symmetry(bool mirrored) {
     if (auto* s = std::get_if<Hierarchical>(&solver_)) s->trust_symmetry(mirrored);
   }
-  /// changed: used by solvers that can keep the factors of other elements; all others factor everything anew.
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, Changed changed = {}) {
-    return std::visit(
-        [&](auto& s) {
-          if constexpr (requires { s.factor(walker, prepare, nullptr, changed); })
-            return s.factor(walker, prepare, nullptr, changed);
-          else
-            return s.factor(walker, prepare);
-        },
-        solver_);
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}) {
+    return std::visit([&](auto& s) { return s.factor(walker, prepare); }, solver_);
   }
   /// factor() and, if it succeeds, solve(), in one walk if the solver supports it.
   [[nodiscard]] FactorStatus factor_and_solve(const tree::Walker& walker, Prepare prepare, const double* rhs, double* x,
                                               SolveReport& report) {
     return std::visit(
         [&](auto& s) {
-          constexpr bool in_one_sweep = requires { s.finish(walker, x); };
+          constexpr bool in_one_sweep = requires { s.finish(walker, rhs, x); };
           FactorStatus status;
           if constexpr (in_one_sweep) {
             status = s.factor(walker, prepare, rhs);
-            if (status.ok()) report = s.finish(walker, x);
+            if (status.ok()) report = s.finish(walker, rhs, x);
           } else {
             status = s.factor(walker, prepare);
             if (status.ok()) report = s.solve(walker, rhs, x);

@@ -52,16 +52,12 @@ class Hierarchical {
 
   /// Assembles, factors and condenses all sub-domains. Allocates only if delayed pivots enlarge a front, if fronts
   /// leave lanes or registers for the first time, or if rows are dependent. With `rhs` (num_unknowns) the right-hand
-  /// side is condensed in the same visits, while a front is in the cache; finish() then solves, and `rhs` must remain
-  /// valid until then. SolveOptions::partial: sub-domains without `changed` elements in themselves and below keep their
-  /// factors, and no Prepare is called for them; all bits equal those of a whole factorization. After rescale() and
-  /// after a failure everything is factored anew.
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, const double* rhs = nullptr,
-                                    Changed changed = {});
+  /// side is condensed in the same visits, while a front is in the cache; finish() then solves.
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, const double* rhs = nullptr);
 
   /// Completes the solution for the right-hand side that was passed to factor(). Precondition: factor(.., rhs) was ok,
   /// and nothing was solved since.
-  [[nodiscard]] SolveReport finish(const tree::Walker& walker, double* x);
+  [[nodiscard]] SolveReport finish(const tree::Walker& walker, const double* rhs, double* x);
 
   /// Solves with the last factorization. rhs, x: num_unknowns, in the order of the blocks; may be the same array.
   /// Precondition: factor() was ok. If constraint rows are dependent, the multipliers are those of least norm (each

@@ -37,9 +37,6 @@ struct SolveOptions {
   /// below tiny_pivot, is factored as a symmetric one; the declaration remains in force
   /// (SolverCounters::indefinite_fronts).
   Symmetry symmetry = Symmetry::general;
-  /// Schur complements of all sub-domains are stored, so that factor() can skip unchanged sub-domains; takes more
-  /// memory.
-  bool partial = false;
   /// The root's front is stored as assembled, for Hierarchical::inertia().
   bool inertia = false;
   /// Equal sub-domains are factored in lockstep, eight per pack, and small leaves without equals in registers (flat

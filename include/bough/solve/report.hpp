@@ -102,7 +102,6 @@ struct InterfaceReport {
 struct SolverCounters {
   std::int64_t memory_bytes = 0;  ///< numeric storage.
   double factor_flops = 0.0;      ///< estimate of one factorization without delays [flop].
-  double flops_done = 0.0;        ///< the same over all factorizations, without skipped sub-domains [flop].
   std::int64_t factorizations = 0;
   std::int64_t solutions = 0;
   std::int64_t delayed_pivots = 0;         ///< over all factorizations.
@@ -119,9 +118,6 @@ struct SolverCounters {
   /// instead, over all factorizations.
   std::int64_t indefinite_fronts = 0;
 };
-
-/// By element: whether its matrix differs from the one factored last. Empty: all differ.
-using Changed = std::span<const char>;
 
 /// Called at the start of a visit, before the elements are assembled, so that one task evaluates and eliminates them.
 /// begin, end: positions in Hierarchical::batches(). Must not throw. May run concurrently for different visits.

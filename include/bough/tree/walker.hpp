@@ -22,14 +22,14 @@ struct Mark {
   }
 };
 
-/// Work on one sub-domain (its own fronts). Must not throw.
+/// Work on one sub-domain (its own fronts). An exception ends the walk and reaches its caller.
 struct Visit {
   void (*run)(void* context, SubdomainId subdomain) = nullptr;
   void* context = nullptr;
   Work work = Work::other;
 };
 
-/// Work on a chunk [begin, end) of independent items. Must not throw.
+/// Work on a chunk [begin, end) of independent items. An exception ends the loop and reaches its caller.
 struct Chunk {
   void (*run)(void* context, std::int64_t begin, std::int64_t end) = nullptr;
   void* context = nullptr;
