@@ -75,13 +75,14 @@ std::vector<Line> lines_of(const io::History& history, const std::vector<std::si
   std::vector<Line> lines;
   for (const std::size_t c : columns) {
     const double start = is_apart ? history.rows.front().values[c] : 0.0;
-    lines.push_back({c, std::isfinite(start) ? start : 0.0});
+    const bool is_visible = std::isfinite(start) && std::abs(start) > 1e-6 * largest;
+    lines.push_back({c, is_visible ? start : 0.0});
   }
   return lines;
 }
 
-/// Name of the component, with the constant that was subtracted.
-/// Component of a column, without what the title says already: "x" of "razi_x" in the plot "split, razi".
+/// Name of the component, with the constant that was subtracted, and without what the title says already: "x" of
+/// "razi_x" in the plot "split, razi".
 std::string legend_text(const io::History& history, const Line& line, std::string_view title) {
   std::string component = io::split_column(history.header.columns[line.column]).component;
   const std::size_t mark = component.rfind('_');
