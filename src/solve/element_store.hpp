@@ -103,6 +103,7 @@ class ElementStore {
   void prepare();
   enum class Lending { strict, bare };
   bool lend_diagonals(Lending lending, const std::vector<double>& given, std::vector<double>& diagonal) const;
+  void drop_round_off(std::vector<double>& diagonal) const;
   void lift_weak_diagonals(std::vector<double>& given, std::vector<double>& diagonal) const;
   template <class Row>
   void for_rows(std::int64_t begin, std::int64_t end, Row&& row) const;

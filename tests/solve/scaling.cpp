@@ -136,6 +136,31 @@ TEST(Scaling, ASecondFactorKeepsTheScalesUntilAskedOtherwise) {
   EXPECT_LE(s.report.backward_error, 1e-15);
 }
 
+/// Rods without inertia about their axes: what rounding leaves on their diagonals must not determine scales.
+TEST(Scaling, ADiagonalOfRoundOffIsNone) {
+  const auto scales = [](double rest) {
+    SceneMaker m(4);
+    const int first = m.add_node(), second = m.add_node();
+    m.add_beam({first, second});
+    m.add_joint({first, second}, 5);
+    Scene scene = m.finish("rods");
+    Eigen::MatrixXd &beam = scene.elements.front(), &joint = scene.elements.back();
+    const double largest = beam.diagonal().cwiseAbs().maxCoeff();
+    for (const int spin : {3, 9}) {
+      beam.row(spin).setZero();
+      beam.col(spin).setZero();
+      beam(spin, spin) = rest * largest;
+    }
+    joint.setZero();
+    for (int i = 0; i < 5; ++i)
+      joint(12 + i, i) = joint(i, 12 + i) = -(joint(12 + i, 6 + i) = joint(6 + i, 12 + i) = 1.0);
+    Solved s(scene, {}, {});
+    (void)s.factor();
+    return std::vector<double>(s.solver.column_scale().begin(), s.solver.column_scale().end());
+  };
+  EXPECT_EQ(scales(1e-17), scales(0.0));
+}
+
 constexpr int measured_every = 8;  // factorizations
 
 /// Thresholds hold for scaled entries near 1. Entries that leave this range are noticed when a solution is checked.
