@@ -76,7 +76,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   s.visit_rhs = rhs;
   if (s.scales_wanted) {
     s.elements.eval_scales(s.scales, s.residual);
-    s.measured_factorization = State::never;
+    s.next_measurement = 0;
     s.check_all_symmetric();
     if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal except for the order of a sum
     s.lane_scales.set(s.lanes, s.tree, s.scales);
@@ -194,12 +194,12 @@ void Hierarchical::State::take(const double* b, double* x_out, bool looks_again)
 
 /// Measures the matrices of the present factorization in its scales, which may be those of an earlier one. If they have
 /// drifted, the next factorization computes new scales: thresholds of pivots and ranks hold for entries near 1. A
-/// measurement reads all matrices, so it serves the next few factorizations, too. now: it does not.
-void Hierarchical::State::measure_matrices(const tree::Walker& walker, bool now) {
+/// measurement reads all matrices, so it serves the next few factorizations, too.
+void Hierarchical::State::measure_matrices(const tree::Walker& walker) {
   constexpr double largest_drift = 64.0;
   constexpr std::int64_t serves = 8;
-  if (counters.factorizations - measured_factorization < (now ? 1 : serves)) return;
-  measured_factorization = counters.factorizations;
+  if (counters.factorizations < next_measurement) return;
+  next_measurement = counters.factorizations + serves;
   const ElementStore::Sizes sizes = elements.eval_sizes(walker, scales);
   norm = sizes.norm;
   scales_wanted = scales_wanted || sizes.drift > largest_drift;
@@ -216,7 +216,7 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
   if (null_space.dimension > 0)
     for (std::size_t i = 0; i < n; ++i) rhs[i] -= correction[i] / scales.row[i];
   if (options.check == SolveCheck::none) return report;
-  measure_matrices(walker, false);
+  measure_matrices(walker);
   ElementStore::Errors errors;
   if (null_space.dimension > 0) {  // multipliers of least norm were computed after the walk and are not in the lanes
     errors = eval_met_residual(walker, report);
@@ -226,12 +226,9 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
     if (options.check == SolveCheck::componentwise)
       errors = elements.eval_residual(walker, scales, x, given, residual.data());
   }
-  if (errors.finite && errors.normwise > options.refinement_above && null_space.dimension == 0) {
-    measure_matrices(walker, true);  // refined solutions are compared in the norm of the present matrices
-    errors.normwise *= errors.size;
-    errors.size = norm * largest_x() + largest_rhs();
-    if (errors.size > 0.0) errors.normwise /= errors.size;
-  }
+  // Refined solutions are compared in the norm of the present matrix.
+  if (errors.finite && errors.normwise > options.refinement_above && null_space.dimension == 0)
+    errors = eval_met_residual(walker, report);
   while (errors.finite && errors.normwise > options.refinement_above &&
          report.refinement_steps < options.refinement_steps) {
     std::copy(x, x + n, correction.begin());

@@ -153,10 +153,9 @@ struct Hierarchical::State {
   std::int64_t twin_factorization = -1;  ///< number of the factorization that it has
   /// Matrices and factors do not stay in the caches between walks: they are prefetched, and written past the caches.
   bool exceeds_caches = false;
-  bool reads_factors_ahead = false;  ///< factors do not stay in the nearer caches
-  static constexpr std::int64_t never = -1000;
-  double norm = 0.0;  ///< largest row sum of the scaled matrix of measured_factorization
-  std::int64_t measured_factorization = never;
+  bool reads_factors_ahead = false;   ///< factors do not stay in the nearer caches
+  double norm = 0.0;                  ///< largest row sum of the scaled matrix that was measured last
+  std::int64_t next_measurement = 0;  ///< number of factorizations after which matrices are measured again
 
   FactorStatus status;
   SolverCounters counters;
@@ -252,7 +251,7 @@ struct Hierarchical::State {
   void backward_front(tree::FrontId f);
   bool checks() const { return options.check != SolveCheck::none; }
   void take(const double* b, double* x_out, bool looks_again);
-  void measure_matrices(const tree::Walker& walker, bool now);
+  void measure_matrices(const tree::Walker& walker);
   SolveReport check_solution(const tree::Walker& walker);
   void back_substitute(const tree::Walker& walker);
   void solve_into_x(const tree::Walker& walker, const double* b);

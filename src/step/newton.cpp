@@ -160,7 +160,7 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
     auto by_element = [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t id = begin; id < end; ++id)
         plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
-          if (elements::passed_limit(e, f) != elements::Limit::none) first_bad.note(id);
+          if (elements::is_past_limit(e, f)) first_bad.note(id);
         });
     };
     system.walker().for_each_chunk(count, element_grain, tree::make_chunk(by_element));

@@ -9,12 +9,6 @@ namespace bough::elements {
 
 using motion::Vec2;
 
-enum class Limit : std::uint8_t {
-  none,
-  folded,   ///< a beam turns by nearly half a turn over its length: the logarithm of (1) in README.md is not unique
-  flipped,  ///< a joint went to its opposite pose, which satisfies the same constraints
-};
-
 /// Cosine of the angle between the ends of a beam below which the beam is folded.
 inline constexpr double folded_cosine = -0.95;
 
@@ -31,29 +25,31 @@ Vec2<double> eval_relative_rotation(const E& e, int port, const FieldOn<motion::
 inline double cosine_of(const Mat3<double>& R) { return 0.5 * (R(0, 0) + R(1, 1) + R(2, 2) - 1.0); }
 inline double cosine_of(const Vec2<double>& turn) { return turn[0]; }
 
+/// Whether a beam turns by nearly half a turn over its length, where the logarithm of (1) in README.md is not unique, or
+/// a joint went to its opposite pose, which satisfies the same constraints.
 template <class E, class F>
-Limit passed_limit(const E&, const F&) {
-  return Limit::none;
+bool is_past_limit(const E&, const F&) {
+  return false;
 }
 template <class G, int N>
-Limit passed_limit(const BeamOn<G, N>& e, const FieldOn<G, double>& f) {
+bool is_past_limit(const BeamOn<G, N>& e, const FieldOn<G, double>& f) {
   for (int i = 1; i < N; ++i)
-    if (cosine_of(eval_relative_rotation(e, i, f)) < folded_cosine) return Limit::folded;
-  return Limit::none;
+    if (cosine_of(eval_relative_rotation(e, i, f)) < folded_cosine) return true;
+  return false;
 }
-inline Limit passed_limit(const Joint& e, const Field& f) {
+inline bool is_past_limit(const Joint& e, const Field& f) {
   for (int k = 0; k < e.num_rows; ++k) {
     if (e.rows[k].kind != RowKind::across) continue;
     const bool aligns = aligns_all_axes(e, k);
     if (!aligns && e.rows[k].j != 2) continue;
     const Mat3<double> R = eval_relative_rotation(e, 1, f);
-    if (aligns) return R(0, 0) < 0.0 || R(1, 1) < 0.0 || R(2, 2) < 0.0 ? Limit::flipped : Limit::none;
-    if (R(2, 2) < 0.0) return Limit::flipped;
+    if (aligns) return R(0, 0) < 0.0 || R(1, 1) < 0.0 || R(2, 2) < 0.0;
+    if (R(2, 2) < 0.0) return true;
   }
-  return Limit::none;
+  return false;
 }
-inline Limit passed_limit(const JointOn<motion::Se2>& e, const FieldOn<motion::Se2, double>& f) {
-  return e.has_branch && cosine_of(eval_relative_rotation(e, 1, f)) < 0.0 ? Limit::flipped : Limit::none;
+inline bool is_past_limit(const JointOn<motion::Se2>& e, const FieldOn<motion::Se2, double>& f) {
+  return e.has_branch && cosine_of(eval_relative_rotation(e, 1, f)) < 0.0;
 }
 
 /// Angle of a joint about its axis 3 [rad], on the branch nearest to `turns`, the angle at the last accepted step.

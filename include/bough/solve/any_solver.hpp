@@ -36,24 +36,6 @@ class AnySolver {
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}) {
     return std::visit([&](auto& s) { return s.factor(walker, prepare); }, solver_);
   }
-  /// factor() and, if it succeeds, solve(), in one walk if the solver supports it.
-  [[nodiscard]] FactorStatus factor_and_solve(const tree::Walker& walker, Prepare prepare, const double* rhs, double* x,
-                                              SolveReport& report) {
-    return std::visit(
-        [&](auto& s) {
-          constexpr bool in_one_sweep = requires { s.finish(walker, rhs, x); };
-          FactorStatus status;
-          if constexpr (in_one_sweep) {
-            status = s.factor(walker, prepare, rhs);
-            if (status.ok()) report = s.finish(walker, rhs, x);
-          } else {
-            status = s.factor(walker, prepare);
-            if (status.ok()) report = s.solve(walker, rhs, x);
-          }
-          return status;
-        },
-        solver_);
-  }
   /// check = false: solvers that support it omit the backward error (NaN) and iterative refinement.
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x, bool check = true) {
     return std::visit(

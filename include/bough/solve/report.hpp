@@ -120,7 +120,7 @@ struct SolverCounters {
 };
 
 /// Called at the start of a visit, before the elements are assembled, so that one task evaluates and eliminates them.
-/// begin, end: positions in Hierarchical::batches(). Must not throw. May run concurrently for different visits.
+/// begin, end: positions in Hierarchical::batches(). May run concurrently for different visits.
 struct Prepare {
   void (*run)(void* context, int visit, int begin, int end) = nullptr;
   void* context = nullptr;

@@ -17,7 +17,8 @@ struct Violations {
   int open_joint = -1, fast_joint = -1;  ///< index in Plan::joints of the largest relative values; -1: all are zero
 };
 
-/// Rows that the scene's motions satisfy by themselves, and which are therefore no unknowns, are evaluated as well.
+/// Rows that the scene's motions satisfy by themselves, and which are therefore no unknowns, are evaluated as well;
+/// `violations` leaves out joints that only keep nodes without rotations from turning.
 class Constraints {
  public:
   Constraints(const plan::Plan& plan, const Instant& instant, const tree::Walker& walker);
