@@ -34,10 +34,12 @@ struct Integrator {
   AlphaRule rule;
   const State& start;
 
-  std::optional<Trouble> follow(System& system, State& state) const {
+  /// Applies a Newton correction: poses move, velocities and accelerations follow, multipliers grow.
+  std::optional<Trouble> correct(System& system, State& state, const double* x) const {
+    system.corrections().add_multipliers(state, x, 1.0);
     return state.change_all([&]<class G>(NodesOn<G>& nodes) {
       const double most = largest_of_chunks(system, [&](std::size_t begin, std::size_t end) {
-        return follow_nodes(rule, start.on<G>(), nodes, begin, end);
+        return correct_nodes(rule, start.on<G>(), nodes, begin, end, x, system.corrections().increments());
       });
       return judge_turn(system, nodes, most);
     });
@@ -126,7 +128,7 @@ StepReport try_step(System& system, State& state, const State& start, const Step
   };
   if (const auto t = enter(system, state, step, end_time)) return fail(*t);
   report = iterate(system, state, options, make_goal(start), step.rule.slopes(),
-                   [&](State& s) { return step.follow(system, s); });
+                   [&](State& s, const double* x) { return step.correct(system, s, x); });
   if (!report.converged) return report;
   if (const auto t = check_shape(system, state)) return fail(*t);
   note_end(system, step.rule, start, state);

@@ -208,7 +208,10 @@ StepReport Bdf::take_step(State& state, const StepOptions& options, double end_t
   predict(state);
   if (const auto t = follow(state)) return failed(report, t->text);
   const elements::Slopes slopes{c_.c0 / h_, (c_.c0 / h_) * (c_.c0 / h_), false};
-  report = iterate(system_, state, options, {}, slopes, [&](State& s) { return follow(s); });
+  report = iterate(system_, state, options, {}, slopes, [&](State& s, const double* x) {
+    system_.corrections().move(s, x);
+    return follow(s);
+  });
   if (!report.converged) return report;
   if (const auto t = check_shape(system_, state)) return failed(report, t->text);
   state.change_all([&]<class G>(NodesOn<G>& nodes) {

@@ -99,16 +99,20 @@ void Corrections::note_multipliers(const State& start, State& state) const {
   state.multiplier_order = least_missed(misses);
 }
 
-double Corrections::apply(State& state, const double* x) {
-  PhaseTimer timer{clock_, counts_.update};
-  const double change = relative_size(state, x);
+void Corrections::move(State& state, const double* x) const {
   state.change_all([&](auto& nodes) {
     auto by_node = [&](std::int64_t begin, std::int64_t end) {
       move_nodes(nodes, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), x, increments());
     };
     walker_.for_each_chunk(static_cast<std::int64_t>(nodes.motion.size()), block_grain, tree::make_chunk(by_node));
   });
-  if (plan_.num_multipliers > 0) add_multipliers(state, x, 1.0);
+  add_multipliers(state, x, 1.0);
+}
+
+double Corrections::apply(State& state, const double* x) {
+  PhaseTimer timer{clock_, counts_.update};
+  const double change = relative_size(state, x);
+  move(state, x);
   return change;
 }
 

@@ -34,4 +34,29 @@ double CpuClock::now() {
   return told_ = std::max(told_, cpu_);
 }
 
+void CpuClock::charge(double* next) {
+  const double time = now();
+  if (charged_ != nullptr) *charged_ += time - begun_;
+  charged_ = next;
+  begun_ = time;
+  is_left_open_ = false;
+}
+
+PhaseTimer::PhaseTimer(CpuClock& clock, double& sum)
+    : clock_(clock), outer_(clock.is_left_open_ ? nullptr : clock.charged_) {
+  clock.charge(&sum);
+}
+PhaseTimer::~PhaseTimer() {
+  if (outer_ == nullptr && clock_.is_chained_)
+    clock_.is_left_open_ = true;
+  else
+    clock_.charge(outer_);
+}
+
+PhaseChain::PhaseChain(CpuClock& clock) : clock_(clock) { clock.is_chained_ = true; }
+PhaseChain::~PhaseChain() {
+  clock_.is_chained_ = false;
+  if (clock_.is_left_open_) clock_.charge(nullptr);
+}
+
 }  // namespace bough::step

@@ -47,14 +47,12 @@ Pack angular_square(const VectorLanes<G>& v) {
   return motion::VectorsOn<G>::template angular_square<Pack>(v);
 }
 
-/// The pose and the increment dq of a node (or of eight nodes in lanes), and their update by an increment eta.
+/// The motion of a node (or of eight nodes in lanes), and the update of its pose and of dq by an increment eta.
 template <class G, class S>
 struct Mover;
 template <class S>
-struct Mover<Se3, S> {
-  Mat3<S> R;
-  PositionPair<S> x;
-  Vec6<S> dq;
+struct Mover<Se3, S> : elements::NodeMotionOn<Se3, S> {
+  using elements::NodeMotionOn<Se3, S>::R, elements::NodeMotionOn<Se3, S>::x, elements::NodeMotionOn<Se3, S>::dq;
   Quaternion<S> q;
 
   void move(const Vec6<S>& eta, bool follow_dq) {
@@ -66,10 +64,8 @@ struct Mover<Se3, S> {
   }
 };
 template <class S>
-struct Mover<Se2, S> {
-  Vec2<S> R;
-  PositionPair<S, 2> x;
-  Vec3<S> dq;
+struct Mover<Se2, S> : elements::NodeMotionOn<Se2, S> {
+  using elements::NodeMotionOn<Se2, S>::R, elements::NodeMotionOn<Se2, S>::x, elements::NodeMotionOn<Se2, S>::dq;
 
   /// The angles of dq and eta are added, so that the angle of dq stays correct beyond half a turn.
   void move(const Vec3<S>& eta, bool follow_dq) {
@@ -92,9 +88,16 @@ void gather_pose(const NodesOn<G>& nodes, std::size_t from, std::size_t count, M
   gather<NodeNumbers<G>::pose>(nodes.motion.data(), from, count, reinterpret_cast<Pack*>(&m.R));
   if constexpr (std::is_same_v<G, Se3>) gather<4>(nodes.rotation.data(), from, count, &m.q.w);
 }
+/// Loads poses, velocities and accelerations.
 template <class G>
-void scatter_pose(const Mover<G, Pack>& m, NodesOn<G>& nodes, std::size_t from, std::size_t count) {
-  scatter<NodeNumbers<G>::pose>(reinterpret_cast<const Pack*>(&m.R), nodes.motion.data(), from, count);
+void gather_motion(const NodesOn<G>& nodes, std::size_t from, std::size_t count, Mover<G, Pack>& m) {
+  gather<NodeNumbers<G>::dq>(nodes.motion.data(), from, count, reinterpret_cast<Pack*>(&m.R));
+  if constexpr (std::is_same_v<G, Se3>) gather<4>(nodes.rotation.data(), from, count, &m.q.w);
+}
+/// Stores the first `numbers` numbers of each node.
+template <int numbers, class G>
+void scatter_motion(const Mover<G, Pack>& m, NodesOn<G>& nodes, std::size_t from, std::size_t count) {
+  scatter<numbers>(reinterpret_cast<const Pack*>(&m.R), nodes.motion.data(), from, count);
   if constexpr (std::is_same_v<G, Se3>) scatter<4>(&m.q.w, nodes.rotation.data(), from, count);
 }
 static_assert(sizeof(Quaternion<double>) == 4 * sizeof(double) && offsetof(Quaternion<double>, w) == 0);
@@ -113,9 +116,12 @@ VectorLanes<G> gather_increments(const double* x, const IncrementsOf& of, Node&&
     from[l] = unknown < 0 ? nothing : x + unknown;
   }
   VectorLanes<G> eta;
-  lanes::gather_lanes(from, u.count, &eta[0]);
+  if (u.count == G::dof) {
+    lanes::gather_lanes(from, G::dof, &eta[0]);
+    return eta;
+  }
   if constexpr (std::is_same_v<G, Se3>) {
-    if (u.count == G::dof) return eta;
+    lanes::gather_lanes(from, u.count, &eta[0]);
     // P^T x as in NodeUnknowns::expanded, for point masses, which have translations only.
     for (int i = u.count; i < G::dof; ++i) eta[i] = Pack(0.0);
     if (u.basis.empty()) return eta;
@@ -136,25 +142,80 @@ void by_eights(std::size_t begin, std::size_t end, F&& f) {
   for (std::size_t n = begin; n < end; n += nodes_in_lanes) f(n, std::min(nodes_in_lanes, end - n));
 }
 
+/// Up to eight nodes with their poses and dq.
+template <class G>
+Mover<G, Pack> gather_moving(const NodesOn<G>& nodes, std::size_t first, std::size_t count) {
+  Mover<G, Pack> m;
+  gather_pose(nodes, first, count, m);
+  gather<G::dof>(nodes.motion.data(), first, count, &m.dq[0], NodeNumbers<G>::dq);
+  return m;
+}
+/// Moves them by their unknowns; of dq in a plane only the angle.
+template <class G>
+void move_by_unknowns(Mover<G, Pack>& m, const double* x, const IncrementsOf& of, std::size_t first,
+                      std::size_t count) {
+  const auto node = [first, count](std::size_t l) { return static_cast<int>(first + std::min(l, count - 1)); };
+  const auto eta = gather_increments<G>(x, of, node);
+  if constexpr (std::is_same_v<G, Se3>) {
+    m.move(eta, true);
+  } else {
+    m.move(eta, false);
+    m.dq[2] = m.dq[2] + eta[2];
+  }
+}
+
 }  // namespace
 
 template <class G>
 void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x, const IncrementsOf& of) {
   by_eights(begin, end, [&](std::size_t first, std::size_t count) {
-    Mover<G, Pack> m;
-    gather_pose(nodes, first, count, m);
-    gather<G::dof>(nodes.motion.data(), first, count, &m.dq[0], NodeNumbers<G>::dq);
-    const auto eta = gather_increments<G>(
-        x, of, [first, count](std::size_t l) { return static_cast<int>(first + std::min(l, count - 1)); });
-    if constexpr (std::is_same_v<G, Se3>) {
-      m.move(eta, true);
-    } else {
-      m.move(eta, false);
-      m.dq[2] = m.dq[2] + eta[2];
-    }
-    scatter_pose(m, nodes, first, count);
+    Mover<G, Pack> m = gather_moving(nodes, first, count);
+    move_by_unknowns(m, x, of, first, count);
+    scatter_motion<NodeNumbers<G>::pose>(m, nodes, first, count);
     scatter<G::dof>(&m.dq[0], nodes.motion.data(), first, count, NodeNumbers<G>::dq);
   });
+}
+
+namespace {
+
+/// Loads what a correction needs of the start of the step. In space a move keeps dq up to date.
+void gather_start(const SpatialNodes& start, std::size_t first, std::size_t count, Mover<Se3, Pack>& from) {
+  gather<2 * Se3::dof>(start.motion.data(), first, count, &from.v[0], NodeNumbers<Se3>::v);
+}
+void measure_increment(const Mover<Se3, Pack>&, Mover<Se3, Pack>&) {}
+/// dq = log(H_start^-1 H), with the accumulated angle, which is correct beyond half a turn. Computed from the poses, it
+/// contains no accumulated rounding of single corrections.
+void gather_start(const PlanarNodes& start, std::size_t first, std::size_t count, Mover<Se2, Pack>& from) {
+  gather_motion(start, first, count, from);
+}
+void measure_increment(const Mover<Se2, Pack>& from, Mover<Se2, Pack>& m) {
+  const Pack angle = m.dq[2];
+  const Vec2<Pack> way = motion::conjugate_times(from.R, motion::difference(m.x, from.x));
+  const Vec2<Pack> inverse{{motion::half_cotangent(Pack(angle * angle)), -0.5 * angle}};
+  m.dq = motion::join(motion::complex_times(inverse, way), angle);
+}
+
+}  // namespace
+
+template <class G>
+double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
+                     std::size_t end, const double* x, const IncrementsOf& of) {
+  Pack turned(0.0);
+  by_eights(begin, end, [&](std::size_t first, std::size_t count) {
+    Mover<G, Pack> m = gather_moving(state, first, count), from;
+    VectorLanes<G> algorithmic;
+    gather_start(start, first, count, from);
+    gather<G::dof>(start.algorithmic.data(), first, count, &algorithmic[0]);
+    move_by_unknowns(m, x, of, first, count);
+    measure_increment(from, m);
+    const auto now = rule.follow(m.dq, from.v, from.a, algorithmic);
+    m.v = now.v;
+    m.a = now.a;
+    scatter_motion<NodeNumbers<G>::all>(m, state, first, count);
+    scatter<G::dof>(&now.algorithmic[0], state.algorithmic.data(), first, count);
+    turned = larger(turned, angular_square<G>(m.dq));
+  });
+  return largest_of(turned);
 }
 
 namespace {
@@ -199,71 +260,23 @@ void place_node(const NodesOn<G>& from, std::size_t node, const typename G::temp
 template <class G>
 double predict_nodes(const AlphaRule& rule, int order, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
                      std::size_t end) {
-  using Numbers = NodeNumbers<G>;
   Pack turned(0.0);
   by_eights(begin, end, [&](std::size_t first, std::size_t count) {
     Mover<G, Pack> m;
-    VectorLanes<G> rates[3], algorithmic, trend, of_trend;  // v, dv/dt and dq
-    gather_pose(start, first, count, m);
-    gather<2 * G::dof>(start.motion.data(), first, count, &rates[0][0], Numbers::v);
+    VectorLanes<G> algorithmic, trend, of_trend;
+    gather_motion(start, first, count, m);
     gather<G::dof>(start.algorithmic.data(), first, count, &algorithmic[0]);
     gather<G::dof>(start.acceleration_trend.data(), first, count, &trend[0]);
     gather<G::dof>(start.trend_change.data(), first, count, &of_trend[0]);
-    const VectorLanes<G> eta = rule.predict(rates[0], rates[1], algorithmic, predicted_change(order, trend, of_trend));
+    const VectorLanes<G> eta = rule.predict(m.v, m.a, algorithmic, predicted_change(order, trend, of_trend));
     m.move(eta, false);
-    const auto now = rule.follow(eta, rates[0], rates[1], algorithmic);
-    rates[0] = now.v;
-    rates[1] = now.a;
-    rates[2] = eta;
-    scatter_pose(m, state, first, count);
-    scatter<3 * G::dof>(&rates[0][0], state.motion.data(), first, count, Numbers::v);
+    const auto now = rule.follow(eta, m.v, m.a, algorithmic);
+    m.v = now.v;
+    m.a = now.a;
+    m.dq = eta;
+    scatter_motion<NodeNumbers<G>::all>(m, state, first, count);
     scatter<G::dof>(&now.algorithmic[0], state.algorithmic.data(), first, count);
     turned = larger(turned, angular_square<G>(eta));
-  });
-  return largest_of(turned);
-}
-
-namespace {
-
-/// The increment dq of eight nodes since the start of the step; in space move_nodes has kept it up to date.
-VectorLanes<Se3> measure_increment(const SpatialNodes&, const SpatialNodes& state, std::size_t first,
-                                   std::size_t count) {
-  VectorLanes<Se3> dq;
-  gather<Se3::dof>(state.motion.data(), first, count, &dq[0], NodeNumbers<Se3>::dq);
-  return dq;
-}
-/// log(H_start^-1 H), with the angle that move_nodes has accumulated, which is correct beyond half a turn. Computed
-/// from the poses, it contains no accumulated rounding of single corrections.
-VectorLanes<Se2> measure_increment(const PlanarNodes& start, const PlanarNodes& state, std::size_t first,
-                                   std::size_t count) {
-  Mover<Se2, Pack> from, to;
-  gather_pose(start, first, count, from);
-  gather_pose(state, first, count, to);
-  Pack angle;
-  gather<1>(state.motion.data(), first, count, &angle, NodeNumbers<Se2>::dq + 2);
-  const Vec2<Pack> way = motion::conjugate_times(from.R, motion::difference(to.x, from.x));
-  const Vec2<Pack> inverse{{motion::half_cotangent(Pack(angle * angle)), -0.5 * angle}};
-  return motion::join(motion::complex_times(inverse, way), angle);
-}
-
-}  // namespace
-
-template <class G>
-double follow_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
-                    std::size_t end) {
-  using Numbers = NodeNumbers<G>;
-  Pack turned(0.0);
-  by_eights(begin, end, [&](std::size_t first, std::size_t count) {
-    VectorLanes<G> rates[3], algorithmic;  // v, dv/dt and dq
-    gather<2 * G::dof>(start.motion.data(), first, count, &rates[0][0], Numbers::v);
-    gather<G::dof>(start.algorithmic.data(), first, count, &algorithmic[0]);
-    rates[2] = measure_increment(start, state, first, count);
-    const auto now = rule.follow(rates[2], rates[0], rates[1], algorithmic);
-    rates[0] = now.v;
-    rates[1] = now.a;
-    scatter<3 * G::dof>(&rates[0][0], state.motion.data(), first, count, Numbers::v);
-    scatter<G::dof>(&now.algorithmic[0], state.algorithmic.data(), first, count);
-    turned = larger(turned, angular_square<G>(rates[2]));
   });
   return largest_of(turned);
 }
@@ -359,7 +372,8 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
   template void move_node<G>(NodesOn<G>&, std::size_t, const G::Vector<double>&);                                    \
   template void place_node<G>(const NodesOn<G>&, std::size_t, const G::Vector<double>&, NodesOn<G>&);                \
   template double predict_nodes<G>(const AlphaRule&, int, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t); \
-  template double follow_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t);       \
+  template double correct_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t,       \
+                                   const double*, const IncrementsOf&);                                              \
   template Workspace::StepEnd finish_nodes<G>(const AlphaRule&, double, double, const NodesOn<G>&, NodesOn<G>&,      \
                                               std::size_t, std::size_t);                                             \
   template double largest_change<G>(const NodesOn<G>&, std::span<const PairLanes>, const double*, const IncrementsOf&)

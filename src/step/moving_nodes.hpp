@@ -38,21 +38,21 @@ struct PairLanes {
 
 /// Applies a correction, H <- H exp(eta), with eta from the vector x of unknowns. In space the increment of the step is
 /// updated, too: dq <- log(exp(dq) exp(eta)). In a plane only the angle of dq is updated, because the pose does not
-/// determine it beyond half a turn; follow_nodes computes the other components of dq from the poses.
+/// determine it beyond half a turn; the other components are determined by the poses at both ends of the step.
 template <class G>
 void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x, const IncrementsOf& increments);
+
+/// Applies a correction of generalized-alpha in one pass: the poses and dq as above, all components of dq also in a
+/// plane, and the velocities and accelerations that the rule assigns to dq. Returns the largest squared angle of dq.
+template <class G>
+double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
+                     std::size_t end, const double* x, const IncrementsOf& increments);
 
 /// Predictor: sets poses, rates and dq of the nodes of `state` from those of `start`. Returns the largest squared angle
 /// of dq.
 template <class G>
 double predict_nodes(const AlphaRule& rule, int order, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
                      std::size_t end);
-
-/// Sets dq from the present poses, and the velocities and accelerations that generalized-alpha assigns to it. Returns
-/// the largest squared angle of dq.
-template <class G>
-double follow_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
-                    std::size_t end);
 
 /// At the end of a step: stores the changes of accelerations for the next predictor, and returns the errors of the
 /// predictors of order 0, 1, 2, the local error and the size of dq. `arm` [m] converts angular to linear accelerations;

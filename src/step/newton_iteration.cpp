@@ -110,12 +110,13 @@ std::optional<Trouble> NewtonIteration::renew_factor(const State& state) {
   return Trouble{"iteration " + std::to_string(count()) + " came to a shape at which " + t->text};
 }
 
-std::optional<Trouble> NewtonIteration::correct(State& state) {
+std::optional<Trouble> NewtonIteration::solve(const State& state) {
   std::vector<double>&rhs = system_.work().rhs, &x = system_.work().x;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system_.residual()[i];
   if (auto t = system_.linear().solve(rhs.data(), x.data(), false)) return t;
   previous_ = report_.change;
-  report_.change = system_.corrections().apply(state, x.data());
+  const PhaseTimer timer{system_.clock(), system_.counts().update};
+  report_.change = system_.corrections().relative_size(state, x.data());
   if (count() < StepReport::remembered_changes) report_.change_list[static_cast<std::size_t>(count())] = report_.change;
   ++report_.iterations;
   if (!std::isfinite(report_.change)) return Trouble{"the iteration left finite numbers"};

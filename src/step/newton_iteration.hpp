@@ -21,8 +21,8 @@ class NewtonIteration {
   /// Evaluates and factors the Jacobian anew if the present factorization contracts too slowly or was made with other
   /// slopes.
   [[nodiscard]] std::optional<Trouble> renew_factor(const State& state);
-  /// Solves the linear system for the Newton correction and applies it.
-  [[nodiscard]] std::optional<Trouble> correct(State& state);
+  /// Solves the linear system for the Newton correction and measures it.
+  [[nodiscard]] std::optional<Trouble> solve(const State& state);
   /// Whether the iteration ends with the correction just applied: the residual that it leaves, predicted from the rates
   /// at which corrections and residuals have shrunk, is small enough and need not be evaluated.
   bool will_be_converged();
@@ -56,19 +56,22 @@ class NewtonIteration {
   double contraction_;  ///< last ratio of corrections above round-off
 };
 
-/// Newton's loop: evaluate the residual, stop when converged, factor anew where that is due, correct. `follow(state)`
-/// updates velocities and accelerations from the corrected positions by the formulas of the integrator.
-template <class Follow>
+/// Newton's loop: evaluate the residual, stop when converged, factor anew where that is due, solve, correct.
+/// `correct(state, x)` applies the solution x: it moves the nodes, updates velocities and accelerations by the formulas
+/// of the integrator, and adds the multipliers.
+template <class Correct>
 StepReport iterate(System& system, State& state, const StepOptions& options, const IterationGoal& goal,
-                   const elements::Slopes& slopes, Follow&& follow) {
+                   const elements::Slopes& slopes, Correct&& correct) {
   NewtonIteration newton(system, options, goal, slopes);
+  const PhaseChain chain(system.clock());
   for (;;) {
     if (const auto t = newton.evaluate(state)) return newton.fail(*t);
     if (newton.is_converged()) return newton.converge();
     if (const auto t = newton.give_up()) return newton.fail(*t);
     if (const auto t = newton.renew_factor(state)) return newton.fail(*t);
-    if (const auto t = newton.correct(state)) return newton.fail(*t);
-    if (const std::optional<Trouble> t = follow(state)) return newton.fail(*t);
+    if (const auto t = newton.solve(state)) return newton.fail(*t);
+    const PhaseTimer timer{system.clock(), system.counts().update};
+    if (const std::optional<Trouble> t = correct(state, system.work().x.data())) return newton.fail(*t);
     if (newton.will_be_converged()) return newton.converge();
   }
 }

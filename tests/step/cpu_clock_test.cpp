@@ -105,5 +105,39 @@ TEST(PhaseTimer, adds_up_short_phases) {
   EXPECT_GT(sum, apart) << "phases that hold the work are told to";
 }
 
+TEST(PhaseTimer, leaves_out_phases_within_it) {
+  CpuClock clock(true);
+  double outer = 0.0, inner = 0.0;
+  const double start = clock.now();
+  {
+    const PhaseTimer around(clock, outer);
+    const PhaseTimer within(clock, inner);
+    work_until(CLOCK_THREAD_CPUTIME_ID, cpu_of(CLOCK_THREAD_CPUTIME_ID) + 2e-3);
+  }
+  const double whole = clock.now() - start;
+  EXPECT_GE(inner, 2e-3 - slack);
+  EXPECT_LE(outer, slack);
+  EXPECT_LE(outer + inner, whole + 1e-9);
+}
+
+TEST(PhaseChain, has_no_time_between_phases) {
+  CpuClock clock(true);
+  double sum = 0.0, other = 0.0;
+  const double start = clock.now();
+  {
+    const PhaseChain chain(clock);
+    { const PhaseTimer timer(clock, sum); }
+    work_until(CLOCK_THREAD_CPUTIME_ID, cpu_of(CLOCK_THREAD_CPUTIME_ID) + 2e-3);
+    { const PhaseTimer timer(clock, other); }
+  }
+  const double whole = clock.now() - start;
+  EXPECT_GE(sum, 2e-3 - slack) << "work after the phase counts as its own until the next one begins";
+  EXPECT_LE(sum + other, whole + 1e-9);
+  const double before = sum + other;
+  work_until(CLOCK_THREAD_CPUTIME_ID, cpu_of(CLOCK_THREAD_CPUTIME_ID) + 2e-3);
+  { const PhaseTimer timer(clock, sum); }
+  EXPECT_LE(sum + other - before, slack) << "after the chain nothing is counted";
+}
+
 }  // namespace
 }  // namespace bough::step

@@ -71,6 +71,15 @@ inline Real4 load_some(const double* from, int count) {
   const __m256i mask = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(wanted + 4 - count));
   return Real4(_mm256_maskload_pd(from, mask));
 }
+/// Stores the first `count` of four doubles, 1 <= count <= 4. Narrow stores are faster than one under a mask.
+inline void store_some(double* to, const Real4& x, int count) {
+  if (count == 4) {
+    *reinterpret_cast<Anywhere<4>::Real*>(to) = x;
+    return;
+  }
+  if (count >= 2) _mm_storeu_pd(to, _mm256_castpd256_pd128(__m256d(x)));
+  if (count != 2) to[count - 1] = x[count - 1];
+}
 
 /// Works through the array in squares of four. If the count is no multiple of four, the last square overlaps the one
 /// before.
@@ -122,47 +131,103 @@ inline void store_eight(double* to, const Real8& x, int count) {
     _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1 << count) - 1), __m512d(x));
 }
 
-/// Works through the array in squares of eight; row(l) is the address of the numbers of lane l. If the count is no
-/// multiple of eight, the last square overlaps the one before.
+/// Two rows of four numbers in one register, and back.
+BOUGH_INLINE Real8 join_halves(const Real4& low, const Real4& high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+BOUGH_INLINE void store_halves(double* low, double* high, const Real8& x, int count) {
+  store_some(low, __builtin_shufflevector(x, x, 0, 1, 2, 3), count);
+  store_some(high, __builtin_shufflevector(x, x, 4, 5, 6, 7), count);
+}
+
+/// Up to four numbers of each of eight lanes, beginning with number i: half the work of a square of eight. Rows are
+/// paired such that the lanes come out in their order.
+template <class Row>
+BOUGH_INLINE void gather_half_square(const Row& row, int i, int count, Real8 (&to)[4]) {
+  Real8 even[2], odd[2];
+  BOUGH_UNROLL
+  for (int k = 0; k < 2; ++k) {
+    const auto load = [&](int l) { return load_some(row(4 * k + l) + i, count); };
+    const Real8 a = join_halves(load(0), load(2)), b = join_halves(load(1), load(3));
+    even[k] = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+    odd[k] = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  to[0] = __builtin_shufflevector(even[0], even[1], 0, 1, 4, 5, 8, 9, 12, 13);
+  to[1] = __builtin_shufflevector(odd[0], odd[1], 0, 1, 4, 5, 8, 9, 12, 13);
+  to[2] = __builtin_shufflevector(even[0], even[1], 2, 3, 6, 7, 10, 11, 14, 15);
+  to[3] = __builtin_shufflevector(odd[0], odd[1], 2, 3, 6, 7, 10, 11, 14, 15);
+}
+template <class Row>
+BOUGH_INLINE void scatter_half_square(const Real8 (&from)[4], int i, int count, const Row& row) {
+  const Real8 even[] = {__builtin_shufflevector(from[0], from[1], 0, 8, 2, 10, 4, 12, 6, 14),
+                        __builtin_shufflevector(from[2], from[3], 0, 8, 2, 10, 4, 12, 6, 14)},
+              odd[] = {__builtin_shufflevector(from[0], from[1], 1, 9, 3, 11, 5, 13, 7, 15),
+                       __builtin_shufflevector(from[2], from[3], 1, 9, 3, 11, 5, 13, 7, 15)};
+  const auto store = [&](const Real8(&p)[2], int l) {
+    store_halves(row(l) + i, row(l + 2) + i, __builtin_shufflevector(p[0], p[1], 0, 1, 8, 9, 2, 3, 10, 11), count);
+    store_halves(row(l + 4) + i, row(l + 6) + i, __builtin_shufflevector(p[0], p[1], 4, 5, 12, 13, 6, 7, 14, 15),
+                 count);
+  };
+  store(even, 0);
+  store(odd, 1);
+}
+
+/// Works through the array in squares of eight, and in half a square where at most four numbers remain; row(l) is the
+/// address of the numbers of lane l. If the count is no multiple of eight, the last square overlaps the one before.
 template <int W, class Row>
 BOUGH_INLINE void gather_by_eights(const Row& row, int count, Pack<W>* to) {
-  const int some = count < 8 ? count : 8;
   BOUGH_UNROLL
-  for (int at = 0; at < count; at += 8) {
-    const int i = at + some <= count ? at : count - some;
+  for (int at = 0; at < count; at += 8)
     for (int c = 0; c < Pack<W>::chunks; ++c) {
+      const auto row_of_chunk = [&](int l) { return row(c * 8 + l); };
+      if (count - at <= 4) {
+        const int some = count < 4 ? count : 4, i = count - some;
+        Real8 half[4];
+        gather_half_square(row_of_chunk, i, some, half);
+        BOUGH_UNROLL
+        for (int k = 0; k < 4; ++k)
+          if (k < some) to[i + k].r[c] = half[k];
+        continue;
+      }
+      const int some = count < 8 ? count : 8, i = at + some <= count ? at : count - some;
       Real8 square[8];
       BOUGH_UNROLL
-      for (int l = 0; l < 8; ++l) square[l] = load_eight(row(c * 8 + l) + i, some);
+      for (int l = 0; l < 8; ++l) square[l] = load_eight(row_of_chunk(l) + i, some);
       transpose_square(square);
       BOUGH_UNROLL
       for (int k = 0; k < 8; ++k)
         if (k < some) to[i + k].r[c] = square[k];
     }
-  }
 }
 template <int W, class Row>
 BOUGH_INLINE void scatter_by_eights(const Pack<W>* from, int count, const Row& row) {
-  const int some = count < 8 ? count : 8;
   BOUGH_UNROLL
-  for (int at = 0; at < count; at += 8) {
-    const int i = at + some <= count ? at : count - some;
+  for (int at = 0; at < count; at += 8)
     for (int c = 0; c < Pack<W>::chunks; ++c) {
+      const auto row_of_chunk = [&](int l) { return row(c * 8 + l); };
+      if (count - at <= 4) {
+        const int some = count < 4 ? count : 4, i = count - some;
+        Real8 half[4];
+        BOUGH_UNROLL
+        for (int k = 0; k < 4; ++k) half[k] = k < some ? from[i + k].r[c] : Real8{};
+        scatter_half_square(half, i, some, row_of_chunk);
+        continue;
+      }
+      const int some = count < 8 ? count : 8, i = at + some <= count ? at : count - some;
       Real8 square[8];
       BOUGH_UNROLL
       for (int k = 0; k < 8; ++k) square[k] = k < some ? from[i + k].r[c] : Real8{};
       transpose_square(square);
       BOUGH_UNROLL
-      for (int l = 0; l < 8; ++l) store_eight(row(c * 8 + l) + i, square[l], some);
+      for (int l = 0; l < 8; ++l) store_eight(row_of_chunk(l) + i, square[l], some);
     }
-  }
 }
 #endif
 }  // namespace detail
 
 /// Lane l of to[i] <- from[l][i] for i < count.
 template <int W>
-void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
+BOUGH_INLINE void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
   constexpr int side = Pack<W>::chunk;
 #if BOUGH_REGISTER_DOUBLES >= 8
   if constexpr (side == 8) return detail::gather_by_eights<W>([&from](int l) { return from[l]; }, count, to);
@@ -176,7 +241,7 @@ void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
 
 /// to[l][i] <- lane l of from[i] for i < count; the arrays must not overlap.
 template <int W>
-void scatter_lanes(const Pack<W>* from, int count, double* const (&to)[W]) {
+BOUGH_INLINE void scatter_lanes(const Pack<W>* from, int count, double* const (&to)[W]) {
   constexpr int side = Pack<W>::chunk;
 #if BOUGH_REGISTER_DOUBLES >= 8
   if constexpr (side == 8) return detail::scatter_by_eights<W>(from, count, [&to](int l) { return to[l]; });

@@ -28,8 +28,9 @@ class Corrections {
   ///   |R_b w_b - R_a w_a|,  |R_b u_b - R_a u_a - (R_a w_a) x (x_b - x_a)| / length          for increments (u; w) of
   ///     nodes a and b
   double relative_size(const State& state, const double* x) const;
-  /// Applies a solution: each node moves by its own increment, H <- H exp(eta), multipliers grow by theirs. Returns
-  /// relative_size.
+  /// Applies a solution: each node moves by its own increment, H <- H exp(eta), multipliers grow by theirs.
+  void move(State& state, const double* x) const;
+  /// The same; returns relative_size.
   double apply(State& state, const double* x);
   /// Applies `factor` of a solution, nodes carrying each other along the motion tree; statics only (State's dq does not
   /// change).
@@ -42,6 +43,8 @@ class Corrections {
   double power_along_tree(const double* residual, const double* x);
   /// Adds `factor` times the multipliers of a solution.
   void add_multipliers(State& state, const double* x, double factor) const;
+  /// Where the increments of nodes are found in a solution.
+  IncrementsOf increments() const;
 
   /// Predicts the multipliers at the end of the next step of generalized-alpha, by the polynomial of
   /// State::multiplier_order.
@@ -51,7 +54,6 @@ class Corrections {
 
  private:
   void find_pairs();
-  IncrementsOf increments() const;
 
   const plan::Plan& plan_;
   const UnknownPlaces& places_;

@@ -16,7 +16,15 @@ class CpuClock {
   double now();
 
  private:
+  friend class PhaseTimer;
+  friend class PhaseChain;
+  void charge(double* next);
+
   bool has_one_thread_;
+  double* charged_ = nullptr;  ///< sum of the present phase
+  double begun_ = 0.0;         ///< when it began [s]
+  bool is_chained_ = false;    ///< phases last until the next one begins
+  bool is_left_open_ = false;  ///< the present phase has ended, and lasts until the next one begins
   std::int64_t read_at_ = -1;  ///< of the steady clock [ns]; -1: never
   double cpu_ = 0.0;           ///< then [s]
   double told_ = 0.0;          ///< last [s]
@@ -30,18 +38,30 @@ struct WorkCounts {
   double rank_error_max = 0.0;
 };
 
-/// Adds the CPU seconds of its life to a sum.
+/// A phase: adds the CPU seconds of its life to a sum, without those of phases that begin and end within it.
 class PhaseTimer {
  public:
-  PhaseTimer(CpuClock& clock, double& sum) : clock_(clock), sum_(sum), start_(clock.now()) {}
-  ~PhaseTimer() { sum_ += clock_.now() - start_; }
+  PhaseTimer(CpuClock& clock, double& sum);
+  ~PhaseTimer();
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;
 
  private:
   CpuClock& clock_;
-  double& sum_;
-  double start_;
+  double* outer_;  ///< sum of the phase within which this one began
+};
+
+/// While it lives, a phase lasts until the next one begins: one reading of the clock a phase instead of two. A phase
+/// then contains the few decisions that follow it.
+class PhaseChain {
+ public:
+  explicit PhaseChain(CpuClock& clock);
+  ~PhaseChain();
+  PhaseChain(const PhaseChain&) = delete;
+  PhaseChain& operator=(const PhaseChain&) = delete;
+
+ private:
+  CpuClock& clock_;
 };
 
 }  // namespace bough::step
