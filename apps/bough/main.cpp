@@ -2,8 +2,11 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <iostream>
+#include <memory>
+#include <new>
 
 #include "arguments.hpp"
 #include "bough/io/manifest.hpp"
@@ -33,6 +36,22 @@ bool has_stack() {
   return false;
 }
 
+/// Memory for what happens after an allocation has failed: destructors of JSON values allocate, and must not fail.
+std::unique_ptr<char[]> reserve;
+
+/// Called where memory cannot be had: gives the reserve back, and lets that allocation fail.
+void release_reserve() {
+  reserve.reset();
+  std::set_new_handler(nullptr);
+  throw std::bad_alloc();
+}
+
+void hold_reserve() {
+  constexpr std::size_t size = 1u << 19u;
+  reserve.reset(new char[size]);
+  std::set_new_handler(release_reserve);
+}
+
 /// Whatever was not foreseen still ends in a sentence and a status.
 int dispatch_guarded(int count, char** values) {
   try {
@@ -51,6 +70,12 @@ int dispatch_guarded(int count, char** values) {
 int main(int count, char** values) {
   bough::app::hold_standard_descriptors();
   bough::app::ignore_signals_of_writes();
-  bough::app::StandardStreams streams;
-  return streams.finish(has_stack() ? dispatch_guarded(count, values) : bough::app::exit_failed);
+  try {
+    hold_reserve();
+    bough::app::StandardStreams streams;
+    return streams.finish(has_stack() ? dispatch_guarded(count, values) : bough::app::exit_failed);
+  } catch (const std::bad_alloc&) {
+    std::fputs("bough: out of memory before it could begin\n", stderr);
+  }
+  return bough::app::exit_failed;
 }

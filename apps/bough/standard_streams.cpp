@@ -33,7 +33,12 @@ void ignore_signals_of_writes() {
 /// A buffer before a descriptor that escapes what a terminal would act on.
 class StandardStreams::Printable final : public std::streambuf {
  public:
-  explicit Printable(int descriptor) : descriptor_(descriptor), is_terminal_(::isatty(descriptor) != 0) {}
+  /// Takes all the memory that it will need, so that also a process that has no more of it can write.
+  explicit Printable(int descriptor) : descriptor_(descriptor), is_terminal_(::isatty(descriptor) != 0) {
+    constexpr std::size_t longest_escape = 8, longest_character = 4;
+    buffer_.reserve(flush_at + longest_escape * (longest_piece + longest_character));
+    incomplete_.reserve(longest_piece + longest_character);
+  }
 
   int error() const { return error_; }  ///< errno of the first write that failed; 0: none did
 
@@ -52,19 +57,13 @@ class StandardStreams::Printable final : public std::streambuf {
 
  protected:
   std::streamsize xsputn(const char* bytes, std::streamsize count) override {
-    constexpr std::size_t longest_character = 4, flush_at = 1u << 14u;
-    incomplete_.append(bytes, static_cast<std::size_t>(count));
-    std::string_view text = incomplete_;
-    while (!text.empty()) {
-      const std::size_t length = io::utf8_length(text);
-      const bool may_be_cut =
-          length == 0 && text.size() < longest_character && static_cast<unsigned char>(text[0]) >= 0xC2;
-      if (may_be_cut) break;  // the rest of the character may come with the next bytes
-      io::append_printable(buffer_, text, length);
-      text.remove_prefix(length == 0 ? 1 : length);
+    for (std::string_view left(bytes, static_cast<std::size_t>(count)); !left.empty();) {
+      const std::string_view piece = left.substr(0, longest_piece);
+      append(piece);
+      left.remove_prefix(piece.size());
+      if (buffer_.size() >= flush_at && sync() != 0) return 0;
     }
-    incomplete_ = std::string(text);
-    const bool wants_out = buffer_.size() >= flush_at || (is_terminal_ && buffer_.find('\n') != std::string::npos);
+    const bool wants_out = is_terminal_ && buffer_.find('\n') != std::string::npos;
     return wants_out && sync() != 0 ? 0 : count;
   }
   int_type overflow(int_type character) override {
@@ -87,6 +86,24 @@ class StandardStreams::Printable final : public std::streambuf {
   }
 
  private:
+  static constexpr std::size_t longest_piece = 1024, flush_at = 1u << 14u;
+
+  /// Bytes that begin a character whose rest has not come yet wait for it in `incomplete_`.
+  void append(std::string_view piece) {
+    constexpr std::size_t longest_character = 4;
+    incomplete_.append(piece);
+    std::string_view text = incomplete_;
+    while (!text.empty()) {
+      const std::size_t length = io::utf8_length(text);
+      const bool may_be_cut =
+          length == 0 && text.size() < longest_character && static_cast<unsigned char>(text[0]) >= 0xC2;
+      if (may_be_cut) break;
+      io::append_printable(buffer_, text, length);
+      text.remove_prefix(length == 0 ? 1 : length);
+    }
+    incomplete_.erase(0, incomplete_.size() - text.size());
+  }
+
   int descriptor_;
   bool is_terminal_;
   int error_ = 0;
