@@ -57,7 +57,9 @@ bool ElementStore::lend_diagonals(Lending lending, const std::vector<double>& gi
             if (v == u || !couples(k)) return;
             if (lending == Lending::strict && is_dragged(v, k, other)) return;
             if (lending == Lending::bare && (other == own || !(diagonal[v] > 0.0))) return;
-            const double own_one = lending == Lending::strict && given[v] > 0.0 ? given[v] : diagonal[v];
+            // What v has borrowed in this sweep, it may have from u.
+            const bool takes_own = lending == Lending::strict && (given[v] > 0.0 || given[u] > 0.0);
+            const double own_one = takes_own ? given[v] : diagonal[v];
             held = held && own_one > 0.0;
             if (held) others += g[k] * g[k] / own_one;
           });
