@@ -36,7 +36,7 @@ void Hierarchical::State::assemble_front(tree::FrontId f) {
     if (!is_scalar(c)) continue;
     FrontData& child = data(c);
     child.delayed_to = delayed;
-    for (int j = child.pivots; j < child.full; ++j, ++delayed) {
+    for (int j = child.pivots; j < child.pivots + child.num_delayed(); ++j, ++delayed) {
       d.rows[delayed] = child.rows[j];
       d.columns[delayed] = child.columns[j];
     }
@@ -121,7 +121,7 @@ void Hierarchical::State::add_child_both_ways(tree::FrontId child, const FrontDa
     (i < parent.full ? to.top(j)[i] : to.bottom(j)[i - parent.full]) += value;
   };
   const auto for_rows = [&](auto&& body) {  // body(row of the child, row of the parent), in order
-    for (int i = c.pivots; i < c.full; ++i) body(i, c.delayed_to + i - c.pivots);
+    for (int i = c.pivots; i < c.pivots + c.num_delayed(); ++i) body(i, c.delayed_to + i - c.pivots);
     for (const Run* r = runs_begin; r != runs_end; ++r)
       for (int i = 0; i < r->length; ++i) body(c.full + r->from + i, parent.delayed_in + r->to + i);
   };

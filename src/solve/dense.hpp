@@ -82,6 +82,17 @@ int eliminate_definite(FrontMatrix& front, const PivotRule& rule, const tree::Wa
 int eliminate_completely(FrontMatrix& front, int pivots, int most, double least, double* row_weight = nullptr,
                          double* column_weight = nullptr);
 
+/// Largest norms of a negligible row or column without its part in the pivots.
+struct Negligible {
+  double remaining = 0.0;  ///< its entries in the other fully summed columns or rows without a pivot
+  double boundary = 0.0;   ///< and in those of the boundary
+};
+
+/// Of the rows and columns from `pivots` on that are fully summed, moves negligible ones to their end, in pairs, if
+/// is_candidate holds for the unknown of the row and of the column. A row and a column with the same place keep it
+/// together. Returns the number of pairs.
+int move_negligible_last(FrontMatrix& front, int pivots, const Negligible& negligible, const bool* is_candidate);
+
 /// f = L^-1 f for the first `pivots` entries, and f_B -= L21 y for the others. f must be permuted already.
 void substitute_forward(const FrontMatrix& front, int pivots, double* f);
 /// y = U11^-1 (y - U12 x_B), symmetric: L11^-T (D^-1 y - L21^T x_B); x: size entries, y in the first `pivots`, x_B in

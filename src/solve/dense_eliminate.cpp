@@ -185,4 +185,33 @@ int eliminate_completely(FrontMatrix& f, int k, int most, double least, double* 
   return k;
 }
 
+int move_negligible_last(FrontMatrix& f, int pivots, const Negligible& negligible, const bool* is_candidate) {
+  if (f.d != nullptr) return move_negligible_last_symmetric(f, pivots, negligible, is_candidate);
+  const FrontParts v(f);
+  const auto is_small = [&](auto&& entry) {
+    double remaining = 0.0, boundary = 0.0;
+    for (int i = pivots; i < f.full; ++i) remaining += entry(i) * entry(i);
+    for (int i = f.full; i < f.size; ++i) boundary += entry(i) * entry(i);
+    return std::sqrt(remaining) <= negligible.remaining && std::sqrt(boundary) <= negligible.boundary;
+  };
+  const auto is_small_column = [&](int j) {
+    return is_candidate[f.columns[j]] &&
+           is_small([&](int i) { return i < f.full ? v.top(j)[i] : v.bottom(j)[i - f.full]; });
+  };
+  const auto is_small_row = [&](int i) {
+    return is_candidate[f.rows[i]] && is_small([&](int j) { return v.top(j)[i]; });
+  };
+  int rows = 0, columns = 0;
+  for (int k = pivots; k < f.full; ++k) {
+    columns += is_small_column(k) ? 1 : 0;
+    rows += is_small_row(k) ? 1 : 0;
+  }
+  const int first = f.full - std::min(rows, columns);
+  for (int k = f.full, to = f.full; to > first;)
+    if (is_small_column(--k)) swap_columns(v, f, k, --to);
+  for (int k = f.full, to = f.full; to > first;)
+    if (is_small_row(--k)) swap_rows(v, f, k, --to);
+  return f.full - first;
+}
+
 }  // namespace bough::solve

@@ -53,4 +53,8 @@ void for_chunks_of_columns(int begin, int full, int size, double flops, const tr
 /// whose D is d.
 void catch_up_symmetric(const FrontParts& front, const double* d, int begin, int k, int first, int last);
 
+/// move_negligible_last() of a symmetric front.
+int move_negligible_last_symmetric(FrontMatrix& front, int pivots, const Negligible& negligible,
+                                   const bool* is_candidate);
+
 }  // namespace bough::solve

@@ -178,4 +178,19 @@ int eliminate_symmetric(FrontMatrix& f, const PivotRule& rule, const tree::Walke
   return k;
 }
 
+int move_negligible_last_symmetric(FrontMatrix& f, int pivots, const Negligible& negligible, const bool* is_candidate) {
+  const FrontParts v(f);
+  int to = f.full;
+  for (int k = f.full; k-- > pivots;) {
+    if (!is_candidate[f.rows[k]]) continue;
+    double remaining = 0.0, boundary = 0.0;
+    for (int j = pivots; j < k; ++j) remaining += v.top(j)[k] * v.top(j)[k];
+    for (int i = k; i < f.full; ++i) remaining += v.top(k)[i] * v.top(k)[i];
+    for (int i = f.full; i < f.size; ++i) boundary += v.top(k)[i] * v.top(k)[i];
+    if (std::sqrt(remaining) <= negligible.remaining && std::sqrt(boundary) <= negligible.boundary)
+      swap_unknowns(v, f, k, --to);
+  }
+  return f.full - to;
+}
+
 }  // namespace bough::solve

@@ -81,6 +81,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
     if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal except for the order of a sum
     s.lane_scales.set(s.lanes, s.tree, s.scales);
     s.register_scales.set(s.registers, s.scales, s.options.tiny_pivot);
+    std::fill(s.leaves_to_root.begin(), s.leaves_to_root.end(), char{0});
   }
   s.scales_wanted = false;
   s.factor_walker = walker;
@@ -93,6 +94,12 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
       prepare = {};  // the element matrices are present
       walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
     }
+  }
+  s.null_space.dimension = 0;
+  s.null_space.took_vectors = false;
+  while (!s.find_local_null_vectors()) {  // at most three times, see there
+    prepare = {};
+    walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
   }
   ++s.counters.factorizations;
   for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
@@ -109,8 +116,6 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
         ++s.counters.lanes_left;
       }
   s.counters.delayed_pivots += s.status.delayed_pivots;
-  s.null_space.dimension = 0;
-  s.null_space.took_vectors = false;
   if (s.status.ok()) s.decide_rank();
   if (s.status.ok()) s.find_null_space();
   return s.status;
@@ -156,26 +161,29 @@ void Hierarchical::State::count_front(tree::FrontId f) {
 SolveReport Hierarchical::finish(const tree::Walker& walker, const double* rhs, double* x) {
   State& s = *state_;
   s.take(rhs, x, s.checks());
-  if (s.null_space.took_vectors) {  // the condensed right-hand side is lost
-    s.solve_into_x(walker, rhs);
-  } else {
-    s.visit_rhs = rhs;
-    s.forward_group(static_cast<int>(s.lanes.groups.size()) - 1);
-    s.back_substitute(walker);
-  }
-  return s.check_solution(walker);
+  if (s.null_space.took_vectors) return s.solve_given(walker);  // the condensed right-hand side is lost
+  s.visit_rhs = rhs;
+  s.forward_group(static_cast<int>(s.lanes.groups.size()) - 1);
+  s.back_substitute(walker);
+  return s.check_solution(walker, {});
 }
 
 SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, double* x) {
   State& s = *state_;
   s.take(rhs, x, s.checks());
-  s.solve_into_x(walker, rhs);
-  return s.check_solution(walker);
+  return s.solve_given(walker);
+}
+
+SolveReport Hierarchical::State::solve_given(const tree::Walker& walker) {
+  SolveReport report;
+  make_consistent(report);
+  solve_into_x(walker, given);
+  return check_solution(walker, report);
 }
 
 SolveReport Hierarchical::solve_unchecked(const tree::Walker& walker, const double* rhs, double* x) {
   State& s = *state_;
-  if (s.null_space.dimension > 0) return solve(walker, rhs, x);
+  if (s.null_space.deficiency() > 0) return solve(walker, rhs, x);
   s.take(rhs, x, false);
   s.solve_into_x(walker, rhs);
   ++s.counters.solutions;
@@ -187,7 +195,7 @@ SolveReport Hierarchical::solve_unchecked(const tree::Walker& walker, const doub
 void Hierarchical::State::take(const double* b, double* x_out, bool looks_again) {
   given = b;
   x = x_out;
-  if (null_space.dimension == 0 && !(looks_again && b == x_out)) return;
+  if (null_space.deficiency() == 0 && !(looks_again && b == x_out)) return;
   rhs.assign(b, b + residual.size());
   given = rhs.data();
 }
@@ -206,19 +214,14 @@ void Hierarchical::State::measure_matrices(const tree::Walker& walker) {
 }
 
 /// The backward error of the solution in x, which is refined if required.
-SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
+SolveReport Hierarchical::State::check_solution(const tree::Walker& walker, SolveReport report) {
   const std::size_t n = residual.size();
-  SolveReport report;
-  report.deficiency = null_space.dimension;
+  report.deficiency = null_space.deficiency();
   ++counters.solutions;
-  eval_inconsistency(given, report);
-  // Contradicting dependent rows have no solution: the nearest right-hand side that has one was solved, and is checked.
-  if (null_space.dimension > 0)
-    for (std::size_t i = 0; i < n; ++i) rhs[i] -= correction[i] / scales.row[i];
   if (options.check == SolveCheck::none) return report;
   measure_matrices(walker);
   ElementStore::Errors errors;
-  if (null_space.dimension > 0) {  // multipliers of least norm were computed after the walk and are not in the lanes
+  if (null_space.deficiency() > 0) {  // multipliers of least norm were computed after the walk and are not in the lanes
     errors = eval_met_residual(walker, report);
     set_growth(largest_x(), largest_rhs(), report);
   } else {
@@ -227,7 +230,7 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker) {
       errors = elements.eval_residual(walker, scales, x, given, residual.data());
   }
   // Refined solutions are compared in the norm of the present matrix.
-  if (errors.finite && errors.normwise > options.refinement_above && null_space.dimension == 0)
+  if (errors.finite && errors.normwise > options.refinement_above && null_space.deficiency() == 0)
     errors = eval_met_residual(walker, report);
   while (errors.finite && errors.normwise > options.refinement_above &&
          report.refinement_steps < options.refinement_steps) {
@@ -264,7 +267,8 @@ SolverCounters Hierarchical::counters() const {
        {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors, &s.register_factors, &s.register_schur})
     doubles += pool->size();
   c.memory_bytes = static_cast<std::int64_t>(doubles * sizeof(double) + s.index_pool.size() * sizeof(int)) +
-                   s.elements.memory_bytes() + s.lane_scales.memory_bytes() + s.register_scales.memory_bytes();
+                   s.elements.memory_bytes() + s.lane_scales.memory_bytes() + s.register_scales.memory_bytes() +
+                   s.null_space.local_right.memory_bytes() + s.null_space.local_left.memory_bytes();
   c.fronts_in_registers = static_cast<std::int64_t>(s.registers.fronts.size());
   for (const LaneFront& f : s.lanes.fronts)
     for (tree::FrontId id : f.front) c.fronts_in_lanes += id != tree::none ? 1 : 0;
@@ -276,13 +280,26 @@ std::span<const ElementBatch> Hierarchical::batches() const { return state_->lan
 std::vector<int> Hierarchical::blocks_not_unique() const {
   const State& s = *state_;
   const std::size_t n = s.residual.size();
+  std::vector<double> largest(n, 0.0);
+  for (int v = 0; v < s.null_space.dimension; ++v)
+    for (std::size_t i = 0; i < n; ++i) largest[i] = std::max(largest[i], std::abs(s.null_space.right[at(v) * n + i]));
+  const NullVectors& local = s.null_space.local_right;
+  for (const NullVectors::Group& g : local.groups())
+    for (int v = 0; v < g.count; ++v) {
+      const std::span<const int> unknowns = local.unknowns(g);
+      double square = 0.0;
+      for (std::size_t k = 0; k < unknowns.size(); ++k)
+        square += std::pow(local.values(g, static_cast<std::int64_t>(k))[v], 2);
+      for (std::size_t k = 0; k < unknowns.size(); ++k) {
+        double& here = largest[at(unknowns[k])];
+        here = std::max(here, std::abs(local.values(g, static_cast<std::int64_t>(k))[v]) / std::sqrt(square));
+      }
+    }
   std::vector<int> blocks;
   for (int b = 0; b < s.elements.graph().num_blocks(); ++b) {
-    double largest = 0.0;
-    for (int v = 0; v < s.null_space.dimension; ++v)
-      for (std::int64_t u = s.tree.unknown_begin[at(b)]; u < s.tree.unknown_begin[at(b) + 1]; ++u)
-        largest = std::max(largest, std::abs(s.null_space.right[at(v) * n + at(u)]));
-    if (largest > 1e-8) blocks.push_back(b);
+    const auto begin = largest.begin() + s.tree.unknown_begin[at(b)],
+               end = largest.begin() + s.tree.unknown_begin[at(b) + 1];
+    if (std::any_of(begin, end, [](double share) { return share > 1e-8; })) blocks.push_back(b);
   }
   return blocks;
 }

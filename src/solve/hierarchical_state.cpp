@@ -70,6 +70,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
                    0.0);  // tops without unknowns also point into it
   scalar_lanes.assign(lanes.fronts.size(), 0);
   left_registers.assign(lanes.groups.size(), 0);
+  leaves_to_root.assign(num_fronts, 0);
   sizes.resize(lanes.groups.size());
   asymmetries.resize(lanes.groups.size());
   if (options.inertia && num_fronts > 0) {

@@ -1,5 +1,6 @@
 #pragma once
 /// All storage of the hierarchical solver. Internal to solve.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include "lane_kernels.hpp"
 #include "lane_plan.hpp"
 #include "lane_scales.hpp"
+#include "null_vectors.hpp"
 #include "register_kernels.hpp"
 #include "register_plan.hpp"
 #include "register_scales.hpp"
@@ -39,12 +41,13 @@ struct FrontData {
   int* columns = nullptr;
   int* row_from = nullptr;  ///< full: row before pivoting
   int size = 0, full = 0, pivots = 0;
+  int dependent = 0;           ///< of those without a pivot: rows and columns decided here, the last ones
   int delayed_in = 0;          ///< unknowns that children could not eliminate: they come first
   int delayed_to = 0;          ///< row of the parent of the first unknown that it delays itself
   bool failed = false;         ///< not finite here or below
   bool is_indefinite = false;  ///< declared definite, and a pivot was not
   bool allocated = false;      ///< enlarging it allocated memory in this factorization
-  int num_delayed() const { return full - pivots; }
+  int num_delayed() const { return full - pivots - dependent; }
   bool is_symmetric() const { return d != nullptr; }
   void set_parts(const FrontShape& shape, double* factor, double* schur);
   FrontMatrix matrix() const { return {a, size, full, rows, columns, row_from, lda, u, ldu, s, lds, d}; }
@@ -57,12 +60,30 @@ struct Enlarged {
   std::vector<int> indices;
 };
 
-/// Dependent rows found at the root, and what follows from them.
+enum class NullSide { right, left };
+
+/// A node's share of constraint forces up to which they cancel, and the share of the largest forces below which they
+/// do not count: see forces_cancel().
+constexpr double passing_force = 3e-2, insignificant_force = 1e-3;
+
+/// Dependent rows, and what follows from them: those that the root has found by singular values, and those decided in
+/// fronts.
 struct NullSpace {
-  int dimension = 0;
-  bool took_vectors = false;  ///< the storage of the condensed right-hand side was used for candidates
-  std::vector<double> right;  ///< dimension x unknowns, orthonormal in the weighted norm; scaled variables
-  std::vector<double> left;   ///< dimension x unknowns, orthonormal
+  int dimension = 0;                    ///< of the root
+  bool took_vectors = false;            ///< the storage of the condensed right-hand side was used for candidates
+  std::vector<double> right;            ///< dimension x unknowns, orthonormal in the weighted norm; scaled variables
+  std::vector<double> left;             ///< dimension x unknowns, orthonormal
+  NullVectors local_right, local_left;  ///< of fronts; scaled variables
+  bool has_left = false;
+  std::vector<tree::FrontId> dependent_fronts;  ///< that decided, ascending
+  // Scratch.
+  SparseRows rows{NullVectors::most};        ///< entries of the present vectors
+  SparseRows forces{2 * NullVectors::most};  ///< by motion unknown: sums and sums of magnitudes
+  std::array<double, NullVectors::most> largest{};
+  std::vector<tree::FrontId> passed, waiting;
+  std::vector<int> overlapping, group_of_front, remaining_rows, remaining_columns;
+
+  int deficiency() const { return dimension + local_right.num_vectors(); }
 };
 
 /// The root's front before it is eliminated, square, and room to eliminate it in.
@@ -127,12 +148,13 @@ struct Hierarchical::State {
   std::vector<tree::FrontId> scalar_fronts;  ///< fronts that are never in lanes or registers
   std::vector<PlainInterface> plain;         ///< by sub-domain; empty unless elimination is plain
   NullSpace null_space;
-  RootCopy root_copy;              ///< SolveOptions::inertia
-  std::vector<int> row_of_column;  ///< scratch of inertia()
-  double* x = nullptr;             ///< of the present solution: the caller's array
-  const double* given = nullptr;   ///< its right-hand side
-  std::vector<double> rhs;         ///< a copy, if the caller's would be overwritten
-  std::vector<double> residual;    ///< and scratch
+  std::vector<char> leaves_to_root;  ///< by front: its rows turned out not to be dependent, in the present scales
+  RootCopy root_copy;                ///< SolveOptions::inertia
+  std::vector<int> row_of_column;    ///< scratch of inertia()
+  double* x = nullptr;               ///< of the present solution: the caller's array
+  const double* given = nullptr;     ///< its right-hand side
+  std::vector<double> rhs;           ///< a copy, if the caller's would be overwritten
+  std::vector<double> residual;      ///< and scratch
   std::vector<double> correction;
 
   // Sub-domains in lockstep: packs of eight lanes.
@@ -252,19 +274,31 @@ struct Hierarchical::State {
   bool checks() const { return options.check != SolveCheck::none; }
   void take(const double* b, double* x_out, bool looks_again);
   void measure_matrices(const tree::Walker& walker);
-  SolveReport check_solution(const tree::Walker& walker);
+  SolveReport solve_given(const tree::Walker& walker);
+  SolveReport check_solution(const tree::Walker& walker, SolveReport report);
   void back_substitute(const tree::Walker& walker);
   void solve_into_x(const tree::Walker& walker, const double* b);
   ElementStore::Errors eval_residual(const tree::Walker& walker, const double* b, SolveReport& report);
   void set_growth(double x_size, double rhs_size, SolveReport& report) const;
   // null_space.cpp
   void decide_rank();
+  void project_candidates();
   void find_null_space();
   void eval_null_candidates();
   void backward_left_front(tree::FrontId f, std::vector<double>& left);
   void project_multipliers();
   ElementStore::Errors eval_met_residual(const tree::Walker& walker, SolveReport& report);
-  void eval_inconsistency(const double* b, SolveReport& report);
+  void make_consistent(SolveReport& report);
+  // local_null_space.cpp
+  void decide_dependent(tree::FrontId f);
+  bool find_local_null_vectors();
+  void find_local_left_vectors();
+  bool add_local_vectors(tree::FrontId f, NullSide side);
+  void spread_null_vectors(tree::FrontId top, int first, int count, NullSide side);
+  void substitute_null_vectors(tree::FrontId f, int count, NullSide side);
+  bool are_dependent_rows(int count);
+  void add_constraint_forces(int element, int count);
+  double add_negligible_part();
   // interfaces.cpp
   void condense_through_flexibility(tree::SubdomainId s);
   void correct_forward(tree::SubdomainId s);

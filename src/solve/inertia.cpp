@@ -87,7 +87,7 @@ int Hierarchical::State::count_negative_in_root() {
   const Eigen::VectorXd values = symmetric_eigenvalues(block);
   std::vector<double> by_size(values.data(), values.data() + left);
   std::sort(by_size.begin(), by_size.end(), [](double a, double b) { return std::abs(a) > std::abs(b); });
-  for (int k = 0; k < left - status.deficiency; ++k) signs.add(by_size[at(k)]);
+  for (int k = 0; k < left - fronts.back().num_delayed() - fronts.back().dependent; ++k) signs.add(by_size[at(k)]);
   return r.negative = signs.negative;
 }
 

@@ -198,7 +198,7 @@ std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s, const d
   const FrontData& d = state.data(state.tree.subdomains[at(s)].top());
   const tree::Front& top = state.front(state.tree.subdomains[at(s)].top());
   const int n = d.size - d.full;
-  Eigen::VectorXd x(d.size - d.pivots);  // delayed unknowns, then the boundary
+  Eigen::VectorXd x(d.size - d.pivots);  // unknowns without a pivot, then the boundary
   for (int i = d.pivots; i < d.full; ++i)
     x(i - d.pivots) = solution[at(d.columns[i])] / state.scales.column[at(d.columns[i])];
   std::vector<std::size_t> unknowns;
@@ -208,8 +208,8 @@ std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s, const d
   for (int i = 0; i < n; ++i)
     x(d.full - d.pivots + i) = solution[unknowns[at(i)]] / state.scales.column[unknowns[at(i)]];
   Matrix S(n, d.size - d.pivots);
-  S.leftCols(d.num_delayed()) = ConstMap(d.a + d.full + static_cast<std::ptrdiff_t>(d.pivots) * d.lda, n,
-                                         d.num_delayed(), Eigen::OuterStride<>(d.lda));
+  S.leftCols(d.full - d.pivots) = ConstMap(d.a + d.full + static_cast<std::ptrdiff_t>(d.pivots) * d.lda, n,
+                                           d.full - d.pivots, Eigen::OuterStride<>(d.lda));
   S.rightCols(n) = ConstMap(d.s, n, n, Eigen::OuterStride<>(d.lds));
   const Eigen::VectorXd l =
       (Eigen::Map<const Eigen::VectorXd>(d.vector + d.full, n) - S * x) / state.options.multiplier_scale;

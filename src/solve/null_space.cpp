@@ -30,7 +30,6 @@ void orthonormalise(std::vector<double>& vectors, int count, const Eigen::Vector
 /// 1e-5, as rank_tolerance allows.
 bool forces_cancel(const ElementStore& elements, const tree::Tree& tree, const bool* is_constraint,
                    const std::vector<double>& column_scale, const double* z) {
-  constexpr double passing = 3e-2, insignificant = 1e-3;
   std::vector<double> sum(at(tree.num_unknowns()), 0.0), magnitude(sum.size(), 0.0);
   std::vector<std::size_t> unknowns;
   for (const int e : tree.element_order) {
@@ -56,7 +55,7 @@ bool forces_cancel(const ElementStore& elements, const tree::Tree& tree, const b
   }
   const double most = *std::max_element(magnitude.begin(), magnitude.end());
   for (std::size_t i = 0; i < sum.size(); ++i)
-    if (!(std::abs(sum[i]) <= passing * std::max(magnitude[i], insignificant * most))) return false;
+    if (!(std::abs(sum[i]) <= passing_force * std::max(magnitude[i], insignificant_force * most))) return false;
   return true;
 }
 
@@ -89,6 +88,8 @@ void Hierarchical::State::eval_null_candidates() {
     left[row] = scales.row[row];
     for (int i = 0; i < k; ++i)
       if (i != v) left[at(root.rows[root.pivots + i])] = 0.0;
+    for (const tree::FrontId f : null_space.dependent_fronts)
+      for (int i = data(f).full - data(f).dependent; i < data(f).full; ++i) left[at(data(f).rows[i])] = 0.0;
     for (auto g = static_cast<int>(lanes.groups.size()); g-- > 0;) {
       const LaneGroup& group = lanes.groups[at(g)];
       if (group.in_lanes) {
@@ -109,6 +110,20 @@ void Hierarchical::State::eval_null_candidates() {
     }
     double* scaled = null_space.left.data() + at(v) * n;
     for (std::size_t i = 0; i < n; ++i) scaled[i] = left[i] / scales.row[i];
+  }
+  project_candidates();
+}
+
+/// Makes the root's vectors orthogonal to those of the fronts, in the weighted norm and in the plain one.
+void Hierarchical::State::project_candidates() {
+  if (null_space.local_right.num_vectors() == 0) return;
+  find_local_left_vectors();
+  const std::size_t n = at(tree.num_unknowns());
+  for (int v = 0; v < fronts.back().num_delayed(); ++v) {
+    double *z = null_space.right.data() + at(v) * n, *y = null_space.left.data() + at(v) * n;
+    null_space.local_right.project([&](int u) { return z[u] * scales.weight[at(u)] * scales.weight[at(u)]; },
+                                   [&](int u, double part) { z[u] -= part; });
+    null_space.local_left.project([&](int u) { return y[u]; }, [&](int u, double part) { y[u] -= part; });
   }
 }
 
@@ -182,6 +197,7 @@ void Hierarchical::State::decide_rank() {
 void Hierarchical::State::find_null_space() {
   const int k = fronts.back().num_delayed();
   null_space.dimension = k;
+  status.deficiency = null_space.deficiency();
   if (k == 0) return;
   const std::size_t n = at(tree.num_unknowns());
   if (null_space.right.size() != at(k) * n) eval_null_candidates();  // decide_rank() has eliminated some of its own
@@ -200,7 +216,6 @@ void Hierarchical::State::find_null_space() {
       unknown = i;
     }
   }
-  status.deficiency = k;
   if (!(std::sqrt(worst) <= options.null_motion_tolerance)) {
     const auto next =
         std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), static_cast<std::int64_t>(unknown));
@@ -221,6 +236,9 @@ void Hierarchical::State::project_multipliers() {
     // Includes the small motion of the null vector; without it the equations would not be satisfied.
     for (std::size_t i = 0; i < n; ++i) x[i] -= c * z[i] * scales.column[i];
   }
+  null_space.local_right.project(
+      [&](int u) { return x[u] / scales.column[at(u)] * scales.weight[at(u)] * scales.weight[at(u)]; },
+      [&](int u, double part) { x[u] -= part * scales.column[at(u)]; });
 }
 
 /// If rows are dependent, the matrix of the solution is A_k, A with zero instead of the remaining block T of the root:
@@ -230,10 +248,10 @@ void Hierarchical::State::project_multipliers() {
 /// if a direction has small components there.
 ElementStore::Errors Hierarchical::State::eval_met_residual(const tree::Walker& walker, SolveReport& report) {
   ElementStore::Errors errors = elements.eval_residual(walker, scales, x, given, residual.data());
-  if (null_space.dimension == 0 || !errors.finite || !(errors.size > 0.0)) return errors;
+  if (null_space.deficiency() == 0 || !errors.finite || !(errors.size > 0.0)) return errors;
   const FrontData& root = fronts.back();
   const int k = root.num_delayed();
-  double left_out = 0.0, met = 0.0;
+  double left_out = add_negligible_part(), met = 0.0;
   for (int i = 0; i < k; ++i) {
     double sum = 0.0;
     for (int j = 0; j < k; ++j) {
@@ -251,9 +269,13 @@ ElementStore::Errors Hierarchical::State::eval_met_residual(const tree::Walker& 
   return errors;
 }
 
-void Hierarchical::State::eval_inconsistency(const double* b, SolveReport& report) {
-  if (null_space.dimension == 0) return;
+/// Subtracts from the right-hand side its part in the left null space. Dependent rows that contradict each other have no
+/// solution: the nearest right-hand side that has one is solved.
+void Hierarchical::State::make_consistent(SolveReport& report) {
+  if (null_space.deficiency() == 0) return;
   const std::size_t n = at(tree.num_unknowns());
+  const double* b = rhs.data();
+  find_local_left_vectors();
   std::vector<double>& part = correction;  // Y Y^T b
   part.assign(n, 0.0);
   double whole = 0.0, left = 0.0;
@@ -263,8 +285,10 @@ void Hierarchical::State::eval_inconsistency(const double* b, SolveReport& repor
     double c = 0.0;
     for (std::size_t i = 0; i < n; ++i) c += y[i] * scales.row[i] * b[i];
     for (std::size_t i = 0; i < n; ++i) part[i] += c * y[i];
-    left += c * c;
   }
+  null_space.local_left.project([&](int u) { return scales.row[at(u)] * b[u] - part[at(u)]; },
+                                [&](int u, double amount) { part[at(u)] += amount; });
+  for (const double p : part) left += p * p;
   report.inconsistency = whole > 0.0 ? std::sqrt(left / whole) : 0.0;
   double worst = 0.0;
   for (int blk = 0; blk + 1 < static_cast<int>(tree.unknown_begin.size()); ++blk) {
@@ -278,6 +302,7 @@ void Hierarchical::State::eval_inconsistency(const double* b, SolveReport& repor
     report.inconsistent_block = blk;
     report.inconsistent_amount = amount;
   }
+  for (std::size_t i = 0; i < n; ++i) rhs[i] -= part[i] / scales.row[i];
 }
 
 }  // namespace bough::solve

@@ -96,7 +96,7 @@ void Hierarchical::State::export_schur(const RegisterFront& f, const double* sch
   FrontData& d = data(f.front);
   d.size = f.size();
   d.full = d.pivots = f.eliminated;
-  d.delayed_in = d.delayed_to = 0;
+  d.delayed_in = d.delayed_to = d.dependent = 0;
   d.failed = d.allocated = d.is_indefinite = false;
   d.vector = vector_pool.data() + vector_begin[at(f.front)];
   // No pivot is delayed, so the factor is not read, and its address is arbitrary.

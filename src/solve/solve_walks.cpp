@@ -53,6 +53,7 @@ void Hierarchical::State::backward_front(tree::FrontId f) {
   FrontData& d = data(f);
   with_vector(d, [&](double* y) {
     std::copy(d.vector, d.vector + d.pivots, y);
+    for (int i = d.full - d.dependent; i < d.full; ++i) x[at(d.columns[i])] = 0.0;
     for (int i = d.pivots; i < d.full; ++i) y[i] = x[at(d.columns[i])] / scales.column[at(d.columns[i])];
     for_boundary(f, [&](int i, std::size_t u) { y[d.full + i] = x[u] / scales.column[u]; });
     substitute_backward(d.matrix(), d.pivots, y);
@@ -74,7 +75,7 @@ void Hierarchical::State::back_substitute(const tree::Walker& walker) {
   for (int i = root.pivots; i < root.full; ++i) x[at(root.columns[i])] = 0.0;
   auto backward = [this](int group) { backward_group(group); };
   walker.walk_down(lanes.walk, tree::make_visit(backward, tree::Work::backward));
-  if (null_space.dimension > 0) project_multipliers();
+  if (null_space.deficiency() > 0) project_multipliers();
 }
 
 /// residual = b - A x of the last solution, and its size.

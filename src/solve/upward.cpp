@@ -38,7 +38,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   if (d.failed) d.delayed_in = 0;
   d.full = d.delayed_in + shape.num_eliminated;
   d.size = d.delayed_in + shape.size();
-  d.pivots = 0;
+  d.pivots = d.dependent = 0;
   const bool is_symmetric = this->is_symmetric();
   if (d.delayed_in == 0 && lanes.lane_front[at(f)] < 0 && registers.front_of[at(f)] < 0) {
     d.vector = vector_pool.data() + vector_begin[at(f)];
@@ -119,7 +119,9 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
   if (d.pivots < 0) {
     d.failed = true;
     d.pivots = d.full;
+    return;
   }
+  decide_dependent(f);
 }
 
 }  // namespace bough::solve

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "loops.hpp"
 #include "solving.hpp"
 
 namespace {
@@ -44,6 +45,7 @@ TEST(Allocation, NothingAllocatesAfterTheFirstFactorAndSolve) {
     cases.emplace_back(scene, solve::Symmetry::definite);  // which it is not
     cases.emplace_back(make_definite(std::move(scene)), solve::Symmetry::definite);
   }
+  cases.emplace_back(make_loops({.columns = 20, .long_bar = true}), solve::Symmetry::general);  // dependent rows
   for (const auto& [scene, symmetry] : cases) {
     for (const tree::TreeOptions& cut :
          {tree::TreeOptions{.leaf_size = 3}, tree::TreeOptions{.for_one_solution = true}}) {

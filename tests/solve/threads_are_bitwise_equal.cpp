@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "bough/schedule/threads.hpp"
+#include "loops.hpp"
 #include "solving.hpp"
 
 namespace bough::test {
@@ -33,6 +34,7 @@ TEST(Threads, GiveTheSameBitsForAnyCountAndAnyTiming) {
   std::vector<Scene> scenes = make_all_families(41);
   scenes.push_back(make_chain(7, 20, 4));
   scenes.push_back(make_lattice(8, 7, 7));
+  scenes.push_back(make_loops({.columns = 20, .long_bar = true}));  // many dependent rows
   for (const Scene& scene : scenes)
     for (int leaf : {0, 1, 5}) {
       const auto serial = run(scene, schedule::make_serial_walker(), leaf);

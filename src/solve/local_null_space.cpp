@@ -1,0 +1,283 @@
+/// Dependent rows that are decided in a front below the root, or in the root like in any other front: null vectors,
+/// which have few entries, and what is checked before they count.
+#include <algorithm>
+#include <cmath>
+
+#include "hierarchical_state.hpp"
+
+namespace bough::solve {
+
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr int wide = lanes_wide;
+constexpr int most = NullVectors::most;
+
+/// Entries below this share of the largest one of their vector are round-off. Left in, they would couple every null
+/// vector with the whole subtree.
+constexpr double round_off = 4e-16;
+
+}  // namespace
+
+/// Decides rows and columns of multipliers that are negligible in what remains of the front. They are complete, since
+/// only descendants take part in them, so they depend on rows below for any values of the matrix elsewhere.
+void Hierarchical::State::decide_dependent(tree::FrontId f) {
+  FrontData& d = data(f);
+  if (d.pivots == d.full || leaves_to_root[at(f)] != 0) return;
+  constexpr double share = 1e-2;  // couplings with the boundary are of first order in what keeps rows from depending
+  FrontMatrix matrix = d.matrix();
+  d.dependent = move_negligible_last(matrix, d.pivots, {options.rank_tolerance, share * options.rank_tolerance},
+                                     is_constraint.get());
+  // The root takes singular values of all that remains if some of it is not negligible.
+  if (f + 1 == tree.num_fronts() && d.num_delayed() > 0) d.dependent = 0;
+}
+
+/// Right null vectors of all rows decided in fronts. False if a front's rows do not count as dependent: they are then
+/// left to the root, and the matrix must be factored once more.
+bool Hierarchical::State::find_local_null_vectors() {
+  NullSpace& s = null_space;
+  s.local_right.clear();
+  s.local_left.clear();
+  s.has_left = false;
+  s.dependent_fronts.clear();
+  for (tree::FrontId f = 0; f < tree.num_fronts(); ++f)
+    if (is_scalar(f) && data(f).dependent > 0) s.dependent_fronts.push_back(f);
+  if (s.dependent_fronts.empty()) return true;
+  bool holds = true;
+  const auto leave_to_root = [&](tree::FrontId f) {
+    // All fronts above delay them too. Fronts elsewhere are not affected, so their decisions hold again.
+    for (; f != tree::none; f = front(f).parent) leaves_to_root[at(f)] = 1;
+    holds = false;
+  };
+  for (const tree::FrontId f : s.dependent_fronts)
+    if (!add_local_vectors(f, NullSide::right)) leave_to_root(f);
+  if (holds && !s.local_right.factor())  // vectors of nested fronts that nearly agree
+    for (const tree::FrontId f : s.dependent_fronts) leave_to_root(f);
+  s.took_vectors = true;  // right-hand sides are made consistent before they are condensed
+  return holds;
+}
+
+/// Left null vectors, when a right-hand side is given.
+void Hierarchical::State::find_local_left_vectors() {
+  NullSpace& s = null_space;
+  if (s.has_left) return;
+  s.has_left = true;
+  for (const tree::FrontId f : s.dependent_fronts) add_local_vectors(f, NullSide::left);
+  s.local_left.factor();
+}
+
+bool Hierarchical::State::add_local_vectors(tree::FrontId f, NullSide side) {
+  NullSpace& s = null_space;
+  NullVectors& vectors = side == NullSide::right ? s.local_right : s.local_left;
+  s.rows.resize(tree.num_unknowns());
+  s.forces.resize(tree.num_unknowns());
+  s.group_of_front.resize(at(tree.num_fronts()));
+  const FrontData& d = data(f);
+  bool holds = true;
+  const auto first_group = static_cast<int>(vectors.groups().size());
+  for (int first = d.full - d.dependent; first < d.full; first += most) {
+    const int count = std::min(most, d.full - first);
+    spread_null_vectors(f, first, count, side);
+    if (side == NullSide::right) holds = holds && are_dependent_rows(count);
+    // Vectors found before at the fronts passed: only these may have entries at the same unknowns.
+    s.overlapping.clear();
+    for (const tree::FrontId g : s.passed) {
+      if (!is_scalar(g) || data(g).dependent == 0) continue;
+      const int begin = g == f ? first_group : s.group_of_front[at(g)];
+      for (int k = begin; k < static_cast<int>(vectors.groups().size()) && vectors.groups()[at(k)].front == g; ++k)
+        s.overlapping.push_back(k);
+    }
+    const std::vector<double>& scale = side == NullSide::right ? scales.column : scales.row;
+    for (std::size_t k = 0; k < s.rows.unknowns().size(); ++k)
+      for (int v = 0; v < count; ++v) s.rows.values()[k * most + at(v)] /= scale[at(s.rows.unknowns()[k])];
+    vectors.add(f, count, s.rows, side == NullSide::right ? scales.weight.data() : nullptr, s.overlapping);
+  }
+  s.group_of_front[at(f)] = first_group;
+  return holds;
+}
+
+/// Vectors (unscaled) whose entry is 1 (scaled) in one of the front's remaining columns, or rows, from `first` on, and 0
+/// in the others and outside of the front's subtree: from the front down as far as they have entries.
+void Hierarchical::State::spread_null_vectors(tree::FrontId top, int first, int count, NullSide side) {
+  NullSpace& s = null_space;
+  const std::vector<double>& scale = side == NullSide::right ? scales.column : scales.row;
+  s.rows.clear();
+  s.passed.clear();
+  s.largest.fill(1.0);
+  for (int v = 0; v < count; ++v) {
+    const int u = side == NullSide::right ? data(top).columns[first + v] : data(top).rows[first + v];
+    s.rows.at(u)[v] = scale[at(u)];
+  }
+  s.waiting.assign(1, top);
+  while (!s.waiting.empty()) {
+    const tree::FrontId f = s.waiting.back();
+    s.waiting.pop_back();
+    s.passed.push_back(f);
+    substitute_null_vectors(f, count, side);
+    for (const tree::FrontId c : tree.children(front(f))) {
+      bool has_entries = false;
+      for_boundary(c, [&](int, std::size_t u) { has_entries |= s.rows.find(static_cast<int>(u)) != nullptr; });
+      if (is_scalar(c) && data(c).num_delayed() > 0) {
+        const FrontData& d = data(c);
+        const int* delayed = side == NullSide::right ? d.columns : d.rows;
+        for (int i = d.pivots; i < d.pivots + d.num_delayed(); ++i) has_entries |= s.rows.find(delayed[i]) != nullptr;
+      }
+      if (has_entries) s.waiting.push_back(c);
+    }
+  }
+}
+
+/// The entries of the unknowns that a front has eliminated, from those of its boundary and remaining unknowns.
+void Hierarchical::State::substitute_null_vectors(tree::FrontId f, int count, NullSide side) {
+  NullSpace& s = null_space;
+  const bool is_right = side == NullSide::right;
+  const std::vector<double>& scale = is_right ? scales.column : scales.row;
+  const auto entry = [&](std::size_t u, int v) {
+    const double* row = s.rows.find(static_cast<int>(u));
+    return row == nullptr ? 0.0 : row[v];
+  };
+  const auto put = [&](std::size_t u, int v, double value) {
+    const double size = std::abs(value) / scale[u];
+    if (!(size > round_off * s.largest[at(v)])) return;
+    s.largest[at(v)] = std::max(s.largest[at(v)], size);
+    s.rows.at(static_cast<int>(u))[v] = value;
+  };
+  const int in_registers = registers.front_of[at(f)];
+  if (!is_scalar(f)) {
+    const int index = lanes.lane_front[at(f)], lane = lanes.lane[at(f)];
+    const LaneFront& packed = lanes.fronts[at(index)];
+    alignas(64) double z[most_lane_rows * wide];
+    for (int v = 0; v < count; ++v) {
+      std::fill_n(z, packed.size() * wide, 0.0);
+      for_boundary(f, [&](int i, std::size_t u) { z[(packed.eliminated + i) * wide + lane] = entry(u, v); });
+      (is_right ? (packed.is_symmetric ? backward_lanes_symmetric : backward_lanes) : backward_left_lanes)(
+          factor_of(packed), packed.size(), packed.eliminated, z);
+      for (int k = 0; k < packed.eliminated; ++k) {
+        const int u = lanes.unknowns[at(packed.unknown + k * wide + lane)];
+        if (u >= 0) put(at(u), v, z[k * wide + lane]);
+      }
+    }
+    return;
+  }
+  if (in_registers >= 0 && stands_in_registers(registers.fronts[at(in_registers)].group)) {
+    const RegisterFront& own = registers.fronts[at(in_registers)];
+    const double* factor = register_factors.data() + own.factor;
+    for (int v = 0; v < count; ++v) {
+      double z[largest_in_registers] = {}, zero[largest_in_registers] = {};
+      for_boundary(f, [&](int i, std::size_t u) { z[own.eliminated + i] = entry(u, v); });
+      if (is_right)
+        backward_in_registers(factor, own.size(), own.eliminated, zero, z + own.eliminated, z);
+      else
+        backward_left_in_registers(factor, own.size(), own.eliminated, is_symmetric(), z);
+      for (int r = own.own_begin; r < own.own_end; ++r) {
+        const UnknownRun& run = registers.unknown_runs[at(r)];
+        for (int i = 0; i < run.length; ++i) put(at(run.unknown + i), v, z[run.row + i]);
+      }
+    }
+    return;
+  }
+  FrontData& d = data(f);
+  const int* unknowns = is_right ? d.columns : d.rows;
+  with_vector(d, [&](double* z) {
+    for (int v = 0; v < count; ++v) {
+      std::fill_n(z, d.pivots, 0.0);
+      for (int i = d.pivots; i < d.full; ++i) z[i] = entry(at(unknowns[i]), v) / scale[at(unknowns[i])];
+      for_boundary(f, [&](int i, std::size_t u) { z[d.full + i] = entry(u, v) / scale[u]; });
+      if (is_right)
+        substitute_backward(d.matrix(), d.pivots, z);
+      else
+        substitute_backward_left(d.matrix(), d.pivots, z);
+      for (int i = 0; i < d.pivots; ++i) put(at(unknowns[i]), v, z[i] * scale[at(unknowns[i])]);
+    }
+  });
+}
+
+/// Whether the present right vectors are multipliers alone whose constraint forces cancel at every node, as in
+/// decide_rank(). Their combinations are at least as long as their coefficients, since each has an entry 1 of its own.
+bool Hierarchical::State::are_dependent_rows(int count) {
+  NullSpace& s = null_space;
+  double motion = 0.0;
+  for (std::size_t k = 0; k < s.rows.unknowns().size(); ++k) {
+    const auto u = at(s.rows.unknowns()[k]);
+    for (int v = 0; v < count && !is_constraint[u]; ++v)
+      motion += std::pow(s.rows.values()[k * most + at(v)] / scales.column[u], 2);
+  }
+  if (!(std::sqrt(motion) <= options.null_motion_tolerance)) return false;
+  // Elements of multipliers with entries are assembled in the fronts passed.
+  s.forces.clear();
+  for (const tree::FrontId f : s.passed)
+    for (int p = front(f).element_begin; p < front(f).element_end; ++p)
+      add_constraint_forces(tree.element_order[at(p)], count);
+  std::array<double, most> largest{};
+  const std::span<const double> forces = s.forces.values();
+  for (std::size_t k = 0; k < s.forces.unknowns().size(); ++k)
+    for (std::size_t v = 0; v < at(count); ++v) largest[v] = std::max(largest[v], forces[k * 2 * most + most + v]);
+  for (std::size_t k = 0; k < s.forces.unknowns().size(); ++k)
+    for (std::size_t v = 0; v < at(count); ++v) {
+      const double sum = forces[k * 2 * most + v], magnitude = forces[k * 2 * most + most + v];
+      if (!(std::abs(sum) <= passing_force * std::max(magnitude, insignificant_force * largest[v]))) return false;
+    }
+  return true;
+}
+
+/// Adds G^T y and |G|^T |y| of an element, y the present right vectors.
+void Hierarchical::State::add_constraint_forces(int e, int count) {
+  NullSpace& s = null_space;
+  const ConstElementView a = elements.view(e);
+  const std::int64_t n = elements.size_of(e);
+  const auto for_unknowns = [&](auto&& visit) {  // visit(row of the element, unknown)
+    std::int64_t k = 0;
+    for (int p = 0; p < elements.num_blocks_of(e); ++p) {
+      const auto block = at(elements.blocks_of(e)[p]);
+      for (auto u = tree.unknown_begin[block]; u < tree.unknown_begin[block + 1]; ++u) visit(k++, static_cast<int>(u));
+    }
+  };
+  for_unknowns([&](std::int64_t j, int u) {
+    const double* y = is_constraint[at(u)] ? s.rows.find(u) : nullptr;
+    if (y == nullptr) return;
+    for_unknowns([&](std::int64_t i, int to) {
+      if (is_constraint[at(to)] || a[i * n + j] == 0.0) return;
+      double* sum = s.forces.at(to);
+      for (int v = 0; v < count; ++v) {
+        sum[v] += a[i * n + j] * y[v];
+        sum[most + v] += std::abs(a[i * n + j] * y[v]);
+      }
+    });
+  });
+}
+
+/// residual += E x, E the entries that were taken to be zero in the fronts. Returns the largest |E x|, scaled.
+double Hierarchical::State::add_negligible_part() {
+  double largest = 0.0;
+  for (const tree::FrontId f : null_space.dependent_fronts) {
+    const FrontData& d = data(f);
+    const FrontParts parts(d.matrix());
+    std::vector<int>& unknowns = null_space.remaining_columns;
+    std::vector<int>& rows = null_space.remaining_rows;
+    unknowns.assign(d.columns + d.pivots, d.columns + d.full);
+    rows.assign(d.rows + d.pivots, d.rows + d.full);
+    for_boundary(f, [&](int, std::size_t u) {
+      unknowns.push_back(static_cast<int>(u));
+      rows.push_back(static_cast<int>(u));
+    });
+    const int m = d.size - d.pivots, first = m - (d.size - d.full) - d.dependent, full = d.full - d.pivots;
+    const auto is_dependent = [&](int i) { return i >= first && i < full; };
+    const auto add = [&](int i, int j, double entry) {
+      const std::size_t column = at(unknowns[at(j)]), row = at(rows[at(i)]);
+      const double part = entry * x[column] / scales.column[column];
+      residual[row] += part / scales.row[row];
+      largest = std::max(largest, std::abs(part));
+    };
+    for (int j = 0; j < m; ++j)
+      for (int i = 0; i < m; ++i) {
+        if (!is_dependent(i) && !is_dependent(j)) continue;
+        if (d.is_symmetric() && i < j) continue;
+        const double entry = i < full ? parts.top(d.pivots + j)[d.pivots + i] : parts.bottom(d.pivots + j)[i - full];
+        add(i, j, entry);
+        if (d.is_symmetric() && i != j) add(j, i, entry);
+      }
+  }
+  return largest;
+}
+
+}  // namespace bough::solve
