@@ -203,16 +203,13 @@ double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>&
   Pack turned(0.0);
   by_eights(begin, end, [&](std::size_t first, std::size_t count) {
     Mover<G, Pack> m = gather_moving(state, first, count), from;
-    VectorLanes<G> algorithmic;
     gather_start(start, first, count, from);
-    gather<G::dof>(start.algorithmic.data(), first, count, &algorithmic[0]);
     move_by_unknowns(m, x, of, first, count);
     measure_increment(from, m);
-    const auto now = rule.follow(m.dq, from.v, from.a, algorithmic);
+    const auto now = rule.follow(m.dq, from.v, from.a, start.algorithmic.eight(first));
     m.v = now.v;
     m.a = now.a;
     scatter_motion<NodeNumbers<G>::all>(m, state, first, count);
-    scatter<G::dof>(&now.algorithmic[0], state.algorithmic.data(), first, count);
     turned = larger(turned, angular_square<G>(m.dq));
   });
   return largest_of(turned);
@@ -263,19 +260,17 @@ double predict_nodes(const AlphaRule& rule, int order, const NodesOn<G>& start, 
   Pack turned(0.0);
   by_eights(begin, end, [&](std::size_t first, std::size_t count) {
     Mover<G, Pack> m;
-    VectorLanes<G> algorithmic, trend, of_trend;
     gather_motion(start, first, count, m);
-    gather<G::dof>(start.algorithmic.data(), first, count, &algorithmic[0]);
-    gather<G::dof>(start.acceleration_trend.data(), first, count, &trend[0]);
-    gather<G::dof>(start.trend_change.data(), first, count, &of_trend[0]);
-    const VectorLanes<G> eta = rule.predict(m.v, m.a, algorithmic, predicted_change(order, trend, of_trend));
+    const VectorLanes<G>& algorithmic = start.algorithmic.eight(first);
+    const VectorLanes<G> change =
+        predicted_change(order, start.acceleration_trend.eight(first), start.trend_change.eight(first));
+    const VectorLanes<G> eta = rule.predict(m.v, m.a, algorithmic, change);
     m.move(eta, false);
     const auto now = rule.follow(eta, m.v, m.a, algorithmic);
     m.v = now.v;
     m.a = now.a;
     m.dq = eta;
     scatter_motion<NodeNumbers<G>::all>(m, state, first, count);
-    scatter<G::dof>(&now.algorithmic[0], state.algorithmic.data(), first, count);
     turned = larger(turned, angular_square<G>(eta));
   });
   return largest_of(turned);
@@ -296,12 +291,13 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
     return largest_of(most);
   };
   by_eights(begin, end, [&](std::size_t first, std::size_t count) {
-    VectorLanes<G> rates[3], before, trend, of_trend;  // v, dv/dt and dq
+    VectorLanes<G> rates[3], before[2];  // v, dv/dt and dq
     gather<3 * G::dof>(state.motion.data(), first, count, &rates[0][0], Numbers::v);
-    gather<G::dof>(start.motion.data(), first, count, &before[0], Numbers::v + G::dof);
-    gather<G::dof>(start.acceleration_trend.data(), first, count, &trend[0]);
-    gather<G::dof>(start.trend_change.data(), first, count, &of_trend[0]);
-    const VectorLanes<G> change = rates[1] - before, of_change = change - trend;
+    gather<2 * G::dof>(start.motion.data(), first, count, &before[0][0], Numbers::v);
+    const VectorLanes<G>&trend = start.acceleration_trend.eight(first), &of_trend = start.trend_change.eight(first);
+    const VectorLanes<G> change = rates[1] - before[1], of_change = change - trend;
+    state.algorithmic.eight(first) =
+        rule.follow(rates[2], before[0], before[1], start.algorithmic.eight(first)).algorithmic;
     const Pack miss[] = {size(change), size(of_change), size(of_change - of_trend)};
     for (std::size_t k = 0; k < part.misses.size(); ++k)
       for (std::size_t l = 0; l < count; ++l) part.misses[k] += miss[k][static_cast<int>(l)];
@@ -309,8 +305,8 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
         std::max(part.error,
                  largest(rule.local_error(change, motion::VectorsOn<G>::template bracket<Pack>(rates[0], rates[1]))));
     part.increment = std::max(part.increment, largest(rates[2]));
-    scatter<G::dof>(&change[0], state.acceleration_trend.data(), first, count);
-    scatter<G::dof>(&of_change[0], state.trend_change.data(), first, count);
+    state.acceleration_trend.eight(first) = change;
+    state.trend_change.eight(first) = of_change;
   });
   return part;
 }

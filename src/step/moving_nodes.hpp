@@ -54,7 +54,8 @@ template <class G>
 double predict_nodes(const AlphaRule& rule, int order, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
                      std::size_t end);
 
-/// At the end of a step: stores the changes of accelerations for the next predictor, and returns the errors of the
+/// At the end of a step: stores the acceleration-like variable, and the changes of accelerations for the next
+/// predictor, and returns the errors of the
 /// predictors of order 0, 1, 2, the local error and the size of dq. `arm` [m] converts angular to linear accelerations;
 /// `per_length` [1/m] makes lengths relative.
 template <class G>

@@ -231,9 +231,9 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       const auto& node = nodes.motion[n];
       const typename NodesOn<G>::Vector jerk = part_on<G>(system, x, n);
-      nodes.algorithmic[n] = node.a + (c.shift() * h) * jerk;
-      nodes.acceleration_trend[n] = h * jerk;
-      nodes.trend_change[n] = NodesOn<G>::Vector::zero();
+      nodes.algorithmic.set(n, node.a + (c.shift() * h) * jerk);
+      nodes.acceleration_trend.set(n, h * jerk);
+      nodes.trend_change.set(n, NodesOn<G>::Vector::zero());
       system.places().set_node_part(
           steady_error.data(), static_cast<int>(n),
           typename NodesOn<G>::Vector((-h * h) *

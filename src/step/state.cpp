@@ -14,10 +14,9 @@ using motion::Vec6;
 namespace {
 
 void set_count(const plan::Plan& plan, auto& nodes) {
-  using Vector = typename std::decay_t<decltype(nodes)>::Vector;
   const std::size_t count = plan.nodes.size();
   nodes.motion.resize(count);
-  nodes.algorithmic.assign(count, Vector::zero());
+  nodes.algorithmic.assign_zero(count);
   nodes.acceleration_trend = nodes.trend_change = nodes.algorithmic;
 }
 

@@ -9,6 +9,7 @@
 #include "bough/elements/evaluate.hpp"
 #include "bough/motion/quaternion.hpp"
 #include "bough/plan/plan.hpp"
+#include "bough/step/node_vectors.hpp"
 
 namespace bough::step {
 
@@ -19,18 +20,18 @@ struct NodesOn {
   using Vector = typename G::template Vector<double>;
   std::vector<elements::NodeMotionOn<G, double>> motion;  ///< R, x, v, dv/dt, and dq since the last accepted step
   std::vector<motion::Quaternion<double>> rotation;       ///< in space, where R is made from it; in a plane empty
-  std::vector<Vector> algorithmic;                        ///< a_n, the acceleration-like variable of generalized-alpha
-  std::vector<Vector> acceleration_trend;                 ///< change of dv/dt over the last step, of generalized-alpha
-  std::vector<Vector> trend_change;                       ///< change of that from the step before; zero after a start
-  std::vector<Vector> momentum;                           ///< p_n of the variational integrator; else empty
+  NodeVectors<G> algorithmic;         ///< a_n at the end of a step, the acceleration-like variable of generalized-alpha
+  NodeVectors<G> acceleration_trend;  ///< change of dv/dt over the last step, of generalized-alpha
+  NodeVectors<G> trend_change;        ///< change of that from the step before; zero after a start
+  std::vector<Vector> momentum;       ///< p_n of the variational integrator; else empty
 
   /// As many nodes as there are in `like`.
   void resize_as(const NodesOn& like) {
     motion.resize(like.motion.size());
     rotation.resize(like.rotation.size());
-    algorithmic.resize(like.motion.size());
-    acceleration_trend.resize(like.motion.size());
-    trend_change.resize(like.motion.size());
+    algorithmic.resize_as(like.algorithmic);
+    acceleration_trend.resize_as(like.acceleration_trend);
+    trend_change.resize_as(like.trend_change);
   }
 };
 using SpatialNodes = NodesOn<motion::Se3>;
