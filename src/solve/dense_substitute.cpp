@@ -191,11 +191,8 @@ void substitute_backward(const FrontMatrix& front, int pivots, double* x) {
 
 void substitute_backward_left(const FrontMatrix& front, int pivots, double* z) {
   const FrontParts v(front);
-  for (int k = pivots; k-- > 0;) {
-    double product = 0.0;
-    sum_products<1>(v.size - k - 1, v.a + k * v.lda + k + 1, v.lda, z + k + 1, &product);
-    z[k] = -product;
-  }
+  std::fill_n(z, pivots, 0.0);
+  substitute_transposed(v.size, pivots, v.a, v.lda, z);
 }
 
 }  // namespace bough::solve

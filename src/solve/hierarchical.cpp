@@ -220,18 +220,12 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker, Solv
   ++counters.solutions;
   if (options.check == SolveCheck::none) return report;
   measure_matrices(walker);
-  ElementStore::Errors errors;
-  if (null_space.deficiency() > 0) {  // multipliers of least norm were computed after the walk and are not in the lanes
-    errors = eval_met_residual(walker, report);
-    set_growth(largest_x(), largest_rhs(), report);
-  } else {
-    errors = eval_residual(walker, given, report);
-    if (options.check == SolveCheck::componentwise)
-      errors = elements.eval_residual(walker, scales, x, given, residual.data());
-  }
+  ElementStore::Errors errors = eval_residual(walker, given, report);
+  if (options.check == SolveCheck::componentwise)
+    errors = elements.eval_residual(walker, scales, x, given, residual.data());
+  leave_out_zeros(errors, report);
   // Refined solutions are compared in the norm of the present matrix.
-  if (errors.finite && errors.normwise > options.refinement_above && null_space.deficiency() == 0)
-    errors = eval_met_residual(walker, report);
+  if (errors.finite && errors.normwise > options.refinement_above) errors = eval_met_residual(walker, report);
   while (errors.finite && errors.normwise > options.refinement_above &&
          report.refinement_steps < options.refinement_steps) {
     std::copy(x, x + n, correction.begin());

@@ -82,6 +82,7 @@ struct NullSpace {
   std::array<double, NullVectors::most> largest{};
   std::vector<tree::FrontId> passed, waiting;
   std::vector<int> overlapping, group_of_front, remaining_rows, remaining_columns;
+  std::vector<double> remaining_values;
 
   int deficiency() const { return dimension + local_right.num_vectors(); }
 };
@@ -250,8 +251,6 @@ struct Hierarchical::State {
   void check_visits_symmetric();
   void add_runs(const blocks::BlockGraph& graph, const tree::Front& f);
   void count_front(tree::FrontId f);
-  double largest_x() const;
-  double largest_rhs() const;
 
   // upward.cpp, assemble.cpp: factor
   void factor_subdomain(tree::SubdomainId s);
@@ -288,6 +287,7 @@ struct Hierarchical::State {
   void backward_left_front(tree::FrontId f, std::vector<double>& left);
   void project_multipliers();
   ElementStore::Errors eval_met_residual(const tree::Walker& walker, SolveReport& report);
+  void leave_out_zeros(ElementStore::Errors& errors, SolveReport& report);
   void make_consistent(SolveReport& report);
   // local_null_space.cpp
   void decide_dependent(tree::FrontId f);

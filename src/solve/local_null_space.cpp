@@ -249,33 +249,35 @@ void Hierarchical::State::add_constraint_forces(int e, int count) {
 /// residual += E x, E the entries that were taken to be zero in the fronts. Returns the largest |E x|, scaled.
 double Hierarchical::State::add_negligible_part() {
   double largest = 0.0;
+  std::vector<int>&columns = null_space.remaining_columns, &rows = null_space.remaining_rows;
+  std::vector<double>& values = null_space.remaining_values;  // x, scaled
   for (const tree::FrontId f : null_space.dependent_fronts) {
     const FrontData& d = data(f);
     const FrontParts parts(d.matrix());
-    std::vector<int>& unknowns = null_space.remaining_columns;
-    std::vector<int>& rows = null_space.remaining_rows;
-    unknowns.assign(d.columns + d.pivots, d.columns + d.full);
+    columns.assign(d.columns + d.pivots, d.columns + d.full);
     rows.assign(d.rows + d.pivots, d.rows + d.full);
     for_boundary(f, [&](int, std::size_t u) {
-      unknowns.push_back(static_cast<int>(u));
+      columns.push_back(static_cast<int>(u));
       rows.push_back(static_cast<int>(u));
     });
-    const int m = d.size - d.pivots, first = m - (d.size - d.full) - d.dependent, full = d.full - d.pivots;
-    const auto is_dependent = [&](int i) { return i >= first && i < full; };
-    const auto add = [&](int i, int j, double entry) {
-      const std::size_t column = at(unknowns[at(j)]), row = at(rows[at(i)]);
-      const double part = entry * x[column] / scales.column[column];
-      residual[row] += part / scales.row[row];
+    values.clear();
+    for (const int u : columns) values.push_back(x[u] / scales.column[at(u)]);
+    // Of what remains, unknowns [first, full) are dependent.
+    const int m = d.size - d.pivots, full = d.full - d.pivots, first = full - d.dependent;
+    const auto entry = [&](int i, int j) {
+      return i < full ? parts.top(d.pivots + j)[d.pivots + i] : parts.bottom(d.pivots + j)[i - full];
+    };
+    const auto add = [&](int i, double part) {
+      residual[at(rows[at(i)])] += part / scales.row[at(rows[at(i)])];
       largest = std::max(largest, std::abs(part));
     };
-    for (int j = 0; j < m; ++j)
-      for (int i = 0; i < m; ++i) {
-        if (!is_dependent(i) && !is_dependent(j)) continue;
-        if (d.is_symmetric() && i < j) continue;
-        const double entry = i < full ? parts.top(d.pivots + j)[d.pivots + i] : parts.bottom(d.pivots + j)[i - full];
-        add(i, j, entry);
-        if (d.is_symmetric() && i != j) add(j, i, entry);
-      }
+    for (int k = first; k < full; ++k) {
+      double sum = 0.0;  // of row k; symmetric: only the lower triangle is stored
+      for (int j = 0; j < m; ++j) sum += (d.is_symmetric() && j > k ? entry(j, k) : entry(k, j)) * values[at(j)];
+      add(k, sum);
+      for (int i = 0; i < first; ++i) add(i, (d.is_symmetric() ? entry(k, i) : entry(i, k)) * values[at(k)]);
+      for (int i = full; i < m; ++i) add(i, entry(i, k) * values[at(k)]);
+    }
   }
   return largest;
 }

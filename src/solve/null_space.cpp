@@ -248,7 +248,12 @@ void Hierarchical::State::project_multipliers() {
 /// if a direction has small components there.
 ElementStore::Errors Hierarchical::State::eval_met_residual(const tree::Walker& walker, SolveReport& report) {
   ElementStore::Errors errors = elements.eval_residual(walker, scales, x, given, residual.data());
-  if (null_space.deficiency() == 0 || !errors.finite || !(errors.size > 0.0)) return errors;
+  leave_out_zeros(errors, report);
+  return errors;
+}
+
+void Hierarchical::State::leave_out_zeros(ElementStore::Errors& errors, SolveReport& report) {
+  if (null_space.deficiency() == 0 || !errors.finite || !(errors.size > 0.0)) return;
   const FrontData& root = fronts.back();
   const int k = root.num_delayed();
   double left_out = add_negligible_part(), met = 0.0;
@@ -266,7 +271,6 @@ ElementStore::Errors Hierarchical::State::eval_met_residual(const tree::Walker& 
   for (std::size_t i = 0; i < residual.size(); ++i) met = std::max(met, std::abs(scales.row[i] * residual[i]));
   report.rank_error = left_out / errors.size;
   errors.normwise = met / errors.size;
-  return errors;
 }
 
 /// Subtracts from the right-hand side its part in the left null space. Dependent rows that contradict each other have no
@@ -292,17 +296,19 @@ void Hierarchical::State::make_consistent(SolveReport& report) {
   report.inconsistency = whole > 0.0 ? std::sqrt(left / whole) : 0.0;
   double worst = 0.0;
   for (int blk = 0; blk + 1 < static_cast<int>(tree.unknown_begin.size()); ++blk) {
-    double sum = 0.0, amount = 0.0;
-    for (std::size_t i = at(tree.unknown_begin[at(blk)]); i < at(tree.unknown_begin[at(blk) + 1]); ++i) {
-      sum += part[i] * part[i];
-      amount = std::max(amount, std::abs(part[i] / scales.row[i]));
-    }
+    const std::size_t begin = at(tree.unknown_begin[at(blk)]), end = at(tree.unknown_begin[at(blk) + 1]);
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) sum += part[i] * part[i];
+    if (sum == 0.0) continue;
+    for (std::size_t i = begin; i < end; ++i) part[i] /= scales.row[i];
+    for (std::size_t i = begin; i < end; ++i) rhs[i] -= part[i];
     if (sum <= worst) continue;
     worst = sum;
     report.inconsistent_block = blk;
-    report.inconsistent_amount = amount;
+    report.inconsistent_amount = 0.0;
+    for (std::size_t i = begin; i < end; ++i)
+      report.inconsistent_amount = std::max(report.inconsistent_amount, std::abs(part[i]));
   }
-  for (std::size_t i = 0; i < n; ++i) rhs[i] -= part[i] / scales.row[i];
 }
 
 }  // namespace bough::solve

@@ -98,18 +98,6 @@ ElementStore::Errors Hierarchical::State::eval_residual(const tree::Walker& walk
   return errors;
 }
 
-double Hierarchical::State::largest_x() const {
-  double size = 0.0;
-  for (std::size_t i = 0; i < residual.size(); ++i) size = larger(size, std::abs(x[i]) / scales.column[i]);
-  return size;
-}
-
-double Hierarchical::State::largest_rhs() const {
-  double size = 0.0;
-  for (std::size_t i = 0; i < residual.size(); ++i) size = larger(size, std::abs(given[i]) * scales.row[i]);
-  return size;
-}
-
 void Hierarchical::State::set_growth(double x_size, double rhs_size, SolveReport& report) const {
   if (rhs_size == 0.0 || x_size == 0.0) return;
   report.growth = x_size / rhs_size;
