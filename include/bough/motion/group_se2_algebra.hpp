@@ -56,7 +56,7 @@ struct Se2Algebra {
   template <class S>
   using WrenchMap = PlaneWrenchMap<S>;
   static constexpr int translations = 2;
-  static constexpr bool has_moving_frames = false;
+  static constexpr bool turns = true, has_moving_frames = false;
   template <class S>
   using Translation = Vec2<S>;
   template <class S>

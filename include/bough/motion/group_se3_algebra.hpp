@@ -31,6 +31,7 @@ struct Se3Algebra {
   template <class S>
   using WrenchMap = DualMat<S>;
   static constexpr int translations = 3;
+  static constexpr bool turns = true;  ///< whether frames rotate
   static constexpr bool has_moving_frames = true;
   template <class S>
   using Translation = Vec3<S>;

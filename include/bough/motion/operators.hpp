@@ -6,6 +6,7 @@
 /// exp(d)^-1 (d/dt) exp(d) = T(d) d'. All derivatives follow from dX[e] = 2 <d, e> and dD[e] = E, with E = ad(e) and a
 /// prime for derivatives by X.
 #include "bough/motion/group.hpp"
+#include "bough/motion/operators_translations.hpp"
 
 namespace bough::motion {
 
@@ -23,7 +24,7 @@ struct InverseTangent {
 };
 
 template <class G, class S>
-BOUGH_INLINE Tangent<G, S> eval_tangent_operator(const typename G::template Motion<S>& d) {
+requires(G::turns) BOUGH_INLINE Tangent<G, S> eval_tangent_operator(const typename G::template Motion<S>& d) {
   using L = Literal<S>;
   const typename G::template Number<S> X = G::square(d);
   const S x = G::real(X);
@@ -60,7 +61,8 @@ BOUGH_INLINE InverseTangent<G, S> inverse_tangent_from(const typename G::templat
   return f;
 }
 template <class G, class S>
-BOUGH_INLINE InverseTangent<G, S> eval_inverse_tangent_operator(const typename G::template Motion<S>& d) {
+requires(G::turns)
+    BOUGH_INLINE InverseTangent<G, S> eval_inverse_tangent_operator(const typename G::template Motion<S>& d) {
   const typename G::template Number<S> X = G::square(d);
   return inverse_tangent_from<G, S>(d, X, eval_inverse_coefficients(S(G::real(X))));
 }

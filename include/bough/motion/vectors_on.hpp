@@ -3,8 +3,7 @@
 /// as integrators and momenta. Elements use the compact forms of operators.hpp.
 #include <type_traits>
 
-#include "bough/motion/group_se2.hpp"
-#include "bough/motion/group_se3.hpp"
+#include "bough/motion/group.hpp"
 #include "bough/motion/operators.hpp"
 #include "bough/motion/operators_se2.hpp"
 
@@ -21,9 +20,13 @@ struct VectorsOn {
   /// |w|^2 of a vector (u; w)
   template <class S>
   static S angular_square(const Vector<S>& v) {
-    S sum = v[G::translations] * v[G::translations];
-    for (int i = G::translations + 1; i < G::dof; ++i) sum = sum + v[i] * v[i];
-    return sum;
+    if constexpr (!G::turns) {
+      return S(0.0);
+    } else {
+      S sum = v[G::translations] * v[G::translations];
+      for (int i = G::translations + 1; i < G::dof; ++i) sum = sum + v[i] * v[i];
+      return sum;
+    }
   }
   /// ad(v) a
   template <class S>
