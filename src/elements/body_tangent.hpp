@@ -15,9 +15,9 @@ BOUGH_INLINE void eval_tangent(const RigidBodyOn<G, C>& body, const PortMotionOn
   eval_residual(body, p, around, residual);
   const auto a = weighed_slope(p[0], ports[0], around);
   const bool rates = around.has_inertia && ports[0].moves;
-  if (is_seen_as_point(body, around)) {
+  if (is_seen_as_point(body)) {
     auto rows = G::linear_rows(a);
-    if (rates && around.nodes_turn) G::add_spin_rows(rows, p[0].v, ports[0].velocity);
+    if (rates && G::turns) G::add_spin_rows(rows, p[0].v, ports[0].velocity);
     Block block = Block::zero();
     for (int i = 0; i < G::translations; ++i)
       for (int j = 0; j < G::dof; ++j) block(i, j) = body.mass(0, 0) * rows(i, j);

@@ -63,6 +63,22 @@ inline PortMotionOn<motion::Se2, lanes::Taylor<double, 1>> series_of(const PortM
   }
   return r;
 }
+/// The same where nothing turns, x' = v.
+template <int N>
+PortMotionOn<motion::Translations<N>, lanes::Taylor<double, 1>> series_of(
+    const PortMotionOn<motion::Translations<N>, double>& p, const Vec<double, N>& jerk) {
+  using T = lanes::Taylor<double, 1>;
+  PortMotionOn<motion::Translations<N>, T> r;
+  for (int i = 0; i < N; ++i) {
+    r.H.x[i] = T(p.H.x[i]);
+    r.H.x[i].c[1] = p.v[i];
+    r.v[i] = T(p.v[i]);
+    r.v[i].c[1] = p.a[i];
+    r.a[i] = T(p.a[i]);
+    r.a[i].c[1] = jerk[i];
+  }
+  return r;
+}
 inline PortMotion<lanes::Taylor<double, 1>> series_of(const PortMotion<double>& p, const Vec6<double>& jerk) {
   return series_of<1>(p, jerk);
 }

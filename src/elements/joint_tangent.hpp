@@ -44,17 +44,22 @@ void add_effort_slopes(const EffortOn<G, C>& effort, const typename G::template 
                        RelativeForce<G, S>& e) {
   typename G::template Wrench<S> g;
   const S value = eval_coordinate<G, S, C>(effort, H, turns, g);
-  const RowKind kind = effort.coordinate == Coordinate::angle ? RowKind::angle : RowKind::along;
-  const auto slope = eval_gradient_slope<G, S, C>(kind, effort.direction, C(0.0), H);
   const bool damps = e.has_twist && is_present(effort.damping);
   S rate(0.0);
   if (damps) rate = G::real_power(g, xi);
-  add_gradient_slope<G, S>(eval_effort<G, S, C>(effort, value, damps ? &rate : nullptr, around.laws), slope, e);
+  GradientSlope<G, S> slope;
+  if constexpr (G::turns) {  // else gradients are constant
+    const RowKind kind = effort.coordinate == Coordinate::angle ? RowKind::angle : RowKind::along;
+    slope = eval_gradient_slope<G, S, C>(kind, effort.direction, C(0.0), H);
+    add_gradient_slope<G, S>(eval_effort<G, S, C>(effort, value, damps ? &rate : nullptr, around.laws), slope, e);
+  }
   G::add_outer(e.by_pose, G::scaled(effort.stiffness, g), g);
   if (!damps) return;
   const auto damped = G::scaled(effort.damping, g);
-  if (slope.has_force) G::add_outer(e.by_pose, damped, G::moment(G::force_slope_transpose_times(slope.force, xi)));
-  if (slope.has_moment) G::add_outer(e.by_pose, damped, G::moment(G::moment_slope_transpose_times(slope.moment, xi)));
+  if constexpr (G::turns) {
+    if (slope.has_force) G::add_outer(e.by_pose, damped, G::moment(G::force_slope_transpose_times(slope.force, xi)));
+    if (slope.has_moment) G::add_outer(e.by_pose, damped, G::moment(G::moment_slope_transpose_times(slope.moment, xi)));
+  }
   G::add_outer(e.by_twist, damped, g);
 }
 
@@ -75,8 +80,9 @@ void eval_tangent(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const
     eval_coordinate<G, S, C>(row.kind, row, row.pitch, H, turns, gradient);
     put.row(k, 1, G::vector_of_wrench(gradient));
     put.row(k, 0, -G::inverse_adjoint_transpose_times(H, G::vector_of_wrench(gradient)));
-    if (ports[0].moves)
-      add_gradient_slope<G, S>(multipliers[k], eval_gradient_slope<G, S, C>(row.kind, row, row.pitch, H), e);
+    if constexpr (G::turns)  // else gradients are constant
+      if (ports[0].moves)
+        add_gradient_slope<G, S>(multipliers[k], eval_gradient_slope<G, S, C>(row.kind, row, row.pitch, H), e);
   }
   e.has_twist = around.has_inertia && is_damped(joint);
   typename G::template Motion<S> xi;

@@ -186,44 +186,40 @@ void evaluate_rows(const JointOn<G>& joint, const FieldOn<G, double>& field, dou
     }
   }
 }
-template void evaluate_rows<motion::Se3>(const Joint&, const Field&, double, double*, double*);
-template void evaluate_rows<motion::Se2>(const JointOn<motion::Se2>&, const FieldOn<motion::Se2, double>&, double,
-                                         double*, double*);
-
-namespace {
-template <class G>
-struct ElementsOn {
-  using Beam2 = BeamOn<G, 2>;
-  using Beam3 = BeamOn<G, 3>;
-  using Beam4 = BeamOn<G, 4>;
-  using Body = RigidBodyOn<G>;
-  using OfJoint = JointOn<G>;
-  using OfSpring = SpringOn<G>;
-  using OfBushing = BushingOn<G>;
-  using Load = PointLoadOn<G>;
-  using Load2 = LineLoadOn<G, 2>;
-  using Load3 = LineLoadOn<G, 3>;
-  using Load4 = LineLoadOn<G, 4>;
-};
-}  // namespace
+#define BOUGH_INSTANTIATE_ROWS(G) \
+  template void evaluate_rows<G>(const JointOn<G>&, const FieldOn<G, double>&, double, double*, double*);
+BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE_ROWS)
 
 #define BOUGH_INSTANTIATE_MOMENTUM(E)                                                              \
   template void evaluate_momentum(const E&, const FieldFor<E>&, double, double, double*, double*); \
   template void add_elastic_mass(const E&, const FieldFor<E>&, double, double*);                   \
   template void add_gyroscopic(const E&, const FieldFor<E>&, double, double*);
-#define BOUGH_INSTANTIATE_MOMENTA(G)                   \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::Beam2)     \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::Beam3)     \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::Beam4)     \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::Body)      \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::OfJoint)   \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::OfSpring)  \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::OfBushing) \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::Load)      \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::Load2)     \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::Load3)     \
-  BOUGH_INSTANTIATE_MOMENTUM(ElementsOn<G>::Load4)
-BOUGH_INSTANTIATE_MOMENTA(motion::Se3)
-BOUGH_INSTANTIATE_MOMENTA(motion::Se2)
+#define BOUGH_INSTANTIATE_MOMENTA(G)         \
+  BOUGH_INSTANTIATE_MOMENTUM(RigidBodyOn<G>) \
+  BOUGH_INSTANTIATE_MOMENTUM(JointOn<G>)     \
+  BOUGH_INSTANTIATE_MOMENTUM(SpringOn<G>)    \
+  BOUGH_INSTANTIATE_MOMENTUM(PointLoadOn<G>)
+BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE_MOMENTA)
+namespace {
+template <class G>
+struct TurningElementsOn {
+  using Beam2 = BeamOn<G, 2>;
+  using Beam3 = BeamOn<G, 3>;
+  using Beam4 = BeamOn<G, 4>;
+  using Load2 = LineLoadOn<G, 2>;
+  using Load3 = LineLoadOn<G, 3>;
+  using Load4 = LineLoadOn<G, 4>;
+};
+}  // namespace
+#define BOUGH_INSTANTIATE_TURNING_MOMENTA(G)              \
+  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Beam2) \
+  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Beam3) \
+  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Beam4) \
+  BOUGH_INSTANTIATE_MOMENTUM(BushingOn<G>)                \
+  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Load2) \
+  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Load3) \
+  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Load4)
+BOUGH_INSTANTIATE_TURNING_MOMENTA(motion::Se3)
+BOUGH_INSTANTIATE_TURNING_MOMENTA(motion::Se2)
 
 }  // namespace bough::elements

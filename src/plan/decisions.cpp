@@ -164,7 +164,7 @@ void Builder::settle() {
          "the scene small: a "
          "few sub-domains leave most lanes empty",
          !one_matrix && work >= lanes_break_even, one_matrix ? "the solver is monolithic" : text);
-  const double own_work = (plan.planar ? elements::planar_residual : 1.0) * work;
+  const double own_work = plan.with_group([]<class G>() { return elements::residual_part<G>; }) * work;
   std::snprintf(text, sizeof text, "one evaluation of the elements is about %.0f us of work; tasks pay above %.0f us",
                 1e-3 * own_work, 1e-3 * task_break_even);
   decide("small", "one thread, no tasks. Taken where the work of an evaluation is below a measured break-even",

@@ -218,9 +218,7 @@ void Builder::find_mobility() {
   if (plan.is_dynamic) {
     m.locked = find_locked(SceneLinkage(scene, poses, {.beams_are_rigid = false}));
     SceneLinkage massless(scene, poses, {.beams_are_rigid = false, .drives_hold = true, .mass_holds = true});
-    massless.restrict_to(plan.unknowns.motions, plan.planar ? Vec3d{{plan.planar->axes(0, 2), plan.planar->axes(1, 2),
-                                                                     plan.planar->axes(2, 2)}}
-                                                            : Vec3d::zero());
+    massless.restrict_to(plan.unknowns.motions, lanes::column(plan.axes, 2));
     m.massless = find_massless(massless);
   } else {
     m.free = find_free(SceneLinkage(scene, poses, {.drives_hold = true, .stiffness_holds = true}));

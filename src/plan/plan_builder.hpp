@@ -103,7 +103,7 @@ struct Builder {
   void find_mobility();
   void choose_unknowns();
   void hold_nodes();
-  void add_planar_elements(const motion::Mat3<double>& axes);
+  void add_reduced_model(const motion::Mat3<double>& axes);
   void make_graph();
   void add_sensors();
 };

@@ -394,13 +394,13 @@ void take(Builder& b, const Motion& motion) {
     u.basis.push_back(lanes::transpose(node.pose.R) * axes);
     for (int i = 0; i < 9; ++i) is_plain &= u.basis.back().m[i] == (i % 4 == 0 ? 1.0 : 0.0);
   }
-  if (is_plain || motion.kind() == Motions::translation) u.basis.clear();  // nodes do not turn: their own axes serve
+  if (is_plain) u.basis.clear();
   for (JointPlan& j : b.plan.joints) {
     const auto& e = array_of<elements::Joint>(
         b.plan.elements)[static_cast<std::size_t>(b.plan.directory[static_cast<std::size_t>(j.element)].index)];
     std::erase_if(j.rows, [&](int row) { return !motion.keeps(e, row); });
   }
-  if (motion.kind() == Motions::planar) b.add_planar_elements(axes);
+  b.add_reduced_model(axes);
 }
 
 /// Reasons against every reduction, whatever the elements are.
@@ -438,9 +438,6 @@ void Builder::choose_unknowns() {
     decide(name, what, fewer, reason);
     before = plan.unknowns.motions;
   };
-  Obstacle of_points = general;
-  if (!general && plan.is_dynamic && scene.analysis.integrator == scene::Integrator::variational)
-    of_points = "the variational integrator moves nodes that turn";
   const std::vector<Vec3<double>> any{Vec3<double>::zero()};
   std::vector<Vec3<double>> lines, planes;
   if (!general) {
@@ -451,12 +448,12 @@ void Builder::choose_unknowns() {
          "one unknown a node. Taken where only springs and forces along one line act, at the origins of nodes on it. "
          "What leaves the line is not seen (springs under pressure that give way sideways); statics looks once, at its "
          "last equilibrium",
-         "point masses, springs and loads lie on one line", of_points, lines,
+         "point masses, springs and loads lie on one line", general, lines,
          [this](const Vec3<double>& d) { return OfPoints(*this, d); });
   settle("translation",
          "three unknowns a node, no rotations. Taken where only springs, forces and held displacements act, at the "
          "origins of nodes",
-         "forces act at the origins of nodes only, so nothing turns", of_points, any,
+         "forces act at the origins of nodes only, so nothing turns", general, any,
          [this](const Vec3<double>&) { return OfPoints(*this, std::nullopt); });
   settle("planar",
          "three unknowns a node, two displacements and a rotation. Taken where geometry, sections, masses, joints, "

@@ -39,7 +39,7 @@ struct Integrator {
     system.corrections().add_multipliers(state, x, 1.0);
     return state.change_all([&]<class G>(NodesOn<G>& nodes) {
       const double most = largest_of_chunks(system, [&](std::size_t begin, std::size_t end) {
-        return correct_nodes(rule, start.on<G>(), nodes, begin, end, x, system.corrections().increments());
+        return correct_nodes(rule, start.on<G>(), nodes, begin, end, x, system.places().node_begins());
       });
       return judge_turn(system, nodes, most);
     });

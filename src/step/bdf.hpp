@@ -77,7 +77,7 @@ class Bdf final : public Integrator {
   State begin_;           ///< state at the start of the present step
   State alpha_;           ///< state of generalized-alpha between the starting steps
   State first_, second_;  ///< states at the start and after its first step
-  std::variant<HistoryOn<motion::Se3>, HistoryOn<motion::Se2>> history_;
+  motion::Groups::OneOf<HistoryOn> history_;
   std::vector<double> steady_error_;  ///< as a vector of unknowns
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bough/elements/rows.hpp"
-#include "reduced_elements.hpp"
+#include "element_parts.hpp"
 
 namespace bough::step {
 

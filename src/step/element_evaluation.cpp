@@ -46,40 +46,24 @@ ElementLengths measure_elements(const plan::Plan& plan) {
 
 ElementEvaluation::ElementEvaluation(const plan::Plan& plan, const Instant& instant, const HeldNodes* held,
                                      ResidualSums& sums, LinearSolution& linear, const tree::Walker& walker)
-    : plan_(plan),
-      instant_(instant),
-      held_(held),
-      sums_(sums),
-      linear_(linear),
-      walker_(walker),
-      spatial_lanes_(std::make_unique<LaneBatches<motion::Se3>>()) {
-  const std::span<const solve::ElementBatch> batches = linear.solver().batches();
-  if (plan.planar) {
-    planar_lanes_ = std::make_unique<LaneBatches<motion::Se2>>();
-    planar_lanes_->make(plan, batches, held);
-  } else {
-    spatial_lanes_->make(plan, batches, held);
-  }
+    : plan_(plan), instant_(instant), held_(held), sums_(sums), linear_(linear), walker_(walker) {
+  plan.with_group([&]<class G>() {
+    auto lanes = std::make_unique<LaneBatches<G>>();
+    lanes->make(plan, linear.solver().batches(), held);
+    lanes_ = std::move(lanes);
+  });
 }
 
 ElementEvaluation::~ElementEvaluation() = default;
 
 void ElementEvaluation::take_frames() {
-  if (!plan_.frames.empty()) spatial_lanes_->set_frames(instant_.frames());
+  if (!plan_.frames.empty()) std::get<LanesOn<motion::Se3>>(lanes_)->set_frames(instant_.frames());
 }
 
 std::span<const solve::ElementBatch> ElementEvaluation::batches() const {
-  return planar_lanes_ ? planar_lanes_->batches() : spatial_lanes_->batches();
+  return std::visit([](const auto& lanes) { return lanes->batches(); }, lanes_);
 }
 
-template <>
-const LaneBatches<motion::Se3>& ElementEvaluation::lanes_on<motion::Se3>() const {
-  return *spatial_lanes_;
-}
-template <>
-const LaneBatches<motion::Se2>& ElementEvaluation::lanes_on<motion::Se2>() const {
-  return *planar_lanes_;
-}
 template <class G>
 void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const elements::FieldOn<G, double>& f,
                                        const ElementResults& to) {
@@ -94,8 +78,6 @@ void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const
     turns = state.turns[static_cast<std::size_t>(j)];
   }
   plan::with_element(plan::arrays_on<G>(plan_), plan_.directory[id], [&](const auto& e) {
-    if constexpr (std::is_same_v<G, motion::Se3>)
-      if (are_elements_reduced(plan_)) return evaluate_reduced(e, id, f, multipliers, turns, to.want_tangents());
     std::array<double, most_unknowns> residual, magnitude;
     std::array<double, most_unknowns * most_unknowns> tangent_entries;
     const solve::ElementView view = to.want_tangents() ? to.tangent_of(static_cast<int>(id)) : solve::ElementView{};
@@ -113,31 +95,9 @@ void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const
   });
 }
 
-/// The element in six unknowns a node, then in those that the scene has.
-template <class E>
-void ElementEvaluation::evaluate_reduced(const E& e, std::size_t id, const elements::Field& f,
-                                         const double* multipliers, double turns, bool tangent) {
-  std::array<double, most_unknowns * most_unknowns> entries, reduced;
-  std::array<double, most_unknowns> residual, magnitude, reduced_residual, sizes;
-  elements::evaluate(e, f, multipliers, turns, residual.data(), tangent ? entries.data() : nullptr);
-  elements::eval_magnitude(e, f, residual.data(), magnitude.data());
-  const plan::JointPlan* const joint = plan_.joint_of(id);
-  reduce_vector(plan_.unknowns, e, joint, residual.data(), reduced_residual.data());
-  reduce_sizes(plan_.unknowns, e, joint, magnitude.data(), sizes.data());
-  sums_.set_parts(id, reduced_residual.data(), sizes.data());
-  if (!tangent) return;
-  const int n = reduce_matrix(plan_.unknowns, e, joint, entries.data(), reduced.data());
-  write_matrix(
-      held_, id, n, [&](int i) { return reduced[static_cast<std::size_t>(i)]; },
-      linear_.solver().element(static_cast<int>(id)));
-}
-
 void ElementEvaluation::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
   if (tangent) linear_.begin_matrices(linear_.takes_symmetric_parts());
-  if (state.is_planar())
-    evaluate_on(state, instant_.field_on<motion::Se2>(state, slopes), tangent);
-  else
-    evaluate_on(state, instant_.field(state, slopes), tangent);
+  state.visit([&]<class G>(const NodesOn<G>&) { evaluate_on(state, instant_.field_on<G>(state, slopes), tangent); });
 }
 
 void ElementEvaluation::evaluate_as_seen(const State& state) {
@@ -184,7 +144,7 @@ void ElementEvaluation::symmetrise(const solve::ElementBatch& batch) {
 
 template <class G>
 void ElementEvaluation::evaluate_on(const State& state, const elements::FieldOn<G, double>& field, bool tangent) {
-  const LaneBatches<G>& lanes = lanes_on<G>();
+  const LaneBatches<G>& lanes = *std::get<LanesOn<G>>(lanes_);
   const std::span<const solve::ElementBatch> batches = lanes.batches();
   const ElementResults results{sums_.parts(), sums_.begins(), tangent ? &linear_.solver() : nullptr};
   auto by_batch = [&](std::int64_t begin, std::int64_t end) {

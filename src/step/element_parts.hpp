@@ -29,6 +29,13 @@ void for_each_part(const plan::Plan& plan, std::size_t element, F&& f) {
   if (joint != nullptr && !joint->rows.empty()) f(joint->block, static_cast<int>(joint->rows.size()), -1);
 }
 
+/// Whether an element is a joint none of whose rows is an unknown, in a scene whose nodes do not turn: it neither
+/// pushes nor pulls on its nodes, and no motion changes its rows.
+inline bool is_idle_joint(const plan::Plan& plan, int joint) {
+  return joint >= 0 && plan.joints[static_cast<std::size_t>(joint)].rows.empty() &&
+         !plan.with_group([]<class G>() { return G::turns; });
+}
+
 /// Entries of an element's residual and of its magnitude in the order of ResidualSums::parts: for its nodes, of
 /// `node_unknowns` each, and its rows.
 template <class S>
@@ -41,8 +48,8 @@ void join_parts(int node_unknowns, int num_unknowns, int num_rows, const S* resi
   }
 }
 
-/// The multipliers that an element on the group G of a joint takes: in space of all rows, in a plane of those that
-/// are kept there, which `scratch` takes.
+/// The multipliers that an element on the group G of a joint takes: in space of all rows, on another group of those
+/// that are kept there, which `scratch` takes.
 template <class G>
 const double* multipliers_on(const plan::JointPlan& joint, const State& state, double* scratch) {
   const double* from = state.multipliers.data() + joint.multiplier_begin;

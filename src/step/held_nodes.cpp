@@ -70,40 +70,28 @@ void add_product(const E& e, const double* K, int part, Increment&& increment, V
 
 }  // namespace
 
-void HeldNodes::recover_multipliers(const Instant& instant, const tree::Walker& walker, State& state,
-                                    const Vec6List* more, bool in_plane) const {
+template <class G>
+void HeldNodes::recover_on(const elements::FieldOn<G, double>& field, const tree::Walker& walker, State& state,
+                           const Vec6List* more) const {
   const bool is_settled = state.unsettled.empty();
-  elements::Field space;
-  elements::FieldOn<motion::Se2, double> plane;
-  if (in_plane)
-    plane = instant.field_on<motion::Se2>(state);
-  else
-    space = instant.field(state);
-  const auto evaluate = [&]<class G>(const elements::FieldOn<G, double>& field, std::size_t id, double* residual,
-                                     auto&& take) {
+  const auto add_forces = [&](const Use& use, int node, Vec6<double>& forces) {
     std::array<double, elements::max_rows> scratch;
-    const int j = plan_.joint_of_element[id];
+    std::array<double, most_unknowns> residual;
+    const int j = plan_.joint_of_element[use.element];
     const double* multipliers =
         j < 0 ? nullptr : multipliers_on<G>(plan_.joints[static_cast<std::size_t>(j)], state, scratch.data());
-    plan::with_element(plan::arrays_on<G>(plan_), plan_.directory[id], [&](const auto& e) {
-      std::array<double, most_unknowns * most_unknowns> tangent;
-      elements::evaluate(e, field, multipliers, j < 0 ? 0.0 : state.turns[static_cast<std::size_t>(j)], residual,
-                         is_settled ? nullptr : tangent.data());
-      take(e, tangent.data());
-    });
-  };
-  const auto add_forces = [&](const Use& use, int node, Vec6<double>& forces) {
-    std::array<double, most_unknowns> residual;
-    if (in_plane) {
-      evaluate(plane, use.element, residual.data(), [](const auto&, const double*) {});
-      forces += plan_.unknowns.expanded(residual.data() + 3 * use.part, static_cast<std::size_t>(node));
-      return;
-    }
-    evaluate(space, use.element, residual.data(), [&](const auto& e, const double* tangent) {
-      for (int i = 0; i < 6; ++i) forces[i] += residual[static_cast<std::size_t>(6 * use.part + i)];
-      if (!is_settled)
-        add_product(
-            e, tangent, use.part, [&](int other) { return state.unsettled[static_cast<std::size_t>(other)]; }, forces);
+    const double turns = j < 0 ? 0.0 : state.turns[static_cast<std::size_t>(j)];
+    plan::with_element(plan::arrays_on<G>(plan_), plan_.directory[use.element], [&](const auto& e) {
+      if constexpr (std::is_same_v<G, motion::Se3>) {
+        std::array<double, most_unknowns * most_unknowns> tangent;
+        elements::evaluate(e, field, multipliers, turns, residual.data(), is_settled ? nullptr : tangent.data());
+        for (int i = 0; i < 6; ++i) forces[i] += residual[static_cast<std::size_t>(6 * use.part + i)];
+        const auto lacking = [&](int other) { return state.unsettled[static_cast<std::size_t>(other)]; };
+        if (!is_settled) add_product(e, tangent.data(), use.part, lacking, forces);
+      } else {
+        elements::evaluate(e, field, multipliers, turns, residual.data(), nullptr);
+        forces += plan_.unknowns.expanded(residual.data() + G::dof * use.part, static_cast<std::size_t>(node));
+      }
     });
   };
   auto by_node = [&](std::int64_t begin, std::int64_t end) {
@@ -121,6 +109,12 @@ void HeldNodes::recover_multipliers(const Instant& instant, const tree::Walker& 
     }
   };
   walker.for_each_chunk(static_cast<std::int64_t>(plan_.held.size()), element_grain, tree::make_chunk(by_node));
+}
+
+void HeldNodes::recover_multipliers(const Instant& instant, const tree::Walker& walker, State& state,
+                                    const Vec6List* more) const {
+  if (!plan_.is_dynamic) return recover_on<motion::Se3>(instant.field(state), walker, state, more);
+  state.visit([&]<class G>(const NodesOn<G>&) { recover_on<G>(instant.field_on<G>(state), walker, state, more); });
 }
 
 double HeldNodes::largest_impulse(const Instant& instant, const UnknownPlaces& places, const State& state,

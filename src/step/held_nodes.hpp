@@ -31,9 +31,10 @@ class HeldNodes {
 
   /// Sets the multipliers of all joints that hold nodes, from W multipliers = -(forces of all other elements on the
   /// node). In statics these forces include the first-order correction f + K eta (State::unsettled). more: additional
-  /// forces by node, or null. in_plane: evaluates the elements over SE(2) instead of those over SE(3).
-  void recover_multipliers(const Instant& instant, const tree::Walker& walker, State& state, const Vec6List* more,
-                           bool in_plane) const;
+  /// forces by node, or null. In time the elements are those on the group of the scene,
+  /// in statics those in space.
+  void recover_multipliers(const Instant& instant, const tree::Walker& walker, State& state,
+                           const Vec6List* more) const;
   /// Largest entry of W^-1 M eta over all held nodes; eta are the increments of nodes in the vector x of unknowns.
   double largest_impulse(const Instant& instant, const UnknownPlaces& places, const State& state,
                          const double* x) const;
@@ -47,6 +48,9 @@ class HeldNodes {
     int part;
   };
 
+  template <class G>
+  void recover_on(const elements::FieldOn<G, double>& field, const tree::Walker& walker, State& state,
+                  const Vec6List* more) const;
   template <class AddForces>
   void balance(std::size_t held, motion::Vec6<double> forces, AddForces&& add_forces, double* multipliers) const;
 

@@ -53,8 +53,6 @@ elements::Field Instant::surroundings(const elements::Slopes& slopes, bool with_
   f.around.gravity = values_[static_cast<std::size_t>(plan_.gravity_law)] * plan_.gravity;
   f.around.laws = values_.data();
   f.around.has_inertia = plan_.is_dynamic && with_inertia;
-  f.around.nodes_turn =
-      plan_.unknowns.motions == plan::Motions::spatial || plan_.unknowns.motions == plan::Motions::planar;
   if (plan_.frames.empty()) return f;
   f.carriers = frames_.in_ground.data();
   f.observer = observer();
@@ -72,7 +70,7 @@ elements::Field Instant::field(const State& state, const elements::Slopes& slope
 
 elements::Field Instant::field_of(const State& state, std::span<const int> nodes,
                                   std::vector<elements::NodeMotion>& scratch) const {
-  if (!state.is_planar()) return field(state);
+  if (state.is_in_space()) return field(state);
   elements::Field f = surroundings({}, true);
   scratch.resize(plan_.nodes.size());
   copy_nodes_in_space(plan_, state, nodes, scratch);
@@ -80,25 +78,25 @@ elements::Field Instant::field_of(const State& state, std::span<const int> nodes
   return f;
 }
 
-template <>
-elements::Field Instant::field_on<motion::Se3>(const State& state, const elements::Slopes& slopes,
+template <class G>
+elements::FieldOn<G, double> Instant::field_on(const State& state, const elements::Slopes& slopes,
                                                bool with_inertia) const {
-  return field(state, slopes, with_inertia);
+  if constexpr (std::is_same_v<G, motion::Se3>) {
+    return field(state, slopes, with_inertia);
+  } else {
+    const elements::Field space = surroundings(slopes, with_inertia);
+    elements::FieldOn<G, double> f;
+    f.nodes = state.on<G>().motion.data();
+    f.slopes = slopes;
+    f.around.gravity = plan::along_axes<G>(plan_, space.around.gravity);
+    f.around.laws = space.around.laws;
+    f.around.has_inertia = space.around.has_inertia;
+    return f;
+  }
 }
-
-template <>
-elements::FieldOn<motion::Se2, double> Instant::field_on<motion::Se2>(const State& state,
-                                                                      const elements::Slopes& slopes,
-                                                                      bool with_inertia) const {
-  const elements::Field space = surroundings(slopes, with_inertia);
-  elements::FieldOn<motion::Se2, double> f;
-  f.nodes = state.on<motion::Se2>().motion.data();
-  f.slopes = slopes;
-  f.around.gravity = motion::plane_part(lanes::transpose_times(plan_.planar->axes, space.around.gravity));
-  f.around.laws = space.around.laws;
-  f.around.has_inertia = space.around.has_inertia;
-  return f;
-}
+#define BOUGH_INSTANTIATE_FIELD(G) \
+  template elements::FieldOn<G, double> Instant::field_on<G>(const State&, const elements::Slopes&, bool) const;
+BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE_FIELD)
 
 const std::vector<lanes::Taylor<double, 1>>& Instant::rate_series() const {
   for (std::size_t i = 0; i < rate_series_.size(); ++i) {

@@ -4,33 +4,8 @@
 #include <array>
 
 #include "element_parts.hpp"
-#include "reduced_elements.hpp"
 
 namespace bough::step {
-
-namespace {
-
-/// Keeps those of an element's unknowns, six a node, that nodes have in the scene, in residual, magnitude and matrix
-/// (P f and P K P^T where P takes components as they are). matrix: may be null. to: receives it, may be the same.
-/// Returns the number of unknowns that are kept.
-int select_lanes(const plan::NodeUnknowns& unknowns, int num_unknowns, elements::LanePack* residual,
-                 elements::LanePack* magnitude, const elements::LanePack* matrix, elements::LanePack* to) {
-  std::array<int, most_unknowns> kept;
-  int n = 0;
-  for (int node = 0; node < num_unknowns; node += 6)
-    for (int i = 0; i < unknowns.count; ++i)
-      kept[static_cast<std::size_t>(n++)] = node + unknowns.component[static_cast<std::size_t>(i)];
-  for (int i = 0; i < n; ++i) {
-    const int row = kept[static_cast<std::size_t>(i)];
-    residual[i] = residual[row];
-    magnitude[i] = magnitude[row];
-    for (int j = 0; j < n && matrix != nullptr; ++j)
-      *to++ = matrix[row * num_unknowns + kept[static_cast<std::size_t>(j)]];
-  }
-  return n;
-}
-
-}  // namespace
 
 template <class G>
 template <std::size_t I>
@@ -84,7 +59,7 @@ void LaneBatches<G>::place_rows(const solve::ElementBatch& batch, int num_rows, 
   for (int r = 0; r < slot.num_rows; ++r)
     for (const int j : joints) {
       const plan::JointPlan& joint = plan_->joints[static_cast<std::size_t>(j)];
-      places_.push_back(joint.multiplier_begin + (is_reduced_ ? r : joint.rows[static_cast<std::size_t>(r)]));
+      places_.push_back(joint.multiplier_begin + joint.rows[static_cast<std::size_t>(r)]);
     }
   places_.insert(places_.end(), std::begin(joints), std::end(joints));
 }
@@ -146,7 +121,6 @@ template <class G>
 void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches, const HeldNodes* held) {
   plan_ = &plan;
   held_ = held;
-  is_reduced_ = are_elements_reduced(plan);
   batches_.assign(batches.begin(), batches.end());
   for (solve::ElementBatch& batch : batches_)
     for (int& id : batch.element)
@@ -169,10 +143,7 @@ void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::Element
     if (slot.present < least_lanes) continue;
     const int first = batches_[b].element[static_cast<std::size_t>(slot.first)];
     const int array = plan.directory[static_cast<std::size_t>(first)].array;
-    const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
-      static_cast<void>(((array == static_cast<int>(I) ? (add<I>(batches_[b], slot), true) : false) || ...));
-    };
-    pick(std::make_index_sequence<std::tuple_size_v<Arrays>>{});
+    plan::with_array<Arrays>(array, [&]<std::size_t I>() { add<I>(batches_[b], slot); });
   }
 }
 
@@ -187,12 +158,8 @@ template <class G>
 void LaneBatches<G>::evaluate(std::size_t batch, const State& state, const Field& field,
                               const ElementResults& to) const {
   const Slot& slot = slots_[batch];
-  const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    static_cast<void>((
-        (slot.array == static_cast<int>(I) ? (evaluate_as<I>(batches_[batch], slot, state, field, to), true) : false) ||
-        ...));
-  };
-  pick(std::make_index_sequence<std::tuple_size_v<Arrays>>{});
+  plan::with_array<Arrays>(slot.array,
+                           [&]<std::size_t I>() { evaluate_as<I>(batches_[batch], slot, state, field, to); });
 }
 
 template <class G>
@@ -227,65 +194,26 @@ void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& s
   for (int i = 0; i < field.around.gravity.size(); ++i) around.around.gravity[i] = Pack(field.around.gravity[i]);
   around.around.laws = laws;
   around.around.has_inertia = field.around.has_inertia;
-  around.around.nodes_turn = field.around.nodes_turn;
-  Pack residual[most], magnitude[most], parts[2 * most], spare[most * most];
+  constexpr int room = std::max(8, 2 * most);  // eight parts are transposed at once
+  Pack residual[most], magnitude[most], parts[room], spare[most * most];
   // Only full batches are written directly: the solver's empty lanes must stay empty.
   const bool may_be_direct = to.want_tangents() && slot.present == wide && batch.stride == wide && !slot.is_trimmed;
   Pack* const direct = may_be_direct ? reinterpret_cast<Pack*>(to.tangent_of(batch.element[0]).first) : nullptr;
-  Pack* matrix = direct != nullptr && !is_reduced_ ? direct : to.want_tangents() ? spare : nullptr;
+  Pack* matrix = direct != nullptr ? direct : to.want_tangents() ? spare : nullptr;
   evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
-  int size = n, unknowns_per_node = G::dof;
-  if constexpr (std::is_same_v<G, motion::Se3>)
-    if (is_reduced_) {
-      if (rows > 0 || !plan_->unknowns.basis.empty()) return reduce_lanes<I>(batch, residual, magnitude, matrix, to);
-      unknowns_per_node = plan_->unknowns.count;
-      size = select_lanes(plan_->unknowns, n, residual, magnitude, matrix, direct != nullptr ? direct : spare);
-    }
-  join_parts(unknowns_per_node, size, slot.num_rows, residual, magnitude, parts);
+  join_parts(G::dof, n, slot.num_rows, residual, magnitude, parts);
   double nowhere[2 * most], *to_parts[wide];
   for (int l = 0; l < wide; ++l) {
     const int id = batch.element[static_cast<std::size_t>(l)];
     to_parts[l] = id < 0 ? nowhere : to.parts_of(id);
     if (to.want_tangents() && direct == nullptr && id >= 0)
       write_matrix(
-          held_, static_cast<std::size_t>(id), size, [&](int i) { return spare[i][l]; }, to.tangent_of(id));
+          held_, static_cast<std::size_t>(id), n, [&](int i) { return spare[i][l]; }, to.tangent_of(id));
   }
-  lanes::scatter_lanes(parts, 2 * size, to_parts);
+  lanes::scatter_lanes(parts, 2 * n, to_parts);
 }
 
-/// Results of a batch of elements in space in the unknowns that their nodes have.
-template <class G>
-template <std::size_t I>
-void LaneBatches<G>::reduce_lanes(const solve::ElementBatch& batch, const elements::LanePack* residual,
-                                  const elements::LanePack* magnitude, const elements::LanePack* matrix,
-                                  const ElementResults& to) const {
-  const auto& array = std::get<I>(plan_->elements);
-  const plan::NodeUnknowns& u = plan_->unknowns;
-  std::array<double, most_unknowns * most_unknowns> whole, reduced;
-  std::array<double, most_unknowns> vector, sizes;
-  for (int l = 0; l < elements::num_lanes; ++l) {
-    const int id = batch.element[static_cast<std::size_t>(l)];
-    if (id < 0) continue;
-    const auto place = static_cast<std::size_t>(id);
-    const auto& e = array[static_cast<std::size_t>(plan_->directory[place].index)];
-    const int n = elements::num_unknowns(e);
-    const plan::JointPlan* const joint = plan_->joint_of(place);
-    const auto take = [&whole, l](const elements::LanePack* from, int count) {
-      for (int i = 0; i < count; ++i) whole[static_cast<std::size_t>(i)] = from[i][l];
-      return whole.data();
-    };
-    const int size = reduce_vector(u, e, joint, take(residual, n), vector.data());
-    reduce_sizes(u, e, joint, take(magnitude, n), sizes.data());
-    join_parts(u.count, size, joint == nullptr ? 0 : static_cast<int>(joint->rows.size()), vector.data(), sizes.data(),
-               to.parts_of(id));
-    if (matrix == nullptr) continue;
-    reduce_matrix(u, e, joint, take(matrix, n * n), reduced.data());
-    write_matrix(
-        held_, place, size, [&](int i) { return reduced[static_cast<std::size_t>(i)]; }, to.tangent_of(id));
-  }
-}
-
-template class LaneBatches<motion::Se3>;
-template class LaneBatches<motion::Se2>;
+#define BOUGH_INSTANTIATE(G) template class LaneBatches<G>;
+BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
 
 }  // namespace bough::step

@@ -19,11 +19,17 @@
 namespace bough::step {
 
 namespace detail {
+template <class E>
+struct OverLanes : elements::detail::OverLanes<E> {};
+template <>
+struct OverLanes<plan::NoElement> {
+  using Type = plan::NoElement;
+};
 template <class Arrays>
 struct LaneArraysOf;
 template <class... E>
 struct LaneArraysOf<std::tuple<std::vector<E>...>> {
-  using Type = std::tuple<std::vector<typename elements::detail::OverLanes<E>::Type>...>;
+  using Type = std::tuple<std::vector<typename OverLanes<E>::Type>...>;
 };
 }  // namespace detail
 
@@ -87,14 +93,8 @@ class LaneBatches {
   template <std::size_t I>
   void evaluate_as(const solve::ElementBatch& batch, const Slot& slot, const State& state, const Field& field,
                    const ElementResults& to) const;
-  template <std::size_t I>
-  void reduce_lanes(const solve::ElementBatch& batch, const elements::LanePack* residual,
-                    const elements::LanePack* magnitude, const elements::LanePack* matrix,
-                    const ElementResults& to) const;
-
   static constexpr std::size_t most_uniform = 64;  ///< number of lane elements that are searched for equal ones
   const plan::Plan* plan_ = nullptr;
-  bool is_reduced_ = false;  ///< nodes have fewer unknowns than the elements' group has
   const HeldNodes* held_ = nullptr;
   std::vector<solve::ElementBatch> batches_;
   std::vector<Slot> slots_;

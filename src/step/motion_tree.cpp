@@ -194,15 +194,21 @@ void carry(const plan::Plan&, const RigidMotion& S, SpatialNodes& nodes, std::si
   nodes.rotation[n] = motion::normalise(motion::multiply(nodes.rotation[n], S.turn));
   node.R = motion::rotation_of(nodes.rotation[n]);
 }
-/// The same in a plane: S rotates about the plane's normal and translates along the plane.
-void carry(const plan::Plan& plan, const RigidMotion& S, PlanarNodes& nodes, std::size_t n) {
-  const motion::Mat3<double>& B = plan.planar->nodes[n].basis;
-  const Vec3<double> shift = lanes::transpose_times(B, S.shift), half = lanes::transpose_times(B, S.turn.v);
+/// The same on another group: in a plane, S rotates about the plane's normal and translates along the plane.
+template <class G>
+void carry(const plan::Plan& plan, const RigidMotion& S, NodesOn<G>& nodes, std::size_t n) {
+  const motion::Mat3<double>& B = std::get<plan::ModelOn<G>>(plan.model).nodes[n].basis;
+  const Vec3<double> shift = lanes::transpose_times(B, S.shift);
   auto& node = nodes.motion[n];
-  node.x.add(motion::complex_times(node.R, motion::plane_part(shift)));
-  const motion::Vec2<double> turn{{S.turn.w * S.turn.w - half[2] * half[2], 2.0 * S.turn.w * half[2]}};
-  node.R = motion::complex_times(node.R, turn);
-  node.R = (1.5 - 0.5 * lanes::dot(node.R, node.R)) * node.R;  // normalised to first order
+  typename G::template Translation<double> along;
+  for (int i = 0; i < G::translations; ++i) along[i] = shift[i];
+  node.x.add(G::turned({node.R, {}}, along));
+  if constexpr (G::turns) {
+    const Vec3<double> half = lanes::transpose_times(B, S.turn.v);
+    const motion::Vec2<double> turn{{S.turn.w * S.turn.w - half[2] * half[2], 2.0 * S.turn.w * half[2]}};
+    node.R = motion::complex_times(node.R, turn);
+    node.R = (1.5 - 0.5 * lanes::dot(node.R, node.R)) * node.R;  // normalised to first order
+  }
 }
 
 /// Calls f with the number of nodes as a compile-time constant.

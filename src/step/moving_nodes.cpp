@@ -40,8 +40,6 @@ double largest_of(const Pack& a) {
   return most;
 }
 
-Vec2<Pack> linear(const Vec3<Pack>& v) { return plane_part(v); }
-Vec3<Pack> linear(const Vec6<Pack>& v) { return lanes::linear_part(v); }
 template <class G>
 Pack angular_square(const VectorLanes<G>& v) {
   return motion::VectorsOn<G>::template angular_square<Pack>(v);
@@ -82,22 +80,40 @@ struct Mover<Se2, S> : elements::NodeMotionOn<Se2, S> {
   }
 };
 
+/// Where nothing turns, increments add up.
+template <int N, class S>
+struct Mover<motion::Translations<N>, S> : elements::NodeMotionOn<motion::Translations<N>, S> {
+  void move(const lanes::Vec<S, N>& eta, bool follow_dq) {
+    this->x.add(eta);
+    if (follow_dq) this->dq = this->dq + eta;
+  }
+};
+
+/// The numbers of eight nodes in lanes.
+template <class G>
+Pack* numbers_of(Mover<G, Pack>& m) {
+  return reinterpret_cast<Pack*>(static_cast<elements::NodeMotionOn<G, Pack>*>(&m));
+}
+template <class G>
+const Pack* numbers_of(const Mover<G, Pack>& m) {
+  return reinterpret_cast<const Pack*>(static_cast<const elements::NodeMotionOn<G, Pack>*>(&m));
+}
 /// Loads poses (and quaternions in space) of up to eight nodes into lanes.
 template <class G>
 void gather_pose(const NodesOn<G>& nodes, std::size_t from, std::size_t count, Mover<G, Pack>& m) {
-  gather<NodeNumbers<G>::pose>(nodes.motion.data(), from, count, reinterpret_cast<Pack*>(&m.R));
+  gather<NodeNumbers<G>::pose>(nodes.motion.data(), from, count, numbers_of(m));
   if constexpr (std::is_same_v<G, Se3>) gather<4>(nodes.rotation.data(), from, count, &m.q.w);
 }
 /// Loads poses, velocities and accelerations.
 template <class G>
 void gather_motion(const NodesOn<G>& nodes, std::size_t from, std::size_t count, Mover<G, Pack>& m) {
-  gather<NodeNumbers<G>::dq>(nodes.motion.data(), from, count, reinterpret_cast<Pack*>(&m.R));
+  gather<NodeNumbers<G>::dq>(nodes.motion.data(), from, count, numbers_of(m));
   if constexpr (std::is_same_v<G, Se3>) gather<4>(nodes.rotation.data(), from, count, &m.q.w);
 }
 /// Stores the first `numbers` numbers of each node.
 template <int numbers, class G>
 void scatter_motion(const Mover<G, Pack>& m, NodesOn<G>& nodes, std::size_t from, std::size_t count) {
-  scatter<numbers>(reinterpret_cast<const Pack*>(&m.R), nodes.motion.data(), from, count);
+  scatter<numbers>(numbers_of(m), nodes.motion.data(), from, count);
   if constexpr (std::is_same_v<G, Se3>) scatter<4>(&m.q.w, nodes.rotation.data(), from, count);
 }
 static_assert(sizeof(Quaternion<double>) == 4 * sizeof(double) && offsetof(Quaternion<double>, w) == 0);
@@ -107,32 +123,15 @@ constexpr double nothing[12] =
 
 /// Increments of eight nodes in lanes; zero where node(lane) < 0 or the node has no unknowns.
 template <class G, class Node>
-VectorLanes<G> gather_increments(const double* x, const IncrementsOf& of, Node&& node) {
-  const plan::NodeUnknowns& u = of.unknowns;
+VectorLanes<G> gather_increments(const double* x, const std::int64_t* unknown_begin, Node&& node) {
   const double* from[nodes_in_lanes];
   for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
     const int n = node(l);
-    const std::int64_t unknown = n < 0 ? -1 : of.begin[n];
+    const std::int64_t unknown = n < 0 ? -1 : unknown_begin[n];
     from[l] = unknown < 0 ? nothing : x + unknown;
   }
   VectorLanes<G> eta;
-  if (u.count == G::dof) {
-    lanes::gather_lanes(from, G::dof, &eta[0]);
-    return eta;
-  }
-  if constexpr (std::is_same_v<G, Se3>) {
-    lanes::gather_lanes(from, u.count, &eta[0]);
-    // P^T x as in NodeUnknowns::expanded, for point masses, which have translations only.
-    for (int i = u.count; i < G::dof; ++i) eta[i] = Pack(0.0);
-    if (u.basis.empty()) return eta;
-    for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
-      const int n = node(l);
-      from[l] = n < 0 ? nothing : u.basis[static_cast<std::size_t>(n)].m;
-    }
-    Mat3<Pack> basis;
-    lanes::gather_lanes(from, 9, basis.m);
-    return lanes::join(basis * lanes::linear_part(eta), Vec3<Pack>::zero());
-  }
+  lanes::gather_lanes(from, G::dof, &eta[0]);
   return eta;
 }
 
@@ -150,27 +149,28 @@ Mover<G, Pack> gather_moving(const NodesOn<G>& nodes, std::size_t first, std::si
   gather<G::dof>(nodes.motion.data(), first, count, &m.dq[0], NodeNumbers<G>::dq);
   return m;
 }
-/// Moves them by their unknowns; of dq in a plane only the angle.
+/// Moves them by their unknowns. Where poses determine dq, only its angle in a plane follows.
 template <class G>
-void move_by_unknowns(Mover<G, Pack>& m, const double* x, const IncrementsOf& of, std::size_t first,
+void move_by_unknowns(Mover<G, Pack>& m, const double* x, const std::int64_t* unknown_begin, std::size_t first,
                       std::size_t count) {
   const auto node = [first, count](std::size_t l) { return static_cast<int>(first + std::min(l, count - 1)); };
-  const auto eta = gather_increments<G>(x, of, node);
+  const auto eta = gather_increments<G>(x, unknown_begin, node);
   if constexpr (std::is_same_v<G, Se3>) {
     m.move(eta, true);
   } else {
     m.move(eta, false);
-    m.dq[2] = m.dq[2] + eta[2];
+    if constexpr (G::turns) m.dq[2] = m.dq[2] + eta[2];
   }
 }
 
 }  // namespace
 
 template <class G>
-void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x, const IncrementsOf& of) {
+void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x,
+                const std::int64_t* unknown_begin) {
   by_eights(begin, end, [&](std::size_t first, std::size_t count) {
     Mover<G, Pack> m = gather_moving(nodes, first, count);
-    move_by_unknowns(m, x, of, first, count);
+    move_by_unknowns(m, x, unknown_begin, first, count);
     scatter_motion<NodeNumbers<G>::pose>(m, nodes, first, count);
     scatter<G::dof>(&m.dq[0], nodes.motion.data(), first, count, NodeNumbers<G>::dq);
   });
@@ -179,32 +179,37 @@ void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const dou
 namespace {
 
 /// Loads what a correction needs of the start of the step. In space a move keeps dq up to date.
-void gather_start(const SpatialNodes& start, std::size_t first, std::size_t count, Mover<Se3, Pack>& from) {
-  gather<2 * Se3::dof>(start.motion.data(), first, count, &from.v[0], NodeNumbers<Se3>::v);
+template <class G>
+void gather_start(const NodesOn<G>& start, std::size_t first, std::size_t count, Mover<G, Pack>& from) {
+  if constexpr (std::is_same_v<G, Se3>)
+    gather<2 * G::dof>(start.motion.data(), first, count, &from.v[0], NodeNumbers<G>::v);
+  else
+    gather_motion(start, first, count, from);
 }
 void measure_increment(const Mover<Se3, Pack>&, Mover<Se3, Pack>&) {}
 /// dq = log(H_start^-1 H), with the accumulated angle, which is correct beyond half a turn. Computed from the poses, it
 /// contains no accumulated rounding of single corrections.
-void gather_start(const PlanarNodes& start, std::size_t first, std::size_t count, Mover<Se2, Pack>& from) {
-  gather_motion(start, first, count, from);
-}
 void measure_increment(const Mover<Se2, Pack>& from, Mover<Se2, Pack>& m) {
   const Pack angle = m.dq[2];
   const Vec2<Pack> way = motion::conjugate_times(from.R, motion::difference(m.x, from.x));
   const Vec2<Pack> inverse{{motion::half_cotangent(Pack(angle * angle)), -0.5 * angle}};
   m.dq = motion::join(motion::complex_times(inverse, way), angle);
 }
+template <int N>
+void measure_increment(const Mover<motion::Translations<N>, Pack>& from, Mover<motion::Translations<N>, Pack>& m) {
+  m.dq = motion::difference(m.x, from.x);
+}
 
 }  // namespace
 
 template <class G>
 double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
-                     std::size_t end, const double* x, const IncrementsOf& of) {
+                     std::size_t end, const double* x, const std::int64_t* unknown_begin) {
   Pack turned(0.0);
   by_eights(begin, end, [&](std::size_t first, std::size_t count) {
     Mover<G, Pack> m = gather_moving(state, first, count), from;
     gather_start(start, first, count, from);
-    move_by_unknowns(m, x, of, first, count);
+    move_by_unknowns(m, x, unknown_begin, first, count);
     measure_increment(from, m);
     const auto now = rule.follow(m.dq, from.v, from.a, start.algorithmic.eight(first));
     m.v = now.v;
@@ -282,7 +287,7 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
   using Numbers = NodeNumbers<G>;
   Workspace::StepEnd part;
   const auto size = [arm](const VectorLanes<G>& a) {
-    return Pack(lanes::dot(linear(a), linear(a)) + arm * arm * angular_square<G>(a));
+    return Pack(lanes::dot(G::linear(a), G::linear(a)) + arm * arm * angular_square<G>(a));
   };
   const auto largest = [per_length](const VectorLanes<G>& v) {
     Pack most(0.0);
@@ -316,7 +321,7 @@ namespace {
 /// Poses of eight nodes and their increments, turned into the axes in which positions are given.
 template <class G>
 struct Moving {
-  typename G::template Rotation<Pack> R;
+  [[no_unique_address]] typename G::template Rotation<Pack> R;
   typename G::template Translation<Pack> x;
   VectorLanes<G> change;
 };
@@ -326,18 +331,26 @@ Vec6<Pack> turned(const Mat3<Pack>& R, const Vec6<Pack>& eta) {
 Vec3<Pack> turned(const Vec2<Pack>& R, const Vec3<Pack>& eta) {
   return motion::join(motion::complex_times(R, plane_part(eta)), eta[2]);
 }
+template <int N>
+lanes::Vec<Pack, N> turned(motion::NoRotation, const lanes::Vec<Pack, N>& eta) {
+  return eta;
+}
 
 /// Displacement of the far end of an arm due to the rotation of its near end.
 Vec3<Pack> swung(const Vec6<Pack>& change, const Vec3<Pack>& arm) {
   return lanes::cross(lanes::angular_part(change), arm);
 }
 Vec2<Pack> swung(const Vec3<Pack>& change, const Vec2<Pack>& arm) { return change[2] * motion::quarter_turn(arm); }
+template <int N>
+lanes::Vec<Pack, N> swung(const lanes::Vec<Pack, N>&, const lanes::Vec<Pack, N>&) {
+  return lanes::Vec<Pack, N>::zero();
+}
 
 }  // namespace
 
 template <class G>
 double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const double* x,
-                      const IncrementsOf& of) {
+                      const std::int64_t* unknown_begin) {
   constexpr int numbers = NodeNumbers<G>::pose - G::translations;  // R and the leading part of the position
   const auto look_at = [&](const int(&node)[nodes_in_lanes]) {
     const double* from[nodes_in_lanes];
@@ -346,7 +359,7 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
           node[l] < 0 ? nothing : reinterpret_cast<const double*>(&nodes.motion[static_cast<std::size_t>(node[l])]);
     Moving<G> m;
     lanes::gather_lanes(from, numbers, reinterpret_cast<Pack*>(&m));
-    m.change = turned(m.R, gather_increments<G>(x, of, [&node](std::size_t l) { return node[l]; }));
+    m.change = turned(m.R, gather_increments<G>(x, unknown_begin, [&node](std::size_t l) { return node[l]; }));
     return m;
   };
   const Pack far(too_far);
@@ -356,7 +369,7 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
     const Moving<G> a = look_at(p.a), b = look_at(p.b);
     const VectorLanes<G> change = b.change - a.change;
     const typename G::template Translation<Pack> arm = b.x - a.x, swing = swung(a.change, arm),
-                                                 shift = p.per_length * (linear(change) - swing);
+                                                 shift = p.per_length * (G::linear(change) - swing);
     for (int i = 0; i < G::dof; ++i) near = near & less(lanes::abs(i < G::translations ? shift[i] : change[i]), far);
     most = larger(most, larger(lanes::dot(shift, shift), angular_square<G>(change)));
   }
@@ -364,17 +377,15 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
 }
 
 #define BOUGH_INSTANTIATE(G)                                                                                         \
-  template void move_nodes<G>(NodesOn<G>&, std::size_t, std::size_t, const double*, const IncrementsOf&);            \
+  template void move_nodes<G>(NodesOn<G>&, std::size_t, std::size_t, const double*, const std::int64_t*);            \
   template void move_node<G>(NodesOn<G>&, std::size_t, const G::Vector<double>&);                                    \
   template void place_node<G>(const NodesOn<G>&, std::size_t, const G::Vector<double>&, NodesOn<G>&);                \
   template double predict_nodes<G>(const AlphaRule&, int, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t); \
   template double correct_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t,       \
-                                   const double*, const IncrementsOf&);                                              \
+                                   const double*, const std::int64_t*);                                              \
   template Workspace::StepEnd finish_nodes<G>(const AlphaRule&, double, double, const NodesOn<G>&, NodesOn<G>&,      \
                                               std::size_t, std::size_t);                                             \
-  template double largest_change<G>(const NodesOn<G>&, std::span<const PairLanes>, const double*, const IncrementsOf&)
-
-BOUGH_INSTANTIATE(Se3);
-BOUGH_INSTANTIATE(Se2);
+  template double largest_change<G>(const NodesOn<G>&, std::span<const PairLanes>, const double*, const std::int64_t*);
+BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
 
 }  // namespace bough::step

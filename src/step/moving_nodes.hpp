@@ -1,5 +1,5 @@
 #pragma once
-/// Operations of a step on nodes, for SE(3) and SE(2): prediction, Newton corrections, updates of velocities, local
+/// Operations of a step on nodes, on any group: prediction, Newton corrections, updates of velocities, local
 /// errors. Eight nodes are computed at once, one in each lane of a pack; results are bitwise equal to those of scalar
 /// arithmetic. Each function takes the range [begin, end) of nodes, so that threads can share the work. Internal to
 /// step.
@@ -14,19 +14,13 @@ namespace bough::step {
 /// A change whose square may not be finite: the iteration is lost.
 inline constexpr double too_far = 1e100;
 
-/// Maps a vector of unknowns to increments of nodes. `begin` is the first unknown of each node, -1 for a node without
-/// unknowns.
-struct IncrementsOf {
-  const plan::NodeUnknowns& unknowns;
-  const std::int64_t* begin;
-};
-
 /// A motion vector of a node, expanded to six components in the node's own axes.
-inline const motion::Vec6<double>& vector_in_space(const plan::Plan&, std::size_t, const motion::Vec6<double>& v) {
-  return v;
-}
-inline motion::Vec6<double> vector_in_space(const plan::Plan& plan, std::size_t node, const motion::Vec3<double>& v) {
-  return plan.unknowns.expanded(&v[0], node);
+template <int N>
+motion::Vec6<double> vector_in_space(const plan::Plan& plan, std::size_t node, const lanes::Vec<double, N>& v) {
+  if constexpr (N == 6)
+    return v;
+  else
+    return plan.unknowns.expanded(&v[0], node);
 }
 
 /// Eight pairs (a, b) of nodes of elements, whose relative motions are measured. If a < 0, the motion of b is measured
@@ -36,17 +30,19 @@ struct PairLanes {
   elements::LanePack per_length;  ///< 1 / length of the element [1/m]
 };
 
-/// Applies a correction, H <- H exp(eta), with eta from the vector x of unknowns. In space the increment of the step is
-/// updated, too: dq <- log(exp(dq) exp(eta)). In a plane only the angle of dq is updated, because the pose does not
-/// determine it beyond half a turn; the other components are determined by the poses at both ends of the step.
+/// Applies a correction, H <- H exp(eta), with eta from the vector x of unknowns. `unknown_begin` is the first unknown
+/// of each node, -1 for a node without unknowns. In space the increment of the step is updated, too:
+/// dq <- log(exp(dq) exp(eta)). On other groups the poses at both ends of the step determine dq, except its angle in a
+/// plane, which they do not determine beyond half a turn: the angle is updated.
 template <class G>
-void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x, const IncrementsOf& increments);
+void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x,
+                const std::int64_t* unknown_begin);
 
-/// Applies a correction of generalized-alpha in one pass: the poses and dq as above, all components of dq also in a
-/// plane, and the velocities and accelerations that the rule assigns to dq. Returns the largest squared angle of dq.
+/// Applies a correction of generalized-alpha in one pass: the poses and dq as above, all components of dq on every
+/// group, and the velocities and accelerations that the rule assigns to dq. Returns the largest squared angle of dq.
 template <class G>
 double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
-                     std::size_t end, const double* x, const IncrementsOf& increments);
+                     std::size_t end, const double* x, const std::int64_t* unknown_begin);
 
 /// Predictor: sets poses, rates and dq of the nodes of `state` from those of `start`. Returns the largest squared angle
 /// of dq.
@@ -62,11 +58,11 @@ template <class G>
 Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
                                 NodesOn<G>& state, std::size_t begin, std::size_t end);
 
-/// The largest squared relative displacement or rotation of the pairs (Corrections::relative_size); infinite if one exceeds
-/// the bound too_far or is not a number.
+/// The largest squared relative displacement or rotation of the pairs (Corrections::relative_size); infinite if one
+/// exceeds the bound too_far or is not a number.
 template <class G>
 double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const double* x,
-                      const IncrementsOf& increments);
+                      const std::int64_t* unknown_begin);
 
 /// Places node `node` of `to` at H exp(d), H being its pose in `from`, and sets dq = d.
 template <class G>

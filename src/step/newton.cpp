@@ -165,10 +165,7 @@ std::optional<Trouble> check_shape(const System& system, const State& state) {
     };
     system.walker().for_each_chunk(count, element_grain, tree::make_chunk(by_element));
   };
-  if (state.is_planar())
-    look(system.instant().field_on<motion::Se2>(state));
-  else
-    look(system.instant().field(state));
+  state.visit([&]<class G>(const NodesOn<G>&) { look(system.instant().field_on<G>(state)); });
   return describe_shape(system, first_bad.get());
 }
 
@@ -188,10 +185,7 @@ void accept_turns(const System& system, State& state) {
     system.walker().for_each_chunk(static_cast<std::int64_t>(plan.joints.size()), element_grain,
                                    tree::make_chunk(by_joint));
   };
-  if (state.is_planar())
-    count(system.instant().field_on<motion::Se2>(state));
-  else
-    count(system.instant().field(state));
+  state.visit([&]<class G>(const NodesOn<G>&) { count(system.instant().field_on<G>(state)); });
 }
 
 }  // namespace bough::step

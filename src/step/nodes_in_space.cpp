@@ -1,4 +1,4 @@
-/// Conversion of nodes that move in a plane to nodes in space, eight at a time.
+/// Conversion of nodes on other groups to nodes in space, eight at a time.
 #include <algorithm>
 #include <numeric>
 
@@ -15,27 +15,32 @@ using motion::Vec6;
 namespace {
 
 using Pack = elements::LanePack;
-using motion::Se2;
 using motion::Se3;
 
-/// Initial poses of eight nodes, in space and in the plane.
+/// Initial poses of eight nodes, on the group and in space.
+template <class G>
 struct Start {
   Mat3<Pack> basis;
   motion::Quaternion<Pack> rotation;
   motion::PositionPair<Pack> place;
-  Vec2<Pack> turn;
-  motion::PositionPair<Pack, 2> x;
+  [[no_unique_address]] typename G::template Rotation<Pack> turn;
+  motion::PositionPair<Pack, G::translations> x;
 };
-constexpr int start_numbers = sizeof(plan::PlanarNode) / sizeof(double);
-static_assert(sizeof(Start) == start_numbers * sizeof(Pack));
+template <class G>
+inline constexpr int start_numbers = sizeof(plan::NodeStartOn<G>) / sizeof(double);
 
-/// A motion vector of a node in the plane as one in space, in the node's own axes. The first two columns of B are along
-/// the plane, the third is its normal.
-Vec6<Pack> in_space(const Mat3<Pack>& B, const Vec3<Pack>& z) {
+/// A motion vector of a node as one in space, in the node's own axes. The leading columns of B are along the
+/// translations of the group, the third is the axis of rotations.
+template <class G>
+Vec6<Pack> in_space(const Mat3<Pack>& B, const typename G::template Vector<Pack>& z) {
   Vec6<Pack> v;
   for (int i = 0; i < 3; ++i) {
-    v[i] = B(i, 0) * z[0] + B(i, 1) * z[1];
-    v[3 + i] = B(i, 2) * z[2];
+    v[i] = B(i, 0) * z[0];
+    for (int k = 1; k < G::translations; ++k) v[i] = v[i] + B(i, k) * z[k];
+    if constexpr (G::turns)
+      v[3 + i] = B(i, 2) * z[2];
+    else
+      v[3 + i] = Pack(0.0);
   }
   return v;
 }
@@ -48,49 +53,62 @@ Vec2<Pack> half_turn(const Vec2<Pack>& turn) {
   return {{select(beyond, other, larger), select(beyond, larger, other)}};
 }
 
-elements::NodeLanes show(const plan::PlanarModel& plane, const Start& start,
-                         const elements::NodeMotionOn<Se2, Pack>& node) {
-  elements::NodeLanes to;
-  // Rotation about the normal since the start. The quaternion is normalised to first order.
-  const Vec2<Pack> half = half_turn(motion::conjugate_times(start.turn, node.R));
+/// Rotation in space: in a plane a turn about the normal since the start. The quaternion is normalised to first order.
+Mat3<Pack> rotation_in_space(const Start<motion::Se2>& start, const Vec2<Pack>& turn) {
+  const Vec2<Pack> half = half_turn(motion::conjugate_times(start.turn, turn));
   motion::Quaternion<Pack> turned =
       motion::multiply(start.rotation, motion::Quaternion<Pack>{half[0], Vec3<Pack>(half[1] * column(start.basis, 2))});
   const Pack unit = 1.5 - 0.5 * (turned.w * turned.w + lanes::dot(turned.v, turned.v));
   turned = {unit * turned.w, Vec3<Pack>(unit * turned.v)};
-  to.R = motion::rotation_of(turned);
+  return motion::rotation_of(turned);
+}
+template <class G>
+Mat3<Pack> rotation_in_space(const Start<G>& start, motion::NoRotation) {
+  return motion::rotation_of(start.rotation);
+}
+
+template <class G>
+elements::NodeLanes show(const Mat3<double>& axes, const Start<G>& start, const elements::NodeMotionOn<G, Pack>& node) {
+  elements::NodeLanes to;
+  to.R = rotation_in_space(start, node.R);
   // The position is converted as a displacement in two parts, which keeps the digits beyond double precision.
-  Vec2<Pack> hi, lo;
-  for (int i = 0; i < 2; ++i) {
+  typename G::template Translation<Pack> hi, lo;
+  for (int i = 0; i < G::translations; ++i) {
     motion::two_sum(node.x.hi[i], Pack(-start.x.hi[i]), hi[i], lo[i]);
     lo[i] = lo[i] + (node.x.lo[i] - start.x.lo[i]);
   }
-  const Vec3<Pack> along[2] = {lanes::cast<Pack>(column(plane.axes, 0)), lanes::cast<Pack>(column(plane.axes, 1))};
   to.x = start.place;
-  for (const Vec2<Pack>& part : {hi, lo}) to.x.add(part[0] * along[0] + part[1] * along[1]);
-  to.v = in_space(start.basis, node.v);
-  to.a = in_space(start.basis, node.a);
-  to.dq = in_space(start.basis, node.dq);
+  for (const auto& part : {hi, lo}) {
+    Vec3<Pack> step = part[0] * lanes::cast<Pack>(column(axes, 0));
+    for (int i = 1; i < G::translations; ++i) step = step + part[i] * lanes::cast<Pack>(column(axes, i));
+    to.x.add(step);
+  }
+  to.v = in_space<G>(start.basis, node.v);
+  to.a = in_space<G>(start.basis, node.a);
+  to.dq = in_space<G>(start.basis, node.dq);
   return to;
 }
 
 /// Converts the nodes node(k) for k = 0 to count - 1.
-template <class Node>
-void show_nodes(const plan::PlanarModel& plane, const PlanarNodes& nodes, std::size_t count, Node&& node,
+template <class G, class Node>
+void show_nodes(const plan::Plan& plan, const NodesOn<G>& nodes, std::size_t count, Node&& node,
                 std::vector<elements::NodeMotion>& to) {
+  static_assert(sizeof(Start<G>) == start_numbers<G> * sizeof(Pack));
+  const plan::ModelOn<G>& model = std::get<plan::ModelOn<G>>(plan.model);
   for (std::size_t first = 0; first < count; first += nodes_in_lanes) {
     const double *starts[nodes_in_lanes], *motions[nodes_in_lanes];
     double* shown[nodes_in_lanes];
     for (std::size_t l = 0; l < nodes_in_lanes; ++l) {  // unused lanes repeat the last node
       const std::size_t n = node(std::min(first + l, count - 1));
-      starts[l] = reinterpret_cast<const double*>(&plane.nodes[n]);
+      starts[l] = reinterpret_cast<const double*>(&model.nodes[n]);
       motions[l] = reinterpret_cast<const double*>(&nodes.motion[n]);
       shown[l] = reinterpret_cast<double*>(&to[n]);
     }
-    Start start;
-    elements::NodeMotionOn<Se2, Pack> motion;
-    lanes::gather_lanes(starts, start_numbers, reinterpret_cast<Pack*>(&start));
-    lanes::gather_lanes(motions, elements::numbers_of_node<Se2>, reinterpret_cast<Pack*>(&motion));
-    const elements::NodeLanes in_space = show(plane, start, motion);
+    Start<G> start;
+    elements::NodeMotionOn<G, Pack> motion;
+    lanes::gather_lanes(starts, start_numbers<G>, reinterpret_cast<Pack*>(&start));
+    lanes::gather_lanes(motions, elements::numbers_of_node<G>, reinterpret_cast<Pack*>(&motion));
+    const elements::NodeLanes in_space = show(plan.axes, start, motion);
     lanes::scatter_lanes(reinterpret_cast<const Pack*>(&in_space), elements::numbers_of_node<Se3>, shown);
   }
 }
@@ -98,25 +116,31 @@ void show_nodes(const plan::PlanarModel& plane, const PlanarNodes& nodes, std::s
 }  // namespace
 
 const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, const State& state) {
-  if (!state.is_planar()) return state.on<Se3>().motion;
-  const PlanarNodes& nodes = state.on<Se2>();
-  std::vector<elements::NodeMotion>& shown = state.in_space_.nodes;
-  if (shown.empty()) {
-    shown.resize(nodes.motion.size());
-    show_nodes(
-        *plan.planar, nodes, nodes.motion.size(), [](std::size_t k) { return k; }, shown);
-  }
-  return shown;
+  return state.visit([&]<class G>(const NodesOn<G>& nodes) -> const std::vector<elements::NodeMotion>& {
+    if constexpr (std::is_same_v<G, Se3>) {
+      return nodes.motion;
+    } else {
+      std::vector<elements::NodeMotion>& shown = state.in_space_.nodes;
+      if (shown.empty()) {
+        shown.resize(nodes.motion.size());
+        show_nodes(
+            plan, nodes, nodes.motion.size(), [](std::size_t k) { return k; }, shown);
+      }
+      return shown;
+    }
+  });
 }
 
-void copy_nodes_in_space(const plan::Plan& plan, const State& state, std::span<const int> nodes,
+void copy_nodes_in_space(const plan::Plan& plan, const State& state, std::span<const int> which,
                          std::vector<elements::NodeMotion>& to) {
-  if (nodes.empty()) return;
-  if (state.is_planar())
-    return show_nodes(
-        *plan.planar, state.on<Se2>(), nodes.size(),
-        [nodes](std::size_t k) { return static_cast<std::size_t>(nodes[k]); }, to);
-  for (const int n : nodes) to[static_cast<std::size_t>(n)] = state.on<Se3>().motion[static_cast<std::size_t>(n)];
+  if (which.empty()) return;
+  state.visit([&]<class G>(const NodesOn<G>& nodes) {
+    const auto node = [which](std::size_t k) { return static_cast<std::size_t>(which[k]); };
+    if constexpr (std::is_same_v<G, Se3>)
+      for (std::size_t k = 0; k < which.size(); ++k) to[node(k)] = nodes.motion[node(k)];
+    else
+      show_nodes(plan, nodes, which.size(), node, to);
+  });
 }
 
 }  // namespace bough::step

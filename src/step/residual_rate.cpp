@@ -3,7 +3,6 @@
 #include <array>
 
 #include "element_parts.hpp"
-#include "reduced_elements.hpp"
 
 namespace bough::step {
 
@@ -36,11 +35,10 @@ void add_rates(const System& system, const State& state, double step_size, std::
   if constexpr (G::has_moving_frames)
     around.gravity = gravity;
   else
-    around.gravity = motion::plane_part(lanes::transpose_times(lanes::cast<T>(plan.planar->axes), gravity));
+    around.gravity = plan::along_axes<G>(plan, gravity);
   around.laws = laws.data();
   around.has_inertia = plan.is_dynamic;
-  around.nodes_turn = f.around.nodes_turn;
-  std::array<double, most_unknowns> part, reduced;
+  std::array<double, most_unknowns> part;
   std::array<double, elements::max_rows> scratch;
   for (std::size_t e = 0; e < plan.directory.size(); ++e) {
     part.fill(0.0);
@@ -51,11 +49,6 @@ void add_rates(const System& system, const State& state, double step_size, std::
     const double* from = part.data();
     plan::with_element(plan::arrays_on<G>(plan), plan.directory[e], [&](const auto& element) {
       elements::evaluate_rate(element, f, around, multipliers, turns, part.data());
-      if constexpr (G::has_moving_frames)
-        if (are_elements_reduced(plan)) {
-          reduce_vector(plan.unknowns, element, joint, part.data(), reduced.data());
-          from = reduced.data();
-        }
     });
     for_each_part(plan, e, [&](int block, int size, int) {
       for (int i = 0; i < size && block >= 0; ++i)

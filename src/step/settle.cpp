@@ -9,7 +9,7 @@ namespace {
 /// Evaluates the residual as sensors do: by the elements in space, bit by bit. The matrices stay those of the last
 /// evaluation.
 std::optional<Trouble> evaluate_as_seen(System& system, const State& state) {
-  if (!state.is_planar()) return system.evaluate(state, {}, false);
+  if (state.is_in_space()) return system.evaluate(state, {}, false);
   system.elements().evaluate_as_seen(state);
   return system.sum(state);
 }

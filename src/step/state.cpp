@@ -6,7 +6,6 @@
 
 namespace bough::step {
 
-using motion::Se2;
 using motion::Se3;
 using motion::Vec3;
 using motion::Vec6;
@@ -22,8 +21,10 @@ void set_count(const plan::Plan& plan, auto& nodes) {
 
 /// A motion vector of space, own axes, in the components of the nodes' group.
 Vec6<double> restricted(const plan::Plan&, const SpatialNodes&, std::size_t, const Vec6<double>& v) { return v; }
-Vec3<double> restricted(const plan::Plan& plan, const PlanarNodes&, std::size_t node, const Vec6<double>& v) {
-  Vec3<double> z;
+template <class G>
+typename NodesOn<G>::Vector restricted(const plan::Plan& plan, const NodesOn<G>&, std::size_t node,
+                                       const Vec6<double>& v) {
+  typename NodesOn<G>::Vector z;
   plan.unknowns.project(v, node, &z[0]);
   return z;
 }
@@ -56,21 +57,24 @@ State make_initial_state(const plan::Plan& plan) {
       if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
         s.turns.push_back(j.counts_turns ? elements::eval_joint_angle(e, field, 0.0) : 0.0);
     });
-  if (!plan.planar) return s;
-  PlanarNodes& planar = s.emplace<Se2>();
-  set_count(plan, planar);
-  s.in_space_.nodes.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const plan::PlanarNode& at = plan.planar->nodes[i];
-    planar.motion[i] = {at.turn, at.x, restricted(plan, planar, i, plan.nodes[i].twist), Vec3<double>::zero(),
-                        Vec3<double>::zero()};
-  }
+  plan.with_group([&]<class G>() {
+    if constexpr (!std::is_same_v<G, Se3>) {
+      NodesOn<G>& reduced = s.emplace<G>();
+      set_count(plan, reduced);
+      s.in_space_.nodes.reserve(n);
+      const auto none = NodesOn<G>::Vector::zero();
+      const std::vector<plan::NodeStartOn<G>>& starts = std::get<plan::ModelOn<G>>(plan.model).nodes;
+      for (std::size_t i = 0; i < n; ++i)
+        reduced.motion[i] = {starts[i].turn, starts[i].x, restricted(plan, reduced, i, plan.nodes[i].twist), none,
+                             none};
+    }
+  });
   return s;
 }
 
 State make_spatial(const plan::Plan& plan, const State& state) {
   State s = state;
-  if (!state.is_planar()) return s;
+  if (state.is_in_space()) return s;
   SpatialNodes& nodes = s.emplace<Se3>();
   set_count(plan, nodes);
   nodes.motion = nodes_in_space(plan, state);

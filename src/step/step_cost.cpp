@@ -10,7 +10,21 @@ namespace {
 
 // Fitted by hand to the phases of steps of chains, cantilevers and lattices (bench_step, bench_lean). The costs of
 // elements are those of the machine of src/elements/README.md.
-constexpr double planar_tangent = 0.15, planar_node = 0.14;  ///< relative to one in space, as elements::planar_residual
+/// Costs of a tangent and of moving a node in time, relative to those in space, as elements::residual_part.
+template <class G>
+constexpr double tangent_part = 1.0;
+template <class G>
+constexpr double node_part = 1.0;
+template <>
+constexpr double tangent_part<motion::Se2> = 0.15;
+template <>
+constexpr double node_part<motion::Se2> = 0.14;
+template <>
+constexpr double tangent_part<motion::Translations<3>> = 0.14;
+template <>
+constexpr double tangent_part<motion::Translations<1>> = 0.04;
+template <int N>
+constexpr double node_part<motion::Translations<N>> = 0.16;
 constexpr double per_sum = 20e-9;   ///< gathering, summing and measuring residuals, per element and evaluation [s]
 constexpr double per_node = 90e-9;  ///< moving a node with its velocity and acceleration, per iteration [s]
 // Fronts in registers, as in swept chains: 0.10 us in addition to their flops and 0.03 us per solution, on a machine
@@ -24,6 +38,7 @@ constexpr double per_front_solved = 1.5e-7, per_front_solved_registers = 4e-8, p
                  per_byte_far = 5e-11;
 constexpr double bytes_near = 16e6;
 
+template <class G>
 void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, StepCost& cost) {
   int present = 0, first = -1;
   for (int id : batch.element) {
@@ -36,17 +51,16 @@ void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, Step
   plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(first)], [&](const auto& element) {
     const elements::Cost& c = std::decay_t<decltype(element)>::cost;
     const double count = in_lanes ? solve::lanes_wide : present, sums = present * per_sum;
-    cost.residual += (plan.planar ? elements::planar_residual : 1.0) * count * (in_lanes ? c.lane : c.alone) + sums;
-    cost.tangent += (plan.planar ? planar_tangent : 1.0) * count * (in_lanes ? c.lane_tangent : c.alone_tangent) + sums;
+    cost.residual += elements::residual_part<G> * count * (in_lanes ? c.lane : c.alone) + sums;
+    cost.tangent += tangent_part<G> * count * (in_lanes ? c.lane_tangent : c.alone_tangent) + sums;
   });
 }
 
-}  // namespace
-
-StepCost estimate_step_cost(const System& system) {
+template <class G>
+StepCost estimate_on(const System& system) {
   const plan::Plan& plan = system.plan();
   StepCost cost;
-  for (const solve::ElementBatch& batch : system.elements().batches()) add_elements(plan, batch, cost);
+  for (const solve::ElementBatch& batch : system.elements().batches()) add_elements<G>(plan, batch, cost);
   const solve::SolverCounters counters = system.linear().solver().counters();
   const auto bytes = static_cast<double>(counters.memory_bytes);
   double alone = 0.0, in_registers = 0.0;  // fronts
@@ -62,9 +76,14 @@ StepCost estimate_step_cost(const System& system) {
   }
   cost.solve = alone * per_front_solved + in_registers * per_front_solved_registers +
                bytes * (bytes < bytes_near ? per_byte_near : per_byte_far);
-  cost.update =
-      static_cast<double>(plan.nodes.size()) * per_node * (plan.planar && plan.is_dynamic ? planar_node : 1.0);
+  cost.update = static_cast<double>(plan.nodes.size()) * per_node * (plan.is_dynamic ? node_part<G> : 1.0);
   return cost;
+}
+
+}  // namespace
+
+StepCost estimate_step_cost(const System& system) {
+  return system.plan().with_group([&]<class G>() { return estimate_on<G>(system); });
 }
 
 }  // namespace bough::step

@@ -52,7 +52,7 @@ std::optional<Trouble> System::sum(const State& state) {
 
 void System::recover_multipliers(State& state, const std::vector<motion::Vec6<double>>* more) const {
   // In statics by the elements in space, as sensors see them: State::unsettled belongs to their residuals.
-  if (held_) held_->recover_multipliers(instant_, walker_, state, more, state.is_planar() && plan_.is_dynamic);
+  if (held_) held_->recover_multipliers(instant_, walker_, state, more);
 }
 
 double System::largest_held_impulse(const State& state, const double* x) const {

@@ -368,12 +368,13 @@ StepReport VariationalOn<G>::try_step(State& state, const StepOptions& options, 
   return report;
 }
 
-template class VariationalOn<motion::Se3>;
-template class VariationalOn<motion::Se2>;
+#define BOUGH_INSTANTIATE(G) template class VariationalOn<G>;
+BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
 
 std::unique_ptr<Integrator> make_variational(System& system, const scene::Solver& solver, double newmark_beta) {
-  if (system.plan().planar) return std::make_unique<VariationalOn<motion::Se2>>(system, solver, newmark_beta);
-  return std::make_unique<VariationalOn<motion::Se3>>(system, solver, newmark_beta);
+  return system.plan().with_group([&]<class G>() -> std::unique_ptr<Integrator> {
+    return std::make_unique<VariationalOn<G>>(system, solver, newmark_beta);
+  });
 }
 
 }  // namespace bough::step

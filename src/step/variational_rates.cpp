@@ -213,7 +213,7 @@ void VariationalOn<G>::compare_rates(const State& state, double h) {
   unresolved_ = size > 0.0 ? largest(increments_) / size : 0.0;
 }
 
-template class VariationalOn<motion::Se3>;
-template class VariationalOn<motion::Se2>;
+#define BOUGH_INSTANTIATE(G) template class VariationalOn<G>;
+BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
 
 }  // namespace bough::step

@@ -128,9 +128,9 @@ void ConstraintRows<G>::add_forces(const double* multipliers, double factor,
     }
 }
 
-template class MomentumSums<motion::Se3>;
-template class MomentumSums<motion::Se2>;
-template class ConstraintRows<motion::Se3>;
-template class ConstraintRows<motion::Se2>;
+#define BOUGH_INSTANTIATE(G)      \
+  template class MomentumSums<G>; \
+  template class ConstraintRows<G>;
+BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
 
 }  // namespace bough::step

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "elements/planar_jets.hpp"
+#include "elements/jets.hpp"
 #include "elements/samples.hpp"
 
 namespace bough::elements::in_plane {
@@ -159,7 +159,7 @@ void compare_with_jets(const char* name) {
       const Sample<E> s = sample<E>(kind, seed);
       const Field field{s.nodes, surroundings(has_inertia), slopes};
       const Result r = evaluated(s, field);
-      const check::PlanarResult expected = check::evaluate_on_jets(s.element, field, multiplier_values, turns);
+      const check::JetResult expected = check::evaluate_on_jets(s.element, field, multiplier_values, turns);
       double most = 0.0, off = 0.0, largest = 0.0, away = 0.0;
       for (std::size_t i = 0; i < r.tangent.size(); ++i) {
         most = std::max(most, std::abs(expected.tangent[i]));

@@ -90,27 +90,6 @@ TEST(ElementTangent, of_a_point_mass_is_that_of_a_body_whose_inertia_is_zero) {
       }
 }
 
-/// Where nodes do not turn, bodies are points, whatever their inertia.
-TEST(ElementTangent, of_a_body_that_cannot_turn_is_that_of_its_forces_by_displacements) {
-  Sample<RigidBody> s = body_sample(false);
-  s.element.mass =
-      make_mass_matrix(1.7, Vec3<double>::zero(), Mat3<double>{1.1, 0.1, 0.2, 0.1, 0.9, -0.1, 0.2, -0.1, 1.3});
-  for (NodeMotion& n : s.nodes)
-    for (Vec6<double>* v : {&n.v, &n.a, &n.dq})
-      for (int i = 3; i < 6; ++i) (*v)[i] = 0.0;
-  Field field = s.field(true, Slopes{3.1, 7.3, false});
-  const Evaluation whole = evaluation_of(s, field);
-  const std::vector<double> terms = magnitude_of(s, field, whole);
-  field.around.nodes_turn = false;
-  const Evaluation got = evaluation_of(s, field);
-  const std::vector<double> own_terms = magnitude_of(s, field, got);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(got.residual[i], whole.residual[i], exact);
-    EXPECT_NEAR(own_terms[i], terms[i], exact);
-    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(got.tangent[6 * i + j], whole.tangent[6 * i + j], exact * 7.3);
-  }
-}
-
 TEST(ElementTangent, of_statics_ignores_motion) {
   for_all_elements([](auto s) {
     SCOPED_TRACE(s.name);

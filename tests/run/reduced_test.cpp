@@ -113,8 +113,8 @@ void compare(const scene::Scene& scene, const elements::Slopes& slopes) {
   spatial.without = {"planar"};
   Rig flat(scene), whole(spatial);
   ASSERT_TRUE(decision(flat.plan, "planar").taken) << decision(flat.plan, "planar").reason;
-  ASSERT_TRUE(flat.plan.planar.has_value());
-  ASSERT_FALSE(whole.plan.planar.has_value());
+  ASSERT_TRUE(flat.plan.is_on<motion::Se2>());
+  ASSERT_FALSE(whole.plan.is_on<motion::Se2>());
   EXPECT_TRUE(decision(whole.plan, "planar").barred);
   stir_in_plane(flat, whole);
   for (Rig* rig : {&flat, &whole}) {
@@ -265,8 +265,8 @@ void expect_same_steps(scene::Scene scene, double h, double tolerance) {
   Rig flat(scene);
   scene.without = {"planar"};
   Rig whole(scene);
-  ASSERT_TRUE(flat.plan.planar.has_value());
-  ASSERT_FALSE(whole.plan.planar.has_value());
+  ASSERT_TRUE(flat.plan.is_on<motion::Se2>());
+  ASSERT_FALSE(whole.plan.is_on<motion::Se2>());
   for (Rig* rig : {&flat, &whole}) {
     ASSERT_TRUE(step::make_consistent(rig->system, rig->state, true, h).ok);
     EXPECT_GE(test::take_steps(*rig, h), 20);
@@ -305,7 +305,7 @@ TEST(PlanarSteps, keep_momenta_by_the_variational_integrator) {
   s.gravity = Vec3<double>::zero();
   s.analysis.integrator = scene::Integrator::variational;
   Rig rig(s);
-  ASSERT_TRUE(rig.plan.planar.has_value());
+  ASSERT_TRUE(rig.plan.is_on<motion::Se2>());
   ASSERT_TRUE(step::make_consistent(rig.system, rig.state, true, 1e-3).ok);
   results::EnergyMeter meter(rig.plan);
   const Vec6<double> before = meter.eval(rig.system, rig.state).momentum;

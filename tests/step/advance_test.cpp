@@ -119,7 +119,7 @@ TEST(MoveNode, adds_up_increments_like_the_group) {
   for (const bool is_planar : {false, true}) {
     s.without = is_planar ? std::vector<std::string>{} : std::vector<std::string>{"planar"};
     const plan::Plan plan = plan::make_plan(s);
-    ASSERT_EQ(plan.planar.has_value(), is_planar);
+    ASSERT_EQ(plan.is_on<motion::Se2>(), is_planar);
     State state = make_initial_state(plan);
     motion::Vec6<double> a{{0.1, -0.2, 0.3, 0.4, 0.5, -0.6}}, b{{-0.3, 0.1, 0.2, 0.2, -0.4, 0.1}};
     if (is_planar)  // the plane is that of axes 1 and 3

@@ -46,7 +46,7 @@ TEST(PlanarStep, agrees_with_steps_in_space_in_any_plane) {
     scene::Scene s = make_placed_chain(4, is_inclined ? inclined : Mat3<double>::identity(), Vec3<double>::zero());
     s.analysis.tolerance = 1e-12;
     test::Rig plane(s);
-    ASSERT_TRUE(plane.plan.planar);
+    ASSERT_TRUE(plane.plan.is_on<motion::Se2>());
     s.without = {"planar"};
     test::Rig space(s);
     plane.run(30, 2e-3);
@@ -79,7 +79,7 @@ TEST(PlanarStep, is_seen_in_space_with_the_digits_that_it_iterated_with) {
   for (const Mat3<double>& turn : {Mat3<double>::identity(), inclined}) {
     const scene::Scene s = make_placed_chain(3, turn, far_away);
     test::Rig rig(s);
-    ASSERT_TRUE(rig.plan.planar);
+    ASSERT_TRUE(rig.plan.is_on<motion::Se2>());
     rig.run(5, 1e-3);
     const StepOptions options = make_step_options(s.analysis);
     ASSERT_TRUE(advance(rig.system, rig.state, options, 6e-3).converged);
@@ -116,7 +116,7 @@ TEST(PlanarStep, refuses_a_step_in_which_a_link_turns_by_nearly_half_a_turn) {
   v.velocity = {{0.0, 0.0, -40.0}};
   s.initial_velocities.push_back(v);
   test::Rig rig(s);
-  ASSERT_TRUE(rig.plan.planar);
+  ASSERT_TRUE(rig.plan.is_on<motion::Se2>());
   const StepOptions options = make_step_options(s.analysis);
   ASSERT_TRUE(make_consistent(rig.system, rig.state, true, 1e-3).ok);
   ASSERT_TRUE(start_alpha(rig.system, rig.state, options, 0.1).ok);
@@ -154,7 +154,7 @@ scene::Scene make_spinning_link() {
 TEST(PlanarStep, counts_turns_as_steps_in_space_do) {
   scene::Scene s = make_spinning_link();
   test::Rig plane(s);
-  ASSERT_TRUE(plane.plan.planar);
+  ASSERT_TRUE(plane.plan.is_on<motion::Se2>());
   s.without = {"planar"};
   test::Rig space(s);
   for (test::Rig* rig : {&plane, &space}) {
@@ -216,7 +216,7 @@ TEST(PlanarStep, of_a_chain_is_solved_in_lanes_but_for_the_root) {
   scene::Scene s = test::make_chain(128);
   for (scene::Beam& b : s.beams) b.elements = 4;
   test::Rig rig(s);
-  ASSERT_TRUE(rig.plan.planar);
+  ASSERT_TRUE(rig.plan.is_on<motion::Se2>());
   const tree::Tree& tree = rig.system.linear().tree();
   const tree::Subdomain& root = tree.subdomains[static_cast<std::size_t>(tree.root())];
   EXPECT_EQ(rig.system.linear().solver().counters().fronts_in_lanes,

@@ -48,6 +48,8 @@ struct BeamOn {
     for (int g = 0; g < N - 1; ++g) visit.vector(a.reference_strain[g], b.reference_strain[g]);
   }
 };
+template <class G, int N, class C>
+inline constexpr bool exists<BeamOn<G, N, C>> = G::turns;
 template <int N, class C = double>
 using Beam = BeamOn<motion::Se3, N, C>;
 

@@ -168,6 +168,8 @@ struct LineLoadOn {
     visit.law(a.law, b.law);
   }
 };
+template <class G, int N, class C>
+inline constexpr bool exists<LineLoadOn<G, N, C>> = G::turns;
 template <int N, class C = double>
 using LineLoad = LineLoadOn<motion::Se3, N, C>;
 

@@ -42,9 +42,10 @@ template <class G, class C>
 C total_mass(const RigidBodyOn<G, C>& e) {
   return e.mass(0, 0);
 }
-template <class G, class S, class C>
-bool is_seen_as_point(const RigidBodyOn<G, C>& body, const SurroundingsOn<G, S>& around) {
-  return body.is_point || !around.nodes_turn;
+/// Whether products with all but the mass of a body vanish: it is a point, or nothing turns.
+template <class G, class C>
+bool is_seen_as_point(const RigidBodyOn<G, C>& body) {
+  return !G::turns || body.is_point;
 }
 
 /// 6x6 mass about the frame's origin, from the mass, its centre and the inertia about the centre, in the frame's axes.
@@ -53,11 +54,11 @@ Mat6<double> make_mass_matrix(double mass, const Vec3<double>& center, const Mat
 template <class G, class S, class C>
 BOUGH_INLINE void eval_residual(const RigidBodyOn<G, C>& body, const PortMotionOn<G, S>* p,
                                 const SurroundingsOn<G, S>& around, S* out) {
-  if (is_seen_as_point(body, around)) {
+  if (is_seen_as_point(body)) {
     typename G::template Translation<S> a = -G::turned_back(p[0].H, around.gravity);
     if (around.has_inertia) a += G::linear(p[0].a);
     typename G::template Translation<S> f = body.mass(0, 0) * a;
-    if (around.has_inertia && around.nodes_turn) f += G::spin(p[0].v, body.mass(0, 0) * G::linear(p[0].v));
+    if (around.has_inertia && G::turns) f += G::spin(p[0].v, body.mass(0, 0) * G::linear(p[0].v));
     return G::put_force(f, out);
   }
   if (!around.has_inertia) {
@@ -216,6 +217,8 @@ struct BushingOn {
     visit.vector(a.rest, b.rest);
   }
 };
+template <class G, class C>
+inline constexpr bool exists<BushingOn<G, C>> = G::turns;
 template <class C>
 using BushingOf = BushingOn<motion::Se3, C>;
 using Bushing = BushingOf<double>;

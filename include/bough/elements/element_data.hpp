@@ -11,6 +11,8 @@
 ///  flag(x, y)           a value on which a kernel branches: equal in all lanes
 ///  law(x, y)            the index of a time function, -1: none; whether it is -1 counts as a flag
 /// Ports are common to all elements and are not visited; `data_axes` says in which axes the data are given.
+#include <type_traits>
+
 #include "bough/elements/port.hpp"
 
 namespace bough::elements {
@@ -32,12 +34,12 @@ class NumbersOf {
   void matrix(const X& x, Y& y) const {
     for (int i = 0; i < X::rows() * X::cols(); ++i) each_(x.m[i], y.m[i]);
   }
-  /// A matrix in space, a complex number in a plane.
+  /// A matrix in space, a complex number in a plane; without numbers where nothing turns.
   template <class X, class Y>
   void rotation(const X& x, Y& y) const {
     if constexpr (requires { x.m; })
       matrix(x, y);
-    else
+    else if constexpr (!std::is_empty_v<X>)
       vector(x, y);
   }
   template <class X, class Y>

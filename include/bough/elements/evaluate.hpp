@@ -17,7 +17,7 @@ namespace bough::elements {
 /// axes, and the increment `dq` since the last accepted step (H = H_n exp(dq)).
 template <class G, class S>
 struct NodeMotionOn {
-  typename G::template Rotation<S> R;
+  [[no_unique_address]] typename G::template Rotation<S> R;
   motion::PositionPair<S, G::translations> x;
   typename G::template Vector<S> v, a, dq;
 };
@@ -151,12 +151,12 @@ void eval_magnitude(const RigidBodyOn<G, C>& e, const FieldOn<G, S>& field, cons
     for (int i = 0; i < G::dof; ++i) magnitude[i] = magnitude[i] + abs(term[i]);
   };
   const auto weight = G::turned_back(p.H, field.around.gravity);
-  if (is_seen_as_point(e, field.around)) {
+  if (is_seen_as_point(e)) {
     const S m = e.mass(0, 0);
     G::put_force(m * weight, term.v), add();
     if (!field.around.has_inertia) return;
     G::put_force(m * G::linear(p.a), term.v), add();
-    if (field.around.nodes_turn) G::put_force(G::spin(p.v, m * G::linear(p.v)), term.v), add();
+    if (G::turns) G::put_force(G::spin(p.v, m * G::linear(p.v)), term.v), add();
     return;
   }
   G::put(G::matrix_times(e.mass, weight), term.v), add();

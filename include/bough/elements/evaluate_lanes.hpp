@@ -72,9 +72,11 @@ LaneElement<E> make_lane_element(const E* const* elements, int count, const int*
 /// The motion of a node as a plain array of numbers, in the order of its members.
 template <class G>
 inline constexpr int numbers_of_node = sizeof(NodeMotionOn<G, double>) / sizeof(double);
-static_assert(numbers_of_node<motion::Se3> == 33 && sizeof(NodeLanes) == 33 * sizeof(LanePack));
-static_assert(numbers_of_node<motion::Se2> == 15 &&
-              sizeof(NodeMotionOn<motion::Se2, LanePack>) == 15 * sizeof(LanePack));
+template <class G, int numbers>
+inline constexpr bool has_numbers_of_node = numbers_of_node<G> == numbers &&
+                                            sizeof(NodeMotionOn<G, LanePack>) == numbers * sizeof(LanePack);
+static_assert(has_numbers_of_node<motion::Se3, 33> && has_numbers_of_node<motion::Se2, 15>);
+static_assert(has_numbers_of_node<motion::Translations<3>, 15> && has_numbers_of_node<motion::Translations<1>, 5>);
 inline const double* numbers_of(const NodeMotion& node) { return reinterpret_cast<const double*>(&node); }
 
 /// The motions of eight nodes, one to a lane.

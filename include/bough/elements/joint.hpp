@@ -139,15 +139,11 @@ Vec3<S> angle_gradient(const Mat3<S>& R) {
   return motion::Se3::axial_moment(Frame<S>{R, {}}, motion::Se3::Direction<S>{});
 }
 
-/// Value of a row without its law, and its gradient, a wrench in the axes of the second frame.
+/// The same as eval_coordinate below, of a row that measures rotations.
 template <class G, class S, class C>
-BOUGH_INLINE S eval_coordinate(RowKind kind, const typename G::template Direction<C>& direction, const C& pitch,
-                               const typename G::template Pose<S>& H, const C& turns,
-                               typename G::template Wrench<S>& gradient) {
-  if (kind == RowKind::along) {
-    gradient = G::force(G::seen(H, direction));
-    return G::component(H, direction);
-  }
+BOUGH_INLINE S eval_turning_coordinate(RowKind kind, const typename G::template Direction<C>& direction, const C& pitch,
+                                       const typename G::template Pose<S>& H, const C& turns,
+                                       typename G::template Wrench<S>& gradient) {
   if (kind == RowKind::across) {
     const auto s = G::seen(H, direction);
     gradient = G::moment(G::cosine_moment(direction, s));
@@ -163,6 +159,17 @@ BOUGH_INLINE S eval_coordinate(RowKind kind, const typename G::template Directio
   const auto axis = G::template Direction<C>::axial();
   gradient = G::force_moment(G::seen(H, axis), minus_pitch * moment);
   return G::component(H, axis) + minus_pitch * angle;
+}
+/// Value of a row without its law, and its gradient, a wrench in the axes of the second frame. Where nothing turns, all
+/// rows are displacements.
+template <class G, class S, class C>
+BOUGH_INLINE S eval_coordinate(RowKind kind, const typename G::template Direction<C>& direction, const C& pitch,
+                               const typename G::template Pose<S>& H, const C& turns,
+                               typename G::template Wrench<S>& gradient) {
+  if constexpr (G::turns)
+    if (kind != RowKind::along) return eval_turning_coordinate<G, S, C>(kind, direction, pitch, H, turns, gradient);
+  gradient = G::force(G::seen(H, direction));
+  return G::component(H, direction);
 }
 template <class G, class S, class C>
 BOUGH_INLINE S eval_row(const ConstraintRowOn<G, C>& row, const typename G::template Pose<S>& H, const C& turns,

@@ -25,8 +25,8 @@ Vec2<double> eval_relative_rotation(const E& e, int port, const FieldOn<motion::
 inline double cosine_of(const Mat3<double>& R) { return 0.5 * (R(0, 0) + R(1, 1) + R(2, 2) - 1.0); }
 inline double cosine_of(const Vec2<double>& turn) { return turn[0]; }
 
-/// Whether a beam turns by nearly half a turn over its length, where the logarithm of (1) in README.md is not unique, or
-/// a joint went to its opposite pose, which satisfies the same constraints.
+/// Whether a beam turns by nearly half a turn over its length, where the logarithm of (1) in README.md is not unique,
+/// or a joint went to its opposite pose, which satisfies the same constraints.
 template <class E, class F>
 bool is_past_limit(const E&, const F&) {
   return false;
@@ -55,6 +55,10 @@ inline bool is_past_limit(const JointOn<motion::Se2>& e, const FieldOn<motion::S
 /// Angle of a joint about its axis 3 [rad], on the branch nearest to `turns`, the angle at the last accepted step.
 inline double eval_joint_angle(const Joint& e, const Field& f, double turns) {
   return eval_angle(eval_relative_rotation(e, 1, f), turns);
+}
+template <class G>
+requires(!G::turns) double eval_joint_angle(const JointOn<G>&, const FieldOn<G, double>&, double turns) {
+  return turns;
 }
 inline double eval_joint_angle(const JointOn<motion::Se2>& e, const FieldOn<motion::Se2, double>& f, double turns) {
   constexpr double whole = 6.283185307179586476925;

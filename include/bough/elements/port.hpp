@@ -44,6 +44,11 @@ enum class Role : std::uint8_t {
 /// Whether an element connects two frames.
 constexpr bool joins_two_frames(Role role) { return role == Role::coupling || role == Role::joint; }
 
+/// Whether an element of type E can live on its group. False for those that resist rotations, on groups without
+/// rotations.
+template <class E>
+inline constexpr bool exists = true;
+
 /// Axes in which the data of an element are given.
 enum class DataAxes : std::uint8_t {
   none,     ///< there are none: every port may be turned by itself
@@ -57,9 +62,16 @@ enum class DataAxes : std::uint8_t {
 struct Cost {
   double alone, alone_tangent, lane, lane_tangent;
 };
-/// Cost of a residual in a plane relative to one in space, fitted by hand to steps of chains and lattices (bench_step,
-/// bench_lean).
-inline constexpr double planar_residual = 0.37;
+/// Cost of a residual on a group relative to one in space, fitted by hand: in a plane to steps of chains and lattices
+/// (bench_step, bench_lean), where nothing turns to springs in lanes (bench_elements).
+template <class G>
+inline constexpr double residual_part = 1.0;
+template <>
+inline constexpr double residual_part<motion::Se2> = 0.37;
+template <>
+inline constexpr double residual_part<motion::Translations<3>> = 0.4;
+template <>
+inline constexpr double residual_part<motion::Translations<1>> = 0.2;
 inline constexpr Cost small_cost{60e-9, 200e-9, 15e-9, 60e-9};  ///< of bodies, springs and point loads
 
 /// Whether a constant contributes, so that its terms have to be computed. A pack contributes if one of its lanes does:
@@ -123,9 +135,6 @@ struct SurroundingsOn {
   typename G::template Translation<S> gravity;  ///< acceleration in inertial axes [m/s^2]
   const Constant<S>* laws = nullptr;            ///< value of each time function
   bool has_inertia = true;                      ///< false in statics, where velocities and accelerations are not used
-  bool nodes_turn =
-      true;  ///< false: nodes have no rotations; only their origins move and take forces, so bodies are points without
-             ///< gyroscopic forces
 };
 template <class S>
 using Surroundings = SurroundingsOn<motion::Se3, S>;

@@ -1,6 +1,7 @@
 #pragma once
 /// All elements of a model in one contiguous array per type, and the only place that iterates over the types.
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -8,15 +9,18 @@
 
 namespace bough::plan {
 
-/// The arrays of elements on the group G.
+/// In place of a type of elements that cannot live on a group.
+struct NoElement {};
+template <class E>
+using ArrayOf = std::vector<std::conditional_t<elements::exists<E>, E, NoElement>>;
+/// The arrays of elements on the group G. An element has the same place in the arrays of all groups.
 template <class G>
-using ArraysOn = std::tuple<
-    std::vector<elements::BeamOn<G, 2>>, std::vector<elements::BeamOn<G, 3>>, std::vector<elements::BeamOn<G, 4>>,
-    std::vector<elements::RigidBodyOn<G>>, std::vector<elements::JointOn<G>>, std::vector<elements::SpringOn<G>>,
-    std::vector<elements::BushingOn<G>>, std::vector<elements::PointLoadOn<G>>, std::vector<elements::LineLoadOn<G, 2>>,
-    std::vector<elements::LineLoadOn<G, 3>>, std::vector<elements::LineLoadOn<G, 4>>>;
+using ArraysOn =
+    std::tuple<ArrayOf<elements::BeamOn<G, 2>>, ArrayOf<elements::BeamOn<G, 3>>, ArrayOf<elements::BeamOn<G, 4>>,
+               ArrayOf<elements::RigidBodyOn<G>>, ArrayOf<elements::JointOn<G>>, ArrayOf<elements::SpringOn<G>>,
+               ArrayOf<elements::BushingOn<G>>, ArrayOf<elements::PointLoadOn<G>>, ArrayOf<elements::LineLoadOn<G, 2>>,
+               ArrayOf<elements::LineLoadOn<G, 3>>, ArrayOf<elements::LineLoadOn<G, 4>>>;
 using ElementArrays = ArraysOn<motion::Se3>;
-using PlanarArrays = ArraysOn<motion::Se2>;
 
 template <class E>
 std::vector<E>& array_of(ElementArrays& all) {
@@ -33,14 +37,23 @@ struct ElementPlace {
   std::int32_t index = 0;
 };
 
+/// Calls f<I>() with the number of an array as a constant, unless the array holds no elements on its group.
+template <class Arrays, class F>
+void with_array(int array, F&& f) {
+  const auto call = [&]<std::size_t I>() {
+    if constexpr (!std::is_same_v<typename std::tuple_element_t<I, Arrays>::value_type, NoElement>)
+      f.template operator()<I>();
+    return true;
+  };
+  const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    static_cast<void>(((array == static_cast<int>(I) && call.template operator()<I>()) || ...));
+  };
+  pick(std::make_index_sequence<std::tuple_size_v<Arrays>>{});
+}
 /// Calls f(element) on the element at a place.
 template <class Arrays, class F>
 void with_element(const Arrays& all, ElementPlace place, F&& f) {
-  const auto pick = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    static_cast<void>(
-        ((place.array == I ? (f(std::get<I>(all)[static_cast<std::size_t>(place.index)]), true) : false) || ...));
-  };
-  pick(std::make_index_sequence<std::tuple_size_v<Arrays>>{});
+  with_array<Arrays>(place.array, [&]<std::size_t I>() { f(std::get<I>(all)[static_cast<std::size_t>(place.index)]); });
 }
 
 /// Calls f(array) for every array, in order.

@@ -1,8 +1,9 @@
 #pragma once
 /// A plan is a scene translated to the model that is computed: nodes, elements, time functions, block graph. It does
 /// not change after make_plan.
-#include <optional>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "bough/blocks/block_graph.hpp"
@@ -133,22 +134,26 @@ struct SensorPlan {
   std::vector<std::string> components;  ///< "" for a scalar
 };
 
-/// Initial position of a node whose scene moves in a plane, in the plane and in space.
-struct PlanarNode {
-  motion::Mat3<double> basis;           ///< axes of the plane and its normal, in the axes of the node
+/// Initial position of a node of a reduced model, on its group and in space.
+template <class G>
+struct NodeStartOn {
+  motion::Mat3<double> basis;           ///< Plan::axes in the axes of the node
   motion::Quaternion<double> rotation;  ///< in space
   motion::PositionPair<double> place;   ///< position in space [m]
-  motion::Vec2<double> turn;            ///< direction in the plane of the first axis of `basis`: (cos, sin)
-  motion::PositionPair<double, 2> x;    ///< position in the plane [m]
+  /// Rotation on the group: in a plane the direction of the first axis of `basis`, (cos, sin).
+  [[no_unique_address]] typename G::template Rotation<double> turn;
+  motion::PositionPair<double, G::translations> x;  ///< coordinates along Plan::axes from Plan::origin [m]
 };
 
-/// Model of a scene that moves in a plane, with three unknowns per node.
-struct PlanarModel {
-  motion::Mat3<double> axes;      ///< columns: two axes along the plane, then its normal; in the ground
-  motion::Vec3<double> origin;    ///< origin of the coordinates in the plane
-  PlanarArrays elements;          ///< at the indices of Plan::elements
-  std::vector<PlanarNode> nodes;  ///< in the order of Plan::nodes
+/// A reduced model: the scene on a group that has fewer motions than SE(3).
+template <class G>
+struct ModelOn {
+  ArraysOn<G> elements;               ///< at the indices of Plan::elements
+  std::vector<NodeStartOn<G>> nodes;  ///< in the order of Plan::nodes
 };
+/// In space, the model is the plan itself.
+template <>
+struct ModelOn<motion::Se3> {};
 
 struct Plan {
   std::string scene_name;
@@ -173,7 +178,12 @@ struct Plan {
   std::vector<BodyPlan> bodies;  ///< in the scene's order
   std::vector<WeldPlan> welds;   ///< empty unless the decision "welded" was taken
   NodeUnknowns unknowns;
-  std::optional<PlanarModel> planar;  ///< present if unknowns.motions is planar
+  /// The scene on the group on which its nodes move.
+  motion::Groups::OneOf<ModelOn> model;
+  /// Of a reduced model: axes of the ground along which its nodes move, as columns (of a plane two along it and its
+  /// normal, of a line first the one along it), and the origin of coordinates.
+  motion::Mat3<double> axes = motion::Mat3<double>::identity();
+  motion::Vec3<double> origin = motion::Vec3<double>::zero();
   std::vector<Decision> decisions;
   bool took(const std::string& decision) const;
   std::string not_conservative;    ///< why the loads have no potential, in words; empty: they have one
@@ -184,6 +194,16 @@ struct Plan {
   Mobility mobility;
   std::vector<std::string> notes;  ///< choices that the plan made where the scene leaves them open, in words
 
+  bool is_reduced() const { return !std::holds_alternative<ModelOn<motion::Se3>>(model); }
+  template <class G>
+  bool is_on() const {
+    return std::holds_alternative<ModelOn<G>>(model);
+  }
+  /// Calls f<G>() with the group of the scene.
+  template <class F>
+  decltype(auto) with_group(F&& f) const {
+    return std::visit([&]<class G>(const ModelOn<G>&) -> decltype(auto) { return f.template operator()<G>(); }, model);
+  }
   /// The joint whose rows an element evaluates; null: the element is no joint.
   const JointPlan* joint_of(std::size_t element) const {
     const int j = joint_of_element[element];
@@ -193,14 +213,19 @@ struct Plan {
 
 /// The elements on the group G. Those in space always exist.
 template <class G>
-const ArraysOn<G>& arrays_on(const Plan& plan);
-template <>
-inline const ElementArrays& arrays_on<motion::Se3>(const Plan& plan) {
-  return plan.elements;
+const ArraysOn<G>& arrays_on(const Plan& plan) {
+  if constexpr (std::is_same_v<G, motion::Se3>)
+    return plan.elements;
+  else
+    return std::get<ModelOn<G>>(plan.model).elements;
 }
-template <>
-inline const PlanarArrays& arrays_on<motion::Se2>(const Plan& plan) {
-  return plan.planar->elements;
+/// Components of a direction v, in the axes of the ground, along which the nodes of a reduced model move.
+template <class G, class S>
+typename G::template Translation<S> along_axes(const Plan& plan, const motion::Vec3<S>& v) {
+  const motion::Vec3<S> along = lanes::transpose_times(lanes::cast<S>(plan.axes), v);
+  typename G::template Translation<S> u;
+  for (int i = 0; i < G::translations; ++i) u[i] = along[i];
+  return u;
 }
 
 /// Elements, nodes and graph of a scene. Precondition: problems_in(scene) is empty.

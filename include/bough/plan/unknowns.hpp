@@ -17,9 +17,8 @@ enum class Motions : std::uint8_t {
 };
 
 /// x = P eta of an increment eta of a node, (linear; angular) in its own axes, and eta = P^T x:
-///   P: `count` rows of [B^T 0; 0 B^T], B a rotation that belongs to the node (planar: columns along the plane, along
-///     the plane, normal;
-///   line: the first column along the line). The motions lie in the range of P^T, so nothing is lost.
+///   P: `count` rows of [B^T 0; 0 B^T], B a rotation that belongs to the node: Plan::axes in the node's own axes.
+/// The motions lie in the range of P^T, so nothing is lost.
 struct NodeUnknowns {
   Motions motions = Motions::spatial;
   int count = 6;

@@ -9,7 +9,6 @@
 
 namespace bough::step {
 
-struct IncrementsOf;
 struct PairLanes;
 
 /// Squared errors of predictions by polynomials of order 0, 1 and 2 through past values.
@@ -43,8 +42,6 @@ class Corrections {
   double power_along_tree(const double* residual, const double* x);
   /// Adds `factor` times the multipliers of a solution.
   void add_multipliers(State& state, const double* x, double factor) const;
-  /// Where the increments of nodes are found in a solution.
-  IncrementsOf increments() const;
 
   /// Predicts the multipliers at the end of the next step of generalized-alpha, by the polynomial of
   /// State::multiplier_order.

@@ -2,6 +2,7 @@
 /// Evaluation of all elements at a state: residuals and tangents, and the matrices that the solver gets from them.
 #include <memory>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "bough/step/instant.hpp"
@@ -35,8 +36,8 @@ class ElementEvaluation {
   void take_frames();
   /// Evaluates all elements on the group of the scene and writes their parts and, if `tangent`, their tangents.
   void evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
-  /// Writes the parts of elements evaluated in space, as sensors see them, taken to the unknowns of a plane; without
-  /// magnitudes. Nodes keep more digits in the plane than they have in space, so these elements respond with other
+  /// Writes the parts of elements evaluated in space, as sensors see them, taken to the unknowns of a reduced model;
+  /// without magnitudes. Nodes keep other digits there than they have in space, so these elements respond with other
   /// forces.
   void evaluate_as_seen(const State& state);
   /// Groups of elements that are evaluated together.
@@ -51,15 +52,10 @@ class ElementEvaluation {
 
  private:
   template <class G>
-  const LaneBatches<G>& lanes_on() const;
-  template <class G>
   void evaluate_on(const State& state, const elements::FieldOn<G, double>& field, bool tangent);
   template <class G>
   void evaluate_alone(std::size_t id, const State& state, const elements::FieldOn<G, double>& field,
                       const ElementResults& to);
-  template <class E>
-  void evaluate_reduced(const E& e, std::size_t id, const elements::Field& field, const double* multipliers,
-                        double turns, bool tangent);
   /// Puts (A + A^T) / 2 in place of the tangents of a batch.
   void symmetrise(const solve::ElementBatch& batch);
 
@@ -69,8 +65,9 @@ class ElementEvaluation {
   ResidualSums& sums_;
   LinearSolution& linear_;
   tree::Walker walker_;
-  std::unique_ptr<LaneBatches<motion::Se3>> spatial_lanes_;
-  std::unique_ptr<LaneBatches<motion::Se2>> planar_lanes_;  ///< of a scene in a plane; else null
+  template <class G>
+  using LanesOn = std::unique_ptr<LaneBatches<G>>;
+  motion::Groups::OneOf<LanesOn> lanes_;  ///< on the group of the scene
 };
 
 }  // namespace bough::step

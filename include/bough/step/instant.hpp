@@ -59,10 +59,5 @@ class Instant {
   mutable Series series_;
   mutable std::vector<lanes::Taylor<double, 1>> rate_series_;
 };
-template <>
-elements::Field Instant::field_on<motion::Se3>(const State&, const elements::Slopes&, bool) const;
-template <>
-elements::FieldOn<motion::Se2, double> Instant::field_on<motion::Se2>(const State&, const elements::Slopes&,
-                                                                      bool) const;
 
 }  // namespace bough::step

@@ -1,6 +1,6 @@
 #pragma once
-/// Everything that changes during a run, as plain data: two equal states continue equally. Nodes move on one group:
-/// on SE(3), or on SE(2) where the scene moves in a plane. Whoever looks at a scene in space asks for nodes_in_space.
+/// Everything that changes during a run, as plain data: two equal states continue equally. Nodes move on the group of
+/// the scene (motion::Groups). Whoever looks at a scene in space asks for nodes_in_space.
 #include <span>
 #include <utility>
 #include <variant>
@@ -19,7 +19,7 @@ struct NodesOn {
   using Group = G;
   using Vector = typename G::template Vector<double>;
   std::vector<elements::NodeMotionOn<G, double>> motion;  ///< R, x, v, dv/dt, and dq since the last accepted step
-  std::vector<motion::Quaternion<double>> rotation;       ///< in space, where R is made from it; in a plane empty
+  std::vector<motion::Quaternion<double>> rotation;       ///< on SE(3), where R is made from it; else empty
   NodeVectors<G> algorithmic;         ///< a_n at the end of a step, the acceleration-like variable of generalized-alpha
   NodeVectors<G> acceleration_trend;  ///< change of dv/dt over the last step, of generalized-alpha
   NodeVectors<G> trend_change;        ///< change of that from the step before; zero after a start
@@ -35,7 +35,6 @@ struct NodesOn {
   }
 };
 using SpatialNodes = NodesOn<motion::Se3>;
-using PlanarNodes = NodesOn<motion::Se2>;
 
 struct State {
   double time = 0.0;       ///< [s], or the load factor in statics
@@ -57,7 +56,8 @@ struct State {
   std::size_t num_nodes() const {
     return std::visit([](const auto& nodes) { return nodes.motion.size(); }, nodes_);
   }
-  bool is_planar() const { return std::holds_alternative<PlanarNodes>(nodes_); }
+  /// Whether the nodes are on SE(3).
+  bool is_in_space() const { return std::holds_alternative<SpatialNodes>(nodes_); }
   /// The nodes, for whom the scene's group is known.
   template <class G>
   const NodesOn<G>& on() const {
@@ -98,8 +98,8 @@ struct State {
  private:
   friend State make_initial_state(const plan::Plan& plan);
   friend const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, const State& state);
-  std::variant<SpatialNodes, PlanarNodes> nodes_;
-  /// Planar nodes in space, once asked for; empty: not yet. A copy makes its own.
+  motion::Groups::OneOf<NodesOn> nodes_;
+  /// Nodes of another group in space, once asked for; empty: not yet. A copy makes its own.
   struct InSpace {
     std::vector<elements::NodeMotion> nodes;
     InSpace() = default;
@@ -120,9 +120,10 @@ struct State {
 State make_initial_state(const plan::Plan& plan);
 
 /// R, x, v, dv/dt and dq of all nodes in space, own axes of the nodes as the scene places them:
-///   R = R_0 exp(theta n),  x = x_0 + A (p - p_0),  v = B (v_1, v_2, 0; 0, 0, w)
-/// theta and p - p_0 turn and displacement in the plane since the start, A the plane's axes, n and B normal and axes
-/// of the plane in those of the node (PlanarModel). Made once for a state, which keeps them until it is changed.
+///   R = R_0 exp(theta n),  x = x_0 + A (p - p_0),  v = B (linear part; angular part)
+/// theta and p - p_0 turn and displacement on the group since the start, A the axes of the model, B the same in those
+/// of the node and n the normal of a plane among them (plan::NodeStartOn). Where nothing turns, R = R_0. Made once for a
+/// state, which keeps them until it is changed.
 const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, const State& state);
 /// Some of them alone, in their places of `to`, which has room for all.
 void copy_nodes_in_space(const plan::Plan& plan, const State& state, std::span<const int> nodes,
@@ -131,8 +132,8 @@ void copy_nodes_in_space(const plan::Plan& plan, const State& state, std::span<c
 /// The poses, twists, multipliers and turns of a state for steps in space.
 State make_spatial(const plan::Plan& plan, const State& state);
 
-/// H <- H exp(eta) of one node, and dq <- log(exp(dq) exp(eta)). Vectors are those of space, own axes; what leaves a
-/// plane in which the scene moves is left out.
+/// H <- H exp(eta) of one node, and dq <- log(exp(dq) exp(eta)). Vectors are those of space, own axes; components that
+/// the group of the scene lacks are left out.
 void move_node(const plan::Plan& plan, State& state, std::size_t node, const motion::Vec6<double>& eta);
 void set_velocity(const plan::Plan& plan, State& state, std::size_t node, const motion::Vec6<double>& v);
 void set_acceleration(const plan::Plan& plan, State& state, std::size_t node, const motion::Vec6<double>& a);

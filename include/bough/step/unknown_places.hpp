@@ -43,9 +43,11 @@ class UnknownPlaces {
     const std::int64_t begin = node_begin(node);
     if (begin >= 0) plan_.unknowns.project(eta, static_cast<std::size_t>(node), x + begin);
   }
-  void set_node_part(double* x, int node, const motion::Vec3<double>& eta) const {  ///< of a scene in a plane
+  /// The same on the group of a reduced model.
+  template <int N>
+  void set_node_part(double* x, int node, const lanes::Vec<double, N>& eta) const {
     const std::int64_t begin = node_begin(node);
-    for (int i = 0; i < 3 && begin >= 0; ++i) x[begin + i] = eta[i];
+    for (int i = 0; i < N && begin >= 0; ++i) x[begin + i] = eta[i];
   }
 
   /// A multiplier that is an unknown.

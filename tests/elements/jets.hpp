@@ -1,6 +1,6 @@
 #pragma once
-/// Residual and tangent of an element in a plane, from its kernel run on jets through a driver of its own. The
-/// library's closed tangents and its driver are checked against it.
+/// Residual and tangent of an element in a plane, or where nothing turns, from its kernel run on jets through a driver of
+/// its own. The library's closed tangents and its driver are checked against it.
 #include <vector>
 
 #include "bough/elements/evaluate_lanes.hpp"
@@ -39,62 +39,78 @@ inline Mat3<double> inverse_tangent_by_series(const Vec3<double>& d) {
   return {{c, s, -(c * T(0, 2) + s * T(1, 2)), -s, c, s * T(0, 2) - c * T(1, 2), 0, 0, 1}};
 }
 
-struct PlanarResult {
+struct JetResult {
   std::vector<double> residual, tangent;
 };
 
 /// Columns: the nodes' increments, then the multipliers. With `mass_only` the unknowns are accelerations: rows keep
 /// the gradient by poses, and of forces only what follows the acceleration is left.
 template <class E>
-PlanarResult evaluate_on_jets(const E& e, const in_plane::Field& field, const double* multipliers, double turns) {
-  using G = motion::Se2;
-  constexpr int P = E::num_ports, D = 3 * P;
+JetResult evaluate_on_jets(const E& e, const FieldOn<typename E::Group, double>& field, const double* multipliers,
+                           double turns) {
+  using G = typename E::Group;
+  constexpr int P = E::num_ports, dof = G::dof, D = dof * P;
   using T = lanes::Jet<double, D>;
+  using Pair = motion::PositionPair<double, G::translations>;
+  using Vector = typename G::template Vector<double>;
   const int m = num_multipliers(e), n = num_unknowns(e), forces = n - m;
   const auto anchor = anchor_of(e, field.nodes);
+  const auto cast_pose = [](const typename G::template Pose<double>& H) -> typename G::template Pose<T> {
+    if constexpr (G::turns)
+      return {lanes::cast<T>(H.R), lanes::cast<T>(H.x)};
+    else
+      return {{}, lanes::cast<T>(H.x)};
+  };
   const auto seeded = [&](bool moves, bool has_rates, PortMotionOn<G, T>* p) {
     for (int k = 0; k < P; ++k) {
-      const in_plane::Port& port = e.ports[k];
+      const PortOn<G, double>& port = e.ports[k];
       PortMotionOn<G, double> at =
           port.node == ground
-              ? PortMotionOn<G, double>{{port.offset.R,
-                                         motion::difference(motion::PositionPair<double, 2>::from(port.offset.x),
-                                                            anchor)},
-                                        Vec3<double>::zero(),
-                                        Vec3<double>::zero()}
+              ? PortMotionOn<G, double>{{port.offset.R, motion::difference(Pair::from(port.offset.x), anchor)},
+                                        Vector::zero(),
+                                        Vector::zero()}
               : PortMotionOn<G, double>{
                     {field.nodes[port.node].R, motion::difference(field.nodes[port.node].x, anchor)},
                     field.nodes[port.node].v,
                     field.nodes[port.node].a};
-      p[k] = {{lanes::cast<T>(at.H.R), lanes::cast<T>(at.H.x)}, lanes::cast<T>(at.v), lanes::cast<T>(at.a)};
+      p[k] = {cast_pose(at.H), lanes::cast<T>(at.v), lanes::cast<T>(at.a)};
       if (port.node == ground) continue;
-      if (moves) {  // dR = i R theta, dx = R u
-        p[k].H.R[0].d[3 * k + 2] = -at.H.R[1];
-        p[k].H.R[1].d[3 * k + 2] = at.H.R[0];
-        p[k].H.x[0].d[3 * k] = p[k].H.x[1].d[3 * k + 1] = at.H.R[0];
-        p[k].H.x[1].d[3 * k] = at.H.R[1];
-        p[k].H.x[0].d[3 * k + 1] = -at.H.R[1];
+      if (moves) {
+        if constexpr (G::turns) {  // dR = i R theta, dx = R u
+          p[k].H.R[0].d[3 * k + 2] = -at.H.R[1];
+          p[k].H.R[1].d[3 * k + 2] = at.H.R[0];
+          p[k].H.x[0].d[3 * k] = p[k].H.x[1].d[3 * k + 1] = at.H.R[0];
+          p[k].H.x[1].d[3 * k] = at.H.R[1];
+          p[k].H.x[0].d[3 * k + 1] = -at.H.R[1];
+        } else {
+          for (int i = 0; i < dof; ++i) p[k].H.x[i].d[dof * k + i] = 1.0;
+        }
       }
       if (has_rates) {
         const bool held = field.slopes.mass_only;
-        const Mat3<double> U = held ? Mat3<double>::identity() : inverse_tangent_by_series(field.nodes[port.node].dq);
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j) {
-            if (!held) p[k].v[i].d[3 * k + j] = field.slopes.velocity * U(i, j);
-            p[k].a[i].d[3 * k + j] = held ? U(i, j) : field.slopes.acceleration * U(i, j);
+        auto U = G::template Matrix<double>::identity();
+        if constexpr (G::turns)
+          if (!held) U = inverse_tangent_by_series(field.nodes[port.node].dq);
+        for (int i = 0; i < dof; ++i)
+          for (int j = 0; j < dof; ++j) {
+            if (!held) p[k].v[i].d[dof * k + j] = field.slopes.velocity * U(i, j);
+            p[k].a[i].d[dof * k + j] = held ? U(i, j) : field.slopes.acceleration * U(i, j);
           }
       }
       if (!port.has_offset) continue;
-      const motion::Vec2<T> x = motion::complex_times(lanes::cast<T>(port.offset.x), p[k].H.R);
-      p[k].H = {motion::complex_times(lanes::cast<T>(port.offset.R), p[k].H.R), motion::Vec2<T>(p[k].H.x + x)};
+      const auto offset = lanes::cast<T>(port.offset.x);
+      if constexpr (G::turns) {
+        const motion::Vec2<T> x = motion::complex_times(offset, p[k].H.R);
+        p[k].H = {motion::complex_times(lanes::cast<T>(port.offset.R), p[k].H.R), motion::Vec2<T>(p[k].H.x + x)};
+      } else {
+        p[k].H.x = p[k].H.x + offset;
+      }
       p[k].v = G::inverse_adjoint_times(port.offset, p[k].v);
       p[k].a = G::inverse_adjoint_times(port.offset, p[k].a);
     }
   };
-  const SurroundingsOn<G, T> around{lanes::cast<T>(field.around.gravity), field.around.laws, field.around.has_inertia,
-                                    field.around.nodes_turn};
-  PlanarResult r{std::vector<double>(static_cast<std::size_t>(n)),
-                 std::vector<double>(static_cast<std::size_t>(n * n))};
+  const SurroundingsOn<G, T> around{lanes::cast<T>(field.around.gravity), field.around.laws, field.around.has_inertia};
+  JetResult r{std::vector<double>(static_cast<std::size_t>(n)), std::vector<double>(static_cast<std::size_t>(n * n))};
   const auto at = [](auto& v, int i) -> double& { return v[static_cast<std::size_t>(i)]; };
   const auto fill = [&](bool moves, bool has_rates, bool keep_forces, bool keep_rows) {
     PortMotionOn<G, T> p[P];
@@ -110,15 +126,16 @@ PlanarResult evaluate_on_jets(const E& e, const in_plane::Field& field, const do
       int column = 0;
       for (int q = 0; q < P; ++q) {
         if (e.ports[q].node == ground) continue;
-        for (int j = 0; j < 3; ++j, ++column)
-          if (keep) at(r.tangent, i * n + column) = x.d[3 * q + j];
+        for (int j = 0; j < dof; ++j, ++column)
+          if (keep) at(r.tangent, i * n + column) = x.d[dof * q + j];
       }
     };
     for (int k = 0; k < P; ++k) {
       if (e.ports[k].node == ground) continue;
-      Vec3<T> f{{out[3 * k], out[3 * k + 1], out[3 * k + 2]}};
+      typename G::template Vector<T> f;
+      for (int i = 0; i < dof; ++i) f[i] = out[dof * k + i];
       if (e.ports[k].has_offset) f = G::inverse_adjoint_transpose_times(e.ports[k].offset, f);
-      for (int i = 0; i < 3; ++i) put(row++, f[i], keep_forces);
+      for (int i = 0; i < dof; ++i) put(row++, f[i], keep_forces);
     }
     for (int k = 0; k < m; ++k) {
       put(row++, rows[k], keep_rows);
