@@ -12,6 +12,7 @@ namespace {
 using namespace bough::elements;
 using bough::motion::Vec3Pair;
 using Plane = bough::motion::Se2;
+using bough::motion::Translations;
 
 /// An element between nodes 0 .. P - 1 in motion, bent and twisted.
 template <class E>
@@ -137,62 +138,113 @@ void lanes(benchmark::State& state, const E& element) {
   set_rate(state, num_lanes);
 }
 
-/// A planar beam between nodes in motion, bent.
+/// An element on a group other than SE(3), between nodes in motion.
+template <class E>
+struct GroupCase {
+  using Element = E;
+  using G = typename E::Group;
+  E element;
+  NodeMotionOn<G, double> nodes[E::num_ports];
+};
+
+Mat3<double> plane_diagonal(const Vec3<double>& d) { return {{d[0], 0, 0, 0, d[1], 0, 0, 0, d[2]}}; }
+
+/// A planar beam, bent.
 template <int N>
-struct PlanarCase {
-  BeamOn<Plane, N> beam;
-  NodeMotionOn<Plane, double> nodes[N];
-  explicit PlanarCase(bool is_damped) {
-    beam.length = 0.25;
-    beam.stiffness = plane_diagonal({{8.4e7, 2.7e7, 2.8e3}});
-    beam.damping = is_damped ? plane_diagonal({{8.4e3, 2.7e3, 0.28}}) : Mat3<double>::zero();
-    beam.mass = plane_diagonal({{3.14, 3.14, 1e-4}});
-    beam.has_mass = true;
-    beam.has_damping = is_damped;
-    for (auto& strain : beam.reference_strain) strain = {{1, 0, 0}};
-    for (int k = 0; k < N; ++k) {
-      const double s = static_cast<double>(k) / (N - 1);
-      beam.ports[k].node = k;
-      nodes[k] = {{{std::cos(0.03 * s), std::sin(0.03 * s)}},
+GroupCase<BeamOn<Plane, N>> make_planar_beam(bool is_damped) {
+  GroupCase<BeamOn<Plane, N>> c;
+  BeamOn<Plane, N>& beam = c.element;
+  beam.length = 0.25;
+  beam.stiffness = plane_diagonal({{8.4e7, 2.7e7, 2.8e3}});
+  beam.damping = is_damped ? plane_diagonal({{8.4e3, 2.7e3, 0.28}}) : Mat3<double>::zero();
+  beam.mass = plane_diagonal({{3.14, 3.14, 1e-4}});
+  beam.has_mass = true;
+  beam.has_damping = is_damped;
+  for (auto& strain : beam.reference_strain) strain = {{1, 0, 0}};
+  for (int k = 0; k < N; ++k) {
+    const double s = static_cast<double>(k) / (N - 1);
+    beam.ports[k].node = k;
+    c.nodes[k] = {{{std::cos(0.03 * s), std::sin(0.03 * s)}},
                   {{{0.25 * s, 0.002 * s}}, {{0, 0}}},
                   {{1, 2, 0.3}},
                   {{3, 2, 0.2}},
                   {{1e-3, 2e-3, 1e-4}}};
+  }
+  return c;
+}
+
+/// Nodes that translate in space or along a line, under an element without rotations.
+template <class E>
+GroupCase<E> between_places(const E& element) {
+  GroupCase<E> c{element, {}};
+  for (int k = 0; k < E::num_ports; ++k) {
+    c.element.ports[k].node = k;
+    for (int i = 0; i < E::Group::dof; ++i) {
+      c.nodes[k].x.hi[i] = i == 0 ? 0.25 * k : 0.001 * k;
+      c.nodes[k].x.lo[i] = 0.0;
+      c.nodes[k].v[i] = 1.0 + i;
+      c.nodes[k].a[i] = 3.0 - i;
+      c.nodes[k].dq[i] = 1e-3;
     }
   }
-  static Mat3<double> plane_diagonal(const Vec3<double>& d) { return {{d[0], 0, 0, 0, d[1], 0, 0, 0, d[2]}}; }
-};
-
+  return c;
+}
 template <int N>
-void planar_alone(benchmark::State& state, const PlanarCase<N>& c) {
+GroupCase<SpringOn<Translations<N>>> make_spring_between_places() {
+  SpringOn<Translations<N>> spring;
+  spring.stiffness = 100.0;
+  spring.rest_length = 0.2;
+  spring.damping = 2.0;
+  return between_places(spring);
+}
+template <int N>
+GroupCase<RigidBodyOn<Translations<N>>> make_mass() {
+  RigidBodyOn<Translations<N>> body;
+  body.mass = 3.0 * Mat<double, N, N>::identity();
+  return between_places(body);
+}
+
+template <class G>
+typename G::template Translation<double> any_gravity() {
+  auto g = G::template Translation<double>::zero();
+  g[G::translations - 1] = -9.81;
+  return g;
+}
+
+template <class Sample>
+void on_group_alone(benchmark::State& state, const Sample& c) {
+  using G = typename Sample::G;
   const bool with_tangent = state.range(1) != 0;
-  const FieldOn<Plane, double> field{c.nodes, {{{0, -9.81}}, nullptr, state.range(0) != 0}, slopes};
-  constexpr int n = 3 * N;
+  const FieldOn<G, double> field{c.nodes, {any_gravity<G>(), nullptr, state.range(0) != 0}, slopes};
+  constexpr int n = G::dof * Sample::Element::num_ports;
   double residual[n], magnitude[n], tangent[n * n];
   for (auto _ : state) {
-    evaluate(c.beam, field, nullptr, 0.0, residual, with_tangent ? tangent : nullptr);
-    eval_magnitude(c.beam, field, residual, magnitude);
+    evaluate(c.element, field, nullptr, 0.0, residual, with_tangent ? tangent : nullptr);
+    eval_magnitude(c.element, field, residual, magnitude);
     benchmark::DoNotOptimize(residual);
     benchmark::DoNotOptimize(tangent);
   }
   set_rate(state, 1);
 }
 
-template <int N>
-void planar_lanes(benchmark::State& state, const PlanarCase<N>& c) {
+template <class Sample>
+void on_group_lanes(benchmark::State& state, const Sample& c) {
+  using G = typename Sample::G;
+  using E = typename Sample::Element;
   const bool with_tangent = state.range(1) != 0;
-  const BeamOn<Plane, N>* elements[1] = {&c.beam};
-  int ports[N];
-  NodeMotionOn<Plane, LanePack> nodes[N];
-  for (int k = 0; k < N; ++k) {
+  const E* elements[1] = {&c.element};
+  int ports[E::num_ports];
+  NodeMotionOn<G, LanePack> nodes[E::num_ports];
+  for (int k = 0; k < E::num_ports; ++k) {
     ports[k] = k;
     const auto* from = reinterpret_cast<const double*>(&c.nodes[k]);
     auto* to = reinterpret_cast<LanePack*>(&nodes[k]);
-    for (int i = 0; i < numbers_of_node<Plane>; ++i) to[i] = LanePack(from[i]);
+    for (int i = 0; i < numbers_of_node<G>; ++i) to[i] = LanePack(from[i]);
   }
   const auto e = make_lane_element(elements, 1, ports, 0);
-  const FieldOn<Plane, LanePack> field{nodes, {{{0.0, -9.81}}, nullptr, state.range(0) != 0}, slopes};
-  constexpr int n = 3 * N;
+  const FieldOn<G, LanePack> field{
+      nodes, {bough::lanes::cast<LanePack>(any_gravity<G>()), nullptr, state.range(0) != 0}, slopes};
+  constexpr int n = G::dof * E::num_ports;
   const LanePack turns(0.0);
   LanePack residual[n], magnitude[n], tangent[n * n];
   for (auto _ : state) {
@@ -217,10 +269,14 @@ BOUGH_BENCHMARK_ELEMENT(bushing, make_bushing())
 BOUGH_BENCHMARK_ELEMENT(revolute, make_revolute())
 BOUGH_BENCHMARK_ELEMENT(sprung_revolute, make_sprung_revolute())
 
-#define BOUGH_BENCHMARK_PLANAR(name, sample)                                                                      \
-  BENCHMARK_CAPTURE(planar_alone, name, sample)->ArgNames({"dynamic", "tangent"})->ArgsProduct({{0, 1}, {0, 1}}); \
-  BENCHMARK_CAPTURE(planar_lanes, name, sample)->ArgNames({"dynamic", "tangent"})->ArgsProduct({{0, 1}, {0, 1}});
-BOUGH_BENCHMARK_PLANAR(beam2, PlanarCase<2>(false))
-BOUGH_BENCHMARK_PLANAR(damped_beam2, PlanarCase<2>(true))
-BOUGH_BENCHMARK_PLANAR(beam3, PlanarCase<3>(false))
-BOUGH_BENCHMARK_PLANAR(beam4, PlanarCase<4>(false))
+#define BOUGH_BENCHMARK_ON_GROUP(name, sample)                                                                      \
+  BENCHMARK_CAPTURE(on_group_alone, name, sample)->ArgNames({"dynamic", "tangent"})->ArgsProduct({{0, 1}, {0, 1}}); \
+  BENCHMARK_CAPTURE(on_group_lanes, name, sample)->ArgNames({"dynamic", "tangent"})->ArgsProduct({{0, 1}, {0, 1}});
+BOUGH_BENCHMARK_ON_GROUP(planar_beam2, make_planar_beam<2>(false))
+BOUGH_BENCHMARK_ON_GROUP(planar_damped_beam2, make_planar_beam<2>(true))
+BOUGH_BENCHMARK_ON_GROUP(planar_beam3, make_planar_beam<3>(false))
+BOUGH_BENCHMARK_ON_GROUP(planar_beam4, make_planar_beam<4>(false))
+BOUGH_BENCHMARK_ON_GROUP(spring_without_rotations, make_spring_between_places<3>())
+BOUGH_BENCHMARK_ON_GROUP(spring_on_a_line, make_spring_between_places<1>())
+BOUGH_BENCHMARK_ON_GROUP(mass_without_rotations, make_mass<3>())
+BOUGH_BENCHMARK_ON_GROUP(mass_on_a_line, make_mass<1>())
