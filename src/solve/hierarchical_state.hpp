@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "bough/solve/hierarchical.hpp"
@@ -82,7 +83,8 @@ struct NullSpace {
   std::array<double, NullVectors::most> largest{};
   std::vector<tree::FrontId> passed, waiting;
   std::vector<int> overlapping, group_of_front, remaining_rows, remaining_columns;
-  std::vector<double> remaining_values;
+  std::vector<double> remaining_values, values;
+  std::vector<std::pair<std::int64_t, const double*>> columns_with_entries;  ///< of an element
 
   int deficiency() const { return dimension + local_right.num_vectors(); }
 };

@@ -115,9 +115,13 @@ void Hierarchical::State::spread_null_vectors(tree::FrontId top, int first, int 
     s.passed.push_back(f);
     substitute_null_vectors(f, count, side);
     for (const tree::FrontId c : tree.children(front(f))) {
-      bool has_entries = false;
-      for_boundary(c, [&](int, std::size_t u) { has_entries |= s.rows.find(static_cast<int>(u)) != nullptr; });
-      if (is_scalar(c) && data(c).num_delayed() > 0) {
+      const auto boundary = tree.boundary_blocks(front(c));
+      bool has_entries = std::any_of(boundary.begin(), boundary.end(), [&](int b) {
+        for (auto u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u)
+          if (s.rows.find(static_cast<int>(u)) != nullptr) return true;
+        return false;
+      });
+      if (!has_entries && is_scalar(c) && data(c).num_delayed() > 0) {
         const FrontData& d = data(c);
         const int* delayed = side == NullSide::right ? d.columns : d.rows;
         for (int i = d.pivots; i < d.pivots + d.num_delayed(); ++i) has_entries |= s.rows.find(delayed[i]) != nullptr;
@@ -132,64 +136,71 @@ void Hierarchical::State::substitute_null_vectors(tree::FrontId f, int count, Nu
   NullSpace& s = null_space;
   const bool is_right = side == NullSide::right;
   const std::vector<double>& scale = is_right ? scales.column : scales.row;
-  const auto entry = [&](std::size_t u, int v) {
+  const auto take = [&](std::size_t u, double factor, double* to, std::size_t step) {
     const double* row = s.rows.find(static_cast<int>(u));
-    return row == nullptr ? 0.0 : row[v];
+    for (std::size_t v = 0; v < at(count); ++v) to[v * step] = row == nullptr ? 0.0 : row[v] * factor;
   };
-  const auto put = [&](std::size_t u, int v, double value) {
-    const double size = std::abs(value) / scale[u];
-    if (!(size > round_off * s.largest[at(v)])) return;
-    s.largest[at(v)] = std::max(s.largest[at(v)], size);
-    s.rows.at(static_cast<int>(u))[v] = value;
+  const auto put = [&](std::size_t u, double factor, const double* from, std::size_t step) {
+    const double inverse = 1.0 / scale[u];  // a power of two
+    double* row = nullptr;
+    for (std::size_t v = 0; v < at(count); ++v) {
+      const double value = from[v * step] * factor, size = std::abs(value) * inverse;
+      if (!(size > round_off * s.largest[v])) continue;
+      s.largest[v] = std::max(s.largest[v], size);
+      if (row == nullptr) row = s.rows.at(static_cast<int>(u));
+      row[v] = value;
+    }
   };
   const int in_registers = registers.front_of[at(f)];
   if (!is_scalar(f)) {
     const int index = lanes.lane_front[at(f)], lane = lanes.lane[at(f)];
     const LaneFront& packed = lanes.fronts[at(index)];
-    alignas(64) double z[most_lane_rows * wide];
-    for (int v = 0; v < count; ++v) {
-      std::fill_n(z, packed.size() * wide, 0.0);
-      for_boundary(f, [&](int i, std::size_t u) { z[(packed.eliminated + i) * wide + lane] = entry(u, v); });
+    const std::size_t step = at(packed.size()) * wide;
+    s.values.assign(step * at(count), 0.0);
+    double* z = s.values.data();
+    for_boundary(f, [&](int i, std::size_t u) { take(u, 1.0, z + (packed.eliminated + i) * wide + lane, step); });
+    for (std::size_t v = 0; v < at(count); ++v)
       (is_right ? (packed.is_symmetric ? backward_lanes_symmetric : backward_lanes) : backward_left_lanes)(
-          factor_of(packed), packed.size(), packed.eliminated, z);
-      for (int k = 0; k < packed.eliminated; ++k) {
-        const int u = lanes.unknowns[at(packed.unknown + k * wide + lane)];
-        if (u >= 0) put(at(u), v, z[k * wide + lane]);
-      }
+          factor_of(packed), packed.size(), packed.eliminated, z + v * step);
+    for (int k = 0; k < packed.eliminated; ++k) {
+      const int u = lanes.unknowns[at(packed.unknown + k * wide + lane)];
+      if (u >= 0) put(at(u), 1.0, z + k * wide + lane, step);
     }
     return;
   }
   if (in_registers >= 0 && stands_in_registers(registers.fronts[at(in_registers)].group)) {
     const RegisterFront& own = registers.fronts[at(in_registers)];
     const double* factor = register_factors.data() + own.factor;
-    for (int v = 0; v < count; ++v) {
-      double z[largest_in_registers] = {}, zero[largest_in_registers] = {};
-      for_boundary(f, [&](int i, std::size_t u) { z[own.eliminated + i] = entry(u, v); });
+    const std::size_t step = largest_in_registers;
+    s.values.assign(step * at(count), 0.0);
+    double* z = s.values.data();
+    for_boundary(f, [&](int i, std::size_t u) { take(u, 1.0, z + own.eliminated + i, step); });
+    const double zero[largest_in_registers] = {};
+    for (std::size_t v = 0; v < at(count); ++v) {
+      double* one = z + v * step;
       if (is_right)
-        backward_in_registers(factor, own.size(), own.eliminated, zero, z + own.eliminated, z);
+        backward_in_registers(factor, own.size(), own.eliminated, zero, one + own.eliminated, one);
       else
-        backward_left_in_registers(factor, own.size(), own.eliminated, is_symmetric(), z);
-      for (int r = own.own_begin; r < own.own_end; ++r) {
-        const UnknownRun& run = registers.unknown_runs[at(r)];
-        for (int i = 0; i < run.length; ++i) put(at(run.unknown + i), v, z[run.row + i]);
-      }
+        backward_left_in_registers(factor, own.size(), own.eliminated, is_symmetric(), one);
+    }
+    for (int r = own.own_begin; r < own.own_end; ++r) {
+      const UnknownRun& run = registers.unknown_runs[at(r)];
+      for (int i = 0; i < run.length; ++i) put(at(run.unknown + i), 1.0, z + run.row + i, step);
     }
     return;
   }
   FrontData& d = data(f);
   const int* unknowns = is_right ? d.columns : d.rows;
-  with_vector(d, [&](double* z) {
-    for (int v = 0; v < count; ++v) {
-      std::fill_n(z, d.pivots, 0.0);
-      for (int i = d.pivots; i < d.full; ++i) z[i] = entry(at(unknowns[i]), v) / scale[at(unknowns[i])];
-      for_boundary(f, [&](int i, std::size_t u) { z[d.full + i] = entry(u, v) / scale[u]; });
-      if (is_right)
-        substitute_backward(d.matrix(), d.pivots, z);
-      else
-        substitute_backward_left(d.matrix(), d.pivots, z);
-      for (int i = 0; i < d.pivots; ++i) put(at(unknowns[i]), v, z[i] * scale[at(unknowns[i])]);
-    }
-  });
+  const std::size_t step = at(d.size);
+  s.values.assign(step * at(count), 0.0);
+  double* z = s.values.data();
+  for (int i = d.pivots; i < d.full; ++i) take(at(unknowns[i]), 1.0 / scale[at(unknowns[i])], z + i, step);
+  for_boundary(f, [&](int i, std::size_t u) { take(u, 1.0 / scale[u], z + d.full + i, step); });
+  for (std::size_t v = 0; v < at(count); ++v)
+    (is_right ? static_cast<void (*)(const FrontMatrix&, int, double*)>(substitute_backward)
+              : static_cast<void (*)(const FrontMatrix&, int, double*)>(substitute_backward_left))(d.matrix(), d.pivots,
+                                                                                                   z + v * step);
+  for (int i = 0; i < d.pivots; ++i) put(at(unknowns[i]), scale[at(unknowns[i])], z + i, step);
 }
 
 /// Whether the present right vectors are multipliers alone whose constraint forces cancel at every node, as in
@@ -232,17 +243,22 @@ void Hierarchical::State::add_constraint_forces(int e, int count) {
       for (auto u = tree.unknown_begin[block]; u < tree.unknown_begin[block + 1]; ++u) visit(k++, static_cast<int>(u));
     }
   };
+  s.columns_with_entries.clear();
   for_unknowns([&](std::int64_t j, int u) {
     const double* y = is_constraint[at(u)] ? s.rows.find(u) : nullptr;
-    if (y == nullptr) return;
-    for_unknowns([&](std::int64_t i, int to) {
-      if (is_constraint[at(to)] || a[i * n + j] == 0.0) return;
-      double* sum = s.forces.at(to);
+    if (y != nullptr) s.columns_with_entries.emplace_back(j, y);
+  });
+  if (s.columns_with_entries.empty()) return;
+  for_unknowns([&](std::int64_t i, int to) {
+    if (is_constraint[at(to)]) return;
+    double* sum = s.forces.at(to);
+    for (const auto& [j, y] : s.columns_with_entries) {
+      const double entry = a[i * n + j];
       for (int v = 0; v < count; ++v) {
-        sum[v] += a[i * n + j] * y[v];
-        sum[most + v] += std::abs(a[i * n + j] * y[v]);
+        sum[v] += entry * y[v];
+        sum[most + v] += std::abs(entry * y[v]);
       }
-    });
+    }
   });
 }
 
