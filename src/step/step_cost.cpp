@@ -37,6 +37,9 @@ constexpr double per_flop_of_others = 1.1e-9;  ///< time per flop of monolithic 
 constexpr double per_front_solved = 1.5e-7, per_front_solved_registers = 4e-8, per_byte_near = 1.1e-11,
                  per_byte_far = 5e-11;
 constexpr double bytes_near = 16e6;
+// Per dependent row, from N windows of four-bars in space, N = 40 to 160: the front in which its loop closes is factored
+// with pivoting, and its null vectors are computed; least multipliers and consistent right-hand sides.
+constexpr double per_dependent_row = 5e-6, per_dependent_row_solved = 7e-7;
 
 template <class G>
 void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, StepCost& cost) {
@@ -56,6 +59,15 @@ void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, Step
   });
 }
 
+/// Constraint rows that depend on others, from the numbers of freedoms and of conditions that close loops. Those out of
+/// the plane are left out of planar motions, and beams give way, so that their rows are independent.
+int expected_dependent_rows(const plan::Plan& plan) {
+  int rows = 0;
+  for (const plan::MobilityPart& part : plan.mobility.parts)
+    if (!part.has_beams && !plan.planar) rows += part.closing_rows - part.rank;
+  return rows;
+}
+
 template <class G>
 StepCost estimate_on(const System& system) {
   const plan::Plan& plan = system.plan();
@@ -64,18 +76,20 @@ StepCost estimate_on(const System& system) {
   const solve::SolverCounters counters = system.linear().solver().counters();
   const auto bytes = static_cast<double>(counters.memory_bytes);
   double alone = 0.0, in_registers = 0.0;  // fronts
+  double dependent = 0.0;                  // rows
   if (system.linear().solver().hierarchical() != nullptr) {
     const auto in_lanes = static_cast<double>(counters.fronts_in_lanes);
+    dependent = expected_dependent_rows(plan);
     in_registers = static_cast<double>(counters.fronts_in_registers);
     alone = system.linear().tree().num_fronts() - in_lanes - in_registers;
     cost.factor = in_lanes * per_front_lanes + in_registers * per_front_registers + alone * per_front +
                   counters.flops_in_lanes * per_flop_lanes +
-                  (counters.factor_flops - counters.flops_in_lanes) * per_flop;
+                  (counters.factor_flops - counters.flops_in_lanes) * per_flop + dependent * per_dependent_row;
   } else {
     cost.factor = system.linear().tree().subdomains.back().subtree_flops * per_flop_of_others;
   }
   cost.solve = alone * per_front_solved + in_registers * per_front_solved_registers +
-               bytes * (bytes < bytes_near ? per_byte_near : per_byte_far);
+               bytes * (bytes < bytes_near ? per_byte_near : per_byte_far) + dependent * per_dependent_row_solved;
   cost.update = static_cast<double>(plan.nodes.size()) * per_node * (plan.is_dynamic ? node_part<G> : 1.0);
   return cost;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bough/scene/parts.hpp"
 #include "bough/step/step_cost.hpp"
 #include "lattice_scene.hpp"
 #include "small_scenes.hpp"
@@ -59,6 +60,23 @@ TEST(StepCost, counts_elements_as_they_are_evaluated) {
   EXPECT_LT(step.residual, beams * 0.5 * cost.alone);
   EXPECT_LT(step.tangent, beams * 0.5 * cost.alone_tangent);
   EXPECT_GT(step.renewal(), 1.0) << "a tangent and its factor cost more than a solution";
+}
+
+/// Three rows of each planar loop in space depend on others. The plane leaves them out.
+TEST(StepCost, counts_dependent_rows_of_loops) {
+  const auto factor_and_solve = [](int windows, double out_of_plane) {
+    scene::Scene s = scene::make_four_bars(windows);
+    s.gravity[2] = out_of_plane;
+    const test::Rig rig(s);
+    EXPECT_EQ(rig.plan.planar.has_value(), out_of_plane == 0.0);
+    return estimate_step_cost(rig.system);
+  };
+  const StepCost space = factor_and_solve(160, 0.1), half = factor_and_solve(80, 0.1),
+                 plane = factor_and_solve(160, 0.0);
+  EXPECT_GT(space.factor, 5.0 * plane.factor);
+  EXPECT_GT(space.solve, 4.0 * plane.solve);
+  EXPECT_NEAR(space.factor / half.factor, 2.0, 0.2);
+  EXPECT_NEAR(space.solve / half.solve, 2.0, 0.2);
 }
 
 /// A plane has half the unknowns: each part of a step costs less, tangents and the motion of nodes less than half.
