@@ -59,12 +59,14 @@ void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, Step
   });
 }
 
-/// Constraint rows that depend on others, from the numbers of freedoms and of conditions that close loops. Those out of
-/// the plane are left out of planar motions, and beams give way, so that their rows are independent.
+/// Constraint rows that depend on others, from the numbers of freedoms and of conditions that close loops. Groups of
+/// planar motions and of translations leave them out, and beams give way, so that their rows are independent.
+template <class G>
 int expected_dependent_rows(const plan::Plan& plan) {
   int rows = 0;
+  if (!std::is_same_v<G, motion::Se3>) return rows;
   for (const plan::MobilityPart& part : plan.mobility.parts)
-    if (!part.has_beams && !plan.planar) rows += part.closing_rows - part.rank;
+    if (!part.has_beams) rows += part.closing_rows - part.rank;
   return rows;
 }
 
@@ -79,7 +81,7 @@ StepCost estimate_on(const System& system) {
   double dependent = 0.0;                  // rows
   if (system.linear().solver().hierarchical() != nullptr) {
     const auto in_lanes = static_cast<double>(counters.fronts_in_lanes);
-    dependent = expected_dependent_rows(plan);
+    dependent = expected_dependent_rows<G>(plan);
     in_registers = static_cast<double>(counters.fronts_in_registers);
     alone = system.linear().tree().num_fronts() - in_lanes - in_registers;
     cost.factor = in_lanes * per_front_lanes + in_registers * per_front_registers + alone * per_front +

@@ -68,7 +68,7 @@ TEST(StepCost, counts_dependent_rows_of_loops) {
     scene::Scene s = scene::make_four_bars(windows);
     s.gravity[2] = out_of_plane;
     const test::Rig rig(s);
-    EXPECT_EQ(rig.plan.planar.has_value(), out_of_plane == 0.0);
+    EXPECT_EQ(rig.plan.is_on<motion::Se2>(), out_of_plane == 0.0);
     return estimate_step_cost(rig.system);
   };
   const StepCost space = factor_and_solve(160, 0.1), half = factor_and_solve(80, 0.1),
