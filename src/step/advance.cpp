@@ -36,7 +36,7 @@ struct Integrator {
 
   /// Applies a Newton correction: poses move, velocities and accelerations follow, multipliers grow.
   std::optional<Trouble> correct(System& system, State& state, const double* x) const {
-    system.corrections().add_multipliers(state, x, 1.0);
+    if (system.plan().num_multipliers > 0) system.corrections().add_multipliers(state, x, 1.0);
     return state.change_all([&]<class G>(NodesOn<G>& nodes) {
       const double most = largest_of_chunks(system, [&](std::size_t begin, std::size_t end) {
         return correct_nodes(rule, start.on<G>(), nodes, begin, end, x, system.places().node_begins());

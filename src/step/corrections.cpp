@@ -104,7 +104,7 @@ void Corrections::move(State& state, const double* x) const {
     };
     walker_.for_each_chunk(static_cast<std::int64_t>(nodes.motion.size()), block_grain, tree::make_chunk(by_node));
   });
-  add_multipliers(state, x, 1.0);
+  if (plan_.num_multipliers > 0) add_multipliers(state, x, 1.0);
 }
 
 double Corrections::apply(State& state, const double* x) {
