@@ -83,11 +83,65 @@ scene::Scene make_tied_lattice(int n) {
 }
 scene::Scene make_sprung_lattice(int n) { return make_lattice_2d(n, Support::spring); }
 
+/// A point mass, and a spring from it to the one before.
+scene::Body point_mass(const std::string& name, const scene::Vec3& at) {
+  scene::Body b;
+  b.name = name;
+  b.mass = 0.01;
+  b.is_point_mass = true;
+  b.placement.pose.x = at;
+  return b;
+}
+scene::Spring spring_between(const std::string& first, const std::string& second, double length) {
+  scene::Spring s;
+  s.name = first + "-" + second;
+  s.first.to = first;
+  s.second.to = second;
+  s.stiffness = 300.0;
+  s.rest_length = length;
+  s.damping = 0.05;
+  return s;
+}
+/// A net of n x n masses with springs along its edges and one diagonal, hanging by two springs from the ground.
+scene::Scene make_net(int n) {
+  scene::Scene s;
+  s.gravity = {{0.0, 0.0, -9.81}};
+  const auto name = [](int i, int j) { return "m" + std::to_string(i) + "_" + std::to_string(j); };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      s.bodies.push_back(point_mass(name(i, j), {{0.1 * i, 0.1 * j, 0.01 * ((i * j) % 3)}}));
+      if (i > 0) s.springs.push_back(spring_between(name(i - 1, j), name(i, j), 0.098));
+      if (j > 0) s.springs.push_back(spring_between(name(i, j - 1), name(i, j), 0.098));
+      if (i > 0 && j > 0) s.springs.push_back(spring_between(name(i - 1, j - 1), name(i, j), 0.139));
+    }
+  for (const int corner : {0, n - 1}) {
+    s.springs.push_back(spring_between("", name(corner, 0), 0.09));
+    s.springs.back().first.offset.x = {{0.1 * corner, 0.0, 0.1}};
+  }
+  return s;
+}
+/// Masses on one line between springs, the first one struck.
+scene::Scene make_row(int masses) {
+  scene::Scene s;
+  for (int k = 0; k < masses; ++k) {
+    const std::string name = "m" + std::to_string(k);
+    s.bodies.push_back(point_mass(name, {{0.1 * (k + 1), 0.0, 0.0}}));
+    s.springs.push_back(spring_between(k == 0 ? "" : "m" + std::to_string(k - 1), name, 0.1));
+  }
+  scene::InitialVelocity struck;
+  struck.of = "m0";
+  struck.velocity = {{1.0, 0.0, 0.0}};
+  s.initial_velocities.push_back(struck);
+  return s;
+}
+
 std::vector<LeanCase> make_cases() {
   return {{"planar", "chain_128", 128, 100, make_chain},
           {"planar", "rigid_chain_128", 128, 100, make_rigid_chain},
           {"planar", "lattice_20", 20, 20, make_hanging_lattice},
           {"planar", "lattice_50", 50, 10, make_hanging_lattice},
+          {"translation", "net_20", 20, 100, make_net},
+          {"line", "row_64", 64, 400, make_row},
           {"welded", "tied_chain_32", 32, 100, make_tied_chain},
           {"welded", "tied_chain_128", 128, 50, make_tied_chain},
           {"welded", "tied_lattice_10", 10, 20, make_tied_lattice},
