@@ -82,6 +82,7 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
     s.lane_scales.set(s.lanes, s.tree, s.scales);
     s.register_scales.set(s.registers, s.scales, s.options.tiny_pivot);
     std::fill(s.leaves_to_root.begin(), s.leaves_to_root.end(), char{0});
+    std::fill(s.leaving_lanes.begin(), s.leaving_lanes.end(), LaneSet{0});
   }
   s.scales_wanted = false;
   s.factor_walker = walker;

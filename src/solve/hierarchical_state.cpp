@@ -69,6 +69,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   lane_tops.assign(at(std::max<std::int64_t>(lanes.top_size, 1) * lanes_wide),
                    0.0);  // tops without unknowns also point into it
   scalar_lanes.assign(lanes.fronts.size(), 0);
+  leaving_lanes.assign(lanes.fronts.size(), 0);
   left_registers.assign(lanes.groups.size(), 0);
   leaves_to_root.assign(num_fronts, 0);
   sizes.resize(lanes.groups.size());

@@ -166,6 +166,7 @@ struct Hierarchical::State {
   LaneScales lane_scales;
   /// By group, during its visit: memory of Schur complements and vectors that are not needed afterwards.
   std::vector<double*> group_scratch;
+  std::vector<LaneSet> leaving_lanes;  ///< by front of LanePlan: left in the last factorization for dependent rows
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
   // Leaves without equals, with their small fronts in registers.
   RegisterScaleStore register_scales;
@@ -208,6 +209,8 @@ struct Hierarchical::State {
   void fetch_front(int front, Transfers& transfers) const;
   void prefetch_factor(int front, bool downward) const;
   void factor_lane_front(int index, double* factor, Transfers& transfers);
+  void factor_lanes_alone(int index, double* factor, LaneSet alone);
+  void leave_lanes(int index, const double* factor, LaneSet alone, LaneSet refused);
   void add_children_vectors(const LaneFront& f, double* v);
   void forward_lane_front(int index, const double* factor);
   void backward_lane_front(int index);

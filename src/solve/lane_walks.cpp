@@ -167,6 +167,14 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
     transfers.spread(f.move_end - f.move_begin + elimination_steps(n, e));
   }
   if (compares_triangles()) check_front_symmetric(index);
+  LaneSet& leaving = leaving_lanes[at(index)];
+  LaneSet alone = static_cast<LaneSet>(lanes_to_leave(f) | leaving);
+  unsigned present = 0;
+  for (int l = 0; l < wide; ++l) present |= f.front[at(l)] != tree::none ? 1u << l : 0u;
+  if ((alone & present) == present) {
+    factor_lanes_alone(index, factor, alone);
+    return;
+  }
   for (int i = f.gap_begin; i < f.gap_end; ++i) {
     const LaneGap& gap = lanes.gaps[at(i)];
     std::memset((gap.in_schur ? schur : factor) + gap.target * wide, 0, sizeof(double) * wide * at(gap.count));
@@ -186,7 +194,6 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
     else
       move_block(source, move, child.from.data(), target);
   }
-  LaneSet alone = lanes_to_leave(f);
   if (f.has_padding)
     for (int k = 0; k < e * wide; ++k)
       if (lanes.unknowns[at(f.unknown + k)] < 0)
@@ -201,8 +208,32 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
       eliminate(factor, schur, n, e, lane_scales.row(index), lane_scales.inverse_column(f, index), rule, transfers);
   alone = static_cast<LaneSet>(alone | refused);
   scalar_lanes[at(index)] = alone;
-  for (int l = 0; alone != 0 && l < wide; ++l)
-    if ((alone >> l & 1) != 0) factor_lane_alone(index, l, is_definite() && (refused >> l & 1) != 0);
+  leave_lanes(index, factor, alone, refused);
+}
+
+/// All lanes leave: the front is an identity in each of them.
+void Hierarchical::State::factor_lanes_alone(int index, double* factor, LaneSet alone) {
+  const LaneFront& f = lanes.fronts[at(index)];
+  std::memset(factor, 0, sizeof(double) * wide * at(f.factor_size()));
+  std::memset(schur_of(f), 0, sizeof(double) * wide * at(f.schur_size()));
+  for (int k = 0; k < f.eliminated; ++k)
+    std::fill_n(factor + static_cast<std::int64_t>(k) * (f.size() + 1) * wide, wide, 1.0);
+  scalar_lanes[at(index)] = alone;
+  mark(tree::Stage::assemble);
+  leave_lanes(index, factor, alone, 0);
+}
+
+/// Factors lanes by themselves. One with dependent rows does not try to stay in the next factorization in these scales.
+void Hierarchical::State::leave_lanes(int index, const double* factor, LaneSet alone, LaneSet refused) {
+  LaneSet& leaving = leaving_lanes[at(index)];
+  for (int l = 0; alone != 0 && l < wide; ++l) {
+    if ((alone >> l & 1) == 0) continue;
+    const bool is_indefinite = is_definite() && ((refused | leaving) >> l & 1) != 0;
+    factor_lane_alone(index, l, is_indefinite);
+    const FrontData& d = data(lanes.fronts[at(index)].front[at(l)]);
+    const auto lane = static_cast<LaneSet>(1u << l);
+    leaving = static_cast<LaneSet>(d.dependent > 0 ? leaving | lane : leaving & ~lane);
+  }
   mark(tree::Stage::eliminate);
   if (visit_rhs == nullptr) return;
   forward_lane_front(index, factor);
