@@ -1,6 +1,6 @@
-/// bench_step [--case=REGEX] [--solver=REGEX] [--scaling=yes] [options of Google Benchmark]
-/// One iteration is one accepted time step of the program, from rest. --scaling=yes: chains of 32 to 32768 links
-/// instead of the usual cases.
+/// bench_step [--case=REGEX] [--solver=REGEX] [--scaling=yes] [--loops=yes] [options of Google Benchmark]
+/// One iteration is one accepted time step of the program, from rest. Instead of the usual cases --scaling=yes: chains
+/// of 32 to 32768 links; --loops=yes: 20 to 320 windows of four-bars in space, in motion.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include "../support/context.hpp"
 #include "../support/scenes.hpp"
 #include "bough/run/simulate.hpp"
+#include "bough/scene/parts.hpp"
 #include "bough/solve/visits.hpp"
 
 namespace {
@@ -36,8 +37,21 @@ struct StepCase {
 
 scene::Scene make_clamped_lattice(int n) { return make_lattice_2d(n, Support::clamp); }
 
-std::vector<StepCase> make_step_cases(bool scaling) {
+/// Gravity has a component out of their plane, so that it is not taken for a planar motion: three constraint rows of
+/// each window depend on others.
+scene::Scene make_four_bars_in_space(int windows) {
+  scene::Scene s = scene::make_four_bars(windows);
+  s.gravity[2] = 0.1;
+  return s;
+}
+
+std::vector<StepCase> make_step_cases(bool scaling, bool loops) {
   std::vector<StepCase> cases;
+  if (loops) {
+    for (int windows : {20, 40, 80, 160, 320})
+      cases.push_back({"four_bars_" + std::to_string(windows), windows, 50, make_four_bars_in_space, true});
+    return cases;
+  }
   if (scaling) {
     for (int links : {32, 128, 512, 2048, 8192, 32768})
       cases.push_back({"chain_" + std::to_string(links), links, links > 4096 ? 10 : 50, make_chain, false});
@@ -182,6 +196,7 @@ int main(int argc, char** argv) {
   const std::regex wanted_case(take_option(arguments, "case", ".*"));
   const std::regex wanted_solver(take_option(arguments, "solver", ".*"));
   const bool scaling = take_option(arguments, "scaling", "no") == "yes";
+  const bool loops = take_option(arguments, "loops", "no") == "yes";
   std::vector<std::string> defaults{"--benchmark_repetitions=5", "--benchmark_enable_random_interleaving=true",
                                     "--benchmark_min_time=0.01"};
   for (std::string& d : defaults) arguments.insert(arguments.begin() + 1, d.data());
@@ -190,7 +205,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
   add_context();
 
-  const std::vector<StepCase> cases = make_step_cases(scaling);
+  const std::vector<StepCase> cases = make_step_cases(scaling, loops);
 #ifdef BOUGH_BENCH_HAS_KLU
   std::vector<std::unique_ptr<KluRow>> klu_rows;
 #endif
