@@ -268,9 +268,9 @@ template <template <class, class> class E, int N>
 void compare_lanes() {
   using G = Group<N>;
   using Element = E<G, double>;
-  constexpr int P = Element::num_ports;
   visit_cases([](const Kind& kind, unsigned seed, bool has_inertia, const Slopes& slopes) {
     if (seed > 0) return;
+    constexpr int P = Element::num_ports;
     std::vector<Twins<E, N>> twins;
     const Element* elements[num_lanes];
     int places[P];

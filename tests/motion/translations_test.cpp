@@ -162,6 +162,10 @@ void compare_blocks() {
     G::add_wrench_map(own, G::hat(s.b)), Se3::add_wrench_map(other, Se3::hat(Se3::wrench(in_space<N>(s.b))));
     G::add_block_product(own, s.m, G::ad(s.c)),
         Se3::add_block_product(other, m, Se3::ad(Se3::motion(in_space<N>(s.c))));
+    const auto T = eval_tangent_operator<G, double>(s.a);
+    const auto space_T = eval_tangent_operator<Se3, double>(Se3::motion(in_space<N>(s.a)));
+    G::add_block_product(own, s.m, jacobian(T, s.b));
+    Se3::add_block_product(other, m, jacobian(space_T, Se3::motion(in_space<N>(s.b))));
     expect_same_block<N>(own, other);
     const auto rows = Se3::linear_rows(space);
     const Matrix<N> own_rows = G::linear_rows(map);
