@@ -120,6 +120,9 @@ Inertia Hierarchical::inertia() {
       own.add_symmetric(d.d, d.pivots);
       continue;
     }
+    const int* dependent = d.columns + d.full - d.dependent;
+    for (int k = d.full - d.dependent; k < d.full; ++k)
+      own.moved_together &= std::find(dependent, dependent + d.dependent, d.rows[k]) != dependent + d.dependent;
     for (int k = 0; k < d.pivots; ++k) {
       own.add(d.a[k * (static_cast<std::ptrdiff_t>(d.lda) + 1)]);
       if (d.rows[k] == d.columns[k]) continue;

@@ -25,6 +25,12 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   if (group.in_registers) {
     const bool stands = factor_registers(index, is_root ? nullptr : visit_rhs);
     left_registers[at(index)] = stands ? 0 : 1;
+    const RegisterGroup& own = registers.groups[at(index)];
+    for (int k = own.front_begin; stands && k < own.front_end; ++k) {  // what earlier factorizations may have found
+      FrontData& d = data(registers.fronts[at(k)].front);
+      d.dependent = 0;
+      d.full = d.pivots;
+    }
     if (stands && is_root) factor_front(tree.num_fronts() - 1);
     if (stands) return;
   }

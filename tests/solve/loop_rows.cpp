@@ -159,17 +159,43 @@ TEST(LoopRows, AJointThatIsAlignedAndNotAgainChangesTheRank) {
   LoopOptions off = options;
   off.misaligned = 0.1;
   const Scene aligned = make_loops(options), misaligned = make_loops(off);
-  Solved s(aligned, {.leaf_size = 2}, {});
-  const int all = s.factor().deficiency;
-  const Eigen::VectorXd b = consistent_rhs(s, 3), x = s.solve(b);
-  write_elements(misaligned, s.solver);
-  const int fewer = s.factor().deficiency;
-  EXPECT_LT(fewer, all);
-  s.solve(b);
-  EXPECT_LE(s.report.backward_error, 1e-14);
-  write_elements(aligned, s.solver);
-  EXPECT_EQ(s.factor().deficiency, all);
-  EXPECT_TRUE(same_bits(s.solve(b), x));
+  for (const tree::TreeOptions& cut :
+       {tree::TreeOptions{.leaf_size = 2}, tree::TreeOptions{}, tree::TreeOptions{.for_one_solution = true}})
+    for (const bool lanes : {false, true}) {
+      Solved s(aligned, cut, {.lanes = lanes});
+      const int all = s.factor().deficiency;
+      const Eigen::VectorXd b = consistent_rhs(s, 3), x = s.solve(b);
+      write_elements(misaligned, s.solver);
+      const int fewer = s.factor().deficiency;
+      EXPECT_LT(fewer, all);
+      s.solve(b);
+      EXPECT_LE(s.report.backward_error, 1e-14);
+      write_elements(aligned, s.solver);
+      EXPECT_EQ(s.factor().deficiency, all);
+      EXPECT_TRUE(same_bits(s.solve(b), x));
+    }
+}
+
+TEST(LoopRows, AStructureThatIsHeldAfterwardsIsFactoredWithoutThem) {
+  // All dependent rows get a diagonal, as soft joints have: nothing depends any more, and fronts return to their lanes
+  // and registers.
+  const Scene rigid = make_loops({.columns = 8});
+  Scene soft = rigid;
+  for (Eigen::MatrixXd& a : soft.elements)
+    if (a.rows() > 6) a.bottomRightCorner(5, 5) -= 1e-6 * Eigen::MatrixXd::Identity(5, 5);
+  for (const tree::TreeOptions& cut :
+       {tree::TreeOptions{.leaf_size = 2}, tree::TreeOptions{}, tree::TreeOptions{.for_one_solution = true}}) {
+    Solved s(rigid, cut, {});
+    EXPECT_EQ(s.factor().deficiency, 24);
+    write_elements(soft, s.solver);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_EQ(s.factor().deficiency, 0);
+      const Eigen::VectorXd b = s.random_rhs(4);
+      s.solve(b);
+      EXPECT_LE(s.report.backward_error, 1e-14);
+      EXPECT_EQ(s.report.inconsistency, 0.0);
+    }
+  }
 }
 
 TEST(LoopRows, APartThatIsNotHeldIsNamedBesideLoopsThatDepend) {
