@@ -225,6 +225,8 @@ void Converter::settings() {
     r.frame = frame_name(*a);
     r.load_steps = static_cast<int>(number_or(*a, "load_steps", 1.0));
     if (const Value* unstable = a->find("unstable")) r.unstable = unstable->truth;
+    if (const Value* start = a->find("start"))
+      r.start = start->text == "equilibrium" ? scene::StartKind::equilibrium : scene::StartKind::given;
     r.end_time = number_or(*a, "end_time", 0.0);
     r.step_size = number_or(*a, "step_size", 1e-3);
     if (const Value* integrator = a->find("integrator"))

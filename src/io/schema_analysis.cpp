@@ -30,6 +30,12 @@ void add_analysis_rules(RuleTable& t, const Field& frame) {
                         "false"));
   std::vector<Field> dynamics = {
       need("end_time", positive(""), "[s]."),
+      may("start", word_rule("", {"given", "equilibrium"}),
+          "given: the poses of the scene. equilibrium: the static equilibrium under gravity, loads and efforts at time "
+          "0, relative to `frame` if that moves, with drives and prescribed motions in their places; initial "
+          "velocities "
+          "are added to it.",
+          "\"given\""),
       may("step_size", positive(""), "h [s].", "1e-3"),
       may("integrator", word_rule("", {"generalized_alpha", "bdf", "variational"}),
           "generalized_alpha: second order; damps what is faster than the step. bdf: third order (or second, "

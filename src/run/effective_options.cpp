@@ -30,6 +30,8 @@ records::EffectiveOptions effective_options(const scene::Scene& scene, const ste
   list.emplace_back("analysis/kind", quoted(dynamic ? "dynamic" : "static"));
   if (!scene.analysis.frame.empty()) list.emplace_back("analysis/frame", quoted(scene.analysis.frame));
   if (dynamic) {
+    if (scene.analysis.start == scene::StartKind::equilibrium)
+      list.emplace_back("analysis/start", quoted("equilibrium"));
     list.emplace_back("analysis/end_time", number(scene.analysis.end_time));
     list.emplace_back("analysis/step_size", number(scene.analysis.step_size));
     if (o.integrator == scene::Integrator::variational) {

@@ -5,6 +5,7 @@
 
 #include "bough/io/number_text.hpp"
 #include "bough/results/observe.hpp"
+#include "bough/step/find_equilibrium.hpp"
 #include "bough/step/growing_vibration.hpp"
 #include "effective_options.hpp"
 #include "given_velocities.hpp"
@@ -33,6 +34,24 @@ TimeSteps::TimeSteps(const Parts& parts)
   displaced_ = state_;  // a step does not allocate
   for (auto* values : {&values_before_, &values_now_, &values_displaced_})
     values->reserve(summary().header.columns.size());
+}
+
+bool TimeSteps::begin() {
+  if (scene_.analysis.start == scene::StartKind::equilibrium && !begin_in_equilibrium()) return false;
+  return begin_next_stretch();
+}
+
+bool TimeSteps::begin_in_equilibrium() {
+  const step::EquilibriumReport rest = step::find_equilibrium(system_, state_, options_, scene_.analysis.step_size);
+  account().newton_iterations() += rest.iterations;
+  if (!rest.found) return fail("there is no equilibrium to start from: " + rest.cause);
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the start was moved to the equilibrium under the loads of time 0, by up to %.3g of the size of the "
+                "structure (%d steps, %d Newton iterations)",
+                rest.moved, rest.steps, rest.iterations);
+  note(text);
+  return true;
 }
 
 bool TimeSteps::begin_next_stretch() {

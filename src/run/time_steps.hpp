@@ -18,7 +18,7 @@ namespace bough::run {
 /// Common base of runs with equal and with controlled step sizes.
 class TimeSteps : public Analysis {
  public:
-  bool begin() override { return begin_next_stretch(); }
+  bool begin() override;
   bool take_step() override;
   bool is_done() const override { return is_begun_ && is_stretch_done() && !(end_ < scene_.analysis.end_time); }
   void sum_up() override;
@@ -59,6 +59,7 @@ class TimeSteps : public Analysis {
   Cloned<step::Integrator> integrator_;
 
  private:
+  bool begin_in_equilibrium();
   bool begin_next_stretch();
   bool is_first() const { return begin_ == 0.0; }
   void choose_bdf_order(double step_size);

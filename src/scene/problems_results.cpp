@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "bough/scene/moving_frame.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "problem_list.hpp"
 
@@ -240,6 +241,34 @@ void check_sensors(ProblemList& list) {
   }
 }
 
+namespace {
+
+/// Whether the frame in which the scene is described is this one, or lies in it.
+bool carries_description(const Scene& scene, const std::string& frame) {
+  std::string name = scene.analysis.frame;
+  for (std::size_t depth = 0; depth <= scene.frames.size() && !name.empty(); ++depth) {
+    if (name == frame) return true;
+    const auto found =
+        std::find_if(scene.frames.begin(), scene.frames.end(), [&](const FrameDef& f) { return f.name == name; });
+    name = found == scene.frames.end() ? "" : found->placement.frame;
+  }
+  return false;
+}
+
+void check_start(ProblemList& list) {
+  if (list.scene.analysis.start != StartKind::equilibrium) return;
+  for (const FrameDef& f : list.scene.frames) {
+    if (!f.motion || carries_description(list.scene, f.name)) continue;
+    const motion::FrameMotion m = motion_at(*f.motion, 0.0);
+    if (lanes::dot(m.velocity, m.velocity) > 0.0 || lanes::dot(m.angular_velocity, m.angular_velocity) > 0.0)
+      list.add("analysis", 0, "start", "equilibrium",
+               "frame '" + f.name + "' moves at time 0, so what it carries is at rest in no equilibrium",
+               "name that frame as `frame` of the analysis, let it start from rest, or leave out start");
+  }
+}
+
+}  // namespace
+
 void check_analysis(ProblemList& list) {
   const Scene& s = list.scene;
   const Analysis& a = s.analysis;
@@ -253,6 +282,7 @@ void check_analysis(ProblemList& list) {
     list.add("analysis", 0, "arc_length", "", "paths by arc length do not know frames that move",
              "inertial loads grow with the square of the speed and have no negative factor: take load_steps");
   if (!list.is_dynamic) return;  // no dynamics, or the analysis itself is at fault
+  check_start(list);
   if (!(a.end_time > 0.0)) list.add("analysis", 0, "end_time", text_of(a.end_time), "has to be above 0");
   if (!(a.step_size > 0.0)) list.add("analysis", 0, "step_size", text_of(a.step_size), "has to be above 0");
   if (a.step_size > a.end_time)

@@ -112,13 +112,14 @@ Integrator make_rule(const StepOptions& options, const State& start) {
 }
 
 /// Sets the laws of `end_time` and the predicted state.
-std::optional<Trouble> enter(System& system, State& state, const Integrator& step, double end_time) {
-  if (auto t = system.set_time(end_time, laws::Side::left)) return t;
+std::optional<Trouble> enter(System& system, State& state, const Integrator& step, double end_time, laws::Side side) {
+  if (auto t = system.set_time(end_time, side)) return t;
   state.time = end_time;
   return step.predict(system, state);
 }
 
-StepReport try_step(System& system, State& state, const State& start, const StepOptions& options, double end_time) {
+StepReport try_step(System& system, State& state, const State& start, const StepOptions& options, double end_time,
+                    laws::Side side) {
   const Integrator step = make_rule(options, start);
   StepReport report;
   const auto fail = [&](const Trouble& t) {
@@ -126,7 +127,7 @@ StepReport try_step(System& system, State& state, const State& start, const Step
     report.cause = t.text;
     return report;
   };
-  if (const auto t = enter(system, state, step, end_time)) return fail(*t);
+  if (const auto t = enter(system, state, step, end_time, side)) return fail(*t);
   report = iterate(system, state, options, make_goal(start), step.rule.slopes(),
                    [&](State& s, const double* x) { return step.correct(system, s, x); });
   if (!report.converged) return report;
@@ -144,13 +145,13 @@ std::optional<Trouble> predict(System& system, State& state, const StepOptions& 
   const State start = state;
   const Integrator step = make_rule(options, start);
   slopes = step.rule.slopes();
-  return enter(system, state, step, end_time);
+  return enter(system, state, step, end_time, laws::Side::left);
 }
 
-StepReport advance(System& system, State& state, const StepOptions& options, double end_time) {
+StepReport advance(System& system, State& state, const StepOptions& options, double end_time, laws::Side side) {
   State& start = system.work().start;
   std::swap(state, start);
-  StepReport report = try_step(system, state, start, options, end_time);
+  StepReport report = try_step(system, state, start, options, end_time, side);
   if (!report.converged) std::swap(state, start);
   return report;
 }

@@ -83,6 +83,7 @@ inline const Bad table_cases[] = {
     {"\"end_time\": 1,", "\"end_time\": @-1,", "/analysis/end_time", "above 0"},
     {"\"end_time\": 1, ", "", "/analysis", "needs the key \"end_time\""},
     {"\"step_size\": 1e-3", "\"step_size\": @0", "/analysis/step_size", "above 0"},
+    {"\"step_size\": 1e-3", "\"start\": @\"equilibrum\"", "/analysis/start", "did you mean \"equilibrium\"?"},
     {"\"spectral_radius\": 0.9", "\"spectral_radius\": @1.1", "/analysis/spectral_radius", "of at most 1"},
     {"\"spectral_radius\": 0.9", "\"bdf_order\": @4", "/analysis/bdf_order", "at most 3"},
     {"\"spectral_radius\": 0.9", "\"newmark_beta\": @1.1", "/analysis/newmark_beta", "of at most 1"},

@@ -59,13 +59,9 @@ TEST(VerifyDiagnosis, no_false_alarm_on_the_gallery) {
     s.without = {"planar"};  // a plane has no redundant rows
     const Outcome o = run(s);
     EXPECT_TRUE(o.ok()) << name << ": " << o.text();
-    const bool redundant =
-        name == "bricard" || name == "andrews_squeezer" || name == "four_bar_planar" || name == "four_bar_windows";
-    // A known defect: rods without inertia about their own axes. Ten of them in space, not in the plane that the plan
-    // chooses, are at some instants taken for singular.
-    if (name != "rod_chain") {
-      EXPECT_EQ(o.says("depend on others"), redundant) << name << ": " << o.text();
-    }
+    const bool redundant = name == "bricard" || name == "andrews_squeezer" || name == "four_bar_planar" ||
+                           name == "four_bar_windows" || name == "hanging_chain";
+    EXPECT_EQ(o.says("depend on others"), redundant) << name << ": " << o.text();
     EXPECT_LT(o.summary.checks.linear_backward_error_max, 1e-10) << name;
     std::printf("  %s: backward error %.1e\n    %s\n", name.c_str(), o.summary.checks.linear_backward_error_max,
                 o.text().c_str());

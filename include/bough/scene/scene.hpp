@@ -259,6 +259,9 @@ struct ArcLength {
                                ///< points
 };
 
+/// Where dynamics begins: in the poses that the scene gives, or in the equilibrium under the loads of t = 0.
+enum class StartKind : std::uint8_t { given, equilibrium };
+
 struct Analysis {
   AnalysisKind kind = AnalysisKind::dynamics;
   /// The frame in which the scene is described, which is the "ground" of all parts that name no frame. Empty: the
@@ -270,6 +273,7 @@ struct Analysis {
   std::optional<ArcLength> arc_length;  ///< instead of load steps
   bool unstable = false;                ///< unstable equilibria are expected: the run casts no doubt on them
   // dynamics
+  StartKind start = StartKind::given;
   double end_time = 0.0;    ///< [s]
   double step_size = 1e-3;  ///< h [s]; of the first step where sizes are controlled
   std::optional<StepControl> step_control;

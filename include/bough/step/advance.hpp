@@ -65,8 +65,9 @@ StartReport change_step_size(System& system, State& state, const StepOptions& op
                                              elements::Slopes& slopes);
 
 /// One step of Lie-group generalized-alpha, index 3 (Bruls, Cardona, Arnold 2012), from `state` over h to `state`.
-/// Not converged: `state` is as it was.
-StepReport advance(System& system, State& state, const StepOptions& options, double end_time);
+/// Not converged: `state` is as it was. Where laws jump at the end, they have their values on `side` of it.
+StepReport advance(System& system, State& state, const StepOptions& options, double end_time,
+                   laws::Side side = laws::Side::left);
 
 /// Equilibrium at a load factor, by Newton from the present shape. Not converged: `state` is as it was.
 StepReport equilibrate(System& system, State& state, const StepOptions& options, double load_factor);

@@ -1,0 +1,135 @@
+// Dynamics that starts in equilibrium ("start": "equilibrium"): against statics, against closed forms, and that it
+// stays there.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "bough/laws/make_law.hpp"
+#include "bough/scene/parts.hpp"
+#include "support/scenes.hpp"
+
+namespace bough::run {
+namespace {
+
+using support::gallery;
+using support::Outcome;
+
+constexpr const char* in_equilibrium = "/analysis/start=equilibrium";
+
+/// Largest less smallest value of a column.
+double range_of(const support::Table& t, const std::string& column) {
+  const std::vector<double> x = t.of(column);
+  const auto [least, most] = std::minmax_element(x.begin(), x.end());
+  return *most - *least;
+}
+
+/// A cantilever of steel that sags by 22 mm under its weight, for 1 s.
+scene::Scene cantilever() {
+  const double EA = 8.4e7, EI = 2800.0, mass = 3.14;
+  scene::Scene s = scene::make_cantilever(scene::make_section("s", EA, 2.7e7, 2.7e7, 2150.0, EI, EI), 2.0, 8, 2);
+  for (int i = 0; i < 3; ++i) {
+    s.sections[0].mass(i, i) = mass;
+    s.sections[0].mass(i + 3, i + 3) = 2e-4;
+  }
+  s.gravity = {{0, 0, -9.81}};
+  s.sensors = {scene::make_point_sensor("tip", scene::SensorKind::position, s.nodes[1].name),
+               scene::make_point_sensor("speed", scene::SensorKind::velocity, s.nodes[1].name)};
+  s.analysis.kind = scene::AnalysisKind::dynamics;
+  s.analysis.end_time = 1.0;
+  s.analysis.step_size = 1e-3;
+  s.analysis.start = scene::StartKind::equilibrium;
+  return s;
+}
+
+TEST(EquilibriumStart, is_that_of_statics) {
+  const Outcome dynamic = support::run(cantilever());
+  ASSERT_TRUE(dynamic.ok()) << dynamic.summary.cause;
+  scene::Scene rest = cantilever();
+  rest.analysis.kind = scene::AnalysisKind::statics;
+  rest.analysis.tolerance = 1e-12;
+  rest.sensors.pop_back();
+  const Outcome is_static = support::run(rest);
+  ASSERT_TRUE(is_static.ok()) << is_static.summary.cause;
+  EXPECT_NEAR(is_static.history.last("tip.z"), -3.14 * 9.81 * 16.0 / (8.0 * 2800.0), 3e-4) << "q L^4 / 8 EI";
+  for (const char* column : {"tip.x", "tip.z"})
+    EXPECT_NEAR(dynamic.history.first(column), is_static.history.last(column), 1e-12) << column;
+}
+
+TEST(EquilibriumStart, stays_there) {
+  const Outcome beam = support::run(cantilever());
+  ASSERT_TRUE(beam.ok()) << beam.summary.cause;
+  EXPECT_LT(range_of(beam.history, "tip.z"), 1e-13);
+  EXPECT_LT(beam.history.largest("speed.vz"), 1e-10);
+  for (const char* integrator : {"bdf", "variational"}) {
+    const Outcome chain = support::run(gallery("hanging_chain", {std::string("/analysis/integrator=") + integrator}));
+    ASSERT_TRUE(chain.ok()) << chain.summary.cause;
+    EXPECT_LT(range_of(chain.history, "middle.z"), 1e-12) << integrator;
+  }
+  const Outcome rotor = support::run(gallery(
+      "rotating_cantilever", {"/analysis={\"kind\":\"dynamic\",\"frame\":\"hub\",\"end_time\":1}", in_equilibrium}));
+  ASSERT_TRUE(rotor.ok()) << rotor.summary.cause;
+  EXPECT_LT(range_of(rotor.history, "tip.x"), 1e-13) << "relative equilibrium in the turning frame";
+  EXPECT_TRUE(std::all_of(rotor.summary.expected.begin(), rotor.summary.expected.end(),
+                          [](const records::ExpectedResult& e) { return e.holds; }));
+}
+
+// The tie of this crane may spin about its own axis: nothing resists that.
+TEST(EquilibriumStart, leaves_motions_that_nothing_resists) {
+  scene::Scene crane = gallery("../gallery/crane", {in_equilibrium, "/analysis/end_time=2"});
+  crane.joints[0].drives[0].law = laws::make_constant(0.0);
+  crane.output.motion = false;
+  const Outcome r = support::run(crane);
+  ASSERT_TRUE(r.ok()) << r.summary.cause;
+  const double sag = 10.0 - r.history.first("tip.z");
+  EXPECT_GT(sag, 0.05);
+  EXPECT_LT(range_of(r.history, "tip.z"), 1e-6 * sag);
+  EXPECT_LT(range_of(r.history, "load.z"), 1e-6 * sag);
+}
+
+TEST(EquilibriumStart, takes_the_values_of_laws_behind_time_zero) {
+  scene::Scene s = cantilever();
+  s.gravity = scene::Vec3::zero();
+  s.point_loads = {scene::make_load(s.nodes[1].name, {{0, 0, -1}})};
+  s.point_loads[0].law = laws::make_expression("step(t)");
+  const Outcome r = support::run(s);
+  ASSERT_TRUE(r.ok()) << r.summary.cause;
+  EXPECT_NEAR(r.history.first("tip.z"), -8.0 / (3.0 * 2800.0), 1e-7) << "F L^3 / 3 EI";
+  EXPECT_LT(range_of(r.history, "tip.z"), 1e-14);
+}
+
+// A pendulum falls from the horizontal into the equilibrium below its pin, where it has the velocity that was given.
+TEST(EquilibriumStart, adds_the_initial_velocities) {
+  const Outcome r = support::run(support::scene_of(R"({"gravity": [0, 0, -9.81],
+    "bodies": [{"name": "bob", "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [1, 0, 0]}],
+    "joints": [{"name": "pin", "kind": "revolute", "first": "ground", "second": "bob", "position": [0, 0, 0],
+                "axis": [0, 1, 0]}],
+    "initial_velocities": [{"of": "bob", "velocity": [0.5, 0, 0], "angular_velocity": [0, -0.5, 0]}],
+    "sensors": [{"name": "place", "kind": "position", "at": "bob"},
+                {"name": "speed", "kind": "velocity", "at": "bob", "axes": "space"}],
+    "analysis": {"kind": "dynamic", "start": "equilibrium", "end_time": 1, "step_size": 1e-3}})"));
+  ASSERT_TRUE(r.ok()) << r.summary.cause;
+  EXPECT_NEAR(r.history.first("place.z"), -1.0, 1e-12);
+  EXPECT_NEAR(r.history.first("speed.vx"), 0.5, 1e-12);
+  EXPECT_NEAR(r.history.first("speed.wy"), -0.5, 1e-12);
+}
+
+TEST(EquilibriumStart, names_what_comes_to_no_rest) {
+  const Outcome r = support::run(gallery("free_body", {in_equilibrium, "/gravity=[0,0,-9.81]"}));
+  EXPECT_FALSE(r.ok());
+  EXPECT_NE(r.summary.cause.find("no equilibrium to start from: 'body' moves farthest"), std::string::npos)
+      << r.summary.cause;
+}
+
+TEST(EquilibriumStart, refuses_frames_that_move_at_time_zero) {
+  try {
+    gallery("rotating_cantilever", {"/analysis={\"kind\":\"dynamic\",\"end_time\":1}", in_equilibrium});
+    FAIL() << "the hub turns, and the analysis is not described in it";
+  } catch (const std::runtime_error& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("frame 'hub' moves at time 0"), std::string::npos) << refusal.what();
+  }
+}
+
+}  // namespace
+}  // namespace bough::run
