@@ -31,6 +31,7 @@ void write_steps(JsonText& json, const records::Summary& summary) {
   json.end_object();
   json.key("time_s");
   json.begin_object();
+  json.member("prepare", summary.times.prepare);
   json.member("total", summary.times.total);
   json.member("assemble", summary.times.assemble);
   json.member("factor", summary.times.factor);

@@ -52,6 +52,8 @@ struct Simulation::Impl {
         state(step::make_initial_state(plan)) {
     recording.emplace(scene, asked, options, system, recorder);
     recording->summary().threads = threads.count();
+    recording->summary().times.prepare =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - made_at).count();
     analysis = make_analysis({scene, options, plan, system, state, *recording, asked, progress});
   }
 
@@ -82,6 +84,7 @@ struct Simulation::Impl {
     recording->summary().times.total += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
+  const std::chrono::steady_clock::time_point made_at = std::chrono::steady_clock::now();
   NoRecorder no_recorder;
   const SimulateOptions asked;
   const ProgressCallback progress;
