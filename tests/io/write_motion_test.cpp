@@ -81,6 +81,19 @@ TEST(Vtu, arrays_stand_where_their_offsets_say_and_agree_in_length) {
   EXPECT_TRUE(vtu.ends_with("\n  </AppendedData>\n</VTKFile>\n")) << "nothing after the last block but the end";
 }
 
+// The sample's resultants are (1, 2, 3) N and (4, 5, 6) N m in all sections.
+TEST(Vtu, forces_and_moments_are_those_of_the_sections) {
+  const std::string vtu = vtu_text(sample_frame(0.7), sample_parts());
+  const auto force = values_of<float>(vtu, "force"), moment = values_of<float>(vtu, "moment");
+  const std::size_t of_sections = 5u + 5u * 8u;  // points of the axis, corners of sections
+  ASSERT_GE(force.size(), 3 * of_sections);
+  for (std::size_t k = 0; k < of_sections; ++k)
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(force[3 * k + i], 1.0f + static_cast<float>(i)) << k;
+      EXPECT_EQ(moment[3 * k + i], 4.0f + static_cast<float>(i)) << k;
+    }
+}
+
 TEST(Vtu, wedges_and_surfaces_enclose_the_volumes_of_section_and_body) {
   records::MotionFrame frame = sample_frame(0.0);  // straight, 1 m long
   const records::MotionParts parts = sample_parts();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bough/step/step_control.hpp"
 #include "support/scenes.hpp"
 
 namespace bough::run {
@@ -215,6 +216,42 @@ TEST(ErrorEstimate, energies_of_round_off_do_not_grow) {
   EXPECT_GT(run.summary.checks.energy_gained, 0.01 * run.summary.checks.energy_scale)
       << "there is nothing that a bound of round-off would have to let pass";
   EXPECT_TRUE(run.summary.doubts.empty()) << run.summary.doubts[0].text;
+}
+
+/// A mass on a spring, v = 2 cos(w t): e_v = h^3 C_v v''' is largest where v''' = 2 w^3, and speeds are relative to 2.
+TEST(ErrorEstimate, local_error_of_velocities_is_that_of_an_oscillator) {
+  const double w = 2.0 * 3.14159265358979323846, h = 0.01;
+  const Outcome run = support::run(support::scene_of(
+      R"({"bodies": [{"name": "mass", "mass": 1, "inertia": [1, 1, 1], "position": [0, 0, 0]}],
+    "joints": [{"name": "guide", "kind": "prismatic", "first": "ground", "second": "mass", "position": [0, 0, 0],
+                "axis": [0, 0, 1], "forces": [{"stiffness": )" +
+      support::text(w * w) + R"(}]}],
+    "initial_velocities": [{"of": "mass", "velocity": [0, 0, 2]}],
+    "sensors": [{"name": "v", "kind": "velocity", "at": "mass"}],
+    "analysis": {"kind": "dynamic", "end_time": 3, "step_size": 0.01}})"));
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  const double constant = std::abs(step::make_error_constants(step::make_alpha_coefficients(0.8)).velocity);
+  const double expected = h * h * h * constant * w * w * w;
+  EXPECT_NEAR(run.summary.checks.local_error_max_velocity, expected, 0.03 * expected);
+}
+
+/// The gap that velocities open within a step, relative to the length of the parts at the joint (1 m here).
+TEST(ErrorEstimate, violation_of_a_step_is_that_of_velocities_times_its_size) {
+  for (const double h : {1e-2, 5e-3}) {
+    const Outcome run = support::run(support::scene_of(
+        R"({"gravity": [0, 0, -9.81],
+      "bodies": [{"name": "bob", "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [1, 0, 0]}],
+      "joints": [{"name": "pin", "kind": "revolute", "first": "ground", "second": "bob", "position": [0, 0, 0],
+                  "axis": [0, 1, 0]}],
+      "sensors": [{"name": "x", "kind": "position", "at": "bob"}],
+      "analysis": {"kind": "dynamic", "end_time": 1, "step_size": )" +
+        support::text(h) + "}}"));
+    ASSERT_TRUE(run.ok()) << run.summary.cause;
+    const records::Checks& checks = run.summary.checks;
+    EXPECT_GT(checks.relative_violation_step, 0.0);
+    EXPECT_NEAR(checks.relative_violation_step, h * checks.constraint_violation_velocity,
+                1e-9 * checks.relative_violation_step);
+  }
 }
 
 }  // namespace

@@ -83,6 +83,11 @@ TEST(SceneProblems, joints_may_stand_apart_along_what_they_leave_free) {
   s.joints[0].kind = JointKind::prismatic;
   s.joints[0].first.offset.x = {{0, 0, 0.25}};
   EXPECT_EQ(places(s), Places{}) << "along axis 3";
+  s.joints[0].kind = JointKind::cylindrical;
+  EXPECT_EQ(places(s), Places{}) << "along axis 3";
+  s.joints[0].first.offset.x = {{0.25, 0, 0}};
+  EXPECT_EQ(places(s), (Places{"joints 0 "})) << "off axis 3";
+  s.joints[0].first.offset.x = {{0, 0, 0.25}};
   s.joints[0].kind = JointKind::revolute;
   s.joints[0].first.offset = {motion::exp_so3(Vec3{{0, 0, 1.0}}), Vec3::zero()};
   EXPECT_EQ(places(s), Places{}) << "about axis 3";
