@@ -12,7 +12,8 @@ struct Chain {
   std::vector<NodeMotion> nodes;  ///< node 0 is held
   PointLoad load;                 ///< at the last node, times `factor`
   double factor = 1.0;
-  int iterations = 0;  ///< of the last load step
+  int iterations = 0;           ///< of the last load step
+  std::vector<double> changes;  ///< largest increments of its iterations
 };
 
 /// `count` elements along poses given by a function of the arc length.
@@ -65,6 +66,7 @@ bool solve(Chain<N>& c, int steps, double tolerance = 1e-11) {
   for (int step = 1; step <= steps; ++step) {
     const double law = c.factor * step / steps;
     double change = 1.0;
+    c.changes.clear();
     for (c.iterations = 0; change > tolerance; ++c.iterations) {
       if (c.iterations == 60) return false;
       const Field field{c.nodes.data(), {Vec3<double>::zero(), &law, false}, {}};
@@ -74,6 +76,7 @@ bool solve(Chain<N>& c, int steps, double tolerance = 1e-11) {
       assemble(c.load, field, K, r);
       const Eigen::VectorXd eta = -K.partialPivLu().solve(r);
       change = eta.lpNorm<Eigen::Infinity>();
+      c.changes.push_back(change);
       const double part = change > 0.5 ? 0.5 / change : 1.0;  // no node turns by more than half a radian at once
       for (std::size_t k = 1; k < c.nodes.size(); ++k) {
         Vec6<double> own;

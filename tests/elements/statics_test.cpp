@@ -213,6 +213,14 @@ TEST(BeamStatics, newton_converges_quadratically_from_the_straight_beam) {
   c.load.follows = true;
   ASSERT_TRUE(solve(c, 1));
   EXPECT_LE(c.iterations, 6);
+  constexpr double round_off = 1e-12;
+  int small = 0;
+  for (std::size_t k = 0; k + 1 < c.changes.size(); ++k) {
+    if (c.changes[k] > 0.1 || c.changes[k] < 10.0 * round_off) continue;
+    ++small;
+    EXPECT_LE(c.changes[k + 1], std::max(10.0 * c.changes[k] * c.changes[k], round_off)) << "iteration " << k + 1;
+  }
+  EXPECT_GE(small, 2);
 }
 
 }  // namespace
