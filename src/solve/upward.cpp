@@ -95,11 +95,13 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
   if (is_root && options.inertia) keep_root(d);
   // At the root, large pivots are eliminated first, then the others by complete pivoting down to those that
   // decide_rank() must examine.
-  // Below it, smaller pivots are delayed, which may be the round-off of dependent rows behind long null vectors: the
-  // root takes singular values, which tell.
-  constexpr double least_before_root = 1e-8;
-  const PivotRule rule{is_root ? std::max(options.pivot_threshold, 0.1) : options.pivot_threshold,
-                       is_root ? 1e-2 : std::max(options.tiny_pivot, least_before_root)};
+  // Smaller pivots of multipliers may be the round-off of dependent rows behind long null vectors: the root takes
+  // singular values, which tell.
+  constexpr double least_of_multipliers = 1e-9;
+  PivotRule rule{is_root ? std::max(options.pivot_threshold, 0.1) : options.pivot_threshold,
+                 is_root ? 1e-2 : options.tiny_pivot};
+  rule.marked = is_constraint.get();
+  rule.least_of_marked = least_of_multipliers;
   if (is_definite() && !d.is_indefinite && d.delayed_in == 0) {
     // Also at the root: if all pivots are positive, the matrix is definite and has full rank.
     d.pivots = eliminate_definite(matrix, {options.pivot_threshold, options.tiny_pivot}, &factor_walker);

@@ -51,7 +51,7 @@ struct SolveOptions {
   double multiplier_scale = 1.0;  ///< s of the local multipliers [-], > 0, in scaled variables.
   double pivot_threshold =
       1e-3;  ///< u [-], 0 < u <= 1: a pivot of at least u times its column's largest entry is accepted.
-  double tiny_pivot = 1e-10;  ///< [-] scaled: smaller pivots go to the parent front (1e-8 outside lanes and registers).
+  double tiny_pivot = 1e-10;  ///< [-] in scaled variables: smaller pivots are delayed to the parent front.
   double rank_tolerance =
       1e-10;  ///< [-] scaled distance to a singular matrix below which constraint rows are dependent.
   double singular_tolerance =
