@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Changes one line of a layer's sources at a time and asks whether a test notices.
+
+    python3 tests/tools/mutants.py BUILD [--layers elements,step,run,results,io] [--count 40] [--seed 1]
+                                         [--log mutants.jsonl] [--jobs 2]
+
+BUILD is a configured build folder of this checkout, which has to be clean: each mutant is written into the sources,
+built, tested and taken back. The tests of the mutant's layer run first, then all others of the labels unit and
+verification, up to the first that fails. The mutants follow from the seed: an interrupted call continues where its log
+ends. Mutants that do not compile are not counted. Each line of the log is a JSON object with the change and the test
+that failed, or null where none did; such survivors are to be explained, or to be given a test."""
+import argparse
+import json
+import os
+import random
+import re
+import subprocess
+import sys
+
+SWAPS = [(r" \+ ", " - "), (r" - ", " + "), (r" \* ", " / "), (r" / ", " * "), (r" < ", " <= "), (r" > ", " >= "),
+         (r" <= ", " < "), (r" >= ", " > "), (r" == ", " != "), (r" && ", " || "), (r" \|\| ", " && "),
+         (r" \+= ", " -= "), (r"std::max\(", "std::min("), (r"std::min\(", "std::max("), (r"std::sin\(", "std::cos("),
+         (r"\b0\.5\b", "0.25"), (r"\b2\.0\b", "1.0"), (r"\b1\.0\b", "2.0"), (r"\(-", "("), (r"= -", "= "),
+         (r"return !", "return "), (r"if \(!", "if (")]
+STATEMENT = re.compile(r"^\s+[A-Za-z_][\w.\->\[\]()*]*(\([^;]*\)| [+\-*/|]?= [^;]*);$")
+EXEMPT = re.compile(r"^\s*(//|#|\*|template|using|namespace|static_assert|case |public:|private:|return;)|constexpr|"
+                    r"snprintf|printf|\"")
+
+
+def candidates(root, layers):
+    """All possible changes: (file, line, new text), in a fixed order; a new text of "" drops the statement."""
+    found = []
+    for layer in layers:
+        folder = os.path.join(root, "src", layer)
+        files = sorted(os.path.join(d, f) for d, _, names in os.walk(folder) for f in names if f.endswith(".cpp"))
+        for path in files:
+            with open(path, encoding="utf-8") as f:
+                lines = f.read().split("\n")
+            for k, line in enumerate(lines):
+                code = line.split("//")[0].rstrip()
+                if not code.strip() or EXEMPT.search(line):
+                    continue
+                for pattern, text in SWAPS:
+                    for hit in re.finditer(pattern, code):
+                        found.append((layer, path, k, line[:hit.start()] + text + line[hit.end():]))
+                if STATEMENT.match(code):
+                    found.append((layer, path, k, ""))
+    return found
+
+
+class Suite:
+    """Tests of a build folder, with the programs that hold them."""
+
+    def __init__(self, build, jobs):
+        self.build, self.jobs = build, jobs
+        listed = subprocess.run(["ctest", "--test-dir", build, "-L", "^(unit|verification)$", "--show-only=json-v1"],
+                                capture_output=True, text=True, check=True).stdout
+        self.programs = {}
+        for test in json.loads(listed)["tests"]:
+            layer = test["name"].split("/")[0].split(".")[0]
+            if "command" in test:
+                self.programs.setdefault(layer, set()).add(os.path.basename(test["command"][0]))
+
+    def make(self, targets):
+        command = ["ninja", "-C", self.build, f"-j{self.jobs}", *targets]
+        return subprocess.run(command, capture_output=True).returncode == 0
+
+    def first_failure(self, pattern):
+        """Name of a test that fails; None if there is none."""
+        run = subprocess.run(["ctest", "--test-dir", self.build, "-L", "^(unit|verification)$", "-R", pattern, "-E",
+                              "^lean|consumer|fuzz", "--stop-on-failure", "--timeout", "120", f"-j{self.jobs}"],
+                             capture_output=True, text=True)
+        failed = re.findall(r"^\s+\d+ - (\S+) \((?:Failed|Timeout|SEGFAULT|\S+)", run.stdout, re.M)
+        return failed[0] if failed else None
+
+    def try_mutant(self, layer):
+        """Returns (compiles, failing test)."""
+        own = sorted(p for p in self.programs.get(layer, ()) if p.startswith("test_"))
+        if not self.make(own):
+            return False, None
+        failed = self.first_failure(f"^{layer}[/.]")
+        if failed is None:
+            if not self.make([]):
+                return False, None
+            failed = self.first_failure(".")
+        return True, failed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build")
+    parser.add_argument("--layers", default="elements,step,run,results,io")
+    parser.add_argument("--count", type=int, default=40)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--log", default="mutants.jsonl")
+    parser.add_argument("--jobs", type=int, default=2)
+    arguments = parser.parse_args()
+    top = subprocess.run(["git", "rev-parse", "--show-toplevel"], capture_output=True, text=True, check=True)
+    root = top.stdout.strip()
+    if subprocess.run(["git", "diff", "--quiet"], cwd=root).returncode != 0:
+        sys.exit("mutants: the checkout has changes of its own; commit or drop them first")
+    layers = arguments.layers.split(",")
+    by_layer = {layer: candidates(root, [layer]) for layer in layers}
+    rng = random.Random(arguments.seed)
+    done = []
+    if os.path.exists(arguments.log):
+        with open(arguments.log, encoding="utf-8") as f:
+            done = [json.loads(line) for line in f]
+    suite = Suite(arguments.build, arguments.jobs)
+    if not suite.make([]):
+        sys.exit("mutants: the checkout does not build")
+    counted = sum(r["compiles"] for r in done)
+    for number in range(100 * arguments.count):
+        layer = layers[number % len(layers)]
+        _, path, k, text = rng.choice(by_layer[layer])
+        if number < len(done):
+            continue
+        if counted >= arguments.count:
+            break
+        with open(path, encoding="utf-8") as f:
+            original = f.read()
+        lines = original.split("\n")
+        record = {"file": os.path.relpath(path, root), "line": k + 1, "old": lines[k].strip(), "new": text.strip()}
+        lines[k] = text
+        try:
+            with open(path, "w", encoding="utf-8") as f:
+                f.write("\n".join(lines))
+            record["compiles"], record["killed_by"] = suite.try_mutant(layer)
+        finally:
+            with open(path, "w", encoding="utf-8") as f:
+                f.write(original)
+        counted += record["compiles"]
+        done.append(record)
+        with open(arguments.log, "a", encoding="utf-8") as f:
+            f.write(json.dumps(record) + "\n")
+        print(json.dumps(record), flush=True)
+    suite.make([])
+    tried = [r for r in done if r["compiles"]]
+    killed = sum(r["killed_by"] is not None for r in tried)
+    print(f"{killed} of {len(tried)} mutants killed, {len(done) - len(tried)} did not compile")
+
+
+if __name__ == "__main__":
+    main()
