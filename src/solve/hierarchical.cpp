@@ -209,9 +209,9 @@ void Hierarchical::State::measure_matrices(const tree::Walker& walker) {
   constexpr std::int64_t serves = 8;
   if (counters.factorizations < next_measurement) return;
   next_measurement = counters.factorizations + serves;
-  const ElementStore::Sizes sizes = elements.eval_sizes(walker, scales);
-  norm = sizes.norm;
-  scales_wanted = scales_wanted || sizes.drift > largest_drift;
+  const ElementStore::Sizes measured = elements.eval_sizes(walker, scales);
+  norm = measured.norm;
+  scales_wanted = scales_wanted || measured.drift > largest_drift;
 }
 
 /// The backward error of the solution in x, which is refined if required.

@@ -109,6 +109,9 @@ def main():
     suite = Suite(arguments.build, arguments.jobs)
     if not suite.make([]):
         sys.exit("mutants: the checkout does not build")
+    failed = suite.first_failure(".")
+    if failed is not None:
+        sys.exit(f"mutants: {failed} fails without a mutant")
     counted = sum(r["compiles"] for r in done)
     for number in range(100 * arguments.count):
         layer = layers[number % len(layers)]
