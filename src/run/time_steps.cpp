@@ -9,6 +9,7 @@
 #include "bough/step/growing_vibration.hpp"
 #include "effective_options.hpp"
 #include "given_velocities.hpp"
+#include "stability_watch.hpp"
 #include "trust.hpp"
 
 namespace bough::run {
@@ -51,7 +52,19 @@ bool TimeSteps::begin_in_equilibrium() {
                 "structure (%d steps, %d Newton iterations)",
                 rest.moved, rest.steps, rest.iterations);
   note(text);
+  note_unstable_start();
   return true;
+}
+
+/// A structure that was placed exactly in an unstable equilibrium stays there; nothing else in the run would tell.
+void TimeSteps::note_unstable_start() {
+  if (system_.evaluate(state_, {}, true)) return;
+  step::Stability stability(system_);
+  const step::StabilityLook look = stability.look_closely();
+  if (!look.is_known || look.unstable == 0) return;
+  if (const auto mode = stability.find_mode(state_))
+    note("the equilibrium in which the run starts is unstable: the slightest disturbance grows, in which " +
+         StabilityWatch::describe(plan_, *mode));
 }
 
 bool TimeSteps::begin_next_stretch() {

@@ -60,6 +60,7 @@ class TimeSteps : public Analysis {
 
  private:
   bool begin_in_equilibrium();
+  void note_unstable_start();
   bool begin_next_stretch();
   bool is_first() const { return begin_ == 0.0; }
   void choose_bdf_order(double step_size);

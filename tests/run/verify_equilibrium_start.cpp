@@ -115,6 +115,26 @@ TEST(EquilibriumStart, adds_the_initial_velocities) {
   EXPECT_NEAR(r.history.first("speed.wy"), -0.5, 1e-12);
 }
 
+// A pendulum placed exactly upright has no reason to fall, and one that hangs is stable.
+TEST(EquilibriumStart, tells_that_it_is_unstable) {
+  for (const bool is_upright : {true, false}) {
+    const Outcome r = support::run(support::scene_of(std::string(R"({"gravity": [0, 0, -9.81],
+      "bodies": [{"name": "bob", "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [0, 0, )") +
+                                                     (is_upright ? "1" : "-1") + R"(]}],
+      "joints": [{"name": "pin", "kind": "revolute", "first": "ground", "second": "bob", "position": [0, 0, 0],
+                  "axis": [0, 1, 0]}],
+      "sensors": [{"name": "place", "kind": "position", "at": "bob"}],
+      "analysis": {"kind": "dynamic", "start": "equilibrium", "end_time": 0.1, "step_size": 1e-3}})"));
+    ASSERT_TRUE(r.ok()) << r.summary.cause;
+    EXPECT_EQ(r.history.first("place.z"), is_upright ? 1.0 : -1.0);
+    const bool is_told = std::any_of(r.summary.notes.begin(), r.summary.notes.end(), [](const std::string& note) {
+      return note.find("unstable") != std::string::npos &&
+             note.find("'bob' moves most, along (1, 0, 0)") != std::string::npos;
+    });
+    EXPECT_EQ(is_told, is_upright);
+  }
+}
+
 TEST(EquilibriumStart, names_what_comes_to_no_rest) {
   const Outcome r = support::run(gallery("free_body", {in_equilibrium, "/gravity=[0,0,-9.81]"}));
   EXPECT_FALSE(r.ok());
