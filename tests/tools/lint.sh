@@ -1,6 +1,6 @@
 #!/bin/sh
-# Checks the format, the arrows of includes, the lengths of files, and that no code outside of elements depends on the
-# type of an element. Every check runs; the exit status is 0 if all passed.
+# Checks the format, the arrows of includes, the lengths of files and of lines of text, and that no code outside of
+# elements depends on the type of an element. Every check runs; the exit status is 0 if all passed.
 set -u
 cd "$(dirname "$0")/../.."
 format=clang-format-14
@@ -21,6 +21,13 @@ guesses=$(grep -rnE 'is_same_v<.*elements::|requires( ?\(.*\))? ?\{ *(e|element|
 if [ -n "$guesses" ]; then
   echo "types of elements are guessed:"
   echo "$guesses"
+  failed=1
+fi
+# Rows of tables cannot be wrapped.
+long=$(find . -name '*.md' -not -path './build/*' -exec grep -nE '^[^|]{121,}$' {} +)
+if [ -n "$long" ]; then
+  echo "lines of more than 120 characters:"
+  echo "$long"
   failed=1
 fi
 sh tests/tools/check_length.sh || failed=1
