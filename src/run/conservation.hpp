@@ -37,9 +37,10 @@ class Conservation {
   /// Writes the results of the whole run to the checks. In dynamics `duration` is the end time [s].
   void sum_up(records::Checks& checks, const step::StepOptions& options, double duration) const;
 
- private:
+  /// What round-off and the tolerance explain of an energy balance [J].
   double energy_round_off(const step::StepOptions& options, double duration) const;
 
+ private:
   const step::System& system_;
   const plan::Plan& plan_;
   bool has_balance_;

@@ -82,7 +82,8 @@ bool EqualSteps::watch_vibrations() {
   if (const auto text = vibrations_.look(*integrator_, state_.time)) note(*text);
   if (!vibrations_.seen()) return true;
   recording_.conservation().compare(state_);
-  const auto cause = vibrations_.judge(recording_.conservation().balance(), state_.time);
+  const double round_off = recording_.conservation().energy_round_off(options_, scene_.analysis.end_time);
+  const auto cause = vibrations_.judge(recording_.conservation().balance(), round_off, state_.time);
   return !cause || fail(*cause);
 }
 

@@ -14,10 +14,10 @@ std::optional<std::string> VibrationWatch::look(const step::Integrator& integrat
          undamped;
 }
 
-std::optional<std::string> VibrationWatch::judge(const results::Balance& balance, double time) {
+std::optional<std::string> VibrationWatch::judge(const results::Balance& balance, double round_off, double time) {
   constexpr double largest_gain = 0.5;  // of the energy scale; errors of resolved motions stay far below
   constexpr int long_enough = 10;       // steps, because the energy scale is small after a start from rest
-  const bool gains = balance.last_energy_error() > largest_gain * balance.energy_scale();
+  const bool gains = balance.last_energy_error() > largest_gain * balance.energy_scale() + round_off;
   gaining_steps_ = gains ? gaining_steps_ + 1 : 0;
   if (gaining_steps_ < long_enough) return std::nullopt;
   char text[160];

@@ -19,8 +19,8 @@ class VibrationWatch {
   std::optional<std::string> look(const step::Integrator& integrator, double time);
   bool seen() const { return seen_; }
   /// To be called in every step once they were detected. Returns the cause to end the run if the energy stays above
-  /// what the work of loads and drives explains.
-  std::optional<std::string> judge(const results::Balance& balance, double time);
+  /// what the work of loads and drives explains, by more than `round_off` [J].
+  std::optional<std::string> judge(const results::Balance& balance, double round_off, double time);
 
  private:
   bool seen_ = false;
