@@ -46,10 +46,10 @@ bool TimeSteps::begin_in_equilibrium() {
   const step::EquilibriumReport rest = step::find_equilibrium(system_, state_, options_, scene_.analysis.step_size);
   account().newton_iterations() += rest.iterations;
   if (!rest.found) return fail("there is no equilibrium to start from: " + rest.cause);
-  char text[160];
+  char text[200];
   std::snprintf(text, sizeof text,
                 "the start was moved to the equilibrium under the loads of time 0, by up to %.3g of the size of the "
-                "structure (%d steps, %d Newton iterations)",
+                "structure, or rad (%d steps, %d Newton iterations)",
                 rest.moved, rest.steps, rest.iterations);
   note(text);
   note_unstable_start();

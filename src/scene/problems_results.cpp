@@ -243,22 +243,13 @@ void check_sensors(ProblemList& list) {
 
 namespace {
 
-/// Whether the frame in which the scene is described is this one, or lies in it.
-bool carries_description(const Scene& scene, const std::string& frame) {
-  std::string name = scene.analysis.frame;
-  for (std::size_t depth = 0; depth <= scene.frames.size() && !name.empty(); ++depth) {
-    if (name == frame) return true;
-    const auto found =
-        std::find_if(scene.frames.begin(), scene.frames.end(), [&](const FrameDef& f) { return f.name == name; });
-    name = found == scene.frames.end() ? "" : found->placement.frame;
-  }
-  return false;
-}
-
+/// In an equilibrium of the start all frames but those that carry the analysis are at rest.
 void check_start(ProblemList& list) {
   if (list.scene.analysis.start != StartKind::equilibrium) return;
-  for (const FrameDef& f : list.scene.frames) {
-    if (!f.motion || carries_description(list.scene, f.name)) continue;
+  const std::vector<std::size_t>& carrying = list.poses.frames().above_ground();
+  for (std::size_t i = 0; i < list.scene.frames.size(); ++i) {
+    const FrameDef& f = list.scene.frames[i];
+    if (!f.motion || std::find(carrying.begin(), carrying.end(), i) != carrying.end()) continue;
     const motion::FrameMotion m = motion_at(*f.motion, 0.0);
     if (lanes::dot(m.velocity, m.velocity) > 0.0 || lanes::dot(m.angular_velocity, m.angular_velocity) > 0.0)
       list.add("analysis", 0, "start", "equilibrium",

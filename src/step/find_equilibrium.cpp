@@ -10,7 +10,7 @@ namespace bough::step {
 namespace {
 
 constexpr double tightest = 1e-12;  ///< tolerance of the equations: what is left unbalanced would ring
-constexpr double too_far = 1e3;     ///< motion over the size of the structure that has no end
+constexpr double endless = 1e3;     ///< motion over the size of the structure that has no end
 constexpr int most_steps = 400;
 
 /// The state at rest, and nothing known of steps before it.
@@ -33,31 +33,38 @@ class PseudoTime {
   explicit PseudoTime(double first_size) : first_(first_size), size_(first_size) {}
   double size() const { return size_; }
 
-  /// After a step that was not solved. False: smaller steps are of no use.
+  /// After a step that was not solved: Newton's method needs a start that is nearer. False: smaller steps are of no use.
   bool reject() {
-    growth_ = 2.0;
-    size_ /= 4.0;
-    return size_ >= 1e-9 * first_;
+    constexpr double least = 1e-9;  // of the first size
+    growth_ = cautious;
+    size_ /= cut;
+    return size_ >= least * first_;
   }
   /// After a step that changed poses by this much. True: they change no more.
   bool accept(double change) {
-    constexpr double small = 1e-8;  // changes that may be round-off
-    const bool has_shrunk = previous_<1e-3 * largest_, grows = change> 4.0 * previous_;
-    quiet_ = change == 0.0 || (change < small && change > 0.25 * previous_ && !grows) ? quiet_ + 1 : 0;
+    constexpr double small = 1e-8;   // changes that may be round-off
+    constexpr double most = 1e12;    // of the first size: inertia is 1e24 times weaker than there
+    constexpr int quiet_enough = 3;  // one or two equal changes may be chance
+    const bool has_shrunk = previous_ < 1e-3 * largest_;
+    const bool grows = change > 4.0 * previous_, shrinks = change <= 0.25 * previous_;
+    const bool is_round_off = change < small && !shrinks && !grows;
+    quiet_ = change == 0.0 || is_round_off ? quiet_ + 1 : 0;
     if (grows && has_shrunk && previous_ < small) {
-      // Motions that nothing resists take the residual's round-off times h^2.
-      size_ /= 4.0 * growth_;
+      // Motions that nothing resists take the residual's round-off times h^2: h has become too large for them.
+      size_ /= cut * growth_;
       growth_ = 1.0;
-    } else if (size_ < 1e12 * first_) {
+    } else if (size_ < most * first_) {
       size_ *= growth_;
     }
     largest_ = std::max(largest_, change);
     previous_ = change;
-    return quiet_ == 3;
+    return quiet_ == quiet_enough;
   }
 
  private:
-  double first_, size_, growth_ = 4.0;
+  // Changes grow with the square of h: by 16 from step to step while inertia prevails.
+  static constexpr double bold = 4.0, cautious = 2.0, cut = 4.0;
+  double first_, size_, growth_ = bold;
   double largest_ = 0.0, previous_ = 0.0;  ///< changes
   int quiet_ = 0;                          ///< steps in a row whose changes look like round-off
 };
@@ -101,10 +108,10 @@ EquilibriumReport find_equilibrium(System& system, State& state, const StepOptio
       return report;
     }
     if (!plan.joints.empty()) accept_turns(system, state);
+    ++report.steps;
     report.moved += state.increment;
-    report.change = state.increment;
-    report.found = pseudo.accept(report.change);
-    if (!report.found && (++report.steps == most_steps || report.moved > too_far)) {
+    report.found = pseudo.accept(state.increment);
+    if (!report.found && (report.steps == most_steps || report.moved > endless)) {
       report.cause = "'" + farthest(plan, start, nodes_in_space(plan, state)) +
                      "' moves farthest and comes to no rest: hold it, or start from the given places";
       return report;

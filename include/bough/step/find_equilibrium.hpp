@@ -8,11 +8,11 @@ namespace bough::step {
 
 struct EquilibriumReport {
   bool found = false;
-  std::string cause;    ///< why there is none
-  int steps = 0;        ///< of pseudo-time, accepted
-  int iterations = 0;   ///< of Newton's method
-  double moved = 0.0;   ///< sum of the largest motions of a node in these steps, lengths over the size of the structure
-  double change = 0.0;  ///< the last of them
+  std::string cause;   ///< why there is none
+  int steps = 0;       ///< of pseudo-time, accepted
+  int iterations = 0;  ///< of Newton's method
+  /// Sum of the largest motions of a node in these steps: lengths over the size of the structure [-], rotations [rad].
+  double moved = 0.0;
 };
 
 /// Moves the nodes of `state` to an equilibrium at State::time, where laws have their values behind that time, drives
