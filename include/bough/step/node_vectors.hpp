@@ -21,7 +21,6 @@ class NodeVectors {
     count_ = like.count_;
     lanes_.resize(like.lanes_.size());
   }
-  std::size_t size() const { return count_; }
 
   Vector operator[](std::size_t n) const { return lanes::get_lane(lanes_[n / width], static_cast<int>(n % width)); }
   void set(std::size_t n, const Vector& v) {
