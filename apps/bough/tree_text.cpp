@@ -185,17 +185,26 @@ class TreeText {
 std::string speed_text(const Profile& p) {
   if (p.speed.empty()) return {};
   std::vector<std::vector<std::string>> rows{
-      {"  threads", "solution", "measured", "speed-up", "measured", "step", "measured"}};
+      {"  threads", "solution", "with memory", "measured", "speed-up", "measured", "step", "measured"}};
   const records::ThreadsProfile& one = p.speed.front();
   const auto ratio = [](double a, double b) {
     return std::isfinite(a / b) ? rounded_text(a / b, 3) : std::string("-");
   };
   for (const records::ThreadsProfile& t : p.speed)
-    rows.push_back({"  " + std::to_string(t.threads), seconds_text(t.predicted), seconds_text(t.measured),
-                    ratio(one.predicted, t.predicted), ratio(one.measured, t.measured), seconds_text(t.predicted_step),
-                    seconds_text(t.measured_step)});
-  return "Threads, predicted and measured: critical path " + seconds_text(p.critical_path) + " of " +
-         seconds_text(p.total) + "\n" + table_text(rows);
+    rows.push_back({"  " + std::to_string(t.threads), seconds_text(t.predicted), seconds_text(t.predicted_with_memory),
+                    seconds_text(t.measured), ratio(one.predicted, t.predicted), ratio(one.measured, t.measured),
+                    seconds_text(t.predicted_step), seconds_text(t.measured_step)});
+  std::string text = "Threads, predicted and measured: critical path " + seconds_text(p.critical_path) + " of " +
+                     seconds_text(p.total) + "\n" + table_text(rows);
+  if (p.walks.empty()) return text;
+  rows = {{"  walk", "sum", "critical path", "bytes", "read by 1 thread", "by all"}};
+  for (const records::WalkProfile& w : p.walks)
+    rows.push_back({std::string("  ") + w.work, seconds_text(w.total), seconds_text(w.critical_path),
+                    bytes_text(w.bytes), seconds_text(w.memory_seconds.front()),
+                    seconds_text(w.memory_seconds.back())});
+  return text +
+         "Walks of one factorization and solution, and how long reading their factors and element matrices takes\n" +
+         table_text(rows);
 }
 
 std::string alternatives_text(const Profile& p) {

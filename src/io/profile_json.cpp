@@ -106,6 +106,27 @@ void write_speed(JsonText& json, const records::Profile& p) {
     json.member("measured", t.measured);
     json.member("predicted_step", t.predicted_step);
     json.member("measured_step", t.measured_step);
+    json.member("read_rate", t.read_rate);
+    json.member("predicted_with_memory", t.predicted_with_memory);
+    json.end_object();
+  }
+  json.end_array();
+  json.key("walks");
+  json.begin_array();
+  for (const records::WalkProfile& w : p.walks) {
+    json.begin_object();
+    json.member("work", std::string_view(w.work));
+    json.member("total", w.total);
+    json.member("critical_path", w.critical_path);
+    json.member("bytes", w.bytes);
+    json.key("seconds");
+    json.begin_array();
+    for (double s : w.seconds) json.value(s);
+    json.end_array();
+    json.key("memory_seconds");
+    json.begin_array();
+    for (double s : w.memory_seconds) json.value(s);
+    json.end_array();
     json.end_object();
   }
   json.end_array();

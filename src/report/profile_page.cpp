@@ -94,40 +94,79 @@ void add_costliest(Document& page, const Profile& p) {
   page.table(table);
 }
 
+/// The walks, each by its schedule and by its bytes.
+void add_walks(Document& page, const Profile& p) {
+  if (p.walks.empty()) return;
+  Table table{{"walk", "limit", "critical path", "bytes"}, {}};
+  for (const records::ThreadsProfile& t : p.speed)
+    table.head.push_back(std::to_string(t.threads) + (t.threads == 1 ? " thread" : " threads"));
+  for (std::size_t w = 0; w < p.walks.size(); ++w) {
+    const records::WalkProfile& walk = p.walks[w];
+    const std::string source = "/solution/walks/" + std::to_string(w);
+    std::vector<Cell> schedule{{walk.work},
+                               {"schedule of visits"},
+                               seconds_cell(walk.critical_path, source + "/critical_path"),
+                               {bytes_text(walk.bytes), Tone::plain, true, source + "/bytes"}};
+    std::vector<Cell> memory{{""}, {"reading its bytes"}, {""}, {""}};
+    for (std::size_t k = 0; k < walk.seconds.size(); ++k) {
+      schedule.push_back(seconds_cell(walk.seconds[k], source + "/seconds/" + std::to_string(k)));
+      memory.push_back(seconds_cell(walk.memory_seconds[k], source + "/memory_seconds/" + std::to_string(k)));
+    }
+    table.rows.push_back(std::move(schedule));
+    table.rows.push_back(std::move(memory));
+  }
+  std::string rates;
+  for (const records::ThreadsProfile& t : p.speed)
+    if (t.threads <= p.machine_threads || t.threads == 1)
+      rates += (rates.empty() ? "" : ", ") + io::bytes_text(t.read_rate) + "/s by " + std::to_string(t.threads) +
+               (t.threads == 1 ? " thread" : " threads");
+  table.caption =
+      "No walk is shorter than the longer one of its two lines. An array as large as all factors and element matrices "
+      "is read at " +
+      rates + " of this machine; for more threads the rate of all it has is taken.";
+  page.table(table);
+}
+
 void add_speed(Document& page, const Profile& p) {
   if (p.speed.empty()) return;
   const records::ThreadsProfile& one = p.speed.front();
-  Table table{{"threads", "solution, predicted", "measured", "speed-up, predicted", "measured", "step, predicted",
-               "measured", "speed-up, predicted", "measured"},
+  Table table{{"threads", "solution, predicted", "with memory", "measured", "speed-up, predicted", "measured",
+               "step, predicted", "measured", "speed-up, predicted", "measured"},
               {}};
   Chart chart{"Speed-up of one factorization and solution", {"threads", Scale::log}, {"speed-up", Scale::log}, {}};
-  ChartSeries predicted{"predicted", {}}, measured{"measured", {}};
+  ChartSeries predicted{"predicted", {}}, with_memory{"predicted, with memory", {}}, measured{"measured", {}};
   for (std::size_t k = 0; k < p.speed.size(); ++k) {
     const records::ThreadsProfile& t = p.speed[k];
     const std::string source = "/solution/threads/" + std::to_string(k);
     table.rows.push_back(
         {count_cell(t.threads, source + "/threads"), seconds_cell(t.predicted, source + "/predicted"),
+         seconds_cell(t.predicted_with_memory, source + "/predicted_with_memory"),
          seconds_cell(t.measured, source + "/measured"), number_cell(one.predicted / t.predicted, 3),
          number_cell(one.measured / t.measured, 3), seconds_cell(t.predicted_step, source + "/predicted_step"),
          seconds_cell(t.measured_step, source + "/measured_step"),
          number_cell(one.predicted_step / t.predicted_step, 3), number_cell(one.measured_step / t.measured_step, 3)});
     if (t.predicted > 0.0) predicted.points.push_back({static_cast<double>(t.threads), one.predicted / t.predicted});
+    if (!std::isnan(t.predicted_with_memory) && t.predicted_with_memory > 0.0)
+      with_memory.points.push_back({static_cast<double>(t.threads), one.predicted / t.predicted_with_memory});
     if (!std::isnan(t.measured) && t.measured > 0.0)
       measured.points.push_back({static_cast<double>(t.threads), one.measured / t.measured});
   }
-  chart.series = {predicted, measured};
+  chart.series = {predicted, with_memory, measured};
   chart.slopes = {{1.0, 1.0, 1.0, "ideal"}};
   page.section("Threads", "threads");
-  page.paragraph("One factorization and solution takes " + seconds_text(p.total) +
-                 " summed over all visits; the longest chain of visits that wait for each other takes " +
-                 seconds_text(p.critical_path) + ", so no number of threads gains more than " +
-                 io::rounded_text(p.critical_path > 0.0 ? p.total / p.critical_path : 1.0, 3) +
-                 ". Predictions schedule the visits as timed on one thread, as the tasks that the program makes; "
-                 "handing over between "
-                 "threads and sharing of memory cost nothing there. Measured up to the " +
-                 std::to_string(p.machine_threads) + " threads of this machine.");
+  page.paragraph(
+      "One factorization and solution takes " + seconds_text(p.total) +
+      " summed over all visits; the longest chain of visits that wait for each other takes " +
+      seconds_text(p.critical_path) + ", so no number of threads gains more than " +
+      io::rounded_text(p.critical_path > 0.0 ? p.total / p.critical_path : 1.0, 3) +
+      ". Predictions schedule the visits as timed on one thread, as the tasks that the program makes; "
+      "handing over between threads costs nothing there, and a front that several threads can share counts as "
+      "work of one. With memory: each walk takes at least as long as reading its factors and element "
+      "matrices. Measured up to the " +
+      std::to_string(p.machine_threads) + " threads of this machine.");
   page.table(table);
   page.charts({chart});
+  add_walks(page, p);
 }
 
 void add_alternatives(Document& page, const Profile& p) {

@@ -9,6 +9,7 @@
 #include "profile_parts.hpp"
 #include "profile_run.hpp"
 #include "profile_schedule.hpp"
+#include "read_rate.hpp"
 
 namespace bough::study {
 
@@ -204,6 +205,15 @@ double measured_solution(const WatchedRun& run, std::size_t num_visits) {
   return sum;
 }
 
+/// Bytes of factors and element matrices that one walk reads or writes. Symmetric factors have one triangle, which both
+/// substitutions read.
+double walk_bytes(Work w, const records::Profile& p, bool is_symmetric) {
+  const auto factors = static_cast<double>(p.factor_bytes), elements = static_cast<double>(p.element_bytes);
+  if (w == Work::factor) return factors + elements;
+  if (w == Work::residual) return elements;
+  return is_symmetric ? factors : 0.5 * factors;
+}
+
 /// Predicts the times for other numbers of threads from visits that ran on one thread.
 void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun& alone, records::Profile& out) {
   constexpr double grain = schedule::Threads::usual_grain_flops;
@@ -214,15 +224,27 @@ void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun
   const records::StepProfile step = mean_step(alone, found.shapes.visits.size());
   const double per_step[] = {step.factorizations, step.forward > 0.0 ? step.solutions : 0.0, step.solutions,
                              step.residual > 0.0 ? step.solutions : 0.0};
+  const std::vector<double> rates =
+      measure_read_rates(static_cast<std::size_t>(out.factor_bytes + out.element_bytes), threads, out.machine_threads);
+  for (std::size_t k = 0; k < threads.size(); ++k) {
+    rows[k].read_rate = rates[k];
+    rows[k].predicted_with_memory = 0.0;
+  }
+  static constexpr const char* names[] = {"factor", "forward", "backward", "residual"};
   for (std::size_t w = 0; w < std::size(walks); ++w) {
-    const std::vector<double>& own = m.seconds[of(walks[w])];
-    out.critical_path += critical_path(found.shapes.walk, own);
     const auto direction = walks[w] == Work::backward ? Direction::down : Direction::up;
-    const std::vector<double> durations = eval_walks(found.shapes.walk, own, direction, threads, grain);
+    records::WalkProfile walk =
+        simulate_walk(found.shapes.walk, m.seconds[of(walks[w])], direction, threads, grain,
+                      walk_bytes(walks[w], out, found.options.symmetry != solve::Symmetry::general), rates);
+    if (walk.total == 0.0) continue;  // solutions are not checked
+    walk.work = names[w];
+    out.critical_path += walk.critical_path;
     for (std::size_t k = 0; k < threads.size(); ++k) {
-      rows[k].predicted += durations[k];
-      rows[k].predicted_step += per_step[w] * durations[k];
+      rows[k].predicted += walk.seconds[k];
+      rows[k].predicted_with_memory += std::max(walk.seconds[k], walk.memory_seconds[k]);
+      rows[k].predicted_step += per_step[w] * walk.seconds[k];
     }
+    out.walks.push_back(std::move(walk));
   }
   const auto chunks =
       static_cast<double>(std::max<std::size_t>(alone.times.chunks[of(Work::evaluate)].chunk.size(), 1));

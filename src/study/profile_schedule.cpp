@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -102,6 +103,18 @@ std::vector<double> eval_walks(const tree::Tree& walk, const std::vector<double>
     durations.push_back(least);
   }
   return durations;
+}
+
+records::WalkProfile simulate_walk(const tree::Tree& walk, const std::vector<double>& seconds, Direction direction,
+                                   const std::vector<int>& threads, double grain_flops, double bytes,
+                                   const std::vector<double>& read_rates) {
+  records::WalkProfile p;
+  p.total = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  p.critical_path = critical_path(walk, seconds);
+  p.bytes = bytes;
+  p.seconds = eval_walks(walk, seconds, direction, threads, grain_flops);
+  for (double rate : read_rates) p.memory_seconds.push_back(bytes / rate);
+  return p;
 }
 
 }  // namespace bough::study

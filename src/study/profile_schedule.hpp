@@ -2,6 +2,7 @@
 /// Predicts the duration of a walk on any number of threads from the durations of its visits. Internal to study.
 #include <vector>
 
+#include "bough/records/profile.hpp"
 #include "bough/tree/tree.hpp"
 
 namespace bough::study {
@@ -20,5 +21,11 @@ double eval_walk(const tree::Tree& walk, const std::vector<double>& seconds, Dir
 /// eval_walk for each of `threads` (ascending). More threads never take longer, since the additional ones may idle.
 std::vector<double> eval_walks(const tree::Tree& walk, const std::vector<double>& seconds, Direction direction,
                                const std::vector<int>& threads, double grain_flops);
+
+/// A walk on each of `threads` (ascending): its schedule, and the time that its bytes take at the rate at which so many
+/// threads read [bytes/s]. No walk is shorter than either.
+records::WalkProfile simulate_walk(const tree::Tree& walk, const std::vector<double>& seconds, Direction direction,
+                                   const std::vector<int>& threads, double grain_flops, double bytes,
+                                   const std::vector<double>& read_rates);
 
 }  // namespace bough::study

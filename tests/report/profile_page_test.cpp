@@ -43,7 +43,8 @@ Profile make_profile() {
   p.thread_busy = {1.0, 0.5};
   p.total = 12e-6;
   p.critical_path = 9e-6;
-  p.speed = {{1, 12e-6, 1e-3, 13e-6, 1.1e-3}, {2, 9e-6, 8e-4}};
+  p.speed = {{1, 12e-6, 1e-3, 13e-6, 1.1e-3, 4e9, 13e-6}, {2, 9e-6, 8e-4}};
+  p.walks = {{"factor", 6e-6, 5e-6, 1e4, {6e-6, 5e-6}, {7e-6, 3e-6}}};
   p.parts = {{records::ProfilePart::Kind::beam, 0, {{0, 0, 0}, {1, 0, 0}}},
              {records::ProfilePart::Kind::body, 1, {{2, 0, 0}}},
              {records::ProfilePart::Kind::joint, 1, {{1, 0, 0}, {2, 0, 0}}}};

@@ -12,6 +12,7 @@
 #include "../../src/study/profile_parts.hpp"
 #include "../../src/study/profile_run.hpp"
 #include "../../src/study/profile_schedule.hpp"
+#include "../../src/study/read_rate.hpp"
 #include "../step/small_scenes.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/profile_json.hpp"
@@ -86,6 +87,59 @@ TEST(ProfileSchedule, lies_between_the_bounds_of_any_schedule_and_never_grows) {
       // Everything below the grain: one task.
       EXPECT_NEAR(study::eval_walk(walk, seconds, direction, 64, 1e30), total, 1e-12 * total);
     }
+  }
+}
+
+/// A root of 2 s over a leaf of 4 s and a sub-domain of 1 s, which has two leaves of 3 s and 2 s.
+tree::Tree make_tree_by_hand() {
+  tree::Tree t;
+  const auto add = [&](int parent, std::vector<int> children, int subtree_begin) {
+    tree::Subdomain s;
+    s.parent = parent;
+    s.subtree_begin = subtree_begin;
+    s.child_begin = static_cast<std::int32_t>(t.subdomain_children.size());
+    t.subdomain_children.insert(t.subdomain_children.end(), children.begin(), children.end());
+    s.child_end = static_cast<std::int32_t>(t.subdomain_children.size());
+    s.subtree_flops = 1.0 + static_cast<double>(t.subdomains.size()) - subtree_begin;
+    t.subdomains.push_back(s);
+  };
+  add(4, {}, 0);
+  add(3, {}, 1);
+  add(3, {}, 2);
+  add(4, {1, 2}, 1);
+  add(tree::none, {0, 3}, 0);
+  return t;
+}
+
+TEST(ProfileSchedule, of_a_tree_made_by_hand_takes_as_long_as_counted_on_paper) {
+  const tree::Tree walk = make_tree_by_hand();
+  const std::vector<double> seconds{4.0, 3.0, 2.0, 1.0, 2.0};
+  EXPECT_DOUBLE_EQ(study::critical_path(walk, seconds), 6.0);
+  const std::vector<int> threads{1, 2, 3, 8};
+  // Up, two threads: the leaves of 4 s and 3 s, then that of 2 s until 5 s, its parent until 6 s, the root until 8 s.
+  // Down, two threads: the root, then 4 s beside 1 s and 3 s until 6 s, then 2 s.
+  for (Direction direction : {Direction::up, Direction::down})
+    EXPECT_EQ(study::eval_walks(walk, seconds, direction, threads, 0.0), (std::vector<double>{12.0, 8.0, 6.0, 6.0}));
+  // The sub-domain of three (3 flop) as one task of 6 s.
+  EXPECT_EQ(study::eval_walks(walk, seconds, Direction::up, threads, 4.0), (std::vector<double>{12.0, 8.0, 8.0, 8.0}));
+
+  const records::WalkProfile p =
+      study::simulate_walk(walk, seconds, Direction::up, threads, 0.0, 70.0, {10.0, 14.0, 14.0, 14.0});
+  EXPECT_DOUBLE_EQ(p.total, 12.0);
+  EXPECT_DOUBLE_EQ(p.critical_path, 6.0);
+  EXPECT_EQ(p.seconds, (std::vector<double>{12.0, 8.0, 6.0, 6.0}));
+  EXPECT_EQ(p.memory_seconds, (std::vector<double>{7.0, 5.0, 5.0, 5.0}));
+}
+
+TEST(ReadRate, never_falls_with_threads_and_is_kept_beyond_those_of_the_machine) {
+  for (std::size_t bytes : {std::size_t{0}, std::size_t{1} << 20}) {
+    const std::vector<double> rates = study::measure_read_rates(bytes, {1, 2, 4, 8}, 2);
+    ASSERT_EQ(rates.size(), 4u);
+    EXPECT_GT(rates[0], 1e7);   // any machine reads ten megabytes in a second,
+    EXPECT_LT(rates[1], 1e13);  // and none ten terabytes: the rounds are not optimised away
+    EXPECT_GE(rates[1], rates[0]);
+    EXPECT_EQ(rates[2], rates[1]);
+    EXPECT_EQ(rates[3], rates[1]);
   }
 }
 
@@ -172,6 +226,15 @@ TEST(Profile, sums_of_the_tree_agree) {
       EXPECT_LE(p.speed[k].predicted_step, p.speed[k - 1].predicted_step);
       EXPECT_GE(p.speed[k].predicted, p.critical_path * (1.0 - 1e-12));
     }
+    double of_walks = 0.0;
+    for (const records::WalkProfile& w : p.walks) {
+      of_walks += w.total;
+      EXPECT_GT(w.bytes, 0.0) << w.work;
+      EXPECT_EQ(w.seconds.size(), p.speed.size());
+    }
+    EXPECT_GE(p.walks.size(), 3u);
+    EXPECT_NEAR(of_walks, p.total, 1e-12 * p.total);
+    for (const records::ThreadsProfile& t : p.speed) EXPECT_GE(t.predicted_with_memory, t.predicted * (1.0 - 1e-12));
     EXPECT_GT(p.speed.front().measured, 0.0);
     EXPECT_GT(p.load_balance, 0.0);
     EXPECT_LE(p.load_balance, 1.0 + 1e-12);

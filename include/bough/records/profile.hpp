@@ -67,6 +67,21 @@ struct ThreadsProfile {
   double predicted_step = 0.0;                                 ///< [s]
   double measured = std::numeric_limits<double>::quiet_NaN();  ///< median [s]; NaN: more threads than the machine has
   double measured_step = std::numeric_limits<double>::quiet_NaN();
+  /// Rate at which so many threads together read an array as large as all factors and element matrices [bytes/s]; for
+  /// more threads than the machine has, that of all it has.
+  double read_rate = std::numeric_limits<double>::quiet_NaN();
+  /// Factorization and solution [s], each walk by its schedule or by its bytes at read_rate, whichever takes longer.
+  double predicted_with_memory = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// One kind of walk, simulated for the numbers of threads of Profile::speed.
+struct WalkProfile {
+  const char* work = "";        ///< "factor", "forward", "backward" or "residual"
+  double total = 0.0;           ///< sum over all visits [s]
+  double critical_path = 0.0;   ///< longest chain of visits that wait for each other [s]
+  double bytes = 0.0;           ///< of factors and element matrices that it reads or writes; vectors are left out
+  std::vector<double> seconds;  ///< schedule of its visits, by number of threads [s]
+  std::vector<double> memory_seconds;  ///< bytes at the rate of so many threads [s]
 };
 
 /// Another tree for the same scene, with the time that the cost model predicts.
@@ -134,6 +149,7 @@ struct Profile {
   double total = 0.0;          ///< one factorization and solution: sum over all visits [s]
   double critical_path = 0.0;  ///< longest chain of visits that depend on each other [s]
   std::vector<ThreadsProfile> speed;
+  std::vector<WalkProfile> walks;
   std::vector<double> thread_busy;  ///< seconds of the whole run spent in visits and chunks, by thread
   double load_balance = 1.0;        ///< mean busy time of the threads over the largest
   double efficiency = 1.0;          ///< busy time over (number of threads x wall time of walks and chunks)
