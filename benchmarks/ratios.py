@@ -1,45 +1,46 @@
 #!/usr/bin/env python3
-"""ratios.py FOLDER   reads those of FOLDER/solve.json, step.json, scaling.json, second_thread.json, motion.json and
-start.json that exist, and prints for every case
+"""ratios.py FOLDER   reads those of FOLDER/solve.json, matrices.json, step.json, scaling.json, second_thread.json,
+motion.json and start.json that exist, and prints tables. All figures are medians over the repetitions.
 
-    case | bough ms | best peer ms (which) | ratio | bar | 2-thread speed-up | CPU ratio
-
-bough ms: the better of one and two threads. Ratio: best rival over bough; the rivals are those that the bar names.
-Steps: bough's step over KLU's refactorization and solution of the same chain (smaller is better). A figure that
-misses its bar is marked with '<' (or '>' for steps). All are medians over the repetitions, in wall time. CPU ratio:
-the same ratio in CPU time, with bough on one thread; it is more reliable if the machine was busy. Memory: all memory
-of bough's solver, with and without the element matrices, over 8 bytes for each nonzero of L and U in the best
-ordering of a peer that reports them (KLU, MUMPS), for unsymmetric cases. Second thread: its gain over one thread on
-chains, and the bound of that gain apart from caches, 2 x the time of one thread alone over that of two at the same
-time, each with its own work; for arithmetic and reading alone from benchmarks/bench_machine.json. Motions: CPU
-nanoseconds of one motion, and Eigen's time over bough's. Exit status 0 whatever the figures are, 2 if no file can be
-read.
+solve, matrices: one factorization and one solution in wall milliseconds, on one thread and on two, each in its own
+table: bough, the fastest of all peers that took part, its name, and the ratio of their times; CPU ratio: the same in
+CPU time, which is more reliable if the machine was busy. On two threads every solver has the better of its times with
+one and two. A third table has what the ratio leaves out: analysis, solution alone and memory (by each solver's own
+account), with the best of the peers in each, and the backward errors. Memory over 8 bytes for each nonzero of L and U:
+that of bough's solver, with and without the element matrices, by the least count of a peer (scenes, unsymmetric).
+step: bough over KLU's refactorization and solution of the same chain, in six unknowns a node and in the unknowns of the
+plan (planar). second_thread: its gain, and the bound of that gain apart from caches, 2 x the time of one thread alone
+over that of two at the same time, each with its own work; for arithmetic and reading alone from
+benchmarks/bench_machine.json. motion: CPU nanoseconds of one motion, and Eigen's time over bough's. A figure that misses
+its bar is marked with '<' or '>'. Exit status 0 whatever the figures are, 2 if no file can be read.
 """
 import json
 import os
 import re
 import sys
 
-LATTICE_RIVALS = ("cholmod", "umfpack", "mumps", "superlu")
 STEP_BARS = {"chain_128": 0.27, "chain_512": 0.26, "chain_2048": 0.32}
 SPEED_UP_BAR = 1.7
 MEMORY_BAR = 2.5  # all that the solver holds over 8 bytes for each nonzero of L and U in the best ordering seen
 VERSION_BAR, RUN_BAR = 4.0, 5.0  # milliseconds of `bough --version`, and of a run of ten unknowns beyond that
 
 
-def rule(case):
-    """(bar, rivals) of a case such as chain_128_u."""
-    family, size, values = re.fullmatch(r"(\w+?)_(\d+)_([us])", case).groups()
+def bar_of(case):
+    """Least required ratio of a case such as chain_128_u; None: none is required."""
+    match = re.fullmatch(r"(chain|star|lat2|lat3)_(\d+)_([us])", case)
+    if not match:
+        return None
+    family, size, values = match.groups()
     if family in ("chain", "star"):
         if values == "s":
-            return 5.0, ("eigen_ldlt",)
-        if family == "star":
-            return 8.0, ("klu",)
-        return {"32": 5.0, "8192": 6.0}.get(size, 8.0), ("klu",)
-    return (1.5 if family == "lat2" else 1.2), LATTICE_RIVALS
+            return 5.0
+        return 8.0 if family == "star" else {"32": 5.0, "8192": 6.0}.get(size, 8.0)
+    return 1.5 if family == "lat2" else 1.2
 
 
 def wants_speed_up(case):
+    if bar_of(case) is None and case not in STEP_BARS:
+        return False
     family, size = case.split("_")[:2]
     return (family == "chain" and int(size) >= 128) or (family.startswith("lat") and int(size) >= 50)
 
@@ -89,17 +90,68 @@ def number(value, digits=3):
     return "-" if value is None else f"{value:.{digits}f}"
 
 
-def solve_rows(table):
+def read_entries(path):
+    """{case: {(solver, threads): row of Google Benchmark}} of the medians, or of the failures of bough."""
+    with open(path, encoding="utf-8") as file:
+        data = json.load(file)
+    table = {}
+    for row in data["benchmarks"]:
+        match = re.match(r"(\w+)/([^/]+)/threads:(\d+)", row["run_name"])
+        if match and (row.get("aggregate_name") == "median" or row.get("error_occurred")):
+            table.setdefault(match[2], {})[match[1], int(match[3])] = row
+    return table
+
+
+def best_of(rows, key, most_threads):
+    """(figure, solver) that is least among rows of the solvers that have it on at most so many threads."""
+    found = [(row[key], solver) for (solver, threads), row in rows
+             if threads <= most_threads and row.get(key, 0.0) > 0.0 and not row.get("error_occurred")]
+    return min(found) if found else (None, "-")
+
+
+def solve_rows(entries, threads):
     rows = []
-    for case, times in table.items():
-        bar, rivals = rule(case)
-        own, best = least(times, ("bough",))[1], least(times, rivals)
-        own_cpu, best_cpu = least(times, ("bough",), 1)[1], least(times, rivals, 1)[1]
-        ratio = best[1] / own if own and best[1] else None
-        cpu_ratio = best_cpu / own_cpu if own_cpu and best_cpu else None
-        which = "-" if best[0] is None else f"{best[1]:.3f} ({best[0][0]}" + (", 2 threads)" if best[0][1] == 2 else ")")
-        rows.append((case, number(own), which, number(ratio, 2) + (" <" if ratio and ratio < bar else ""), f"{bar:g}",
-                     speed_up_text(times, case), number(cpu_ratio, 2)))
+    for case, found in entries.items():
+        own = [item for item in found.items() if item[0][0] == "bough"]
+        peers = [item for item in found.items() if item[0][0] != "bough"]
+        bar = bar_of(case)
+        row, ratios = [case], []
+        for key in ("real_time", "cpu_time"):
+            (mine, _), (best, who) = best_of(own, key, threads), best_of(peers, key, threads)
+            ratios.append(best / mine if best and mine else None)
+            if key == "real_time":
+                row += [number(mine) if mine else error_of(own), number(best), who]
+        ratio = number(ratios[0], 2) + (" <" if ratios[0] and bar and ratios[0] < bar else "")
+        row += [ratio, f"{bar:g}" if bar else "-"]
+        if threads == 1:
+            row.append(number(ratios[1], 2))
+        else:
+            times = {key: (r["real_time"], r["cpu_time"]) for key, r in own if not r.get("error_occurred")}
+            row.append(speed_up_text(times, case))
+        rows.append(tuple(row))
+    return rows
+
+
+def error_of(own):
+    return next((row.get("error_message", "failed") for _, row in own if row.get("error_occurred")), "-")
+
+
+def other_rows(entries):
+    """Analysis, solution alone, memory and backward error on one thread, each beside the best of the peers."""
+    rows = []
+    for case, found in entries.items():
+        own = [item for item in found.items() if item[0][0] == "bough"]
+        peers = [item for item in found.items() if item[0][0] != "bough"]
+        row = [case]
+        for key, scale, digits in (("analysis_ms", 1.0, 2), ("solve_ms", 1.0, 4), ("memory_bytes", 1e-6, 2)):
+            (mine, _), (best, who) = best_of(own, key, 1), best_of(peers, key, 1)
+            row += [number(mine * scale if mine else None, digits),
+                    number(best * scale if best else None, digits) + ("" if best is None else f" {who}")]
+        for group in (own, peers):
+            worst = [r["backward_error"] for (_, threads), r in group if threads == 1 and "backward_error" in r]
+            row.append(f"{max(worst):.1e}" if worst else "-")
+        label = next((r.get("label", "") for _, r in own), "")
+        rows.append((*row, label.partition(", ")[2] or "-"))
     return rows
 
 
@@ -111,6 +163,8 @@ def memory_rows(path):
     for row in data["benchmarks"]:
         case = row["run_name"].split("/")[1]
         if row.get("aggregate_name") == "median" and case.endswith("_u"):
+            if not row["run_name"].startswith("bough"):
+                row = {"factor_entries": row.get("factor_entries", float("inf"))}
             memory, matrix, entries = found.get(case, (0.0, 0.0, float("inf")))
             found[case] = (row.get("memory_bytes", memory), row.get("matrix_bytes", matrix),
                            min(entries, row.get("factor_entries", entries)))
@@ -131,8 +185,10 @@ def step_rows(table):
         own_cpu, klu_cpu = (least(times, (solver,), 1)[1] for solver in ("bough", "klu"))
         bar = STEP_BARS.get(case)
         ratio = own / klu if own and klu else None
+        planar = least(times, ("klu_planar",))[1]
         rows.append((case, number(own), number(same), number(klu),
                      number(ratio) + (" >" if ratio and bar and ratio > bar else ""), f"{bar:g}" if bar else "-",
+                     number(planar), number(own / planar if own and planar else None),
                      speed_up_text(times, case), number(own_cpu / klu_cpu if own_cpu and klu_cpu else None)))
     return rows
 
@@ -217,7 +273,7 @@ def main():
         print(__doc__, file=sys.stderr)
         return 2
     found = False
-    paths = {name: os.path.join(sys.argv[1], name + ".json") for name in ("solve", "step", "scaling", "second_thread", "motion", "start")}
+    paths = {name: os.path.join(sys.argv[1], name + ".json") for name in ("solve", "matrices", "step", "scaling", "second_thread", "motion", "start")}
     for name, path in paths.items():
         if not os.path.exists(path):
             continue
@@ -226,13 +282,20 @@ def main():
             context = json.load(file)["context"]
         load = context.get("load_avg", [0.0])[0]
         print(f"{path}: {context.get('commit', 'unknown')}, load at the start {load:.1f} on {context['num_cpus']} processors")
-        if name == "solve":
-            print_table(("case", "bough ms", "best peer ms (which)", "ratio", "bar", "2-thread speed-up", "CPU ratio"),
-                        solve_rows(read_medians(path)))
-            print_table(("memory", "bough MB", "million nonzeros of L+U", "MB / 8 bytes of each", "without the matrix"), memory_rows(path))
+        if name in ("solve", "matrices"):
+            entries = read_entries(path)
+            print_table(("one thread", "bough ms", "fastest peer ms", "which", "ratio", "bar", "CPU ratio"),
+                        solve_rows(entries, 1))
+            print_table(("two threads", "bough ms", "fastest peer ms", "which", "ratio", "bar", "gain by the second"),
+                        solve_rows(entries, 2))
+            print_table(("case", "analysis ms", "peer", "solution ms", "peer", "MB", "peer", "backward error",
+                         "worst of peers", "bough found"), other_rows(entries))
+            if name == "solve":
+                print_table(("memory", "bough MB", "million nonzeros of L+U", "MB / 8 bytes of each",
+                             "without the matrix"), memory_rows(path))
         elif name == "step":
-            print_table(("step of", "bough ms", "bough_klu ms", "klu solve ms", "ratio", "bar", "2-thread speed-up",
-                         "CPU ratio"), step_rows(read_medians(path)))
+            print_table(("step of", "bough ms", "bough_klu ms", "klu solve ms", "ratio", "bar", "planar klu ms", "ratio",
+                         "2-thread speed-up", "CPU ratio"), step_rows(read_medians(path)))
             print_table(("1 thread, CPU ms a step", "evaluate", "factor", "solve", "update", "output", "iterations",
                          "factorizations"), split_rows(path))
         elif name == "second_thread":

@@ -1,6 +1,6 @@
 #!/bin/sh
 # run.sh BUILD_FOLDER   runs all benchmarks, then prints the tables of ratios: micro (JSON beside the programs), and
-# solve, step, lean, second_thread (the gain by a second thread), motion and start (each to BUILD_FOLDER/NAME.json).
+# solve, matrices, step, lean, second_thread (the gain by a second thread), motion and start (each to BUILD_FOLDER/NAME.json).
 set -eu
 build=$1
 folder=$build/benchmarks
@@ -15,6 +15,9 @@ for name in solve step lean; do
   sed -i 's|/real_time||g' "$build/$name.json"   # the rows are SOLVER/CASE/threads:N
 done
 if [ -x "$folder/bench_solve" ]; then
+  "$folder/bench_solve" --matrix "$here/../data/reference/matrices" --benchmark_display_aggregates_only=true \
+    --benchmark_out="$build/matrices.json" --benchmark_out_format=json
+  sed -i 's|/real_time||g' "$build/matrices.json"
   "$folder/bench_solve" --side_by_side=yes --benchmark_repetitions=9 --benchmark_display_aggregates_only=true \
     --benchmark_out="$build/second_thread.json" --benchmark_out_format=json
 fi

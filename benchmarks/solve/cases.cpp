@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "../support/cpu_time.hpp"
+#include "../support/matrix_file.hpp"
 #include "../support/scenes.hpp"
 #include "bough_session.hpp"
 #include "trial.hpp"
@@ -19,42 +21,80 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-void add_bough(Field& field, bool lockstep, const std::vector<int>& thread_counts, std::vector<LeftOut>& left_out) {
-  if (thread_counts.empty()) return;
-  const std::string name = lockstep ? "bough_lockstep" : "bough";
-  const auto storage = std::make_shared<BoughStorage>(*field.problem, lockstep);
-  for (int threads : thread_counts) {
-    Entrant e{name, "tree", threads, std::make_unique<BoughSession>(*field.problem, storage, threads)};
+void add_bough(Field& field) {
+  const Problem& p = *field.problem;
+  std::shared_ptr<BoughStorage> storage;
+  const double analysis = p.blocks_seconds + eval_analysis([&] { storage = std::make_shared<BoughStorage>(p); });
+  for (int threads : {1, 2}) {
+    Entrant e{.solver = "bough",
+              .ordering = "tree",
+              .threads = threads,
+              .session = std::make_shared<BoughSession>(p, storage, threads),
+              .backward_error = 0.0,
+              .analysis = analysis,
+              .first = 0.0,
+              .failure = ""};
+    const double start = cpu_now();
     std::vector<double> x;
-    const bool ok = e.session->analyze() && e.session->factor() && e.session->refactor_and_solve(x);
-    e.backward_error = ok ? eval_backward_error(field.problem->matrix, x, field.problem->rhs) : 0.0;
-    if (ok && e.backward_error <= largest_backward_error)
-      field.entrants.push_back(std::move(e));
-    else
-      left_out.push_back({name, field.bench_case->name,
-                          ok ? describe_error(e.backward_error, "tree") : "fails to factor or to solve"});
+    bool ok = e.session->analyze() && e.session->factor();
+    e.first = cpu_now() - start;
+    const std::string findings = e.session->findings();
+    if (!findings.empty()) e.ordering += ", " + findings;
+    ok = ok && e.session->refactor_and_solve(x);
+    if (ok) e.backward_error = eval_backward_error(p.matrix, x, p.rhs);
+    if (!ok)
+      e.failure = findings.empty() ? "fails to factor or to solve" : findings;
+    else if (!(e.backward_error <= largest_backward_error))
+      e.failure = describe_error(e.backward_error, e.ordering);
+    field.entrants.push_back(std::move(e));
   }
 }
 
 }  // namespace
 
 std::string Case::family_key() const {
+  if (family == Family::file) return name;
   static const char* const names[] = {"chain", "star", "lat2", "lat3"};
   return std::string(names[static_cast<int>(family)]) + (values == Values::symmetric ? "_s" : "_u");
 }
 
-scene::Scene Case::make_scene() const {
+Problem Case::make_problem() const {
   switch (family) {
     case Family::chain:
-      return make_chain(size);
+      return bench::make_problem(name, make_chain(size), values);
     case Family::star:
-      return make_star(size, size);
+      return bench::make_problem(name, make_star(size, size), values);
     case Family::lattice_2d:
-      return make_lattice_2d(size, Support::spring);
+      return bench::make_problem(name, make_lattice_2d(size, Support::spring), values);
     case Family::lattice_3d:
+      return bench::make_problem(name, make_lattice_3d(size), values);
+    case Family::file:
       break;
   }
-  return make_lattice_3d(size);
+  return bench::make_problem(file);
+}
+
+std::vector<Case> make_cases(const std::vector<std::string>& paths) {
+  std::vector<Case> cases;
+  for (const std::string& path : paths) {
+    std::vector<std::filesystem::path> files;
+    if (std::filesystem::is_directory(path)) {
+      for (const auto& entry : std::filesystem::directory_iterator(path))
+        if (entry.path().extension() == ".mtx") files.push_back(entry.path());
+      std::sort(files.begin(), files.end());
+    } else {
+      files.emplace_back(path);
+    }
+    for (const std::filesystem::path& file : files)
+      cases.push_back({.name = file.stem().string(),
+                       .family = Family::file,
+                       .size = 0,
+                       .values = Values::unsymmetric,
+                       .bar = 0.0,
+                       .rivals = {},
+                       .file = file});
+  }
+  return cases;
 }
 
 std::vector<Case> make_cases() {
@@ -65,13 +105,13 @@ std::vector<Case> make_cases() {
     const std::vector<std::string> rival{is_u ? "klu" : "eigen_ldlt"};
     for (int n : {32, 128, 512, 2048, 8192}) {
       const double bar = !is_u || n == 32 ? 5.0 : n == 8192 ? 6.0 : 8.0;
-      cases.push_back({"chain_" + std::to_string(n) + end, Family::chain, n, values, bar, rival});
+      cases.push_back({"chain_" + std::to_string(n) + end, Family::chain, n, values, bar, rival, {}});
     }
-    cases.push_back({"star_64" + end, Family::star, 64, values, is_u ? 8.0 : 5.0, rival});
+    cases.push_back({"star_64" + end, Family::star, 64, values, is_u ? 8.0 : 5.0, rival, {}});
     for (int n : {20, 50, 100, 150})
-      cases.push_back({"lat2_" + std::to_string(n) + end, Family::lattice_2d, n, values, 1.5, lattice_rivals});
+      cases.push_back({"lat2_" + std::to_string(n) + end, Family::lattice_2d, n, values, 1.5, lattice_rivals, {}});
     for (int n : {8, 12, 16})
-      cases.push_back({"lat3_" + std::to_string(n) + end, Family::lattice_3d, n, values, 1.2, lattice_rivals});
+      cases.push_back({"lat3_" + std::to_string(n) + end, Family::lattice_3d, n, values, 1.2, lattice_rivals, {}});
   }
   return cases;
 }
@@ -83,11 +123,11 @@ Memory::Item& Memory::of(const std::string& key) {
   return items.back();
 }
 
-Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const OwnRows& own, Memory& memory,
+Field make_field(const Case& bench_case, const std::vector<Peer>& peers, bool has_bough, Memory& memory,
                  std::vector<LeftOut>& left_out) {
   Field field;
   field.bench_case = &bench_case;
-  field.problem = std::make_unique<Problem>(make_problem(bench_case.name, bench_case.make_scene(), bench_case.values));
+  field.problem = std::make_unique<Problem>(bench_case.make_problem());
   const Problem& p = *field.problem;
   std::vector<Trial> trials;
   double best_rival = std::numeric_limits<double>::infinity();
@@ -103,8 +143,8 @@ Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const O
         left_out.push_back({peer.name, bench_case.name, kept.reason});
         continue;
       }
-      const double limit =
-          rivals_turn ? std::numeric_limits<double>::infinity() : slowest_first * best_rival / bench_case.bar;
+      const double limit = rivals_turn || bench_case.rivals.empty() ? std::numeric_limits<double>::infinity()
+                                                                    : slowest_first * best_rival / bench_case.bar;
       Trial t = try_peer(peer, p, kept.ordering, limit);
       kept.ordering = t.ordering;
       if (!t.failure.empty()) {
@@ -117,11 +157,22 @@ Field make_field(const Case& bench_case, const std::vector<Peer>& peers, const O
       trials.push_back(std::move(t));
     }
   }
-  for (Trial& t : trials)
-    field.entrants.push_back({t.peer->name, t.ordering, 1, std::move(t.session), t.backward_error});
-  add_bough(field, false, own.thread_counts, left_out);
-  if (own.lockstep && bench_case.family == Family::chain && !p.is_symmetric())
-    add_bough(field, true, own.thread_counts, left_out);
+  for (Trial& t : trials) {
+    Entrant e{.solver = t.peer->name,
+              .ordering = t.ordering,
+              .threads = 1,
+              .session = std::move(t.session),
+              .backward_error = t.backward_error,
+              .analysis = t.analysis,
+              .first = t.first,
+              .failure = ""};
+    if (t.peer->uses_blas) {
+      field.entrants.push_back(e);
+      field.entrants.back().threads = 2;
+    }
+    field.entrants.push_back(std::move(e));
+  }
+  if (has_bough) add_bough(field);
   return field;
 }
 

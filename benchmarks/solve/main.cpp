@@ -1,10 +1,14 @@
-/// bench_solve [--case=REGEX] [--solver=REGEX] [--lockstep=yes] [--side_by_side=yes] [options of Google Benchmark]
-/// Numeric refactorization plus one solution, symbolic work reused: bough and its peers on the same matrices.
-/// --lockstep=yes: unsymmetric chains with both of bough's trees. --side_by_side=yes: instead of these, the gain by a
-/// second thread on chains and lattices, and that of two threads that share no work (second_thread.hpp).
+/// bench_solve [--case=REGEX] [--solver=REGEX] [--matrix FILE.mtx|FOLDER ...] [--side_by_side=yes] [options of Google
+/// Benchmark]
+/// Numeric refactorization plus one solution, symbolic work reused: bough and its peers on the same matrices. --matrix:
+/// instead of the matrices of scenes, those of Matrix Market files (matrix_file.hpp). --side_by_side=yes: instead of
+/// these, the gain by a second thread on chains and lattices, and that of two threads that share no work
+/// (second_thread.hpp).
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <cstdio>
+#include <exception>
 #include <regex>
 #include <string>
 #include <vector>
@@ -19,16 +23,35 @@ namespace {
 using namespace bough::bench;
 
 void run_row(benchmark::State& state, const Problem& problem, Entrant& entrant) {
+  state.SetLabel(entrant.ordering);
+  if (!entrant.failure.empty()) {
+    state.SkipWithError(entrant.failure.c_str());
+    return;
+  }
+  using Clock = std::chrono::steady_clock;
   std::vector<double> x;
   bool ok = true;
+  Clock::duration in_solutions{};
+  const bool is_peer = entrant.solver != "bough";
+  if (is_peer) set_blas_threads(entrant.threads);
   entrant.session->iterate([&] {
-    for (auto _ : state)
-      if (!(ok = entrant.session->refactor_and_solve(x))) {
+    for (auto _ : state) {
+      ok = entrant.session->refactor();
+      const Clock::time_point start = Clock::now();
+      ok = ok && entrant.session->solve(x);
+      in_solutions += Clock::now() - start;
+      if (!ok) {
         state.SkipWithError("the solver failed");
         return;
       }
+    }
   });
+  if (is_peer) set_blas_threads(1);
   if (!ok) return;
+  state.counters["solve_ms"] =
+      benchmark::Counter(1e3 * std::chrono::duration<double>(in_solutions).count(), benchmark::Counter::kAvgIterations);
+  state.counters["analysis_ms"] = 1e3 * entrant.analysis;
+  state.counters["first_factor_ms"] = 1e3 * entrant.first;
   state.counters["backward_error"] = eval_backward_error(problem.matrix, x, problem.rhs);
   state.counters["unknowns"] = problem.matrix.n;
   state.counters["entries"] = problem.matrix.num_entries();
@@ -42,16 +65,13 @@ void run_row(benchmark::State& state, const Problem& problem, Entrant& entrant) 
   }
   if (const double flops = entrant.session->factor_flops(); flops > 0.0)
     state.counters["flops"] = benchmark::Counter(flops, benchmark::Counter::kIsIterationInvariantRate);
-  state.SetLabel(entrant.ordering);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
   const std::regex wanted_case(take_option(arguments, "case", ".*"));
   const std::regex wanted_solver(take_option(arguments, "solver", ".*"));
-  const bool lockstep = take_option(arguments, "lockstep", "no") == "yes";
+  const std::vector<std::string> matrices = take_options(arguments, "matrix");
   const bool side_by_side = take_option(arguments, "side_by_side", "no") == "yes";
   std::vector<std::string> defaults{"--benchmark_repetitions=5", "--benchmark_enable_random_interleaving=true",
                                     "--benchmark_min_time=0.03"};
@@ -74,17 +94,15 @@ int main(int argc, char** argv) {
       benchmark::AddCustomContext("version " + p.name, p.version);
       peers.push_back(std::move(p));
     }
-  OwnRows own;
-  if (std::regex_match("bough", wanted_solver)) own.thread_counts = {1, 2};
-  own.lockstep = lockstep;
-  const std::vector<Case> cases = make_cases();
+  const bool has_bough = std::regex_match("bough", wanted_solver);
+  const std::vector<Case> cases = matrices.empty() ? make_cases() : make_cases(matrices);
   std::vector<Field> fields;
   std::vector<LeftOut> left_out;
   Memory memory;
   for (const Case& c : cases) {
     if (!std::regex_match(c.name, wanted_case)) continue;
     std::fprintf(stderr, "preparing %s\n", c.name.c_str());
-    fields.push_back(make_field(c, peers, own, memory, left_out));
+    fields.push_back(make_field(c, peers, has_bough, memory, left_out));
   }
   for (Field& f : fields)
     for (Entrant& e : f.entrants)
@@ -96,4 +114,16 @@ int main(int argc, char** argv) {
   for (const LeftOut& l : left_out) benchmark::AddCustomContext("left out " + l.solver + "/" + l.case_name, l.reason);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "bench_solve: %s\n", e.what());
+    return 2;
+  }
 }

@@ -17,12 +17,17 @@ class Session {
   [[nodiscard]] virtual bool analyze() = 0;
   /// The first numeric factorization, pivot search included. False: failed.
   [[nodiscard]] virtual bool factor() = 0;
-  /// The operations timed: numeric factorization with a given symbolic analysis, then x = A^-1 rhs of the problem,
-  /// without iterative refinement and error estimates. False: failed.
-  [[nodiscard]] virtual bool refactor_and_solve(std::vector<double>& x) = 0;
+  /// Numeric factorization with a given symbolic analysis. False: failed.
+  [[nodiscard]] virtual bool refactor() = 0;
+  /// x = A^-1 rhs of the problem with the last factorization, without iterative refinement and error estimates. False:
+  /// failed.
+  [[nodiscard]] virtual bool solve(std::vector<double>& x) = 0;
+  [[nodiscard]] bool refactor_and_solve(std::vector<double>& x) { return refactor() && solve(x); }
+  /// What the last factorization found out about the matrix; empty: nothing to say.
+  virtual std::string findings() const { return ""; }
   /// Nonzeros of L and U, their diagonal once; 0: unknown.
   virtual double factor_entries() const { return 0.0; }
-  /// Memory of the solver [bytes]; 0: unknown.
+  /// Memory of the solver, by its own account [bytes]; 0: unknown.
   virtual double memory_bytes() const { return 0.0; }
   /// Operations of one factorization [flop]; 0: unknown.
   virtual double factor_flops() const { return 0.0; }
@@ -36,6 +41,7 @@ struct Peer {
   /// Orderings to compare, the default first; empty: the solver does not apply.
   std::function<std::vector<std::string>(const Problem&)> orderings;
   std::function<std::unique_ptr<Session>(const Problem&, const std::string& ordering)> make;
+  bool uses_blas = false;  ///< and, with it, threads
 };
 
 /// The solvers that were found when the benchmark was built.

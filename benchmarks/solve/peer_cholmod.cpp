@@ -1,5 +1,5 @@
-/// CHOLMOD: supernodal L L^T (or simplicial, by its own choice) of positive definite matrices; simplicial L D L^T if
-/// there are multipliers, in an order without zero pivots.
+/// CHOLMOD: supernodal L L^T (or simplicial, by its own choice) of positive definite matrices; simplicial L D L^T of
+/// indefinite ones, in an order without zero pivots.
 #include <cholmod.h>
 
 #include "peer.hpp"
@@ -14,7 +14,7 @@ class CholmodSession final : public Session {
     cholmod_start(&common_);
     common_.print = 0;
     common_.nmethods = 1;
-    if (p.has_multipliers) common_.supernodal = CHOLMOD_SIMPLICIAL;
+    if (!p.is_definite) common_.supernodal = CHOLMOD_SIMPLICIAL;
     common_.method[0].ordering = ordering == "amd" ? CHOLMOD_AMD : ordering == "metis" ? CHOLMOD_METIS : CHOLMOD_GIVEN;
     if (ordering.starts_with("node")) given_ = order_nodes(p, ordering);
     const auto n = static_cast<std::size_t>(lower_.n);
@@ -48,13 +48,15 @@ class CholmodSession final : public Session {
     return factor_ != nullptr;
   }
   bool factor() override { return cholmod_factorize(&matrix_, factor_, &common_) != 0 && common_.status == CHOLMOD_OK; }
-  bool refactor_and_solve(std::vector<double>& x) override {
-    if (!factor() || cholmod_solve2(CHOLMOD_A, factor_, &b_, nullptr, &x_, nullptr, &y_, &e_, &common_) == 0)
-      return false;
+  bool refactor() override { return factor(); }
+  bool solve(std::vector<double>& x) override {
+    if (cholmod_solve2(CHOLMOD_A, factor_, &b_, nullptr, &x_, nullptr, &y_, &e_, &common_) == 0) return false;
     const auto* first = static_cast<const double*>(x_->x);
     x.assign(first, first + lower_.n);
     return true;
   }
+
+  double memory_bytes() const override { return static_cast<double>(common_.memory_inuse); }
 
  private:
   SparseMatrix lower_;
@@ -75,10 +77,11 @@ Peer make_cholmod_peer() {
               std::to_string(CHOLMOD_SUBSUB_VERSION),
           [](const Problem& p) {
             if (!p.is_symmetric()) return std::vector<std::string>{};
-            if (p.has_multipliers) return std::vector<std::string>{"node amd", "node metis"};
-            return std::vector<std::string>{"amd", "metis", "node amd", "node metis"};
+            if (!p.is_definite) return std::vector<std::string>{"node amd", "node metis", "node bough"};
+            return std::vector<std::string>{"amd", "metis", "node amd", "node metis", "node bough"};
           },
-          [](const Problem& p, const std::string& ordering) { return std::make_unique<CholmodSession>(p, ordering); }};
+          [](const Problem& p, const std::string& ordering) { return std::make_unique<CholmodSession>(p, ordering); },
+          true};
 }
 
 }  // namespace bough::bench

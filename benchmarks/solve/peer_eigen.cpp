@@ -55,9 +55,13 @@ class EigenSession final : public Session {
     solver_.factorize(matrix_);
     return solver_.info() == Eigen::Success;
   }
-  bool refactor_and_solve(std::vector<double>& x) override {
-    solver_.factorize(matrix_);
-    return solver_.info() == Eigen::Success && permuted_.solve(solver_, x);
+  bool refactor() override { return factor(); }
+  bool solve(std::vector<double>& x) override { return permuted_.solve(solver_, x); }
+  double factor_entries() const override {
+    if constexpr (requires { solver_.nnzL(); })
+      return static_cast<double>(solver_.nnzL() + solver_.nnzU()) - static_cast<double>(matrix_.rows());
+    else
+      return static_cast<double>(solver_.matrixL().nestedExpression().nonZeros() + matrix_.rows());
   }
 
  private:
@@ -76,7 +80,7 @@ std::string version() {
 Peer make_eigen_lu_peer() {
   return {"eigen_lu", version(),
           [](const Problem&) {
-            return std::vector<std::string>{"colamd", "node amd", "node metis"};
+            return std::vector<std::string>{"colamd", "node amd", "node metis", "node bough"};
           },
           [](const Problem& p, const std::string& ordering) -> std::unique_ptr<Session> {
             if (ordering == "colamd")
@@ -94,8 +98,8 @@ Peer make_eigen_ldlt_peer() {
       "eigen_ldlt", version(),
       [](const Problem& p) {
         if (!p.is_symmetric()) return std::vector<std::string>{};
-        if (p.has_multipliers) return std::vector<std::string>{"node amd", "node metis"};
-        return std::vector<std::string>{"amd", "node amd", "node metis"};
+        if (!p.is_definite) return std::vector<std::string>{"node amd", "node metis", "node bough"};
+        return std::vector<std::string>{"amd", "node amd", "node metis", "node bough"};
       },
       [](const Problem& p, const std::string& ordering) -> std::unique_ptr<Session> {
         if (ordering == "amd")

@@ -11,7 +11,7 @@ class KluSession final : public Session {
  public:
   KluSession(const Problem& p, const std::string& ordering) : a_(p.matrix), rhs_(p.rhs) {
     klu_defaults(&common_);
-    common_.scale = 0;  // the diagonal is near one
+    if (p.is_scaled) common_.scale = 0;
     common_.ordering = ordering == "colamd" ? 1 : 0;
     if (ordering.starts_with("node")) given_ = order_nodes(p, ordering);
   }
@@ -31,14 +31,16 @@ class KluSession final : public Session {
     numeric_ = klu_factor(begin(), row(), value(), symbolic_, &common_);
     return numeric_ != nullptr && common_.status == KLU_OK;
   }
-  bool refactor_and_solve(std::vector<double>& x) override {
-    if (klu_refactor(begin(), row(), value(), symbolic_, numeric_, &common_) == 0) return false;
+  bool refactor() override { return klu_refactor(begin(), row(), value(), symbolic_, numeric_, &common_) != 0; }
+  bool solve(std::vector<double>& x) override {
     x = rhs_;
     return klu_solve(symbolic_, numeric_, a_.n, 1, x.data(), &common_) != 0;
   }
   double factor_entries() const override {
     return static_cast<double>(numeric_->lnz) + numeric_->unz + symbolic_->nzoff - a_.n;
   }
+
+  double memory_bytes() const override { return static_cast<double>(common_.memusage); }
 
  private:
   int* begin() const { return const_cast<int*>(a_.column_begin.data()); }  // KLU takes pointers to non-const
@@ -59,7 +61,7 @@ Peer make_klu_peer() {
           std::to_string(KLU_MAIN_VERSION) + "." + std::to_string(KLU_SUB_VERSION) + "." +
               std::to_string(KLU_SUBSUB_VERSION),
           [](const Problem&) {
-            return std::vector<std::string>{"amd", "colamd", "node amd", "node metis"};
+            return std::vector<std::string>{"amd", "colamd", "node amd", "node metis", "node bough"};
           },
           [](const Problem& p, const std::string& ordering) { return std::make_unique<KluSession>(p, ordering); }};
 }

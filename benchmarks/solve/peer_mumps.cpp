@@ -1,4 +1,4 @@
-/// MUMPS, sequential: multifrontal; unsymmetric, symmetric (where there are multipliers) or positive definite.
+/// MUMPS, sequential: multifrontal; unsymmetric, symmetric (where it is indefinite) or positive definite.
 #include <dmumps_c.h>
 
 #include "peer.hpp"
@@ -16,15 +16,17 @@ class MumpsSession final : public Session {
         row_.push_back(a_.row[at(k)] + 1);
         column_.push_back(j + 1);
       }
-    id_.sym = !p.is_symmetric() ? 0 : p.has_multipliers ? 2 : 1;
+    id_.sym = !p.is_symmetric() ? 0 : p.is_definite ? 1 : 2;
     id_.par = 1;
     id_.comm_fortran = -987654;  // MPI_COMM_WORLD
     run(-1);
     for (int i : {1, 2, 3, 4}) set(i, i < 4 ? -1 : 0);  // silent
-    set(6, 0);                                          // no permutation to a large diagonal, which is near one
-    set(8, 0);                                          // no scaling
-    set(10, 0);                                         // no refinement
-    set(14, 100);                                       // room for delayed pivots [%]
+    if (p.is_scaled) {
+      set(6, 0);  // no permutation to a large diagonal
+      set(8, 0);  // no scaling
+    }
+    set(10, 0);    // no refinement
+    set(14, 100);  // room for delayed pivots [%]
     set(7, ordering == "amd" ? 0 : ordering == "scotch" ? 3 : ordering == "pord" ? 4 : 1);
     if (ordering.starts_with("node")) {
       const std::vector<int> order = order_nodes(p, ordering);
@@ -44,11 +46,13 @@ class MumpsSession final : public Session {
 
   bool analyze() override { return run(1); }
   bool factor() override { return run(2); }
-  bool refactor_and_solve(std::vector<double>& x) override {
+  bool refactor() override { return run(2); }
+  bool solve(std::vector<double>& x) override {
     x = rhs_;
     id_.rhs = x.data();
-    return run(5);
+    return run(3);
   }
+  double memory_bytes() const override { return 1e6 * id_.infog[21]; }
   /// INFOG(29), in millions where it is negative. Symmetric: of L alone.
   double factor_entries() const override {
     const double entries = id_.infog[28];
@@ -74,9 +78,10 @@ class MumpsSession final : public Session {
 Peer make_mumps_peer() {
   return {"mumps", MUMPS_VERSION,
           [](const Problem&) {
-            return std::vector<std::string>{"scotch", "amd", "pord", "node amd", "node metis"};
+            return std::vector<std::string>{"scotch", "amd", "pord", "node amd", "node metis", "node bough"};
           },
-          [](const Problem& p, const std::string& ordering) { return std::make_unique<MumpsSession>(p, ordering); }};
+          [](const Problem& p, const std::string& ordering) { return std::make_unique<MumpsSession>(p, ordering); },
+          true};
 }
 
 }  // namespace bough::bench

@@ -1,6 +1,8 @@
 /// SuperLU, sequential: supernodal, with partial pivoting that prefers the diagonal if the ordering is that of A + A^T.
 #include <slu_ddefs.h>
 
+#include <algorithm>
+
 #include "peer.hpp"
 
 namespace bough::bench {
@@ -9,10 +11,10 @@ namespace {
 
 class SuperLuSession final : public Session {
  public:
-  SuperLuSession(const Problem& p, const std::string& ordering) : a_(p.matrix), rhs_(p.rhs) {
+  SuperLuSession(const Problem& p, const std::string& ordering) : a_(p.matrix), rhs_(p.rhs), given_(p.matrix.value) {
     const std::size_t n = p.rhs.size();
     set_default_options(&options_);
-    options_.Equil = NO;
+    options_.Equil = p.is_scaled ? NO : YES;
     options_.IterRefine = NOREFINE;
     options_.ConditionNumber = NO;
     options_.PivotGrowth = NO;
@@ -54,23 +56,31 @@ class SuperLuSession final : public Session {
     is_factored_ = run(DOFACT);
     return is_factored_;
   }
-  bool refactor_and_solve(std::vector<double>& x) override {
-    if (!run(SamePattern_SameRowPerm)) return false;
+  /// An equilibrated matrix has changed: the driver equilibrates its values again.
+  bool refactor() override {
+    std::copy(given_.begin(), given_.end(), a_.value.begin());
+    return run(SamePattern_SameRowPerm);
+  }
+  bool solve(std::vector<double>& x) override {
+    b_ = rhs_;
+    if (!run(FACTORED)) return false;
     x = x_;
     return true;
   }
+  double memory_bytes() const override { return memory_.total_needed; }
 
  private:
+  /// Without columns of the right-hand side the driver factors alone.
   bool run(fact_t how) {
     options_.Fact = how;
-    b_ = rhs_;
-    char equilibrated = 'N';
+    rhs_matrix_.ncol = x_matrix_.ncol = how == FACTORED ? 1 : 0;
     double growth = 0.0, condition = 0.0, forward = 0.0, backward = 0.0;
-    mem_usage_t memory;
+    mem_usage_t memory{};
     int info = 0;
-    dgssvx(&options_, &matrix_, column_order_.data(), row_order_.data(), tree_.data(), &equilibrated, scale_.data(),
+    dgssvx(&options_, &matrix_, column_order_.data(), row_order_.data(), tree_.data(), &equilibrated_, scale_.data(),
            scale_.data() + a_.n, &lower_, &upper_, nullptr, 0, &rhs_matrix_, &x_matrix_, &growth, &condition, &forward,
            &backward, &global_, &memory, &statistics_, &info);
+    if (how != FACTORED) memory_ = memory;
     return info == 0;
   }
 
@@ -81,6 +91,9 @@ class SuperLuSession final : public Session {
   std::vector<double> scale_, b_, x_;
   SuperMatrix matrix_{}, rhs_matrix_{}, x_matrix_{}, lower_{}, upper_{};
   GlobalLU_t global_{};
+  mem_usage_t memory_{};
+  char equilibrated_ = 'N';
+  std::vector<double> given_;  ///< values of the matrix
   SuperLUStat_t statistics_{};
   bool is_factored_ = false;
 };
@@ -92,9 +105,10 @@ Peer make_superlu_peer() {
           std::to_string(SUPERLU_MAJOR_VERSION) + "." + std::to_string(SUPERLU_MINOR_VERSION) + "." +
               std::to_string(SUPERLU_PATCH_VERSION),
           [](const Problem&) {
-            return std::vector<std::string>{"mmd", "colamd", "node amd", "node metis"};
+            return std::vector<std::string>{"mmd", "colamd", "node amd", "node metis", "node bough"};
           },
-          [](const Problem& p, const std::string& ordering) { return std::make_unique<SuperLuSession>(p, ordering); }};
+          [](const Problem& p, const std::string& ordering) { return std::make_unique<SuperLuSession>(p, ordering); },
+          true};
 }
 
 }  // namespace bough::bench

@@ -30,7 +30,7 @@ bool is_one_of_the_rows(const Case& c) {
 /// Empty if a solver fails.
 std::unique_ptr<SecondThreadCase> make_case(const Case& c) {
   auto out = std::make_unique<SecondThreadCase>();
-  out->problem = std::make_unique<Problem>(make_problem(c.name, c.make_scene(), c.values));
+  out->problem = std::make_unique<Problem>(c.make_problem());
   const Problem& p = *out->problem;
   const auto first = std::make_shared<BoughStorage>(p);
   out->alone[0] = std::make_unique<BoughSession>(p, first, 1);
@@ -39,7 +39,7 @@ std::unique_ptr<SecondThreadCase> make_case(const Case& c) {
   for (Session* s : {out->alone[0].get(), out->alone[1].get(), out->together.get()})
     if (!is_sound(p, *s)) return nullptr;
   std::vector<double> x;
-  const auto once = [&](int) { out->alone[0]->refactor_and_solve(x); };
+  const auto once = [&](int) { static_cast<void>(out->alone[0]->refactor_and_solve(x)); };
   out->rounds = std::max(1L, std::lround(0.03 / eval_rounds(1, 1, once)));
   return out;
 }

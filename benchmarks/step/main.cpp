@@ -160,18 +160,41 @@ struct KluRow {
   std::string ordering;
 };
 
-/// KLU's refactorization and solution of the unsymmetric matrix of a chain, as in bench_solve.
-std::unique_ptr<KluRow> add_klu_row(const StepCase& c) {
+/// The matrix of the second step in the unknowns of the plan, which for a chain in a plane are three a node.
+Problem make_planar_problem(const StepCase& c) {
+  const scene::Scene s = make_scene(c, scene::SolverKind::hierarchical, 2);
+  Problem problem;
+  NoRecorder recorder;
+  run::SimulateOptions options;
+  options.after_run = [&](step::System& system, const step::State&) {
+    const blocks::BlockGraph& graph = system.plan().graph;
+    std::vector<std::vector<double>> elements(static_cast<std::size_t>(graph.num_elements()));
+    for (int e = 0; e < graph.num_elements(); ++e) {
+      std::int64_t n = 0;
+      for (auto k = graph.element_begin[static_cast<std::size_t>(e)];
+           k < graph.element_begin[static_cast<std::size_t>(e) + 1]; ++k)
+        n += graph.block_size[static_cast<std::size_t>(graph.element_blocks[static_cast<std::size_t>(k)])];
+      const solve::ConstElementView a = system.linear().solver().hierarchical()->element(e);
+      for (std::int64_t k = 0; k < n * n; ++k) elements[static_cast<std::size_t>(e)].push_back(a[k]);
+    }
+    problem = make_problem(c.name + "_planar", graph, std::move(elements), Values::unsymmetric);
+  };
+  static_cast<void>(run::simulate(s, options, recorder, {}));
+  return problem;
+}
+
+/// KLU's refactorization and solution of a matrix.
+std::unique_ptr<KluRow> add_klu_row(const std::string& solver, const StepCase& c, Problem problem) {
   auto row = std::make_unique<KluRow>();
-  row->problem = make_problem(c.name + "_u", c.make(c.size), Values::unsymmetric);
+  row->problem = std::move(problem);
   Trial t = try_peer(make_klu_peer(), row->problem, "");
   if (!t.failure.empty()) {
-    benchmark::AddCustomContext("left out klu/" + c.name, t.failure);
+    benchmark::AddCustomContext("left out " + solver + "/" + c.name, t.failure);
     return row;
   }
   row->session = std::move(t.session);
   row->ordering = t.ordering;
-  benchmark::RegisterBenchmark(("klu/" + c.name + "/threads:1").c_str(),
+  benchmark::RegisterBenchmark((solver + "/" + c.name + "/threads:1").c_str(),
                                [r = row.get()](benchmark::State& state) {
                                  std::vector<double> x;
                                  for (auto _ : state)
@@ -216,7 +239,11 @@ int main(int argc, char** argv) {
 #ifdef BOUGH_BENCH_HAS_KLU
     if (!c.has_klu_rows) continue;
     if (std::regex_match("bough_klu", wanted_solver)) add_step_row("bough_klu", c, scene::SolverKind::monolithic, 1);
-    if (c.name.starts_with("chain") && std::regex_match("klu", wanted_solver)) klu_rows.push_back(add_klu_row(c));
+    if (!c.name.starts_with("chain")) continue;
+    if (std::regex_match("klu", wanted_solver))
+      klu_rows.push_back(add_klu_row("klu", c, make_problem(c.name + "_u", c.make(c.size), Values::unsymmetric)));
+    if (std::regex_match("klu_planar", wanted_solver))
+      klu_rows.push_back(add_klu_row("klu_planar", c, make_planar_problem(c)));
 #endif
   }
   benchmark::RunSpecifiedBenchmarks();

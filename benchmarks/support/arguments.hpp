@@ -17,4 +17,22 @@ inline std::string take_option(std::vector<char*>& arguments, const std::string&
   return value;
 }
 
+/// Removes all "--NAME=VALUE" and "--NAME VALUE" and returns the values.
+inline std::vector<std::string> take_options(std::vector<char*>& arguments, const std::string& name) {
+  std::vector<std::string> values;
+  const std::string flag = "--" + name;
+  for (std::size_t k = 1; k < arguments.size();) {
+    const std::string here = arguments[k];
+    const bool has_value = here.starts_with(flag + "=");
+    if (!has_value && (here != flag || k + 1 == arguments.size())) {
+      ++k;
+      continue;
+    }
+    values.push_back(has_value ? here.substr(flag.size() + 1) : arguments[k + 1]);
+    arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(k),
+                    arguments.begin() + static_cast<std::ptrdiff_t>(k) + (has_value ? 1 : 2));
+  }
+  return values;
+}
+
 }  // namespace bough::bench

@@ -37,8 +37,12 @@ std::string describe_blas() {
   return text;
 }
 
+void set_blas_threads(int threads) {
+  if (auto* set_threads = find<void(int)>("openblas_set_num_threads")) set_threads(threads);
+}
+
 void add_context() {
-  if (auto* set_threads = find<void(int)>("openblas_set_num_threads")) set_threads(1);
+  set_blas_threads(1);
   benchmark::AddCustomContext("commit", std::string(commit));
   benchmark::AddCustomContext("compiler", std::string(compiler));
   benchmark::AddCustomContext("flags", std::string(compiler_flags));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "bough/tree/tree.hpp"
 #include "problem.hpp"
 
 #ifdef BOUGH_BENCH_HAS_AMD
@@ -38,11 +39,17 @@ NodeGraph make_node_graph(const blocks::BlockGraph& g) {
   };
   for (int e = 0; e < g.num_elements(); ++e) {
     const auto [first, last] = blocks_of(e);
-    for (auto b = first; b != last; ++b)
-      if (out.group_of[at(*b)] < 0) {
-        out.group_of[at(*b)] = out.group_of[at(*first)];
-        out.members[at(out.group_of[at(*first)])].push_back(*b);
+    const auto host = std::find_if(first, last, [&](int b) { return out.group_of[at(b)] >= 0; });
+    for (auto b = first; b != last; ++b) {
+      if (out.group_of[at(*b)] >= 0) continue;
+      if (host == last) {  // multipliers alone, in a matrix that is not of a scene
+        out.group_of[at(*b)] = static_cast<int>(out.members.size());
+        out.members.emplace_back();
+      } else {
+        out.group_of[at(*b)] = out.group_of[at(*host)];
       }
+      out.members[at(out.group_of[at(*b)])].push_back(*b);
+    }
   }
   std::vector<std::vector<int>> near(out.members.size());
   for (int e = 0; e < g.num_elements(); ++e) {
@@ -89,12 +96,34 @@ std::vector<int> order_groups([[maybe_unused]] NodeGraph& g, const std::string& 
 
 }  // namespace
 
-std::vector<int> order_nodes(const Problem& problem, const std::string& method) {
+namespace {
+
+std::vector<int> order_blocks(const Problem& problem, const std::string& method) {
+  std::vector<int> blocks;
+  if (method == "node bough") {
+    const tree::Tree tree = tree::make_tree(problem.graph);
+    for (const tree::Front& f : tree.fronts) {
+      const auto first = tree.front_blocks.begin() + f.block_begin;
+      blocks.insert(blocks.end(), first, first + f.num_eliminated_blocks);
+    }
+    return blocks;
+  }
   NodeGraph g = make_node_graph(problem.graph);
-  std::vector<int> order;
   for (int group : order_groups(g, method))
-    for (int b : g.members[at(group)])
-      for (int u = problem.unknown_begin[at(b)]; u < problem.unknown_begin[at(b) + 1]; ++u) order.push_back(u);
+    blocks.insert(blocks.end(), g.members[at(group)].begin(), g.members[at(group)].end());
+  return blocks;
+}
+
+}  // namespace
+
+std::vector<int> order_nodes(const Problem& problem, const std::string& method) {
+  std::vector<int> unknown_at(problem.rhs.size());  // of the matrix, by its place in the graph
+  for (std::size_t i = 0; i < unknown_at.size(); ++i)
+    unknown_at[problem.place.empty() ? i : at(problem.place[i])] = static_cast<int>(i);
+  std::vector<int> order;
+  for (int b : order_blocks(problem, method))
+    for (int u = problem.unknown_begin[at(b)]; u < problem.unknown_begin[at(b) + 1]; ++u)
+      order.push_back(unknown_at[at(u)]);
   return order;
 }
 

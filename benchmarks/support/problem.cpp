@@ -58,22 +58,23 @@ elements::Field make_field(const plan::Plan& plan, const step::State& state, std
   return f;
 }
 
-void eval_elements(const plan::Plan& plan, const step::State& state, Problem& p) {
+std::vector<std::vector<double>> eval_elements(const plan::Plan& plan, const step::State& state) {
+  std::vector<std::vector<double>> matrices(plan.directory.size());
   std::vector<double> laws, residual(64);
   const elements::Field field = make_field(plan, state, laws);
   std::vector<const plan::JointPlan*> joint_of(plan.directory.size(), nullptr);
   for (const plan::JointPlan& j : plan.joints) joint_of[at(j.element)] = &j;
-  p.elements.resize(plan.directory.size());
   for (std::size_t e = 0; e < plan.directory.size(); ++e) {
     const double* multipliers =
         joint_of[e] != nullptr ? state.multipliers.data() + joint_of[e]->multiplier_begin : nullptr;
     plan::with_element(plan.elements, plan.directory[e], [&](const auto& element) {
       const std::size_t n = at(elements::num_unknowns(element));
-      p.elements[e].assign(n * n, 0.0);
+      matrices[e].assign(n * n, 0.0);
       residual.resize(std::max(residual.size(), n));
-      elements::evaluate(element, field, multipliers, 0.0, residual.data(), p.elements[e].data());
+      elements::evaluate(element, field, multipliers, 0.0, residual.data(), matrices[e].data());
     });
   }
+  return matrices;
 }
 
 void symmetrise(Problem& p) {
@@ -154,17 +155,24 @@ Problem make_problem(const std::string& name, const scene::Scene& given, Values 
   scene.without = scene::decision_names();  // the matrix with six unknowns per node, as in other programs
   const plan::Plan plan = plan::make_plan(scene);
   Random random;
+  return make_problem(name, plan.graph, eval_elements(plan, make_lively_state(plan, random)), values);
+}
+
+Problem make_problem(const std::string& name, const blocks::BlockGraph& graph,
+                     std::vector<std::vector<double>> elements, Values values) {
   Problem p;
   p.name = name;
   p.values = values;
-  p.graph = plan.graph;
-  p.has_multipliers = plan.num_multipliers > 0;
+  p.graph = graph;
+  p.is_definite = p.is_symmetric() &&
+                  std::count(graph.block_kind.begin(), graph.block_kind.end(), blocks::BlockKind::multiplier) == 0;
   p.unknown_begin.assign(1, 0);
   for (int size : p.graph.block_size) p.unknown_begin.push_back(p.unknown_begin.back() + size);
-  eval_elements(plan, make_lively_state(plan, random), p);
+  p.elements = std::move(elements);
   if (p.is_symmetric()) symmetrise(p);
   equilibrate(p);
   assemble(p);
+  Random random;
   for (int i = 0; i < p.matrix.n; ++i) p.rhs.push_back(random());
   return p;
 }

@@ -24,11 +24,14 @@ enum class Values { unsymmetric, symmetric };
 struct Problem {
   std::string name;
   Values values = Values::unsymmetric;
-  bool has_multipliers = false;
+  bool is_definite = false;  ///< symmetric and positive definite
+  bool is_scaled = true;     ///< the diagonal is near one, so that no solver needs scaling
   blocks::BlockGraph graph;
   std::vector<std::vector<double>> elements;  ///< row-major, by element
   std::vector<int> unknown_begin;             ///< by block
-  SparseMatrix matrix;  ///< all entries without exact zeros (an entry and its mirror are omitted together)
+  std::vector<int> place;       ///< where the graph has an unknown of the matrix; empty: in the same place
+  double blocks_seconds = 0.0;  ///< CPU time for finding blocks and elements from the pattern of the matrix [s]
+  SparseMatrix matrix;          ///< all entries without exact zeros (an entry and its mirror are omitted together)
   std::vector<double> rhs;
   bool is_symmetric() const { return values == Values::symmetric; }
 };
@@ -40,6 +43,11 @@ struct Problem {
 /// entry of the row) near one, so that no solver needs scaling. The right-hand side is random in [-1, 1].
 Problem make_problem(const std::string& name, const scene::Scene& scene, Values values);
 
+/// The problem of element matrices over a graph, row-major by element: scaled and assembled as above, right-hand side
+/// random.
+Problem make_problem(const std::string& name, const blocks::BlockGraph& graph,
+                     std::vector<std::vector<double>> elements, Values values);
+
 /// Normwise backward error max_i |b - A x|_i / (|A|_inf |x|_inf + |b|_inf); NaN if x is not finite.
 double eval_backward_error(const SparseMatrix& a, const std::vector<double>& x, const std::vector<double>& b);
 
@@ -48,9 +56,9 @@ SparseMatrix lower_triangle(const SparseMatrix& a);
 /// P A P^T: row i of the result is row order[i] of a.
 SparseMatrix permute(const SparseMatrix& a, const std::vector<int>& order);
 
-/// Elimination orders found on the graph of nodes, a joint's multipliers merged into the first node it constrains and
-/// eliminated right after it, so that no pivot is zero. "node amd" or "node metis" (empty if METIS was not found).
-/// order[i]: i-th unknown to eliminate.
+/// Elimination orders found on the graph of blocks. "node amd" or "node metis" (empty if METIS was not found): a joint's
+/// multipliers are merged into the first node it constrains and eliminated right after it, so that no pivot is zero.
+/// "node bough": the order of bough's tree. order[i]: i-th unknown of the matrix to eliminate.
 std::vector<int> order_nodes(const Problem& problem, const std::string& method);
 
 }  // namespace bough::bench
