@@ -136,7 +136,7 @@ TEST(ReadRate, never_falls_with_threads_and_is_kept_beyond_those_of_the_machine)
     const std::vector<double> rates = study::measure_read_rates(bytes, {1, 2, 4, 8}, 2);
     ASSERT_EQ(rates.size(), 4u);
     EXPECT_GT(rates[0], 1e7);   // any machine reads ten megabytes in a second,
-    EXPECT_LT(rates[1], 1e13);  // and none ten terabytes: the rounds are not optimised away
+    EXPECT_LT(rates[1], 4e12);  // and no two processors four terabytes: the rounds are not optimised away
     EXPECT_GE(rates[1], rates[0]);
     EXPECT_EQ(rates[2], rates[1]);
     EXPECT_EQ(rates[3], rates[1]);
