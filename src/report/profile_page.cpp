@@ -97,17 +97,16 @@ void add_costliest(Document& page, const Profile& p) {
 /// The walks, each by its schedule and by its bytes.
 void add_walks(Document& page, const Profile& p) {
   if (p.walks.empty()) return;
-  Table table{{"walk", "limit", "critical path", "bytes"}, {}};
+  Table table{{"walk", "critical path", "bytes"}, {}};
   for (const records::ThreadsProfile& t : p.speed)
     table.head.push_back(std::to_string(t.threads) + (t.threads == 1 ? " thread" : " threads"));
   for (std::size_t w = 0; w < p.walks.size(); ++w) {
     const records::WalkProfile& walk = p.walks[w];
     const std::string source = "/solution/walks/" + std::to_string(w);
-    std::vector<Cell> schedule{{walk.work},
-                               {"schedule of visits"},
+    std::vector<Cell> schedule{{std::string(walk.work) + ", schedule of its visits"},
                                seconds_cell(walk.critical_path, source + "/critical_path"),
                                {bytes_text(walk.bytes), Tone::plain, true, source + "/bytes"}};
-    std::vector<Cell> memory{{""}, {"reading its bytes"}, {""}, {""}};
+    std::vector<Cell> memory{{std::string(walk.work) + ", reading its bytes"}, {""}, {""}};
     for (std::size_t k = 0; k < walk.seconds.size(); ++k) {
       schedule.push_back(seconds_cell(walk.seconds[k], source + "/seconds/" + std::to_string(k)));
       memory.push_back(seconds_cell(walk.memory_seconds[k], source + "/memory_seconds/" + std::to_string(k)));
