@@ -53,6 +53,8 @@ Hierarchical::Hierarchical(const blocks::BlockGraph& graph, const tree::Tree& tr
   state_ = std::make_unique<State>(graph, tree, options, false);
 }
 
+Hierarchical::Hierarchical(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
 Hierarchical::~Hierarchical() = default;
 Hierarchical::Hierarchical(Hierarchical&&) noexcept = default;
 Hierarchical& Hierarchical::operator=(Hierarchical&&) noexcept = default;
@@ -70,10 +72,9 @@ void Hierarchical::multiply(const tree::Walker& walker, const double* x, double*
   state_->elements.multiply(walker, x, y);
 }
 
-FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, const double* rhs) {
+FactorStatus Hierarchical::factor(const tree::Walker& walker) {
   State& s = *state_;
   s.status = {};
-  s.visit_rhs = rhs;
   if (s.scales_wanted) {
     s.elements.eval_scales(s.scales, s.residual);
     s.next_measurement = 0;
@@ -86,22 +87,16 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   }
   s.scales_wanted = false;
   s.factor_walker = walker;
-  auto visit = [&s, &prepare](int group) { s.factor_group(group, prepare); };
+  auto visit = [&s](int group) { s.factor_group(group); };
   s.mark = walker.mark;
   walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
   if (s.is_symmetric()) {
     s.check_visits_symmetric();
-    if (!s.is_symmetric()) {
-      prepare = {};  // the element matrices are present
-      walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
-    }
+    if (!s.is_symmetric()) walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
   }
   s.null_space.dimension = 0;
-  s.null_space.took_vectors = false;
-  while (!s.find_local_null_vectors()) {  // at most three times, see there
-    prepare = {};
+  while (!s.find_local_null_vectors())  // at most three times, see there
     walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
-  }
   ++s.counters.factorizations;
   for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
   for (std::size_t g = 0; g < s.left_registers.size(); ++g) {
@@ -157,16 +152,6 @@ void Hierarchical::State::count_front(tree::FrontId f) {
   if (d.allocated) ++counters.enlarging_allocations;
   if (d.is_indefinite) ++counters.indefinite_fronts;
   if (f + 1 < tree.num_fronts()) status.delayed_pivots += d.num_delayed();
-}
-
-SolveReport Hierarchical::finish(const tree::Walker& walker, const double* rhs, double* x) {
-  State& s = *state_;
-  s.take(rhs, x, s.checks());
-  if (s.null_space.took_vectors) return s.solve_given(walker);  // the condensed right-hand side is lost
-  s.visit_rhs = rhs;
-  s.forward_group(static_cast<int>(s.lanes.groups.size()) - 1);
-  s.back_substitute(walker);
-  return s.check_solution(walker, {});
 }
 
 SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, double* x) {

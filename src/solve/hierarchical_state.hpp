@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -71,7 +70,6 @@ constexpr double passing_force = 3e-2, insignificant_force = 1e-3;
 /// fronts.
 struct NullSpace {
   int dimension = 0;                    ///< of the root
-  bool took_vectors = false;            ///< the storage of the condensed right-hand side was used for candidates
   std::vector<double> right;            ///< dimension x unknowns, orthonormal in the weighted norm; scaled variables
   std::vector<double> left;             ///< dimension x unknowns, orthonormal
   NullVectors local_right, local_left;  ///< of fronts; scaled variables
@@ -174,9 +172,6 @@ struct Hierarchical::State {
   std::vector<double> register_vectors;  ///< of eliminated unknowns, after forward substitution
   std::vector<char> left_registers;      ///< by group: in this factorization all its fronts were factored with pivoting
   std::vector<SolutionSizes> sizes;      ///< by group
-  std::mutex reporting;                  ///< held while the twin is made
-  std::unique_ptr<Hierarchical> twin;    ///< a solver without lanes, for reports that need all Schur complements
-  std::int64_t twin_factorization = -1;  ///< number of the factorization that it has
   /// Matrices and factors do not stay in the caches between walks: they are prefetched, and written past the caches.
   bool exceeds_caches = false;
   bool reads_factors_ahead = false;   ///< factors do not stay in the nearer caches
@@ -190,7 +185,7 @@ struct Hierarchical::State {
   tree::Walker factor_walker;         ///< of the present factorization: distributes the work on large fronts
 
   // lane_walks.cpp, residual_walks.cpp: visits of groups
-  void factor_group(int group, const Prepare& prepare);
+  void factor_group(int group);
   void forward_group(int group);
   void backward_group(int group);
   void residual_group(int group);
@@ -222,9 +217,9 @@ struct Hierarchical::State {
     return lanes.groups[static_cast<std::size_t>(group)].in_registers &&
            left_registers[static_cast<std::size_t>(group)] == 0;
   }
-  bool factor_registers(int group, const double* b);
+  bool factor_registers(int group);
   void gather_register_rhs(const RegisterFront& f, const double* b, double* t) const;
-  void export_schur(const RegisterFront& f, const double* schur, bool with_vector);
+  void export_schur(const RegisterFront& f, const double* schur);
   void forward_registers(int group);
   void backward_registers(int group);
   void backward_left_registers(int group, std::vector<double>& left) const;

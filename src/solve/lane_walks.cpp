@@ -12,18 +12,15 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 }  // namespace
 
-void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
+void Hierarchical::State::factor_group(int index) {
   const LaneGroup& group = lanes.groups[at(index)];
-  if (prepare.run != nullptr && group.element_begin < group.element_end)
-    prepare.run(prepare.context, index, group.element_begin, group.element_end);
-  mark(tree::Stage::evaluate);
   asymmetries[at(index)] = {};
   if (group.in_lanes) return with_scratch(index, [&] { factor_lanes(index); });
   for (int b = group.element_begin; compares_triangles() && b < group.element_end; ++b)
     check_element_symmetric(index, lanes.batches[at(b)].element[0]);
   const bool is_root = group.subdomains.front() == tree.root();
   if (group.in_registers) {
-    const bool stands = factor_registers(index, is_root ? nullptr : visit_rhs);
+    const bool stands = factor_registers(index);
     left_registers[at(index)] = stands ? 0 : 1;
     const RegisterGroup& own = registers.groups[at(index)];
     for (int k = own.front_begin; stands && k < own.front_end; ++k) {  // what earlier factorizations may have found
@@ -35,9 +32,6 @@ void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
     if (stands) return;
   }
   factor_subdomain(group.subdomains.front());
-  if (visit_rhs == nullptr || is_root) return;
-  forward_group(index);
-  mark(tree::Stage::forward);
 }
 
 /// If factors do not fit into any cache, a front is eliminated in separate memory and then written past the caches
@@ -79,13 +73,6 @@ void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
     }
   }
   transfers.fetch(lane_scales.row(index), f.size() + f.eliminated);
-  if (visit_rhs == nullptr) return;
-  transfers.fetch(lane_vectors.data() + f.unknown, f.eliminated);
-  const int* unknown = lanes.unknowns.data() + f.unknown;
-  transfers.fetch(reinterpret_cast<const double*>(unknown + f.eliminated * wide),
-                  f.eliminated / 2 + 1);  // of the front after it
-  for (int l = 0; l < wide; ++l)
-    if (unknown[l] >= 0) __builtin_prefetch(visit_rhs + unknown[l]);
 }
 
 /// The same for the substitutions of a solution: the parts of a front's factor in the order in which they are read, its
@@ -162,7 +149,7 @@ void Hierarchical::State::backward_group(int index) {
   }
 }
 
-/// Factors a front, and condenses the right-hand side of the walk if there is one. factor: memory of the factor.
+/// Factors a front. factor: memory of the factor.
 /// transfers: done meanwhile, together with the prefetches for the next front.
 void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers& transfers) {
   const LaneFront& f = lanes.fronts[at(index)];
@@ -241,9 +228,6 @@ void Hierarchical::State::leave_lanes(int index, const double* factor, LaneSet a
     leaving = static_cast<LaneSet>(d.dependent > 0 ? leaving | lane : leaving & ~lane);
   }
   mark(tree::Stage::eliminate);
-  if (visit_rhs == nullptr) return;
-  forward_lane_front(index, factor);
-  mark(tree::Stage::forward);
 }
 
 /// Adds the results of an upward walk in the boundaries of the children.

@@ -53,7 +53,6 @@ bool Hierarchical::State::find_local_null_vectors() {
     if (!add_local_vectors(f, NullSide::right)) leave_to_root(f);
   if (holds && !s.local_right.factor())  // vectors of nested fronts that nearly agree
     for (const tree::FrontId f : s.dependent_fronts) leave_to_root(f);
-  s.took_vectors = true;  // right-hand sides are made consistent before they are condensed
   return holds;
 }
 

@@ -67,7 +67,6 @@ void Hierarchical::State::eval_null_candidates() {
   const FrontData& root = fronts.back();
   const int k = root.num_delayed();
   const std::size_t n = at(tree.num_unknowns());
-  null_space.took_vectors = true;
   null_space.right.assign(at(k) * n, 0.0);
   null_space.left.assign(at(k) * n, 0.0);
   correction.resize(n);

@@ -19,7 +19,7 @@ constexpr int largest_step = (largest_in_registers / row_register + 1) * row_reg
 }  // namespace
 
 /// False: a pivot was rejected. The whole leaf is then factored with pivoting, from its element matrices.
-bool Hierarchical::State::factor_registers(int group, const double* b) {
+bool Hierarchical::State::factor_registers(int group) {
   const RegisterGroup& own = registers.groups[at(group)];
   const RegisterKind kind = is_definite()    ? RegisterKind::definite
                             : is_symmetric() ? RegisterKind::symmetric
@@ -45,19 +45,11 @@ bool Hierarchical::State::factor_registers(int group, const double* b) {
                     : place + registers.fronts[at(registers.children[at(f.child_begin + move.child)].front)].schur,
                 rows);
     }
-    double* vector = nullptr;
-    if (b != nullptr) {
-      for (int r = f.own_begin; r < f.own_end; ++r) {
-        const UnknownRun& run = registers.unknown_runs[at(r)];
-        add_right_hand_side(run.length, b + run.unknown, step, rows + run.row * step);
-      }
-      vector = register_vectors.data() + f.vector;
-    }
     mark(tree::Stage::assemble);
     double* const factor = register_factors.data() + f.factor;
     double* const written = exceeds_caches ? aside[k % 2] : factor;
     const bool stands = eliminate_in_registers(f.size(), f.eliminated, kind, register_scales.of(f, k),
-                                               options.pivot_threshold, {rows, written, vector, place + f.schur});
+                                               options.pivot_threshold, {rows, written, place + f.schur});
     if (exceeds_caches) {
       transfers.finish();
       transfers.write(written, lines_of(f.factor_size(is_symmetric())), factor);
@@ -65,15 +57,14 @@ bool Hierarchical::State::factor_registers(int group, const double* b) {
     }
     mark(tree::Stage::eliminate);
     if (!stands) return false;
-    if (f.is_exported) export_schur(f, place + f.schur, b != nullptr);
+    if (f.is_exported) export_schur(f, place + f.schur);
   }
   transfers.finish();
   if (exceeds_caches) Transfers::end_writes();
   return true;
 }
 
-/// A front's right-hand side: the condensed parts of the children, then its own, in the same order as in a visit that
-/// factors.
+/// A front's right-hand side: the condensed parts of the children, then its own.
 void Hierarchical::State::gather_register_rhs(const RegisterFront& f, const double* b, double* t) const {
   std::fill_n(t, f.size(), 0.0);
   for (int c = f.child_begin; c < f.child_end; ++c) {
@@ -92,7 +83,7 @@ void Hierarchical::State::gather_register_rhs(const RegisterFront& f, const doub
 }
 
 /// To a parent on the scalar path, scaled.
-void Hierarchical::State::export_schur(const RegisterFront& f, const double* schur, bool with_vector) {
+void Hierarchical::State::export_schur(const RegisterFront& f, const double* schur) {
   FrontData& d = data(f.front);
   d.size = f.size();
   d.full = d.pivots = f.eliminated;
@@ -115,7 +106,6 @@ void Hierarchical::State::export_schur(const RegisterFront& f, const double* sch
         d.s[static_cast<std::int64_t>(k) * d.lds + i] = scale * from[k] * scales.column[column];
       });
     }
-    if (with_vector) d.vector[d.full + i] = scale * from[step - 1];
   });
 }
 

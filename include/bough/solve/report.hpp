@@ -119,18 +119,4 @@ struct SolverCounters {
   std::int64_t indefinite_fronts = 0;
 };
 
-/// Called at the start of a visit, before the elements are assembled, so that one task evaluates and eliminates them.
-/// begin, end: positions in Hierarchical::batches(). May run concurrently for different visits.
-struct Prepare {
-  void (*run)(void* context, int visit, int begin, int end) = nullptr;
-  void* context = nullptr;
-};
-
-/// A Prepare that calls `body(visit, begin, end)`; body must outlive the factorization.
-template <class Body>
-Prepare make_prepare(Body& body) {
-  return {[](void* context, int visit, int begin, int end) { (*static_cast<Body*>(context))(visit, begin, end); },
-          &body};
-}
-
 }  // namespace bough::solve

@@ -34,11 +34,6 @@ struct TreeOptions {
   bool in_lockstep =
       true;  ///< whether equal leaves are visited eight at a time; leaf sizes that are not given are then chosen to
              ///< allow it.
-  /// Set where every factorization serves a single solution and the matrix is unsymmetric. If sizes are not given, a
-  /// chain is then cut once, and both halves are swept from their free ends. This takes a third of the flops and less
-  /// than two thirds of the memory of leaves in lockstep, but occupies at most two threads. Other structures are cut as
-  /// usual. With several solutions per factorization, or with symmetric matrices, leaves in lockstep are faster.
-  bool for_one_solution = false;
   unsigned seed = 1;  ///< seed of the general partitioner; the tree is a function of the graph and these options alone.
 };
 
