@@ -195,8 +195,7 @@ TEST(LoopRows, AJointThatIsAlignedAndNotAgainChangesTheRank) {
 }
 
 TEST(LoopRows, AStructureThatIsHeldAfterwardsIsFactoredWithoutThem) {
-  // All dependent rows get a diagonal, as soft joints have: nothing depends any more, and fronts return to their lanes
-  // and registers.
+  // All dependent rows get a diagonal, as soft joints have: nothing depends any more, and fronts return to their lanes.
   const Scene rigid = make_loops({.columns = 8});
   Scene soft = rigid;
   for (Eigen::MatrixXd& a : soft.elements)

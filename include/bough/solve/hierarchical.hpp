@@ -49,7 +49,7 @@ class Hierarchical {
   void trust_symmetry(bool mirrored);
 
   /// Assembles, factors and condenses all sub-domains. Allocates only if delayed pivots enlarge a front, if fronts
-  /// leave lanes or registers for the first time, or if rows are dependent.
+  /// leave lanes for the first time, or if rows are dependent.
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker);
 
   /// Solves with the last factorization. rhs, x: num_unknowns, in the order of the blocks; may be the same array.

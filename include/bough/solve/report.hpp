@@ -109,9 +109,6 @@ struct SolverCounters {
   std::int64_t enlarging_allocations = 0;  ///< heap allocations these needed.
   std::int64_t fronts_in_lanes = 0;        ///< fronts of the tree that are factored in lockstep.
   double flops_in_lanes = 0.0;             ///< the part of factor_flops in these fronts [flop].
-  std::int64_t fronts_in_registers = 0;    ///< fronts of leaves without equals, eliminated row by row in registers.
-  std::int64_t registers_left =
-      0;  ///< leaves of those that were factored by pivoting instead, over all factorizations.
   std::int64_t lanes_left =
       0;  ///< fronts that left their lane for scalar elimination with pivoting, over all factorizations.
   /// Declared definite: fronts with a pivot that was not positive or too small, which were factored by pivoting

@@ -20,10 +20,6 @@ using FrontId = std::int32_t;
 using SubdomainId = std::int32_t;
 constexpr std::int32_t none = -1;
 
-/// Largest number of unknowns of a front that is eliminated row by row in registers. A leaf that is not in lockstep
-/// with others is eliminated in this way if none of its fronts is larger.
-constexpr int largest_swept_front = 23;
-
 /// Options for the division of the elements into sub-domains.
 struct TreeOptions {
   int leaf_size = 0;  ///< largest number of elements of a leaf sub-domain, >= 1; 0: from a cost estimate (see
