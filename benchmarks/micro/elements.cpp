@@ -84,7 +84,7 @@ Joint make_revolute() {
 /// The same joint with a spring and a damper about its axis.
 Joint make_sprung_revolute() {
   Joint joint = make_revolute();
-  joint.efforts[0] = {Coordinate::angle, 10.0, 0.1, 1.0, -1};
+  joint.efforts[0] = {RowKind::angle, 10.0, 0.1, 1.0, -1};
   joint.num_efforts = 1;
   return joint;
 }

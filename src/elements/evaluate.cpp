@@ -53,16 +53,15 @@ void evaluate_constraint_rates(const Joint& joint, const Field& field, const lan
   eval_rows<1>(joint, field, nullptr, laws, turns, out);
 }
 
-JointMotion eval_joint_motion(const Joint& joint, const Field& field, double turns) {
+CoordinateMotion eval_joint_coordinate(const Joint& joint, RowKind coordinate, const Field& field, double turns) {
   const motion::Vec3Pair anchor = anchor_of(joint, field.nodes);
   const PortMotion<double> a = eval_port(joint.ports[0], field.nodes, anchor, field.carriers);
   const PortMotion<double> b = eval_port(joint.ports[1], field.nodes, anchor, field.carriers);
-  JointMotion m;
-  m.relative = motion::relative(a.H, b.H);
-  m.twist = b.v - motion::inverse_adjoint_times(m.relative, a.v);
-  m.angle = eval_angle(m.relative.R, turns);
-  m.angle_rate = lanes::dot(angle_gradient(m.relative.R), lanes::angular_part(m.twist));
-  return m;
+  const Frame<double> H = motion::relative(a.H, b.H);
+  motion::DualVec<double> gradient;
+  const double value = eval_coordinate<motion::Se3, double, double>(coordinate, motion::Se3::Direction<double>::axial(),
+                                                                    0.0, H, turns, gradient);
+  return {value, lanes::dot(motion::wrench_vector(gradient), b.v - motion::inverse_adjoint_times(H, a.v))};
 }
 
 BOUGH_INSTANTIATE_ELEMENT(RigidBody)

@@ -5,31 +5,9 @@
 
 namespace bough::elements {
 
-/// Derivatives of the gradient of a coordinate, its force and its moment, by the rotation.
-template <class G, class S>
-struct GradientSlope {
-  bool has_force = false, has_moment = false;
-  typename G::template TurnSlope<S> force, moment;
-};
-template <class G, class S, class C>
-GradientSlope<G, S> eval_gradient_slope(RowKind kind, const typename G::template Direction<C>& direction,
-                                        const C& pitch, const typename G::template Pose<S>& H) {
-  GradientSlope<G, S> r;
-  if (kind == RowKind::along || kind == RowKind::screw) {
-    r.has_force = true;
-    r.force = G::seen_slope(G::seen(H, kind == RowKind::along ? direction : G::template Direction<C>::axial()));
-  }
-  if (kind == RowKind::across) {
-    r.has_moment = true;
-    r.moment = G::cosine_slope(direction, G::seen(H, direction));
-  }
-  if (kind == RowKind::angle || kind == RowKind::screw) {
-    r.has_moment = true;
-    r.moment = G::axial_slope(H, direction);
-    if (kind == RowKind::screw) r.moment = S(-pitch) * r.moment;
-  }
-  return r;
-}
+using motion::eval_gradient_slope;
+using motion::GradientSlope;
+
 template <class G, class S>
 void add_gradient_slope(const S& factor, const GradientSlope<G, S>& r, RelativeForce<G, S>& e) {
   if (r.has_force) G::add_force_slope(e.by_pose, factor, r.force);
@@ -49,8 +27,7 @@ void add_effort_slopes(const EffortOn<G, C>& effort, const typename G::template 
   if (damps) rate = G::real_power(g, xi);
   GradientSlope<G, S> slope;
   if constexpr (G::turns) {  // else gradients are constant
-    const RowKind kind = effort.coordinate == Coordinate::angle ? RowKind::angle : RowKind::along;
-    slope = eval_gradient_slope<G, S, C>(kind, effort.direction, C(0.0), H);
+    slope = eval_gradient_slope<G, S, C>(effort.coordinate, effort.direction, C(0.0), H);
     add_gradient_slope<G, S>(eval_effort<G, S, C>(effort, value, damps ? &rate : nullptr, around.laws), slope, e);
   }
   G::add_outer(e.by_pose, G::scaled(effort.stiffness, g), g);

@@ -10,6 +10,7 @@
 
 #include "bough/io/json_value.hpp"
 #include "bough/io/read_scene.hpp"
+#include "bough/scene/joint_kinds.hpp"
 #include "bough/scene/poses.hpp"
 #include "bough/scene/scene.hpp"
 #include "read_values.hpp"
@@ -66,9 +67,9 @@ class Converter : private ValueConverter {
   };
   Side side(const Value& v, const std::string& at);
   scene::Attachment attachment(const Value& v, const std::string& at) { return side(v, at).to; }
-  std::optional<scene::Frame> common_frame(const Value& v, const std::string& at, scene::JointKind kind, const Side& a,
-                                           const Side& b);
-  void place_sides(const Value& v, const std::string& at, scene::JointKind kind, Side& a, Side& b);
+  std::optional<scene::Frame> common_frame(const Value& v, const std::string& at, const scene::JointType& type,
+                                           const Side& a, const Side& b);
+  void place_sides(const Value& v, const std::string& at, const scene::JointType& type, Side& a, Side& b);
   void joint(const Value& v, const std::string& at);
   void spring(const Value& v, const std::string& at);
   void bushing(const Value& v, const std::string& at);

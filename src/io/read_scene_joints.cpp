@@ -7,12 +7,11 @@
 namespace bough::io {
 
 using scene::Frame;
-using scene::JointKind;
+using scene::JointAxes;
+using scene::JointType;
 using scene::Vec3;
 
 namespace {
-
-bool needs_axis(JointKind kind) { return kind != JointKind::fixed && kind != JointKind::spherical; }
 
 double norm(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
 
@@ -48,8 +47,8 @@ Converter::Side Converter::side(const Value& v, const std::string& at) {
 
 /// The joint's frame at the start, from position and axes or from the frames on both sides. None if it is not
 /// determined. A fault was then reported, or one of the sides does not exist (which the check of references reports).
-std::optional<Frame> Converter::common_frame(const Value& v, const std::string& at, JointKind kind, const Side& a,
-                                             const Side& b) {
+std::optional<Frame> Converter::common_frame(const Value& v, const std::string& at, const JointType& type,
+                                             const Side& a, const Side& b) {
   const auto H_a = poses_->of(std::string_view(a.to.to)), H_b = poses_->of(std::string_view(b.to.to));
   const auto frame = poses_->of(scene::Placement{Frame::identity(), text_or(v, "frame")});
   if (!frame) {
@@ -70,7 +69,7 @@ std::optional<Frame> Converter::common_frame(const Value& v, const std::string& 
   } else {
     joint.x = b_leads ? at_b.x : at_a.x;
     const double gap = norm(at_a.x - at_b.x);
-    if (kind != JointKind::fixed && !a.to.to.empty() && b_leads && gap > 1e-9 * (1.0 + norm(at_a.x)))
+    if (type.rows.size() < 6 && !a.to.to.empty() && b_leads && gap > 1e-9 * (1.0 + norm(at_a.x)))
       fault(at, "needs a position: the origins of first and second are " + std::to_string(gap) + " m apart");
   }
   const Value *axis = v.find("axis"), *second_axis = v.find("second_axis");
@@ -84,15 +83,15 @@ std::optional<Frame> Converter::common_frame(const Value& v, const std::string& 
       return std::nullopt;
     }
     const Vec3 side = second_axis != nullptr ? Vec3(frame->R * vector(*second_axis)) : far_axis(main);
-    if (kind == JointKind::universal && second_axis == nullptr) {
-      fault(at, "a universal joint needs the key \"second_axis\": the axis fixed in the second");
+    if (type.axes == JointAxes::two && second_axis == nullptr) {
+      fault(at, "a " + type.name + " joint needs the key \"second_axis\": the axis fixed in the second");
       return std::nullopt;
     }
-    if (kind == JointKind::universal && std::abs(dot(main, side)) > 1e-9 * norm(main) * norm(side)) {
-      fault(at + "/second_axis", "the axes of a universal joint are perpendicular");
+    if (type.axes == JointAxes::two && std::abs(dot(main, side)) > 1e-9 * norm(main) * norm(side)) {
+      fault(at + "/second_axis", "the axes of a " + type.name + " joint are perpendicular");
       return std::nullopt;
     }
-    const auto R = scene::axes_from(kind == JointKind::universal ? 1 : 3, main, side);
+    const auto R = scene::axes_from(type.axes == JointAxes::two ? 1 : 3, main, side);
     if (!R) {
       fault(at + "/second_axis", "runs along the axis, or is 0");
       return std::nullopt;
@@ -101,8 +100,8 @@ std::optional<Frame> Converter::common_frame(const Value& v, const std::string& 
   } else if (a.has_rotation || b.has_rotation) {
     joint.R = b.has_rotation ? at_b.R : at_a.R;
   } else {
-    if (needs_axis(kind)) {
-      fault(at, "a " + scene::to_string(kind) + " joint needs the key \"axis\"",
+    if (type.axes != JointAxes::none) {
+      fault(at, "a " + type.name + " joint needs the key \"axis\"",
             "or a rotation in first or second, whose axis 3 it then is");
       return std::nullopt;
     }
@@ -111,8 +110,8 @@ std::optional<Frame> Converter::common_frame(const Value& v, const std::string& 
   return joint;
 }
 
-void Converter::place_sides(const Value& v, const std::string& at, JointKind kind, Side& a, Side& b) {
-  const auto joint = common_frame(v, at, kind, a, b);
+void Converter::place_sides(const Value& v, const std::string& at, const JointType& type, Side& a, Side& b) {
+  const auto joint = common_frame(v, at, type, a, b);
   if (!joint) return;
   for (Side* s : {&a, &b}) {
     const Frame offset = motion::relative(*poses_->of(std::string_view(s->to.to)), *joint);
@@ -125,22 +124,26 @@ void Converter::joint(const Value& v, const std::string& at) {
   scene::Joint j;
   j.name = v.find("name")->text;
   j.kind = scene::joint_kind_named(v.find("kind")->text).value();  // the schema takes no other names
+  const JointType& type = scene::type_of(j.kind);
   Side a = side(*v.find("first"), at + "/first"), b = side(*v.find("second"), at + "/second");
-  place_sides(v, at, j.kind, a, b);
+  place_sides(v, at, type, a, b);
   j.first = a.to;
   j.second = b.to;
   j.pitch = number_or(v, "pitch", 0.0);
-  const auto& known = scene::coordinates_of(j.kind);
   const auto coordinate = [&](const Value& item) {
     const std::string given = text_or(item, "coordinate");
-    return given.empty() && known.size() == 1 ? known[0] : given;
+    return given.empty() && type.coordinates.size() == 1 ? type.coordinates[0].name : given;
+  };
+  const auto turns = [&](const std::string& name) {
+    const scene::JointCoordinate* found = type.coordinate(name);
+    return found != nullptr && !found->is_length();
   };
   const Value& forces = *v.find("forces");
   for (std::size_t i = 0; i < forces.items.size(); ++i) {
     const Value& f = forces.items[i];
     j.forces.push_back({coordinate(f), f.find("stiffness")->number, f.find("rest")->number, f.find("damping")->number,
                         law(*f.find("effort"), at + "/forces/" + std::to_string(i) + "/effort")});
-    if (j.forces.back().coordinate == "angle")
+    if (turns(j.forces.back().coordinate))
       warn_of_degrees(*f.find("rest"), at + "/forces/" + std::to_string(i) + "/rest");
   }
   const Value& drives = *v.find("drives");
@@ -148,7 +151,7 @@ void Converter::joint(const Value& v, const std::string& at) {
     const Value& d = drives.items[i];
     j.drives.push_back(
         {coordinate(d), d.find("rate")->truth, law(*d.find("law"), at + "/drives/" + std::to_string(i) + "/law")});
-    if (j.drives.back().coordinate == "angle" && !j.drives.back().is_rate)
+    if (turns(j.drives.back().coordinate) && !j.drives.back().is_rate)
       warn_of_degrees(j.drives.back().law, at + "/drives/" + std::to_string(i) + "/law");
   }
   add(scene.joints, "joints", std::move(j), at);
@@ -171,7 +174,7 @@ void Converter::bushing(const Value& v, const std::string& at) {
   b.name = v.find("name")->text;
   Side first = side(*v.find("first"), at + "/first"), second = side(*v.find("second"), at + "/second");
   const auto H = poses_->of(std::string_view(first.to.to));
-  place_sides(v, at, JointKind::fixed, first, second);
+  place_sides(v, at, scene::type_of(scene::JointKind::fixed), first, second);
   if (!first.has_rotation && H) first.to.offset.R = scene::Mat3::identity();  // stiffness in the axes of the first
   b.first = first.to;
   b.second = second.to;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "bough/scene/components.hpp"
 #include "schema_parts.hpp"
 
@@ -11,10 +13,23 @@ Field name_field() {
   return need("name", name_rule("1 to 100 characters without '.', '/' and control characters; not \"ground\"."),
               "Its name.");
 }
-std::vector<std::string> joint_kind_names() {
+
+/// Names of the coordinates of all joints.
+std::vector<std::string> coordinate_names() {
   std::vector<std::string> names;
-  for (const scene::JointKind kind : scene::joint_kinds) names.push_back(scene::to_string(kind));
+  for (const scene::JointType& type : scene::joint_types())
+    for (const scene::JointCoordinate& c : type.coordinates)
+      if (std::find(names.begin(), names.end(), c.name) == names.end()) names.push_back(c.name);
   return names;
+}
+RuleRef joint_kind_rule() {
+  std::vector<std::string> names;
+  static std::string& about = *new std::string;  // rules refer to their texts
+  for (const scene::JointType& type : scene::joint_types()) {
+    names.push_back(type.name);
+    about += (about.empty() ? "" : " ") + type.name + ": " + type.about;
+  }
+  return word_rule(about.c_str(), std::move(names));
 }
 Field law_field(Literal about) { return may("law", named_rule("law"), about, "1"); }
 Field frame_field(Literal about) { return may("frame", reference, about); }
@@ -106,7 +121,7 @@ void add_parts(RuleTable& t) {
 }
 
 void add_joints(RuleTable& t) {
-  const RuleRef coordinate = word_rule("", {"angle", "displacement"});
+  const RuleRef coordinate = word_rule("", coordinate_names());
   const Literal which = "Which coordinate; may be left out where the joint has only one.";
   const RuleRef force = made(object_of(
       "A spring, damper or effort along a free coordinate of the joint.",
@@ -122,10 +137,8 @@ void add_joints(RuleTable& t) {
                           "The law is the rate; it is integrated exactly from the initial value.", "false")}));
   t.named["joint"] = made(object_of(
       "A joint between two things. Its reaction is the wrench of the first on the second, at the "
-      "second's joint frame. Axis 3 of the joint frames is the axis of revolute, prismatic, "
-      "cylindrical and screw joints and the normal of planar ones; universal: axis 1 is fixed in the "
-      "first, axis 2 in the second, both perpendicular.",
-      {name_field(), need("kind", word_rule("", joint_kind_names()), "What it leaves free."),
+      "second's joint frame. A coordinate is the motion of the second relative to the first.",
+      {name_field(), need("kind", joint_kind_rule(), "What it leaves free."),
        need("first", named_rule("attachment"),
             "What it joins. A bare name takes the place the other one, or `position`, says."),
        need("second", named_rule("attachment"), "What it joins to the first."),
@@ -133,7 +146,7 @@ void add_joints(RuleTable& t) {
            "Place of the joint at the start, in `frame` [m]. Default: from the attachments; with two "
            "bare names, the origin of the second, unless that is the ground."),
        may("axis", named_rule("vector"),
-           "Axis of the joint at the start, in `frame` (universal: the axis fixed in the first)."),
+           "Axis 3 of the joint's frames at the start, in `frame` (universal: axis 1, fixed in the first)."),
        may("second_axis", named_rule("vector"),
            "Universal: the axis fixed in the second. Others: direction from which the angle is counted "
            "(axis 1 of the joint)."),
@@ -252,7 +265,7 @@ void add_sensors(RuleTable& t) {
                            {name_field(), need("joint", reference, "The joint.")})),
        made(object_of_kind({"joint_rate"}, "Rate of a joint's coordinate [rad/s] or [m/s]; one number.",
                            {name_field(), need("joint", reference, "The joint."),
-                            may("coordinate", word_rule("", {"angle", "displacement"}),
+                            may("coordinate", word_rule("", coordinate_names()),
                                 "Whose rate. Default: the only coordinate that the joint has; cylindrical and screw "
                                 "joints have both, so there it has to be given.")})),
        made(object_of_kind({"kinetic_energy", "strain_energy", "potential_energy", "total_energy"},

@@ -142,8 +142,11 @@ void Builder::add_sensors() {
     SensorPlan p;
     p.sensor = s;
     for (const scene::Joint& j : scene.joints)
-      if (s.kind == scene::SensorKind::joint_rate && j.name == s.joint)
-        p.sensor.coordinate = scene::rate_coordinate(s, j.kind);
+      if (j.name == s.joint)
+        if (const scene::JointCoordinate* measured = scene::coordinate_of(s, scene::type_of(j.kind))) {
+          p.sensor.coordinate = measured->name;
+          p.coordinate = measured->kind;
+        }
     p.components = scene::components_of(s.kind);
     if (p.components.empty()) p.components = {""};
     p.beam = index_in(beam_of, s.beam);

@@ -6,9 +6,10 @@
 #include <string>
 #include <unordered_map>
 
+#include "bough/scene/joint_kinds.hpp"
+
 namespace bough::plan {
 
-using scene::JointKind;
 using Frame = motion::Frame<double>;
 using Mat3 = motion::Mat3<double>;
 
@@ -109,48 +110,19 @@ void SceneLinkage::add_joint(const scene::Joint& j) {
   const auto H_a = poses_.of(j.first), H_b = poses_.of(j.second);
   LinkEdge edge{part_of(j.first.to), part_of(j.second.to), j.name, {}, Vec3d::zero(), true};
   if (!H_a || !H_b || edge.first == edge.second) return;
-  const auto along = [&](int k) { edge.rows.push_back(linkage.along(axis_of(*H_a, k), H_b->x)); };
-  const auto about = [&](int k) { edge.rows.push_back(Linkage::about(axis_of(*H_a, k))); };
-  const auto along_all = [&] {
-    for (int k = 0; k < 3; ++k) along(k);
+  const scene::JointType& type = scene::type_of(j.kind);
+  const Frame H = motion::relative(*H_a, *H_b);
+  const auto hold_row = [&](const scene::JointRow& row) {
+    const auto gradient = scene::eval_row(row, j.pitch, H).gradient;
+    const Vec3d force = H_b->R * lanes::linear_part(gradient), moment = H_b->R * lanes::angular_part(gradient);
+    const double unit = motion::traits_of(row.kind).is_length ? linkage.size() : 1.0;
+    edge.rows.push_back(linkage.along(force, H_b->x) + (1.0 / unit) * Linkage::about(moment));
   };
-  const auto about_all = [&] {
-    for (int k = 0; k < 3; ++k) about(k);
+  const auto hold_coordinate = [&](const std::string& name) {
+    if (const scene::JointCoordinate* coordinate = type.coordinate(name)) hold_row({coordinate->kind});
   };
-  const auto keep_axis = [&] { about(0), about(1); };
-  edge.axis = axis_of(*H_a, 2);
-  switch (j.kind) {
-    case JointKind::fixed:
-      along_all(), about_all();
-      break;
-    case JointKind::revolute:
-      along_all(), keep_axis();
-      break;
-    case JointKind::spherical:
-      along_all();
-      edge.axis = Vec3d::zero();
-      break;
-    case JointKind::universal:
-      along_all();
-      edge.rows.push_back(Linkage::about(lanes::cross(axis_of(*H_a, 0), axis_of(*H_b, 1))));
-      edge.axis = Vec3d::zero();
-      break;
-    case JointKind::prismatic:
-      along(0), along(1), about_all();
-      break;
-    case JointKind::cylindrical:
-      along(0), along(1), keep_axis();
-      break;
-    case JointKind::screw:
-      along(0), along(1), keep_axis();
-      edge.rows.push_back(linkage.along(edge.axis, H_b->x) -
-                          j.pitch / (2.0 * 3.14159265358979323846 * linkage.size()) * Linkage::about(edge.axis));
-      break;
-    case JointKind::planar:
-      along(2), keep_axis();
-      break;
-  }
-  const auto hold_coordinate = [&](const std::string& coordinate) { coordinate == "angle" ? about(2) : along(2); };
+  if (type.has_common_axis()) edge.axis = axis_of(*H_a, 2);
+  for (const scene::JointRow& row : type.rows) hold_row(row);
   for (const scene::JointDrive& d : j.drives)
     if (choice_.drives_hold) hold_coordinate(d.coordinate);
   for (const scene::JointForce& f : j.forces)
@@ -218,7 +190,7 @@ void SceneLinkage::add_point_masses() {
   };
   for (const scene::Body& b : scene_.bodies)
     if (b.is_point_mass) uses.emplace(b.name, Use{});
-  for (const scene::Joint& j : scene_.joints) look(j, j.kind != JointKind::spherical);
+  for (const scene::Joint& j : scene_.joints) look(j, !scene::type_of(j.kind).joins_points());
   for (const scene::Spring& s : scene_.springs) look(s, false);
   for (const scene::Bushing& u : scene_.bushings) look(u, true);
   for (const scene::Beam& beam : scene_.beams)

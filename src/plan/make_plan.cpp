@@ -65,37 +65,13 @@ void Builder::add_bodies() {
 
 namespace {
 
-void add_row(elements::Joint& j, elements::RowKind kind, int i, int k = 0, int law = -1) {
+elements::ConstraintRow& add_row(elements::Joint& j, elements::RowKind kind, int i, int k = 0, int law = -1) {
   elements::ConstraintRow& row = j.rows[j.num_rows++];
   row.kind = kind;
   row.i = i;
   row.j = k;
   row.law = law;
-}
-
-/// Rows of each kind. Axis numbers from 0; axis 2 (the third) is the joint's own.
-void add_kind_rows(elements::Joint& j, const scene::Joint& given) {
-  using elements::RowKind;
-  using scene::JointKind;
-  const JointKind kind = given.kind;
-  const bool all_displacements = kind == JointKind::fixed || kind == JointKind::revolute ||
-                                 kind == JointKind::spherical || kind == JointKind::universal;
-  if (all_displacements)
-    for (int i = 0; i < 3; ++i) add_row(j, RowKind::along, i);
-  else if (kind == JointKind::planar)
-    add_row(j, RowKind::along, 2);
-  else
-    for (int i = 0; i < 2; ++i) add_row(j, RowKind::along, i);
-  if (kind == JointKind::fixed || kind == JointKind::prismatic)
-    for (int i = 0; i < 3; ++i) add_row(j, RowKind::across, i, (i + 1) % 3);
-  else if (kind == JointKind::universal)
-    add_row(j, RowKind::across, 0, 1);
-  else if (kind != JointKind::spherical)
-    for (int i = 0; i < 2; ++i) add_row(j, RowKind::across, i, 2);
-  if (kind == JointKind::screw) {
-    add_row(j, RowKind::screw, 2);
-    j.rows[j.num_rows - 1].pitch = given.pitch / (2.0 * 3.14159265358979323846);
-  }
+  return row;
 }
 
 }  // namespace
@@ -105,9 +81,8 @@ int Builder::add_joint(elements::Joint& j, const std::string& name, const std::s
   p.name = name;
   p.what = what;
   p.element = add(j, name);
-  for (int k = 0; k < j.num_rows; ++k)
-    p.counts_turns |= j.rows[k].kind == elements::RowKind::angle || j.rows[k].kind == elements::RowKind::screw;
-  for (int k = 0; k < j.num_efforts; ++k) p.counts_turns |= j.efforts[k].coordinate == elements::Coordinate::angle;
+  for (int k = 0; k < j.num_rows; ++k) p.counts_turns |= motion::traits_of(j.rows[k].kind).has_angle;
+  for (int k = 0; k < j.num_efforts; ++k) p.counts_turns |= motion::traits_of(j.efforts[k].coordinate).has_angle;
   p.multiplier_begin = plan.num_multipliers;
   for (int k = 0; k < j.num_rows; ++k) p.rows.push_back(k);
   plan.num_multipliers += j.num_rows;
@@ -126,17 +101,17 @@ void Builder::add_joints() {
     elements::Joint j;
     j.ports[0] = port_at(given.first);
     j.ports[1] = port_at(given.second);
-    add_kind_rows(j, given);
+    const scene::JointType& type = scene::type_of(given.kind);
+    for (const scene::JointRow& row : type.rows)
+      add_row(j, row.kind, row.axes.i, row.axes.j).pitch = scene::pitch_per_radian(given.pitch);
     const Frame<double> H = motion::relative(initial_pose(j.ports[0]), initial_pose(j.ports[1]));
-    const double angle = elements::eval_angle(H.R, 0.0);
     for (const scene::JointDrive& d : given.drives) {
-      const bool turns = d.coordinate == "angle";
-      const int law = add_drive(d.law, d.is_rate, turns ? angle : H.x[2], given.name);
-      add_row(j, turns ? elements::RowKind::angle : elements::RowKind::along, 2, 0, law);
+      const scene::JointRow row{type.coordinate(d.coordinate)->kind};
+      add_row(j, row.kind, 2, 0, add_drive(d.law, d.is_rate, scene::eval_row(row, 0.0, H).value, given.name));
     }
     for (const scene::JointForce& f : given.forces) {
       elements::Effort& e = j.efforts[j.num_efforts++];
-      e.coordinate = f.coordinate == "angle" ? elements::Coordinate::angle : elements::Coordinate::displacement;
+      e.coordinate = type.coordinate(f.coordinate)->kind;
       e.stiffness = f.stiffness;
       e.rest = f.rest;
       e.damping = f.damping;
@@ -144,8 +119,7 @@ void Builder::add_joints() {
     }
     const int id = add_joint(j, given.name, "joint");
     JointPlan& p = plan.joints[static_cast<std::size_t>(id)];
-    const std::vector<std::string>& free = scene::coordinates_of(given.kind);
-    p.counts_turns |= std::find(free.begin(), free.end(), "angle") != free.end();
+    for (const scene::JointCoordinate& c : type.coordinates) p.counts_turns |= motion::traits_of(c.kind).has_angle;
   }
 }
 

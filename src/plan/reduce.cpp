@@ -143,7 +143,7 @@ class InPlane final : public Motion {
       const elements::ConstraintRow& row = e.rows[k];
       const bool upright = std::abs(std::abs(a[2]) - 1.0) < small && std::abs(a[2] - b[2]) < small;
       if (row.kind == RowKind::screw) return "it is a screw";
-      if (row.kind == RowKind::angle && !upright) return "it drives a rotation out of the plane";
+      if (row.kind == RowKind::angle && !upright) return "it holds or drives a rotation out of the plane";
       if (row.kind == RowKind::along && !along(a, row.i) && !beside(a, row.i)) return oblique();
       if (row.kind == RowKind::along && along(a, row.i) && row.law >= 0) return "it drives a motion out of the plane";
       if (row.kind != RowKind::across) continue;
@@ -152,7 +152,7 @@ class InPlane final : public Motion {
       if (first && second) return "it turns an axis out of the plane";
     }
     for (int k = 0; k < e.num_efforts; ++k) {
-      const bool turns = e.efforts[k].coordinate == elements::Coordinate::angle;
+      const bool turns = e.efforts[k].coordinate == RowKind::angle;
       if (turns ? !along(a, 2) || !along(b, 2) : !beside(a, 2))
         return "a force or moment along its free motion acts out of the plane";
     }

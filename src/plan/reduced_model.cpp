@@ -125,7 +125,7 @@ class Reducer {
     }
     for (int k = 0; k < e.num_efforts; ++k) {
       const elements::Effort& from = e.efforts[k];
-      const Translation d = from.coordinate == elements::Coordinate::angle ? sign : unit(Ba, 2);
+      const Translation d = from.coordinate == RowKind::angle ? sign : unit(Ba, 2);
       r.efforts[r.num_efforts++] = {from.coordinate, from.stiffness, from.rest, from.damping, from.law, {d}};
     }
     return r;

@@ -10,6 +10,7 @@
 #include "bough/io/json_text.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/motion/quaternion.hpp"
+#include "bough/scene/joint_kinds.hpp"
 #include "packed.hpp"
 #include "round_off.hpp"
 #include "view_plots.hpp"
@@ -346,6 +347,21 @@ class MotionData {
            });
   }
 
+  /// How joints are drawn, by kind.
+  static std::string glyphs() {
+    std::string json = "{";
+    for (const scene::JointType& type : scene::joint_types())
+      json += (json.size() > 1 ? "," : "") + io::json_string(type.name) +
+              ":{\"axis\":" + (type.axes == scene::JointAxes::none ? "false" : "true") + ",\"prisms\":" +
+              list_of(type.glyph,
+                      [&](std::size_t k) {
+                        const scene::GlyphPrism& p = type.glyph[k];
+                        return numbers(std::array<double, 3>{static_cast<double>(p.sides), p.radius, p.half_length});
+                      }) +
+              "}";
+    return json + "}";
+  }
+
   std::string others(Tracks& tracks, Arrays& arrays) {
     const MotionFrame& start = *frames_.front();
     const auto still = [](const MotionFrame&) -> const double* { return nullptr; };
@@ -360,6 +376,7 @@ class MotionData {
                  ",\"first\":" + std::to_string(first) + ",\"second\":" + std::to_string(second) +
                  ",\"axes\":" + numbers(quaternion_of(l.axes)) + "}";
         });
+    text += ",\"glyphs\":" + glyphs();
     text += ",\"frames\":" + list_of(start.frames, [&](std::size_t k) {
               const records::FramePose& p = start.frames[k];
               const std::size_t track = tracks.add([&](const MotionFrame& f) { return f.frames[k].position; },

@@ -148,13 +148,10 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
           if (e.rows[k].law >= 0)
             advance_drive(*drive, system.instant().law_values()[static_cast<std::size_t>(e.rows[k].law)],
                           -multipliers[k]);
-        if (e.num_efforts > 0) {
-          const elements::JointMotion m = elements::eval_joint_motion(e, f, turns);
-          for (int k = 0; k < e.num_efforts; ++k, ++drive)
-            if (e.efforts[k].law >= 0)
-              advance_drive(*drive, e.efforts[k].coordinate == elements::Coordinate::angle ? m.angle : m.relative.x[2],
-                            system.instant().law_values()[static_cast<std::size_t>(e.efforts[k].law)]);
-        }
+        for (int k = 0; k < e.num_efforts; ++k, ++drive)
+          if (e.efforts[k].law >= 0)
+            advance_drive(*drive, elements::eval_joint_coordinate(e, e.efforts[k].coordinate, f, turns).value,
+                          system.instant().law_values()[static_cast<std::size_t>(e.efforts[k].law)]);
       } else if constexpr (E::role == elements::Role::load) {
         work += advance_load(e, f, ports_.data() + w.first_port);
       }

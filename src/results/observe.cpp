@@ -211,14 +211,9 @@ void eval_joint_sensor(const step::System& system, const step::State& state, con
       system.plan().elements, system.plan().directory[static_cast<std::size_t>(joint.element)], [&](const auto& e) {
         if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint) {
           const double turns = state.turns[static_cast<std::size_t>(s.joint)];
-          const elements::JointMotion m = elements::eval_joint_motion(e, f, turns);
-          if (s.sensor.kind == scene::SensorKind::joint_angle) {
-            values.push_back(m.angle);
-          } else if (s.sensor.kind == scene::SensorKind::joint_displacement) {
-            values.push_back(m.relative.x[2]);
-          } else if (s.sensor.kind == scene::SensorKind::joint_rate) {
-            const bool turns_rate = s.sensor.coordinate == "angle";
-            values.push_back(turns_rate ? m.angle_rate : (m.relative.R * lanes::linear_part(m.twist))[2]);
+          if (s.sensor.kind != scene::SensorKind::joint_reaction) {
+            const elements::CoordinateMotion m = elements::eval_joint_coordinate(e, s.coordinate, f, turns);
+            values.push_back(s.sensor.kind == scene::SensorKind::joint_rate ? m.rate : m.value);
           } else {
             const Vec6<double> wrench =
                 elements::eval_reaction(e, f, state.multipliers.data() + joint.multiplier_begin, turns);

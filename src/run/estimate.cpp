@@ -19,12 +19,6 @@ constexpr double least_part = 0.4;     ///< memory of motion on a line, relative
 constexpr double planar_part = 0.6;    ///< the same for motion in a plane
 constexpr double of_unknown = 0.2e-6;  ///< time per step and unknown [s], as `bough plan` gives for a chain
 
-double rows_of(scene::JointKind kind) {
-  return kind == scene::JointKind::spherical || kind == scene::JointKind::planar ? 3.0
-         : kind == scene::JointKind::fixed                                       ? 6.0
-                                                                                 : 5.0;
-}
-
 double part_of(plan::Motions motions) {
   return motions == plan::Motions::spatial ? 1.0 : motions == plan::Motions::line ? least_part : planar_part;
 }
@@ -58,7 +52,8 @@ Estimate estimate_run(const scene::Scene& scene) {
   e.nodes += ends + inner;
   e.joints = static_cast<double>(scene.joints.size() + scene.motions.size());
   e.unknowns = 6.0 * e.nodes;
-  for (const scene::Joint& j : scene.joints) e.unknowns += rows_of(j.kind) + static_cast<double>(j.drives.size());
+  for (const scene::Joint& j : scene.joints)
+    e.unknowns += static_cast<double>(scene::type_of(j.kind).rows.size() + j.drives.size());
   const double loops = std::max(0.0, static_cast<double>(scene.beams.size()) + e.joints + links - ends);
   e.memory_bytes = program + of_node * (e.nodes - inner) + of_inner_node * inner + of_element * e.elements +
                    of_joint * e.joints + of_spring * (links + loads) + of_loop * loops * std::log2(loops + 1.0);

@@ -81,26 +81,6 @@ std::vector<std::string> columns_of(const Sensor& sensor) {
   return r;
 }
 
-const std::vector<std::string>& coordinates_of(JointKind kind) {
-  using List = std::vector<std::string>;
-  static const List angle = {"angle"}, displacement = {"displacement"}, both = {"angle", "displacement"}, none = {};
-  switch (kind) {
-    case JointKind::revolute:
-    case JointKind::planar:
-      return angle;
-    case JointKind::prismatic:
-      return displacement;
-    case JointKind::cylindrical:
-    case JointKind::screw:
-      return both;
-    case JointKind::fixed:
-    case JointKind::spherical:
-    case JointKind::universal:
-      return none;
-  }
-  throw std::logic_error("a kind of joint without coordinates");
-}
-
 const std::vector<std::string>& decision_names() {
   static const std::vector<std::string> names{"welded",    "line",     "translation", "planar", "held",
                                               "symmetric", "definite", "reuse",       "lanes",  "small"};
@@ -118,37 +98,19 @@ std::vector<std::string> names_in_without() {
   return names;
 }
 
-std::string to_string(JointKind kind) {
-  switch (kind) {  // without a default: the compiler tells of a kind that is missing
-    case JointKind::fixed:
-      return "fixed";
-    case JointKind::revolute:
-      return "revolute";
-    case JointKind::spherical:
-      return "spherical";
-    case JointKind::prismatic:
-      return "prismatic";
-    case JointKind::cylindrical:
-      return "cylindrical";
-    case JointKind::universal:
-      return "universal";
-    case JointKind::planar:
-      return "planar";
-    case JointKind::screw:
-      return "screw";
+const JointCoordinate* coordinate_of(const Sensor& sensor, const JointType& joint) {
+  switch (sensor.kind) {
+    case SensorKind::joint_angle:
+      return joint.coordinate("angle");
+    case SensorKind::joint_displacement:
+      return joint.coordinate("displacement");
+    case SensorKind::joint_rate:
+      return !sensor.coordinate.empty()   ? joint.coordinate(sensor.coordinate)
+             : !joint.coordinates.empty() ? &joint.coordinates.front()
+                                          : nullptr;
+    default:
+      return nullptr;
   }
-  throw std::logic_error("a kind of joint without a name");
-}
-
-std::optional<JointKind> joint_kind_named(const std::string& name) {
-  for (const JointKind kind : joint_kinds)
-    if (to_string(kind) == name) return kind;
-  return std::nullopt;
-}
-
-std::string rate_coordinate(const Sensor& sensor, JointKind kind) {
-  const std::vector<std::string>& known = coordinates_of(kind);
-  return !sensor.coordinate.empty() || known.empty() ? sensor.coordinate : known.front();
 }
 
 std::string to_string(FigureKind kind) { return to_string(static_cast<MeasureKind>(kind)); }

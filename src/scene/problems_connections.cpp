@@ -21,40 +21,55 @@ std::string in_radians(double x) { return text_of(x) + " rad"; }
 
 double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm_of(cross(a, b)), dot(a, b)); }
 
-/// Describes why the two joint frames cannot coincide at the start; empty where they do. H: pose of the second in the
-/// first.
-std::string closure_fault(JointKind kind, const Frame& H, double allowed) {
-  const double off_axis = std::hypot(H.x[0], H.x[1]), along = std::abs(H.x[2]), all = norm_of(H.x);
-  const double tilt = angle_between(column(H.R, 2), Vec3::unit(2));
-  const double turn = norm_of(motion::log_so3(H.R));
-  const double gap = kind == JointKind::cylindrical || kind == JointKind::prismatic ? off_axis
-                     : kind == JointKind::planar                                    ? along
-                     : kind == JointKind::screw                                     ? off_axis
-                                                                                    : all;
-  if (gap > allowed) return "the joint frames of first and second are " + in_metres(gap) + " apart at the start";
-  double angle = 0.0;
-  if (kind == JointKind::fixed || kind == JointKind::prismatic) angle = turn;
-  if (kind == JointKind::revolute || kind == JointKind::cylindrical || kind == JointKind::planar ||
-      kind == JointKind::screw)
-    angle = tilt;
-  if (kind == JointKind::universal) angle = std::abs(std::asin(std::clamp(H.R(0, 1), -1.0, 1.0)));
-  if (angle <= angle_tolerance) return "";
-  return (kind == JointKind::universal ? "the two axes are off a right angle by "
-                                       : "the joint frames of first and second are turned by ") +
-         in_radians(angle) + " against each other at the start";
+/// Norm of the values of a joint's rows that are lengths [m].
+double gap_of(const Joint& j, const Frame& H) {
+  double gap = 0.0;
+  for (const JointRow& row : type_of(j.kind).rows)
+    if (motion::traits_of(row.kind).is_length) gap = std::hypot(gap, eval_row(row, j.pitch, H).value);
+  return gap;
 }
 
-void check_coordinate(ProblemList& list, std::size_t i, const std::string& key, const std::string& coordinate) {
-  const Joint& j = list.scene.joints[i];
-  const auto& known = coordinates_of(j.kind);
-  if (std::find(known.begin(), known.end(), coordinate) != known.end()) return;
+/// Angle by which the joint frames are turned from where its rows hold [rad]. One cosine is that of two axes at a right
+/// angle, two keep axes 3 parallel, three keep all axes parallel.
+double turn_of(const Joint& j, const Frame& H) {
+  double angle = 0.0;
+  int cosines = 0;
+  for (const JointRow& row : type_of(j.kind).rows) {
+    if (motion::traits_of(row.kind).is_length) continue;
+    const double value = eval_row(row, j.pitch, H).value;
+    const bool is_cosine = row.kind == motion::RowKind::across;
+    cosines += is_cosine ? 1 : 0;
+    angle = std::hypot(angle, is_cosine ? std::asin(std::clamp(value, -1.0, 1.0)) : value);
+  }
+  if (cosines == 2) return angle_between(column(H.R, 2), Vec3::unit(2));
+  return cosines == 3 ? norm_of(motion::log_so3(H.R)) : angle;
+}
+
+/// Describes why the two joint frames cannot coincide at the start; empty where they do. H: pose of the second in the
+/// first.
+std::string closure_fault(const Joint& j, const Frame& H, double allowed) {
+  const double gap = gap_of(j, H), turn = turn_of(j, H);
+  if (gap > allowed) return "the joint frames of first and second are " + in_metres(gap) + " apart at the start";
+  if (turn <= angle_tolerance) return "";
+  return (type_of(j.kind).axes == JointAxes::two ? "the two axes are off a right angle by "
+                                                 : "the joint frames of first and second are turned by ") +
+         in_radians(turn) + " against each other at the start";
+}
+
+/// The coordinate of a joint that a drive or a force names; nullptr, and a problem, if it has none of this name.
+const JointCoordinate* check_coordinate(ProblemList& list, std::size_t i, const std::string& key,
+                                        const std::string& coordinate) {
+  const JointType& type = type_of(list.scene.joints[i].kind);
+  const auto& known = type.coordinates;
+  if (const JointCoordinate* found = type.coordinate(coordinate)) return found;
   if (known.empty())
-    list.add("joints", i, key, coordinate, "a " + to_string(j.kind) + " joint has no coordinate to act on");
+    list.add("joints", i, key, coordinate, "a " + type.name + " joint has no coordinate to act on");
   else if (coordinate.empty())
-    list.add("joints", i, key, "", "say which coordinate: \"" + known[0] + "\" or \"" + known.back() + "\"");
+    list.add("joints", i, key, "", "say which coordinate: \"" + known[0].name + "\" or \"" + known.back().name + "\"");
   else
     list.add("joints", i, key, coordinate,
-             "a " + to_string(j.kind) + " joint has the coordinate \"" + known[0] + "\" only");
+             "a " + type.name + " joint has the coordinate \"" + known[0].name + "\" only");
+  return nullptr;
 }
 
 void check_drives(ProblemList& list, std::size_t i, const Frame* H) {
@@ -63,18 +78,19 @@ void check_drives(ProblemList& list, std::size_t i, const Frame* H) {
   for (std::size_t k = 0; k < j.drives.size(); ++k) {
     const JointDrive& drive = j.drives[k];
     const std::string key = "drives/" + std::to_string(k);
-    check_coordinate(list, i, key + "/coordinate", drive.coordinate);
+    const JointCoordinate* coordinate = check_coordinate(list, i, key + "/coordinate", drive.coordinate);
     list.check_law("joints", i, key + "/law", drive.law, true);
     if (!driven.insert(drive.coordinate).second)
       list.add("joints", i, key, drive.coordinate, "this coordinate is driven twice");
-    else if (j.kind == JointKind::screw && driven.size() > 1)
+    else if (driven.size() > 1 && type_of(j.kind).rows.size() + driven.size() > 6)
       list.add("joints", i, key, drive.coordinate,
-               "the angle and the displacement of a screw depend on each other: drive one");
-    if (H == nullptr || drive.is_rate || !list.is_dynamic) continue;
-    const double now = drive.coordinate == "angle" ? std::atan2(H->R(1, 0), H->R(0, 0)) : H->x[2];
+               "the " + *driven.begin() + " and the " + *driven.rbegin() + " of a " + to_string(j.kind) +
+                   " depend on each other: drive one");
+    if (H == nullptr || coordinate == nullptr || drive.is_rate || !list.is_dynamic) continue;
+    const double now = eval_row({coordinate->kind}, j.pitch, *H).value;
     const double jump = drive.law.at(0.0).value - now;
-    const double off = drive.coordinate == "angle" ? std::abs(std::remainder(jump, 2.0 * 3.14159265358979323846))
-                                                   : std::abs(jump) / list.size;
+    const double off = coordinate->is_length() ? std::abs(jump) / list.size
+                                               : std::abs(std::remainder(jump, 2.0 * 3.14159265358979323846));
     if (off > gap_tolerance)
       list.warn("joints", i, key + "/law", text_of(drive.law.at(0.0).value),
                 "the law jumps at the start: the joint stands at " + text_of(now), "let it start there");
@@ -126,9 +142,9 @@ void check_joints(ProblemList& list) {
   const PartLengths lengths(list.scene, list.poses);
   for (std::size_t i = 0; i < list.scene.joints.size(); ++i) {
     const Joint& j = list.scene.joints[i];
-    const bool is_screw = j.kind == JointKind::screw;
-    if (is_screw && j.pitch == 0.0) list.add("joints", i, "pitch", "", "a screw needs a pitch other than 0");
-    if (!is_screw && j.pitch != 0.0) list.add("joints", i, "pitch", text_of(j.pitch), "only a screw has a pitch");
+    const bool has_pitch = type_of(j.kind).has_pitch();
+    if (has_pitch && j.pitch == 0.0) list.add("joints", i, "pitch", "", "a screw needs a pitch other than 0");
+    if (!has_pitch && j.pitch != 0.0) list.add("joints", i, "pitch", text_of(j.pitch), "only a screw has a pitch");
     std::optional<Frame> H;
     double allowed = 0.0;
     if (check_pair(list, "joints", i, j)) {
@@ -140,7 +156,7 @@ void check_joints(ProblemList& list) {
       }
     }
     if (H)
-      if (const std::string fault = closure_fault(j.kind, *H, allowed); !fault.empty()) {
+      if (const std::string fault = closure_fault(j, *H, allowed); !fault.empty()) {
         list.add("joints", i, "", "", fault, "give one position (and axis) instead, or move one of the two");
         H.reset();
       }

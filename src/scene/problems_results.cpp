@@ -36,16 +36,16 @@ void check_chain(ProblemList& list, std::size_t i) {
 /// Checks that a joint has the coordinate whose rate is measured; if it has two, the sensor has to name one.
 void check_rate(ProblemList& list, std::size_t i, JointKind kind) {
   const Sensor& s = list.scene.sensors[i];
-  const auto& known = coordinates_of(kind);
+  const auto& known = type_of(kind).coordinates;
   if (known.empty())
     list.add("sensors", i, "joint", s.joint,
              "a " + to_string(kind) + " joint has no coordinate whose rate could be taken");
   else if (s.coordinate.empty() && known.size() > 1)
     list.add("sensors", i, "", s.name, "a " + to_string(kind) + " joint has two rates: say of which coordinate",
              R"(write "coordinate": "angle" or "coordinate": "displacement")");
-  else if (!s.coordinate.empty() && std::find(known.begin(), known.end(), s.coordinate) == known.end())
+  else if (!s.coordinate.empty() && type_of(kind).coordinate(s.coordinate) == nullptr)
     list.add("sensors", i, "coordinate", s.coordinate,
-             "a " + to_string(kind) + " joint has the coordinate \"" + known[0] + "\" only");
+             "a " + to_string(kind) + " joint has the coordinate \"" + known[0].name + "\" only");
 }
 
 void check_sensor(ProblemList& list, std::size_t i) {
@@ -85,10 +85,9 @@ void check_sensor(ProblemList& list, std::size_t i) {
       if (!list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint")) return;
       const auto thing = list.poses.find(s.joint);
       const JointKind kind = list.scene.joints[thing->index].kind;
-      const auto& known = coordinates_of(kind);
       if (s.kind == SensorKind::joint_rate) return check_rate(list, i, kind);
       const std::string wanted = s.kind == SensorKind::joint_displacement ? "displacement" : "angle";
-      if (std::find(known.begin(), known.end(), wanted) == known.end())
+      if (type_of(kind).coordinate(wanted) == nullptr)
         list.add("sensors", i, "joint", s.joint, "a " + to_string(kind) + " joint has no " + wanted);
       return;
     }

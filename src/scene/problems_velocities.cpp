@@ -60,28 +60,14 @@ struct JointRates {
   double linear = 0.0, angular = 0.0;
 };
 
-/// d, w: velocity of the second relative to the first, at the second's joint frame, in the axes of the first's.
-JointRates held_rates(const Joint& j, const Vec3& d, const Vec3& w, const Vec3& second_axis) {
-  const double across_axis = std::hypot(d[0], d[1]), tilting = std::hypot(w[0], w[1]);
-  switch (j.kind) {
-    case JointKind::fixed:
-      return {norm_of(d), norm_of(w)};
-    case JointKind::revolute:
-      return {norm_of(d), tilting};
-    case JointKind::spherical:
-      return {norm_of(d), 0.0};
-    case JointKind::universal:
-      return {norm_of(d), std::abs(dot(w, cross(Vec3::unit(0), second_axis)))};
-    case JointKind::prismatic:
-      return {across_axis, norm_of(w)};
-    case JointKind::cylindrical:
-      return {across_axis, tilting};
-    case JointKind::screw:
-      return {std::hypot(across_axis, d[2] - j.pitch / (2.0 * 3.14159265358979323846) * w[2]), tilting};
-    case JointKind::planar:
-      return {std::abs(d[2]), tilting};
+/// H: pose of the second joint frame in the first; twist: of the second relative to the first, in its axes.
+JointRates held_rates(const Joint& j, const Frame& H, const Vec6& twist) {
+  JointRates rates;
+  for (const JointRow& row : type_of(j.kind).rows) {
+    double& sum = motion::traits_of(row.kind).is_length ? rates.linear : rates.angular;
+    sum = std::hypot(sum, lanes::dot(eval_row(row, j.pitch, H).gradient, twist));
   }
-  return {};
+  return rates;
 }
 
 void check_joint(ProblemList& list, std::size_t i, const GivenVelocities& velocities) {
@@ -90,9 +76,9 @@ void check_joint(ProblemList& list, std::size_t i, const GivenVelocities& veloci
   const auto H_a = list.poses.of(j.first), H_b = list.poses.of(j.second);
   if (!a || !b || !H_a || !H_b) return;
   const Vec3 v_a = a->at(H_b->x), v_b = b->at(H_b->x);
-  const Vec3 d = lanes::transpose_times(H_a->R, Vec3(v_b - v_a));
-  const Vec3 w = lanes::transpose_times(H_a->R, Vec3(b->angular - a->angular));
-  const JointRates rates = held_rates(j, d, w, lanes::transpose_times(H_a->R, Vec3(column(H_b->R, 1))));
+  const Vec6 twist = lanes::join(lanes::transpose_times(H_b->R, Vec3(v_b - v_a)),
+                                 lanes::transpose_times(H_b->R, Vec3(b->angular - a->angular)));
+  const JointRates rates = held_rates(j, motion::relative(*H_a, *H_b), twist);
   const double speed = std::max({norm_of(v_a), norm_of(v_b), norm_of(a->linear), norm_of(b->linear)});
   const double turning = std::max(norm_of(a->angular), norm_of(b->angular));
   std::string by;

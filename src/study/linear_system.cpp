@@ -5,6 +5,7 @@
 
 #include "bough/io/number_text.hpp"
 #include "bough/run/simulate.hpp"
+#include "bough/scene/joint_kinds.hpp"
 
 namespace bough::study {
 
@@ -85,18 +86,7 @@ io::SparseMatrix make_matrix(step::System& system) {
 }
 
 std::string row_text(const elements::ConstraintRow& row) {
-  const std::string i = std::to_string(row.i + 1), j = std::to_string(row.j + 1);
-  switch (row.kind) {
-    case elements::RowKind::along:
-      return "along " + i;
-    case elements::RowKind::across:
-      return "axis " + i + " of the first normal to axis " + j + " of the second";
-    case elements::RowKind::angle:
-      return "angle about 3";
-    case elements::RowKind::screw:
-      break;
-  }
-  return "screw along 3";
+  return scene::with_axes(motion::traits_of(row.kind).about, row);
 }
 
 const char* node_text(plan::Motions motions) {

@@ -74,7 +74,7 @@ TEST(ConstraintRow, angle_counts_turns_both_ways) {
     double turns = 0.0;
     for (int step = 0; step <= 400; ++step) {
       const double theta = direction * 0.1 * step;  // more than six turns
-      const double seen = eval_angle(motion::exp_so3(Vec3<double>{{0.0, 0.0, theta}}), turns);
+      const double seen = motion::eval_angle(motion::exp_so3(Vec3<double>{{0.0, 0.0, theta}}), turns);
       ASSERT_NEAR(seen, theta, 1e-14 * (1.0 + std::abs(theta)));
       turns = seen;
     }
@@ -84,8 +84,8 @@ TEST(ConstraintRow, angle_counts_turns_both_ways) {
 
 TEST(ConstraintRow, angle_is_smooth_where_an_angle_within_half_a_turn_jumps) {
   for (const double turns : {pi, -pi, 3.0 * pi, 7.0}) {
-    const double before = eval_angle(motion::exp_so3(Vec3<double>{{0.0, 0.0, turns - 1e-3}}), turns);
-    const double after = eval_angle(motion::exp_so3(Vec3<double>{{0.0, 0.0, turns + 1e-3}}), turns);
+    const double before = motion::eval_angle(motion::exp_so3(Vec3<double>{{0.0, 0.0, turns - 1e-3}}), turns);
+    const double after = motion::eval_angle(motion::exp_so3(Vec3<double>{{0.0, 0.0, turns + 1e-3}}), turns);
     EXPECT_NEAR(after - before, 2e-3, 1e-13);
   }
 }
@@ -168,7 +168,7 @@ TEST(ConstraintRow, first_rate_of_the_series_is_the_gradient_times_the_twists) {
   }
 }
 
-TEST(JointMotion, angle_and_twist_are_those_of_the_relative_motion) {
+TEST(JointMotion, coordinates_and_their_rates_are_those_of_the_relative_motion) {
   for (const Sample<Joint>& s : joint_samples()) {
     const motion::Vec3Pair anchor = anchor_of(s.element, s.nodes.data());
     std::vector<NodeState<Complex>> states = states_of<Complex>(s.nodes, anchor);
@@ -176,14 +176,12 @@ TEST(JointMotion, angle_and_twist_are_those_of_the_relative_motion) {
       n.H = motion::compose(n.H, motion::exp_se3(Vec6<Complex>(Complex(0.0, complex_step) * n.v)));
     const auto p = ports_of(s.element, states, anchor.hi);
     const Frame<Complex> H = motion::relative(p[0].H, p[1].H);
-    const JointMotion got = eval_joint_motion(s.element, s.field(true), s.turns);
-    EXPECT_NEAR(got.angle, eval_angle(H.R, s.turns).real(), exact);
-    EXPECT_NEAR(got.angle_rate, eval_angle(H.R, s.turns).imag() / complex_step, exact);
-    // H' = H ~twist
-    const Mat3<double> spin = got.relative.R * lanes::skew(lanes::angular_part(got.twist));
-    const Vec3<double> slide = got.relative.R * lanes::linear_part(got.twist);
-    for (int i = 0; i < 9; ++i) EXPECT_NEAR(spin.m[i], H.R.m[i].imag() / complex_step, exact);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(slide[i], H.x[i].imag() / complex_step, exact * 10.0);
+    const CoordinateMotion angle = eval_joint_coordinate(s.element, RowKind::angle, s.field(true), s.turns);
+    const CoordinateMotion slide = eval_joint_coordinate(s.element, RowKind::along, s.field(true), s.turns);
+    EXPECT_NEAR(angle.value, motion::eval_angle(H.R, s.turns).real(), exact);
+    EXPECT_NEAR(angle.rate, motion::eval_angle(H.R, s.turns).imag() / complex_step, exact);
+    EXPECT_NEAR(slide.value, H.x[2].real(), exact * 10.0);
+    EXPECT_NEAR(slide.rate, H.x[2].imag() / complex_step, exact * 10.0);
   }
 }
 

@@ -107,8 +107,8 @@ void make(Joint& e, const Kind& kind, Numbers& numbers) {
   }
   if (!kind.has_mass && !kind.has_damping) return;
   const double damping = kind.has_damping ? 0.8 : 0.0;
-  e.efforts[e.num_efforts++] = {Coordinate::angle, 1.3, 0.2, damping, 0, {{{-1.0, 0.0}}}};
-  e.efforts[e.num_efforts++] = {Coordinate::displacement, 0.9, -0.3, damping, -1, {turned(0.4)}};
+  e.efforts[e.num_efforts++] = {RowKind::angle, 1.3, 0.2, damping, 0, {{{-1.0, 0.0}}}};
+  e.efforts[e.num_efforts++] = {RowKind::along, 0.9, -0.3, damping, -1, {turned(0.4)}};
 }
 
 template <class E>

@@ -246,8 +246,8 @@ inline Sample<Joint> joint_sample(const std::string& name, const std::vector<Con
   }
   if (has_efforts) {
     joint.num_efforts = 2;
-    joint.efforts[0] = {Coordinate::angle, 0.9, 0.2, 0.6, 1};
-    joint.efforts[1] = {Coordinate::displacement, 1.2, -0.3, 0.5, -1};
+    joint.efforts[0] = {RowKind::angle, 0.9, 0.2, 0.6, 1};
+    joint.efforts[1] = {RowKind::along, 1.2, -0.3, 0.5, -1};
   }
   set_ports(joint.ports, ends, numbers);
   const Frame<double> first = numbers.frame();

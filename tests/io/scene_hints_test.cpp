@@ -212,8 +212,10 @@ TEST(SceneHints, rate_of_a_joint_with_two_coordinates_says_which) {
 }
 
 TEST(SceneHints, every_kind_of_joint_is_read_as_itself) {
-  for (const scene::JointKind kind : scene::joint_kinds)
-    EXPECT_EQ(scene::joint_kind_named(scene::to_string(kind)), kind);
+  for (const scene::JointType& type : scene::joint_types()) {
+    EXPECT_EQ(&scene::type_of(type.kind), &type) << type.name;
+    EXPECT_EQ(scene::joint_kind_named(type.name), type.kind);
+  }
   EXPECT_EQ(scene::joint_kind_named("ninth"), std::nullopt);
   for (const char* kind : {"revolute", "prismatic", "cylindrical", "planar"}) {
     std::string text = test::base_scene();

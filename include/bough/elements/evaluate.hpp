@@ -188,14 +188,11 @@ void evaluate_constraint_series(const Joint& joint, const Field& field, const Ve
 void evaluate_constraint_rates(const Joint& joint, const Field& field, const lanes::Taylor<double, 1>* laws,
                                double turns, lanes::Taylor<double, 1>* out);
 
-/// Relative motion of the two frames of a joint, for sensors and for the count of turns in the state.
-struct JointMotion {
-  Frame<double> relative;  ///< H_a^-1 H_b
-  Vec6<double> twist;      ///< of b relative to a, in the axes of b
-  double angle = 0.0;      ///< about axis 3, turns counted [rad]
-  double angle_rate = 0.0;
+/// Value and rate of a coordinate along or about axis 3 of a joint's frames, turns counted [m, rad; per s].
+struct CoordinateMotion {
+  double value, rate;
 };
-JointMotion eval_joint_motion(const Joint& joint, const Field& field, double turns);
+CoordinateMotion eval_joint_coordinate(const Joint& joint, RowKind coordinate, const Field& field, double turns);
 
 /// Wrench of the first body on the second at the second's joint frame, in that frame's axes [N, N m].
 Vec6<double> eval_reaction(const Joint& joint, const Field& field, const double* multipliers, double turns);

@@ -4,15 +4,12 @@
 ///   residual: F_b = G^T lambda + efforts,  F_a = -Ad(H^-1)^T F_b,  and the rows Phi(H, t) themselves.
 /// G holds the rows' gradients with respect to the right increment zeta of the second frame, H <- H exp(zeta).
 #include "bough/elements/port.hpp"
+#include "bough/motion/coordinates.hpp"
 
 namespace bough::elements {
 
-enum class RowKind : std::uint8_t {
-  along,   ///< u_i - law = 0: displacement along axis i of the first frame
-  across,  ///< e_i . R e_j = 0: axis i of the first frame normal to axis j of the second
-  angle,   ///< theta - law = 0: rotation about axis 3, turns counted
-  screw,   ///< u_3 - pitch theta - law = 0
-};
+using motion::eval_coordinate;
+using motion::RowKind;
 
 /// A row and the directions that it compares: in space axis i of the first and axis j of the second frame, in a plane
 /// one direction d.
@@ -26,11 +23,9 @@ template <class C>
 using ConstraintRowOf = ConstraintRowOn<motion::Se3, C>;
 using ConstraintRow = ConstraintRowOf<double>;
 
-enum class Coordinate : std::uint8_t { angle, displacement };
-
 template <class G, class C>
 struct EffortOn {
-  Coordinate coordinate = Coordinate::angle;
+  RowKind coordinate = RowKind::angle;  ///< `angle`, `along`
   C stiffness = 0.0, rest = 0.0, damping = 0.0;
   int law = -1;  ///< effort on the second body along the axis; -1: none
   typename G::template Direction<C> direction =
@@ -120,57 +115,6 @@ inline bool aligns_all_axes(const Joint& e, int k) {
          e.rows[k + 1].i == 1 && e.rows[k + 1].j == 2 && e.rows[k + 2].kind == RowKind::across;
 }
 
-/// theta = turns + atan2(s', c'), (c', s') the rotation about axis 3 seen from the last accepted angle: smooth over
-/// any number of turns. turn: (c, s) of the rotation, times any positive factor.
-template <class G, class S, class C>
-BOUGH_INLINE S eval_axial_angle(const lanes::Vec<S, 2>& turn, const C& turns) {
-  using std::cos;
-  using std::sin;
-  const C c0 = cos(turns), s0 = sin(turns);
-  return G::angle_of_turn(S(c0 * turn[0] + s0 * turn[1]), S(c0 * turn[1] - s0 * turn[0])) + turns;
-}
-template <class S, class C>
-S eval_angle(const Mat3<S>& R, const C& turns) {
-  return eval_axial_angle<motion::Se3>(lanes::Vec<S, 2>{{R(0, 0) + R(1, 1), R(1, 0) - R(0, 1)}}, turns);
-}
-/// Gradient of the angle by the rotation's right increment.
-template <class S>
-Vec3<S> angle_gradient(const Mat3<S>& R) {
-  return motion::Se3::axial_moment(Frame<S>{R, {}}, motion::Se3::Direction<S>{});
-}
-
-/// The same as eval_coordinate below, of a row that measures rotations.
-template <class G, class S, class C>
-BOUGH_INLINE S eval_turning_coordinate(RowKind kind, const typename G::template Direction<C>& direction, const C& pitch,
-                                       const typename G::template Pose<S>& H, const C& turns,
-                                       typename G::template Wrench<S>& gradient) {
-  if (kind == RowKind::across) {
-    const auto s = G::seen(H, direction);
-    gradient = G::moment(G::cosine_moment(direction, s));
-    return G::cosine(direction, s);
-  }
-  const S angle = eval_axial_angle<G>(G::axial_turn(H, direction), turns);
-  const auto moment = G::axial_moment(H, direction);
-  if (kind == RowKind::angle) {
-    gradient = G::moment(moment);
-    return angle;
-  }
-  const S minus_pitch = S(-pitch);
-  const auto axis = G::template Direction<C>::axial();
-  gradient = G::force_moment(G::seen(H, axis), minus_pitch * moment);
-  return G::component(H, axis) + minus_pitch * angle;
-}
-/// Value of a row without its law, and its gradient, a wrench in the axes of the second frame. Where nothing turns, all
-/// rows are displacements.
-template <class G, class S, class C>
-BOUGH_INLINE S eval_coordinate(RowKind kind, const typename G::template Direction<C>& direction, const C& pitch,
-                               const typename G::template Pose<S>& H, const C& turns,
-                               typename G::template Wrench<S>& gradient) {
-  if constexpr (G::turns)
-    if (kind != RowKind::along) return eval_turning_coordinate<G, S, C>(kind, direction, pitch, H, turns, gradient);
-  gradient = G::force(G::seen(H, direction));
-  return G::component(H, direction);
-}
 template <class G, class S, class C>
 BOUGH_INLINE S eval_row(const ConstraintRowOn<G, C>& row, const typename G::template Pose<S>& H, const C& turns,
                         const Constant<S>* laws, typename G::template Wrench<S>& gradient) {
@@ -192,8 +136,7 @@ S eval_row(const ConstraintRowOf<C>& row, const Frame<S>& H, const C& turns, con
 template <class G, class S, class C>
 BOUGH_INLINE S eval_coordinate(const EffortOn<G, C>& e, const typename G::template Pose<S>& H, const C& turns,
                                typename G::template Wrench<S>& gradient) {
-  const RowKind kind = e.coordinate == Coordinate::angle ? RowKind::angle : RowKind::along;
-  return eval_coordinate<G, S, C>(kind, e.direction, C(0.0), H, turns, gradient);
+  return eval_coordinate<G, S, C>(e.coordinate, e.direction, C(0.0), H, turns, gradient);
 }
 
 /// Force of the spring, the damper and the given effort along one coordinate, on the second body, counted against the

@@ -54,7 +54,7 @@ inline bool is_past_limit(const JointOn<motion::Se2>& e, const FieldOn<motion::S
 
 /// Angle of a joint about its axis 3 [rad], on the branch nearest to `turns`, the angle at the last accepted step.
 inline double eval_joint_angle(const Joint& e, const Field& f, double turns) {
-  return eval_angle(eval_relative_rotation(e, 1, f), turns);
+  return motion::eval_angle(eval_relative_rotation(e, 1, f), turns);
 }
 template <class G>
 requires(!G::turns) double eval_joint_angle(const JointOn<G>&, const FieldOn<G, double>&, double turns) {

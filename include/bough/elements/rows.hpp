@@ -5,6 +5,6 @@
 namespace bough::elements {
 
 /// Whether a row is a length [m]; else it is an angle or a cosine.
-inline bool is_length(RowKind kind) { return kind == RowKind::along || kind == RowKind::screw; }
+inline bool is_length(RowKind kind) { return motion::traits_of(kind).is_length; }
 
 }  // namespace bough::elements

@@ -128,7 +128,8 @@ struct SensorPlan {
   scene::Sensor sensor;
   elements::Port port;                  ///< of point sensors
   int beam = -1;                        ///< index in Plan::beams
-  int joint = -1;                       ///< index in Plan::joints (reaction, angle)
+  int joint = -1;                       ///< index in Plan::joints (reaction, coordinate)
+  motion::RowKind coordinate = {};      ///< of the joint, if that is measured
   elements::Port frame;                 ///< port of the frame of the observer, or in whose axes the result is resolved
   std::vector<elements::Port> chain;    ///< acceleration_split
   std::vector<std::string> components;  ///< "" for a scalar

@@ -1,11 +1,9 @@
 #pragma once
-/// Names of the components of sensors and of the free coordinates of joints.
-#include <array>
-#include <optional>
+/// Names of the components of sensors, and of decisions.
 #include <string>
 #include <vector>
 
-#include "bough/scene/scene.hpp"
+#include "bough/scene/joint_kinds.hpp"
 
 namespace bough::scene {
 
@@ -21,11 +19,6 @@ std::string unit_of(const Sensor& sensor, std::size_t component);
 /// Columns "<sensor>.<component>", or "<sensor>".
 std::vector<std::string> columns_of(const Sensor& sensor);
 
-/// Coordinates of a joint that can be driven, measured or sprung: "angle" (about axis 3), "displacement" (along axis
-/// 3). revolute and planar: angle; prismatic: displacement; cylindrical and screw: both (of a screw they depend on
-/// each other); others none.
-const std::vector<std::string>& coordinates_of(JointKind kind);
-
 /// Names of the decisions of the plan (plan::Decision) that Scene::without can bar.
 const std::vector<std::string>& decision_names();
 /// Names of decisions that no longer exist. A scene may still bar them; it gets a note and nothing else follows.
@@ -33,20 +26,11 @@ const std::vector<std::string>& retired_decision_names();
 /// All names accepted in Scene::without: both lists above.
 std::vector<std::string> names_in_without();
 
-/// All kinds of joints, in the order of the schema.
-inline constexpr std::array<JointKind, 8> joint_kinds{
-    JointKind::fixed,       JointKind::revolute,  JointKind::spherical, JointKind::prismatic,
-    JointKind::cylindrical, JointKind::universal, JointKind::planar,    JointKind::screw};
-
-/// The kind of this name in files; nothing where none has it.
-std::optional<JointKind> joint_kind_named(const std::string& name);
-
-/// The coordinate whose rate a sensor measures: the one that the sensor names, otherwise the first coordinate of the
-/// joint.
-std::string rate_coordinate(const Sensor& sensor, JointKind kind);
+/// The coordinate of a joint that a sensor measures, or whose rate it measures: the one that its kind or the sensor
+/// names, otherwise the first. nullptr if the joint has no such coordinate, or the sensor measures none.
+const JointCoordinate* coordinate_of(const Sensor& sensor, const JointType& joint);
 
 /// Names as in files.
-std::string to_string(JointKind kind);
 std::string to_string(SensorKind kind);
 std::string to_string(FigureKind kind);
 std::string to_string(MeasureKind kind);

@@ -104,7 +104,16 @@ struct Beam {
   int order = 1;  ///< polynomial order of the element: 1 (two nodes), 2, 3
 };
 
-enum class JointKind : std::uint8_t { fixed, revolute, spherical, prismatic, cylindrical, universal, planar, screw };
+enum class JointKind : std::uint8_t {
+  fixed,
+  revolute,
+  spherical,
+  prismatic,
+  cylindrical,
+  universal,
+  planar,
+  screw,
+};
 
 /// Spring, damper and effort along a joint's free coordinate `coordinate` ("angle" or "displacement").
 struct JointForce {

@@ -1,15 +1,15 @@
 // Joints as glyphs with their axes, and springs and dampers as coils and dashpots.
 
-// A pin along the axis for what turns about it, a bar for what slides along it, a ball, a cube for what is fixed.
-function jointGlyph(kind) {
+// Prisms about axis 3, as the kind of joint says: [sides, radius, half length]; a cube for what has no such kind.
+function jointGlyph(prisms) {
   const geometry = new THREE.BufferGeometry(),
     points = [],
     index = [];
-  const prism = function (sides, radius, half, spin) {
+  for (const [sides, radius, half] of prisms) {
     const first = points.length / 3;
     for (const z of [-half, half])
       for (let k = 0; k < sides; ++k) {
-        const angle = spin + (2 * Math.PI * k) / sides;
+        const angle = ((k + (sides === 4 ? 0.5 : 0)) * 2 * Math.PI) / sides;
         points.push(radius * Math.cos(angle), radius * Math.sin(angle), z);
       }
     for (let k = 0; k < sides; ++k) {
@@ -18,24 +18,12 @@ function jointGlyph(kind) {
       index.push(a, b, b + sides, a, b + sides, a + sides);
       if (k > 1) index.push(first, a, a - 1, first + sides, a - 1 + sides, a + sides);
     }
-  };
-  if (kind === "revolute" || kind === "screw") prism(12, 0.7, 1.4, 0);
-  else if (kind === "prismatic") prism(4, 0.6, 2.4, Math.PI / 4);
-  else if (kind === "cylindrical") prism(12, 0.6, 2.4, 0);
-  else if (kind === "planar") prism(4, 2, 0.2, Math.PI / 4);
-  else if (kind === "spherical") {
-    prism(12, 1, 0.4, 0);
-    prism(12, 0.8, 0.75, 0);
-    prism(12, 0.45, 1, 0);
-  } else if (kind === "universal") {
-    prism(4, 1, 0.5, 0);
-    prism(8, 0.5, 1.2, 0);
-  } else prism(4, 1, 0.7, Math.PI / 4);
+  }
   geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(points), 3));
   geometry.setIndex(index);
   return geometry;
 }
-const withoutAxis = ["fixed", "bushing", "spherical", "prescribed motion"];
+const plainGlyph = {axis: false, prisms: [[4, 1, 0.7]]};
 function isElastic(link) {
   return ["spring", "damper", "spring and damper"].includes(link.kind);
 }
@@ -77,7 +65,7 @@ class Links {
     this.joints = [];
     kinds.forEach(function (members, kind) {
       const mesh = new THREE.InstancedMesh(
-        jointGlyph(kind),
+        jointGlyph((run.glyphs[kind] || plainGlyph).prisms),
         new THREE.MeshLambertMaterial({flatShading: true}),
         members.length,
       );
@@ -128,7 +116,7 @@ class Links {
         mesh.setMatrixAt(place, matrix);
         mesh.setColorAt(place, paint.link(l.name));
         const R = axesOf(t4),
-          reach = withoutAxis.includes(l.kind) ? 0 : 8 * size;
+          reach = (run.glyphs[l.kind] || plainGlyph).axis ? 8 * size : 0;
         for (let r = 0; r < 3; ++r) {
           gaps.array[at + r] = x[3 * t + r];
           gaps.array[at + 3 + r] = x[3 * l.second + r];
