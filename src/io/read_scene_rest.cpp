@@ -81,9 +81,7 @@ void Converter::initial_velocity(const Value& v, const std::string& at) {
 void Converter::sensor(const Value& v, const std::string& at) {
   scene::Sensor s;
   s.name = v.find("name")->text;
-  const std::string& kind = v.find("kind")->text;
-  for (int k = 0; k <= static_cast<int>(scene::SensorKind::acceleration_split); ++k)
-    if (scene::to_string(static_cast<scene::SensorKind>(k)) == kind) s.kind = static_cast<scene::SensorKind>(k);
+  s.kind = scene::sensor_kind_named(v.find("kind")->text).value();  // the schema takes no other names
   if (const Value* where = v.find("at")) s.at = attachment(*where, at + "/at");
   s.beam = text_or(v, "beam");
   s.joint = text_or(v, "joint");

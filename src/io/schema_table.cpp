@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <deque>
 
 #include "bough/scene/components.hpp"
 #include "schema_parts.hpp"
@@ -22,14 +23,20 @@ std::vector<std::string> coordinate_names() {
       if (std::find(names.begin(), names.end(), c.name) == names.end()) names.push_back(c.name);
   return names;
 }
+/// Rules refer to their texts and are never destroyed.
+const std::string& lasting(std::string text) {
+  static auto& texts = *new std::deque<std::string>;
+  return texts.emplace_back(std::move(text));
+}
+
 RuleRef joint_kind_rule() {
   std::vector<std::string> names;
-  static std::string& about = *new std::string;  // rules refer to their texts
+  std::string about;
   for (const scene::JointType& type : scene::joint_types()) {
     names.push_back(type.name);
     about += (about.empty() ? "" : " ") + type.name + ": " + type.about;
   }
-  return word_rule(about.c_str(), std::move(names));
+  return word_rule(lasting(std::move(about)).c_str(), std::move(names));
 }
 Field law_field(Literal about) { return may("law", named_rule("law"), about, "1"); }
 Field frame_field(Literal about) { return may("frame", reference, about); }
@@ -219,57 +226,50 @@ void add_loads(RuleTable& t) {
        may("angular_velocity", named_rule("vector"), "[rad/s].", "[0, 0, 0]")}));
 }
 
+/// Fields of a sensor by what it is attached to, and those that its kind takes besides.
+Rule sensor_rule(const scene::SensorType& type) {
+  using scene::SensorField;
+  using scene::SensorOf;
+  const RuleRef station = number_rule("", 0.0, false, 1.0);
+  std::vector<Field> fields = {name_field()};
+  if (type.of == SensorOf::point) {
+    fields.push_back(may("at", named_rule("attachment"), "The point."));
+    fields.push_back(may("beam", reference, "A point of this beam's axis."));
+    fields.push_back(may("station", station, "Fraction of the beam's length from its start [-]."));
+  } else if (type.of == SensorOf::section) {
+    fields.push_back(need("beam", reference, "The beam."));
+    fields.push_back(need("station", station, "Fraction of its length from its start [-]."));
+  } else if (type.of != SensorOf::whole) {
+    fields.push_back(need("joint", reference, "The joint."));
+  }
+  if (type.takes(SensorField::axes))
+    fields.push_back(may("axes", named_rule("axes"), "Axes of the components.", "\"space\""));
+  if (type.takes(SensorField::chain))
+    fields.push_back(need("frames", array_rule("", text_rule(""), 1, 100),
+                          "The chain: frames, nodes or bodies; the point is seen from the last."));
+  if (type.takes(SensorField::observer))
+    fields.push_back(
+        frame_field("Frame in whose axes it is given, and from which a motion is seen. Default: the ground."));
+  if (type.takes(SensorField::axes_of))
+    fields.push_back(frame_field("Frame, node or body in whose axes components are given. Default: the ground."));
+  if (type.takes(SensorField::coordinate))
+    fields.push_back(
+        may("coordinate", word_rule("", coordinate_names()),
+            "Whose rate. Default: the only coordinate that the joint has; where it has several, one has to "
+            "be given."));
+  const std::string components = scene::components_text(type);
+  const std::string& about = lasting(type.about + " Components: " + components + ".");
+  Rule rule = object_of_kind({type.name}, about.c_str(), std::move(fields));
+  if (type.of == SensorOf::point) rule.exactly_one = {{"at", "beam"}};
+  return rule;
+}
+
 void add_sensors(RuleTable& t) {
-  const Field axes = may("axes", named_rule("axes"), "Axes of the components.", "\"space\"");
-  Rule motion = object_of_kind(
-      {"position", "rotation", "quaternion", "velocity", "acceleration"},
-      "Motion of a point. Components: position x y z [m]; rotation rx ry rz, rotation vector from the ground's axes "
-      "[rad]; "
-      "quaternion q0 q1 q2 q3; velocity vx vy vz [m/s] wx wy wz "
-      "[rad/s]; acceleration ax ay az [m/s^2] alx aly alz [rad/s^2].",
-      {name_field(), may("at", named_rule("attachment"), "The point."),
-       may("beam", reference, "A point of this beam's axis."),
-       may("station", number_rule("", 0.0, false, 1.0), "Fraction of the beam's length from its start [-]."), axes,
-       frame_field("Frame from which the motion is seen and in whose axes it is given. Default: the ground.")});
-  motion.exactly_one = {{"at", "beam"}};
-  Rule split = object_of_kind(
-      {"acceleration_split"},
-      "Inertial acceleration of a point, split along a chain of frames that move in each other, the first in the "
-      "inertial frame "
-      "(Harithuddin, Trivailo, Jazar 2015). Components, each with _x _y _z [m/s^2]: local, tangential, coriolis, "
-      "centripetal, "
-      "razi, translation (of the origin of the last frame), total (their sum).",
-      {name_field(), may("at", named_rule("attachment"), "The point."),
-       may("beam", reference, "A point of this beam's axis."),
-       may("station", number_rule("", 0.0, false, 1.0), "Fraction of the beam's length from its start [-]."),
-       need("frames", array_rule("", text_rule(""), 1, 100),
-            "The chain: frames, nodes or bodies; the point is seen from the last."),
-       frame_field("Frame, node or body in whose axes components are given. Default: the ground.")});
-  split.exactly_one = {{"at", "beam"}};
+  std::vector<RuleRef> kinds;
+  for (const scene::SensorType& type : scene::sensor_types()) kinds.push_back(made(sensor_rule(type)));
   t.named["sensor"] = choice_rule(
       "A measured quantity, written over time. Its columns are \"<name>.<component>\", or \"<name>\" for scalars.",
-      {made(std::move(motion)),
-       made(object_of_kind(
-           {"section_force", "section_strain"},
-           "Section resultants N Q2 Q3 T M2 M3 [N, N m], or strains e1 g2 g3 k1 k2 k3 [-, 1/m], in section axes.",
-           {name_field(), need("beam", reference, "The beam."),
-            need("station", number_rule("", 0.0, false, 1.0), "Fraction of its length from its start [-].")})),
-       made(object_of_kind({"joint_reaction"},
-                           "Wrench of the first on the second at the second's joint frame: fx fy fz [N] mx my mz [N "
-                           "m]. Axes body: those of the second's joint frame.",
-                           {name_field(), need("joint", reference, "The joint."), axes,
-                            frame_field("Frame in whose axes it is given. Default: the ground.")})),
-       made(std::move(split)),
-       made(object_of_kind({"joint_angle", "joint_displacement"},
-                           "Coordinate of a joint, counting turns [rad] or [m]; one number.",
-                           {name_field(), need("joint", reference, "The joint.")})),
-       made(object_of_kind({"joint_rate"}, "Rate of a joint's coordinate [rad/s] or [m/s]; one number.",
-                           {name_field(), need("joint", reference, "The joint."),
-                            may("coordinate", word_rule("", coordinate_names()),
-                                "Whose rate. Default: the only coordinate that the joint has; cylindrical and screw "
-                                "joints have both, so there it has to be given.")})),
-       made(object_of_kind({"kinetic_energy", "strain_energy", "potential_energy", "total_energy"},
-                           "Energy of the whole in the inertial frame [J]; one number.", {name_field()}))});
+      std::move(kinds));
 }
 
 void add_settings(RuleTable& t) {

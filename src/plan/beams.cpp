@@ -147,13 +147,13 @@ void Builder::add_sensors() {
           p.sensor.coordinate = measured->name;
           p.coordinate = measured->kind;
         }
-    p.components = scene::components_of(s.kind);
-    if (p.components.empty()) p.components = {""};
+    for (const scene::SensorComponent& c : scene::type_of(s.kind).components) p.components.push_back(c.name);
     p.beam = index_in(beam_of, s.beam);
     p.joint = index_in(joint_of, s.joint);
-    if (p.beam < 0 && !s.at.to.empty()) p.port = port_at(s.at);
+    if (p.beam < 0 && scene::type_of(s.kind).of == scene::SensorOf::point) p.port = port_at(s.at);
     p.frame = port_at(s.frame, Frame<double>::identity());
     for (const std::string& name : s.chain) p.chain.push_back(port_at(name, Frame<double>::identity()));
+    if (s.chain.empty() && !s.frame.empty()) p.chain.push_back(p.frame);
     plan.sensors.push_back(p);
   }
 }

@@ -138,17 +138,13 @@ void with_beam_element(const plan::Plan& plan, int id, F&& f) {
   });
 }
 
-/// Motion of a sensor's point.
-PointMotion eval_sensor_point(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
-  const Field f = system.instant().field(state);
-  if (s.beam < 0) return motion_of_port(s.port, f);
-  PointMotion point;
+/// The point of a beam that a sensor names.
+BeamPoint eval_station(const step::System& system, const Field& f, const plan::SensorPlan& s) {
   const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
   const auto [k, local] = locate(beam, s.sensor.station);
-  with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)], [&, local = local](const auto& e) {
-    const BeamPoint p = eval_point(e, f, local);
-    point = {p.pose, p.v, p.a};
-  });
+  BeamPoint point;
+  with_beam_element(system.plan(), beam.elements[static_cast<std::size_t>(k)],
+                    [&, at = local](const auto& e) { point = eval_point(e, f, at); });
   return point;
 }
 
@@ -203,104 +199,28 @@ struct ElementForce {
   Vec6<double> at(double s) const { return (1.0 - s) * first + s * last + (s * (s - 1.0)) * curvature; }
 };
 
-void eval_joint_sensor(const step::System& system, const step::State& state, const plan::SensorPlan& s,
-                       std::vector<double>& values) {
-  const plan::JointPlan& joint = system.plan().joints[static_cast<std::size_t>(s.joint)];
-  const Field f = system.instant().field(state);
-  plan::with_element(
-      system.plan().elements, system.plan().directory[static_cast<std::size_t>(joint.element)], [&](const auto& e) {
-        if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint) {
-          const double turns = state.turns[static_cast<std::size_t>(s.joint)];
-          if (s.sensor.kind != scene::SensorKind::joint_reaction) {
-            const elements::CoordinateMotion m = elements::eval_joint_coordinate(e, s.coordinate, f, turns);
-            values.push_back(s.sensor.kind == scene::SensorKind::joint_rate ? m.rate : m.value);
-          } else {
-            const Vec6<double> wrench =
-                elements::eval_reaction(e, f, state.multipliers.data() + joint.multiplier_begin, turns);
-            const Mat3<double> R = motion_of_port(e.ports[1], f).pose.R;
-            append(values, s.sensor.frame.empty()
-                               ? resolve(R, wrench, s.sensor.axes)
-                               : turned(lanes::transpose_times(motion_of_port(s.frame, f).pose.R, R), wrench));
-          }
-        }
-      });
-}
-
-/// Evaluates sensors of one state; one pass over the elements serves all sensors of energies.
-struct SensorReader {
-  const step::System& system;
-  const step::State& state;
-  EnergyMeter& meter;
-  std::optional<Energies> measured;
-
-  const Energies& energies() {
-    if (!measured) measured = meter.eval(system, state);
-    return *measured;
-  }
-  void append_section(std::vector<double>& values, const plan::SensorPlan& s) const {
-    const Field f = system.instant().field(state);
-    const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
-    const auto [k, local] = locate(beam, s.sensor.station);
-    const auto element = static_cast<std::size_t>(k);
-    with_beam_element(system.plan(), beam.elements[element], [&, at = local](const auto& e) {
-      if (s.sensor.kind == scene::SensorKind::section_force)
-        append(values, ElementForce(system, e, beam.loads[element], f, state).at(at));
-      else
-        append(values, eval_point(e, f, at).strain);
-    });
-  }
-  void append_to(std::vector<double>& values, const plan::SensorPlan& s) {
-    switch (s.sensor.kind) {
-      case scene::SensorKind::section_force:
-      case scene::SensorKind::section_strain:
-        return append_section(values, s);
-      case scene::SensorKind::joint_reaction:
-      case scene::SensorKind::joint_angle:
-      case scene::SensorKind::joint_displacement:
-      case scene::SensorKind::joint_rate:
-        return eval_joint_sensor(system, state, s, values);
-      case scene::SensorKind::kinetic_energy:
-        return values.push_back(energies().kinetic);
-      case scene::SensorKind::strain_energy:
-        return values.push_back(energies().strain);
-      case scene::SensorKind::potential_energy:
-        return values.push_back(energies().potential);
-      case scene::SensorKind::total_energy:
-        return values.push_back(energies().kinetic + energies().strain + energies().potential);
-      case scene::SensorKind::acceleration_split:
-        return append_split(s, system.instant().field(state), eval_sensor_point(system, state, s), values);
-      default:
-        append_point(s, system.instant().field(state), eval_sensor_point(system, state, s), values);
-    }
-  }
-};
-
 }  // namespace
 
-void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
-                  std::vector<double>& values) {
-  values.clear();
-  SensorReader read{system, state, meter, {}};
-  for (const plan::SensorPlan& s : system.plan().sensors) read.append_to(values, s);
+PointMotion motion_at(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
+  const Field f = system.instant().field(state);
+  if (s.beam < 0) return motion_of_port(s.port, f);
+  const BeamPoint p = eval_station(system, f, s);
+  return {p.pose, p.v, p.a};
 }
 
-void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
-                  std::span<const int> sensors, std::vector<double>& values) {
-  values.clear();
-  SensorReader read{system, state, meter, {}};
-  for (const int k : sensors) read.append_to(values, system.plan().sensors[static_cast<std::size_t>(k)]);
+Vec6<double> section_strain_at(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
+  return eval_station(system, system.instant().field(state), s).strain;
 }
 
-void eval_motion_sensors(const step::System& system, const step::State& state, std::vector<double>& values) {
-  values.clear();
-  for (const plan::SensorPlan& s : system.plan().sensors) {
-    if (!shows_motion(s.sensor.kind))
-      values.resize(values.size() + s.components.size());
-    else if (s.joint >= 0)
-      eval_joint_sensor(system, state, s, values);
-    else
-      append_point(s, system.instant().field(state), eval_sensor_point(system, state, s), values);
-  }
+Vec6<double> section_force_at(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
+  const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
+  const auto [k, local] = locate(beam, s.sensor.station);
+  const auto element = static_cast<std::size_t>(k);
+  Vec6<double> force;
+  with_beam_element(system.plan(), beam.elements[element], [&, at = local](const auto& e) {
+    force = ElementForce(system, e, beam.loads[element], system.instant().field(state), state).at(at);
+  });
+  return force;
 }
 
 namespace {

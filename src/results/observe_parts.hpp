@@ -15,13 +15,11 @@ struct PointMotion {
 
 PointMotion motion_of_port(const elements::Port& port, const elements::Field& field);
 
-/// Appends position, rotation, velocity or acceleration relative to the sensor's frame.
-void append_point(const plan::SensorPlan& s, const elements::Field& field, const PointMotion& point,
-                  std::vector<double>& values);
-
-/// Parts of the inertial acceleration along the sensor's chain of frames, then their sum; 3 components each.
-void append_split(const plan::SensorPlan& s, const elements::Field& field, const PointMotion& point,
-                  std::vector<double>& values);
+/// Motion of the point that a sensor names, of a part or of a beam's axis.
+PointMotion motion_at(const step::System& system, const step::State& state, const plan::SensorPlan& s);
+/// Section resultants and strains at the station that a sensor names, in section axes.
+motion::Vec6<double> section_force_at(const step::System& system, const step::State& state, const plan::SensorPlan& s);
+motion::Vec6<double> section_strain_at(const step::System& system, const step::State& state, const plan::SensorPlan& s);
 
 inline void append(std::vector<double>& to, const motion::Vec3<double>& v) { to.insert(to.end(), v.v, v.v + 3); }
 inline void append(std::vector<double>& to, const motion::Vec6<double>& v) { to.insert(to.end(), v.v, v.v + 6); }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/scene/sensor_kinds.hpp"
+
 namespace bough::run {
 
 using scene::SensorKind;
@@ -14,25 +16,22 @@ bool has_sensor(const plan::Plan& plan, SensorKind kind) {
                      [kind](const plan::SensorPlan& s) { return s.sensor.kind == kind; });
 }
 
-bool has_force_or_acceleration(const plan::Plan& plan) {
-  return has_sensor(plan, SensorKind::acceleration) || has_sensor(plan, SensorKind::acceleration_split) ||
-         has_sensor(plan, SensorKind::joint_reaction) || has_sensor(plan, SensorKind::section_force) ||
-         has_sensor(plan, SensorKind::section_strain);
+bool has_sensor(const plan::Plan& plan, scene::SensorShows shows) {
+  return std::any_of(plan.sensors.begin(), plan.sensors.end(),
+                     [shows](const plan::SensorPlan& s) { return scene::type_of(s.sensor.kind).shows == shows; });
 }
 
 }  // namespace
 
 EnergyError::EnergyError(const plan::Plan& plan, double duration, double mass)
-    : of_kinetic_(has_sensor(plan, SensorKind::kinetic_energy) || has_force_or_acceleration(plan)),
-      of_strain_(has_sensor(plan, SensorKind::strain_energy) || has_force_or_acceleration(plan)),
+    : of_kinetic_(has_sensor(plan, SensorKind::kinetic_energy) || has_sensor(plan, scene::SensorShows::force)),
+      of_strain_(has_sensor(plan, SensorKind::strain_energy) || has_sensor(plan, scene::SensorShows::force)),
       of_potential_(has_sensor(plan, SensorKind::potential_energy)),
       of_total_(has_sensor(plan, SensorKind::total_energy)),
       largest_(0.5 * mass * plan.length_scale * plan.length_scale / (duration * duration)) {}
 
 bool EnergyError::is_needed(const plan::Plan& plan) {
-  return has_force_or_acceleration(plan) || has_sensor(plan, SensorKind::kinetic_energy) ||
-         has_sensor(plan, SensorKind::strain_energy) || has_sensor(plan, SensorKind::potential_energy) ||
-         has_sensor(plan, SensorKind::total_energy);
+  return has_sensor(plan, scene::SensorShows::force) || has_sensor(plan, scene::SensorShows::energy);
 }
 
 double EnergyError::eval(const step::System& system, const step::State& after, const step::State& disturbed,

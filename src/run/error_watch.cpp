@@ -5,12 +5,11 @@
 #include <type_traits>
 
 #include "bough/results/observe.hpp"
+#include "bough/scene/sensor_kinds.hpp"
 
 namespace bough::run {
 
 namespace {
-
-using scene::SensorKind;
 
 constexpr double least_part = 1e-6;  ///< least range of a sensor, relative to the size of the structure or 1 rad
 constexpr double least_kinetic_share =
@@ -18,18 +17,11 @@ constexpr double least_kinetic_share =
 constexpr double part_of_frames = 0.2;  ///< the same in a moving frame, which sees the rest of a large motion
 constexpr double flip = 0.1;            ///< a larger change in one step is a jump of a rotation vector or quaternion
 
-bool is_rate(SensorKind kind) { return kind == SensorKind::velocity || kind == SensorKind::joint_rate; }
+bool is_rate(const plan::SensorPlan& s) { return scene::type_of(s.sensor.kind).shows == scene::SensorShows::rate; }
 
 bool is_length(const plan::SensorPlan& s, std::size_t component) {
-  switch (s.sensor.kind) {
-    case SensorKind::position:
-    case SensorKind::joint_displacement:
-      return true;
-    case SensorKind::velocity:
-      return component < 3;
-    default:
-      return false;
-  }
+  const std::string unit = scene::unit_of(s.sensor, component);
+  return unit == "m" || unit == "m/s";
 }
 
 bool is_driven(const plan::Plan& plan) {
@@ -50,15 +42,15 @@ ErrorWatch::ErrorWatch(const plan::Plan& plan) : is_driven_(is_driven(plan)) {
   for (const plan::SensorPlan& s : plan.sensors) {
     for (std::size_t k = 0; k < s.components.size(); ++k, ++index) {
       if (!results::shows_motion(s.sensor.kind)) continue;
-      const bool is_first = k == 0 || (is_rate(s.sensor.kind) && k == 3);
-      const bool moves_along = !s.sensor.frame.empty() && !is_rate(s.sensor.kind);
+      const bool is_first = k == 0 || (is_rate(s) && k == 3);
+      const bool moves_along = !s.sensor.frame.empty() && !is_rate(s);
       const double part = moves_along ? part_of_frames : least_part;
       if (is_first) least_range_.push_back(part * (is_length(s, k) ? plan.length_scale : 1.0));
       Column c;
       c.index = index;
       c.group = least_range_.size() - 1;
-      c.is_rate = is_rate(s.sensor.kind);
-      c.jumps = s.sensor.kind == SensorKind::rotation || s.sensor.kind == SensorKind::quaternion;
+      c.is_rate = is_rate(s);
+      c.jumps = scene::type_of(s.sensor.kind).of == scene::SensorOf::point && !c.is_rate && !is_length(s, k);
       columns_.push_back(c);
     }
   }

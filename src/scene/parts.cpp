@@ -1,6 +1,9 @@
 #include "bough/scene/parts.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+
+#include "bough/scene/sensor_kinds.hpp"
 
 namespace bough::scene {
 
@@ -200,27 +203,14 @@ void to_millimetres(scene::Scene& s) {
 
 double column_factor(const scene::Scene& s, const std::string& column, double length, double force) {
   for (const scene::Sensor& q : s.sensors) {
-    if (column != q.name && column.rfind(q.name + ".", 0) != 0) continue;
-    const std::string component = column == q.name ? "" : column.substr(q.name.size() + 1);
-    switch (q.kind) {
-      case scene::SensorKind::position:
-      case scene::SensorKind::joint_displacement:
-        return length;
-      case scene::SensorKind::velocity:
-      case scene::SensorKind::acceleration:
-        return component[0] == 'w' || component[1] == 'l' ? 1.0 : length;
-      case scene::SensorKind::joint_reaction:
-        return component[0] == 'm' ? force * length : force;
-      case scene::SensorKind::section_force:
-        return component[0] == 'M' || component[0] == 'T' ? force * length : force;
-      case scene::SensorKind::kinetic_energy:
-      case scene::SensorKind::potential_energy:
-      case scene::SensorKind::strain_energy:
-      case scene::SensorKind::total_energy:
-        return force * length;
-      default:
-        return 1.0;
-    }
+    const std::vector<std::string> columns = columns_of(q);
+    const auto at = std::find(columns.begin(), columns.end(), column);
+    if (at == columns.end()) continue;
+    const std::string unit = unit_of(q, static_cast<std::size_t>(at - columns.begin()));
+    if (unit == "m" || unit == "m/s" || unit == "m/s^2") return length;
+    if (unit == "1/m") return 1.0 / length;
+    if (unit == "N") return force;
+    if (unit == "N m" || unit == "J") return force * length;
   }
   return 1.0;
 }

@@ -19,7 +19,6 @@ std::string list_of(const std::vector<std::string>& words) {
 /// at all.
 void check_chain(ProblemList& list, std::size_t i) {
   const Sensor& s = list.scene.sensors[i];
-  if (!s.frame.empty()) list.check_place("sensors", i, "frame", s.frame, true);
   std::unordered_set<std::string> before;
   for (std::size_t k = 0; k < s.chain.size(); ++k) {
     const std::string key = "frames/" + std::to_string(k);
@@ -33,70 +32,50 @@ void check_chain(ProblemList& list, std::size_t i) {
   }
 }
 
-/// Checks that a joint has the coordinate whose rate is measured; if it has two, the sensor has to name one.
-void check_rate(ProblemList& list, std::size_t i, JointKind kind) {
+/// Checks that a joint has the coordinate that is measured; if it has several, the sensor has to name one.
+void check_coordinate(ProblemList& list, std::size_t i, const JointType& joint) {
   const Sensor& s = list.scene.sensors[i];
-  const auto& known = type_of(kind).coordinates;
-  if (known.empty())
-    list.add("sensors", i, "joint", s.joint,
-             "a " + to_string(kind) + " joint has no coordinate whose rate could be taken");
-  else if (s.coordinate.empty() && known.size() > 1)
-    list.add("sensors", i, "", s.name, "a " + to_string(kind) + " joint has two rates: say of which coordinate",
-             R"(write "coordinate": "angle" or "coordinate": "displacement")");
-  else if (!s.coordinate.empty() && type_of(kind).coordinate(s.coordinate) == nullptr)
+  const std::string& wanted = type_of(s.kind).coordinate;
+  const auto& known = joint.coordinates;
+  if (!wanted.empty()) {
+    if (joint.coordinate(wanted) == nullptr)
+      list.add("sensors", i, "joint", s.joint, "a " + joint.name + " joint has no " + wanted);
+  } else if (known.empty()) {
+    list.add("sensors", i, "joint", s.joint, "a " + joint.name + " joint has no coordinate whose rate could be taken");
+  } else if (s.coordinate.empty() && known.size() > 1) {
+    list.add("sensors", i, "", s.name, "a " + joint.name + " joint has two rates: say of which coordinate",
+             "write \"coordinate\": \"" + known[0].name + "\" or \"coordinate\": \"" + known[1].name + "\"");
+  } else if (!s.coordinate.empty() && joint.coordinate(s.coordinate) == nullptr) {
     list.add("sensors", i, "coordinate", s.coordinate,
-             "a " + to_string(kind) + " joint has the coordinate \"" + known[0].name + "\" only");
+             "a " + joint.name + " joint has the coordinate \"" + known[0].name + "\" only");
+  }
 }
 
 void check_sensor(ProblemList& list, std::size_t i) {
   const Sensor& s = list.scene.sensors[i];
-  if (s.kind != SensorKind::acceleration_split) list.check_frame("sensors", i, s.frame);
-  switch (s.kind) {
-    case SensorKind::acceleration_split:
-      check_chain(list, i);
-      if (s.beam.empty()) {
-        list.check_place("sensors", i, "at", s.at.to, true);
-        return;
-      }
-      break;
-    case SensorKind::position:
-    case SensorKind::rotation:
-    case SensorKind::quaternion:
-    case SensorKind::velocity:
-    case SensorKind::acceleration:
-      if (s.beam.empty()) {
-        list.check_place("sensors", i, "at", s.at.to, true);
-        return;
-      }
-      break;
-    case SensorKind::section_force:
-    case SensorKind::section_strain:
-      break;
-    case SensorKind::joint_reaction:
-      if (!s.frame.empty() && s.axes == LoadAxes::body)
-        list.add("sensors", i, "frame", s.frame,
-                 "a reaction is given in the axes of the body or of a frame, not of both",
-                 "leave one of \"axes\" and \"frame\" out");
-      list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint");
-      return;
-    case SensorKind::joint_angle:
-    case SensorKind::joint_displacement:
-    case SensorKind::joint_rate: {
-      if (!list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint")) return;
-      const auto thing = list.poses.find(s.joint);
-      const JointKind kind = list.scene.joints[thing->index].kind;
-      if (s.kind == SensorKind::joint_rate) return check_rate(list, i, kind);
-      const std::string wanted = s.kind == SensorKind::joint_displacement ? "displacement" : "angle";
-      if (type_of(kind).coordinate(wanted) == nullptr)
-        list.add("sensors", i, "joint", s.joint, "a " + to_string(kind) + " joint has no " + wanted);
-      return;
-    }
-    default:
-      return;
+  const SensorType& type = type_of(s.kind);
+  if (!type.takes(SensorField::axes_of))
+    list.check_frame("sensors", i, s.frame);
+  else if (!s.frame.empty())
+    list.check_place("sensors", i, "frame", s.frame, true);
+  if (type.takes(SensorField::chain)) check_chain(list, i);
+  if (type.of == SensorOf::whole) return;
+  if (type.of == SensorOf::point && s.beam.empty()) {
+    list.check_place("sensors", i, "at", s.at.to, true);
+    return;
   }
-  list.check_reference("sensors", i, "beam", s.beam, list.beams, "beam");
-  if (!(s.station >= 0.0 && s.station <= 1.0))
-    list.add("sensors", i, "station", text_of(s.station), "a station is a fraction of the beam's length, 0 to 1");
+  if (type.of == SensorOf::point || type.of == SensorOf::section) {
+    list.check_reference("sensors", i, "beam", s.beam, list.beams, "beam");
+    if (!(s.station >= 0.0 && s.station <= 1.0))
+      list.add("sensors", i, "station", text_of(s.station), "a station is a fraction of the beam's length, 0 to 1");
+    return;
+  }
+  if (type.of == SensorOf::reaction && !s.frame.empty() && s.axes == LoadAxes::body)
+    list.add("sensors", i, "frame", s.frame, "a reaction is given in the axes of the body or of a frame, not of both",
+             "leave one of \"axes\" and \"frame\" out");
+  const bool exists = list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint");
+  if (exists && type.of == SensorOf::coordinate)
+    check_coordinate(list, i, type_of(list.scene.joints[list.poses.find(s.joint)->index].kind));
 }
 
 /// Finds tolerances that no result could meet.
@@ -137,7 +116,7 @@ void check_quantity(ProblemList& list, const char* section, std::size_t i, const
   const std::size_t dot_at = quantity.find('.');
   const std::string name = quantity.substr(0, dot_at);
   if (!list.check_reference(section, i, key, name, list.sensors, "sensor")) return;
-  const auto& known = components_of(list.scene.sensors[list.sensor_of.at(name)].kind);
+  const auto known = components_of(list.scene.sensors[list.sensor_of.at(name)].kind);
   if (dot_at == std::string::npos) {
     if (!known.empty())
       list.add(section, i, key, quantity, "this sensor has the components " + list_of(known),

@@ -131,7 +131,8 @@ struct SensorPlan {
   int joint = -1;                       ///< index in Plan::joints (reaction, coordinate)
   motion::RowKind coordinate = {};      ///< of the joint, if that is measured
   elements::Port frame;                 ///< port of the frame of the observer, or in whose axes the result is resolved
-  std::vector<elements::Port> chain;    ///< acceleration_split
+  std::vector<elements::Port> chain;    ///< parts on whose motions values depend, besides the sensor's point: of an
+                                        ///< acceleration_split its frames, otherwise `frame`, if it is given
   std::vector<std::string> components;  ///< "" for a scalar
 };
 

@@ -1,0 +1,176 @@
+#include "bough/scene/sensor_kinds.hpp"
+
+#include <algorithm>
+
+namespace bough::scene {
+namespace {
+
+using Components = std::vector<SensorComponent>;
+
+/// Components of one unit.
+Components in(const std::string& unit, const std::vector<std::string>& names) {
+  Components r;
+  for (const std::string& name : names) r.push_back({name, unit});
+  return r;
+}
+Components operator+(Components a, const Components& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::vector<SensorType> make_types() {
+  using F = SensorField;
+  using enum SensorOf;
+  using enum SensorShows;
+  const std::vector<F> seen = {F::axes, F::observer};
+  const std::vector<std::string> parts = {"local", "tangential",  "coriolis", "centripetal",
+                                          "razi",  "translation", "total"};
+  Components split;
+  for (const std::string& part : parts) split = split + in("m/s^2", {part + "_x", part + "_y", part + "_z"});
+  return {
+      {SensorKind::position, "position", point, pose, in("m", {"x", "y", "z"}), seen, "Position of a point."},
+      {SensorKind::rotation, "rotation", point, pose, in("rad", {"rx", "ry", "rz"}), seen,
+       "Rotation vector from the ground's axes."},
+      {SensorKind::quaternion, "quaternion", point, pose, in("", {"q0", "q1", "q2", "q3"}), seen,
+       "Rotation from the ground's axes, the scalar first."},
+      {SensorKind::velocity, "velocity", point, rate, in("m/s", {"vx", "vy", "vz"}) + in("rad/s", {"wx", "wy", "wz"}),
+       seen, "Velocity of a point and angular velocity."},
+      {SensorKind::acceleration, "acceleration", point, force,
+       in("m/s^2", {"ax", "ay", "az"}) + in("rad/s^2", {"alx", "aly", "alz"}), seen,
+       "Acceleration of a point and angular acceleration."},
+      {SensorKind::section_force,
+       "section_force",
+       section,
+       force,
+       in("N", {"N", "Q2", "Q3"}) + in("N m", {"T", "M2", "M3"}),
+       {},
+       "Section resultants, in section axes."},
+      {SensorKind::section_strain,
+       "section_strain",
+       section,
+       force,
+       in("", {"e1", "g2", "g3"}) + in("1/m", {"k1", "k2", "k3"}),
+       {},
+       "Section strains, in section axes."},
+      {SensorKind::joint_reaction, "joint_reaction", reaction, force,
+       in("N", {"fx", "fy", "fz"}) + in("N m", {"mx", "my", "mz"}), seen,
+       "Wrench of the first on the second at the second's joint frame. Axes body: those of that frame."},
+      {SensorKind::joint_angle,
+       "joint_angle",
+       coordinate,
+       pose,
+       in("rad", {""}),
+       {},
+       "Angle of a joint, the second relative to the first; turns are counted.",
+       "angle"},
+      {SensorKind::joint_displacement,
+       "joint_displacement",
+       coordinate,
+       pose,
+       in("m", {""}),
+       {},
+       "Displacement of a joint, the second relative to the first.",
+       "displacement"},
+      {SensorKind::joint_rate,
+       "joint_rate",
+       coordinate,
+       rate,
+       in("rad/s", {""}),
+       {F::coordinate},
+       "Rate of a coordinate of a joint; of a displacement in m/s."},
+      {SensorKind::kinetic_energy,
+       "kinetic_energy",
+       whole,
+       energy,
+       in("J", {""}),
+       {},
+       "Of the whole, in the inertial frame."},
+      {SensorKind::strain_energy,
+       "strain_energy",
+       whole,
+       energy,
+       in("J", {""}),
+       {},
+       "Of all beams, springs, bushings and springs of joints."},
+      {SensorKind::potential_energy,
+       "potential_energy",
+       whole,
+       energy,
+       in("J", {""}),
+       {},
+       "Of gravity, in the inertial frame."},
+      {SensorKind::total_energy, "total_energy", whole, energy, in("J", {""}), {}, "Sum of the three energies."},
+      {SensorKind::acceleration_split,
+       "acceleration_split",
+       point,
+       force,
+       split,
+       {F::chain, F::axes_of},
+       "Inertial acceleration of a point, split along a chain of frames that move in each other, the first in the "
+       "inertial frame (Harithuddin, Trivailo, Jazar 2015); translation is that of the origin of the last frame, total "
+       "the sum."},
+  };
+}
+
+}  // namespace
+
+bool SensorType::takes(SensorField field) const {
+  return std::find(fields.begin(), fields.end(), field) != fields.end();
+}
+
+const std::vector<SensorType>& sensor_types() {
+  static const std::vector<SensorType>& types = *new std::vector<SensorType>(make_types());  // as joint_types()
+  return types;
+}
+
+const SensorType& type_of(SensorKind kind) { return sensor_types().at(static_cast<std::size_t>(kind)); }
+
+std::optional<SensorKind> sensor_kind_named(const std::string& name) {
+  for (const SensorType& type : sensor_types())
+    if (type.name == name) return type.kind;
+  return std::nullopt;
+}
+
+std::string to_string(SensorKind kind) { return type_of(kind).name; }
+
+std::string components_text(const SensorType& type) {
+  std::string text;
+  for (std::size_t k = 0; k < type.components.size(); ++k) {
+    const SensorComponent& c = type.components[k];
+    if (!c.name.empty()) text += (text.empty() ? "" : " ") + c.name;
+    const bool is_last = k + 1 == type.components.size() || type.components[k + 1].unit != c.unit;
+    if (is_last && !c.unit.empty()) text += (text.empty() ? "[" : " [") + c.unit + "]";
+  }
+  return text;
+}
+
+std::vector<std::string> components_of(SensorKind kind) {
+  std::vector<std::string> names;
+  for (const SensorComponent& c : type_of(kind).components)
+    if (!c.name.empty()) names.push_back(c.name);
+  return names;
+}
+
+std::string unit_of(const Sensor& sensor, std::size_t component) {
+  const SensorType& type = type_of(sensor.kind);
+  if (!type.takes(SensorField::coordinate)) return type.components.at(component).unit;
+  for (const JointType& joint : joint_types())
+    if (const JointCoordinate* c = joint.coordinate(sensor.coordinate)) return c->is_length() ? "m/s" : "rad/s";
+  return type.components.at(component).unit;
+}
+
+std::vector<std::string> columns_of(const Sensor& sensor) {
+  std::vector<std::string> columns;
+  for (const SensorComponent& c : type_of(sensor.kind).components)
+    columns.push_back(c.name.empty() ? sensor.name : sensor.name + "." + c.name);
+  return columns;
+}
+
+const JointCoordinate* coordinate_of(const Sensor& sensor, const JointType& joint) {
+  const SensorType& type = type_of(sensor.kind);
+  if (type.of != SensorOf::coordinate || joint.coordinates.empty()) return nullptr;
+  const std::string& name = type.coordinate.empty() ? sensor.coordinate : type.coordinate;
+  return name.empty() ? &joint.coordinates.front() : joint.coordinate(name);
+}
+
+}  // namespace bough::scene
