@@ -21,6 +21,7 @@ std::vector<JointType> make_types() {
   const Rows axis = {{RowKind::across, {0, 2}}, {RowKind::across, {1, 2}}};  // axes 3 parallel
   const Rows orientation = {{RowKind::across, {0, 1}}, {RowKind::across, {1, 2}}, {RowKind::across, {2, 0}}};
   const Rows right_angle = {{RowKind::across, {0, 1}}};
+  const Rows spin = {{RowKind::angle}};  // no rotation about axis 3
   const Rows screw = {{RowKind::screw}};
 
   const JointCoordinate angle = {"angle", RowKind::angle}, displacement = {"displacement", RowKind::along};
@@ -82,6 +83,16 @@ std::vector<JointType> make_types() {
        JointAxes::one,
        {{12, 0.7, 1.4}},
        "Rotation about axis 3 with a displacement along it of `pitch` a turn."},
+      {JointKind::constant_velocity,
+       "constant_velocity",
+       point + spin,
+       no_coordinates,
+       JointAxes::one,
+       {{12, 1.0, 0.5}, {12, 0.5, 1.2}},
+       "Bending of two shafts along axes 3, at whose every angle both turn at one rate: the rotation of the second "
+       "against the first is about an axis normal to axis 3. Shafts that are bent at the start have their own "
+       "rotations "
+       "in first and second."},
   };
 }
 

@@ -200,6 +200,49 @@ TEST(Joints, two_universal_joints_transmit_a_constant_speed_one_alone_does_not) 
   EXPECT_NEAR(run.last("in"), 21.0, 1e-12);
 }
 
+TEST(Joints, a_constant_velocity_joint_transmits_speed_and_torque_at_an_angle) {
+  // Shafts along x and at 0.6 rad in the x-y plane; the second is held in the ground's y and z at a point of its axis,
+  // and loaded by a torque about it. Both turn at one rate, so the torques of both shafts are equal but for inertia.
+  // The joint's moment is normal to every axis that it bends about, which lies in the plane of symmetry of the shafts:
+  // it is along the bisector, and m = torque / cos(0.3).
+  const double beta = 0.6, c = std::cos(beta), s = std::sin(beta), torque = -2.5, J = 0.1;
+  const std::string shaft = R"({"axis": [0, 1, 0], "angle": 1.5707963267948966})";  // axis 3 of the joint's frames
+  scene::Scene scene = support::scene_of(R"({
+    "bodies": [{"name": "driving", "mass": 1, "inertia": [0.1, 0.2, 0.2]},
+               {"name": "driven", "mass": 1, "inertia": [0.1, 0.2, 0.2], "rotation": {"axis": [0, 0, 1], "angle": 0.6}}],
+    "joints": [
+      {"name": "in", "kind": "revolute", "first": "ground", "second": "driving", "position": [0, 0, 0], "axis": [1, 0, 0],
+       "drives": [{"law": {"expression": "4*t + t^2"}}]},
+      {"name": "bend", "kind": "constant_velocity",
+       "first": {"to": "driving", "rotation": )" +
+                                         shaft + R"(}, "second": {"to": "driven", "rotation": )" + shaft + R"(}}],
+    "motions": [{"at": {"to": "driven", "position": [1, 0, 0]}, "y": 0, "z": 0}],
+    "loads": [{"at": "driven", "axes": "body", "moment": [-2.5, 0, 0], "law": 1}],
+    "sensors": [{"name": "in", "kind": "joint_angle", "joint": "in"}, {"name": "bend", "kind": "joint_reaction", "joint": "bend"},
+                {"name": "out", "kind": "velocity", "at": "driven"}],
+    "analysis": {"kind": "dynamic", "end_time": 3, "step_size": 5e-3, "tolerance": 1e-11}})");
+  const Outcome outcome = support::run(scene);
+  ASSERT_TRUE(outcome.ok()) << outcome.summary.cause;
+  const Table& run = outcome.history;
+  double rate_error = 0.0, moment_error = 0.0;
+  for (double t : run.times) {
+    const double rate = 4.0 + 2.0 * t;
+    rate_error = std::max({rate_error, std::abs(run.at("out.wx", t) - rate * c),
+                           std::abs(run.at("out.wy", t) - rate * s), std::abs(run.at("out.wz", t))});
+    if (t == 0.0) continue;  // accelerations of the start are those of the step before it
+    const double transmitted = J * 2.0 - torque, m = transmitted / std::cos(0.5 * beta);
+    moment_error =
+        std::max({moment_error, std::abs(run.at("bend.mx", t) - m * std::cos(0.5 * beta)),
+                  std::abs(run.at("bend.my", t) - m * std::sin(0.5 * beta)), std::abs(run.at("bend.mz", t))});
+  }
+  std::printf("constant velocity: errors of the driven shaft's rate %.1e rad/s, of the moment %.1e N m\n", rate_error,
+              moment_error);
+  EXPECT_LT(rate_error, 1e-8);
+  EXPECT_LT(moment_error, 1e-6);
+  EXPECT_NEAR(run.last("in"), 21.0, 1e-12);
+  EXPECT_LT(outcome.summary.checks.energy_balance, 1e-6);
+}
+
 TEST(Joints, fixed_makes_one_body_of_two) {
   // The composite of two boxes, given as one body, tumbles the same.
   const double ma = 2, mb = 1;

@@ -113,6 +113,7 @@ enum class JointKind : std::uint8_t {
   universal,
   planar,
   screw,
+  constant_velocity,
 };
 
 /// Spring, damper and effort along a joint's free coordinate `coordinate` ("angle" or "displacement").
