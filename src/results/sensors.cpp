@@ -149,6 +149,7 @@ constexpr Kernel kernels[] = {
        to.push_back(l.energies().kinetic + l.energies().strain + l.energies().potential);
      }},
     {acceleration_split, [](Look& l, const SensorPlan& s, Values& to) { append_split(l, s, to); }},
+    {relative_position, [](Look& l, const SensorPlan& s, Values& to) { append(to, l.point(s).pose.x); }},
 };
 constexpr bool is_in_order() {
   for (std::size_t k = 0; k < std::size(kernels); ++k)

@@ -109,6 +109,13 @@ std::vector<SensorType> make_types() {
        "Inertial acceleration of a point, split along a chain of frames that move in each other, the first in the "
        "inertial frame (Harithuddin, Trivailo, Jazar 2015); translation is that of the origin of the last frame, total "
        "the sum."},
+      {SensorKind::relative_position,
+       "relative_position",
+       point,
+       pose,
+       in("m", {"x", "y", "z"}),
+       {F::axes_of},
+       "Position of a point from the origin of another part, in the axes of that part, which is given as `frame`."},
   };
 }
 

@@ -176,6 +176,8 @@ const Bad frame_cases[] = {
      "not of both"},
     {"\"kind\": \"total_energy\"", "\"kind\": \"acceleration_split\", \"at\": \"tip\", \"frames\": @[ ]",
      "/sensors/3/frames", "1"},
+    {"\"kind\": \"total_energy\"", "\"kind\": \"relative_position\", \"at\": \"tip\", \"frame\": @\"cat\"",
+     "/sensors/3/frame", "did you mean \"cart\"?"},
     {"\"kind\": \"total_energy\"",
      "\"kind\": \"acceleration_split\", \"at\": \"tip\", \"frames\": [ \"bench\", @\"cat\" ]", "/sensors/3/frames/1",
      "did you mean \"cart\"?"},

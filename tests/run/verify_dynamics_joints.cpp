@@ -200,6 +200,31 @@ TEST(Joints, two_universal_joints_transmit_a_constant_speed_one_alone_does_not) 
   EXPECT_NEAR(run.last("in"), 21.0, 1e-12);
 }
 
+TEST(Joints, a_point_is_seen_in_the_axes_of_another_part) {
+  // Two arms turn about z by angles a and b; the origin of the first is half a metre from the axis. A point at 2 of the
+  // second is at 2 (cos(b - a), sin(b - a)) - (0.5, 0) in the axes of the first.
+  scene::Scene scene = support::scene_of(R"({
+    "bodies": [{"name": "first", "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [0.5, 0, 0]},
+               {"name": "second", "mass": 1, "inertia": [0.1, 0.1, 0.1]}],
+    "joints": [
+      {"name": "a", "kind": "revolute", "first": "ground", "second": "first", "position": [0, 0, 0], "axis": [0, 0, 1],
+       "drives": [{"law": {"expression": "3*t"}}]},
+      {"name": "b", "kind": "revolute", "first": "ground", "second": "second", "position": [0, 0, 0], "axis": [0, 0, 1],
+       "drives": [{"law": {"expression": "t^2"}}]}],
+    "sensors": [{"name": "seen", "kind": "relative_position", "at": {"to": "second", "position": [2, 0, 0]}, "frame": "first"},
+                {"name": "still", "kind": "relative_position", "at": {"to": "ground", "position": [2, 0, 0]}, "frame": "first"}],
+    "analysis": {"kind": "dynamic", "end_time": 2, "step_size": 0.01, "tolerance": 1e-12}})");
+  const Table run = history(scene);
+  for (double t : run.times) {
+    const double turn = t * t - 3.0 * t;
+    EXPECT_NEAR(run.at("seen.x", t), 2.0 * std::cos(turn) - 0.5, 1e-11);
+    EXPECT_NEAR(run.at("seen.y", t), 2.0 * std::sin(turn), 1e-11);
+    EXPECT_NEAR(run.at("still.x", t), 2.0 * std::cos(3.0 * t) - 0.5, 1e-11);
+    EXPECT_NEAR(run.at("still.y", t), -2.0 * std::sin(3.0 * t), 1e-11);
+    EXPECT_NEAR(run.at("seen.z", t), 0.0, 1e-14);
+  }
+}
+
 TEST(Joints, a_constant_velocity_joint_transmits_speed_and_torque_at_an_angle) {
   // Shafts along x and at 0.6 rad in the x-y plane; the second is held in the ground's y and z at a point of its axis,
   // and loaded by a torque about it. Both turn at one rate, so the torques of both shafts are equal but for inertia.

@@ -222,6 +222,7 @@ enum class SensorKind : std::uint8_t {
   potential_energy,
   total_energy,
   acceleration_split,
+  relative_position,
 };
 
 struct Sensor {
