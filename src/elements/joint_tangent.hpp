@@ -54,12 +54,12 @@ void eval_tangent(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const
   for (int k = 0; k < joint.num_rows; ++k) {
     const ConstraintRowOn<G, C>& row = joint.rows[k];
     typename G::template Wrench<S> gradient;
-    eval_coordinate<G, S, C>(row.kind, row, row.pitch, H, turns, gradient);
+    eval_coordinate<G, S, C>(row.kind, row, row.constant, H, turns, gradient);
     put.row(k, 1, G::vector_of_wrench(gradient));
     put.row(k, 0, -G::inverse_adjoint_transpose_times(H, G::vector_of_wrench(gradient)));
     if constexpr (G::turns)  // else gradients are constant
       if (ports[0].moves)
-        add_gradient_slope<G, S>(multipliers[k], eval_gradient_slope<G, S, C>(row.kind, row, row.pitch, H), e);
+        add_gradient_slope<G, S>(multipliers[k], eval_gradient_slope<G, S, C>(row.kind, row, row.constant, H), e);
   }
   e.has_twist = around.has_inertia && is_damped(joint);
   typename G::template Motion<S> xi;

@@ -126,7 +126,13 @@ void Converter::joint(const Value& v, const std::string& at) {
   j.kind = scene::joint_kind_named(v.find("kind")->text).value();  // the schema takes no other names
   const JointType& type = scene::type_of(j.kind);
   Side a = side(*v.find("first"), at + "/first"), b = side(*v.find("second"), at + "/second");
-  place_sides(v, at, type, a, b);
+  if (type.has_common_frame()) {
+    place_sides(v, at, type, a, b);
+  } else {
+    for (const char* key : {"position", "axis", "second_axis"})
+      if (v.find(key) != nullptr)
+        fault(at + "/" + key, "a " + type.name + " joint has no common frame: give the two points in first and second");
+  }
   j.first = a.to;
   j.second = b.to;
   j.pitch = number_or(v, "pitch", 0.0);

@@ -102,12 +102,22 @@ void Builder::add_joints() {
     j.ports[0] = port_at(given.first);
     j.ports[1] = port_at(given.second);
     const scene::JointType& type = scene::type_of(given.kind);
-    for (const scene::JointRow& row : type.rows)
-      add_row(j, row.kind, row.axes.i, row.axes.j).pitch = scene::pitch_per_radian(given.pitch);
     const Frame<double> H = motion::relative(initial_pose(j.ports[0]), initial_pose(j.ports[1]));
+    for (const scene::JointRow& row : type.rows)
+      add_row(j, row.kind, row.axes.i, row.axes.j).constant = motion::traits_of(row.kind).is_between_points
+                                                                  ? scene::eval_row(row, 0.0, H).value
+                                                                  : scene::pitch_per_radian(given.pitch);
     for (const scene::JointDrive& d : given.drives) {
-      const scene::JointRow row{type.coordinate(d.coordinate)->kind};
-      add_row(j, row.kind, 2, 0, add_drive(d.law, d.is_rate, scene::eval_row(row, 0.0, H).value, given.name));
+      const scene::JointRow coordinate{type.coordinate(d.coordinate)->kind};
+      const int law = add_drive(d.law, d.is_rate, scene::eval_row(coordinate, 0.0, H).value, given.name);
+      const auto end = j.rows + type.rows.size();
+      const auto held = std::find_if(j.rows, end, [&](const auto& row) { return row.kind == coordinate.kind; });
+      if (held != end && motion::traits_of(held->kind).is_between_points) {
+        held->constant = 0.0;
+        held->law = law;
+      } else {
+        add_row(j, coordinate.kind, 2, 0, law);
+      }
     }
     for (const scene::JointForce& f : given.forces) {
       elements::Effort& e = j.efforts[j.num_efforts++];

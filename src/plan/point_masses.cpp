@@ -1,4 +1,5 @@
 #include <cmath>
+#include <span>
 
 #include "plan_builder.hpp"
 
@@ -36,13 +37,7 @@ void Builder::hold_point_masses() {
                                  lanes::dot(lanes::linear_part(e.wrench), lanes::linear_part(e.wrench)));
       else if constexpr (E::role == elements::Role::joint) {
         // A row along an axis of the first frame turns with the first body; three such rows form a point and do not.
-        bool turns = e.num_efforts > 0;
-        int along = 0;
-        for (int k = 0; k < e.num_rows; ++k) {
-          turns |= e.rows[k].kind != elements::RowKind::along;
-          ++along;
-        }
-        mark(e, turns || along != 3);
+        mark(e, e.num_efforts > 0 || !motion::joins_points(std::span(e.rows, static_cast<std::size_t>(e.num_rows))));
       } else
         mark(e, true);
     }

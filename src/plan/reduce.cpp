@@ -250,10 +250,11 @@ class OfPoints final : public Motion {
     const Mat3<double>& axes = b_.initial_pose(e.ports[0]).R;
     for (int k = 0; k < e.num_rows; ++k) {
       const elements::ConstraintRow& row = e.rows[k];
+      const bool is_between_points = motion::traits_of(row.kind).is_between_points;
       if (row.kind == RowKind::across) continue;
-      if (row.kind != RowKind::along) return "it turns";
+      if (row.kind != RowKind::along && !is_between_points) return "it turns";
       if (auto o = against_places(e.ports)) return o;
-      if (!line_) continue;
+      if (!line_ || is_between_points) continue;
       const double part = std::abs(lanes::dot(*line_, axis_of(axes, row.i)));
       if (part > small && std::abs(part - 1.0) > small) return "its axes are oblique to the line";
       if (part <= small && row.law >= 0) return "it drives a motion off the line";
@@ -261,6 +262,7 @@ class OfPoints final : public Motion {
     return std::nullopt;
   }
   bool keeps(const elements::Joint& e, int k) const override {
+    if (motion::traits_of(e.rows[k].kind).is_between_points) return true;
     if (e.rows[k].kind != RowKind::along) return false;
     return !line_ || std::abs(lanes::dot(*line_, axis_of(b_.initial_pose(e.ports[0]).R, e.rows[k].i))) > 0.5;
   }

@@ -116,6 +116,7 @@ class Reducer {
       elements::ConstraintRowOn<G, double>& to = r.rows[r.num_rows++];
       to.kind = from.kind;
       to.law = from.law;
+      to.constant = from.constant;
       to.d = from.kind == RowKind::along ? unit(Ba, from.i) : sign;
       if constexpr (G::turns)
         if (from.kind == RowKind::across) {  // g . (c k + s i k)

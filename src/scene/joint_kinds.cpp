@@ -121,10 +121,12 @@ bool JointType::has_pitch() const {
   return std::any_of(rows.begin(), rows.end(), [](const JointRow& row) { return row.kind == RowKind::screw; });
 }
 
-bool JointType::joins_points() const {
-  return rows.size() == 3 &&
-         std::all_of(rows.begin(), rows.end(), [](const JointRow& row) { return row.kind == RowKind::along; });
+bool JointType::has_common_frame() const {
+  return std::none_of(rows.begin(), rows.end(),
+                      [](const JointRow& row) { return motion::traits_of(row.kind).is_between_points; });
 }
+
+bool JointType::joins_points() const { return motion::joins_points(rows); }
 
 const std::vector<JointType>& joint_types() {
   static const std::vector<JointType>& types =

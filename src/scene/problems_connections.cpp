@@ -25,7 +25,8 @@ double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm_of(c
 double gap_of(const Joint& j, const Frame& H) {
   double gap = 0.0;
   for (const JointRow& row : type_of(j.kind).rows)
-    if (motion::traits_of(row.kind).is_length) gap = std::hypot(gap, eval_row(row, j.pitch, H).value);
+    if (motion::traits_of(row.kind).is_length && !motion::traits_of(row.kind).is_between_points)
+      gap = std::hypot(gap, eval_row(row, j.pitch, H).value);
   return gap;
 }
 
@@ -48,6 +49,8 @@ double turn_of(const Joint& j, const Frame& H) {
 /// Describes why the two joint frames cannot coincide at the start; empty where they do. H: pose of the second in the
 /// first.
 std::string closure_fault(const Joint& j, const Frame& H, double allowed) {
+  if (!type_of(j.kind).has_common_frame() && norm_of(H.x) <= allowed)
+    return "the points of first and second coincide at the start, so the joint has no direction";
   const double gap = gap_of(j, H), turn = turn_of(j, H);
   if (gap > allowed) return "the joint frames of first and second are " + in_metres(gap) + " apart at the start";
   if (turn <= angle_tolerance) return "";
@@ -97,7 +100,10 @@ void check_drives(ProblemList& list, std::size_t i, const Frame* H) {
   }
   for (std::size_t k = 0; k < j.forces.size(); ++k) {
     const std::string key = "forces/" + std::to_string(k);
-    check_coordinate(list, i, key + "/coordinate", j.forces[k].coordinate);
+    const JointCoordinate* coordinate = check_coordinate(list, i, key + "/coordinate", j.forces[k].coordinate);
+    if (coordinate != nullptr && !type_of(j.kind).has_common_frame())
+      list.add("joints", i, key, j.forces[k].coordinate,
+               "the joint holds this coordinate, so a force along it moves nothing", "take a spring, or a drive");
     list.check_law("joints", i, key + "/effort", j.forces[k].effort, false);
   }
 }

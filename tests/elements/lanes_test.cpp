@@ -39,7 +39,7 @@ void vary_element(Bushing& e, Numbers& numbers) {
   vary(e.rest, numbers);
 }
 void vary_element(Joint& e, Numbers& numbers) {
-  for (int k = 0; k < e.num_rows; ++k) vary(e.rows[k].pitch, numbers);
+  for (int k = 0; k < e.num_rows; ++k) vary(e.rows[k].constant, numbers);
   for (int k = 0; k < e.num_efforts; ++k) {
     vary(e.efforts[k].stiffness, numbers);
     vary(e.efforts[k].rest, numbers);

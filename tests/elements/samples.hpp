@@ -222,13 +222,13 @@ inline Sample<Bushing> bushing_sample(Ends ends) {
   return s;
 }
 
-inline ConstraintRow row_of(RowKind kind, int i = 0, int j = 0, int law = -1, double pitch = 0.0) {
+inline ConstraintRow row_of(RowKind kind, int i = 0, int j = 0, int law = -1, double constant = 0.0) {
   ConstraintRow r;
   r.kind = kind;
   r.i = i;
   r.j = j;
   r.law = law;
-  r.pitch = pitch;
+  r.constant = constant;
   return r;
 }
 

@@ -16,8 +16,8 @@ using motion::RowKind;
 template <class G, class C>
 struct ConstraintRowOn : G::template Direction<C> {
   RowKind kind = RowKind::along;
-  int law = -1;   ///< -1: zero
-  C pitch = 0.0;  ///< displacement per radian [m/rad] (screw)
+  int law = -1;      ///< -1: zero
+  C constant = 0.0;  ///< displacement per radian (screw) [m/rad], length (between points) [m]
 };
 template <class C>
 using ConstraintRowOf = ConstraintRowOn<motion::Se3, C>;
@@ -65,7 +65,7 @@ struct JointOn {
     for (int k = 0; k < a.num_rows; ++k) {
       visit.flag(a.rows[k].kind, b.rows[k].kind);
       visit.direction(a.rows[k], b.rows[k]);
-      visit.number(a.rows[k].pitch, b.rows[k].pitch);
+      visit.number(a.rows[k].constant, b.rows[k].constant);
       visit.law(a.rows[k].law, b.rows[k].law);
     }
     visit.flag(a.num_efforts, b.num_efforts);
@@ -118,7 +118,7 @@ inline bool aligns_all_axes(const Joint& e, int k) {
 template <class G, class S, class C>
 BOUGH_INLINE S eval_row(const ConstraintRowOn<G, C>& row, const typename G::template Pose<S>& H, const C& turns,
                         const Constant<S>* laws, typename G::template Wrench<S>& gradient) {
-  const S value = eval_coordinate<G, S, C>(row.kind, row, row.pitch, H, turns, gradient);
+  const S value = eval_coordinate<G, S, C>(row.kind, row, row.constant, H, turns, gradient);
   return row.law < 0 ? value : S(value - laws[row.law]);
 }
 

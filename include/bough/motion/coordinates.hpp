@@ -19,16 +19,31 @@ enum class RowKind : std::uint8_t {
 struct RowTraits {
   bool is_length;  ///< a length [m]; otherwise an angle [rad] or a cosine
   bool has_angle;  ///< depends on theta, whose turns are counted
+  /// Depends on the origins of both frames alone, and not on their axes. A joint holds such a coordinate at its initial
+  /// value, unless a drive prescribes it, and its frames do not coincide.
+  bool is_between_points;
   const char* about;
   const char* equation;  ///< what is 0
 };
 inline constexpr RowTraits row_traits[] = {
-    {true, false, "along {i}", "u{i}"},
-    {false, false, "axis {i} of the first normal to axis {j} of the second", "e{i}.R e{j}"},
-    {false, true, "angle about 3", "theta"},
-    {true, true, "screw along 3", "u3 - pitch theta / (2 pi)"},
+    {true, false, false, "along {i}", "u{i}"},
+    {false, false, false, "axis {i} of the first normal to axis {j} of the second", "e{i}.R e{j}"},
+    {false, true, false, "angle about 3", "theta"},
+    {true, true, false, "screw along 3", "u3 - pitch theta / (2 pi)"},
 };
 constexpr const RowTraits& traits_of(RowKind kind) { return row_traits[static_cast<int>(kind)]; }
+
+/// Whether rows together act between points of both parts, and depend on the axes of neither: coordinates between
+/// points, or all three displacements.
+template <class Rows>
+bool joins_points(const Rows& rows) {
+  int along = 0;
+  for (const auto& row : rows) {
+    along += row.kind == RowKind::along ? 1 : 0;
+    if (row.kind != RowKind::along && !traits_of(row.kind).is_between_points) return false;
+  }
+  return along == 0 || along == 3;
+}
 
 /// theta = turns + atan2(s', c'), (c', s') the rotation about axis 3 seen from the last accepted angle: smooth over
 /// any number of turns. turn: (c, s) of the rotation, times any positive factor.
@@ -51,8 +66,8 @@ Vec3<S> angle_gradient(const Mat3<S>& R) {
 
 /// The same as eval_coordinate below, of a kind that measures rotations.
 template <class G, class S, class C>
-BOUGH_INLINE S eval_turning_coordinate(RowKind kind, const typename G::template Direction<C>& direction, const C& pitch,
-                                       const typename G::template Pose<S>& H, const C& turns,
+BOUGH_INLINE S eval_turning_coordinate(RowKind kind, const typename G::template Direction<C>& direction,
+                                       const C& constant, const typename G::template Pose<S>& H, const C& turns,
                                        typename G::template Wrench<S>& gradient) {
   if (kind == RowKind::across) {
     const auto s = G::seen(H, direction);
@@ -65,19 +80,19 @@ BOUGH_INLINE S eval_turning_coordinate(RowKind kind, const typename G::template 
     gradient = G::moment(moment);
     return angle;
   }
-  const S minus_pitch = S(-pitch);
+  const S minus_pitch = S(-constant);
   const auto axis = G::template Direction<C>::axial();
   gradient = G::force_moment(G::seen(H, axis), minus_pitch * moment);
   return G::component(H, axis) + minus_pitch * angle;
 }
 /// Value of a coordinate and its gradient, a wrench in the axes of the second frame. Where nothing turns, all
-/// coordinates are displacements. pitch: of a screw [m/rad].
+/// coordinates are displacements. constant: pitch of a screw [m/rad].
 template <class G, class S, class C>
-BOUGH_INLINE S eval_coordinate(RowKind kind, const typename G::template Direction<C>& direction, const C& pitch,
+BOUGH_INLINE S eval_coordinate(RowKind kind, const typename G::template Direction<C>& direction, const C& constant,
                                const typename G::template Pose<S>& H, const C& turns,
                                typename G::template Wrench<S>& gradient) {
   if constexpr (G::turns)
-    if (kind != RowKind::along) return eval_turning_coordinate<G, S, C>(kind, direction, pitch, H, turns, gradient);
+    if (kind != RowKind::along) return eval_turning_coordinate<G, S, C>(kind, direction, constant, H, turns, gradient);
   gradient = G::force(G::seen(H, direction));
   return G::component(H, direction);
 }
@@ -89,7 +104,7 @@ struct GradientSlope {
 };
 template <class G, class S, class C>
 GradientSlope<G, S> eval_gradient_slope(RowKind kind, const typename G::template Direction<C>& direction,
-                                        const C& pitch, const typename G::template Pose<S>& H) {
+                                        const C& constant, const typename G::template Pose<S>& H) {
   GradientSlope<G, S> r;
   if (kind == RowKind::along || kind == RowKind::screw) {
     r.has_force = true;
@@ -102,7 +117,7 @@ GradientSlope<G, S> eval_gradient_slope(RowKind kind, const typename G::template
   if (kind == RowKind::angle || kind == RowKind::screw) {
     r.has_moment = true;
     r.moment = G::axial_slope(H, direction);
-    if (kind == RowKind::screw) r.moment = S(-pitch) * r.moment;
+    if (kind == RowKind::screw) r.moment = S(-constant) * r.moment;
   }
   return r;
 }
