@@ -8,10 +8,23 @@ namespace bough::elements {
 using motion::eval_gradient_slope;
 using motion::GradientSlope;
 
+/// Where nothing turns, the gradients of displacements are constant.
+template <class G>
+constexpr bool has_gradient_slope(RowKind kind) {
+  return G::turns || motion::traits_of(kind).is_between_points;
+}
+/// g: the gradient itself.
 template <class G, class S>
-void add_gradient_slope(const S& factor, const GradientSlope<G, S>& r, RelativeForce<G, S>& e) {
-  if (r.has_force) G::add_force_slope(e.by_pose, factor, r.force);
-  if (r.has_moment) G::add_moment_slope(e.by_pose, factor, r.moment);
+void add_gradient_slope(const S& factor, const GradientSlope<G, S>& r, const typename G::template Wrench<S>& g,
+                        RelativeForce<G, S>& e) {
+  if constexpr (G::turns) {
+    if (r.has_force) G::add_force_slope(e.by_pose, factor, r.force);
+    if (r.has_moment) G::add_moment_slope(e.by_pose, factor, r.moment);
+  }
+  if (!r.has_lateral) return;
+  const auto unit = G::template Pose<S>::identity();
+  G::add_rotation(e.by_pose, S(factor * r.lateral), unit, unit);
+  G::add_outer(e.by_pose, G::scaled(S(-factor * r.lateral), g), g);
 }
 
 /// Of an effort along a coordinate with gradient g: stiffness k g g^T, damping c (g . xi) g, and the gradient's own
@@ -26,9 +39,9 @@ void add_effort_slopes(const EffortOn<G, C>& effort, const typename G::template 
   S rate(0.0);
   if (damps) rate = G::real_power(g, xi);
   GradientSlope<G, S> slope;
-  if constexpr (G::turns) {  // else gradients are constant
+  if (has_gradient_slope<G>(effort.coordinate)) {
     slope = eval_gradient_slope<G, S, C>(effort.coordinate, effort.direction, C(0.0), H);
-    add_gradient_slope<G, S>(eval_effort<G, S, C>(effort, value, damps ? &rate : nullptr, around.laws), slope, e);
+    add_gradient_slope<G, S>(eval_effort<G, S, C>(effort, value, damps ? &rate : nullptr, around.laws), slope, g, e);
   }
   G::add_outer(e.by_pose, G::scaled(effort.stiffness, g), g);
   if (!damps) return;
@@ -36,6 +49,10 @@ void add_effort_slopes(const EffortOn<G, C>& effort, const typename G::template 
   if constexpr (G::turns) {
     if (slope.has_force) G::add_outer(e.by_pose, damped, G::moment(G::force_slope_transpose_times(slope.force, xi)));
     if (slope.has_moment) G::add_outer(e.by_pose, damped, G::moment(G::moment_slope_transpose_times(slope.moment, xi)));
+  }
+  if (slope.has_lateral) {
+    const auto across = G::add(G::force(G::linear(G::vector_of_motion(xi))), S(-rate), g);
+    G::add_outer(e.by_pose, damped, G::scaled(slope.lateral, across));
   }
   G::add_outer(e.by_twist, damped, g);
 }
@@ -57,9 +74,9 @@ void eval_tangent(const JointOn<G, C>& joint, const PortMotionOn<G, S>* p, const
     eval_coordinate<G, S, C>(row.kind, row, row.constant, H, turns, gradient);
     put.row(k, 1, G::vector_of_wrench(gradient));
     put.row(k, 0, -G::inverse_adjoint_transpose_times(H, G::vector_of_wrench(gradient)));
-    if constexpr (G::turns)  // else gradients are constant
-      if (ports[0].moves)
-        add_gradient_slope<G, S>(multipliers[k], eval_gradient_slope<G, S, C>(row.kind, row, row.constant, H), e);
+    if (ports[0].moves && has_gradient_slope<G>(row.kind))
+      add_gradient_slope<G, S>(multipliers[k], eval_gradient_slope<G, S, C>(row.kind, row, row.constant, H), gradient,
+                               e);
   }
   e.has_twist = around.has_inertia && is_damped(joint);
   typename G::template Motion<S> xi;

@@ -93,6 +93,15 @@ std::vector<JointType> make_types() {
        "against the first is about an axis normal to axis 3. Shafts that are bent at the start have their own "
        "rotations "
        "in first and second."},
+      {JointKind::distance,
+       "distance",
+       {{RowKind::distance}},
+       {{"displacement", RowKind::distance}},
+       JointAxes::none,
+       {{12, 0.8, 0.5}},
+       "All motions that keep the distance between two points, as a rod between two ball joints does; a drive "
+       "prescribes "
+       "the distance, which is its displacement."},
   };
 }
 

@@ -97,13 +97,14 @@ void make(Bushing& e, const Kind& kind, Numbers& numbers) {
 }
 /// Rows of every kind that a plane has, efforts along a displacement and about the normal.
 void make(Joint& e, const Kind& kind, Numbers& numbers) {
-  const RowKind kinds[] = {RowKind::along, RowKind::across, RowKind::angle};
+  const RowKind kinds[] = {RowKind::along, RowKind::across, RowKind::angle, RowKind::distance};
   for (const RowKind row : kinds) {
     ConstraintRowOn<Se2, double>& r = e.rows[e.num_rows++];
     r.kind = row;
     r.d = turned(numbers.next(3.0));
     if (row == RowKind::angle) r.d = {{-1.0, 0.0}};
     r.law = row == RowKind::across ? -1 : 1;
+    r.constant = row == RowKind::distance ? 0.7 : 0.0;
   }
   if (!kind.has_mass && !kind.has_damping) return;
   const double damping = kind.has_damping ? 0.8 : 0.0;

@@ -272,6 +272,11 @@ inline std::vector<Sample<Joint>> joint_samples() {
     r.push_back(joint_sample("motor", motor, false, ends));
     r.push_back(joint_sample("screw with efforts", screw, true, ends));
     r.push_back(joint_sample("efforts only", {}, true, ends));
+    r.push_back(joint_sample("rod", {row_of(K::distance, 0, 0, -1, 0.7)}, false, ends));
+    r.push_back(
+        joint_sample("driven rod and hinge", {row_of(K::distance, 0, 0, 0), row_of(K::across, 0, 2)}, true, ends));
+    r.push_back(joint_sample("effort along a rod", {}, true, ends));
+    r.back().element.efforts[1].coordinate = K::distance;
   }
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)

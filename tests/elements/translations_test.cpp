@@ -80,7 +80,7 @@ void make(SpringOn<Group<N>>& e, T& space, const Kind& kind, Numbers& numbers) {
   e.rest_length = space.rest_length = 0.4 + numbers.next(0.2);
   e.damping = space.damping = kind.has_damping ? 0.6 : 0.0;
 }
-/// Displacements along the axes, of which one is given; on a line there is one.
+/// Displacements along the axes, of which one is given (on a line there is one), and the distance.
 template <class T, int N>
 void make(JointOn<Group<N>>& e, T& space, const Kind&, Numbers&) {
   for (int i = 0; i < N; ++i) {
@@ -89,7 +89,9 @@ void make(JointOn<Group<N>>& e, T& space, const Kind&, Numbers&) {
     space.rows[i].i = i;
     if (i == 0) e.rows[i].law = space.rows[i].law = 1;
   }
-  e.num_rows = space.num_rows = N;
+  e.rows[N].kind = space.rows[N].kind = RowKind::distance;
+  e.rows[N].constant = space.rows[N].constant = 0.7;
+  e.num_rows = space.num_rows = N + 1;
 }
 
 template <template <class, class> class E, int N>

@@ -97,6 +97,18 @@ const Bad scene_cases[] = {
     {"\"kind\": \"prismatic\", \"first\"",
      "\"kind\": \"constant_velocity\", \"drives\": [ @{ \"law\": 0 } ], \"first\"", "/joints/1/drives/0",
      "a constant_velocity joint has no coordinate"},
+    {"\"kind\": \"prismatic\", \"first\": \"ground\", \"second\": \"cart\", \"position\": [0, 2, 0], \"axis\": [1, 0, "
+     "0]",
+     "\"kind\": \"distance\", \"first\": { \"to\": \"ground\", \"position\": [0, 2, 0] }, \"second\": \"cart\"",
+     "/joints/1", "coincide at the start"},
+    {"\"kind\": \"prismatic\", \"first\": \"ground\", \"second\": \"cart\", \"position\": [0, 2, 0], \"axis\": [1, 0, "
+     "0]",
+     "\"kind\": \"distance\", \"first\": \"ground\", \"second\": \"cart\", \"position\": @[0, 2, 0]",
+     "/joints/1/position", "no common frame"},
+    {"\"kind\": \"prismatic\", \"first\": \"ground\", \"second\": \"cart\", \"position\": [0, 2, 0], \"axis\": [1, 0, "
+     "0]",
+     "\"kind\": \"distance\", \"first\": \"ground\", \"second\": \"cart\", \"forces\": [ @{ \"damping\": 1 } ]",
+     "/joints/1/forces/0", "a force along it moves nothing"},
     {"\"name\": \"coil\", \"first\": \"tip\", \"second\": \"cart\"",
      "\"name\": \"coil\", \"first\": \"tip\", \"second\": @{ \"to\": \"cart\", \"position\": [1, -2, -1] }",
      "/springs/0/second", "coincide at the start"},

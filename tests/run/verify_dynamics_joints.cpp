@@ -127,7 +127,7 @@ void expect_conical_pendulum(const std::string& joint) {
   for (int k = 0; k < 2; ++k) {
     scene::Scene scene = support::scene_of(R"({"gravity": [0, 0, -9.81],
       "bodies": [{"name": "bob", "kind": "point_mass", "mass": 3, "position": [0.6, 0, -0.8]}],
-      "joints": [{"name": "ball", "first": "ground", "second": "bob", "position": [0, 0, 0], )" +
+      "joints": [{"name": "ball", "first": "ground", "second": "bob", )" +
                                            joint + R"(}],
       "sensors": [{"name": "x", "kind": "position", "at": "bob"}, {"name": "f", "kind": "joint_reaction", "joint": "ball"}],
       "analysis": {"kind": "dynamic", "end_time": 3, "tolerance": 1e-11}})");
@@ -152,11 +152,71 @@ void expect_conical_pendulum(const std::string& joint) {
 }
 
 TEST(Joints, a_conical_pendulum_on_a_universal_joint_keeps_its_height) {
-  expect_conical_pendulum(R"("kind": "universal", "axis": [1, 0, 0], "second_axis": [0, 1, 0])");
+  expect_conical_pendulum(R"("kind": "universal", "position": [0, 0, 0], "axis": [1, 0, 0], "second_axis": [0, 1, 0])");
 }
 
 TEST(Joints, a_point_mass_on_a_ball_joint_at_a_distance_runs_as_on_a_universal_joint) {
-  expect_conical_pendulum(R"("kind": "spherical")");
+  expect_conical_pendulum(R"("kind": "spherical", "position": [0, 0, 0])");
+}
+
+TEST(Joints, a_point_mass_on_a_rod_runs_as_on_a_universal_joint) { expect_conical_pendulum(R"("kind": "distance")"); }
+
+TEST(Joints, a_rod_that_shortens_lifts_its_load) {
+  // The rod of length L = 2 - 0.3 t^2 hangs from (0.2, 0, 1): z = 1 - L, tension m (g + 0.6), work m (g (2 - L) + v^2/2).
+  for (const char* without : {"[]", R"(["line", "translation"])"}) {
+    const Outcome outcome = support::run(support::scene_of(R"({"gravity": [0, 0, -9.81],
+      "bodies": [{"name": "load", "kind": "point_mass", "mass": 3, "position": [0.2, 0, -1]}],
+      "joints": [{"name": "rod", "kind": "distance", "first": {"to": "ground", "position": [0.2, 0, 1]}, "second": "load",
+                  "drives": [{"law": {"expression": "2 - 0.3*t^2"}}]}],
+      "sensors": [{"name": "x", "kind": "position", "at": "load"}, {"name": "f", "kind": "joint_reaction", "joint": "rod"},
+                  {"name": "length", "kind": "joint_displacement", "joint": "rod"},
+                  {"name": "rate", "kind": "joint_rate", "joint": "rod"}, {"name": "energy", "kind": "total_energy"}],
+      "analysis": {"kind": "dynamic", "end_time": 2, "step_size": 0.01, "tolerance": 1e-12}, "without": )" +
+                                                           std::string(without) + "}"));
+    ASSERT_TRUE(outcome.ok()) << outcome.summary.cause;
+    const Table& run = outcome.history;
+    for (double t : run.times) {
+      EXPECT_NEAR(run.at("x.z", t), -1.0 + 0.3 * t * t, 1e-10);
+      EXPECT_NEAR(run.at("x.x", t), 0.2, 1e-10);
+      EXPECT_NEAR(run.at("length", t), 2.0 - 0.3 * t * t, 1e-10);
+      EXPECT_NEAR(run.at("rate", t), -0.6 * t, 1e-8);
+      EXPECT_NEAR(run.at("f.fz", t), 3.0 * (g + 0.6), 1e-7);
+    }
+    EXPECT_NEAR(run.last("energy") - run.at("energy", 0.0), 3.0 * (g * 1.2 + 0.5 * 1.2 * 1.2), 1e-7);
+    EXPECT_LT(outcome.summary.checks.energy_balance, 1e-6);
+  }
+}
+
+TEST(Joints, two_bodies_on_a_rod_whirl_about_their_centre) {
+  // The rod of 1.4 m takes hold beside the centres of both bodies and turns at 2 rad/s about an axis normal to it,
+  // without gravity. Bodies of 1 and 2 kg are 1 and 0.5 m from the common centre of mass, which moves on at constant
+  // speed; both turn with the rod, so its force is m r w^2 = 4 N. A uniform screw motion is exact for the integrator.
+  const Outcome outcome = support::run(support::scene_of(R"({
+    "bodies": [{"name": "a", "mass": 1, "inertia": [0.1, 0.2, 0.3], "position": [0.6, 0.8, 0]},
+               {"name": "b", "mass": 2, "inertia": [0.3, 0.2, 0.4], "position": [-0.3, -0.4, 0]}],
+    "joints": [{"name": "rod", "kind": "distance", "first": {"to": "a", "position": [-0.06, -0.08, 0]},
+                "second": {"to": "b", "position": [0, 0, 0]}}],
+    "initial_velocities": [{"of": "a", "velocity": [-1.6, 1.2, 0.5], "angular_velocity": [0, 0, 2]},
+                           {"of": "b", "velocity": [0.8, -0.6, 0.5], "angular_velocity": [0, 0, 2]}],
+    "sensors": [{"name": "a", "kind": "position", "at": "a"}, {"name": "b", "kind": "position", "at": "b"},
+                {"name": "f", "kind": "joint_reaction", "joint": "rod"},
+                {"name": "length", "kind": "joint_displacement", "joint": "rod"}],
+    "analysis": {"kind": "dynamic", "end_time": 3, "step_size": 4e-3, "tolerance": 1e-11}})"));
+  ASSERT_TRUE(outcome.ok()) << outcome.summary.cause;
+  const Table& run = outcome.history;
+  for (double t : run.times) {
+    const double c = std::cos(2.0 * t), s = std::sin(2.0 * t), x = 0.6 * c - 0.8 * s, y = 0.6 * s + 0.8 * c;
+    EXPECT_NEAR(run.at("a.x", t), x, 1e-10);
+    EXPECT_NEAR(run.at("a.y", t), y, 1e-10);
+    EXPECT_NEAR(run.at("b.x", t), -0.5 * x, 1e-10);
+    EXPECT_NEAR(run.at("b.y", t), -0.5 * y, 1e-10);
+    EXPECT_NEAR(run.at("a.z", t), 0.5 * t, 1e-10);
+    EXPECT_NEAR(run.at("b.z", t), 0.5 * t, 1e-10);
+    EXPECT_NEAR(run.at("length", t), 1.4, 1e-12);
+    EXPECT_NEAR(run.at("f.fx", t), 4.0 * x, 1e-7);
+    EXPECT_NEAR(run.at("f.fy", t), 4.0 * y, 1e-7);
+  }
+  EXPECT_LT(outcome.summary.checks.energy_balance, 1e-9);
 }
 
 TEST(Joints, two_universal_joints_transmit_a_constant_speed_one_alone_does_not) {

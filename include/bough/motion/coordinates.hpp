@@ -9,10 +9,11 @@
 namespace bough::motion {
 
 enum class RowKind : std::uint8_t {
-  along,   ///< u_i: displacement along axis i of the first frame
-  across,  ///< e_i . R e_j: cosine between axis i of the first frame and axis j of the second
-  angle,   ///< theta: rotation about axis 3, turns counted
-  screw,   ///< u_3 - pitch theta
+  along,     ///< u_i: displacement along axis i of the first frame
+  across,    ///< e_i . R e_j: cosine between axis i of the first frame and axis j of the second
+  angle,     ///< theta: rotation about axis 3, turns counted
+  screw,     ///< u_3 - pitch theta
+  distance,  ///< |x| - length: distance of the second frame's origin from the first's, which may not be 0
 };
 
 /// What else the library asks of a kind of row. In texts {i} and {j} stand for the numbers of the axes.
@@ -30,6 +31,7 @@ inline constexpr RowTraits row_traits[] = {
     {false, false, false, "axis {i} of the first normal to axis {j} of the second", "e{i}.R e{j}"},
     {false, true, false, "angle about 3", "theta"},
     {true, true, false, "screw along 3", "u3 - pitch theta / (2 pi)"},
+    {true, false, true, "distance", "|x| - length"},
 };
 constexpr const RowTraits& traits_of(RowKind kind) { return row_traits[static_cast<int>(kind)]; }
 
@@ -64,6 +66,15 @@ Vec3<S> angle_gradient(const Mat3<S>& R) {
   return Se3::axial_moment(Frame<S>{R, {}}, Se3::Direction<S>{});
 }
 
+/// |x| - length; its gradient is the force R^T n, n = x / |x|.
+template <class G, class S, class C>
+BOUGH_INLINE S eval_distance(const C& length, const typename G::template Pose<S>& H,
+                             typename G::template Wrench<S>& gradient) {
+  using std::sqrt;
+  const S distance = sqrt(lanes::dot(H.x, H.x));
+  gradient = G::force(G::turned_back(H, typename G::template Translation<S>((S(1.0) / distance) * H.x)));
+  return distance - length;
+}
 /// The same as eval_coordinate below, of a kind that measures rotations.
 template <class G, class S, class C>
 BOUGH_INLINE S eval_turning_coordinate(RowKind kind, const typename G::template Direction<C>& direction,
@@ -86,38 +97,53 @@ BOUGH_INLINE S eval_turning_coordinate(RowKind kind, const typename G::template 
   return G::component(H, axis) + minus_pitch * angle;
 }
 /// Value of a coordinate and its gradient, a wrench in the axes of the second frame. Where nothing turns, all
-/// coordinates are displacements. constant: pitch of a screw [m/rad].
+/// coordinates but distances are displacements. constant: pitch of a screw [m/rad], length [m].
 template <class G, class S, class C>
 BOUGH_INLINE S eval_coordinate(RowKind kind, const typename G::template Direction<C>& direction, const C& constant,
                                const typename G::template Pose<S>& H, const C& turns,
                                typename G::template Wrench<S>& gradient) {
-  if constexpr (G::turns)
-    if (kind != RowKind::along) return eval_turning_coordinate<G, S, C>(kind, direction, constant, H, turns, gradient);
+  if (kind != RowKind::along) {
+    if (kind == RowKind::distance) return eval_distance<G, S, C>(constant, H, gradient);
+    if constexpr (G::turns) return eval_turning_coordinate<G, S, C>(kind, direction, constant, H, turns, gradient);
+  }
   gradient = G::force(G::seen(H, direction));
   return G::component(H, direction);
 }
-/// Derivatives of the gradient of a coordinate, its force and its moment, by the rotation.
+/// Derivatives of the gradient of a coordinate, its force and its moment, by the rotation; and of its force by the
+/// displacement of the second frame, lateral (I - force force^T), of a coordinate between points.
 template <class G, class S>
 struct GradientSlope {
-  bool has_force = false, has_moment = false;
+  bool has_force = false, has_moment = false, has_lateral = false;
   typename G::template TurnSlope<S> force, moment;
+  S lateral = S(0.0);
 };
 template <class G, class S, class C>
 GradientSlope<G, S> eval_gradient_slope(RowKind kind, const typename G::template Direction<C>& direction,
                                         const C& constant, const typename G::template Pose<S>& H) {
+  using std::sqrt;
   GradientSlope<G, S> r;
-  if (kind == RowKind::along || kind == RowKind::screw) {
-    r.has_force = true;
-    r.force = G::seen_slope(G::seen(H, kind == RowKind::along ? direction : G::template Direction<C>::axial()));
+  if (kind == RowKind::distance) {
+    r.has_lateral = true;
+    r.lateral = S(1.0) / sqrt(lanes::dot(H.x, H.x));
   }
-  if (kind == RowKind::across) {
-    r.has_moment = true;
-    r.moment = G::cosine_slope(direction, G::seen(H, direction));
-  }
-  if (kind == RowKind::angle || kind == RowKind::screw) {
-    r.has_moment = true;
-    r.moment = G::axial_slope(H, direction);
-    if (kind == RowKind::screw) r.moment = S(-constant) * r.moment;
+  if constexpr (G::turns) {  // otherwise displacements have constant gradients
+    if (kind == RowKind::distance) {
+      r.has_force = true;
+      r.force = G::seen_slope(G::turned_back(H, typename G::template Translation<S>(r.lateral * H.x)));
+    }
+    if (kind == RowKind::along || kind == RowKind::screw) {
+      r.has_force = true;
+      r.force = G::seen_slope(G::seen(H, kind == RowKind::along ? direction : G::template Direction<C>::axial()));
+    }
+    if (kind == RowKind::across) {
+      r.has_moment = true;
+      r.moment = G::cosine_slope(direction, G::seen(H, direction));
+    }
+    if (kind == RowKind::angle || kind == RowKind::screw) {
+      r.has_moment = true;
+      r.moment = G::axial_slope(H, direction);
+      if (kind == RowKind::screw) r.moment = S(-constant) * r.moment;
+    }
   }
   return r;
 }

@@ -114,6 +114,7 @@ enum class JointKind : std::uint8_t {
   planar,
   screw,
   constant_velocity,
+  distance,
 };
 
 /// Spring, damper and effort along a joint's free coordinate `coordinate` ("angle" or "displacement").
