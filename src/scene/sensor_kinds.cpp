@@ -146,7 +146,7 @@ std::string components_text(const SensorType& type) {
     const SensorComponent& c = type.components[k];
     if (!c.name.empty()) text += (text.empty() ? "" : " ") + c.name;
     const bool is_last = k + 1 == type.components.size() || type.components[k + 1].unit != c.unit;
-    if (is_last && !c.unit.empty()) text += (text.empty() ? "[" : " [") + c.unit + "]";
+    if (is_last) text += (text.empty() ? "[" : " [") + (c.unit.empty() ? "-" : c.unit) + "]";
   }
   return text;
 }
