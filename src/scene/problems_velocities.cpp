@@ -11,6 +11,8 @@ namespace {
 
 /// Relative tolerance, of the given speeds, of the velocity that a joint suppresses.
 constexpr double allowed = 1e-3;
+/// Velocities of a point on the axis of a rotation are below this part of the rotation times the arm.
+constexpr double round_off = 1e-12;
 
 /// Velocity of a rigid part in the ground's axes, linear of the point x.
 struct Velocity {
@@ -81,8 +83,9 @@ void check_joint(ProblemList& list, std::size_t i, const GivenVelocities& veloci
   const JointRates rates = held_rates(j, motion::relative(*H_a, *H_b), twist);
   const double speed = std::max({norm_of(v_a), norm_of(v_b), norm_of(a->linear), norm_of(b->linear)});
   const double turning = std::max(norm_of(a->angular), norm_of(b->angular));
+  const double arm = std::max(norm_of(H_b->x - a->x), norm_of(H_b->x - b->x));
   std::string by;
-  if (rates.linear > allowed * speed) by = text_of(rates.linear) + " m/s";
+  if (rates.linear > allowed * speed + round_off * turning * arm) by = text_of(rates.linear) + " m/s";
   if (rates.angular > allowed * turning) by += (by.empty() ? "" : " and ") + text_of(rates.angular) + " rad/s";
   if (!by.empty())
     list.warn("joints", i, "name", j.name, "the initial velocities leave this joint by " + by,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bough/laws/make_law.hpp"
+#include "bough/motion/se3.hpp"
 
 namespace bough::scene {
 namespace {
@@ -112,6 +113,34 @@ TEST(SceneProblems, a_drive_that_starts_elsewhere_is_warned_about_and_counts_who
   EXPECT_EQ(places(s), Places{});
   s.joints[0].drives[0] = {"angle", true, laws::make_constant(0.5)};
   EXPECT_EQ(places(s), Places{}) << "a rate may start at any value";
+}
+
+TEST(SceneProblems, a_spin_about_a_line_through_a_joint_does_not_leave_it_by_round_off) {
+  Scene s;
+  Body b;
+  b.name = "shaft";
+  b.mass = 1.0;
+  b.inertia = Mat3::identity();
+  b.placement.pose.R = motion::exp_so3(Vec3{{0.0, 0.0, 0.6}});
+  b.placement.pose.x = b.placement.pose.R * Vec3{{0.41, 0.0, 0.0}};
+  s.bodies = {b};
+  Joint j;
+  j.name = "ball";
+  j.kind = JointKind::spherical;
+  j.second.to = "shaft";
+  j.second.offset.x = {{-0.41, 0.0, 0.0}};
+  s.joints = {j};
+  InitialVelocity v;
+  v.of = "shaft";
+  v.axes = LoadAxes::body;
+  v.angular_velocity = {{6.0, 0.0, 0.0}};
+  s.initial_velocities = {v};
+  s.analysis.end_time = 1.0;
+  EXPECT_EQ(places(s), Places{});
+  s.initial_velocities[0].angular_velocity = {{6.0, 0.0, 0.1}};
+  s.joints[0].second.offset.x = {{-0.41, 0.0, 0.0}};
+  s.initial_velocities[0].velocity = {{0.0, 0.0, 0.1}};
+  EXPECT_EQ(places(s), Places{"warning joints 0 name"});
 }
 
 TEST(SceneProblems, inner_nodes_of_beams_are_places) {
