@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_scene.hpp"
@@ -123,8 +124,11 @@ class Expander {
 
   void apply_to_file() {
     for (std::size_t i = 0; i < root_.items.size(); ++i)
-      if (const std::string& key = root_.items.key(i); key != "comment" && key != "$schema")
+      if (const std::string& key = root_.items.key(i); key != "comment" && key != "$schema") {
+        in_signals_ = key == "signals";
         apply(root_.items[i], JsonPath{}.member(key));
+        in_signals_ = false;
+      }
   }
 
   /// Replaces names by numbers in all strings and formulas of a value, except in comments.
@@ -138,10 +142,12 @@ class Expander {
       }
       const std::string& key = v.items.key(i);
       if (key == "comment") continue;
+      const bool was_in_signals = std::exchange(in_signals_, in_signals_ || key == "signals");
       if (key == "expression" && v.items[i].is(JsonKind::string))
         apply_to_text(v.items[i], path.member(key), true, v.find("of"));
       else
         apply(v.items[i], path.member(key));
+      in_signals_ = was_in_signals;
     }
   }
 
@@ -154,8 +160,9 @@ class Expander {
       return;
     }
     std::string text = v.text;
-    const std::optional<NamedFault> fault =
-        is_formula ? names_.put_into_formula(text, own) : names_.put_into_text(text);
+    const std::optional<NamedFault> fault = !is_formula   ? names_.put_into_text(text)
+                                            : in_signals_ ? names_.put_into_signal(text)
+                                                          : names_.put_into_formula(text, own);
     if (fault) {
       v.sound = false;
       if (fault->was_told) return;
@@ -323,6 +330,7 @@ class Expander {
   JsonValue& root_;
   Expansion result_;
   NamedNumbers names_;
+  bool in_signals_ = false;  ///< formulas may call signals here
   std::unordered_map<std::string, std::size_t> told_;
   std::vector<std::pair<const std::string*, double>> around_;  ///< index and value of the enclosing copies
   std::size_t num_values_ = 0, num_bytes_ = 0, made_bytes_ = 0;

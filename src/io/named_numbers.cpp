@@ -46,6 +46,16 @@ std::string NamedNumbers::hint_for(const std::string& name) {
 }
 
 std::optional<NamedFault> NamedNumbers::put_into_formula(std::string& formula, const JsonValue* own) {
+  return put_numbers(formula, own, false);
+}
+
+std::optional<NamedFault> NamedNumbers::put_into_signal(std::string& formula) {
+  if (formula.find_first_of("{}") != std::string::npos)
+    if (std::optional<NamedFault> fault = put_into_text(formula)) return fault;
+  return put_numbers(formula, nullptr, true);
+}
+
+std::optional<NamedFault> NamedNumbers::put_numbers(std::string& formula, const JsonValue* own, bool keeps_unknown) {
   std::string made;
   std::size_t done = 0;
   for (const laws::NamePlace& place : laws::names_in(formula)) {
@@ -53,6 +63,7 @@ std::optional<NamedFault> NamedNumbers::put_into_formula(std::string& formula, c
     if (is_word_of_formulas(name) || (own != nullptr && own->find(name) != nullptr)) continue;
     if (defective_.count(name) > 0) return NamedFault{"", "", "", true};
     const auto at = values_.find(name);
+    if (at == values_.end() && keeps_unknown) continue;
     if (at == values_.end()) return NamedFault{"no number has the name \"" + shown(name) + "\"", "", name};
     used_.insert(name);
     made.append(formula, done, place.position - done);

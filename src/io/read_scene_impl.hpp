@@ -41,7 +41,7 @@ class Converter : private ValueConverter {
  private:
   scene::LoadAxes axes(const Value& v) const;
   std::string frame_name(const Value& v) const;
-  laws::Law load_law(const Value& object, const std::string& at);
+  laws::Law load_law(const Value& object, const std::string& at, std::string& signal);
 
   // Parts (read_scene_parts.cpp).
   void frame(const Value& v, const std::string& at);
@@ -73,6 +73,12 @@ class Converter : private ValueConverter {
   void joint(const Value& v, const std::string& at);
   void spring(const Value& v, const std::string& at);
   void bushing(const Value& v, const std::string& at);
+
+  // Signals (read_scene_signals.cpp).
+  void find_signal_names();
+  void signal_formula(const Value& v, const std::string& at, scene::Signal& s);
+  void signal(const Value& v, const std::string& at);
+  laws::Law law_or_signal(const Value& v, const std::string& at, std::string& signal);
 
   // The rest (read_scene_rest.cpp).
   void load(const Value& v, const std::string& at);
@@ -115,6 +121,7 @@ class Converter : private ValueConverter {
   std::unordered_set<std::string> defective_materials_;       ///< omitted; their faults were reported
   std::unordered_set<std::string> names_;                     ///< all names given in the file
   std::unordered_set<std::string> measure_names_;
+  std::vector<std::string> signal_names_;  ///< of all signals of the document
   int unnamed_ = 0;
   std::optional<scene::Poses> poses_;
 };

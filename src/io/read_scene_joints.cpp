@@ -147,8 +147,10 @@ void Converter::joint(const Value& v, const std::string& at) {
   const Value& forces = *v.find("forces");
   for (std::size_t i = 0; i < forces.items.size(); ++i) {
     const Value& f = forces.items[i];
-    j.forces.push_back({coordinate(f), f.find("stiffness")->number, f.find("rest")->number, f.find("damping")->number,
-                        law(*f.find("effort"), at + "/forces/" + std::to_string(i) + "/effort")});
+    j.forces.push_back(
+        {coordinate(f), f.find("stiffness")->number, f.find("rest")->number, f.find("damping")->number, {}, {}});
+    scene::JointForce& force = j.forces.back();
+    force.effort = law_or_signal(*f.find("effort"), at + "/forces/" + std::to_string(i) + "/effort", force.signal);
     if (turns(j.forces.back().coordinate))
       warn_of_degrees(*f.find("rest"), at + "/forces/" + std::to_string(i) + "/rest");
   }

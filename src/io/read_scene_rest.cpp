@@ -25,7 +25,8 @@ std::string Converter::frame_name(const Value& v) const {
 }
 
 void Converter::load(const Value& v, const std::string& at) {
-  const laws::Law factor = load_law(v, at);
+  std::string signal;
+  const laws::Law factor = load_law(v, at, signal);
   if (const Value* where = v.find("at")) {
     scene::PointLoad l;
     l.name = own_name(v, "load");
@@ -35,6 +36,7 @@ void Converter::load(const Value& v, const std::string& at) {
     l.force = vector(*v.find("force"));
     l.moment = vector(*v.find("moment"));
     l.law = factor;
+    l.signal = signal;
     add(scene.point_loads, "point_loads", std::move(l), at);
   } else {
     scene::LineLoad l;
@@ -45,6 +47,7 @@ void Converter::load(const Value& v, const std::string& at) {
     l.force = vector(*v.find("force"));
     l.moment = vector(*v.find("moment"));
     l.law = factor;
+    l.signal = signal;
     add(scene.line_loads, "line_loads", std::move(l), at);
   }
 }
@@ -86,6 +89,7 @@ void Converter::sensor(const Value& v, const std::string& at) {
   s.beam = text_or(v, "beam");
   s.joint = text_or(v, "joint");
   s.coordinate = text_or(v, "coordinate");
+  s.signal = text_or(v, "signal");
   s.axes = axes(v);
   s.frame = frame_name(v);
   if (const Value* chain = v.find("frames"))
@@ -215,7 +219,8 @@ void Converter::settings() {
   if (const Value* title = sound("title")) scene.title = title->text;
   if (const Value* g = sound("gravity")) {
     scene.gravity = vector(g->is(JsonKind::array) ? *g : *g->find("vector"));
-    scene.gravity_law = g->is(JsonKind::array) ? load_law(Value{}, "/gravity") : load_law(*g, "/gravity");
+    std::string signal;  // none: the schema takes laws alone
+    scene.gravity_law = load_law(g->is(JsonKind::array) ? Value{} : *g, "/gravity", signal);
   }
   if (const Value* a = sound("analysis")) {
     scene::Analysis& r = scene.analysis;
@@ -317,6 +322,7 @@ void Converter::convert() {
   const Value* analysis = root_.find("analysis");
   const Value* kind = analysis != nullptr && analysis->is(JsonKind::object) ? analysis->find("kind") : nullptr;
   is_static_ = kind != nullptr && kind->text == "static";
+  find_signal_names();
   settings();
   each("frames", &Converter::frame);
   each("materials", &Converter::material);
@@ -332,6 +338,7 @@ void Converter::convert() {
   each("loads", &Converter::load);
   each("motions", &Converter::motion);
   each("initial_velocities", &Converter::initial_velocity);
+  each("signals", &Converter::signal);
   each("sensors", &Converter::sensor);
   each("expected", &Converter::expected);
   each("measures", &Converter::measure);

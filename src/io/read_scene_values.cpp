@@ -113,8 +113,8 @@ scene::LoadAxes Converter::axes(const Value& v) const {
   return text_or(v, "axes") == "body" ? scene::LoadAxes::body : scene::LoadAxes::space;
 }
 
-laws::Law Converter::load_law(const Value& object, const std::string& at) {
-  if (const Value* v = object.find("law")) return law(*v, at + "/law");
+laws::Law Converter::load_law(const Value& object, const std::string& at, std::string& signal) {
+  if (const Value* v = object.find("law")) return law_or_signal(*v, at + "/law", signal);
   if (!is_static_) return laws::make_constant(1.0);
   const Value* analysis = root_.find("analysis");
   const bool is_path = analysis != nullptr && analysis->find("arc_length") != nullptr;

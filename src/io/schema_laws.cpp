@@ -42,6 +42,10 @@ void add_law_rules(RuleTable& t) {
        made(object_of_kind({"product"}, "Product of laws.", {need("factors", array_rule("", law, 1), "The factors.")})),
        made(object_of_kind({"scaled"}, "A multiple of a law.",
                            {need("factor", any, "The factor."), need("law", law, "The law.")}))});
+  const RuleRef signal =
+      made(object_of("The value of a signal of the scene.", {need("signal", text_rule(""), "Its name.")}, "signal"));
+  t.named["law_or_signal"] =
+      choice_rule("A function of time, or {\"signal\": name}: a number that changes with the motion.", {law, signal});
   t.named["three_laws"] = array_rule("Three laws; a number is constant.", law, 3, 3);
   t.named["turn"] =
       made(object_of("A rotation about an axis that is fixed in the axes reached before it.",

@@ -6,6 +6,8 @@ namespace bough::io {
 /// Rules that several parts of a scene use: vectors, rotations, laws, attachments, matrices, shapes.
 void add_part_rules(RuleTable& table);
 void add_law_rules(RuleTable& table);
+/// Numbers that change with the motion.
+void add_signal_rules(RuleTable& table);
 /// Statics and dynamics with their step control and paths; `frame`: the field that names the frame of description.
 void add_analysis_rules(RuleTable& table, const Field& frame);
 

@@ -39,6 +39,7 @@ RuleRef joint_kind_rule() {
   return word_rule(lasting(std::move(about)).c_str(), std::move(names));
 }
 Field law_field(Literal about) { return may("law", named_rule("law"), about, "1"); }
+Field factor_field(Literal about) { return may("law", named_rule("law_or_signal"), about, {}); }
 Field frame_field(Literal about) { return may("frame", reference, about); }
 
 void add_placement(std::vector<Field>& fields, Literal origin, Literal rotation) {
@@ -130,12 +131,13 @@ void add_parts(RuleTable& t) {
 void add_joints(RuleTable& t) {
   const RuleRef coordinate = word_rule("", coordinate_names());
   const Literal which = "Which coordinate; may be left out where the joint has only one.";
-  const RuleRef force = made(object_of(
-      "A spring, damper or effort along a free coordinate of the joint.",
-      {may("coordinate", coordinate, which), may("stiffness", not_negative(""), "[N m/rad] or [N/m].", "0"),
-       may("rest", any_number, "Coordinate at which the spring is free [rad] or [m].", "0"),
-       may("damping", not_negative(""), "[N m s/rad] or [N s/m].", "0"),
-       may("effort", named_rule("law"), "Torque [N m] or force [N] on the second about or along the axis.", "0")}));
+  const RuleRef force = made(
+      object_of("A spring, damper or effort along a free coordinate of the joint.",
+                {may("coordinate", coordinate, which), may("stiffness", not_negative(""), "[N m/rad] or [N/m].", "0"),
+                 may("rest", any_number, "Coordinate at which the spring is free [rad] or [m].", "0"),
+                 may("damping", not_negative(""), "[N m s/rad] or [N s/m].", "0"),
+                 may("effort", named_rule("law_or_signal"),
+                     "Torque [N m] or force [N] on the second about or along the axis.", "0")}));
   const RuleRef drive =
       made(object_of("Prescribes a coordinate of the joint: the second relative to the first.",
                      {may("coordinate", coordinate, which),
@@ -190,8 +192,7 @@ void add_loads(RuleTable& t) {
   point.push_back(may("force", named_rule("vector"), "[N].", "[0, 0, 0]"));
   point.push_back(may("moment", named_rule("vector"), "[N m]. A dead moment is a vector fixed in space.", "[0, 0, 0]"));
   point.push_back(
-      law_field("Factor over time (statics: over the load factor; default there: the load factor itself)."));
-  point.back().default_json = {};
+      factor_field("Factor over time (statics: over the load factor; default there: the load factor itself)."));
   line.push_back(need("beam", reference, "The beam it acts on."));
   line.push_back(may("force", named_rule("vector"), "Per reference length [N/m].", "[0, 0, 0]"));
   line.push_back(may("moment", named_rule("vector"), "Per reference length [N].", "[0, 0, 0]"));
@@ -239,6 +240,8 @@ Rule sensor_rule(const scene::SensorType& type) {
   } else if (type.of == SensorOf::section) {
     fields.push_back(need("beam", reference, "The beam."));
     fields.push_back(need("station", station, "Fraction of its length from its start [-]."));
+  } else if (type.of == SensorOf::signal) {
+    fields.push_back(need("signal", reference, "The signal."));
   } else if (type.of != SensorOf::whole) {
     fields.push_back(need("joint", reference, "The joint."));
   }
@@ -334,6 +337,7 @@ RuleTable make_table() {
   RuleTable t;
   add_part_rules(t);
   add_law_rules(t);
+  add_signal_rules(t);
   add_properties(t);
   add_parts(t);
   add_joints(t);
@@ -356,6 +360,7 @@ RuleTable make_table() {
                                     list("loads", "load", "Loads."),
                                     list("motions", "motion", "Prescribed motions."),
                                     list("initial_velocities", "initial_velocity", "Velocities at the start."),
+                                    list("signals", "signal", "Numbers that change with the motion."),
                                     list("sensors", "sensor", "What is measured."),
                                     list("expected", "expected", "Figures the run has to meet."),
                                     list("measures", "measure", "Figures of the run, columns of batches and sweeps.")};
@@ -364,7 +369,8 @@ RuleTable make_table() {
   Rule root = object_of(
       "A bough scene. SI units and radians throughout. Things are named and refer to each other by name: frames, "
       "nodes, bodies, beams, joints, springs, bushings, loads and motions share one set of names; "
-      "materials, sections and sensors have their own. Axis 1 of a section runs along the beam; section resultants are "
+      "materials, sections, sensors and signals have their own. Axis 1 of a section runs along the beam; section "
+      "resultants are "
       "(N, Q2, Q3, T, M2, M3). Quaternions have the scalar first. A reaction is the wrench "
       "of the first on the second, at the joint. A dead moment is a vector fixed in space; a follower turns with its "
       "node. A \"comment\" string is allowed in every object. null is never a value. {\"expression\": \"...\"} may "

@@ -173,10 +173,17 @@ Jet<Interval> eval_switch(Op op, const Interval& sign, const Jet<Interval>& a, c
 template <class S>
 using Stack = std::array<Jet<S>, max_stack>;
 
+/// The variables of a formula, which are constant, but for one that grows with rate 1 if there is a `growing` one.
+struct Variables {
+  const double* values = nullptr;
+  std::size_t growing = static_cast<std::size_t>(-1);
+  Jet<double> operator[](std::size_t i) const { return {values[i], i == growing ? 1.0 : 0.0, 0.0}; }
+};
+
 /// One instruction on one stack. branch: of a switch, for numbers.
 template <class S>
 void apply(const Instruction& instruction, int branch, const Jet<S>& t, Stack<S>& stack, std::size_t height,
-           const double* variables = nullptr) {
+           const Variables& variables = {}) {
   // height: of the stack before the instruction
   const Op op = instruction.op;
   if (op == Op::number) {
@@ -184,7 +191,7 @@ void apply(const Instruction& instruction, int branch, const Jet<S>& t, Stack<S>
   } else if (op == Op::time) {
     stack[height] = t;
   } else if (op == Op::variable) {
-    stack[height] = number_jet<S>(variables[instruction.first]);
+    if constexpr (std::is_same_v<S, double>) stack[height] = variables[instruction.first];
   } else if (has_two_arguments(op)) {
     Jet<S>& a = stack[height - 2];
     const Jet<S>& b = stack[height - 1];
@@ -222,7 +229,7 @@ Jet<S> switch_argument(Op op, const Stack<S>& stack, std::size_t height) {
 template <class S>
 std::size_t run(const Program& program, std::size_t begin, std::size_t end, const Jet<S>& t, Stack<S>& stack,
                 const Jet<double>* t_before = nullptr, Stack<double>* before = nullptr,
-                const double* variables = nullptr) {
+                const Variables& variables = {}) {
   std::size_t height = 0;
   for (std::size_t i = begin; i < end; ++i) {
     const Instruction& instruction = program.code[i];
@@ -255,8 +262,14 @@ double previous_time(double t) {
 
 double eval_program(const Program& program, std::span<const double> variables) {
   Stack<double> stack;
-  run(program, 0, program.code.size(), number_jet<double>(0.0), stack, nullptr, nullptr, variables.data());
+  run(program, 0, program.code.size(), number_jet<double>(0.0), stack, nullptr, nullptr, {variables.data()});
   return stack[0].value;
+}
+
+double eval_slope(const Program& program, std::span<const double> variables, std::size_t by) {
+  Stack<double> stack;
+  run(program, 0, program.code.size(), number_jet<double>(0.0), stack, nullptr, nullptr, {variables.data(), by});
+  return stack[0].rate;
 }
 
 Jet<double> eval_program(const Program& program, double t, Side side) {

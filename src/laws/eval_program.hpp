@@ -20,6 +20,8 @@ Jet<double> eval_program(const Program& program, double t, Side side);
 
 /// Value of a formula of variables, which are taken as constant in time; t is 0.
 double eval_program(const Program& program, std::span<const double> variables);
+/// Its derivative by one of the variables.
+double eval_slope(const Program& program, std::span<const double> variables, std::size_t by);
 
 /// Argument that decides the branch of the switch at instruction `index`: zero where the branch changes.
 Jet<double> eval_switch_argument(const Program& program, std::size_t index, double t);

@@ -55,8 +55,16 @@ Formula::Formula(const std::string& text, std::span<const std::string> names) {
   program_ = std::make_shared<const Program>(std::move(program));
 }
 
+Formula::Formula() : Formula("0", {}) {}
+
 double Formula::operator()(std::span<const double> values) const {
   const TrapsMasked masked;
+  return eval_program(*program_, values);
+}
+
+double Formula::operator()(std::span<const double> values, std::span<double> slopes) const {
+  const TrapsMasked masked;
+  for (std::size_t i = 0; i < values.size(); ++i) slopes[i] = eval_slope(*program_, values, i);
   return eval_program(*program_, values);
 }
 

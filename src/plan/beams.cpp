@@ -90,7 +90,7 @@ const std::vector<SpaceLoad>& Builder::line_load(const scene::LineLoad& load) {
   const auto [at, is_new] = line_loads.try_emplace(load.name);
   if (is_new)
     at->second = space_loads(load.force, load.moment, load.frame, load.axes == scene::LoadAxes::body,
-                             add_factor(load.law, load.name), load.name);
+                             add_factor(load.law, load.signal, load.name), load.name);
   return at->second;
 }
 
@@ -150,6 +150,7 @@ void Builder::add_sensors() {
     for (const scene::SensorComponent& c : scene::type_of(s.kind).components) p.components.push_back(c.name);
     p.beam = index_in(beam_of, s.beam);
     p.joint = index_in(joint_of, s.joint);
+    if (!s.signal.empty()) p.signal = law_of_signal.at(s.signal);
     if (p.beam < 0 && scene::type_of(s.kind).of == scene::SensorOf::point) p.port = port_at(s.at);
     p.frame = port_at(s.frame, Frame<double>::identity());
     for (const std::string& name : s.chain) p.chain.push_back(port_at(name, Frame<double>::identity()));

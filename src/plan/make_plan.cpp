@@ -36,6 +36,10 @@ int Builder::add_factor(const laws::Law& law, const std::string& user) {
   return add_law(scene.analysis.arc_length ? laws::make_expression("t") : laws::make_ramp(0.0, 1.0, 0.0, 1.0), user);
 }
 
+int Builder::add_factor(const laws::Law& law, const std::string& signal, const std::string& user) {
+  return signal.empty() ? add_factor(law, user) : law_of_signal.at(signal);
+}
+
 int Builder::add_node(const std::string& name, const Frame<double>& pose) {
   plan.nodes.push_back({name, pose, Vec6<double>::zero()});
   const int id = static_cast<int>(plan.nodes.size()) - 1;
@@ -125,7 +129,10 @@ void Builder::add_joints() {
       e.stiffness = f.stiffness;
       e.rest = f.rest;
       e.damping = f.damping;
-      if (f.effort.node() != nullptr) e.law = add_law(f.effort, given.name);
+      if (!f.signal.empty())
+        e.law = law_of_signal.at(f.signal);
+      else if (f.effort.node() != nullptr)
+        e.law = add_law(f.effort, given.name);
     }
     const int id = add_joint(j, given.name, "joint");
     JointPlan& p = plan.joints[static_cast<std::size_t>(id)];
@@ -187,8 +194,8 @@ void Builder::add_couplings() {
   for (const scene::PointLoad& l : scene.point_loads) {
     elements::PointLoad e;
     e.ports[0] = port_at(l.at);
-    for (const SpaceLoad& part :
-         space_loads(l.force, l.moment, l.frame, l.axes == scene::LoadAxes::body, add_factor(l.law, l.name), l.name)) {
+    for (const SpaceLoad& part : space_loads(l.force, l.moment, l.frame, l.axes == scene::LoadAxes::body,
+                                             add_factor(l.law, l.signal, l.name), l.name)) {
       e.wrench = part.wrench;
       e.follows = part.follows;
       e.law = part.law;
@@ -344,7 +351,11 @@ void Builder::make_graph() {
   for (int& block : plan.block_of_node)
     if (block == 0) block = num_blocks++;
   g.block_size.assign(static_cast<std::size_t>(num_blocks), plan.unknowns.count);
-  g.block_kind.assign(static_cast<std::size_t>(num_blocks), blocks::BlockKind::motion);
+  for (SignalPlan& s : plan.signals) {
+    s.block = g.num_blocks();
+    g.block_size.push_back(1);
+  }
+  g.block_kind.assign(g.block_size.size(), blocks::BlockKind::motion);
   for (std::size_t id = 0; id < plan.directory.size(); ++id) {
     with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       for (const Port& p : e.ports)
@@ -359,6 +370,20 @@ void Builder::make_graph() {
       g.block_size.push_back(static_cast<int>(joint.rows.size()));
       g.block_kind.push_back(blocks::BlockKind::multiplier);
     }
+    for (const int s : signals_of(plan, id))
+      g.element_blocks.push_back(plan.signals[static_cast<std::size_t>(s)].block);
+    g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
+  }
+  for (SignalPlan& s : plan.signals) {
+    s.element = g.num_elements();
+    for (const Port& p : s.reading.ports) {
+      const bool moves = p.node != elements::ground && plan.block_of_node[static_cast<std::size_t>(p.node)] >= 0;
+      if (s.reads_motion() && moves && std::find(s.nodes.begin(), s.nodes.end(), p.node) == s.nodes.end())
+        s.nodes.push_back(p.node);
+    }
+    for (const int node : s.nodes) g.element_blocks.push_back(plan.block_of_node[static_cast<std::size_t>(node)]);
+    for (const int other : s.signals) g.element_blocks.push_back(plan.signals[static_cast<std::size_t>(other)].block);
+    g.element_blocks.push_back(s.block);
     g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
   }
 }
@@ -367,12 +392,14 @@ Plan make_plan(const scene::Scene& scene) {
   Builder b(scene);
   b.plan.gravity = scene.gravity;
   b.plan.gravity_law = b.add_factor(scene.gravity_law, "gravity");
+  b.add_signal_laws();
   b.add_frames();
   b.add_bodies();
   b.add_beams();
   b.add_joints();
   b.add_motions();
   b.add_couplings();
+  b.add_signals();
   b.hold_point_masses();
   b.add_initial_velocities();
   b.stop_spins();
@@ -388,6 +415,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.settle();
   b.say_idle_parts();
   b.find_mobility();
+  b.list_signals_of_elements();
   b.make_graph();
   b.add_sensors();
   return std::move(b.plan);

@@ -51,6 +51,7 @@ struct Builder {
   std::map<std::string, int> carrier_of;                     ///< frames that move in the ground, in Plan::frames
   std::map<std::string, motion::Frame<double>> frame_start;  ///< pose of every frame in the ground
   FrameMotions start_motions;
+  std::unordered_map<std::string, int> law_of_signal;        ///< by name: place among the values of laws
   std::map<std::string, motion::Frame<double>> part_offset;  ///< pose of a named part relative to the node to which it
                                                              ///< is welded
   std::vector<std::pair<int, motion::Vec3<double>>> spinless;  ///< nodes that do not spin about a line of their own
@@ -65,6 +66,7 @@ struct Builder {
 
   int add_law(const laws::Law& law, const std::string& user);
   int add_factor(const laws::Law& law, const std::string& user);
+  int add_factor(const laws::Law& law, const std::string& signal, const std::string& user);
   const std::vector<SpaceLoad>& line_load(const scene::LineLoad& load);
   std::vector<SpaceLoad> space_loads(const motion::Vec3<double>& force, const motion::Vec3<double>& moment,
                                      const std::string& frame, bool follows, int law, const std::string& user);
@@ -76,6 +78,9 @@ struct Builder {
   elements::Port port_at(const scene::Attachment& a) const;
   motion::Frame<double> initial_pose(const elements::Port& port) const;
 
+  /// Places for the values of signals among those of laws; then the signals themselves.
+  void add_signal_laws();
+  void add_signals();
   void add_frames();
   void add_bodies();
   void add_beams();
@@ -104,6 +109,7 @@ struct Builder {
   void choose_unknowns();
   void hold_nodes();
   void add_reduced_model(const motion::Mat3<double>& axes);
+  void list_signals_of_elements();
   void make_graph();
   void add_sensors();
 };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -37,7 +38,10 @@ void Builder::hold_point_masses() {
                                  lanes::dot(lanes::linear_part(e.wrench), lanes::linear_part(e.wrench)));
       else if constexpr (E::role == elements::Role::joint) {
         // A row along an axis of the first frame turns with the first body; three such rows form a point and do not.
-        mark(e, e.num_efforts > 0 || !motion::joins_points(std::span(e.rows, static_cast<std::size_t>(e.num_rows))));
+        const bool turns = std::any_of(e.efforts, e.efforts + e.num_efforts, [](const elements::Effort& effort) {
+          return !motion::traits_of(effort.coordinate).is_between_points;
+        });
+        mark(e, turns || !motion::joins_points(std::span(e.rows, static_cast<std::size_t>(e.num_rows))));
       } else
         mark(e, true);
     }

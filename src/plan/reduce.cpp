@@ -152,6 +152,7 @@ class InPlane final : public Motion {
       if (first && second) return "it turns an axis out of the plane";
     }
     for (int k = 0; k < e.num_efforts; ++k) {
+      if (motion::traits_of(e.efforts[k].coordinate).is_between_points) continue;
       const bool turns = e.efforts[k].coordinate == RowKind::angle;
       if (turns ? !along(a, 2) || !along(b, 2) : !beside(a, 2))
         return "a force or moment along its free motion acts out of the plane";
@@ -319,6 +320,9 @@ Verdict judge(const Builder& b, const Motion& motion) {
       else
         ++v.passed;
     });
+  for (const SignalPlan& s : b.plan.signals)
+    if (s.reads_motion() && !v.obstacle)
+      if (auto o = motion.against(s.reading)) v.obstacle = "signal '" + s.name + "' reads a motion: " + *o;
   if (!v.obstacle) v.obstacle = motion.against_gravity();
   return v;
 }

@@ -264,6 +264,8 @@ class Welder {
       plan_.welds.push_back({plan_.joints[j].name, e.ports[0], e.ports[1]});
       for (Port* p : {&plan_.welds.back().first, &plan_.welds.back().second}) move(*p);
     }
+    for (SignalPlan& s : plan_.signals)
+      for (Port& p : s.reading.ports) move(p);
     for_each_other([&](auto& e, const std::string&) {
       if constexpr (std::decay_t<decltype(e)>::role == elements::Role::body) {
         const auto n = static_cast<std::size_t>(e.ports[0].node);

@@ -150,6 +150,7 @@ constexpr Kernel kernels[] = {
      }},
     {acceleration_split, [](Look& l, const SensorPlan& s, Values& to) { append_split(l, s, to); }},
     {relative_position, [](Look& l, const SensorPlan& s, Values& to) { append(to, l.point(s).pose.x); }},
+    {signal, [](Look& l, const SensorPlan& s, Values& to) { to.push_back(l.field.around.laws[s.signal]); }},
 };
 constexpr bool is_in_order() {
   for (std::size_t k = 0; k < std::size(kernels); ++k)

@@ -31,6 +31,7 @@ StepWindow::StepWindow(const plan::Plan& plan, std::vector<int> sensors) : plan_
       node = static_cast<int>(std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin());
   between_nodes_.resize(plan.nodes.size());
   between_.turns.resize(plan.joints.size());
+  between_.signals.value.resize(plan.signals.size());
 }
 
 void StepWindow::push(const step::System& system, const step::State& state, results::EnergyMeter& meter) {

@@ -102,6 +102,14 @@ std::vector<JointType> make_types() {
        "All motions that keep the distance between two points, as a rod between two ball joints does; a drive "
        "prescribes "
        "the distance, which is its displacement."},
+      {JointKind::strut,
+       "strut",
+       {},
+       {{"displacement", RowKind::distance}},
+       JointAxes::none,
+       {{12, 0.5, 2.0}},
+       "All motions. Springs, dampers, efforts and drives act along the line between two points, whose distance is its "
+       "displacement, as in a cylinder or a servo."},
   };
 }
 
@@ -131,8 +139,15 @@ bool JointType::has_pitch() const {
 }
 
 bool JointType::has_common_frame() const {
-  return std::none_of(rows.begin(), rows.end(),
-                      [](const JointRow& row) { return motion::traits_of(row.kind).is_between_points; });
+  const auto is_between_points = [](const auto& of) { return motion::traits_of(of.kind).is_between_points; };
+  return std::none_of(rows.begin(), rows.end(), is_between_points) &&
+         std::none_of(coordinates.begin(), coordinates.end(), is_between_points);
+}
+
+bool JointType::holds(const JointCoordinate& coordinate) const {
+  return std::any_of(rows.begin(), rows.end(), [&](const JointRow& row) {
+    return row.kind == coordinate.kind && motion::traits_of(row.kind).is_between_points;
+  });
 }
 
 bool JointType::joins_points() const { return motion::joins_points(rows); }

@@ -81,6 +81,7 @@ void check_loads(ProblemList& list);
 void check_motions(ProblemList& list);
 void check_initial_velocities(ProblemList& list);
 void check_magnitudes(ProblemList& list);
+void check_signals(ProblemList& list);
 void check_sensors(ProblemList& list);
 void check_analysis(ProblemList& list);
 void check_holding(ProblemList& list);

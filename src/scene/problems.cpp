@@ -243,7 +243,7 @@ bool ProblemList::check_frame(const char* section, std::size_t index, const std:
 
 void check_names(ProblemList& list) {
   const Scene& s = list.scene;
-  std::unordered_map<std::string, std::string> things, sections, sensors;
+  std::unordered_map<std::string, std::string> things, sections, sensors, signals;
   check_one_set(list, "frames", s.frames, things);
   check_one_set(list, "nodes", s.nodes, things);
   check_one_set(list, "bodies", s.bodies, things);
@@ -256,6 +256,7 @@ void check_names(ProblemList& list) {
   check_one_set(list, "motions", s.motions, things);
   check_one_set(list, "sections", s.sections, sections);
   check_one_set(list, "sensors", s.sensors, sensors);
+  check_one_set(list, "signals", s.signals, signals);
   check_placements(list, "frames", s.frames);
   check_placements(list, "nodes", s.nodes);
   check_placements(list, "bodies", s.bodies);
@@ -274,6 +275,7 @@ std::vector<SceneProblem> problems_in(const Scene& scene, std::span<const std::s
   check_motions(list);
   if (defective.empty()) check_initial_velocities(list);
   check_magnitudes(list);
+  check_signals(list);
   check_sensors(list);
   check_analysis(list);
   if (defective.empty()) check_holding(list);

@@ -101,7 +101,7 @@ void check_drives(ProblemList& list, std::size_t i, const Frame* H) {
   for (std::size_t k = 0; k < j.forces.size(); ++k) {
     const std::string key = "forces/" + std::to_string(k);
     const JointCoordinate* coordinate = check_coordinate(list, i, key + "/coordinate", j.forces[k].coordinate);
-    if (coordinate != nullptr && !type_of(j.kind).has_common_frame())
+    if (coordinate != nullptr && type_of(j.kind).holds(*coordinate))
       list.add("joints", i, key, j.forces[k].coordinate,
                "the joint holds this coordinate, so a force along it moves nothing", "take a spring, or a drive");
     list.check_law("joints", i, key + "/effort", j.forces[k].effort, false);

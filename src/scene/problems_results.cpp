@@ -59,7 +59,7 @@ void check_sensor(ProblemList& list, std::size_t i) {
   else if (!s.frame.empty())
     list.check_place("sensors", i, "frame", s.frame, true);
   if (type.takes(SensorField::chain)) check_chain(list, i);
-  if (type.of == SensorOf::whole) return;
+  if (type.of == SensorOf::whole || type.of == SensorOf::signal) return;
   if (type.of == SensorOf::point && s.beam.empty()) {
     list.check_place("sensors", i, "at", s.at.to, true);
     return;

@@ -36,7 +36,9 @@ struct Integrator {
 
   /// Applies a Newton correction: poses move, velocities and accelerations follow, multipliers grow.
   std::optional<Trouble> correct(System& system, State& state, const double* x) const {
-    if (system.plan().num_multipliers > 0) system.corrections().add_multipliers(state, x, 1.0);
+    const plan::Plan& plan = system.plan();
+    if (plan.num_multipliers > 0 || !plan.signals.empty()) system.corrections().add_multipliers(state, x, 1.0);
+    follow_states(plan, state.signals);
     return state.change_all([&]<class G>(NodesOn<G>& nodes) {
       const double most = largest_of_chunks(system, [&](std::size_t begin, std::size_t end) {
         return correct_nodes(rule, start.on<G>(), nodes, begin, end, x, system.places().node_begins());
@@ -53,6 +55,7 @@ struct Integrator {
     state.step_size = start.step_size;
     system.corrections().predict_multipliers(start, state);
     state.turns = start.turns;
+    predict_signals(system.plan(), state.signals);
     return start.visit([&]<class G>(const NodesOn<G>& from) {
       NodesOn<G>& nodes = state.resize_as<G>(start);
       const double most = largest_of_chunks(system, [&](std::size_t begin, std::size_t end) {
@@ -63,6 +66,25 @@ struct Integrator {
   }
 
  private:
+  /// Rates of states as functions of their values.
+  void follow_states(const plan::Plan& plan, SignalValues& now) const {
+    const SignalValues& from = start.signals;
+    for (std::size_t i = 0; i < plan.signals.size(); ++i) {
+      if (!plan.signals[i].is_state()) continue;
+      now.algorithmic[i] = rule.states.algorithmic(now.value[i], from.value[i], from.algorithmic[i]);
+      now.rate[i] = rule.states.rate(now.algorithmic[i], from.algorithmic[i], from.rate[i]);
+    }
+  }
+  /// Rates of states and values of other signals go on to change as they did in the last step.
+  void predict_signals(const plan::Plan& plan, SignalValues& now) const {
+    const SignalValues& from = start.signals;
+    now = from;
+    for (std::size_t i = 0; i < plan.signals.size(); ++i)
+      now.value[i] = plan.signals[i].is_state() ? rule.states.predict(from.rate[i] + from.trend[i], from.value[i],
+                                                                      from.algorithmic[i], from.rate[i])
+                                                : from.value[i] + from.trend[i];
+    follow_states(plan, now);
+  }
   /// Reports a node whose increment turns too far; `most` is the largest squared angle of a dq.
   template <class G>
   static std::optional<Trouble> judge_turn(const System& system, const NodesOn<G>& nodes, double most) {
@@ -105,10 +127,15 @@ void note_whole_end(System& system, const State& start, State& state) {
   state.local_error = whole.error;
   state.increment = whole.increment;
   system.corrections().note_multipliers(start, state);
+  for (std::size_t i = 0; i < state.signals.value.size(); ++i)
+    state.signals.trend[i] = system.plan().signals[i].is_state() ? state.signals.rate[i] - start.signals.rate[i]
+                                                                 : state.signals.value[i] - start.signals.value[i];
 }
 
 Integrator make_rule(const StepOptions& options, const State& start) {
-  return {{make_alpha_coefficients(options.spectral_radius), start.step_size}, start};
+  return {{make_alpha_coefficients(options.spectral_radius), start.step_size,
+           FirstOrderRule(options.spectral_radius, start.step_size)},
+          start};
 }
 
 /// Sets the laws of `end_time` and the predicted state.

@@ -2,6 +2,7 @@
 /// The formulas of one step of generalized-alpha, for motion vectors in space or in a plane. Internal to step.
 #include "bough/elements/evaluate.hpp"
 #include "bough/step/options.hpp"
+#include "first_order.hpp"
 
 namespace bough::step {
 
@@ -10,6 +11,7 @@ namespace bough::step {
 struct AlphaRule {
   AlphaCoefficients c;
   double h;
+  FirstOrderRule states;  ///< for states of signals
 
   template <class V>
   struct Rates {
@@ -17,7 +19,7 @@ struct AlphaRule {
   };
 
   elements::Slopes slopes() const {
-    return {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false};
+    return {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false, states.slope()};
   }
 
   /// Acceleration-like variable, velocity and acceleration at the end of the step as functions of dq:

@@ -145,6 +145,8 @@ std::optional<Trouble> Bdf::finish_start(const State& state) {
       if (auto t = system_.set_time(point->time, point == &first_ ? laws::Side::right : laws::Side::left)) return t;
       if (auto t = set_normal_velocities(system_, *point, &steady_error_)) return t;
     }
+  signals_earlier_ = first_.signals.value;
+  signals_last_ = second_.signals.value;
   last.visit([&]<class G>(const NodesOn<G>& now) {
     HistoryOn<G>& past = history<G>();
     const NodesOn<G>&begin = first_.on<G>(), &middle = second_.on<G>();
@@ -181,9 +183,28 @@ void Bdf::predict(State& state) {
   });
 }
 
+/// Extrapolates through the last two values (order 2) or three.
+void Bdf::predict_signals(State& state) {
+  std::vector<double>& value = state.signals.value;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const double change = value[i] - signals_last_[i], before = signals_last_[i] - signals_earlier_[i];
+    value[i] += order_ == 2 ? change : 2.0 * change - before;
+  }
+}
+
+/// s'_{n+1} = (c0 s_{n+1} + c1 s_n + c2 s_{n-1} + c3 s_{n-2}) / h of states
+void Bdf::follow_states(SignalValues& signals) const {
+  const std::vector<double>& now = begin_.signals.value;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (system_.plan().signals[i].is_state())
+      signals.rate[i] =
+          (c_.c0 * signals.value[i] + c_.c1 * now[i] + c_.c2 * signals_last_[i] + c_.c3 * signals_earlier_[i]) / h_;
+}
+
 /// Sets velocities and accelerations by the formulas of the scheme, and dq = D / c0, the increment for which the
 /// tangents of elements are exact to first order.
 std::optional<Trouble> Bdf::follow(State& state) const {
+  follow_states(state.signals);
   return state.change_all([&]<class G>(NodesOn<G>& nodes) -> std::optional<Trouble> {
     using Vector = typename NodesOn<G>::Vector;
     using On = motion::VectorsOn<G>;
@@ -206,14 +227,17 @@ StepReport Bdf::take_step(State& state, const StepOptions& options, double end_t
   if (const auto t = system_.set_time(end_time, laws::Side::left)) return failed(report, t->text);
   state.time = end_time;
   predict(state);
+  predict_signals(state);
   if (const auto t = follow(state)) return failed(report, t->text);
-  const elements::Slopes slopes{c_.c0 / h_, (c_.c0 / h_) * (c_.c0 / h_), false};
+  const elements::Slopes slopes{c_.c0 / h_, (c_.c0 / h_) * (c_.c0 / h_), false, c_.c0 / h_};
   report = iterate(system_, state, options, {}, slopes, [&](State& s, const double* x) {
     system_.corrections().move(s, x);
     return follow(s);
   });
   if (!report.converged) return report;
   if (const auto t = check_shape(system_, state)) return failed(report, t->text);
+  std::swap(signals_earlier_, signals_last_);
+  signals_last_ = begin_.signals.value;
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     HistoryOn<G>& past = history<G>();
     std::swap(past.earlier, past.last);

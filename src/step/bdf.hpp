@@ -66,6 +66,8 @@ class Bdf final : public Integrator {
   StepReport take_step(State& state, const StepOptions& options, double end_time);
   [[nodiscard]] std::optional<Trouble> follow(State& state) const;
   void predict(State& state);
+  void predict_signals(State& state);
+  void follow_states(SignalValues& signals) const;
   /// Sets steady_error_, the steady error of the scheme's velocities at a point of the start.
   void eval_steady_error(const State& point);
 
@@ -78,6 +80,8 @@ class Bdf final : public Integrator {
   State alpha_;           ///< state of generalized-alpha between the starting steps
   State first_, second_;  ///< states at the start and after its first step
   motion::Groups::OneOf<HistoryOn> history_;
+  /// Signals at the ends of the last step and of the one before, of which the states' rates are made.
+  std::vector<double> signals_last_, signals_earlier_;
   std::vector<double> steady_error_;  ///< as a vector of unknowns
 };
 

@@ -70,6 +70,7 @@ double Corrections::relative_size(const State& state, const double* x) const {
 void Corrections::add_multipliers(State& state, const double* x, double factor) const {
   for (const UnknownPlaces::Multiplier& at : places_.multipliers())
     state.multipliers[at.multiplier] += factor * x[at.unknown];
+  for (std::size_t i = 0; i < places_.signals().size(); ++i) state.signals.value[i] += factor * x[places_.signals()[i]];
 }
 
 void Corrections::predict_multipliers(const State& start, State& state) const {
@@ -104,7 +105,7 @@ void Corrections::move(State& state, const double* x) const {
     };
     walker_.for_each_chunk(static_cast<std::int64_t>(nodes.motion.size()), block_grain, tree::make_chunk(by_node));
   });
-  if (plan_.num_multipliers > 0) add_multipliers(state, x, 1.0);
+  if (plan_.num_multipliers > 0 || !plan_.signals.empty()) add_multipliers(state, x, 1.0);
 }
 
 double Corrections::apply(State& state, const double* x) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <type_traits>
 
+#include "bough/elements/law_slope.hpp"
 #include "element_parts.hpp"
 #include "held_nodes.hpp"
 #include "lane_batches.hpp"
@@ -18,6 +19,20 @@ template <class E>
 double length_of(const E& e, double fallback) {
   if constexpr (E::data_axes == elements::DataAxes::section) return e.length;
   return fallback;
+}
+
+/// The tangent of an element that reads signals, K in its own n unknowns, with a column for each signal, which `slope`
+/// writes; the rows of signals are zero, for their equations are elements of their own.
+template <class Slope>
+void add_signal_columns(int n, int num_signals, const double* K, double* extended, Slope&& slope) {
+  const int all = n + num_signals;
+  std::array<double, most_unknowns> column;
+  std::fill(extended, extended + all * all, 0.0);
+  for (int i = 0; i < n; ++i) std::copy(K + i * n, K + (i + 1) * n, extended + i * all);
+  for (int s = 0; s < num_signals; ++s) {
+    slope(s, column.data());
+    for (int i = 0; i < n; ++i) extended[i * all + n + s] = column[static_cast<std::size_t>(i)];
+  }
 }
 
 /// Number of unknowns of an element in the linear system.
@@ -81,17 +96,33 @@ void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const
     std::array<double, most_unknowns> residual, magnitude;
     std::array<double, most_unknowns * most_unknowns> tangent_entries;
     const solve::ElementView view = to.want_tangents() ? to.tangent_of(static_cast<int>(id)) : solve::ElementView{};
-    const bool is_direct = view.stride == 1 && !(held_ && held_->trims(id));
+    const std::span<const int> signals = plan::signals_of(plan_, id);
+    const bool is_direct = view.stride == 1 && signals.empty() && !(held_ && held_->trims(id));
     elements::evaluate(e, f, multipliers, turns, residual.data(),
                        !to.want_tangents() ? nullptr
                        : is_direct         ? view.first
                                            : tangent_entries.data());
+    const int n = elements::num_unknowns(e), num_signals = static_cast<int>(signals.size());
     elements::eval_magnitude(e, f, residual.data(), magnitude.data());
+    for (int i = n; i < n + num_signals; ++i)
+      residual[static_cast<std::size_t>(i)] = magnitude[static_cast<std::size_t>(i)] = 0.0;
     sums_.set_parts(id, residual.data(), magnitude.data());
+    if (num_signals > 0 && to.want_tangents()) {
+      std::array<double, most_unknowns * most_unknowns> extended;
+      add_signal_columns(n, num_signals, tangent_entries.data(), extended.data(), [&](int s, double* column) {
+        const plan::SignalPlan& signal = plan_.signals[static_cast<std::size_t>(signals[static_cast<std::size_t>(s)])];
+        if (f.slopes.mass_only)  // signals stand still with the motion
+          std::fill(column, column + n, 0.0);
+        else
+          elements::evaluate_law_slope(e, f, multipliers, turns, signal.law, column);
+      });
+      write_matrix(
+          held_, id, n + num_signals, [&](int i) { return extended[static_cast<std::size_t>(i)]; }, view);
+      return;
+    }
     if (to.want_tangents() && !is_direct)
       write_matrix(
-          held_, id, elements::num_unknowns(e), [&](int i) { return tangent_entries[static_cast<std::size_t>(i)]; },
-          view);
+          held_, id, n, [&](int i) { return tangent_entries[static_cast<std::size_t>(i)]; }, view);
   });
 }
 
@@ -109,6 +140,7 @@ void ElementEvaluation::evaluate_as_seen(const State& state) {
       const plan::JointPlan* const joint = plan_.joint_of(id);
       const double* multipliers = joint == nullptr ? nullptr : state.multipliers.data() + joint->multiplier_begin;
       const double turns = joint == nullptr ? 0.0 : state.turns[static_cast<std::size_t>(plan_.joint_of_element[id])];
+      if (!plan_.signals.empty()) reduced.fill(0.0);
       plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
         elements::evaluate(e, f, multipliers, turns, residual.data(), nullptr);
         reduce_vector(plan_.unknowns, e, joint, residual.data(), reduced.data());

@@ -8,7 +8,8 @@
 
 namespace bough::step {
 
-inline constexpr std::size_t most_unknowns = 24;  ///< of an element: a beam of four nodes
+/// Of an element: a beam of four nodes, or a line load on it that reads a signal.
+inline constexpr std::size_t most_unknowns = 25;
 
 /// Numbers of items that a task takes at once; chunks do not depend on the number of threads. Pairs of nodes are
 /// counted by eights.
@@ -17,7 +18,7 @@ inline constexpr std::int64_t element_grain = 256, block_grain = 64, pair_grain 
 inline constexpr int least_lanes = 3;  ///< elements that are evaluated as eight
 
 /// Calls f(block, size, node) for every part of an element's unknowns, in their order: its nodes, then, with node -1,
-/// the rows of a joint. block -1: these have no unknowns in the linear system.
+/// the rows of a joint and the signals that it reads. block -1: these have no unknowns in the linear system.
 template <class F>
 void for_each_part(const plan::Plan& plan, std::size_t element, F&& f) {
   plan::with_element(plan.elements, plan.directory[element], [&](const auto& e) {
@@ -27,6 +28,8 @@ void for_each_part(const plan::Plan& plan, std::size_t element, F&& f) {
   });
   const plan::JointPlan* const joint = plan.joint_of(element);
   if (joint != nullptr && !joint->rows.empty()) f(joint->block, static_cast<int>(joint->rows.size()), -1);
+  for (const int signal : plan::signals_of(plan, element))
+    f(plan.signals[static_cast<std::size_t>(signal)].block, 1, -1);
 }
 
 /// Whether an element is a joint none of whose rows is an unknown, in a scene whose nodes do not turn: it neither
@@ -37,7 +40,7 @@ inline bool is_idle_joint(const plan::Plan& plan, int joint) {
 }
 
 /// Entries of an element's residual and of its magnitude in the order of ResidualSums::parts: for its nodes, of
-/// `node_unknowns` each, and its rows.
+/// `node_unknowns` each, and its rows, with which the signals that it reads are counted.
 template <class S>
 void join_parts(int node_unknowns, int num_unknowns, int num_rows, const S* residual, const S* magnitude, S* parts) {
   const int forces = num_unknowns - num_rows;

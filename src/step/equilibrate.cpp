@@ -54,6 +54,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
   state.time = load_factor;
   state.unsettled.clear();
   set_at_rest(state);
+  system.signals().follow_motion(state);
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
   double previous = 0.0;
   for (int k = 0;; ++k) {

@@ -13,9 +13,12 @@ constexpr double tightest = 1e-12;  ///< tolerance of the equations: what is lef
 constexpr double endless = 1e3;     ///< motion over the size of the structure that has no end
 constexpr int most_steps = 400;
 
-/// The state at rest, and nothing known of steps before it.
-void rest(State& state) {
+/// The state at rest, its signals too, and nothing known of steps before it.
+void rest(System& system, State& state) {
   set_at_rest(state);
+  system.signals().follow_motion(state);
+  for (auto* known : {&state.signals.rate, &state.signals.algorithmic, &state.signals.trend})
+    std::fill(known->begin(), known->end(), 0.0);
   state.change_all([](auto& nodes) {
     for (auto* known : {&nodes.algorithmic, &nodes.acceleration_trend, &nodes.trend_change})
       known->assign_zero(nodes.motion.size());
@@ -69,6 +72,15 @@ class PseudoTime {
   int quiet_ = 0;                          ///< steps in a row whose changes look like round-off
 };
 
+/// The largest change of a state, relative to what it was or has become.
+double change_of_states(const plan::Plan& plan, const std::vector<double>& before, const std::vector<double>& now) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (const double change = std::abs(now[i] - before[i]); plan.signals[i].is_state() && change > 0.0)
+      most = std::max(most, change / std::max(std::abs(now[i]), std::abs(before[i])));
+  return most;
+}
+
 /// The node that has moved farthest from its place in `start`.
 const std::string& farthest(const plan::Plan& plan, const std::vector<elements::NodeMotion>& start,
                             const std::vector<elements::NodeMotion>& now) {
@@ -92,14 +104,16 @@ EquilibriumReport find_equilibrium(System& system, State& state, const StepOptio
   const plan::Plan& plan = system.plan();
   const std::vector<elements::NodeMotion> start = nodes_in_space(plan, state);
   const double time = state.time;
+  std::vector<double> before;
   StepOptions options = given;
   options.spectral_radius = 0.0;
   options.tolerance = std::min(given.tolerance, tightest);
   options.single_solution = false;
   for (PseudoTime pseudo(first_size); !report.found;) {
-    rest(state);
+    rest(system, state);
     state.time = time;
     state.step_size = pseudo.size();
+    before = state.signals.value;
     const StepReport step = advance(system, state, options, time, laws::Side::right);
     report.iterations += step.iterations;
     if (!step.converged) {
@@ -110,14 +124,14 @@ EquilibriumReport find_equilibrium(System& system, State& state, const StepOptio
     if (!plan.joints.empty()) accept_turns(system, state);
     ++report.steps;
     report.moved += state.increment;
-    report.found = pseudo.accept(state.increment);
+    report.found = pseudo.accept(std::max(state.increment, change_of_states(plan, before, state.signals.value)));
     if (!report.found && (report.steps == most_steps || report.moved > endless)) {
       report.cause = "'" + farthest(plan, start, nodes_in_space(plan, state)) +
                      "' moves farthest and comes to no rest: hold it, or start from the given places";
       return report;
     }
   }
-  rest(state);
+  rest(system, state);
   state.time = time;
   state.step_size = 0.0;
   system.linear().forget_factor();

@@ -47,7 +47,8 @@ std::optional<Trouble> Instant::set(double time, laws::Side side) {
   return std::nullopt;
 }
 
-elements::Field Instant::surroundings(const elements::Slopes& slopes, bool with_inertia) const {
+elements::Field Instant::surroundings(const State& state, const elements::Slopes& slopes, bool with_inertia) const {
+  for (std::size_t i = 0; i < plan_.signals.size(); ++i) note_signal(plan_.signals[i], state.signals.value[i]);
   elements::Field f;
   f.slopes = slopes;
   f.around.gravity = values_[static_cast<std::size_t>(plan_.gravity_law)] * plan_.gravity;
@@ -63,7 +64,7 @@ elements::Field Instant::surroundings(const elements::Slopes& slopes, bool with_
 }
 
 elements::Field Instant::field(const State& state, const elements::Slopes& slopes, bool with_inertia) const {
-  elements::Field f = surroundings(slopes, with_inertia);
+  elements::Field f = surroundings(state, slopes, with_inertia);
   f.nodes = nodes_in_space(plan_, state).data();
   return f;
 }
@@ -71,7 +72,7 @@ elements::Field Instant::field(const State& state, const elements::Slopes& slope
 elements::Field Instant::field_of(const State& state, std::span<const int> nodes,
                                   std::vector<elements::NodeMotion>& scratch) const {
   if (state.is_in_space()) return field(state);
-  elements::Field f = surroundings({}, true);
+  elements::Field f = surroundings(state, {}, true);
   scratch.resize(plan_.nodes.size());
   copy_nodes_in_space(plan_, state, nodes, scratch);
   f.nodes = scratch.data();
@@ -84,7 +85,7 @@ elements::FieldOn<G, double> Instant::field_on(const State& state, const element
   if constexpr (std::is_same_v<G, motion::Se3>) {
     return field(state, slopes, with_inertia);
   } else {
-    const elements::Field space = surroundings(slopes, with_inertia);
+    const elements::Field space = surroundings(state, slopes, with_inertia);
     elements::FieldOn<G, double> f;
     f.nodes = state.on<G>().motion.data();
     f.slopes = slopes;

@@ -95,11 +95,16 @@ void LaneBatches<G>::gather_singles() {
     std::size_t staying = 0;
     for (const int* id = loose.data(); id != loose.data() + present; ++id) {
       const plan::ElementPlace place = plan_->directory[static_cast<std::size_t>(*id)];
-      const auto group = std::find_if(open.begin(), open.end(), [&](const Open& o) { return share(o.first, place); });
+      const bool is_alone = reads_signals(*id);
+      const auto group =
+          is_alone ? open.end()
+                   : std::find_if(open.begin(), open.end(), [&](const Open& o) { return share(o.first, place); });
       if (group == open.end()) {
         batch.element[staying++] = *id;
-        if (staying == 1)
+        if (staying == 1 && !is_alone)
           open.push_back({b, place});
+        else if (open.empty())
+          continue;
         else if (open.back().batch == b)  // the batch holds two kinds: they are evaluated one by one
           open.pop_back();
         continue;
@@ -114,7 +119,13 @@ void LaneBatches<G>::gather_singles() {
 template <class G>
 bool LaneBatches<G>::leaves_out(int element) const {
   const auto id = static_cast<std::size_t>(element);
+  if (id >= plan_->directory.size()) return true;  // the equation of a signal
   return (held_ != nullptr && held_->leaves_out(id)) || is_idle_joint(*plan_, plan_->joint_of_element[id]);
+}
+
+template <class G>
+bool LaneBatches<G>::reads_signals(int element) const {
+  return element >= 0 && !plan::signals_of(*plan_, static_cast<std::size_t>(element)).empty();
 }
 
 template <class G>
@@ -142,6 +153,9 @@ void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::Element
     }
     if (slot.present < least_lanes) continue;
     const int first = batches_[b].element[static_cast<std::size_t>(slot.first)];
+    if (std::any_of(batches_[b].element.begin(), batches_[b].element.end(),
+                    [this](int id) { return reads_signals(id); }))
+      continue;
     const int array = plan.directory[static_cast<std::size_t>(first)].array;
     plan::with_array<Arrays>(array, [&]<std::size_t I>() { add<I>(batches_[b], slot); });
   }

@@ -88,6 +88,8 @@ class LaneBatches {
   void place_rows(const solve::ElementBatch& batch, int num_rows, Slot& slot);
   /// Whether the solver sees nothing of an element.
   bool leaves_out(int element) const;
+  /// Whether an element has unknowns beside its own, those of signals: it is evaluated alone.
+  bool reads_signals(int element) const;
   template <std::size_t I>
   void add(const solve::ElementBatch& batch, Slot& slot);
   template <std::size_t I>

@@ -11,9 +11,9 @@ namespace bough::step {
 using motion::Vec6;
 
 BlockOwners::BlockOwners(const plan::Plan& plan)
-    : plan_(plan),
-      joints_(static_cast<std::size_t>(plan.graph.num_blocks()), -1),
-      nodes_(static_cast<std::size_t>(plan.graph.num_blocks()), -1) {
+    : plan_(plan), joints_(static_cast<std::size_t>(plan.graph.num_blocks()), -1), nodes_(joints_), signals_(joints_) {
+  for (std::size_t s = 0; s < plan.signals.size(); ++s)
+    signals_[static_cast<std::size_t>(plan.signals[s].block)] = static_cast<int>(s);
   for (std::size_t j = 0; j < plan.joints.size(); ++j)
     if (plan.joints[j].block >= 0) joints_[static_cast<std::size_t>(plan.joints[j].block)] = static_cast<int>(j);
   for (std::size_t n = 0; n < plan.nodes.size(); ++n)
@@ -21,6 +21,7 @@ BlockOwners::BlockOwners(const plan::Plan& plan)
 }
 
 std::string BlockOwners::name(int block) const {
+  if (signal(block) >= 0) return "signal '" + plan_.signals[static_cast<std::size_t>(signal(block))].name + "'";
   if (joint(block) < 0) return "'" + plan_.nodes[static_cast<std::size_t>(node(block))].name + "'";
   const plan::JointPlan& j = plan_.joints[static_cast<std::size_t>(joint(block))];
   return j.what + " '" + j.name + "'";
@@ -45,7 +46,7 @@ void LinearSolution::begin_matrices(bool are_symmetric) {
 
 bool LinearSolution::has_factor(const elements::Slopes& s) const {
   return is_factored_ && s.velocity == factored_.velocity && s.acceleration == factored_.acceleration &&
-         s.mass_only == factored_.mass_only;
+         s.rate == factored_.rate && s.mass_only == factored_.mass_only;
 }
 
 void LinearSolution::note_service(int solutions) {
@@ -88,8 +89,9 @@ std::string LinearSolution::explain_singular(const solve::FactorStatus& status) 
   static const char* const axes[] = {"displacement along axis 1", "displacement along axis 2",
                                      "displacement along axis 3", "rotation about axis 1",
                                      "rotation about axis 2",     "rotation about axis 3"};
-  text += ": nothing holds " + owners_.name(status.block);
-  if (owners_.joint(status.block) < 0 && status.local >= 0 && status.local < plan_.unknowns.count) {
+  text += owners_.signal(status.block) < 0 ? ": nothing holds " : ": nothing determines ";
+  text += owners_.name(status.block);
+  if (owners_.node(status.block) >= 0 && status.local >= 0 && status.local < plan_.unknowns.count) {
     std::array<double, 6> unit{};
     unit[static_cast<std::size_t>(status.local)] = 1.0;
     const int node = owners_.node(status.block);

@@ -289,6 +289,7 @@ double Corrections::power_along_tree(const double* residual, const double* x) {
     power += lanes::dot(places_.node_part(residual, link.node), tree.twists[node]);
   }
   for (const UnknownPlaces::Multiplier& at : places_.multipliers()) power += residual[at.unknown] * x[at.unknown];
+  for (const std::size_t unknown : places_.signals()) power += residual[unknown] * x[unknown];
   return power;
 }
 

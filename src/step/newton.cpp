@@ -32,7 +32,7 @@ double largest_share(const System& system, const ResidualSize& r) {
   };
   return std::max({share(r.force, std::max(r.force_scale, r.moment_scale / arm)),
                    share(r.moment, std::max(r.moment_scale, r.force_scale * arm)),
-                   share(r.length, system.plan().length_scale), r.angle});
+                   share(r.length, system.plan().length_scale), r.angle, r.signal});
 }
 
 bool is_small(const System& system, const ResidualSize& r, double tolerance) {
@@ -59,6 +59,7 @@ bool is_settled(const System& system, const ResidualSize& r, double tolerance, c
     return within(r.force, force, noise.force, left) && within(r.moment, moment, noise.moment, left);
   };
   if (!within(r.length, system.plan().length_scale, 0.0, usual) || !within(r.angle, 1.0, 0.0, usual)) return false;
+  if (!within(r.signal, 1.0, 0.0, usual)) return false;
   if (!forces_within(usual)) return false;
   if (goal.residual >= usual || error <= goal.round_off || forces_within(goal.residual)) return true;
   const ResidualSize& floor = system.round_off().of_poses();
@@ -74,7 +75,7 @@ bool is_noise(const System& system, const ResidualSize& r, double tolerance, dou
 }
 
 bool is_closed(const System& system, const ResidualSize& r, double tolerance) {
-  return r.length <= tolerance * system.plan().length_scale && r.angle <= tolerance;
+  return r.length <= tolerance * system.plan().length_scale && r.angle <= tolerance && r.signal <= tolerance;
 }
 
 bool is_at_floor(const System& system, const ResidualSize& r, double tolerance) {
@@ -82,7 +83,8 @@ bool is_at_floor(const System& system, const ResidualSize& r, double tolerance) 
   return r.force <= std::max(roundings * floor.force, tolerance * r.force_scale) &&
          r.moment <= std::max(roundings * floor.moment, tolerance * r.moment_scale) &&
          r.length <= std::max(floor.length, tolerance * system.plan().length_scale) &&
-         r.angle <= std::max(floor.angle, tolerance);
+         r.angle <= std::max(floor.angle, tolerance) &&
+         r.signal <= std::max(roundings * std::numeric_limits<double>::epsilon(), tolerance);
 }
 
 namespace {
@@ -113,6 +115,10 @@ std::string describe(System& system, ResidualSize r, double tolerance) {
     std::snprintf(text, sizeof text, "%s '%s' stays open by %.3g", j.what.c_str(), j.name.c_str(),
                   std::max(r.length, r.angle));
     return text + partners(system, r.worst_joint);
+  }
+  if (r.signal > tolerance && r.worst_signal >= 0) {
+    std::snprintf(text, sizeof text, "' misses its equation by %.3g of the terms", r.signal);
+    return "signal '" + system.plan().signals[static_cast<std::size_t>(r.worst_signal)].name + text;
   }
   const bool force = r.force > tolerance * r.force_scale;
   const int node = force ? r.worst_force_node : r.worst_moment_node;

@@ -9,12 +9,15 @@ namespace bough::step {
 namespace {
 
 template <class G>
-void add_rates(const System& system, const State& state, double step_size, std::vector<double>& rate) {
+void add_rates(System& system, const State& state, double step_size, std::vector<double>& rate) {
   using T = lanes::Taylor<double, 1>;
   const plan::Plan& plan = system.plan();
   const Instant& instant = system.instant();
   elements::FieldOn<G, double> f = instant.field_on<G>(state);
-  const std::vector<T>& laws = instant.rate_series();
+  std::vector<T> laws = instant.rate_series();
+  std::vector<double> second;
+  system.signals().add_rates(state, laws, second);
+  for (std::size_t i = 0; i < second.size(); ++i) rate[system.places().signals()[i]] = -second[i];
   const T strength = laws[static_cast<std::size_t>(plan.gravity_law)];
   motion::Vec3<T> gravity;
   for (int k = 0; k < 3; ++k) gravity[k] = plan.gravity[k] * strength;
@@ -60,7 +63,7 @@ void add_rates(const System& system, const State& state, double step_size, std::
 
 }  // namespace
 
-void evaluate_rate(const System& system, const State& state, std::vector<double>& rate, double step_size) {
+void evaluate_rate(System& system, const State& state, std::vector<double>& rate, double step_size) {
   rate.assign(system.places().size(), 0.0);
   state.visit([&]<class G>(const NodesOn<G>&) { add_rates<G>(system, state, step_size, rate); });
 }

@@ -97,7 +97,8 @@ void ResidualSums::place_parts(const BlockOwners& owners, const HeldNodes* held)
 void ResidualSums::set_parts(std::size_t element, const double* residual, const double* magnitude) {
   const plan::JointPlan* const joint = plan_.joint_of(element);
   const auto size = static_cast<int>(element_begin_[element + 1] - element_begin_[element]);
-  const int rows = joint == nullptr ? 0 : static_cast<int>(joint->rows.size());
+  const int rows = (joint == nullptr ? 0 : static_cast<int>(joint->rows.size())) +
+                   static_cast<int>(plan::signals_of(plan_, element).size());
   if (magnitude == nullptr) magnitude = no_magnitudes.data();
   join_parts(plan_.unknowns.count, size, rows, residual, magnitude, parts_.data() + 2 * element_begin_[element]);
 }
@@ -191,7 +192,23 @@ ResidualSize ResidualSums::size() const {
     s.length = std::max(s.length, c.length);
     s.angle = std::max(s.angle, c.angle);
   }
+  s.signal = signal_share_;
+  s.worst_signal = worst_signal_;
   return s;
+}
+
+void ResidualSums::clear_signals() {
+  signal_share_ = 0.0;
+  worst_signal_ = lost_signal_ = -1;
+}
+
+void ResidualSums::set_signal(int signal, std::size_t unknown, double residual, double size_of_terms) {
+  residual_[unknown] = residual;
+  if (!std::isfinite(residual)) lost_signal_ = signal;
+  const double share = residual == 0.0 ? 0.0 : std::abs(residual) / size_of_terms;
+  if (!(share > signal_share_)) return;
+  signal_share_ = share;
+  worst_signal_ = signal;
 }
 
 void ResidualSums::name_worst(ResidualSize& size) const {
@@ -221,7 +238,8 @@ void ResidualSums::sum(const tree::Walker& walker) {
 }
 
 bool ResidualSums::is_finite() const {
-  return std::all_of(chunk_sizes_.begin(), chunk_sizes_.end(), [](const ChunkSize& c) { return c.is_finite; });
+  return lost_signal_ < 0 &&
+         std::all_of(chunk_sizes_.begin(), chunk_sizes_.end(), [](const ChunkSize& c) { return c.is_finite; });
 }
 
 std::optional<std::size_t> ResidualSums::first_not_finite() const {

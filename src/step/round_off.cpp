@@ -40,7 +40,8 @@ const ResidualSize& RoundOff::estimate(Estimate& known, Counts&& counts) const {
     if (!counts(e)) continue;
     const solve::ConstElementView K = elements_.matrix_of(static_cast<int>(e), unknowns_);
     const plan::JointPlan* const joint = plan_.joint_of(e);
-    const std::size_t n = unknowns_.size(), rows = joint == nullptr || joint->block < 0 ? 0 : joint->rows.size();
+    const std::size_t n = unknowns_.size(), rows = (joint == nullptr || joint->block < 0 ? 0 : joint->rows.size()) +
+                                                   plan::signals_of(plan_, e).size();
     const std::size_t node_columns = n - rows;  // which come first
     for (std::size_t row = 0; row < n; ++row) {
       if (unknowns_[row] < 0) continue;
@@ -54,7 +55,7 @@ const ResidualSize& RoundOff::estimate(Estimate& known, Counts&& counts) const {
   }
   ResidualSize& size = known.size = {};
   for (int b = 0; b < places_.num_blocks(); ++b) {
-    if (linear_.owners().joint(b) >= 0) continue;
+    if (linear_.owners().node(b) < 0) continue;
     const NodeSize of_node = size_up(plan_.unknowns.motions, sums_.data() + places_.block_begin(b));
     size.force = std::max(size.force, of_node.force);
     size.moment = std::max(size.moment, of_node.moment);

@@ -4,6 +4,7 @@
 #include "bough/step/advance.hpp"
 #include "bough/step/residual_rate.hpp"
 #include "element_parts.hpp"
+#include "first_order.hpp"
 #include "start_parts.hpp"
 
 namespace bough::step {
@@ -140,6 +141,7 @@ std::optional<Trouble> solve_accelerations(System& system, State& state) {
     for (auto& n : nodes.motion) n.a = std::decay_t<decltype(nodes)>::Vector::zero();
   });
   std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
+  system.signals().follow_motion(state);
   if (auto t = system.evaluate(state, mass_slopes, false)) return t;
   system.constraints().series(state, nullptr, 0.0, series);
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
@@ -158,6 +160,7 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
   StartReport report;
   if (const auto t = system.set_time(state.time, laws::Side::right)) return failed(t->text);
   set_unmoved(state, true);
+  system.signals().follow_motion(state);
   std::vector<double> rhs(system.places().size(), 0.0), x(system.places().size());
   int worst = 0;
 
@@ -208,11 +211,12 @@ StartReport make_consistent(System& system, State& state, bool fix_positions, do
 
 StartReport start_alpha(System& system, State& state, const StepOptions& options, double h) {
   const AlphaCoefficients c = make_alpha_coefficients(options.spectral_radius);
+  const FirstOrderRule states(options.spectral_radius, h);
   set_unmoved(state, false);
   // (M + O(h^2) K) jerk + G^T lambda' = -(residual)',  G jerk = -Phi'''|_{jerk = 0}, with the step's own matrix:
   // modes faster than the step are filtered, smooth ones change by O(h) only.
   const double acceleration = (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h);
-  const elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false};
+  const elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false, states.slope()};
   std::vector<double> rate, rhs(system.places().size()), x(system.places().size());
   std::vector<Taylor<double, 3>> series;
   evaluate_rate(system, state, rate, h);
@@ -222,6 +226,14 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -acceleration * rate[i];
   set_rows(system, rhs, [&](std::size_t m) { return -6.0 * series[m].c[3]; });
   if (const auto t = system.linear().solve(rhs.data(), x.data())) return failed(t->text);
+  // In this scaling an unknown of a state is s'' times a ratio of slopes; other signals were differentiated already.
+  SignalValues& signals = state.signals;
+  for (std::size_t i = 0; i < signals.value.size(); ++i) {
+    const bool is_state = system.plan().signals[i].is_state();
+    const double second = is_state ? states.slope() / acceleration * x[system.places().signals()[i]] : 0.0;
+    signals.algorithmic[i] = signals.rate[i] + states.shift() * h * second;
+    signals.trend[i] = h * second;
+  }
   // Steady velocity error of the index-3 scheme in the constraints' normals: local error of dq against the Magnus
   // series of the motion,
   //   G delta = -h^2 G ((beta + shift/2 - 1/6) jerk - ad(v) a / 12).

@@ -39,6 +39,9 @@ State make_initial_state(const plan::Plan& plan) {
   nodes.rotation.resize(n);
   s.multipliers.assign(static_cast<std::size_t>(plan.num_multipliers), 0.0);
   s.multiplier_trend = s.multiplier_trend_change = s.multipliers;
+  for (const plan::SignalPlan& signal : plan.signals) s.signals.value.push_back(signal.start);
+  s.signals.rate.assign(plan.signals.size(), 0.0);
+  s.signals.algorithmic = s.signals.trend = s.signals.rate;
   for (std::size_t i = 0; i < n; ++i) {
     elements::NodeMotion& node = nodes.motion[i];
     nodes.rotation[i] = motion::normalise(motion::quaternion_of(plan.nodes[i].pose.R));

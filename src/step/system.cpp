@@ -19,6 +19,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
       held_(plan.held.empty() ? nullptr : std::make_unique<HeldNodes>(plan)),
       sums_(plan, places_, linear_.owners(), held_.get()),
       elements_(plan, instant_, held_.get(), sums_, linear_, walker),
+      signals_(plan, instant_, places_, linear_),
       round_off_(plan, places_, linear_, elements_, lengths_),
       corrections_(plan, places_, instant_, lengths_, walker, clock_, counts_) {
   work_.rhs.assign(places_.size(), 0.0);
@@ -38,6 +39,7 @@ std::optional<Trouble> System::evaluate(const State& state, const elements::Slop
   PhaseTimer timer{clock_, counts_.assemble};
   ++counts_.evaluations;
   elements_.evaluate(state, slopes, tangent);
+  if (!signals_.are_none()) signals_.evaluate(state, slopes, tangent, sums_);
   return sum(state);
 }
 
@@ -45,6 +47,8 @@ std::optional<Trouble> System::sum(const State& state) {
   sums_.sum(walker_);
   if (sums_.is_finite()) return std::nullopt;
   const std::string at = " not finite at time " + std::to_string(state.time);
+  if (sums_.lost_signal() >= 0)
+    return Trouble{"signal '" + plan_.signals[static_cast<std::size_t>(sums_.lost_signal())].name + "' is" + at};
   if (const auto e = sums_.first_not_finite())
     return Trouble{"the forces of '" + plan_.element_owner[*e] + "' are" + at};
   return Trouble{"a sum of forces is" + at};

@@ -110,7 +110,9 @@ std::vector<UnknownBlock> make_blocks(const step::System& system) {
     UnknownBlock block{system.linear().owners().name(b), "", static_cast<int>(system.places().block_begin(b)),
                        system.places().block_size(b)};
     const int joint = system.linear().owners().joint(b);
-    if (joint < 0) {
+    if (system.linear().owners().signal(b) >= 0) {
+      block.components = "value";
+    } else if (joint < 0) {
       block.components = node_text(plan.unknowns.motions);
     } else {
       const plan::ElementPlace place = plan.directory[at(plan.joints[at(joint)].element)];

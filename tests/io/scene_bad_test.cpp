@@ -204,6 +204,36 @@ const Bad frame_cases[] = {
     {"\"kind\": \"total_energy\"",
      "\"kind\": \"acceleration_split\", \"at\": \"tip\", \"frames\": [ \"bench\" ], \"frame\": @\"cat\"",
      "/sensors/3/frame", "did you mean \"cart\"?"},
+    // Signals.
+    {"\"title\": \"base\",",
+     "\"title\": \"base\", \"signals\": [ { \"name\": @\"sin\", \"kind\": \"time\", \"law\": 1 } ],", "/signals/0/name",
+     "formulas cannot call a signal by this name"},
+    {"\"title\": \"base\",",
+     "\"title\": \"base\", \"signals\": [ { \"name\": \"a\", \"kind\": \"formula\", \"expression\": @\"2*angel\" } ],",
+     "/signals/0/expression", "angel"},
+    {"\"title\": \"base\",",
+     "\"title\": \"base\", \"signals\": [ { \"name\": \"a\", \"kind\": \"formula\", \"expression\": @\"2*t\" } ],",
+     "/signals/0/expression", "t stands in laws of time only"},
+    {"\"title\": \"base\",",
+     "\"title\": \"base\", \"signals\": [ @{ \"name\": \"a\", \"kind\": \"formula\", \"expression\": \"b\" }, { "
+     "\"name\": "
+     "\"b\", \"kind\": \"function\", \"of\": \"a\", \"law\": 1 } ],",
+     "/signals/0", "follow from each other in a circle"},
+    {"\"title\": \"base\",",
+     "\"title\": \"base\", \"signals\": [ { \"name\": \"a\", \"kind\": \"function\", \"of\": @\"ab\", \"law\": 1 } ],",
+     "/signals/0/of", "did you mean \"a\"?"},
+    {"\"title\": \"base\",",
+     "\"title\": \"base\", \"signals\": [ { \"name\": \"a\", \"kind\": \"position\", \"at\": @\"rot\", \"axis\": \"x\" "
+     "} ],",
+     "/signals/0/at", "did you mean \"root\"?"},
+    {"\"title\": \"base\",",
+     "\"title\": \"base\", \"signals\": [ { \"name\": \"a\", \"kind\": \"joint_displacement\", \"joint\": @\"clamp\" } "
+     "],",
+     "/signals/0/joint", "has no such coordinate"},
+    {"\"law\": { \"kind\": \"ramp\", \"end_time\": 0.5 }", "\"law\": { \"signal\": @\"thrust\" }",
+     "/loads/0/law/signal", "the scene has no signals"},
+    {"\"kind\": \"total_energy\"", "\"kind\": \"signal\", \"signal\": @\"thrust\"", "/sensors/3/signal",
+     "no signal has this name"},
 };
 
 struct Expectation {

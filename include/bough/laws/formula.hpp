@@ -28,11 +28,16 @@ bool is_formula_name(std::string_view text);
 /// A formula in named variables, whose values are given when it is evaluated. An immutable value; copies share data.
 class Formula {
  public:
+  /// The number 0.
+  Formula();
   /// Throws LawError where make_expression does, and where the formula contains t. None of the names may be among
   /// formula_words().
   Formula(const std::string& text, std::span<const std::string> names);
   /// The values are in the order of the names. The result may be infinite or NaN. Does not allocate.
   double operator()(std::span<const double> values) const;
+  /// The same, with its derivative by each variable. Where a branch changes, a derivative is that of the side on which
+  /// its variable grows.
+  double operator()(std::span<const double> values, std::span<double> slopes) const;
 
   /// Unit of the value, from those of the variables in the order of their names (empty: a pure number). Empty if the
   /// value is a pure number, or if its unit does not follow: sides of sums, min and max have one unit, which numbers

@@ -1,12 +1,14 @@
 #pragma once
 /// A plan is a scene translated to the model that is computed: nodes, elements, time functions, block graph. It does
 /// not change after make_plan.
+#include <span>
 #include <string>
 #include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "bough/blocks/block_graph.hpp"
+#include "bough/laws/formula.hpp"
 #include "bough/laws/law.hpp"
 #include "bough/motion/compensated.hpp"
 #include "bough/motion/quaternion.hpp"
@@ -124,11 +126,45 @@ struct TurnedLawPlan {
   motion::Vec3<double> vector;
 };
 
+/// What the equation of a signal evaluates.
+enum class SignalRule : std::uint8_t {
+  coordinate,  ///< of the relative motion of two frames
+  rate,        ///< of such a coordinate
+  function,    ///< a law, with another signal in the place of time
+  formula,     ///< of other signals and laws
+  state,       ///< the same, for the signal's rate
+};
+
+/// A signal that changes with the motion: an unknown s with one equation, s = f or s' = f. Plan::signals holds them such
+/// that each comes after those of whose present values it is made. Signals that are laws of time are Plan::laws alone.
+struct SignalPlan {
+  std::string name;
+  SignalRule rule = SignalRule::formula;
+  int law = -1;      ///< its place among the values of laws, where elements and other signals read it
+  int element = -1;  ///< of the block graph, after those of the directory
+  int block = -1;
+  /// coordinate, rate: a joint without rows, whose only effort has the coordinate. On the group of a reduced model it is
+  /// in ModelOn::readings.
+  elements::Joint reading;
+  std::string joint_name;    ///< of the joint whose coordinate it is; else empty
+  int joint = -1;            ///< index of that in Plan::joints
+  std::vector<int> nodes;    ///< that it reads and that have unknowns, none twice
+  laws::Law function;        ///< function
+  laws::Formula formula;     ///< formula, state
+  std::vector<int> inputs;   ///< of `function` and `formula`, by place among the values of laws
+  std::vector<int> signals;  ///< indices in Plan::signals of the inputs that are unknowns, itself not included
+  double start = 0.0;        ///< state
+
+  bool reads_motion() const { return rule <= SignalRule::rate; }
+  bool is_state() const { return rule == SignalRule::state; }
+};
+
 struct SensorPlan {
   scene::Sensor sensor;
   elements::Port port;                  ///< of point sensors
   int beam = -1;                        ///< index in Plan::beams
   int joint = -1;                       ///< index in Plan::joints (reaction, coordinate)
+  int signal = -1;                      ///< its place among the values of laws
   motion::RowKind coordinate = {};      ///< of the joint, if that is measured
   elements::Port frame;                 ///< port of the frame of the observer, or in whose axes the result is resolved
   std::vector<elements::Port> chain;    ///< parts on whose motions values depend, besides the sensor's point: of an
@@ -150,8 +186,9 @@ struct NodeStartOn {
 /// A reduced model: the scene on a group that has fewer motions than SE(3).
 template <class G>
 struct ModelOn {
-  ArraysOn<G> elements;               ///< at the indices of Plan::elements
-  std::vector<NodeStartOn<G>> nodes;  ///< in the order of Plan::nodes
+  ArraysOn<G> elements;                        ///< at the indices of Plan::elements
+  std::vector<elements::JointOn<G>> readings;  ///< by signal
+  std::vector<NodeStartOn<G>> nodes;           ///< in the order of Plan::nodes
 };
 /// In space, the model is the plan itself.
 template <>
@@ -176,6 +213,9 @@ struct Plan {
   int observer = -1;  ///< index in frames of the frame in which nodes, ground and results are described; -1: the
                       ///< inertial frame
   std::vector<TurnedLawPlan> turned_laws;
+  std::vector<SignalPlan> signals;
+  std::vector<int> signal_of_law;                    ///< by law: index in signals; -1: none. Empty where signals is
+  std::vector<std::vector<int>> signals_of_element;  ///< by global element id: those it reads. Empty where signals is
   std::vector<SensorPlan> sensors;
   std::vector<BodyPlan> bodies;  ///< in the scene's order
   std::vector<WeldPlan> welds;   ///< empty unless the decision "welded" was taken
@@ -188,9 +228,11 @@ struct Plan {
   motion::Vec3<double> origin = motion::Vec3<double>::zero();
   std::vector<Decision> decisions;
   bool took(const std::string& decision) const;
-  std::string not_conservative;    ///< why the loads have no potential, in words; empty: they have one
-  std::vector<HeldNode> held;      ///< empty unless the decision "held" was taken
-  blocks::BlockGraph graph;        ///< blocks: nodes with unknowns, then one per joint that has rows which are unknowns
+  std::string not_conservative;  ///< why the loads have no potential, in words; empty: they have one
+  std::vector<HeldNode> held;    ///< empty unless the decision "held" was taken
+  /// Blocks: nodes with unknowns, signals, then one per joint that has rows which are unknowns. Elements: those of the
+  /// directory, whose unknowns are followed by the signals that they read, then one for the equation of each signal.
+  blocks::BlockGraph graph;
   std::vector<int> block_of_node;  ///< -1: held
   double length_scale = 1.0;       ///< [m], size of the structure
   Mobility mobility;
@@ -212,6 +254,21 @@ struct Plan {
     return j < 0 ? nullptr : &joints[static_cast<std::size_t>(j)];
   }
 };
+
+/// The signals that an element reads, as indices in Plan::signals.
+inline std::span<const int> signals_of(const Plan& plan, std::size_t element) {
+  if (plan.signals.empty()) return {};
+  return plan.signals_of_element[element];
+}
+
+/// The coordinate that a signal reads, on the group G.
+template <class G>
+const elements::JointOn<G>& reading_on(const Plan& plan, std::size_t signal) {
+  if constexpr (std::is_same_v<G, motion::Se3>)
+    return plan.signals[signal].reading;
+  else
+    return std::get<ModelOn<G>>(plan.model).readings[signal];
+}
 
 /// The elements on the group G. Those in space always exist.
 template <class G>

@@ -44,6 +44,7 @@ struct JointType {
 
   const JointCoordinate* coordinate(const std::string& named) const;  ///< nullptr: it has none of this name
   bool has_pitch() const;                                             ///< a row is a screw
+  bool holds(const JointCoordinate& coordinate) const;                ///< at its initial value, unless it is driven
   bool has_common_frame() const;  ///< the frames of both sides coincide at the start, in what the rows hold
   bool joins_points() const;      ///< it takes hold of points of both parts and of no direction
   /// Parts turn or slide about a common axis 3.

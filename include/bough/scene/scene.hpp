@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "bough/laws/formula.hpp"
 #include "bough/laws/law.hpp"
 #include "bough/motion/se3.hpp"
 #include "bough/scene/moving_frame.hpp"
@@ -115,6 +116,7 @@ enum class JointKind : std::uint8_t {
   screw,
   constant_velocity,
   distance,
+  strut,
 };
 
 /// Spring, damper and effort along a joint's free coordinate `coordinate` ("angle" or "displacement").
@@ -123,7 +125,8 @@ struct JointForce {
   double stiffness = 0.0;  ///< [N m/rad] or [N/m]
   double rest = 0.0;       ///< [rad] or [m]
   double damping = 0.0;
-  laws::Law effort;  ///< torque [N m] or force [N] on the second body along the axis
+  laws::Law effort;    ///< torque [N m] or force [N] on the second body along the axis
+  std::string signal;  ///< the signal that gives the effort in place of the law; empty: none
 };
 
 /// Prescribes a coordinate of a joint as a function of time.
@@ -172,6 +175,7 @@ struct PointLoad {
   Vec3 force = Vec3::zero();   ///< [N], times the law
   Vec3 moment = Vec3::zero();  ///< [N m], times the law
   laws::Law law;               ///< factor over time (statics: over the load factor)
+  std::string signal;          ///< the signal that is the factor in place of the law; empty: none
 };
 
 struct LineLoad {
@@ -182,6 +186,7 @@ struct LineLoad {
   Vec3 force = Vec3::zero();   ///< per reference length [N/m]
   Vec3 moment = Vec3::zero();  ///< [N]
   laws::Law law;
+  std::string signal;  ///< as of a point load
 };
 
 /// Prescribed motion of a node or body along and about the ground's axes from its initial pose: a joint to the ground
@@ -206,6 +211,35 @@ struct InitialVelocity {
   Vec3 angular_velocity = Vec3::zero();
 };
 
+enum class SignalKind : std::uint8_t {
+  joint_angle,
+  joint_displacement,
+  joint_rate,
+  position,  ///< of a point, along an axis of the ground or of a frame [m]
+  velocity,  ///< the rate of that [m/s]
+  time,      ///< a law of time
+  function,  ///< a law, of another signal in the place of time
+  formula,   ///< of other signals
+  state,     ///< x' = formula of signals, itself included
+};
+
+/// A number that changes with the motion, for efforts and loads. All signals at one instant belong to the same motion:
+/// none lags behind.
+struct Signal {
+  std::string name;  ///< a word of formulas
+  SignalKind kind = SignalKind::formula;
+  std::string joint;
+  std::string coordinate;           ///< joint_rate: "angle" or "displacement"; empty: the only one the joint has
+  Attachment at;                    ///< position, velocity
+  int axis = 0;                     ///< position, velocity: 0, 1 or 2
+  std::string frame;                ///< position, velocity: what sees the point, in whose axes; empty: the ground
+  laws::Law law;                    ///< time, function
+  std::string of;                   ///< function: the signal in the place of time
+  laws::Formula formula;            ///< formula, state: in the values of `inputs`
+  std::vector<std::string> inputs;  ///< names of signals
+  double start = 0.0;               ///< state: at the start of dynamics
+};
+
 enum class SensorKind : std::uint8_t {
   position,
   rotation,
@@ -224,6 +258,7 @@ enum class SensorKind : std::uint8_t {
   total_energy,
   acceleration_split,
   relative_position,
+  signal,
 };
 
 struct Sensor {
@@ -238,6 +273,7 @@ struct Sensor {
   /// The frame of the observer of a point's motion, in whose axes it and reactions are resolved; empty: the ground. For
   /// an acceleration_split only the axes.
   std::string frame;
+  std::string signal;              ///< signal: its name
   std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the previous one
 };
 
@@ -398,6 +434,7 @@ struct Scene {
   std::vector<LineLoad> line_loads;
   std::vector<PrescribedMotion> motions;
   std::vector<InitialVelocity> initial_velocities;
+  std::vector<Signal> signals;
   std::vector<Sensor> sensors;
   Analysis analysis;
   Solver solver;

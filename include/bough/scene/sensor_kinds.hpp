@@ -15,6 +15,7 @@ enum class SensorOf : std::uint8_t {
   section,     ///< a section of a beam (`beam`, `station`)
   reaction,    ///< a joint
   coordinate,  ///< a coordinate of a joint
+  signal,      ///< a signal of the scene
   whole,       ///< nothing: it measures the whole structure
 };
 

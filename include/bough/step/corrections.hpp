@@ -40,7 +40,7 @@ class Corrections {
   /// Power of a residual at the end of the path that apply_along_tree took last with `x`:  sum of residual .
   /// d(increment)/d(factor).
   double power_along_tree(const double* residual, const double* x);
-  /// Adds `factor` times the multipliers of a solution.
+  /// Adds `factor` times the multipliers and signals of a solution.
   void add_multipliers(State& state, const double* x, double factor) const;
 
   /// Predicts the multipliers at the end of the next step of generalized-alpha, by the polynomial of

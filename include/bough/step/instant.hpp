@@ -22,7 +22,12 @@ class Instant {
   /// Left or right limit at t. A value that is not finite is told with its owner and the time.
   [[nodiscard]] std::optional<Trouble> set(double time, laws::Side side);
 
+  /// Values of laws, and of signals as they were in the state of the last field made here.
   const std::vector<double>& law_values() const { return values_; }
+  /// Changes the value of a signal in these.
+  void note_signal(const plan::SignalPlan& signal, double value) const {
+    values_[static_cast<std::size_t>(signal.law)] = value;
+  }
   /// Motion of the frame in which everything is described, in the inertial one; null where that is the inertial frame
   /// itself.
   const elements::CarrierMotion* observer() const { return plan_.observer < 0 ? nullptr : &frames_.observer; }
@@ -49,11 +54,12 @@ class Instant {
   void set_frames();
   void set_turned_laws();
   /// All of a field but the nodes.
-  elements::Field surroundings(const elements::Slopes& slopes, bool with_inertia) const;
+  elements::Field surroundings(const State& state, const elements::Slopes& slopes, bool with_inertia) const;
 
   const plan::Plan& plan_;
   double time_ = 0.0;
-  std::vector<double> values_, rates_, accelerations_;  ///< of laws
+  mutable std::vector<double> values_;         ///< of laws; those of signals are taken from states
+  std::vector<double> rates_, accelerations_;  ///< of laws
   plan::FrameMotions frames_;
   mutable plan::FrameMotions series_frames_;  ///< scratch, as the next two
   mutable Series series_;

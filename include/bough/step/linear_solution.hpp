@@ -20,19 +20,20 @@ namespace bough::step {
 tree::TreeOptions make_tree_options(const plan::Plan& plan, const scene::Solver& given);
 solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solver& given);
 
-/// Which node or joint a block of the graph belongs to.
+/// Which node, joint or signal a block of the graph belongs to.
 class BlockOwners {
  public:
   explicit BlockOwners(const plan::Plan& plan);
-  /// Index in Plan::joints or Plan::nodes; -1: of the other.
+  /// Index in Plan::joints, Plan::nodes or Plan::signals; -1: of another.
   int joint(int block) const { return joints_[static_cast<std::size_t>(block)]; }
   int node(int block) const { return nodes_[static_cast<std::size_t>(block)]; }
+  int signal(int block) const { return signals_[static_cast<std::size_t>(block)]; }
   /// "joint 'b'" or "'a'", for messages.
   std::string name(int block) const;
 
  private:
   const plan::Plan& plan_;
-  std::vector<int> joints_, nodes_;
+  std::vector<int> joints_, nodes_, signals_;
 };
 
 class LinearSolution {

@@ -6,8 +6,9 @@
 
 namespace bough::step {
 
-/// d(residual)/dt with accelerations and multipliers held, by unknown. step_size: the interval over which third
+/// d(residual)/dt with accelerations, multipliers and rates of states held, by unknown; signals follow the motion.
+/// step_size: the interval over which third
 /// derivatives of prescribed motions are differenced; 0: these are left out. The laws of the state's time are set.
-void evaluate_rate(const System& system, const State& state, std::vector<double>& rate, double step_size = 0.0);
+void evaluate_rate(System& system, const State& state, std::vector<double>& rate, double step_size = 0.0);
 
 }  // namespace bough::step

@@ -17,7 +17,8 @@ struct ResidualSize {
   double force = 0.0, moment = 0.0;              ///< |sum of contributions|
   double force_scale = 0.0, moment_scale = 0.0;  ///< largest sum of |contributions| at a node
   double length = 0.0, angle = 0.0;              ///< constraint violations
-  int worst_force_node = -1, worst_moment_node = -1, worst_joint = -1;
+  double signal = 0.0;                           ///< of equations of signals, relative to their terms [-]
+  int worst_force_node = -1, worst_moment_node = -1, worst_joint = -1, worst_signal = -1;
 };
 
 /// Each element writes its contributions, and the magnitudes of their terms, to a place of its own, its *parts*. The
@@ -34,14 +35,20 @@ class ResidualSums {
   /// Sets the parts of an element. magnitude: null for zeros.
   void set_parts(std::size_t element, const double* residual, const double* magnitude);
 
+  /// Sets the residual of the equation of a signal, whose terms have this size in all. To be cleared before.
+  void clear_signals();
+  void set_signal(int signal, std::size_t unknown, double residual, double size_of_terms);
+
   /// Adds up the parts of all elements.
   void sum(const tree::Walker& walker);
   /// The residual, by unknown.
   const std::vector<double>& values() const { return residual_; }
-  /// Without the worst nodes and joint: name_worst finds these, for messages.
+  /// Without the worst nodes and joint, which name_worst finds, for messages.
   ResidualSize size() const;
   void name_worst(ResidualSize& size) const;
   bool is_finite() const;
+  /// A signal whose equation is not finite; -1: none.
+  int lost_signal() const { return lost_signal_; }
   /// The first element with a part that is not finite.
   std::optional<std::size_t> first_not_finite() const;
 
@@ -73,8 +80,10 @@ class ResidualSums {
   std::int64_t num_node_sums_ = 0, num_row_sums_ = 0;
   std::vector<std::int64_t> uses_;  ///< offsets in parts_ of the parts that add up, in a fixed order
   std::vector<double> residual_;
-  std::vector<ChunkSize> chunk_sizes_;  ///< by chunk of sums
-  std::vector<char> is_length_;         ///< by unknown: whether it is the multiplier of a constraint of a length
+  std::vector<ChunkSize> chunk_sizes_;        ///< by chunk of sums
+  double signal_share_ = 0.0;                 ///< the largest share of a signal's residual in its terms
+  int worst_signal_ = -1, lost_signal_ = -1;  ///< the signal of that, and one whose residual is not finite
+  std::vector<char> is_length_;               ///< by unknown: whether it is the multiplier of a constraint of a length
 };
 
 }  // namespace bough::step

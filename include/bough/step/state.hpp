@@ -36,6 +36,13 @@ struct NodesOn {
 };
 using SpatialNodes = NodesOn<motion::Se3>;
 
+/// Values by signal (Plan::signals). Rates are those of states, zero for other signals.
+struct SignalValues {
+  std::vector<double> value, rate;
+  std::vector<double> algorithmic;  ///< a_n of generalized-alpha for states
+  std::vector<double> trend;        ///< change over the last step: of a state's rate, of another signal's value
+};
+
 struct State {
   double time = 0.0;       ///< [s], or the load factor in statics
   double step_size = 0.0;  ///< h that NodesOn::algorithmic belongs to [s]; 0 before the start
@@ -51,7 +58,8 @@ struct State {
   std::vector<double> multiplier_trend;         ///< change of multipliers over the last step; zero after a start
   std::vector<double> multiplier_trend_change;  ///< change of that from the step before; zero after a start
   int multiplier_order = 0;                     ///< as predictor_order
-  std::vector<double> turns;                    ///< angle of each joint at the last accepted step [rad]
+  SignalValues signals;
+  std::vector<double> turns;  ///< angle of each joint at the last accepted step [rad]
 
   std::size_t num_nodes() const {
     return std::visit([](const auto& nodes) { return nodes.motion.size(); }, nodes_);

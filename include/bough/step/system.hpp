@@ -11,6 +11,7 @@
 #include "bough/step/linear_solution.hpp"
 #include "bough/step/residual_sums.hpp"
 #include "bough/step/round_off.hpp"
+#include "bough/step/signals.hpp"
 #include "bough/step/state.hpp"
 #include "bough/step/unknown_places.hpp"
 
@@ -54,6 +55,7 @@ class System {
   const ResidualSums& sums() const { return sums_; }
   RoundOff& round_off() { return round_off_; }
   const RoundOff& round_off() const { return round_off_; }
+  Signals& signals() { return signals_; }
   Corrections& corrections() { return corrections_; }
   const Corrections& corrections() const { return corrections_; }
   const Constraints& constraints() const { return constraints_; }
@@ -91,6 +93,7 @@ class System {
   std::unique_ptr<HeldNodes> held_;  ///< null where all nodes have unknowns
   ResidualSums sums_;
   ElementEvaluation elements_;
+  Signals signals_;
   RoundOff round_off_;
   Corrections corrections_;
   Workspace work_;

@@ -58,12 +58,15 @@ class UnknownPlaces {
   };
   /// Joint after joint, each in the order of its rows.
   const std::vector<Multiplier>& multipliers() const { return multipliers_; }
+  /// The unknown of each signal, in the order of Plan::signals.
+  const std::vector<std::size_t>& signals() const { return signals_; }
 
  private:
   const plan::Plan& plan_;
   const std::vector<std::int64_t>& block_begin_;
   std::vector<std::int64_t> node_begin_;
   std::vector<Multiplier> multipliers_;
+  std::vector<std::size_t> signals_;
 };
 
 }  // namespace bough::step

@@ -1,0 +1,52 @@
+#pragma once
+/// Signals as unknowns (plan::SignalPlan): each has one equation, s - f = 0, or s' - f = 0 for a state, f being a reading
+/// of the motion, a law of another signal or a formula of others. The equations are solved together with those of
+/// motion, so that no signal lags behind the motion that it reads, and the tangent holds all derivatives.
+#include <vector>
+
+#include "bough/lanes/taylor.hpp"
+#include "bough/step/instant.hpp"
+#include "bough/step/linear_solution.hpp"
+#include "bough/step/residual_sums.hpp"
+#include "bough/step/unknown_places.hpp"
+
+namespace bough::step {
+
+class Signals {
+ public:
+  Signals(const plan::Plan& plan, const Instant& instant, const UnknownPlaces& places, LinearSolution& linear);
+
+  bool are_none() const { return plan_.signals.empty(); }
+  /// Writes the residuals of all equations to `sums` and, if `tangent`, their matrices to the solver. With
+  /// Slopes::mass_only the unknown of a state is its rate and motions stand still: all signals follow from the present
+  /// motion, so the matrices are ones on the diagonal.
+  void evaluate(const State& state, const elements::Slopes& slopes, bool tangent, ResidualSums& sums);
+  /// Computes all signals but the states, and the rates of states, from the motion and the states.
+  void follow_motion(State& state);
+  /// Completes a series of all laws by the values of signals and their rates along the motion. second: receives the
+  /// second derivatives of states, s'' = df/dt, by signal; zero for others.
+  void add_rates(const State& state, std::vector<lanes::Taylor<double, 1>>& laws, std::vector<double>& second);
+
+ private:
+  /// Value of f and the sum of the magnitudes of its terms. Its derivatives are left in slopes_: by the increments of
+  /// the nodes of both ports of a reading, or by the inputs.
+  struct Value {
+    double f = 0.0, magnitude = 0.0;
+  };
+  template <class G>
+  Value eval(std::size_t signal, const State& state, const elements::FieldOn<G, double>& field);
+  template <class G>
+  double eval_rate(std::size_t signal, const State& state, const elements::FieldOn<G, double>& field,
+                   const std::vector<lanes::Taylor<double, 1>>& laws);
+  void put_matrix(std::size_t signal, const elements::Slopes& slopes);
+  double size_of(const plan::SignalPlan& signal, double value, const elements::Slopes& slopes) const;
+  double turns_of(const plan::SignalPlan& signal, const State& state) const;
+
+  const plan::Plan& plan_;
+  const Instant& instant_;
+  const UnknownPlaces& places_;
+  LinearSolution& linear_;
+  std::vector<double> inputs_, slopes_, row_;  ///< scratch, of one signal
+};
+
+}  // namespace bough::step

@@ -1,0 +1,75 @@
+/// Reads signals: numbers that change with the motion.
+#include <algorithm>
+
+#include "bough/laws/formula.hpp"
+#include "bough/laws/law_error.hpp"
+#include "bough/scene/signals.hpp"
+#include "read_scene_impl.hpp"
+
+namespace bough::io {
+
+namespace {
+
+using scene::SignalKind;
+
+}  // namespace
+
+/// Names of all signals of the document that formulas can call.
+void Converter::find_signal_names() {
+  const Value* list = root_.find("signals");
+  if (list == nullptr || !list->is(JsonKind::array)) return;
+  for (const Value& item : list->items)
+    if (const Value* name = item.is(JsonKind::object) ? item.find("name") : nullptr;
+        name != nullptr && name->is(JsonKind::string) && scene::is_signal_name(name->text.str()))
+      signal_names_.push_back(name->text);
+}
+
+/// The formula of a signal, in the values of those signals that it names.
+void Converter::signal_formula(const Value& v, const std::string& at, scene::Signal& s) {
+  const std::string text = v.find("expression")->text;
+  for (const laws::NamePlace& place : laws::names_in(text)) {
+    const std::string name = text.substr(place.position, place.length);
+    const bool is_signal = std::find(signal_names_.begin(), signal_names_.end(), name) != signal_names_.end();
+    if (is_signal && std::find(s.inputs.begin(), s.inputs.end(), name) == s.inputs.end()) s.inputs.push_back(name);
+  }
+  try {
+    s.formula = laws::Formula(text, s.inputs);
+  } catch (const laws::LawError& e) {
+    const std::string where = "at character " + std::to_string(e.position + 1) + ": " +
+                              shown_in_quotes(text.substr(std::min(e.position, text.size())), 20);
+    fault(at + "/expression", e.what(),
+          where + "; a formula names signals and parameters, and a signal of kind \"time\" brings in t");
+  }
+}
+
+void Converter::signal(const Value& v, const std::string& at) {
+  scene::Signal s;
+  s.name = v.find("name")->text;
+  if (const Value* numbers = root_.find("parameters"); numbers != nullptr && numbers->find(s.name) != nullptr)
+    fault(at + "/name", "a parameter has this name, and formulas would take its number");
+  s.kind = scene::signal_kind_named(v.find("kind")->text.str()).value();  // the schema takes no other names
+  s.joint = text_or(v, "joint");
+  s.coordinate = text_or(v, "coordinate");
+  s.of = text_or(v, "of");
+  s.start = number_or(v, "start", 0.0);
+  if (const Value* where = v.find("at")) {
+    s.at = attachment(*where, at + "/at");
+    s.axis = v.find("axis")->text.str().front() - 'x';
+    s.frame = frame_name(v);
+  }
+  if (const Value* given = v.find("law")) s.law = law(*given, at + "/law");
+  if (s.kind == SignalKind::formula || s.kind == SignalKind::state) signal_formula(v, at, s);
+  if (!s.of.empty()) s.inputs.assign(1, s.of);
+  add(scene.signals, "signals", std::move(s), at);
+}
+
+/// The law of an effort or a load, unless a signal is named in its place.
+laws::Law Converter::law_or_signal(const Value& v, const std::string& at, std::string& signal) {
+  if (const Value* name = v.is(JsonKind::object) ? v.find("signal") : nullptr) {
+    signal = name->text;
+    return {};
+  }
+  return law(v, at);
+}
+
+}  // namespace bough::io

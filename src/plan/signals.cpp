@@ -1,0 +1,117 @@
+/// Signals of a scene: their places among the values of laws, what they read, and which elements read them.
+#include "bough/scene/signals.hpp"
+
+#include <algorithm>
+
+#include "plan_builder.hpp"
+
+namespace bough::plan {
+
+using motion::Mat3;
+using motion::Vec3;
+
+namespace {
+
+SignalRule rule_of(scene::SignalKind kind) {
+  using Kind = scene::SignalKind;
+  switch (kind) {
+    case Kind::joint_angle:
+    case Kind::joint_displacement:
+    case Kind::position:
+      return SignalRule::coordinate;
+    case Kind::joint_rate:
+    case Kind::velocity:
+      return SignalRule::rate;
+    case Kind::function:
+      return SignalRule::function;
+    case Kind::state:
+      return SignalRule::state;
+    case Kind::time:
+    case Kind::formula:
+      break;
+  }
+  return SignalRule::formula;
+}
+
+}  // namespace
+
+void Builder::add_signal_laws() {
+  for (const std::size_t i : scene::order_of_signals(scene.signals)) {
+    const scene::Signal& s = scene.signals[i];
+    law_of_signal[s.name] = add_law(s.law, "signal " + s.name);
+    if (s.kind == scene::SignalKind::time) continue;
+    plan.laws.back().law = {};  // a function's law is not one of time
+    SignalPlan p;
+    p.name = s.name;
+    p.rule = rule_of(s.kind);
+    p.law = law_of_signal[s.name];
+    p.start = s.start;
+    p.function = s.law;
+    p.formula = s.formula;
+    plan.signals.push_back(std::move(p));
+  }
+}
+
+void Builder::add_signals() {
+  std::unordered_map<std::string, const scene::Signal*> given;
+  for (const scene::Signal& s : scene.signals) given[s.name] = &s;
+  for (SignalPlan& p : plan.signals) {
+    const scene::Signal& s = *given.at(p.name);
+    for (const std::string& input : s.inputs) p.inputs.push_back(law_of_signal.at(input));
+    if (!p.reads_motion()) continue;
+    elements::Effort& read = p.reading.efforts[0];
+    p.reading.num_efforts = 1;
+    (p.rule == SignalRule::rate ? read.damping : read.stiffness) = 1.0;
+    read.coordinate = motion::RowKind::along;
+    if (scene::reads_joint(s.kind)) {
+      const auto joint = std::find_if(scene.joints.begin(), scene.joints.end(),
+                                      [&](const scene::Joint& j) { return j.name == s.joint; });
+      p.joint_name = s.joint;
+      p.reading.ports[0] = port_at(joint->first);
+      p.reading.ports[1] = port_at(joint->second);
+      read.coordinate = scene::coordinate_of(s, scene::type_of(joint->kind))->kind;
+      continue;
+    }
+    // Displacement along axis 3 of a frame that has the axes of the one that sees the point, in another order.
+    Mat3<double> axes = Mat3<double>::zero();
+    for (int k = 0; k < 3; ++k) axes((s.axis + 1 + k) % 3, k) = 1.0;
+    p.reading.ports[0] = port_at(s.frame, {axes, Vec3<double>::zero()});
+    p.reading.ports[1] = port_at(s.at);
+  }
+  plan.signal_of_law.assign(plan.laws.size(), -1);
+  for (std::size_t i = 0; i < plan.signals.size(); ++i)
+    plan.signal_of_law[static_cast<std::size_t>(plan.signals[i].law)] = static_cast<int>(i);
+  for (SignalPlan& p : plan.signals)
+    for (const int law : p.inputs) {
+      const int other = plan.signal_of_law[static_cast<std::size_t>(law)];
+      const bool is_itself = law == p.law;
+      if (other >= 0 && !is_itself && std::find(p.signals.begin(), p.signals.end(), other) == p.signals.end())
+        p.signals.push_back(other);
+    }
+}
+
+void Builder::list_signals_of_elements() {
+  if (plan.signals.empty()) {
+    plan.signal_of_law.clear();
+    return;
+  }
+  plan.signal_of_law.resize(plan.laws.size(), -1);
+  for (SignalPlan& p : plan.signals)
+    for (std::size_t j = 0; j < plan.joints.size(); ++j)
+      if (!p.joint_name.empty() && plan.joints[j].name == p.joint_name) p.joint = static_cast<int>(j);
+  plan.signals_of_element.resize(plan.directory.size());
+  for (std::size_t id = 0; id < plan.directory.size(); ++id)
+    with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      std::array<int, elements::max_rows + elements::max_efforts> laws;
+      elements::LawLister lister{laws.data()};
+      const elements::KindOf<elements::LawLister> kinds(lister);
+      std::decay_t<decltype(e)>::visit_data(e, e, kinds);
+      std::vector<int>& read = plan.signals_of_element[id];
+      for (int k = 0; k < lister.count; ++k) {
+        const int s = plan.signal_of_law[static_cast<std::size_t>(laws[static_cast<std::size_t>(k)])];
+        if (s >= 0 && std::find(read.begin(), read.end(), s) == read.end()) read.push_back(s);
+      }
+    });
+}
+
+}  // namespace bough::plan

@@ -1,0 +1,155 @@
+#include "bough/step/signals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bough/elements/reading.hpp"
+
+namespace bough::step {
+
+namespace {
+
+constexpr std::size_t most_of_ports = 12;  ///< unknowns of both ports of a reading
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Signals::Signals(const plan::Plan& plan, const Instant& instant, const UnknownPlaces& places, LinearSolution& linear)
+    : plan_(plan), instant_(instant), places_(places), linear_(linear) {
+  std::size_t most = most_of_ports;
+  for (const plan::SignalPlan& s : plan.signals) most = std::max(most, s.inputs.size());
+  for (std::vector<double>* scratch : {&inputs_, &slopes_}) scratch->assign(most, 0.0);
+  row_.assign(most + 1, 0.0);
+}
+
+/// The angle at the last accepted step of the joint that a signal reads.
+double Signals::turns_of(const plan::SignalPlan& signal, const State& state) const {
+  return signal.joint < 0 ? 0.0 : state.turns[at(signal.joint)];
+}
+
+/// What the equation is rounded by, times 1 / u, beside the terms of f: a reading by poses, whose size is that of the
+/// structure or 1 rad, the rate of a state by the state.
+double Signals::size_of(const plan::SignalPlan& s, double value, const elements::Slopes& slopes) const {
+  if (s.is_state()) return std::abs(slopes.rate * value);
+  if (!s.reads_motion()) return 0.0;
+  const bool is_length = motion::traits_of(s.reading.efforts[0].coordinate).is_length;
+  const double of_pose = is_length ? plan_.length_scale : 1.0;
+  return s.rule == plan::SignalRule::rate ? slopes.velocity * of_pose : of_pose;
+}
+
+template <class G>
+Signals::Value Signals::eval(std::size_t signal, const State& state, const elements::FieldOn<G, double>& field) {
+  const plan::SignalPlan& s = plan_.signals[signal];
+  if (s.reads_motion()) {
+    const double f =
+        elements::eval_reading(plan::reading_on<G>(plan_, signal), field, turns_of(s, state), slopes_.data());
+    return {f, std::abs(f)};
+  }
+  const double* laws = field.around.laws;
+  if (s.rule == plan::SignalRule::function) {
+    const double input = laws[at(s.inputs.front())];
+    const laws::LawValue v = s.function.at(input);
+    slopes_[0] = v.rate;
+    return {v.value, std::abs(v.value) + std::abs(v.rate * input)};
+  }
+  const std::size_t n = s.inputs.size();
+  for (std::size_t k = 0; k < n; ++k) inputs_[k] = laws[at(s.inputs[k])];
+  Value value{s.formula({inputs_.data(), n}, {slopes_.data(), n})};
+  value.magnitude = std::abs(value.f);
+  for (std::size_t k = 0; k < n; ++k) value.magnitude += std::abs(slopes_[k] * inputs_[k]);
+  return value;
+}
+
+/// The last row of the matrix of an equation is (-df/d(nodes), -df/d(other signals), own); all else is zero.
+void Signals::put_matrix(std::size_t signal, const elements::Slopes& slopes) {
+  const plan::SignalPlan& s = plan_.signals[signal];
+  const auto dof = static_cast<std::size_t>(plan_.unknowns.count);
+  const std::size_t others = dof * s.nodes.size(), n = others + s.signals.size() + 1;
+  std::fill(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
+  double& own = row_[n - 1] = 1.0;
+  if (!slopes.mass_only) {
+    if (s.is_state()) own = slopes.rate;
+    if (s.reads_motion())
+      for (std::size_t port = 0; port < 2; ++port) {
+        const auto node = std::find(s.nodes.begin(), s.nodes.end(), s.reading.ports[port].node);
+        if (node == s.nodes.end()) continue;
+        const auto begin = static_cast<std::size_t>(node - s.nodes.begin()) * dof;
+        for (std::size_t i = 0; i < dof; ++i) row_[begin + i] -= slopes_[dof * port + i];
+      }
+    else
+      for (std::size_t k = 0; k < s.inputs.size(); ++k) {
+        const int input = plan_.signal_of_law[at(s.inputs[k])];
+        const auto other = std::find(s.signals.begin(), s.signals.end(), input);
+        if (s.inputs[k] == s.law)
+          own -= slopes_[k];
+        else if (other != s.signals.end())
+          row_[others + static_cast<std::size_t>(other - s.signals.begin())] -= slopes_[k];
+      }
+  }
+  const solve::ElementView view = linear_.solver().element(s.element);
+  const std::size_t last = (n - 1) * n;
+  for (std::size_t i = 0; i < last; ++i) view[static_cast<std::int64_t>(i)] = 0.0;
+  for (std::size_t i = 0; i < n; ++i) view[static_cast<std::int64_t>(last + i)] = row_[i];
+}
+
+void Signals::evaluate(const State& state, const elements::Slopes& slopes, bool tangent, ResidualSums& sums) {
+  sums.clear_signals();
+  state.visit([&]<class G>(const NodesOn<G>&) {
+    const elements::FieldOn<G, double> field = instant_.field_on<G>(state, slopes);
+    for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
+      const plan::SignalPlan& s = plan_.signals[i];
+      const Value value = eval<G>(i, state, field);
+      const double left = s.is_state() ? state.signals.rate[i] : state.signals.value[i];
+      sums.set_signal(static_cast<int>(i), static_cast<std::size_t>(places_.block_begin(s.block)), left - value.f,
+                      std::abs(left) + value.magnitude + size_of(s, state.signals.value[i], slopes));
+      if (tangent) put_matrix(i, slopes);
+    }
+  });
+}
+
+void Signals::follow_motion(State& state) {
+  state.visit([&]<class G>(const NodesOn<G>&) {
+    const elements::FieldOn<G, double> field = instant_.field_on<G>(state);
+    for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
+      const plan::SignalPlan& s = plan_.signals[i];
+      if (s.is_state()) continue;
+      state.signals.value[i] = eval<G>(i, state, field).f;
+      instant_.note_signal(s, state.signals.value[i]);
+    }
+    for (std::size_t i = 0; i < plan_.signals.size(); ++i)
+      if (plan_.signals[i].is_state()) state.signals.rate[i] = plan_.is_dynamic ? eval<G>(i, state, field).f : 0.0;
+  });
+}
+
+/// df/dt along the motion.
+template <class G>
+double Signals::eval_rate(std::size_t signal, const State& state, const elements::FieldOn<G, double>& field,
+                          const std::vector<lanes::Taylor<double, 1>>& laws) {
+  const plan::SignalPlan& s = plan_.signals[signal];
+  if (s.reads_motion())
+    return elements::eval_reading_rate(plan::reading_on<G>(plan_, signal), field, turns_of(s, state));
+  eval<G>(signal, state, field);
+  double rate = 0.0;
+  for (std::size_t k = 0; k < s.inputs.size(); ++k) rate += slopes_[k] * laws[at(s.inputs[k])].c[1];
+  return rate;
+}
+
+void Signals::add_rates(const State& state, std::vector<lanes::Taylor<double, 1>>& laws, std::vector<double>& second) {
+  second.assign(plan_.signals.size(), 0.0);
+  state.visit([&]<class G>(const NodesOn<G>&) {
+    const elements::FieldOn<G, double> field = instant_.field_on<G>(state);
+    for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
+      const plan::SignalPlan& s = plan_.signals[i];
+      laws[at(s.law)].c[0] = state.signals.value[i];
+      laws[at(s.law)].c[1] = state.signals.rate[i];
+    }
+    for (std::size_t i = 0; i < plan_.signals.size(); ++i)
+      if (const plan::SignalPlan& s = plan_.signals[i]; !s.is_state())
+        laws[at(s.law)].c[1] = eval_rate<G>(i, state, field, laws);
+    for (std::size_t i = 0; i < plan_.signals.size(); ++i)
+      if (plan_.signals[i].is_state()) second[i] = eval_rate<G>(i, state, field, laws);
+  });
+}
+
+}  // namespace bough::step

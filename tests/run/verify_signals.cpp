@@ -1,0 +1,166 @@
+// Signals: closed forms, orders of convergence of motions and states, and that a control loop is what springs and
+// dampers of the same strength are.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/scenes.hpp"
+
+namespace bough::run {
+namespace {
+
+using support::gallery;
+using support::Outcome;
+using support::scene_of;
+
+Outcome run_ok(const scene::Scene& scene) {
+  Outcome r = support::run(scene);
+  EXPECT_TRUE(r.ok()) << r.summary.cause;
+  return r;
+}
+
+/// log2 of the ratio of errors of step sizes h and h / 2.
+template <class Error>
+double order_of(Error&& error, double h) {
+  return std::log2(error(h) / error(0.5 * h));
+}
+
+/// A rotor under torque `torque` with the signals that it needs; "rate" and "angle" are there.
+scene::Scene rotor(const std::string& signals, const std::string& torque, const std::vector<std::string>& overrides) {
+  return scene_of(R"({
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.02, "tolerance": 1e-11},
+  "bodies": [{"name": "rotor", "mass": 2, "inertia": [0.5, 0.5, 0.5]}],
+  "joints": [{"name": "axle", "kind": "revolute", "first": "ground", "second": "rotor", "axis": [0, 0, 1],
+              "forces": [{"effort": )" +
+                      torque + R"(}]}],
+  "signals": [{"name": "angle", "kind": "joint_angle", "joint": "axle"},
+              {"name": "rate", "kind": "joint_rate", "joint": "axle"}, )" +
+                      signals + R"(],
+  "sensors": [{"name": "angle", "kind": "joint_angle", "joint": "axle"},
+              {"name": "rate", "kind": "joint_rate", "joint": "axle"}]})",
+                  overrides);
+}
+
+const std::vector<std::string> in_space = {"/without=[\"planar\"]"}, in_plane = {};
+
+std::string step_of(double h) { return "/analysis/step_size=" + support::text(h); }
+
+// J w' = x, x' = (u - x) / tau with u = sin(3 t): a lag in front of a rotor, from rest.
+//   x = (sin(w t) - w tau cos(w t) + w tau exp(-t / tau)) / (1 + (w tau)^2),  w J = integral of x
+double lagged_rate(double t) {
+  const double w = 3.0, tau = 0.2, J = 0.5, d = 1.0 + w * w * tau * tau;
+  return ((1.0 - std::cos(w * t)) / w - tau * std::sin(w * t) + w * tau * tau * (1.0 - std::exp(-t / tau))) / d / J;
+}
+
+TEST(Signals, states_are_integrated_to_the_order_of_the_motion) {
+  const std::string signals = R"({"name": "u", "kind": "time", "law": {"expression": "sin(3*t)"
+}
+},
+                                 {"name": "x", "kind": "state", "expression": "(u - x)/0.2"})";
+  for (const auto& [integrator, order] : {std::pair{"generalized_alpha", 2.0}, std::pair{"bdf", 3.0}})
+    for (const bool planar : {true, false}) {
+  const auto error = [&](double h) {
+    std::vector<std::string> overrides = planar ? in_plane : in_space;
+    overrides.push_back(std::string("/analysis/integrator=") + integrator);
+    overrides.push_back(step_of(h));
+    return std::abs(run_ok(rotor(signals, R"({"signal": "x"})", overrides)).history.last("rate") - lagged_rate(1.0));
+  };
+  EXPECT_NEAR(order_of(error, 0.02), order, 0.25) << integrator << (planar ? " in a plane" : " in space");
+  EXPECT_LT(error(0.01), 1e-4);
+}
+}
+
+// A loop by signals has the tangent of springs and dampers, so also their bits but for round-off.
+TEST(Signals, a_loop_is_the_spring_and_damper_of_its_strength) {
+  const std::string none = R"({"name": "unused", "kind": "time", "law": 0})";
+  const std::string loop = R"({"name": "torque", "kind": "formula", "expression": "40*(0.5 - angle) - 3*rate"})";
+  for (const char* integrator : {"generalized_alpha", "bdf"})
+    for (const bool planar : {true, false}) {
+      std::vector<std::string> overrides = planar ? in_plane : in_space;
+      overrides.push_back(std::string("/analysis/integrator=") + integrator);
+      const Outcome by_signals = run_ok(rotor(loop, R"({"signal": "torque"})", overrides));
+      overrides.emplace_back(R"(/joints/0/forces=[{"stiffness": 40, "rest": 0.5, "damping": 3}])");
+      const Outcome by_spring = run_ok(rotor(none, "0", overrides));
+      ASSERT_EQ(by_signals.history.rows.size(), by_spring.history.rows.size());
+      for (std::size_t k = 0; k < by_spring.history.rows.size(); ++k)
+        for (const char* column : {"angle", "rate"})
+          EXPECT_NEAR(by_signals.history.of(column)[k], by_spring.history.of(column)[k], 1e-9) << integrator;
+    }
+}
+
+// A dead load that a signal makes the force of a spring and damper on the tip of a cantilever: statics against beam
+// theory, dynamics by its balance of energy, in which the load's power is work.
+TEST(Signals, loads_read_points_of_beams) {
+  const std::string json = R"({
+  "gravity": [0, -9.81, 0],
+  "analysis": {"kind": "dynamic", "end_time": 0.2, "step_size": 2e-4, "tolerance": 1e-10},
+  "materials": [{"name": "steel", "young": 2.1e11, "poisson": 0.3, "density": 7850}],
+  "sections": [{"name": "bar", "material": "steel", "shape": {"kind": "rectangle", "width": 0.02, "height": 0.02}}],
+  "nodes": [{"name": "root"}, {"name": "tip", "position": [1, 0, 0]}],
+  "beams": [{"name": "arm", "section": "bar", "start": "root", "end": "tip", "elements": 4}],
+  "joints": [{"name": "clamp", "kind": "fixed", "first": "ground", "second": "root"}],
+  "signals": [{"name": "y", "kind": "position", "at": "tip", "axis": "y"},
+              {"name": "vy", "kind": "velocity", "at": "tip", "axis": "y"},
+              {"name": "up", "kind": "formula", "expression": "-2e4*y - 30*vy"}],
+  "loads": [{"at": "tip", "force": [0, 1, 0], "law": {"signal": "up"}}],
+  "sensors": [{"name": "tip", "kind": "position", "at": "tip"}]})";
+  const double EI = 2.1e11 * std::pow(0.02, 4) / 12.0, q = 7850 * 4e-4 * 9.81, rest = q / 8.0 / (EI + 2e4 / 3.0);
+  for (const bool planar : {true, false}) {
+    std::vector<std::string> overrides = planar ? in_plane : in_space;
+    const Outcome moving = run_ok(scene_of(json, overrides));
+    EXPECT_GT(moving.summary.energy_scale, 1e-4);
+    EXPECT_LT(moving.summary.energy_balance, 2e-3 * moving.summary.energy_scale);
+    overrides.emplace_back(R"(/analysis={"kind": "static"})");
+    const Outcome still = run_ok(scene_of(json, overrides));
+    EXPECT_NEAR(still.history.last("tip.y"), -rest, 2e-3 * rest) << "q L^4 / 8 / (EI + k L^3 / 3)";
+  }
+}
+
+// A hardening spring F = -k u^3 along the line between two points, here of a mass on a rail: with
+// the mass m its period is 7.4162987 / (a sqrt(k / m)), a the amplitude.
+TEST(Signals, a_strut_takes_any_law_of_length) {
+  for (const bool planar : {true, false}) {
+    const Outcome r = run_ok(scene_of(R"({
+  "analysis": {"kind": "dynamic", "end_time": 4, "step_size": 2e-3, "tolerance": 1e-10},
+  "bodies": [{"name": "mass", "mass": 2, "inertia": [1, 1, 1], "position": [1.3, 0, 0]}],
+  "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "mass", "axis": [1, 0, 0]},
+             {"name": "spring", "kind": "strut", "first": "ground", "second": "mass",
+              "forces": [{"effort": {"signal": "pull"}}]}],
+  "signals": [{"name": "length", "kind": "joint_displacement", "joint": "spring"},
+              {"name": "u", "kind": "formula", "expression": "length - 1"},
+              {"name": "pull", "kind": "function", "of": "u", "law": {"expression": "-500*t^3"}}],
+  "sensors": [{"name": "length", "kind": "joint_displacement", "joint": "spring"}],
+  "expected": [{"quantity": "length", "figure": "period", "level": 1, "value": 1.563493, "tolerance": 2e-5},
+               {"quantity": "length", "figure": "min", "value": 0.7, "tolerance": 1e-5}]})",
+                                      planar ? in_plane : in_space));
+    for (const records::ExpectedResult& e : r.summary.expected) EXPECT_TRUE(e.holds) << e.value;
+  }
+}
+
+// In statics a state rests: the integral part of a controller brings the tip to its target against the load.
+TEST(Signals, integral_control_reaches_its_target_in_statics) {
+  const Outcome r = run_ok(rotor(R"({"name": "e", "kind": "formula", "expression": "0.3 - angle"},
+                                    {"name": "i", "kind": "state", "expression": "e"},
+                                    {"name": "torque", "kind": "formula", "expression": "5*e + 2*i - 7*angle"})",
+                                 R"({"signal": "torque"})", {"/analysis={\"kind\": \"static\"}"}));
+  EXPECT_NEAR(r.history.last("angle"), 0.3, 1e-12);
+}
+
+TEST(Signals, start_in_the_equilibrium_of_their_loop) {
+  const std::string loop = R"({"name": "i", "kind": "state", "expression": "0.3 - angle", "start": 4},
+      {"name": "torque", "kind": "formula", "expression": "20*(0.3 - angle) + 8*i - 3*rate - 2*angle"})";
+  const Outcome r = run_ok(rotor(loop, R"({"signal": "torque"})", {"/analysis/start=equilibrium"}));
+  for (const double angle : r.history.of("angle")) EXPECT_NEAR(angle, 0.3, 1e-11);
+  EXPECT_LT(r.history.largest("rate"), 1e-10);
+}
+
+TEST(Signals, what_is_not_finite_is_named) {
+  const Outcome r = support::run(rotor(R"({"name": "torque", "kind": "formula", "expression": "1/(0.2 - angle)^0.5"})",
+                                       R"({"signal": "torque"})", in_plane));
+  EXPECT_FALSE(r.ok());
+  EXPECT_NE(r.summary.cause.find("signal 'torque'"), std::string::npos) << r.summary.cause;
+}
+
+}  // namespace
+}  // namespace bough::run
