@@ -2,6 +2,8 @@
 // dampers of the same strength are.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -135,6 +137,66 @@ TEST(Signals, a_strut_takes_any_law_of_length) {
                {"quantity": "length", "figure": "min", "value": 0.7, "tolerance": 1e-5}]})",
                                       planar ? in_plane : in_space));
     for (const records::ExpectedResult& e : r.summary.expected) EXPECT_TRUE(e.holds) << e.value;
+  }
+}
+
+// A motor that follows a path on a flexible arm, linear as a spring and damper whose rest is carried along.
+TEST(Signals, a_motor_tracks_a_path_on_a_flexible_arm_as_its_spring_and_damper_do) {
+  const std::string json = R"({
+  "gravity": [0, -9.81, 0],
+  "analysis": {"kind": "dynamic", "end_time": 0.6, "step_size": 1e-3, "tolerance": 1e-10},
+  "materials": [{"name": "steel", "young": 2.1e11, "poisson": 0.3, "density": 7850}],
+  "sections": [{"name": "bar", "material": "steel", "shape": {"kind": "rectangle", "width": 0.02, "height": 0.005}}],
+  "nodes": [{"name": "root"}, {"name": "tip", "position": [1, 0, 0]}],
+  "beams": [{"name": "arm", "section": "bar", "start": "root", "end": "tip", "elements": 6}],
+  "joints": [{"name": "hinge", "kind": "revolute", "first": "ground", "second": "root", "axis": [0, 0, 1],
+              "forces": [{"effort": {"signal": "torque"}}]}],
+  "signals": [{"name": "path", "kind": "time", "law": {"kind": "cycloidal", "end_time": 0.5, "to": 1.2}},
+              {"name": "angle", "kind": "joint_angle", "joint": "hinge"},
+              {"name": "rate", "kind": "joint_rate", "joint": "hinge"},
+              {"name": "torque", "kind": "formula", "expression": "150*(path - angle) - 6*rate"}],
+  "sensors": [{"name": "tip", "kind": "position", "at": "tip"},
+              {"name": "angle", "kind": "joint_angle", "joint": "hinge"}]})";
+  for (const bool planar : {true, false}) {
+    std::vector<std::string> overrides = planar ? in_plane : in_space;
+    const Outcome by_signals = run_ok(scene_of(json, overrides));
+    overrides.emplace_back(R"(/joints/0/forces=[{"stiffness": 150, "damping": 6, "effort": {"kind": "scaled",
+                              "factor": 150, "law": {"kind": "cycloidal", "end_time": 0.5, "to": 1.2}}}])");
+    const Outcome by_spring = run_ok(scene_of(json, overrides));
+    EXPECT_GT(by_signals.history.largest("angle"), 1.0);
+    for (std::size_t k = 0; k < by_spring.history.rows.size(); ++k)
+      for (const char* column : {"tip.x", "tip.y", "angle"})
+        EXPECT_NEAR(by_signals.history.of(column)[k], by_spring.history.of(column)[k], 1e-8) << planar;
+  }
+}
+
+// A PID controller whose motor saturates and whose integrator is held back by what the motor does not give, against
+// Runge's and Kutta's method on the three equations:
+//   J w' = clamp(u),  theta' = w,  i' = e + 2 (clamp(u) - u),  u = 30 e + 10 i - 4 w,  e = 1 - theta
+TEST(Signals, a_limited_integrator_agrees_with_runge_kutta) {
+  const auto rates = [](const std::array<double, 3>& y) {
+    const double e = 1.0 - y[0], u = 30.0 * e + 10.0 * y[2] - 4.0 * y[1], given = std::clamp(u, -3.0, 3.0);
+    return std::array<double, 3>{y[1], given / 0.5, e + 2.0 * (given - u)};
+  };
+  std::array<double, 3> y{};
+  const int steps = 40000;
+  const double h = 1.0 / steps;
+  for (int k = 0; k < steps; ++k) {
+    const auto moved = [&](const std::array<double, 3>& by, double size) {
+      return std::array<double, 3>{y[0] + size * by[0], y[1] + size * by[1], y[2] + size * by[2]};
+    };
+    const auto a = rates(y), b = rates(moved(a, 0.5 * h)), c = rates(moved(b, 0.5 * h)), d = rates(moved(c, h));
+    for (std::size_t i = 0; i < 3; ++i) y[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
+  }
+  const std::string signals = R"({"name": "e", "kind": "formula", "expression": "1 - angle"},
+      {"name": "i", "kind": "state", "expression": "e + 2*(given - u)"},
+      {"name": "u", "kind": "formula", "expression": "30*e + 10*i - 4*rate"},
+      {"name": "given", "kind": "formula", "expression": "max(-3, min(3, u))"})";
+  for (const char* integrator : {"generalized_alpha", "bdf"}) {
+    const Outcome r = run_ok(rotor(signals, R"({"signal": "given"})",
+                                   {std::string("/analysis/integrator=") + integrator, step_of(5e-4)}));
+    EXPECT_NEAR(r.history.last("angle"), y[0], 2e-6) << integrator;
+    EXPECT_NEAR(r.history.last("rate"), y[1], 2e-5) << integrator;
   }
 }
 
