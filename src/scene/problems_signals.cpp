@@ -73,6 +73,10 @@ void check_circles(ProblemList& list) {
            "let one of them be a state: a lag, an integrator");
 }
 
+bool any_frame_moves(const Scene& scene) {
+  return std::any_of(scene.frames.begin(), scene.frames.end(), [](const FrameDef& f) { return f.motion.has_value(); });
+}
+
 }  // namespace
 
 void check_signals(ProblemList& list) {
@@ -99,10 +103,17 @@ void check_signals(ProblemList& list) {
   for (std::size_t i = 0; i < scene.joints.size(); ++i)
     for (std::size_t k = 0; k < scene.joints[i].forces.size(); ++k)
       names.check("joints", i, "forces/" + std::to_string(k) + "/effort/signal", scene.joints[i].forces[k].signal);
-  for (std::size_t i = 0; i < scene.point_loads.size(); ++i)
-    names.check("point_loads", i, "law/signal", scene.point_loads[i].signal);
-  for (std::size_t i = 0; i < scene.line_loads.size(); ++i)
-    names.check("line_loads", i, "law/signal", scene.line_loads[i].signal);
+  const auto check_loads_of = [&](const char* section, const auto& loads) {
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      names.check(section, i, "law/signal", loads[i].signal);
+      if (!loads[i].signal.empty() && !loads[i].frame.empty() && any_frame_moves(scene))
+        list.add(section, i, "frame", loads[i].frame,
+                 "a load that a signal drives does not turn with a frame that moves",
+                 "give it in the axes \"body\" of the part, or in those of the ground");
+    }
+  };
+  check_loads_of("point_loads", scene.point_loads);
+  check_loads_of("line_loads", scene.line_loads);
   if (list.defective.empty()) check_circles(list);
   if (scene.signals.empty()) return;
   const Analysis& a = scene.analysis;

@@ -28,8 +28,8 @@ double Signals::turns_of(const plan::SignalPlan& signal, const State& state) con
   return signal.joint < 0 ? 0.0 : state.turns[at(signal.joint)];
 }
 
-/// What the equation is rounded by, times 1 / u, beside the terms of f: a reading by poses, whose size is that of the
-/// structure or 1 rad, the rate of a state by the state.
+/// Size of what rounds an equation beside the terms of f: a reading is rounded as poses are, whose size is that of the
+/// structure or 1 rad, and the rate of a state as the state is.
 double Signals::size_of(const plan::SignalPlan& s, double value, const elements::Slopes& slopes) const {
   if (s.is_state()) return std::abs(slopes.rate * value);
   if (!s.reads_motion()) return 0.0;
