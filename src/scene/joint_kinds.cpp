@@ -179,7 +179,7 @@ std::string equations_of(const JointType& type) {
   for (std::size_t k = 0; k < std::size(motion::row_traits); ++k)
     if (const std::string one = text_of(type.rows, static_cast<RowKind>(k)); !one.empty())
       text += (text.empty() ? "" : "; ") + one;
-  return text;
+  return text.empty() ? "none" : text;
 }
 
 RowValue eval_row(const JointRow& row, double pitch, const Frame& H) {

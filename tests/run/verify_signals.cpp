@@ -8,6 +8,7 @@
 #include <string>
 
 #include "support/scenes.hpp"
+#include "support/untrapped.hpp"
 
 namespace bough::run {
 namespace {
@@ -30,17 +31,17 @@ double order_of(Error&& error, double h) {
 
 /// A rotor under torque `torque` with the signals that it needs; "rate" and "angle" are there.
 scene::Scene rotor(const std::string& signals, const std::string& torque, const std::vector<std::string>& overrides) {
-  return scene_of(R"({
+  return scene_of(R"-({
   "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.02, "tolerance": 1e-11},
   "bodies": [{"name": "rotor", "mass": 2, "inertia": [0.5, 0.5, 0.5]}],
   "joints": [{"name": "axle", "kind": "revolute", "first": "ground", "second": "rotor", "axis": [0, 0, 1],
-              "forces": [{"effort": )" +
-                      torque + R"(}]}],
+              "forces": [{"effort": )-" +
+                      torque + R"-(}]}],
   "signals": [{"name": "angle", "kind": "joint_angle", "joint": "axle"},
-              {"name": "rate", "kind": "joint_rate", "joint": "axle"}, )" +
-                      signals + R"(],
+              {"name": "rate", "kind": "joint_rate", "joint": "axle"}, )-" +
+                      signals + R"-(],
   "sensors": [{"name": "angle", "kind": "joint_angle", "joint": "axle"},
-              {"name": "rate", "kind": "joint_rate", "joint": "axle"}]})",
+              {"name": "rate", "kind": "joint_rate", "joint": "axle"}]})-",
                   overrides);
 }
 
@@ -56,33 +57,32 @@ double lagged_rate(double t) {
 }
 
 TEST(Signals, states_are_integrated_to_the_order_of_the_motion) {
-  const std::string signals = R"({"name": "u", "kind": "time", "law": {"expression": "sin(3*t)"
-}
-},
-                                 {"name": "x", "kind": "state", "expression": "(u - x)/0.2"})";
+  const std::string signals = R"-({"name": "u", "kind": "time", "law": {"expression": "sin(3*t)"}},
+                                 {"name": "x", "kind": "state", "expression": "(u - x)/0.2"})-";
   for (const auto& [integrator, order] : {std::pair{"generalized_alpha", 2.0}, std::pair{"bdf", 3.0}})
     for (const bool planar : {true, false}) {
-  const auto error = [&](double h) {
-    std::vector<std::string> overrides = planar ? in_plane : in_space;
-    overrides.push_back(std::string("/analysis/integrator=") + integrator);
-    overrides.push_back(step_of(h));
-    return std::abs(run_ok(rotor(signals, R"({"signal": "x"})", overrides)).history.last("rate") - lagged_rate(1.0));
-  };
-  EXPECT_NEAR(order_of(error, 0.02), order, 0.25) << integrator << (planar ? " in a plane" : " in space");
-  EXPECT_LT(error(0.01), 1e-4);
-}
+      const auto error = [&](double h) {
+        std::vector<std::string> overrides = planar ? in_plane : in_space;
+        overrides.push_back(std::string("/analysis/integrator=") + integrator);
+        overrides.push_back(step_of(h));
+        return std::abs(run_ok(rotor(signals, R"-({"signal": "x"})-", overrides)).history.last("rate") -
+                        lagged_rate(1.0));
+      };
+      EXPECT_NEAR(order_of(error, 0.02), order, 0.25) << integrator << (planar ? " in a plane" : " in space");
+      EXPECT_LT(error(0.01), 2e-4);
+    }
 }
 
 // A loop by signals has the tangent of springs and dampers, so also their bits but for round-off.
 TEST(Signals, a_loop_is_the_spring_and_damper_of_its_strength) {
-  const std::string none = R"({"name": "unused", "kind": "time", "law": 0})";
-  const std::string loop = R"({"name": "torque", "kind": "formula", "expression": "40*(0.5 - angle) - 3*rate"})";
+  const std::string none = R"-({"name": "unused", "kind": "time", "law": 0})-";
+  const std::string loop = R"-({"name": "torque", "kind": "formula", "expression": "40*(0.5 - angle) - 3*rate"})-";
   for (const char* integrator : {"generalized_alpha", "bdf"})
     for (const bool planar : {true, false}) {
       std::vector<std::string> overrides = planar ? in_plane : in_space;
       overrides.push_back(std::string("/analysis/integrator=") + integrator);
-      const Outcome by_signals = run_ok(rotor(loop, R"({"signal": "torque"})", overrides));
-      overrides.emplace_back(R"(/joints/0/forces=[{"stiffness": 40, "rest": 0.5, "damping": 3}])");
+      const Outcome by_signals = run_ok(rotor(loop, R"-({"signal": "torque"})-", overrides));
+      overrides.emplace_back(R"-(/joints/0/forces=[{"stiffness": 40, "rest": 0.5, "damping": 3}])-");
       const Outcome by_spring = run_ok(rotor(none, "0", overrides));
       ASSERT_EQ(by_signals.history.rows.size(), by_spring.history.rows.size());
       for (std::size_t k = 0; k < by_spring.history.rows.size(); ++k)
@@ -94,26 +94,26 @@ TEST(Signals, a_loop_is_the_spring_and_damper_of_its_strength) {
 // A dead load that a signal makes the force of a spring and damper on the tip of a cantilever: statics against beam
 // theory, dynamics by its balance of energy, in which the load's power is work.
 TEST(Signals, loads_read_points_of_beams) {
-  const std::string json = R"({
+  const std::string json = R"-({
   "gravity": [0, -9.81, 0],
   "analysis": {"kind": "dynamic", "end_time": 0.2, "step_size": 2e-4, "tolerance": 1e-10},
   "materials": [{"name": "steel", "young": 2.1e11, "poisson": 0.3, "density": 7850}],
   "sections": [{"name": "bar", "material": "steel", "shape": {"kind": "rectangle", "width": 0.02, "height": 0.02}}],
   "nodes": [{"name": "root"}, {"name": "tip", "position": [1, 0, 0]}],
-  "beams": [{"name": "arm", "section": "bar", "start": "root", "end": "tip", "elements": 4}],
+  "beams": [{"name": "arm", "section": "bar", "start": "root", "end": "tip", "elements": 4, "order": 3}],
   "joints": [{"name": "clamp", "kind": "fixed", "first": "ground", "second": "root"}],
   "signals": [{"name": "y", "kind": "position", "at": "tip", "axis": "y"},
               {"name": "vy", "kind": "velocity", "at": "tip", "axis": "y"},
               {"name": "up", "kind": "formula", "expression": "-2e4*y - 30*vy"}],
   "loads": [{"at": "tip", "force": [0, 1, 0], "law": {"signal": "up"}}],
-  "sensors": [{"name": "tip", "kind": "position", "at": "tip"}]})";
+  "sensors": [{"name": "tip", "kind": "position", "at": "tip"}]})-";
   const double EI = 2.1e11 * std::pow(0.02, 4) / 12.0, q = 7850 * 4e-4 * 9.81, rest = q / 8.0 / (EI + 2e4 / 3.0);
   for (const bool planar : {true, false}) {
     std::vector<std::string> overrides = planar ? in_plane : in_space;
     const Outcome moving = run_ok(scene_of(json, overrides));
-    EXPECT_GT(moving.summary.energy_scale, 1e-4);
-    EXPECT_LT(moving.summary.energy_balance, 2e-3 * moving.summary.energy_scale);
-    overrides.emplace_back(R"(/analysis={"kind": "static"})");
+    EXPECT_GT(moving.summary.checks.energy_scale, 1e-4);
+    EXPECT_LT(moving.summary.checks.energy_balance, 2e-3 * moving.summary.checks.energy_scale);
+    overrides.emplace_back(R"-(/analysis={"kind": "static"})-");
     const Outcome still = run_ok(scene_of(json, overrides));
     EXPECT_NEAR(still.history.last("tip.y"), -rest, 2e-3 * rest) << "q L^4 / 8 / (EI + k L^3 / 3)";
   }
@@ -123,7 +123,7 @@ TEST(Signals, loads_read_points_of_beams) {
 // the mass m its period is 7.4162987 / (a sqrt(k / m)), a the amplitude.
 TEST(Signals, a_strut_takes_any_law_of_length) {
   for (const bool planar : {true, false}) {
-    const Outcome r = run_ok(scene_of(R"({
+    const Outcome r = run_ok(scene_of(R"-({
   "analysis": {"kind": "dynamic", "end_time": 4, "step_size": 2e-3, "tolerance": 1e-10},
   "bodies": [{"name": "mass", "mass": 2, "inertia": [1, 1, 1], "position": [1.3, 0, 0]}],
   "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "mass", "axis": [1, 0, 0]},
@@ -134,7 +134,7 @@ TEST(Signals, a_strut_takes_any_law_of_length) {
               {"name": "pull", "kind": "function", "of": "u", "law": {"expression": "-500*t^3"}}],
   "sensors": [{"name": "length", "kind": "joint_displacement", "joint": "spring"}],
   "expected": [{"quantity": "length", "figure": "period", "level": 1, "value": 1.563493, "tolerance": 2e-5},
-               {"quantity": "length", "figure": "min", "value": 0.7, "tolerance": 1e-5}]})",
+               {"quantity": "length", "figure": "min", "value": 0.7, "tolerance": 1e-5}]})-",
                                       planar ? in_plane : in_space));
     for (const records::ExpectedResult& e : r.summary.expected) EXPECT_TRUE(e.holds) << e.value;
   }
@@ -142,7 +142,7 @@ TEST(Signals, a_strut_takes_any_law_of_length) {
 
 // A motor that follows a path on a flexible arm, linear as a spring and damper whose rest is carried along.
 TEST(Signals, a_motor_tracks_a_path_on_a_flexible_arm_as_its_spring_and_damper_do) {
-  const std::string json = R"({
+  const std::string json = R"-({
   "gravity": [0, -9.81, 0],
   "analysis": {"kind": "dynamic", "end_time": 0.6, "step_size": 1e-3, "tolerance": 1e-10},
   "materials": [{"name": "steel", "young": 2.1e11, "poisson": 0.3, "density": 7850}],
@@ -156,12 +156,12 @@ TEST(Signals, a_motor_tracks_a_path_on_a_flexible_arm_as_its_spring_and_damper_d
               {"name": "rate", "kind": "joint_rate", "joint": "hinge"},
               {"name": "torque", "kind": "formula", "expression": "150*(path - angle) - 6*rate"}],
   "sensors": [{"name": "tip", "kind": "position", "at": "tip"},
-              {"name": "angle", "kind": "joint_angle", "joint": "hinge"}]})";
+              {"name": "angle", "kind": "joint_angle", "joint": "hinge"}]})-";
   for (const bool planar : {true, false}) {
     std::vector<std::string> overrides = planar ? in_plane : in_space;
     const Outcome by_signals = run_ok(scene_of(json, overrides));
-    overrides.emplace_back(R"(/joints/0/forces=[{"stiffness": 150, "damping": 6, "effort": {"kind": "scaled",
-                              "factor": 150, "law": {"kind": "cycloidal", "end_time": 0.5, "to": 1.2}}}])");
+    overrides.emplace_back(R"-(/joints/0/forces=[{"stiffness": 150, "damping": 6, "effort": {"kind": "scaled",
+                              "factor": 150, "law": {"kind": "cycloidal", "end_time": 0.5, "to": 1.2}}}])-");
     const Outcome by_spring = run_ok(scene_of(json, overrides));
     EXPECT_GT(by_signals.history.largest("angle"), 1.0);
     for (std::size_t k = 0; k < by_spring.history.rows.size(); ++k)
@@ -188,13 +188,13 @@ TEST(Signals, a_limited_integrator_agrees_with_runge_kutta) {
     const auto a = rates(y), b = rates(moved(a, 0.5 * h)), c = rates(moved(b, 0.5 * h)), d = rates(moved(c, h));
     for (std::size_t i = 0; i < 3; ++i) y[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
   }
-  const std::string signals = R"({"name": "e", "kind": "formula", "expression": "1 - angle"},
-      {"name": "i", "kind": "state", "expression": "e + 2*(given - u)"},
-      {"name": "u", "kind": "formula", "expression": "30*e + 10*i - 4*rate"},
-      {"name": "given", "kind": "formula", "expression": "max(-3, min(3, u))"})";
+  const std::string signals = R"-({"name": "err", "kind": "formula", "expression": "1 - angle"},
+      {"name": "i", "kind": "state", "expression": "err + 2*(given - u)"},
+      {"name": "u", "kind": "formula", "expression": "30*err + 10*i - 4*rate"},
+      {"name": "given", "kind": "formula", "expression": "max(-3, min(3, u))"})-";
   for (const char* integrator : {"generalized_alpha", "bdf"}) {
-    const Outcome r = run_ok(rotor(signals, R"({"signal": "given"})",
-                                   {std::string("/analysis/integrator=") + integrator, step_of(5e-4)}));
+    const Outcome r = run_ok(
+        rotor(signals, R"-({"signal": "given"})-", {std::string("/analysis/integrator=") + integrator, step_of(5e-4)}));
     EXPECT_NEAR(r.history.last("angle"), y[0], 2e-6) << integrator;
     EXPECT_NEAR(r.history.last("rate"), y[1], 2e-5) << integrator;
   }
@@ -202,24 +202,26 @@ TEST(Signals, a_limited_integrator_agrees_with_runge_kutta) {
 
 // In statics a state rests: the integral part of a controller brings the tip to its target against the load.
 TEST(Signals, integral_control_reaches_its_target_in_statics) {
-  const Outcome r = run_ok(rotor(R"({"name": "e", "kind": "formula", "expression": "0.3 - angle"},
-                                    {"name": "i", "kind": "state", "expression": "e"},
-                                    {"name": "torque", "kind": "formula", "expression": "5*e + 2*i - 7*angle"})",
-                                 R"({"signal": "torque"})", {"/analysis={\"kind\": \"static\"}"}));
+  const Outcome r = run_ok(rotor(R"-({"name": "err", "kind": "formula", "expression": "0.3 - angle"},
+                                    {"name": "i", "kind": "state", "expression": "err"},
+                                    {"name": "torque", "kind": "formula", "expression": "5*err + 2*i - 7*angle"})-",
+                                 R"-({"signal": "torque"})-", {"/analysis={\"kind\": \"static\"}"}));
   EXPECT_NEAR(r.history.last("angle"), 0.3, 1e-12);
 }
 
 TEST(Signals, start_in_the_equilibrium_of_their_loop) {
-  const std::string loop = R"({"name": "i", "kind": "state", "expression": "0.3 - angle", "start": 4},
-      {"name": "torque", "kind": "formula", "expression": "20*(0.3 - angle) + 8*i - 3*rate - 2*angle"})";
-  const Outcome r = run_ok(rotor(loop, R"({"signal": "torque"})", {"/analysis/start=equilibrium"}));
+  const std::string loop = R"-({"name": "i", "kind": "state", "expression": "0.3 - angle", "start": 4},
+      {"name": "torque", "kind": "formula", "expression": "20*(0.3 - angle) + 8*i - 3*rate - 2*angle"})-";
+  const Outcome r = run_ok(rotor(loop, R"-({"signal": "torque"})-", {"/analysis/start=equilibrium"}));
   for (const double angle : r.history.of("angle")) EXPECT_NEAR(angle, 0.3, 1e-11);
   EXPECT_LT(r.history.largest("rate"), 1e-10);
 }
 
 TEST(Signals, what_is_not_finite_is_named) {
-  const Outcome r = support::run(rotor(R"({"name": "torque", "kind": "formula", "expression": "1/(0.2 - angle)^0.5"})",
-                                       R"({"signal": "torque"})", in_plane));
+  const test::Untrapped untrapped;
+  const Outcome r =
+      support::run(rotor(R"-({"name": "torque", "kind": "formula", "expression": "1/(0.2 - angle)^0.5"})-",
+                         R"-({"signal": "torque"})-", in_plane));
   EXPECT_FALSE(r.ok());
   EXPECT_NE(r.summary.cause.find("signal 'torque'"), std::string::npos) << r.summary.cause;
 }
