@@ -81,6 +81,30 @@ TEST(Advance, allocates_nothing_after_the_first_step_of_a_chain_that_is_driven) 
   }
 }
 
+/// A motor with a lag, a reading of an angle and one of its rate.
+TEST(Advance, allocates_nothing_after_the_first_step_of_a_chain_that_signals_drive) {
+  for (bool is_planar : {false, true}) {
+    scene::Scene scene = test::make_chain(4, 2);
+    if (!is_planar) scene.without = {"planar"};
+    const auto add = [&scene](const std::string& name, scene::SignalKind kind) -> scene::Signal& {
+      scene.signals.emplace_back();
+      scene.signals.back().name = name;
+      scene.signals.back().kind = kind;
+      return scene.signals.back();
+    };
+    add("angle", scene::SignalKind::joint_angle).joint = scene.joints[0].name;
+    add("rate", scene::SignalKind::joint_rate).joint = scene.joints[0].name;
+    scene::Signal& torque = add("torque", scene::SignalKind::state);
+    torque.inputs = {"angle", "rate", "torque"};
+    torque.formula = laws::Formula("(-5*angle - rate - torque)/0.01", torque.inputs);
+    scene.joints[0].forces.emplace_back();
+    scene.joints[0].forces.back().coordinate = "angle";
+    scene.joints[0].forces.back().signal = "torque";
+    ASSERT_EQ(plan::make_plan(scene).signals.size(), 3u);
+    EXPECT_EQ(allocations_of_steps(scene, 20), 0);
+  }
+}
+
 /// Described in a frame that turns, with its last link tied to another one.
 TEST(Advance, allocates_nothing_after_the_first_step_in_moving_frames) {
   scene::Scene scene = test::make_chain(4);
