@@ -76,11 +76,10 @@ void judge(const EndedRun& run) {
     const std::string& cause = recording.gate().cause();
     if (!cause.empty() && !account.fail(cause)) recording.take_figures();  // no expected figure of a failed run holds
   }
-  const std::vector<solve::InterfaceReport> interfaces = examine_interfaces(run.system);
-  summary.solver = solver_figures(run.system, interfaces, account.dependent_rows());
+  summary.solver = solver_figures(run.system, account.dependent_rows());
   const bool is_alpha = run.options.integrator == scene::Integrator::generalized_alpha;
   if (summary.status == RunStatus::ok) {
-    look_at_last_factor(run.system, interfaces, summary);
+    look_at_last_factor(run.system, summary);
     if (!plan.is_dynamic || is_alpha) estimate_solution_error(run.system, run.state, summary);
   }
   run.analysis.sum_up();

@@ -53,16 +53,8 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-int widest_interface(const tree::Tree& tree) {
-  int widest = 0;
-  for (const tree::Subdomain& s : tree.subdomains)
-    widest = std::max(widest, tree.fronts[static_cast<std::size_t>(s.top())].num_boundary);
-  return widest;
-}
-
 /// Levels of the tree with their widths, and the condition numbers of their interfaces if these are narrow.
-std::vector<records::LevelFigures> make_levels(const tree::Tree& tree,
-                                               const std::vector<solve::InterfaceReport>& interfaces) {
+std::vector<records::LevelFigures> make_levels(const tree::Tree& tree, const solve::Hierarchical& solver) {
   std::vector<records::LevelFigures> levels;
   for (const tree::Subdomain& s : tree.subdomains) {
     levels.resize(std::max(levels.size(), static_cast<std::size_t>(s.level) + 1));
@@ -71,8 +63,13 @@ std::vector<records::LevelFigures> make_levels(const tree::Tree& tree,
     level.interface_unknowns =
         std::max(level.interface_unknowns, tree.fronts[static_cast<std::size_t>(s.top())].num_boundary);
   }
-  for (std::size_t l = 0; l < levels.size(); ++l) levels[l].level = static_cast<int>(l);
-  for (const solve::InterfaceReport& i : interfaces) {
+  int widest = 0;
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    levels[l].level = static_cast<int>(l);
+    widest = std::max(widest, levels[l].interface_unknowns);
+  }
+  if (widest > widest_for_condition || tree.num_subdomains() > 10000) return levels;
+  for (const solve::InterfaceReport& i : solver.interfaces()) {
     records::LevelFigures& level = levels[static_cast<std::size_t>(i.level)];
     level.condition = std::max(level.condition, i.condition);
   }
@@ -127,20 +124,10 @@ void add_backward_errors(step::System& system, const solve::Hierarchical& solver
 
 }  // namespace
 
-std::vector<solve::InterfaceReport> examine_interfaces(step::System& system) {
-  const tree::Tree& tree = system.linear().tree();
-  const solve::Hierarchical* solver = system.linear().solver().hierarchical();
-  if (solver == nullptr || system.counts().factorizations == 0 || widest_interface(tree) > widest_for_condition ||
-      tree.num_subdomains() > 10000)
-    return {};
-  return solver->interfaces();
-}
-
-void look_at_last_factor(step::System& system, const std::vector<solve::InterfaceReport>& interfaces,
-                         records::Summary& summary) {
+void look_at_last_factor(step::System& system, records::Summary& summary) {
   const solve::Hierarchical* solver = system.linear().solver().hierarchical();
   if (solver == nullptr || system.counts().factorizations == 0 || !solver->last_status().ok()) return;
-  summary.levels = make_levels(system.linear().tree(), interfaces);
+  summary.levels = make_levels(system.linear().tree(), *solver);
   const double condition =
       estimate_condition(system, *solver, [&](const std::vector<double>& b, const std::vector<double>& x, double norm) {
         add_backward_errors(system, *solver, b, x, norm, summary.levels);
@@ -150,9 +137,7 @@ void look_at_last_factor(step::System& system, const std::vector<solve::Interfac
   summary.solver.emplace_back("digits_lost", std::max(0.0, std::log10(condition)));
 }
 
-decltype(records::Summary::solver) solver_figures(step::System& system,
-                                                  const std::vector<solve::InterfaceReport>& interfaces,
-                                                  int dependent_rows) {
+decltype(records::Summary::solver) solver_figures(step::System& system, int dependent_rows) {
   const tree::Tree& tree = system.linear().tree();
   int levels = 0, leaves = 0;
   for (const tree::Subdomain& s : tree.subdomains) {
@@ -183,11 +168,13 @@ decltype(records::Summary::solver) solver_figures(step::System& system,
   if (hierarchical != nullptr && hierarchical->symmetry().declared == solve::Symmetry::definite)
     figures.emplace_back("indefinite_fronts", static_cast<double>(counters.indefinite_fronts));
   if (hierarchical == nullptr || system.counts().factorizations == 0) return figures;
-  const int widest = widest_interface(tree);
+  int widest = 0;
+  for (const tree::Subdomain& s : tree.subdomains)
+    widest = std::max(widest, tree.fronts[static_cast<std::size_t>(s.top())].num_boundary);
   figures.emplace_back("interface_unknowns_max", static_cast<double>(widest));
   if (widest <= widest_for_condition && tree.num_subdomains() <= 10000) {
     double condition = 1.0;
-    for (const solve::InterfaceReport& i : interfaces) condition = std::max(condition, i.condition);
+    for (const solve::InterfaceReport& i : hierarchical->interfaces()) condition = std::max(condition, i.condition);
     figures.emplace_back("interface_condition_max", condition);
   }
   return figures;

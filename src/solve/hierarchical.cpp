@@ -41,6 +41,7 @@ void Hierarchical::State::lose_symmetry(const Asymmetry& found) {
   LanePlan general = make_lane_plan(elements.graph(), tree, options.lanes);
   general.batches = std::move(lanes.batches);  // equal contents; callers refer to the old ones
   lanes = std::move(general);
+  registers = make_register_plan(elements.graph(), tree, lanes, false);
   size_factors();
 }
 
@@ -51,8 +52,6 @@ Hierarchical::Hierarchical(const blocks::BlockGraph& graph, const tree::Tree& tr
     throw std::invalid_argument("Hierarchical: the tree was made from another graph");
   state_ = std::make_unique<State>(graph, tree, options, false);
 }
-
-Hierarchical::Hierarchical(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 Hierarchical::~Hierarchical() = default;
 Hierarchical::Hierarchical(Hierarchical&&) noexcept = default;
@@ -71,32 +70,46 @@ void Hierarchical::multiply(const tree::Walker& walker, const double* x, double*
   state_->elements.multiply(walker, x, y);
 }
 
-FactorStatus Hierarchical::factor(const tree::Walker& walker) {
+FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, const double* rhs) {
   State& s = *state_;
   s.status = {};
+  s.visit_rhs = rhs;
   if (s.scales_wanted) {
     s.elements.eval_scales(s.scales, s.residual);
     s.next_measurement = 0;
     s.check_all_symmetric();
     if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal except for the order of a sum
     s.lane_scales.set(s.lanes, s.tree, s.scales);
+    s.register_scales.set(s.registers, s.scales, s.options.tiny_pivot);
     std::fill(s.leaves_to_root.begin(), s.leaves_to_root.end(), char{0});
     std::fill(s.leaving_lanes.begin(), s.leaving_lanes.end(), LaneSet{0});
   }
   s.scales_wanted = false;
   s.factor_walker = walker;
-  auto visit = [&s](int group) { s.factor_group(group); };
+  auto visit = [&s, &prepare](int group) { s.factor_group(group, prepare); };
   s.mark = walker.mark;
   walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
   if (s.is_symmetric()) {
     s.check_visits_symmetric();
-    if (!s.is_symmetric()) walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
+    if (!s.is_symmetric()) {
+      prepare = {};  // the element matrices are present
+      walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
+    }
   }
   s.null_space.dimension = 0;
-  while (!s.find_local_null_vectors())  // at most three times, see there
+  s.null_space.took_vectors = false;
+  while (!s.find_local_null_vectors()) {  // at most three times, see there
+    prepare = {};
     walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
+  }
   ++s.counters.factorizations;
   for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
+  for (std::size_t g = 0; g < s.left_registers.size(); ++g) {
+    if (s.left_registers[g] == 0) continue;
+    ++s.counters.registers_left;
+    for (int f = s.registers.groups[g].front_begin; f < s.registers.groups[g].front_end; ++f)
+      s.count_front(s.registers.fronts[at(f)].front);
+  }
   for (std::size_t i = 0; i < s.scalar_lanes.size(); ++i)
     for (int l = 0; s.scalar_lanes[i] != 0 && l < lanes_wide; ++l)
       if ((s.scalar_lanes[i] >> l & 1) != 0) {
@@ -144,6 +157,16 @@ void Hierarchical::State::count_front(tree::FrontId f) {
   if (d.allocated) ++counters.enlarging_allocations;
   if (d.is_indefinite) ++counters.indefinite_fronts;
   if (f + 1 < tree.num_fronts()) status.delayed_pivots += d.num_delayed();
+}
+
+SolveReport Hierarchical::finish(const tree::Walker& walker, const double* rhs, double* x) {
+  State& s = *state_;
+  s.take(rhs, x, s.checks());
+  if (s.null_space.took_vectors) return s.solve_given(walker);  // the condensed right-hand side is lost
+  s.visit_rhs = rhs;
+  s.forward_group(static_cast<int>(s.lanes.groups.size()) - 1);
+  s.back_substitute(walker);
+  return s.check_solution(walker, {});
 }
 
 SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, double* x) {
@@ -234,11 +257,14 @@ SolverCounters Hierarchical::counters() const {
        {&s.scales.row, &s.scales.column, &s.scales.weight, &s.rhs, &s.residual, &s.correction})
     doubles += v->capacity();
   for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
-  for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors})
+  doubles += s.register_vectors.size();
+  for (const LaneDoubles* pool :
+       {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors, &s.register_factors, &s.register_schur})
     doubles += pool->size();
   c.memory_bytes = static_cast<std::int64_t>(doubles * sizeof(double) + s.index_pool.size() * sizeof(int)) +
-                   s.elements.memory_bytes() + s.lane_scales.memory_bytes() + s.null_space.local_right.memory_bytes() +
-                   s.null_space.local_left.memory_bytes();
+                   s.elements.memory_bytes() + s.lane_scales.memory_bytes() + s.register_scales.memory_bytes() +
+                   s.null_space.local_right.memory_bytes() + s.null_space.local_left.memory_bytes();
+  c.fronts_in_registers = static_cast<std::int64_t>(s.registers.fronts.size());
   for (const LaneFront& f : s.lanes.fronts)
     for (tree::FrontId id : f.front) c.fronts_in_lanes += id != tree::none ? 1 : 0;
   return c;

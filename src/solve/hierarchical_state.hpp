@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,9 @@
 #include "lane_plan.hpp"
 #include "lane_scales.hpp"
 #include "null_vectors.hpp"
+#include "register_kernels.hpp"
+#include "register_plan.hpp"
+#include "register_scales.hpp"
 #include "transfers.hpp"
 
 namespace bough::solve {
@@ -26,7 +30,7 @@ struct Run {
 };
 
 /// Data of one front. All pointers refer to the pools of State, except for fronts with delayed pivots, and for fronts
-/// that left lanes.
+/// that left lanes or registers.
 struct FrontData {
   double* a = nullptr;  ///< the parts of FrontMatrix
   double* u = nullptr;
@@ -67,6 +71,7 @@ constexpr double passing_force = 3e-2, insignificant_force = 1e-3;
 /// fronts.
 struct NullSpace {
   int dimension = 0;                    ///< of the root
+  bool took_vectors = false;            ///< the storage of the condensed right-hand side was used for candidates
   std::vector<double> right;            ///< dimension x unknowns, orthonormal in the weighted norm; scaled variables
   std::vector<double> left;             ///< dimension x unknowns, orthonormal
   NullVectors local_right, local_left;  ///< of fronts; scaled variables
@@ -123,6 +128,7 @@ struct Hierarchical::State {
   const tree::Tree& tree;
   SolveOptions options;
   LanePlan lanes;
+  RegisterPlan registers;
   ElementStore elements;
   Scales scales;
   bool scales_wanted = true;
@@ -142,7 +148,7 @@ struct Hierarchical::State {
   std::vector<int> index_pool;
   std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool)
   std::vector<Run> runs;
-  std::vector<tree::FrontId> scalar_fronts;  ///< fronts that are never in lanes
+  std::vector<tree::FrontId> scalar_fronts;  ///< fronts that are never in lanes or registers
   std::vector<PlainInterface> plain;         ///< by sub-domain; empty unless elimination is plain
   NullSpace null_space;
   std::vector<char> leaves_to_root;  ///< by front: its rows turned out not to be dependent, in the present scales
@@ -162,7 +168,15 @@ struct Hierarchical::State {
   std::vector<double*> group_scratch;
   std::vector<LaneSet> leaving_lanes;  ///< by front of LanePlan: left in the last factorization for dependent rows
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
-  std::vector<SolutionSizes> sizes;   ///< by group
+  // Leaves without equals, with their small fronts in registers.
+  RegisterScaleStore register_scales;
+  LaneDoubles register_factors, register_schur;
+  std::vector<double> register_vectors;  ///< of eliminated unknowns, after forward substitution
+  std::vector<char> left_registers;      ///< by group: in this factorization all its fronts were factored with pivoting
+  std::vector<SolutionSizes> sizes;      ///< by group
+  std::mutex reporting;                  ///< held while the twin is made
+  std::unique_ptr<Hierarchical> twin;    ///< a solver without lanes, for reports that need all Schur complements
+  std::int64_t twin_factorization = -1;  ///< number of the factorization that it has
   /// Matrices and factors do not stay in the caches between walks: they are prefetched, and written past the caches.
   bool exceeds_caches = false;
   bool reads_factors_ahead = false;   ///< factors do not stay in the nearer caches
@@ -176,7 +190,7 @@ struct Hierarchical::State {
   tree::Walker factor_walker;         ///< of the present factorization: distributes the work on large fronts
 
   // lane_walks.cpp, residual_walks.cpp: visits of groups
-  void factor_group(int group);
+  void factor_group(int group, const Prepare& prepare);
   void forward_group(int group);
   void backward_group(int group);
   void residual_group(int group);
@@ -202,6 +216,18 @@ struct Hierarchical::State {
   void backward_lane_front(int index);
   void backward_left_lane_front(int index, std::vector<double>& left);
   void residual_lane_front(int index, SolutionSizes& most);
+
+  // register_walks.cpp
+  bool stands_in_registers(int group) const {
+    return lanes.groups[static_cast<std::size_t>(group)].in_registers &&
+           left_registers[static_cast<std::size_t>(group)] == 0;
+  }
+  bool factor_registers(int group, const double* b);
+  void gather_register_rhs(const RegisterFront& f, const double* b, double* t) const;
+  void export_schur(const RegisterFront& f, const double* schur, bool with_vector);
+  void forward_registers(int group);
+  void backward_registers(int group);
+  void backward_left_registers(int group, std::vector<double>& left) const;
 
   // lane_handover.cpp
   LaneSet lanes_to_leave(const LaneFront& f) const;

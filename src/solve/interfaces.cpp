@@ -3,8 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <utility>
+#include <mutex>
 
 #include "decompositions.hpp"
 #include "hierarchical_state.hpp"
@@ -113,29 +112,35 @@ tree::Walker serial_walker() {
 }  // namespace
 
 /// Only factors are kept, not the Schur complements that reports need. These come from a factorization of the same
-/// matrices and scales that stores all of them, without lanes, and is thrown away afterwards.
-Hierarchical Hierarchical::with_all_schur_complements() const {
-  const State& s = *state_;
-  SolveOptions options = s.options;
-  options.lanes = false;
-  options.symmetry = Symmetry::general;
-  Hierarchical other(std::make_unique<State>(s.elements.graph(), s.tree, options, true));
-  for (int e = 0; e < s.elements.graph().num_elements(); ++e) {
-    const ConstElementView from = std::as_const(s.elements).view(e);
-    const ElementView to = other.element(e);
-    const std::int64_t n = s.elements.size_of(e);
-    for (std::int64_t k = 0; k < n * n; ++k) to[k] = from[k];
+/// matrices and scales that stores all of them (symmetric ones as one triangle), without lanes, made at the first
+/// report.
+const Hierarchical& Hierarchical::reporting_solver() const {
+  State& s = *state_;
+  const std::lock_guard lock(s.reporting);
+  if ((s.keeps_all && s.lanes.fronts.empty() && !s.is_symmetric()) || s.counters.factorizations == 0) return *this;
+  if (s.twin == nullptr) {
+    SolveOptions options = s.options;
+    options.lanes = false;
+    options.symmetry = Symmetry::general;
+    s.twin = std::make_unique<Hierarchical>(s.elements.graph(), s.tree, options);
+    s.twin->state_ = std::make_unique<State>(s.elements.graph(), s.tree, options, true);
   }
-  other.state_->scales = s.scales;
-  other.state_->scales_wanted = false;
-  (void)other.factor(serial_walker());
-  return other;
+  State& twin = *s.twin->state_;
+  if (s.twin_factorization != s.counters.factorizations) {
+    for (int e = 0; e < s.elements.graph().num_elements(); ++e) {
+      const int n = s.elements.size_of(e);
+      for (int k = 0; k < n * n; ++k) twin.elements.view(e)[k] = s.elements.view(e)[k];
+    }
+    twin.scales = s.scales;
+    twin.scales_wanted = false;
+    (void)s.twin->factor(serial_walker());
+    s.twin_factorization = s.counters.factorizations;
+  }
+  return *s.twin;
 }
 
 std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
-  if (state_->counters.factorizations == 0) return {};
-  const Hierarchical other = with_all_schur_complements();
-  const State& state = *other.state_;
+  const State& state = *reporting_solver().state_;
   std::vector<InterfaceReport> reports;
   for (tree::SubdomainId s = 0; s < state.tree.root(); ++s) {
     const tree::Subdomain& sub = state.tree.subdomains[at(s)];
@@ -148,7 +153,7 @@ std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
       reports.push_back(report);
       continue;
     }
-    if (n > 0 && !d.failed) {
+    if (n > 0 && !d.failed && state.counters.factorizations > 0) {
       std::vector<double> stiffness = state.interface_stiffness(s);
       Matrix stiffened = ConstMap(d.s, n, n, Eigen::OuterStride<>(d.lds));
       std::vector<int> motion;
@@ -186,8 +191,7 @@ std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
 }
 
 std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s, const double* rhs) const {
-  const Hierarchical other = with_all_schur_complements();
-  State& state = *other.state_;
+  State& state = *reporting_solver().state_;
   std::vector<double> solution(state.residual.size());
   state.take(rhs, solution.data(), false);
   state.solve_into_x(serial_walker(), rhs);

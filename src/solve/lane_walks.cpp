@@ -12,13 +12,32 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 }  // namespace
 
-void Hierarchical::State::factor_group(int index) {
+void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
   const LaneGroup& group = lanes.groups[at(index)];
+  if (prepare.run != nullptr && group.element_begin < group.element_end)
+    prepare.run(prepare.context, index, group.element_begin, group.element_end);
+  mark(tree::Stage::evaluate);
   asymmetries[at(index)] = {};
   if (group.in_lanes) return with_scratch(index, [&] { factor_lanes(index); });
   for (int b = group.element_begin; compares_triangles() && b < group.element_end; ++b)
     check_element_symmetric(index, lanes.batches[at(b)].element[0]);
+  const bool is_root = group.subdomains.front() == tree.root();
+  if (group.in_registers) {
+    const bool stands = factor_registers(index, is_root ? nullptr : visit_rhs);
+    left_registers[at(index)] = stands ? 0 : 1;
+    const RegisterGroup& own = registers.groups[at(index)];
+    for (int k = own.front_begin; stands && k < own.front_end; ++k) {  // what earlier factorizations may have found
+      FrontData& d = data(registers.fronts[at(k)].front);
+      d.dependent = 0;
+      d.full = d.pivots;
+    }
+    if (stands && is_root) factor_front(tree.num_fronts() - 1);
+    if (stands) return;
+  }
   factor_subdomain(group.subdomains.front());
+  if (visit_rhs == nullptr || is_root) return;
+  forward_group(index);
+  mark(tree::Stage::forward);
 }
 
 /// If factors do not fit into any cache, a front is eliminated in separate memory and then written past the caches
@@ -60,6 +79,13 @@ void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
     }
   }
   transfers.fetch(lane_scales.row(index), f.size() + f.eliminated);
+  if (visit_rhs == nullptr) return;
+  transfers.fetch(lane_vectors.data() + f.unknown, f.eliminated);
+  const int* unknown = lanes.unknowns.data() + f.unknown;
+  transfers.fetch(reinterpret_cast<const double*>(unknown + f.eliminated * wide),
+                  f.eliminated / 2 + 1);  // of the front after it
+  for (int l = 0; l < wide; ++l)
+    if (unknown[l] >= 0) __builtin_prefetch(visit_rhs + unknown[l]);
 }
 
 /// The same for the substitutions of a solution: the parts of a front's factor in the order in which they are read, its
@@ -109,6 +135,11 @@ void Hierarchical::State::forward_group(int index) {
       }
     });
   const tree::SubdomainId s = group.subdomains.front();
+  if (stands_in_registers(index)) {
+    forward_registers(index);
+    if (s == tree.root()) forward_front(tree.num_fronts() - 1);
+    return;
+  }
   for (tree::FrontId f = tree.subdomains[at(s)].front_begin; f < tree.subdomains[at(s)].front_end; ++f)
     forward_front(f);
   if (options.elimination == Elimination::plain && s != tree.root()) correct_forward(s);
@@ -120,6 +151,10 @@ void Hierarchical::State::backward_group(int index) {
     return with_scratch(index, [&] {
       for (int f = group.front_end; f-- > group.front_begin;) backward_lane_front(f);
     });
+  if (stands_in_registers(index)) {
+    if (group.subdomains.front() == tree.root()) backward_front(tree.num_fronts() - 1);
+    return backward_registers(index);
+  }
   const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
   for (tree::FrontId f = s.front_end; f-- > s.front_begin;) {
     backward_front(f);
@@ -127,7 +162,7 @@ void Hierarchical::State::backward_group(int index) {
   }
 }
 
-/// Factors a front. factor: memory of the factor.
+/// Factors a front, and condenses the right-hand side of the walk if there is one. factor: memory of the factor.
 /// transfers: done meanwhile, together with the prefetches for the next front.
 void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers& transfers) {
   const LaneFront& f = lanes.fronts[at(index)];
@@ -206,6 +241,9 @@ void Hierarchical::State::leave_lanes(int index, const double* factor, LaneSet a
     leaving = static_cast<LaneSet>(d.dependent > 0 ? leaving | lane : leaving & ~lane);
   }
   mark(tree::Stage::eliminate);
+  if (visit_rhs == nullptr) return;
+  forward_lane_front(index, factor);
+  mark(tree::Stage::forward);
 }
 
 /// Adds the results of an upward walk in the boundaries of the children.

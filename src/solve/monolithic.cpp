@@ -219,7 +219,7 @@ void Monolithic::multiply(const tree::Walker& walker, const double* x, double* y
 }
 std::vector<int> Monolithic::blocks_not_unique() const { return {}; }
 
-FactorStatus Monolithic::factor(const tree::Walker& walker) {
+FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
   State& s = *state_;
   s.status = {};
   if (!available()) {
@@ -228,6 +228,7 @@ FactorStatus Monolithic::factor(const tree::Walker& walker) {
   }
   if (s.scales_wanted) s.elements.eval_scales(s.scales, s.residual);
   s.scales_wanted = false;
+  run_prepare(s.tree, walker, prepare);
   s.assemble(0.0);
   ++s.counters.factorizations;
   for (std::size_t k = 0; k < s.values.size(); ++k) {

@@ -115,12 +115,16 @@ void fill_subdomains(const Found& found, const VisitMedians& m, records::Profile
     const solve::VisitShape& shape = found.shapes.visits[v];
     const auto share = 1.0 / static_cast<double>(shape.subdomains.size());
     records::SubdomainTimes t;
-    t.evaluate = m.evaluate[v] * share;
+    const double evaluated = m.stage[of(Stage::evaluate)][v];
+    t.evaluate = (m.evaluate[v] + evaluated) * share;
     t.assemble = m.stage[of(Stage::assemble)][v] * share;
-    const double elimination = std::max(0.0, m.seconds[of(Work::factor)][v] - m.stage[of(Stage::assemble)][v]) * share;
+    const double forward_inside = m.stage[of(Stage::forward)][v];
+    const double elimination =
+        std::max(0.0, m.seconds[of(Work::factor)][v] - evaluated - m.stage[of(Stage::assemble)][v] - forward_inside) *
+        share;
     t.condense = shape.flops > 0.0 ? elimination * std::min(1.0, shape.condense_flops / shape.flops) : 0.0;
     t.factor = elimination - t.condense;
-    t.forward = m.seconds[of(Work::forward)][v] * share;
+    t.forward = (m.seconds[of(Work::forward)][v] + forward_inside) * share;
     t.backward = m.seconds[of(Work::backward)][v] * share;
     t.residual = m.seconds[of(Work::residual)][v] * share;
     t.wait = m.wait[v];

@@ -125,6 +125,11 @@ int Quotient::eliminate(const std::vector<int>& motion_blocks, const std::vector
   return finish(std::move(eliminated));
 }
 
+int Quotient::eliminate_rest(const std::vector<int>& rest, const std::vector<int>& forced) {
+  collect({}, forced);
+  return finish(rest);
+}
+
 void Quotient::eliminate_by_minimum_degree(const std::vector<int>& motion_blocks) {
   std::set<std::pair<int, int>> queue;  // (degree, block)
   std::vector<int> key(motion_blocks.size());
@@ -161,7 +166,8 @@ double elimination_flops(int e, int b) {
   return sums(e + b - 1.0) - (b > 0 ? sums(b - 1.0) : 0.0);
 }
 
-void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing) {
+void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing,
+                int largest) {
   const auto unknowns = [&](const std::vector<int>& list) {
     int n = 0;
     for (int b : list) n += adjacency.size_of(b);
@@ -180,7 +186,7 @@ void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacenc
       if (gone == 0) continue;
       const double apart =
           elimination_flops(gone, unknowns(child.boundary) + missing) + elimination_flops(own, boundary);
-      if (elimination_flops(gone + own, boundary) > apart + visit_flops) continue;
+      if (gone + own + boundary > largest || elimination_flops(gone + own, boundary) > apart + visit_flops) continue;
       parent.eliminated.insert(parent.eliminated.begin(), child.eliminated.begin(), child.eliminated.end());
       parent.elements.insert(parent.elements.begin(), child.elements.begin(), child.elements.end());
       std::erase(parent.children, c);

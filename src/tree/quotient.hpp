@@ -33,6 +33,9 @@ class Quotient {
   /// (minimum degree; ties to the smaller id). Groups are appended.
   void eliminate_by_minimum_degree(const std::vector<int>& motion_blocks);
 
+  /// Eliminates all remaining blocks in one group, which assembles the given live cliques.
+  int eliminate_rest(const std::vector<int>& rest, const std::vector<int>& forced);
+
   int clique_of_element(int element) const { return element; }
   int clique_of_group(int group) const { return num_elements_ + group; }
   bool is_live(int clique) const { return live_[static_cast<std::size_t>(clique)] != 0; }
@@ -67,7 +70,8 @@ double elimination_flops(int e, int b);
 
 /// Merges groups [first, end) of one leaf into their parents where the merger causes no fill, or where the fill is
 /// cheaper than visiting one more front [flop]. missing: number of unknowns by which the counted boundaries are too
-/// small.
-void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing);
+/// small. largest: limit of the unknowns of a front, including the missing ones.
+void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing,
+                int largest);
 
 }  // namespace bough::tree

@@ -113,6 +113,7 @@ TEST(TimedWalker, stages_share_a_visit) {
   EXPECT_GE(assemble, 570e-6f);
   EXPECT_GE(eliminate, 855e-6f);
   EXPECT_GE(work.visit[0], assemble + eliminate + 95e-6f);
+  EXPECT_EQ(work.stage[static_cast<std::size_t>(Stage::forward)][0], 0.0f);
 }
 
 TEST(TimedWalker, what_is_kept_is_bounded) {

@@ -45,6 +45,15 @@ void expect_same_in_place(const Scene& scene, const tree::TreeOptions& tree_opti
   if (options.refinement_steps == 0) {
     EXPECT_TRUE(same_bits(both, apart));
   }
+
+  Eigen::VectorXd x(b.size());
+  ASSERT_TRUE(s.solver.factor(walker, {}, b.data()).ok());
+  expect_same(s.solver.finish(walker, b.data(), x.data()), report);
+  EXPECT_TRUE(same_bits(x, apart));
+  both = b;
+  ASSERT_TRUE(s.solver.factor(walker, {}, both.data()).ok());
+  expect_same(s.solver.finish(walker, both.data(), both.data()), report);
+  EXPECT_TRUE(same_bits(both, apart));
 }
 
 TEST(InPlace, SolutionsAndReportsAreTheSame) {
@@ -82,7 +91,7 @@ TEST(InPlace, SolutionsAreTheSameWhereSmallPivotsHaveBeenLookedAt) {
     for (const int leaf : {1, 4, 1000})
       expect_same_in_place(scene, {.leaf_size = leaf},
                            {.lanes = lanes, .check = solve::SolveCheck::none, .refinement_steps = 0});
-  expect_same_in_place(scene, {.depth = 1}, {.check = solve::SolveCheck::none, .refinement_steps = 0});
+  expect_same_in_place(scene, {.for_one_solution = true}, {.check = solve::SolveCheck::none, .refinement_steps = 0});
 }
 
 TEST(InPlace, MultipliersOfInterfacesAskForTheSolutionAnew) {

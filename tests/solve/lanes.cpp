@@ -225,21 +225,26 @@ TEST(Lanes, long_chains_go_in_lanes_and_give_the_solution_of_the_scalar_path) {
 /// As if nothing had room in the caches: read ahead, and written past them.
 TEST(Lanes, factors_that_exceed_the_caches_are_those_of_the_scalar_path_as_well) {
   Scene scene = make_chain(6, 600, 4);
-  for (const auto symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric}) {
-    const tree::TreeOptions cut;
+  for (const auto& [symmetry, swept] :
+       {std::pair{solve::Symmetry::general, false}, std::pair{solve::Symmetry::general, true},
+        std::pair{solve::Symmetry::symmetric, false}, std::pair{solve::Symmetry::symmetric, true}}) {
+    const tree::TreeOptions cut{.for_one_solution = swept};
     if (symmetry == solve::Symmetry::symmetric)
       for (Eigen::MatrixXd& a : scene.elements) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
     Solved with(scene, cut, {.symmetry = symmetry, .near_bytes = 1, .refinement_steps = 0});
     Solved near(scene, cut, {.symmetry = symmetry, .near_bytes = std::int64_t{1} << 40, .refinement_steps = 0});
     Solved without(scene, cut, {.symmetry = symmetry, .lanes = false, .refinement_steps = 0});
+    EXPECT_EQ(with.solver.counters().fronts_in_registers > 0, swept);
     for (Solved* s : {&with, &near, &without}) ASSERT_TRUE(s->factor().ok());
     const Eigen::VectorXd b = with.random_rhs(5), x = with.solve(b), y = without.solve(b);
     EXPECT_EQ(near.solve(b), x);
     EXPECT_LE(with.report.backward_error, 1e-14);
     EXPECT_LE(with.scaled_difference(x, y), 1e-8);
     with.solver.trust_symmetry(symmetry != solve::Symmetry::general);
-    ASSERT_TRUE(with.factor().ok());
-    EXPECT_EQ(x, with.solve(b));
+    Eigen::VectorXd again(b.size());
+    ASSERT_TRUE(with.solver.factor(schedule::make_serial_walker(), {}, b.data()).ok());
+    (void)with.solver.finish(schedule::make_serial_walker(), b.data(), again.data());
+    EXPECT_EQ(x, again);
   }
 }
 
@@ -293,6 +298,17 @@ TEST(Lanes, what_is_not_a_number_is_found_wherever_it_stands) {
         EXPECT_FALSE(s.report.finite) << i;
       }
     }
+}
+
+TEST(Lanes, a_right_hand_side_condensed_with_the_factor_gives_the_same_bits) {
+  const Scene scene = make_chain(5, 40, 4);
+  Solved s(scene, {.leaf_size = 5}, {});
+  ASSERT_TRUE(s.factor().ok());
+  const Eigen::VectorXd b = s.random_rhs(9), x = s.solve(b);
+  Eigen::VectorXd y(b.size());
+  ASSERT_TRUE(s.solver.factor(schedule::make_serial_walker(), {}, b.data()).ok());
+  (void)s.solver.finish(schedule::make_serial_walker(), b.data(), y.data());
+  EXPECT_EQ(x, y);
 }
 
 }  // namespace

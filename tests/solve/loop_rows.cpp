@@ -178,7 +178,7 @@ TEST(LoopRows, AJointThatIsAlignedAndNotAgainChangesTheRank) {
   off.misaligned = 0.1;
   const Scene aligned = make_loops(options), misaligned = make_loops(off);
   for (const tree::TreeOptions& cut :
-       {tree::TreeOptions{.leaf_size = 2}, tree::TreeOptions{}, tree::TreeOptions{.depth = 1}})
+       {tree::TreeOptions{.leaf_size = 2}, tree::TreeOptions{}, tree::TreeOptions{.for_one_solution = true}})
     for (const bool lanes : {false, true}) {
       Solved s(aligned, cut, {.lanes = lanes});
       const int all = s.factor().deficiency;
@@ -195,13 +195,14 @@ TEST(LoopRows, AJointThatIsAlignedAndNotAgainChangesTheRank) {
 }
 
 TEST(LoopRows, AStructureThatIsHeldAfterwardsIsFactoredWithoutThem) {
-  // All dependent rows get a diagonal, as soft joints have: nothing depends any more, and fronts return to their lanes.
+  // All dependent rows get a diagonal, as soft joints have: nothing depends any more, and fronts return to their lanes
+  // and registers.
   const Scene rigid = make_loops({.columns = 8});
   Scene soft = rigid;
   for (Eigen::MatrixXd& a : soft.elements)
     if (a.rows() > 6) a.bottomRightCorner(5, 5) -= 1e-6 * Eigen::MatrixXd::Identity(5, 5);
   for (const tree::TreeOptions& cut :
-       {tree::TreeOptions{.leaf_size = 2}, tree::TreeOptions{}, tree::TreeOptions{.depth = 1}}) {
+       {tree::TreeOptions{.leaf_size = 2}, tree::TreeOptions{}, tree::TreeOptions{.for_one_solution = true}}) {
     Solved s(rigid, cut, {});
     EXPECT_EQ(s.factor().deficiency, 24);
     write_elements(soft, s.solver);

@@ -2,6 +2,7 @@
 /// they are not.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -118,7 +119,7 @@ TEST(Symmetry, TrustedValuesGiveTheSameBitsAndAreComparedWhereScalesAreTaken) {
     }
 }
 
-TEST(Symmetry, IsLookedAtInEveryFactorization) {
+TEST(Symmetry, IsLookedAtInEveryFactorizationAndMatricesAreEvaluatedOnce) {
   for (const Scene& scene : make_symmetric_families())
     for (const bool first : {true, false})
       for (const int threads : {1, 2}) {
@@ -126,10 +127,20 @@ TEST(Symmetry, IsLookedAtInEveryFactorization) {
         Solved s(scene, {.leaf_size = 3}, {.symmetry = Symmetry::symmetric, .refinement_steps = 0});
         ASSERT_TRUE(s.factor().ok()) << scene.name;
         const schedule::Threads pool(threads, 0.0);
-        spoil(s, element, first);
-        ASSERT_TRUE(s.solver.factor(pool.walker()).ok()) << scene.name;
+        const auto batches = s.solver.batches();
+        std::atomic<int> evaluated{0};
+        auto evaluate = [&](int, int begin, int end) {  // in the visit, as time steps do
+          for (int k = begin; k < end; ++k)
+            for (int e : batches[static_cast<std::size_t>(k)].element)
+              if (e == element) {
+                spoil(s, element, first);
+                ++evaluated;
+              }
+        };
+        ASSERT_TRUE(s.solver.factor(pool.walker(), solve::make_prepare(evaluate)).ok()) << scene.name;
         EXPECT_EQ(s.solver.symmetry().loss, SymmetryLoss::values) << scene.name;
         EXPECT_EQ(s.solver.symmetry().element, element) << scene.name;
+        EXPECT_EQ(evaluated, 1) << scene.name;
         const Eigen::VectorXd b = s.random_rhs(3);
         s.solve(b);
         EXPECT_LE(s.report.backward_error, 1e-13) << scene.name;

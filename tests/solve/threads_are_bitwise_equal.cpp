@@ -12,7 +12,8 @@ namespace {
 
 std::vector<double> run(const Scene& scene, const tree::Walker& walker, int leaf,
                         solve::Symmetry symmetry = solve::Symmetry::general) {
-  Solved s(scene, {.leaf_size = leaf}, {.symmetry = symmetry, .refinement_steps = 2, .refinement_above = 0.0});
+  Solved s(scene, {.leaf_size = leaf, .for_one_solution = leaf == 0},
+           {.symmetry = symmetry, .refinement_steps = 2, .refinement_above = 0.0});
   EXPECT_TRUE(s.solver.factor(walker).ok());
   const Eigen::VectorXd b = s.random_rhs(5);
   std::vector<double> x(static_cast<std::size_t>(b.size()));
@@ -61,6 +62,36 @@ TEST(Threads, ShareLargeFrontsAndGiveTheSameBits) {
     }
     if (symmetry == Symmetry::definite) scene = make_definite(std::move(scene));  // first it is not
   }
+}
+
+TEST(Threads, PrepareRunsOncePerLeafBeforeItsElementsAreUsed) {
+  const Scene scene = make_chain(3, 12, 4);
+  Solved reference(scene, {.leaf_size = 4}, {});
+  ASSERT_TRUE(reference.factor().ok());
+  schedule::Threads threads(3, 0.0);
+  const tree::Tree tree = tree::make_tree(scene.graph, {.leaf_size = 4});
+  solve::Hierarchical solver(scene.graph, tree);
+  write_elements(scene, solver);
+  ASSERT_TRUE(solver.factor(threads.walker()).ok());  // scales from the true matrices
+  for (int e = 0; e < scene.graph.num_elements(); ++e)
+    write_element(Eigen::MatrixXd::Zero(scene.elements[static_cast<std::size_t>(e)].rows(),
+                                        scene.elements[static_cast<std::size_t>(e)].cols()),
+                  solver.element(e));
+  std::vector<int> seen(static_cast<std::size_t>(scene.graph.num_elements()), 0);
+  auto body = [&](int, int begin, int end) {
+    for (int p = begin; p < end; ++p)
+      for (int e : solver.batches()[static_cast<std::size_t>(p)].element) {
+        if (e < 0) continue;
+        ++seen[static_cast<std::size_t>(e)];
+        write_element(scene.elements[static_cast<std::size_t>(e)], solver.element(e));
+      }
+  };
+  ASSERT_TRUE(solver.factor(threads.walker(), solve::make_prepare(body)).ok());
+  for (int count : seen) EXPECT_EQ(count, 1);
+  const Eigen::VectorXd b = reference.random_rhs(1);
+  Eigen::VectorXd x(b.size());
+  (void)solver.solve(threads.walker(), b.data(), x.data());
+  EXPECT_EQ(reference.solve(b), x);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace bough::schedule {
 
 constexpr int num_works = 6;   ///< of tree::Work
-constexpr int num_stages = 2;  ///< of tree::Stage
+constexpr int num_stages = 4;  ///< of tree::Stage
 
 /// Times of all walks of one kind over one tree [s]. Samples are rows of num_visits values; every `stride`-th walk was
 /// sampled.

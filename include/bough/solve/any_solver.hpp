@@ -33,8 +33,8 @@ class AnySolver {
   void trust_symmetry(bool mirrored) {
     if (auto* s = std::get_if<Hierarchical>(&solver_)) s->trust_symmetry(mirrored);
   }
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker) {
-    return std::visit([&](auto& s) { return s.factor(walker); }, solver_);
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}) {
+    return std::visit([&](auto& s) { return s.factor(walker, prepare); }, solver_);
   }
   /// check = false: solvers that support it omit the backward error (NaN) and iterative refinement.
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x, bool check = true) {

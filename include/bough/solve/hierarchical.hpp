@@ -40,7 +40,9 @@ class Hierarchical {
   /// batch.
   std::span<const ElementBatch> batches() const;
 
-  /// Computes the scales anew from the element matrices in the next factor(). The first factor() always does.
+  /// Computes the scales anew from the element matrices in the next factor(). The first factor() always does. With a
+  /// Prepare the scales are those of the matrices before it runs, so call rescale() after the element matrices have
+  /// been evaluated once.
   void rescale();
 
   /// For matrices declared symmetric. mirrored: the caller promises that every entry of the element matrices and its
@@ -49,8 +51,13 @@ class Hierarchical {
   void trust_symmetry(bool mirrored);
 
   /// Assembles, factors and condenses all sub-domains. Allocates only if delayed pivots enlarge a front, if fronts
-  /// leave lanes for the first time, or if rows are dependent.
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker);
+  /// leave lanes or registers for the first time, or if rows are dependent. With `rhs` (num_unknowns) the right-hand
+  /// side is condensed in the same visits, while a front is in the cache; finish() then solves.
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, const double* rhs = nullptr);
+
+  /// Completes the solution for the right-hand side that was passed to factor(). Precondition: factor(.., rhs) was ok,
+  /// and nothing was solved since.
+  [[nodiscard]] SolveReport finish(const tree::Walker& walker, const double* rhs, double* x);
 
   /// Solves with the last factorization. rhs, x: num_unknowns, in the order of the blocks; may be the same array.
   /// Precondition: factor() was ok. If constraint rows are dependent, the multipliers are those of least norm (each
@@ -74,13 +81,12 @@ class Hierarchical {
   /// singular.
   Inertia inertia();
   /// Interfaces of all sub-domains but the root, in order. Condition numbers are computed for those with at most
-  /// `widest` unknowns (dense singular values) and are NaN for others. flops: of the sub-domain's own fronts; seconds are
-  /// not measured. Empty before the first factorization. For reports: every call factors the matrices once more, on one
-  /// thread and in memory of its own.
+  /// `widest` unknowns (dense singular values, for reports; allocates) and are NaN for others. flops: of the
+  /// sub-domain's own fronts; seconds are not measured.
   std::vector<InterfaceReport> interfaces(int widest = std::numeric_limits<int>::max()) const;
   /// Local multipliers l_i of a sub-domain in the solution for a right-hand side (num_unknowns), which is computed
   /// here: generalised interface forces in the units of the right-hand side (times 1/s), one per unknown of its
-  /// boundary blocks, in that order. Factors once more, as interfaces() does. Precondition: factor() was ok.
+  /// boundary blocks, in that order. Precondition: factor() was ok.
   std::vector<double> local_multipliers(tree::SubdomainId subdomain, const double* rhs) const;
   /// Blocks whose multipliers are not unique (they take part in a null vector), ascending. Empty without deficiency.
   std::vector<int> blocks_not_unique() const;
@@ -91,8 +97,7 @@ class Hierarchical {
 
  private:
   struct State;
-  explicit Hierarchical(std::unique_ptr<State> state);
-  Hierarchical with_all_schur_complements() const;
+  const Hierarchical& reporting_solver() const;
   std::unique_ptr<State> state_;
 };
 

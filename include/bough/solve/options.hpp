@@ -39,9 +39,10 @@ struct SolveOptions {
   Symmetry symmetry = Symmetry::general;
   /// The root's front is stored as assembled, for Hierarchical::inertia().
   bool inertia = false;
-  /// Equal sub-domains are factored in lockstep, eight per pack (flat elimination only).
+  /// Equal sub-domains are factored in lockstep, eight per pack, and small leaves without equals in registers (flat
+  /// elimination only).
   bool lanes = true;
-  /// Bytes of matrices and factors in lanes above which a factorization prefetches its input and writes
+  /// Bytes of matrices and factors in lanes and registers above which a factorization prefetches its input and writes
   /// factors past the caches. Results have the same bits. 0: an eighth of the last cache, which other programs use as
   /// well, but at least 16 MB.
   std::int64_t near_bytes = 0;

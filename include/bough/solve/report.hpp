@@ -109,11 +109,28 @@ struct SolverCounters {
   std::int64_t enlarging_allocations = 0;  ///< heap allocations these needed.
   std::int64_t fronts_in_lanes = 0;        ///< fronts of the tree that are factored in lockstep.
   double flops_in_lanes = 0.0;             ///< the part of factor_flops in these fronts [flop].
+  std::int64_t fronts_in_registers = 0;    ///< fronts of leaves without equals, eliminated row by row in registers.
+  std::int64_t registers_left =
+      0;  ///< leaves of those that were factored by pivoting instead, over all factorizations.
   std::int64_t lanes_left =
       0;  ///< fronts that left their lane for scalar elimination with pivoting, over all factorizations.
   /// Declared definite: fronts with a pivot that was not positive or too small, which were factored by pivoting
   /// instead, over all factorizations.
   std::int64_t indefinite_fronts = 0;
 };
+
+/// Called at the start of a visit, before the elements are assembled, so that one task evaluates and eliminates them.
+/// begin, end: positions in Hierarchical::batches(). May run concurrently for different visits.
+struct Prepare {
+  void (*run)(void* context, int visit, int begin, int end) = nullptr;
+  void* context = nullptr;
+};
+
+/// A Prepare that calls `body(visit, begin, end)`; body must outlive the factorization.
+template <class Body>
+Prepare make_prepare(Body& body) {
+  return {[](void* context, int visit, int begin, int end) { (*static_cast<Body*>(context))(visit, begin, end); },
+          &body};
+}
 
 }  // namespace bough::solve
