@@ -200,6 +200,51 @@ TEST(Signals, a_limited_integrator_agrees_with_runge_kutta) {
   }
 }
 
+// Stick and slip on a belt of 0.1 m/s, m = 1 kg, k = 100 N/m: friction by a bristle whose steady force falls from 6 N at
+// break-away to 4 N within 0.3 mm/s. With Coulomb's law the block sticks for 0.4 s and slips for 0.40689 s.
+TEST(Signals, a_bristle_sticks_and_slips_as_coulombs_law_does) {
+  const Outcome r = run_ok(scene_of(R"-({
+  "parameters": {"belt": 0.1, "Fs": 6, "Fk": 4, "vs": 3e-4, "s0": 1e6, "s1": 50},
+  "analysis": {"kind": "dynamic", "end_time": 4, "step_size": 2e-4},
+  "bodies": [{"name": "block", "mass": 1, "inertia": [1, 1, 1]}],
+  "joints": [
+    {"name": "slide", "kind": "prismatic", "first": "ground", "second": "block", "axis": [1, 0, 0],
+     "forces": [{"stiffness": 100}, {"effort": {"signal": "friction"}}]}
+  ],
+  "signals": [
+    {"name": "speed", "kind": "joint_rate", "joint": "slide"},
+    {"name": "sliding", "kind": "formula", "expression": "belt - speed"},
+    {"name": "most", "kind": "formula", "expression": "(Fk + (Fs - Fk)*exp(-(sliding/vs)^2))/s0"},
+    {"name": "share", "kind": "formula",
+     "expression": "step(bristle*sliding)*min(1, max(0, (abs(bristle) - 0.97*most)/(0.03*most)))"},
+    {"name": "stretching", "kind": "formula", "expression": "sliding*(1 - share*abs(bristle)/most)"},
+    {"name": "bristle", "kind": "state", "expression": "stretching"},
+    {"name": "friction", "kind": "formula", "expression": "s0*bristle + s1*stretching"}
+  ],
+  "sensors": [
+    {"name": "x", "kind": "joint_displacement", "joint": "slide"},
+    {"name": "speed", "kind": "joint_rate", "joint": "slide"},
+    {"name": "friction", "kind": "signal", "signal": "friction"}
+  ],
+  "output": {"stride": 10},
+  "expected": [
+    {"quantity": "x", "figure": "max", "value": 0.0623606797749979, "tolerance": 5e-4,
+     "source": "Coulomb's law with 6 and 4 N, closed form"},
+    {"quantity": "x", "figure": "period", "level": 0.04, "value": 0.8068887871591405, "tolerance": 8e-3,
+     "source": "Coulomb's law with 6 and 4 N, closed form"}
+  ]
+})-"));
+  for (const records::ExpectedResult& e : r.summary.expected) EXPECT_TRUE(e.holds) << e.value;
+}
+
+// The block of friction_incline with less friction, from rest on the unloaded bristle: g (sin a - mu cos a) t^2 / 2 but
+// for the 1.2 ms in which the bristle is stretched.
+TEST(Signals, a_bristle_slides_as_coulombs_law_does) {
+  const Outcome r = run_ok(gallery(
+      "friction_incline", {"/parameters/mu=0.4", "/analysis/start=given", "/analysis/end_time=1", "/expected=[]"}));
+  EXPECT_NEAR(r.history.last("way"), 0.7533581577749314, 2.5e-3);
+}
+
 // In statics a state rests: the integral part of a controller brings the tip to its target against the load.
 TEST(Signals, integral_control_reaches_its_target_in_statics) {
   const Outcome r = run_ok(rotor(R"-({"name": "err", "kind": "formula", "expression": "0.3 - angle"},
