@@ -225,6 +225,19 @@ std::vector<scene::Scene> make_scenes() {
       s.output.stride = are_rare ? 1000 : 1;
       add_sensors(s);
     });
+  add_changed("signals", [](scene::Scene& s) {
+    scene::Signal rate, drag;
+    rate.name = "rate";
+    rate.kind = scene::SignalKind::joint_rate;
+    rate.joint = "hinge0";
+    drag.name = "drag";
+    drag.inputs = {"rate"};
+    drag.formula = laws::Formula("-rate", drag.inputs);
+    s.signals = {rate, drag};
+    s.joints[0].forces.emplace_back();
+    s.joints[0].forces.back().coordinate = "angle";
+    s.joints[0].forces.back().signal = "drag";
+  });
   add_changed("step control", [](scene::Scene& s) { s.analysis.step_control = scene::StepControl{.tolerance = 1e-2}; });
   add_changed("moving frame", [](scene::Scene& s) {
     scene::FrameDef f;
