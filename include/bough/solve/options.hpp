@@ -50,7 +50,7 @@ struct SolveOptions {
       1.0;  ///< P = factor x the interface's own stiffness diagonal [-], > 0. Flat: affects reports only.
   double multiplier_scale = 1.0;  ///< s of the local multipliers [-], > 0, in scaled variables.
   double pivot_threshold =
-      1e-3;  ///< u [-], 0 < u <= 1: a pivot of at least u times its column's largest entry is accepted.
+      1e-2;  ///< u [-], 0 < u <= 1: a pivot of at least u times its column's largest entry is accepted.
   double tiny_pivot = 1e-10;  ///< [-] in scaled variables: smaller pivots are delayed to the parent front.
   double rank_tolerance =
       1e-10;  ///< [-] scaled distance to a singular matrix below which constraint rows are dependent.
