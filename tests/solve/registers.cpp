@@ -165,13 +165,18 @@ Scene make_row(unsigned seed, int beams) {
   return m.finish("row");
 }
 
+/// A threshold of pivots at which random chains stay in registers: what leaves them is the subject of another test.
+constexpr double accepting = 1e-3;
+
 TEST(Registers, ChainsForOneSolutionAreSweptAndMatchTheScalarPath) {
   for (const auto symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric, solve::Symmetry::definite})
     for (const int links : {10, 33, 200}) {
       const bool is_definite = symmetry == solve::Symmetry::definite;
       const Scene scene = with_parts(is_definite ? make_row(3, 5 * links) : make_chain(3, links, 4), symmetry);
-      Solved swept(scene, {.for_one_solution = true}, {.symmetry = symmetry, .refinement_steps = 0});
-      Solved scalar(scene, {.for_one_solution = true}, {.symmetry = symmetry, .lanes = false, .refinement_steps = 0});
+      Solved swept(scene, {.for_one_solution = true},
+                   {.symmetry = symmetry, .pivot_threshold = accepting, .refinement_steps = 0});
+      Solved scalar(scene, {.for_one_solution = true},
+                    {.symmetry = symmetry, .lanes = false, .pivot_threshold = accepting, .refinement_steps = 0});
       ASSERT_TRUE(swept.factor().ok());
       ASSERT_TRUE(scalar.factor().ok());
       const solve::SolverCounters counters = swept.solver.counters();
@@ -247,7 +252,7 @@ TEST(Registers, InterfacesAreReportedAsFromTheScalarPath) {
 /// stays, and back when it is mended.
 TEST(Registers, ALeafWithoutAPivotGoesThePivotedWayAndComesBack) {
   const Scene scene = make_chain(4, 40, 4);
-  Solved s(scene, {.for_one_solution = true}, {.refinement_steps = 0});
+  Solved s(scene, {.for_one_solution = true}, {.pivot_threshold = accepting, .refinement_steps = 0});
   ASSERT_TRUE(s.factor().ok());
   const Eigen::VectorXd b = s.random_rhs(5), x = s.solve(b);
   // A node whose own stiffness and mass vanish has no pivot until its neighbours come.
@@ -267,7 +272,8 @@ TEST(Registers, ALeafWithoutAPivotGoesThePivotedWayAndComesBack) {
   for (int e = 0; e < scene.graph.num_elements(); ++e) write_element(other.elements[at(e)], s.solver.element(e));
   s.solver.rescale();
   ASSERT_TRUE(s.factor().ok());
-  Solved dense(other, {.for_one_solution = true}, {.lanes = false, .refinement_steps = 0});
+  Solved dense(other, {.for_one_solution = true},
+               {.lanes = false, .pivot_threshold = accepting, .refinement_steps = 0});
   ASSERT_TRUE(dense.factor().ok());
   const Eigen::VectorXd y = s.solve(b);
   EXPECT_LE(s.report.backward_error, 1e-13);
