@@ -59,16 +59,16 @@ double lagged_rate(double t) {
 TEST(Signals, states_are_integrated_to_the_order_of_the_motion) {
   const std::string signals = R"-({"name": "u", "kind": "time", "law": {"expression": "sin(3*t)"}},
                                  {"name": "x", "kind": "state", "expression": "(u - x)/0.2"})-";
-  for (const auto& [integrator, order] : {std::pair{"generalized_alpha", 2.0}, std::pair{"bdf", 3.0}})
+  for (const std::pair<const char*, double>& rule : {std::pair{"generalized_alpha", 2.0}, std::pair{"bdf", 3.0}})
     for (const bool planar : {true, false}) {
       const auto error = [&](double h) {
         std::vector<std::string> overrides = planar ? in_plane : in_space;
-        overrides.push_back(std::string("/analysis/integrator=") + integrator);
+        overrides.push_back(std::string("/analysis/integrator=") + rule.first);
         overrides.push_back(step_of(h));
         return std::abs(run_ok(rotor(signals, R"-({"signal": "x"})-", overrides)).history.last("rate") -
                         lagged_rate(1.0));
       };
-      EXPECT_NEAR(order_of(error, 0.02), order, 0.25) << integrator << (planar ? " in a plane" : " in space");
+      EXPECT_NEAR(order_of(error, 0.02), rule.second, 0.25) << rule.first << (planar ? " in a plane" : " in space");
       EXPECT_LT(error(0.01), 2e-4);
     }
 }
