@@ -25,7 +25,7 @@ using ConstraintRow = ConstraintRowOf<double>;
 
 template <class G, class C>
 struct EffortOn {
-  RowKind coordinate = RowKind::angle;  ///< `angle`, `along`
+  RowKind coordinate = RowKind::angle;  ///< `angle`, `along`, `distance`
   C stiffness = 0.0, rest = 0.0, damping = 0.0;
   int law = -1;  ///< effort on the second body along the axis; -1: none
   typename G::template Direction<C> direction =

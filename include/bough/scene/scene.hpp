@@ -136,8 +136,7 @@ struct JointDrive {
   laws::Law law;
 };
 
-/// Joint frame axes: 3 is the axis of revolute, prismatic, cylindrical, screw and the normal of planar; universal:
-/// axis 1 of the first body is perpendicular to axis 2 of the second.
+/// joint_kinds.hpp says which axes of the joint frames each kind uses, and what it leaves free.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::fixed;
