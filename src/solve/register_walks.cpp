@@ -128,8 +128,8 @@ void Hierarchical::State::forward_registers(int group) {
     forward_in_registers(register_factors.data() + f.factor, f.size(), f.eliminated, is_symmetric(), t);
     std::copy_n(t, f.eliminated, register_vectors.data() + f.vector);
     const double* g = t + f.eliminated;
-    double* to = register_schur.data() + own.schur + f.schur + f.schur_step() - 1;
-    for (int i = 0; i < f.boundary; ++i) to[i * f.schur_step()] = g[i];
+    const std::int64_t last_column = own.schur + f.schur + f.schur_step() - 1;
+    for (int i = 0; i < f.boundary; ++i) register_schur[at(last_column + i * f.schur_step())] = g[i];
     if (!f.is_exported) continue;
     FrontData& d = data(f.front);
     for_boundary(f.front, [&](int i, std::size_t u) { d.vector[d.full + i] = scales.row[u] * g[i]; });
