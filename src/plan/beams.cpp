@@ -133,7 +133,7 @@ void Builder::add_sensors() {
   std::unordered_map<std::string, int> beam_of, joint_of;
   for (std::size_t i = 0; i < plan.beams.size(); ++i) beam_of[plan.beams[i].name] = static_cast<int>(i);
   for (std::size_t i = 0; i < plan.joints.size(); ++i)  // the first joint of a prescribed motion
-    if (plan.joints[i].what != "held rotation") joint_of.emplace(plan.joints[i].name, static_cast<int>(i));
+    joint_of.emplace(plan.joints[i].name, static_cast<int>(i));
   const auto index_in = [](const std::unordered_map<std::string, int>& list, const std::string& name) {
     const auto at = name.empty() ? list.end() : list.find(name);
     return at == list.end() ? -1 : at->second;

@@ -52,7 +52,7 @@ class Holder {
         list.push_back(j);
         rows += num_rows(j);
       }
-    if (rows < plan_.unknowns.count) list.clear();
+    if (rows < plan_.unknowns.count_of(node)) list.clear();
     return list;
   }
 
@@ -63,7 +63,7 @@ class Holder {
     if (starts_moving(node)) return "it starts moving";
     if (!are_closed(joints)) return "it does not start where it is held";
     held = {static_cast<int>(node), joints, wrenches(node, joints)};
-    if (!invert_small(held.inverse.data(), plan_.unknowns.count, least_pivot))
+    if (!invert_small(held.inverse.data(), plan_.unknowns.count_of(node), least_pivot))
       return "its joints do not hold it on all sides";
     return std::nullopt;
   }
@@ -96,7 +96,7 @@ class Holder {
   const char* dependence_of(std::size_t node, const std::vector<int>& joints) const {
     int rows = 0;
     for (int j : joints) rows += num_rows(j);
-    return rows > plan_.unknowns.count ? "it is held more than once" : loop_from(node, joints);
+    return rows > plan_.unknowns.count_of(node) ? "it is held more than once" : loop_from(node, joints);
   }
 
   /// Examines the joints other than those that hold the node. If they lead to the ground or form a loop, rows may be
@@ -159,7 +159,7 @@ class Holder {
   /// W at the start, row-major: each column is the wrench on the node of one unit multiplier, in the unknowns of the
   /// node. Precondition: the joints have as many rows as the node has unknowns.
   std::vector<double> wrenches(std::size_t node, const std::vector<int>& joints) const {
-    const auto n = static_cast<std::size_t>(plan_.unknowns.count);
+    const auto n = static_cast<std::size_t>(plan_.unknowns.count_of(node));
     std::vector<double> W(n * n);
     std::size_t column = 0;
     for (int j : joints) {
@@ -196,17 +196,19 @@ class Holder {
 struct Account {
   std::string first, obstacle;
   std::size_t count = 0;
+  int unknowns = 0;  ///< of all nodes for which it is taken
 
-  void take(const std::string& name) {
+  void take(const std::string& name, int unknowns_of_node) {
     if (count++ == 0) first = "'" + name + "'";
+    unknowns += unknowns_of_node;
   }
   void leave(const std::string& name, const std::string& why) {
     if (obstacle.empty()) obstacle = "'" + name + "': " + why;
   }
   /// "'a' and 2 more do not move: 18 unknowns and 18 rows ...; not 'b': ...".
-  std::string reason(int unknowns) const {
+  std::string reason() const {
     if (count == 0) return obstacle.empty() ? "no joint holds a node to the ground on all sides" : obstacle;
-    const std::string rows = std::to_string(count * static_cast<std::size_t>(unknowns));
+    const std::string rows = std::to_string(unknowns);
     return first + (count == 1 ? " does not move" : " and " + std::to_string(count - 1) + " more do not move") + ": " +
            rows + " unknowns and " + rows + " rows of joints are left out" +
            (obstacle.empty() ? "" : "; not " + obstacle);
@@ -229,7 +231,7 @@ void Builder::hold_nodes() {
       account.leave(name, *why);
     } else {
       held.push_back(candidate);
-      account.take(name);
+      account.take(name, plan.unknowns.count_of(n));
     }
   }
   const bool leaves = held.size() < plan.nodes.size();
@@ -238,7 +240,7 @@ void Builder::hold_nodes() {
          "system: these follow from the forces on the node. Taken where joints and constant displacements leave a node "
          "no motion, "
          "and other joints neither lead from it to the ground nor form a loop",
-         !held.empty() && leaves, leaves ? account.reason(plan.unknowns.count) : "nothing would be left");
+         !held.empty() && leaves, leaves ? account.reason() : "nothing would be left");
   if (plan.took("held")) plan.held = std::move(held);
 }
 

@@ -347,10 +347,11 @@ void Builder::make_graph() {
     plan.block_of_node[static_cast<std::size_t>(h.node)] = -1;
     for (int j : h.joints) holds[static_cast<std::size_t>(j)] = 1;
   }
-  int num_blocks = 0;
-  for (int& block : plan.block_of_node)
-    if (block == 0) block = num_blocks++;
-  g.block_size.assign(static_cast<std::size_t>(num_blocks), plan.unknowns.count);
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
+    if (plan.block_of_node[n] < 0) continue;
+    plan.block_of_node[n] = g.num_blocks();
+    g.block_size.push_back(plan.unknowns.count_of(n));
+  }
   for (SignalPlan& s : plan.signals) {
     s.block = g.num_blocks();
     g.block_size.push_back(1);
@@ -400,7 +401,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.add_motions();
   b.add_couplings();
   b.add_signals();
-  b.hold_point_masses();
+  b.find_points();
   b.add_initial_velocities();
   b.stop_spins();
   b.plan.length_scale = b.size_of_structure();
@@ -411,6 +412,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.mark_points();
   b.number_elements();
   b.choose_unknowns();
+  b.leave_out_rotations_of_points();
   b.hold_nodes();
   b.settle();
   b.say_idle_parts();

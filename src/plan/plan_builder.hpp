@@ -87,7 +87,8 @@ struct Builder {
   void add_joints();
   void add_motions();
   void add_couplings();
-  void hold_point_masses();
+  /// Finds point masses whose rotation has no effect.
+  void find_points();
   void keep_from_spinning(std::size_t body, const std::vector<motion::Vec3<double>>& met);
   void add_initial_velocities();
   void list_given_velocities();
@@ -107,6 +108,8 @@ struct Builder {
   void say_idle_parts();
   void find_mobility();
   void choose_unknowns();
+  /// Once it is known in which motions the scene can move.
+  void leave_out_rotations_of_points();
   void hold_nodes();
   void add_reduced_model(const motion::Mat3<double>& axes);
   void list_signals_of_elements();

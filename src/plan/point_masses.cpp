@@ -7,15 +7,14 @@
 namespace bough::plan {
 
 using elements::Port;
-using motion::Frame;
 using motion::Vec3;
 
-/// A point mass has no rotational inertia, so its rotation is held if no attached part depends on it. If all its
-/// attachment points lie on one line through it, only the spin about this line has no effect. In dynamics it then gets
+/// A point mass has no rotational inertia, so it has displacements alone if no attached part depends on its rotation.
+/// If all its attachment points lie on one line through it, only the spin about this line has no effect. In dynamics it then gets
 /// the inertia m d^2 about this line, with the largest distance d, so that no unknown remains undetermined. This does
 /// not change any motion: no moment acts about the line, and a spin that starts at zero in the inertial frame stays
 /// zero (see stop_spins). In statics inertia would not hold the spin, and it would act as a load in a rotating frame.
-void Builder::hold_point_masses() {
+void Builder::find_points() {
   std::vector<bool> feels(plan.nodes.size(), false);  // a part acts on the node by more than forces at points
   std::vector<std::vector<Vec3<double>>> met(plan.nodes.size());  // attachment points apart from the node
   const auto mark = [&](const auto& e, bool turns) {
@@ -53,18 +52,23 @@ void Builder::hold_point_masses() {
       keep_from_spinning(b, met[static_cast<std::size_t>(node)]);
       continue;
     }
-    elements::Joint hold;
-    const Frame<double> pose = plan.nodes[static_cast<std::size_t>(node)].pose;
-    hold.ports[0] = port_at("ground", pose);
-    hold.ports[1].node = node;
-    hold.num_rows = 3;
-    for (int i = 0; i < 3; ++i) {
-      hold.rows[i].kind = elements::RowKind::across;
-      hold.rows[i].i = i;
-      hold.rows[i].j = (i + 1) % 3;
-    }
-    add_joint(hold, scene.bodies[b].name, "held rotation");
+    plan.nodes[static_cast<std::size_t>(node)].is_point = true;
   }
+}
+
+void Builder::leave_out_rotations_of_points() {
+  const auto is_point = [](const NodePlan& node) { return node.is_point; };
+  const auto count = static_cast<std::size_t>(std::count_if(plan.nodes.begin(), plan.nodes.end(), is_point));
+  const bool turns = plan.unknowns.motions == Motions::spatial || plan.unknowns.motions == Motions::planar;
+  if (count > 0 && turns)
+    for (const NodePlan& node : plan.nodes) plan.unknowns.is_point.push_back(is_point(node) ? 1 : 0);
+  decide("no rotations of points",
+         "a point mass has displacements alone. Taken where forces act at its origin only, so that nothing depends on "
+         "its rotation",
+         count > 0 && turns,
+         count == 0 ? "there is no such point mass"
+         : !turns   ? "nothing turns"
+                    : std::to_string(count) + (count == 1 ? " point mass" : " point masses"));
 }
 
 void Builder::keep_from_spinning(std::size_t body, const std::vector<Vec3<double>>& met) {

@@ -41,7 +41,7 @@ struct Integrator {
     follow_states(plan, state.signals);
     return state.change_all([&]<class G>(NodesOn<G>& nodes) {
       const double most = largest_of_chunks(system, [&](std::size_t begin, std::size_t end) {
-        return correct_nodes(rule, start.on<G>(), nodes, begin, end, x, system.places().node_begins());
+        return correct_nodes(rule, start.on<G>(), nodes, begin, end, system.places().increments(x));
       });
       return judge_turn(system, nodes, most);
     });

@@ -58,7 +58,7 @@ double Corrections::relative_size(const State& state, const double* x) const {
   state.visit([&](const auto& nodes) {
     auto by_pair = [&](std::int64_t begin, std::int64_t end) {
       const std::span<const PairLanes> some(pairs_.data() + begin, static_cast<std::size_t>(end - begin));
-      chunk_max_[static_cast<std::size_t>(begin / pair_grain)] = largest_change(nodes, some, x, places_.node_begins());
+      chunk_max_[static_cast<std::size_t>(begin / pair_grain)] = largest_change(nodes, some, places_.increments(x));
     };
     walker_.for_each_chunk(static_cast<std::int64_t>(pairs_.size()), pair_grain, tree::make_chunk(by_pair));
   });
@@ -101,7 +101,7 @@ void Corrections::note_multipliers(const State& start, State& state) const {
 void Corrections::move(State& state, const double* x) const {
   state.change_all([&](auto& nodes) {
     auto by_node = [&](std::int64_t begin, std::int64_t end) {
-      move_nodes(nodes, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), x, places_.node_begins());
+      move_nodes(nodes, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), places_.increments(x));
     };
     walker_.for_each_chunk(static_cast<std::int64_t>(nodes.motion.size()), block_grain, tree::make_chunk(by_node));
   });

@@ -6,9 +6,9 @@
 
 #include "bough/elements/law_slope.hpp"
 #include "element_parts.hpp"
-#include "held_nodes.hpp"
 #include "lane_batches.hpp"
 #include "reduced_elements.hpp"
+#include "trimmed_elements.hpp"
 
 namespace bough::step {
 
@@ -59,12 +59,12 @@ ElementLengths measure_elements(const plan::Plan& plan) {
   return lengths;
 }
 
-ElementEvaluation::ElementEvaluation(const plan::Plan& plan, const Instant& instant, const HeldNodes* held,
+ElementEvaluation::ElementEvaluation(const plan::Plan& plan, const Instant& instant, const TrimmedElements* trimmed,
                                      ResidualSums& sums, LinearSolution& linear, const tree::Walker& walker)
-    : plan_(plan), instant_(instant), held_(held), sums_(sums), linear_(linear), walker_(walker) {
+    : plan_(plan), instant_(instant), trimmed_(trimmed), sums_(sums), linear_(linear), walker_(walker) {
   plan.with_group([&]<class G>() {
     auto lanes = std::make_unique<LaneBatches<G>>();
-    lanes->make(plan, linear.solver().batches(), held);
+    lanes->make(plan, linear.solver().batches(), trimmed);
     lanes_ = std::move(lanes);
   });
 }
@@ -82,7 +82,7 @@ std::span<const solve::ElementBatch> ElementEvaluation::batches() const {
 template <class G>
 void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const elements::FieldOn<G, double>& f,
                                        const ElementResults& to) {
-  if (held_ && held_->leaves_out(id)) return;
+  if (trimmed_ && trimmed_->leaves_out(id)) return;
   const int j = plan_.joint_of_element[id];
   if (is_idle_joint(plan_, j)) return;
   std::array<double, elements::max_rows> scratch;
@@ -97,7 +97,7 @@ void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const
     std::array<double, most_unknowns * most_unknowns> tangent_entries;
     const solve::ElementView view = to.want_tangents() ? to.tangent_of(static_cast<int>(id)) : solve::ElementView{};
     const std::span<const int> signals = plan::signals_of(plan_, id);
-    const bool is_direct = view.stride == 1 && signals.empty() && !(held_ && held_->trims(id));
+    const bool is_direct = view.stride == 1 && signals.empty() && !(trimmed_ && trimmed_->trims(id));
     elements::evaluate(e, f, multipliers, turns, residual.data(),
                        !to.want_tangents() ? nullptr
                        : is_direct         ? view.first
@@ -117,12 +117,12 @@ void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const
           elements::evaluate_law_slope(e, f, multipliers, turns, signal.law, column);
       });
       write_matrix(
-          held_, id, n + num_signals, [&](int i) { return extended[static_cast<std::size_t>(i)]; }, view);
+          trimmed_, id, n + num_signals, [&](int i) { return extended[static_cast<std::size_t>(i)]; }, view);
       return;
     }
     if (to.want_tangents() && !is_direct)
       write_matrix(
-          held_, id, n, [&](int i) { return tangent_entries[static_cast<std::size_t>(i)]; }, view);
+          trimmed_, id, n, [&](int i) { return tangent_entries[static_cast<std::size_t>(i)]; }, view);
   });
 }
 
@@ -136,11 +136,11 @@ void ElementEvaluation::evaluate_as_seen(const State& state) {
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     std::array<double, most_unknowns> residual, reduced;
     for (auto id = static_cast<std::size_t>(begin); id < static_cast<std::size_t>(end); ++id) {
-      if (held_ && held_->leaves_out(id)) continue;
+      if (trimmed_ && trimmed_->leaves_out(id)) continue;
       const plan::JointPlan* const joint = plan_.joint_of(id);
       const double* multipliers = joint == nullptr ? nullptr : state.multipliers.data() + joint->multiplier_begin;
       const double turns = joint == nullptr ? 0.0 : state.turns[static_cast<std::size_t>(plan_.joint_of_element[id])];
-      if (!plan_.signals.empty()) reduced.fill(0.0);
+      reduced.fill(0.0);
       plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
         elements::evaluate(e, f, multipliers, turns, residual.data(), nullptr);
         reduce_vector(plan_.unknowns, e, joint, residual.data(), reduced.data());
@@ -154,13 +154,13 @@ void ElementEvaluation::evaluate_as_seen(const State& state) {
 
 void ElementEvaluation::set_matrix(int element, int num_unknowns, const double* entries) {
   const solve::ElementView view = linear_.solver().element(element);
-  for_each_kept(held_, static_cast<std::size_t>(element), num_unknowns,
+  for_each_kept(trimmed_, static_cast<std::size_t>(element), num_unknowns,
                 [&](std::int64_t place, int i) { view[place] = entries[i]; });
 }
 
 void ElementEvaluation::add_matrix(int element, int num_unknowns, const double* entries) {
   const solve::ElementView view = linear_.solver().element(element);
-  for_each_kept(held_, static_cast<std::size_t>(element), num_unknowns,
+  for_each_kept(trimmed_, static_cast<std::size_t>(element), num_unknowns,
                 [&](std::int64_t place, int i) { view[place] += entries[i]; });
 }
 

@@ -10,29 +10,19 @@ namespace bough::step {
 
 using motion::Vec6;
 
-HeldNodes::HeldNodes(const plan::Plan& plan) : plan_(plan), kind_(plan.directory.size(), Kind::whole) {
+HeldNodes::HeldNodes(const plan::Plan& plan, const TrimmedElements& trimmed) : plan_(plan) {
   std::vector<int> held_of_node(plan.nodes.size(), -1);
-  for (std::size_t h = 0; h < plan.held.size(); ++h) {
+  for (std::size_t h = 0; h < plan.held.size(); ++h)
     held_of_node[static_cast<std::size_t>(plan.held[h].node)] = static_cast<int>(h);
-    for (int j : plan.held[h].joints)
-      kind_[static_cast<std::size_t>(plan.joints[static_cast<std::size_t>(j)].element)] = Kind::holds;
-  }
   uses_.resize(plan.held.size());
   for (std::size_t e = 0; e < plan.directory.size(); ++e) {
-    int unknown = 0, part = 0;
-    std::vector<std::int8_t> kept;
-    for_each_part(plan, e, [&](int block, int size, int node) {
+    if (trimmed.leaves_out(e)) continue;
+    int part = 0;
+    for_each_part(plan, e, [&](int, int, int node) {
       const int held = node < 0 ? -1 : held_of_node[static_cast<std::size_t>(node)];
-      if (held >= 0 && kind_[e] != Kind::holds) {
-        kind_[e] = Kind::trimmed;
-        uses_[static_cast<std::size_t>(held)].push_back({e, part});
-      }
-      for (int i = 0; i < size; ++i, ++unknown)
-        if (block >= 0) kept.push_back(static_cast<std::int8_t>(unknown));
+      if (held >= 0) uses_[static_cast<std::size_t>(held)].push_back({e, part});
       ++part;
     });
-    if (kind_[e] == Kind::trimmed) kept_.insert(kept_.end(), kept.begin(), kept.end());
-    begin_.push_back(static_cast<std::int64_t>(kept_.size()));
   }
 }
 
@@ -42,7 +32,7 @@ template <class AddForces>
 void HeldNodes::balance(std::size_t held, Vec6<double> forces, AddForces&& add_forces, double* multipliers) const {
   const plan::HeldNode& h = plan_.held[held];
   for (const Use& use : uses_[held]) add_forces(use, h.node, forces);
-  const auto n = static_cast<std::size_t>(plan_.unknowns.count);
+  const auto n = static_cast<std::size_t>(plan_.unknowns.count_of(static_cast<std::size_t>(h.node)));
   std::array<double, 6> wrench;
   plan_.unknowns.project(forces, static_cast<std::size_t>(h.node), wrench.data());
   for (std::size_t i = 0; i < n; ++i) {
@@ -142,7 +132,7 @@ double HeldNodes::largest_impulse(const Instant& instant, const UnknownPlaces& p
   for (std::size_t h = 0; h < plan_.held.size(); ++h) {
     std::array<double, 6> impulses;
     balance(h, Vec6<double>::zero(), add_forces, impulses.data());
-    for (int i = 0; i < plan_.unknowns.count; ++i)
+    for (int i = 0; i < plan_.unknowns.count_of(static_cast<std::size_t>(plan_.held[h].node)); ++i)
       most = std::max(most, std::abs(impulses[static_cast<std::size_t>(i)]));
   }
   return most;

@@ -120,7 +120,7 @@ template <class G>
 bool LaneBatches<G>::leaves_out(int element) const {
   const auto id = static_cast<std::size_t>(element);
   if (id >= plan_->directory.size()) return true;  // the equation of a signal
-  return (held_ != nullptr && held_->leaves_out(id)) || is_idle_joint(*plan_, plan_->joint_of_element[id]);
+  return (trimmed_ != nullptr && trimmed_->leaves_out(id)) || is_idle_joint(*plan_, plan_->joint_of_element[id]);
 }
 
 template <class G>
@@ -129,9 +129,10 @@ bool LaneBatches<G>::reads_signals(int element) const {
 }
 
 template <class G>
-void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches, const HeldNodes* held) {
+void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
+                          const TrimmedElements* trimmed) {
   plan_ = &plan;
-  held_ = held;
+  trimmed_ = trimmed;
   batches_.assign(batches.begin(), batches.end());
   for (solve::ElementBatch& batch : batches_)
     for (int& id : batch.element)
@@ -149,7 +150,7 @@ void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::Element
       if (id < 0) continue;
       ++slot.present;
       slot.first = l;
-      slot.is_trimmed |= held != nullptr && held->trims(static_cast<std::size_t>(id));
+      slot.is_trimmed |= trimmed != nullptr && trimmed->trims(static_cast<std::size_t>(id));
     }
     if (slot.present < least_lanes) continue;
     const int first = batches_[b].element[static_cast<std::size_t>(slot.first)];
@@ -222,7 +223,7 @@ void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& s
     to_parts[l] = id < 0 ? nowhere : to.parts_of(id);
     if (to.want_tangents() && direct == nullptr && id >= 0)
       write_matrix(
-          held_, static_cast<std::size_t>(id), n, [&](int i) { return spare[i][l]; }, to.tangent_of(id));
+          trimmed_, static_cast<std::size_t>(id), n, [&](int i) { return spare[i][l]; }, to.tangent_of(id));
   }
   lanes::scatter_lanes(parts, 2 * n, to_parts);
 }

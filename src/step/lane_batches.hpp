@@ -14,7 +14,7 @@
 #include "bough/solve/any_solver.hpp"
 #include "bough/solve/element_view.hpp"
 #include "bough/step/state.hpp"
-#include "held_nodes.hpp"
+#include "trimmed_elements.hpp"
 
 namespace bough::step {
 
@@ -55,7 +55,7 @@ class LaneBatches {
   /// with elements of the same kind from nearby batches, in the first of these. A batch is evaluated in lanes if it
   /// then holds at least `least_lanes` elements that differ only in the values of their data. Joints that hold nodes at
   /// rest are omitted, since the solver does not see them.
-  void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches, const HeldNodes* held);
+  void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches, const TrimmedElements* trimmed);
 
   /// Sets the motions of frames of prescribed motion, equal in all lanes. Needed only if the scene has such frames.
   void set_frames(const plan::FrameMotions& frames);
@@ -97,7 +97,7 @@ class LaneBatches {
                    const ElementResults& to) const;
   static constexpr std::size_t most_uniform = 64;  ///< number of lane elements that are searched for equal ones
   const plan::Plan* plan_ = nullptr;
-  const HeldNodes* held_ = nullptr;
+  const TrimmedElements* trimmed_ = nullptr;
   std::vector<solve::ElementBatch> batches_;
   std::vector<Slot> slots_;
   std::vector<Uniform> uniform_;

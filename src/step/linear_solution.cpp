@@ -91,10 +91,10 @@ std::string LinearSolution::explain_singular(const solve::FactorStatus& status) 
                                      "rotation about axis 2",     "rotation about axis 3"};
   text += owners_.signal(status.block) < 0 ? ": nothing holds " : ": nothing determines ";
   text += owners_.name(status.block);
-  if (owners_.node(status.block) >= 0 && status.local >= 0 && status.local < plan_.unknowns.count) {
+  const int node = owners_.node(status.block);
+  if (node >= 0 && status.local >= 0 && status.local < plan_.unknowns.count_of(static_cast<std::size_t>(node))) {
     std::array<double, 6> unit{};
     unit[static_cast<std::size_t>(status.local)] = 1.0;
-    const int node = owners_.node(status.block);
     const Vec6<double> eta = plan_.unknowns.expanded(unit.data(), static_cast<std::size_t>(node));
     int largest = 0;
     for (int i = 1; i < 6; ++i)

@@ -63,7 +63,10 @@ MotionTree make_motion_tree(const plan::Plan& plan) {
   };
   std::vector<std::vector<MotionTree::Link>> neighbours(n + 1);
   MotionTree tree;
+  const auto is_point = [&plan](int node) { return node >= 0 && plan.nodes[static_cast<std::size_t>(node)].is_point; };
   for (const Edge& edge : edges_of(plan)) {
+    // A point that hung from another part would turn with it.
+    if (is_point(edge.a) || is_point(edge.b)) continue;
     const std::size_t a = vertex(edge.a), b = vertex(edge.b);
     if (root_of(a) == root_of(b)) continue;
     set[root_of(a)] = root_of(b);

@@ -123,12 +123,18 @@ constexpr double nothing[12] =
 
 /// Increments of eight nodes in lanes; zero where node(lane) < 0 or the node has no unknowns.
 template <class G, class Node>
-VectorLanes<G> gather_increments(const double* x, const std::int64_t* unknown_begin, Node&& node) {
+VectorLanes<G> gather_increments(const NodeIncrements& increments, Node&& node) {
   const double* from[nodes_in_lanes];
+  double of_points[nodes_in_lanes][G::dof];
   for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
     const int n = node(l);
-    const std::int64_t unknown = n < 0 ? -1 : unknown_begin[n];
-    from[l] = unknown < 0 ? nothing : x + unknown;
+    const std::int64_t unknown = n < 0 ? -1 : increments.unknown_begin[n];
+    from[l] = unknown < 0 ? nothing : increments.x + unknown;
+    if constexpr (G::turns)
+      if (unknown >= 0 && increments.is_point != nullptr && increments.is_point[n] != 0) {
+        for (int i = 0; i < G::dof; ++i) of_points[l][i] = i < G::translations ? from[l][i] : 0.0;
+        from[l] = of_points[l];
+      }
   }
   VectorLanes<G> eta;
   lanes::gather_lanes(from, G::dof, &eta[0]);
@@ -151,10 +157,9 @@ Mover<G, Pack> gather_moving(const NodesOn<G>& nodes, std::size_t first, std::si
 }
 /// Moves them by their unknowns. Where poses determine dq, only its angle in a plane follows.
 template <class G>
-void move_by_unknowns(Mover<G, Pack>& m, const double* x, const std::int64_t* unknown_begin, std::size_t first,
-                      std::size_t count) {
+void move_by_unknowns(Mover<G, Pack>& m, const NodeIncrements& increments, std::size_t first, std::size_t count) {
   const auto node = [first, count](std::size_t l) { return static_cast<int>(first + std::min(l, count - 1)); };
-  const auto eta = gather_increments<G>(x, unknown_begin, node);
+  const auto eta = gather_increments<G>(increments, node);
   if constexpr (std::is_same_v<G, Se3>) {
     m.move(eta, true);
   } else {
@@ -166,11 +171,10 @@ void move_by_unknowns(Mover<G, Pack>& m, const double* x, const std::int64_t* un
 }  // namespace
 
 template <class G>
-void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x,
-                const std::int64_t* unknown_begin) {
+void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const NodeIncrements& increments) {
   by_eights(begin, end, [&](std::size_t first, std::size_t count) {
     Mover<G, Pack> m = gather_moving(nodes, first, count);
-    move_by_unknowns(m, x, unknown_begin, first, count);
+    move_by_unknowns(m, increments, first, count);
     scatter_motion<NodeNumbers<G>::pose>(m, nodes, first, count);
     scatter<G::dof>(&m.dq[0], nodes.motion.data(), first, count, NodeNumbers<G>::dq);
   });
@@ -204,12 +208,12 @@ void measure_increment(const Mover<motion::Translations<N>, Pack>& from, Mover<m
 
 template <class G>
 double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
-                     std::size_t end, const double* x, const std::int64_t* unknown_begin) {
+                     std::size_t end, const NodeIncrements& increments) {
   Pack turned(0.0);
   by_eights(begin, end, [&](std::size_t first, std::size_t count) {
     Mover<G, Pack> m = gather_moving(state, first, count), from;
     gather_start(start, first, count, from);
-    move_by_unknowns(m, x, unknown_begin, first, count);
+    move_by_unknowns(m, increments, first, count);
     measure_increment(from, m);
     const auto now = rule.follow(m.dq, from.v, from.a, start.algorithmic.eight(first));
     m.v = now.v;
@@ -349,8 +353,7 @@ lanes::Vec<Pack, N> swung(const lanes::Vec<Pack, N>&, const lanes::Vec<Pack, N>&
 }  // namespace
 
 template <class G>
-double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const double* x,
-                      const std::int64_t* unknown_begin) {
+double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const NodeIncrements& increments) {
   constexpr int numbers = NodeNumbers<G>::pose - G::translations;  // R and the leading part of the position
   const auto look_at = [&](const int(&node)[nodes_in_lanes]) {
     const double* from[nodes_in_lanes];
@@ -359,7 +362,7 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
           node[l] < 0 ? nothing : reinterpret_cast<const double*>(&nodes.motion[static_cast<std::size_t>(node[l])]);
     Moving<G> m;
     lanes::gather_lanes(from, numbers, reinterpret_cast<Pack*>(&m));
-    m.change = turned(m.R, gather_increments<G>(x, unknown_begin, [&node](std::size_t l) { return node[l]; }));
+    m.change = turned(m.R, gather_increments<G>(increments, [&node](std::size_t l) { return node[l]; }));
     return m;
   };
   const Pack far(too_far);
@@ -377,15 +380,15 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
 }
 
 #define BOUGH_INSTANTIATE(G)                                                                                         \
-  template void move_nodes<G>(NodesOn<G>&, std::size_t, std::size_t, const double*, const std::int64_t*);            \
+  template void move_nodes<G>(NodesOn<G>&, std::size_t, std::size_t, const NodeIncrements&);                         \
   template void move_node<G>(NodesOn<G>&, std::size_t, const G::Vector<double>&);                                    \
   template void place_node<G>(const NodesOn<G>&, std::size_t, const G::Vector<double>&, NodesOn<G>&);                \
   template double predict_nodes<G>(const AlphaRule&, int, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t); \
   template double correct_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t,       \
-                                   const double*, const std::int64_t*);                                              \
+                                   const NodeIncrements&);                                                           \
   template Workspace::StepEnd finish_nodes<G>(const AlphaRule&, double, double, const NodesOn<G>&, NodesOn<G>&,      \
                                               std::size_t, std::size_t);                                             \
-  template double largest_change<G>(const NodesOn<G>&, std::span<const PairLanes>, const double*, const std::int64_t*);
+  template double largest_change<G>(const NodesOn<G>&, std::span<const PairLanes>, const NodeIncrements&);
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
 
 }  // namespace bough::step

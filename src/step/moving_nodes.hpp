@@ -30,19 +30,17 @@ struct PairLanes {
   elements::LanePack per_length;  ///< 1 / length of the element [1/m]
 };
 
-/// Applies a correction, H <- H exp(eta), with eta from the vector x of unknowns. `unknown_begin` is the first unknown
-/// of each node, -1 for a node without unknowns. In space the increment of the step is updated, too:
+/// Applies a correction, H <- H exp(eta). In space the increment of the step is updated, too:
 /// dq <- log(exp(dq) exp(eta)). On other groups the poses at both ends of the step determine dq, except its angle in a
 /// plane, which they do not determine beyond half a turn: the angle is updated.
 template <class G>
-void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const double* x,
-                const std::int64_t* unknown_begin);
+void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const NodeIncrements& increments);
 
 /// Applies a correction of generalized-alpha in one pass: the poses and dq as above, all components of dq on every
 /// group, and the velocities and accelerations that the rule assigns to dq. Returns the largest squared angle of dq.
 template <class G>
 double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
-                     std::size_t end, const double* x, const std::int64_t* unknown_begin);
+                     std::size_t end, const NodeIncrements& increments);
 
 /// Predictor: sets poses, rates and dq of the nodes of `state` from those of `start`. Returns the largest squared angle
 /// of dq.
@@ -61,8 +59,7 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
 /// The largest squared relative displacement or rotation of the pairs (Corrections::relative_size); infinite if one
 /// exceeds the bound too_far or is not a number.
 template <class G>
-double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const double* x,
-                      const std::int64_t* unknown_begin);
+double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const NodeIncrements& increments);
 
 /// Places node `node` of `to` at H exp(d), H being its pose in `from`, and sets dq = d.
 template <class G>

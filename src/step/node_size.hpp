@@ -28,5 +28,12 @@ inline NodeSize size_up(plan::Motions motions, const double* a) {
   }
   return {std::abs(a[0]), 0.0};
 }
+/// The same for a certain node, which may be a point.
+inline NodeSize size_up(const plan::NodeUnknowns& unknowns, std::size_t node, const double* a) {
+  if (!unknowns.is_point_at(node)) return size_up(unknowns.motions, a);
+  double most = 0.0;
+  for (int i = 0; i < unknowns.translations(); ++i) most = std::max(most, std::abs(a[i]));
+  return {most, 0.0};
+}
 
 }  // namespace bough::step

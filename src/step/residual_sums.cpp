@@ -7,8 +7,8 @@
 
 #include "bough/lanes/pack.hpp"
 #include "element_parts.hpp"
-#include "held_nodes.hpp"
 #include "node_size.hpp"
+#include "trimmed_elements.hpp"
 
 namespace bough::step {
 
@@ -50,15 +50,15 @@ struct Registers {
 }  // namespace
 
 ResidualSums::ResidualSums(const plan::Plan& plan, const UnknownPlaces& places, const BlockOwners& owners,
-                           const HeldNodes* held)
+                           const TrimmedElements* trimmed)
     : plan_(plan), places_(places), residual_(places.size(), 0.0), is_length_(places.size(), 0) {
-  place_parts(owners, held);
+  place_parts(owners, trimmed);
   for (const UnknownPlaces::Multiplier& m : places.multipliers()) is_length_[m.unknown] = m.is_of_length;
   chunk_sizes_.resize((sums_.size() + block_grain - 1) / block_grain, {{}, true});
 }
 
 /// Where the parts of elements lie, and which of them add up to a block, or to the forces on a node that is held.
-void ResidualSums::place_parts(const BlockOwners& owners, const HeldNodes* held) {
+void ResidualSums::place_parts(const BlockOwners& owners, const TrimmedElements* trimmed) {
   const auto count = static_cast<std::size_t>(places_.num_blocks());
   std::vector<std::vector<std::int64_t>> uses(count + plan_.held.size());
   std::vector<std::size_t> held_of_node(plan_.nodes.size(), 0);
@@ -66,7 +66,7 @@ void ResidualSums::place_parts(const BlockOwners& owners, const HeldNodes* held)
   element_begin_.assign(1, 0);
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
     std::int64_t at = element_begin_.back();
-    const bool counts = held == nullptr || !held->leaves_out(e);
+    const bool counts = trimmed == nullptr || !trimmed->leaves_out(e);
     for_each_part(plan_, e, [&](int block, int size, int node) {
       if (block >= 0)
         uses[static_cast<std::size_t>(block)].push_back(2 * at);
@@ -82,14 +82,19 @@ void ResidualSums::place_parts(const BlockOwners& owners, const HeldNodes* held)
     uses_.insert(uses_.end(), list.begin(), list.end());
     sums_.push_back({begin, static_cast<std::int64_t>(uses_.size()), unknown, size, owner});
   };
-  for (int b = 0; b < places_.num_blocks(); ++b)
-    if (owners.node(b) >= 0)
-      add(uses[static_cast<std::size_t>(b)], places_.block_begin(b), places_.block_size(b), owners.node(b));
+  const auto add_nodes = [&](bool points) {
+    for (int b = 0; b < places_.num_blocks(); ++b)
+      if (owners.node(b) >= 0 && plan_.unknowns.is_point_at(static_cast<std::size_t>(owners.node(b))) == points)
+        add(uses[static_cast<std::size_t>(b)], places_.block_begin(b), places_.block_size(b), owners.node(b));
+  };
+  add_nodes(false);
   num_node_sums_ = static_cast<std::int64_t>(sums_.size());
+  add_nodes(true);
+  num_point_sums_ = static_cast<std::int64_t>(sums_.size()) - num_node_sums_;
   for (int b = 0; b < places_.num_blocks(); ++b)
     if (owners.joint(b) >= 0)
       add(uses[static_cast<std::size_t>(b)], places_.block_begin(b), places_.block_size(b), owners.joint(b));
-  num_row_sums_ = static_cast<std::int64_t>(sums_.size()) - num_node_sums_;
+  num_row_sums_ = static_cast<std::int64_t>(sums_.size()) - num_node_sums_ - num_point_sums_;
   for (std::size_t h = 0; h < plan_.held.size(); ++h)
     add(uses[count + h], -1, plan_.unknowns.count, plan_.held[h].node);
 }
@@ -153,12 +158,32 @@ void ResidualSums::copy_rows(std::size_t begin, std::size_t end, ChunkSize& chun
   chunk.size.length = std::bit_cast<double>(most[1]);
 }
 
+/// Sums of forces at a node, then of their magnitudes, with all components that elements have at it.
+std::array<double, 12> ResidualSums::add_up(const Sum& sum) const {
+  std::array<double, 12> total{};
+  const int numbers = 2 * plan_.unknowns.count;
+  for (std::int64_t use = sum.use_begin; use < sum.use_end; ++use)
+    for (int i = 0; i < numbers; ++i)
+      total[static_cast<std::size_t>(i)] += parts_[static_cast<std::size_t>(uses_[static_cast<std::size_t>(use)] + i)];
+  return total;
+}
+
+/// Forces on a point, whose moments are zero and belong to no unknown.
+void ResidualSums::sum_point(const Sum& sum, ChunkSize& chunk) {
+  const std::array<double, 12> total = add_up(sum);
+  const auto count = static_cast<std::size_t>(plan_.unknowns.count);
+  double* const r = residual_.data() + sum.unknown;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(sum.size); ++i) {
+    r[i] = total[i];
+    chunk.is_finite &= size_bits(r[i]) < bits_of_infinity;
+    chunk.size.force = std::max(chunk.size.force, std::abs(r[i]));
+    chunk.size.force_scale = std::max(chunk.size.force_scale, total[count + i]);
+  }
+}
+
 /// Forces on a node that is held: balanced by the joints that hold it, they only tell how large forces are.
 void ResidualSums::sum_held_node(const Sum& sum, ChunkSize& chunk) const {
-  std::array<double, 12> total{};
-  for (std::int64_t use = sum.use_begin; use < sum.use_end; ++use)
-    for (int i = 0; i < 2 * sum.size; ++i)
-      total[static_cast<std::size_t>(i)] += parts_[static_cast<std::size_t>(uses_[static_cast<std::size_t>(use)] + i)];
+  const std::array<double, 12> total = add_up(sum);
   for (int i = 0; i < sum.size; ++i)
     chunk.is_finite &= size_bits(total[static_cast<std::size_t>(i)]) < bits_of_infinity;
   const NodeSize held_by = size_up(plan_.unknowns.motions, total.data()),
@@ -170,13 +195,16 @@ void ResidualSums::sum_held_node(const Sum& sum, ChunkSize& chunk) const {
 /// Sums [begin, end), a chunk, and how large they are.
 void ResidualSums::sum_chunk(std::int64_t begin, std::int64_t end) {
   const auto until = [begin, end](std::int64_t last) { return static_cast<std::size_t>(std::clamp(last, begin, end)); };
-  const std::size_t nodes_end = until(num_node_sums_), rows_end = until(num_node_sums_ + num_row_sums_);
+  const std::int64_t points = num_node_sums_ + num_point_sums_;
+  const std::size_t nodes_end = until(num_node_sums_), points_end = until(points),
+                    rows_end = until(points + num_row_sums_);
   auto k = static_cast<std::size_t>(begin);
   const int count = plan_.unknowns.count;
   ChunkSize chunk = count == 6   ? sum_nodes<6>(k, nodes_end)
                     : count == 3 ? sum_nodes<3>(k, nodes_end)
                                  : sum_nodes<1>(k, nodes_end);
-  copy_rows(nodes_end, rows_end, chunk);
+  for (k = nodes_end; k < points_end; ++k) sum_point(sums_[k], chunk);
+  copy_rows(points_end, rows_end, chunk);
   for (k = rows_end; k < static_cast<std::size_t>(end); ++k) sum_held_node(sums_[k], chunk);
   chunk_sizes_[static_cast<std::size_t>(begin / block_grain)] = chunk;
 }
@@ -213,11 +241,12 @@ void ResidualSums::set_signal(int signal, std::size_t unknown, double residual, 
 
 void ResidualSums::name_worst(ResidualSize& size) const {
   ResidualSize most;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(num_node_sums_ + num_row_sums_); ++k) {
+  const std::int64_t points = num_node_sums_ + num_point_sums_;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(points + num_row_sums_); ++k) {
     const Sum& sum = sums_[k];
     const double* const r = residual_.data() + sum.unknown;
-    if (k < static_cast<std::size_t>(num_node_sums_)) {
-      const NodeSize now = size_up(plan_.unknowns.motions, r);
+    if (k < static_cast<std::size_t>(points)) {
+      const NodeSize now = size_up(plan_.unknowns, static_cast<std::size_t>(sum.owner), r);
       if (now.force > most.force) size.worst_force_node = sum.owner;
       if (now.moment > most.moment) size.worst_moment_node = sum.owner;
       most.force = std::max(most.force, now.force);

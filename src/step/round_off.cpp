@@ -12,7 +12,17 @@ namespace bough::step {
 
 RoundOff::RoundOff(const plan::Plan& plan, const UnknownPlaces& places, const LinearSolution& linear,
                    const ElementEvaluation& elements, const ElementLengths& lengths)
-    : plan_(plan), places_(places), linear_(linear), elements_(elements), lengths_(lengths), sums_(places.size()) {
+    : plan_(plan),
+      places_(places),
+      linear_(linear),
+      elements_(elements),
+      lengths_(lengths),
+      sums_(places.size()),
+      is_length_(places.size(), 0) {
+  for (int b = 0; b < places.num_blocks(); ++b)
+    if (linear.owners().node(b) >= 0)
+      for (int i = 0; i < places.block_size(b); ++i)
+        is_length_[static_cast<std::size_t>(places.block_begin(b) + i)] = plan.unknowns.is_length(i);
   unknowns_.reserve(most_unknowns);
 }
 
@@ -35,7 +45,6 @@ const ResidualSize& RoundOff::estimate(Estimate& known, Counts&& counts) const {
   known.matrices = linear_.num_matrices();
   constexpr double eps = std::numeric_limits<double>::epsilon();
   std::fill(sums_.begin(), sums_.end(), 0.0);
-  const auto count = static_cast<std::size_t>(plan_.unknowns.count);
   for (std::size_t e = 0; e < plan_.directory.size(); ++e) {
     if (!counts(e)) continue;
     const solve::ConstElementView K = elements_.matrix_of(static_cast<int>(e), unknowns_);
@@ -49,14 +58,15 @@ const ResidualSize& RoundOff::estimate(Estimate& known, Counts&& counts) const {
       for (std::size_t col = 0; col < node_columns; ++col)
         if (unknowns_[col] >= 0)
           sum += std::abs(K[static_cast<std::int64_t>(row * n + col)]) *
-                 (plan_.unknowns.is_length(static_cast<int>(col % count)) ? lengths_.of_element[e] : 1.0);
+                 (is_length_[static_cast<std::size_t>(unknowns_[col])] ? lengths_.of_element[e] : 1.0);
       sums_[static_cast<std::size_t>(unknowns_[row])] += eps * sum;
     }
   }
   ResidualSize& size = known.size = {};
   for (int b = 0; b < places_.num_blocks(); ++b) {
     if (linear_.owners().node(b) < 0) continue;
-    const NodeSize of_node = size_up(plan_.unknowns.motions, sums_.data() + places_.block_begin(b));
+    const auto node = static_cast<std::size_t>(linear_.owners().node(b));
+    const NodeSize of_node = size_up(plan_.unknowns, node, sums_.data() + places_.block_begin(b));
     size.force = std::max(size.force, of_node.force);
     size.moment = std::max(size.moment, of_node.moment);
   }

@@ -65,7 +65,12 @@ Signals::Value Signals::eval(std::size_t signal, const State& state, const eleme
 void Signals::put_matrix(std::size_t signal, const elements::Slopes& slopes) {
   const plan::SignalPlan& s = plan_.signals[signal];
   const auto dof = static_cast<std::size_t>(plan_.unknowns.count);
-  const std::size_t others = dof * s.nodes.size(), n = others + s.signals.size() + 1;
+  const auto count_of = [this](int node) {
+    return static_cast<std::size_t>(plan_.unknowns.count_of(static_cast<std::size_t>(node)));
+  };
+  std::size_t others = 0;
+  for (const int node : s.nodes) others += count_of(node);
+  const std::size_t n = others + s.signals.size() + 1;
   std::fill(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   double& own = row_[n - 1] = 1.0;
   if (!slopes.mass_only) {
@@ -74,8 +79,8 @@ void Signals::put_matrix(std::size_t signal, const elements::Slopes& slopes) {
       for (std::size_t port = 0; port < 2; ++port) {
         const auto node = std::find(s.nodes.begin(), s.nodes.end(), s.reading.ports[port].node);
         if (node == s.nodes.end()) continue;
-        const auto begin = static_cast<std::size_t>(node - s.nodes.begin()) * dof;
-        for (std::size_t i = 0; i < dof; ++i) row_[begin + i] -= slopes_[dof * port + i];
+        const std::size_t begin = node == s.nodes.begin() ? 0 : count_of(s.nodes.front());  // there are two at most
+        for (std::size_t i = 0; i < count_of(*node); ++i) row_[begin + i] -= slopes_[dof * port + i];
       }
     else
       for (std::size_t k = 0; k < s.inputs.size(); ++k) {

@@ -24,7 +24,7 @@ Vec6<double> restricted(const plan::Plan&, const SpatialNodes&, std::size_t, con
 template <class G>
 typename NodesOn<G>::Vector restricted(const plan::Plan& plan, const NodesOn<G>&, std::size_t node,
                                        const Vec6<double>& v) {
-  typename NodesOn<G>::Vector z;
+  typename NodesOn<G>::Vector z = NodesOn<G>::Vector::zero();
   plan.unknowns.project(v, node, &z[0]);
   return z;
 }
@@ -48,6 +48,7 @@ State make_initial_state(const plan::Plan& plan) {
     node.R = motion::rotation_of(nodes.rotation[i]);
     node.x = motion::Vec3Pair::from(plan.nodes[i].pose.x);
     node.v = plan.nodes[i].twist;
+    if (plan.nodes[i].is_point) node.v = lanes::join(lanes::linear_part(node.v), Vec3<double>::zero());
     node.a = node.dq = Vec6<double>::zero();
   }
   elements::Field field;

@@ -16,9 +16,10 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
       places_(plan, linear_.tree().unknown_begin),
       lengths_(measure_elements(plan)),
       constraints_(plan, instant_, walker),
-      held_(plan.held.empty() ? nullptr : std::make_unique<HeldNodes>(plan)),
-      sums_(plan, places_, linear_.owners(), held_.get()),
-      elements_(plan, instant_, held_.get(), sums_, linear_, walker),
+      trimmed_(TrimmedElements::are_in(plan) ? std::make_unique<TrimmedElements>(plan) : nullptr),
+      held_(plan.held.empty() ? nullptr : std::make_unique<HeldNodes>(plan, *trimmed_)),
+      sums_(plan, places_, linear_.owners(), trimmed_.get()),
+      elements_(plan, instant_, trimmed_.get(), sums_, linear_, walker),
       signals_(plan, instant_, places_, linear_),
       round_off_(plan, places_, linear_, elements_, lengths_),
       corrections_(plan, places_, instant_, lengths_, walker, clock_, counts_) {

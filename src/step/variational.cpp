@@ -135,6 +135,7 @@ std::optional<Trouble> VariationalOn<G>::evaluate_step(const State& next, double
     residual_[n] -= (2.0 / h) * p;
     residual_[n] = 0.5 * (residual_[n] + On::template adjoint_transpose_times<double>(G::exp(half), residual_[n])) +
                    (2.0 / h) * On::template inverse_tangent_transpose_times<double>(Vector(-half), P) + sums_.force(n);
+    residual_[n] = without_moment_on_point(n, residual_[n]);
     const Vector left = residual_[n];
     if (is_held(n)) {  // the joints that hold the node balance it
       add_sizes(left, terms);

@@ -115,6 +115,11 @@ class VariationalOn final : public Integrator {
 
   Vector node_part(std::size_t node) const { return system_.places().part_on<G>(x_.data(), static_cast<int>(node)); }
   bool is_held(std::size_t node) const { return system_.places().node_begin(static_cast<int>(node)) < 0; }
+  /// A wrench on a node without its moment if the node is a point, which has no rotation that it could change.
+  Vector without_moment_on_point(std::size_t node, Vector wrench) const {
+    for (int i = system_.plan().unknowns.count_of(node); i < G::dof; ++i) wrench[i] = 0.0;
+    return wrench;
+  }
   void set_rows_of(int element, double* matrix) const;
   std::size_t row_unknown(const Place& p, int k) const {
     return static_cast<std::size_t>(system_.places().block_begin(p.plan->block) + k);

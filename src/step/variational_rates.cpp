@@ -132,7 +132,8 @@ std::optional<Trouble> VariationalOn<G>::solve_velocities(State& state, double h
   Vectors& momentum = state.change<G>().momentum;
   after_.add_forces(impulses_.data(), -1.0, momentum);
   for (std::size_t n = 0; n < D_.size(); ++n)
-    if (is_held(n)) momentum[n] = sums_.momentum(n);  // without the impulses of the joints that hold the node
+    momentum[n] = is_held(n) ? sums_.momentum(n)  // without the impulses of the joints that hold the node
+                             : without_moment_on_point(n, momentum[n]);
   return std::nullopt;
 }
 

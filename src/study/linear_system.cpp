@@ -89,8 +89,11 @@ std::string row_text(const elements::ConstraintRow& row) {
   return scene::with_axes(motion::traits_of(row.kind).about, row);
 }
 
-const char* node_text(plan::Motions motions) {
-  switch (motions) {
+const char* node_text(const plan::NodeUnknowns& unknowns, std::size_t node) {
+  const bool is_plane = unknowns.motions == plan::Motions::planar;
+  if (unknowns.is_point_at(node))
+    return is_plane ? "displacement along the plane's axes [m]" : "displacement along 1, 2, 3 [m], own axes";
+  switch (unknowns.motions) {
     case plan::Motions::planar:
       return "displacement along the plane's axes [m], rotation about its normal [rad], turning with the node";
     case plan::Motions::translation:
@@ -113,7 +116,7 @@ std::vector<UnknownBlock> make_blocks(const step::System& system) {
     if (system.linear().owners().signal(b) >= 0) {
       block.components = "value";
     } else if (joint < 0) {
-      block.components = node_text(plan.unknowns.motions);
+      block.components = node_text(plan.unknowns, at(system.linear().owners().node(b)));
     } else {
       const plan::ElementPlace place = plan.directory[at(plan.joints[at(joint)].element)];
       const auto& element = plan::array_of<elements::Joint>(plan.elements)[at(place.index)];

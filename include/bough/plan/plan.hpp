@@ -23,6 +23,8 @@ struct NodePlan {
   std::string name;  ///< of the scene's node or body, or `<beam>.<k>`; of several welded nodes, the name of one of them
   motion::Frame<double> pose;  ///< at the start
   motion::Vec6<double> twist;  ///< at the start, own axes, as given (not yet consistent)
+  /// A point mass on which forces act at its origin alone: nothing depends on its rotation, and it has none.
+  bool is_point = false;
 };
 
 /// A node whose initial velocity is given in the scene, by the name of a node, of a body, or of a beam (then for each
@@ -45,7 +47,7 @@ struct JointPlan {
   /// and their multipliers are zero.
   std::vector<int> rows;
   bool counts_turns = false;
-  std::string what;  ///< "joint", "prescribed motion", "held rotation"
+  std::string what;  ///< "joint", "prescribed motion"
   /// Length of the larger of the two parts that it connects, for judging gaps [m] (scene::PartLengths).
   double length = 1.0;
 };

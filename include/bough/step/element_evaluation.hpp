@@ -14,7 +14,7 @@ namespace bough::step {
 
 template <class G>
 class LaneBatches;
-class HeldNodes;
+class TrimmedElements;
 struct ElementResults;
 
 /// Lengths by which relative changes of elements and moments are judged.
@@ -28,7 +28,7 @@ ElementLengths measure_elements(const plan::Plan& plan);
 class ElementEvaluation {
  public:
   /// held: may be null. Residuals go to `sums`, tangents to the storage of the solver of `linear`.
-  ElementEvaluation(const plan::Plan& plan, const Instant& instant, const HeldNodes* held, ResidualSums& sums,
+  ElementEvaluation(const plan::Plan& plan, const Instant& instant, const TrimmedElements* trimmed, ResidualSums& sums,
                     LinearSolution& linear, const tree::Walker& walker);
   ~ElementEvaluation();
 
@@ -61,7 +61,7 @@ class ElementEvaluation {
 
   const plan::Plan& plan_;
   const Instant& instant_;
-  const HeldNodes* held_;
+  const TrimmedElements* trimmed_;
   ResidualSums& sums_;
   LinearSolution& linear_;
   tree::Walker walker_;

@@ -1,5 +1,6 @@
 #pragma once
 /// Sums of what elements contribute to the residual, by node and by joint, and the sizes of these sums.
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -10,7 +11,7 @@
 
 namespace bough::step {
 
-class HeldNodes;
+class TrimmedElements;
 
 /// Largest entries of a residual: forces, moments, and violations of constraints of lengths and of angles.
 struct ResidualSize {
@@ -25,8 +26,9 @@ struct ResidualSize {
 /// parts are added up in a fixed order, so that sums do not depend on the number of threads.
 class ResidualSums {
  public:
-  /// held: may be null.
-  ResidualSums(const plan::Plan& plan, const UnknownPlaces& places, const BlockOwners& owners, const HeldNodes* held);
+  /// trimmed: may be null.
+  ResidualSums(const plan::Plan& plan, const UnknownPlaces& places, const BlockOwners& owners,
+               const TrimmedElements* trimmed);
 
   /// The parts of element e begin at 2 begins()[e]: for each of its nodes, then for its rows, the entries of the
   /// residual followed by the magnitudes of these entries.
@@ -65,10 +67,12 @@ class ResidualSums {
     bool is_finite;
   };
 
-  void place_parts(const BlockOwners& owners, const HeldNodes* held);
+  void place_parts(const BlockOwners& owners, const TrimmedElements* trimmed);
   template <int Count>
   ChunkSize sum_nodes(std::size_t begin, std::size_t end);
   void copy_rows(std::size_t begin, std::size_t end, ChunkSize& chunk);
+  std::array<double, 12> add_up(const Sum& sum) const;
+  void sum_point(const Sum& sum, ChunkSize& chunk);
   void sum_held_node(const Sum& sum, ChunkSize& chunk) const;
   void sum_chunk(std::int64_t begin, std::int64_t end);
 
@@ -76,8 +80,8 @@ class ResidualSums {
   const UnknownPlaces& places_;
   std::vector<std::int64_t> element_begin_;  ///< by element: number of unknowns of all elements before it
   std::vector<double> parts_;
-  std::vector<Sum> sums_;  ///< nodes, then joints, then held nodes, each in the order of blocks
-  std::int64_t num_node_sums_ = 0, num_row_sums_ = 0;
+  std::vector<Sum> sums_;  ///< nodes, points, joints, held nodes, each in the order of blocks
+  std::int64_t num_node_sums_ = 0, num_point_sums_ = 0, num_row_sums_ = 0;
   std::vector<std::int64_t> uses_;  ///< offsets in parts_ of the parts that add up, in a fixed order
   std::vector<double> residual_;
   std::vector<ChunkSize> chunk_sizes_;        ///< by chunk of sums

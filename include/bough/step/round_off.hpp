@@ -59,6 +59,7 @@ class RoundOff {
   const ElementEvaluation& elements_;
   const ElementLengths& lengths_;
   mutable Estimate floor_, of_poses_;
+  std::vector<char> is_length_;                 ///< by unknown: a displacement of a node
   mutable std::vector<double> sums_;            ///< scratch
   mutable std::vector<std::int64_t> unknowns_;  ///< scratch
   RoundOffMemory met_;

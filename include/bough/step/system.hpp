@@ -31,6 +31,9 @@ struct Workspace {
   std::vector<double> chunk_most;  ///< by chunk of nodes: the largest of something
 };
 
+class HeldNodes;
+class TrimmedElements;
+
 /// Holds the parts below, each with a task of its own, and evaluates the residual with them. Allocates when it is made,
 /// not afterwards.
 class System {
@@ -90,7 +93,8 @@ class System {
   UnknownPlaces places_;
   ElementLengths lengths_;
   Constraints constraints_;
-  std::unique_ptr<HeldNodes> held_;  ///< null where all nodes have unknowns
+  std::unique_ptr<TrimmedElements> trimmed_;  ///< null where all nodes have the same unknowns
+  std::unique_ptr<HeldNodes> held_;           ///< null where all nodes have unknowns
   ResidualSums sums_;
   ElementEvaluation elements_;
   Signals signals_;

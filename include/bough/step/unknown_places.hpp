@@ -8,6 +8,13 @@
 
 namespace bough::step {
 
+/// Increments of nodes in a vector x of unknowns.
+struct NodeIncrements {
+  const double* x;
+  const std::int64_t* unknown_begin;  ///< by node; -1: it has no unknowns
+  const char* is_point;               ///< by node: it has displacements alone; null: there is no such node
+};
+
 class UnknownPlaces {
  public:
   /// unknown_begin: the first unknown of each block of the plan's graph, and their number; it must outlive this object.
@@ -19,7 +26,9 @@ class UnknownPlaces {
   int block_size(int block) const { return static_cast<int>(block_begin(block + 1) - block_begin(block)); }
   /// First unknown of a node; -1: it has none.
   std::int64_t node_begin(int node) const { return node_begin_[static_cast<std::size_t>(node)]; }
-  const std::int64_t* node_begins() const { return node_begin_.data(); }
+  NodeIncrements increments(const double* x) const {
+    return {x, node_begin_.data(), plan_.unknowns.is_point.empty() ? nullptr : plan_.unknowns.is_point.data()};
+  }
 
   /// The motion of a node in a vector of unknowns, (linear; angular) in its own axes. A node without unknowns does not
   /// move.
@@ -34,7 +43,8 @@ class UnknownPlaces {
     if constexpr (std::is_same_v<G, motion::Se3>) return node_part(x, node);
     const std::int64_t begin = node_begin(node);
     typename G::template Vector<double> v = G::template Vector<double>::zero();
-    for (int i = 0; i < G::dof && begin >= 0; ++i) v[i] = x[begin + i];
+    const int count = begin < 0 ? 0 : plan_.unknowns.count_of(static_cast<std::size_t>(node));
+    for (int i = 0; i < count; ++i) v[i] = x[begin + i];
     return v;
   }
   /// Sets the unknowns of a node from a motion, or the entries of a right-hand side from a wrench. Does nothing for a
@@ -47,7 +57,8 @@ class UnknownPlaces {
   template <int N>
   void set_node_part(double* x, int node, const lanes::Vec<double, N>& eta) const {
     const std::int64_t begin = node_begin(node);
-    for (int i = 0; i < N && begin >= 0; ++i) x[begin + i] = eta[i];
+    const int count = begin < 0 ? 0 : plan_.unknowns.count_of(static_cast<std::size_t>(node));
+    for (int i = 0; i < count; ++i) x[begin + i] = eta[i];
   }
 
   /// A multiplier that is an unknown.
