@@ -72,11 +72,11 @@ class NoRecorder final : public records::Recorder {
   void end(const records::Summary&) override {}
 };
 
-scene::Scene make_scene(const StepCase& c, scene::SolverKind kind, int steps) {
+scene::Scene make_scene(const StepCase& c, scene::SolverForm form, int steps) {
   scene::Scene s = c.make(c.size);
   s.analysis.step_size = step_size;
   s.analysis.end_time = step_size * steps;
-  s.solver.kind = kind;
+  s.solver.form = form;
   s.output.stride = steps;  // steps are timed, not rows: only the first and the last are observed
   return s;
 }
@@ -104,9 +104,9 @@ records::Summary simulate(const scene::Scene& s, int threads, const run::Progres
 
 /// Times the steps after the first one in runs of steps + 1. The times of phases are differences to a run of one step,
 /// which `start` stores over the repetitions.
-void run_steps(benchmark::State& state, const StepCase& c, scene::SolverKind kind, int threads,
+void run_steps(benchmark::State& state, const StepCase& c, scene::SolverForm form, int threads,
                std::optional<records::Summary>& start) {
-  const scene::Scene one = make_scene(c, kind, 1), all = make_scene(c, kind, c.steps + 1);
+  const scene::Scene one = make_scene(c, form, 1), all = make_scene(c, form, c.steps + 1);
   records::Summary end;
   Loads loads;
   while (state.KeepRunningBatch(c.steps)) {
@@ -145,10 +145,10 @@ void run_steps(benchmark::State& state, const StepCase& c, scene::SolverKind kin
   state.counters["solve_gbytes"] = rate("solve_ms", loads.factor_bytes * state.counters["iterations_a_step"].value);
 }
 
-void add_step_row(const std::string& solver, const StepCase& c, scene::SolverKind kind, int threads) {
+void add_step_row(const std::string& solver, const StepCase& c, scene::SolverForm form, int threads) {
   benchmark::RegisterBenchmark((solver + "/" + c.name + "/threads:" + std::to_string(threads)).c_str(),
-                               [&c, kind, threads, start = std::optional<records::Summary>()](
-                                   benchmark::State& state) mutable { run_steps(state, c, kind, threads, start); })
+                               [&c, form, threads, start = std::optional<records::Summary>()](
+                                   benchmark::State& state) mutable { run_steps(state, c, form, threads, start); })
       ->UseRealTime()
       ->Unit(benchmark::kMillisecond);
 }
@@ -162,7 +162,7 @@ struct KluRow {
 
 /// The matrix of the second step in the unknowns of the plan, which for a chain in a plane are three a node.
 Problem make_planar_problem(const StepCase& c) {
-  const scene::Scene s = make_scene(c, scene::SolverKind::hierarchical, 2);
+  const scene::Scene s = make_scene(c, scene::SolverForm::local, 2);
   Problem problem;
   NoRecorder recorder;
   run::SimulateOptions options;
@@ -235,10 +235,10 @@ int main(int argc, char** argv) {
   for (const StepCase& c : cases) {
     if (!std::regex_match(c.name, wanted_case)) continue;
     if (std::regex_match("bough", wanted_solver))
-      for (int threads : {1, 2}) add_step_row("bough", c, scene::SolverKind::hierarchical, threads);
+      for (int threads : {1, 2}) add_step_row("bough", c, scene::SolverForm::local, threads);
 #ifdef BOUGH_BENCH_HAS_KLU
     if (!c.has_klu_rows) continue;
-    if (std::regex_match("bough_klu", wanted_solver)) add_step_row("bough_klu", c, scene::SolverKind::monolithic, 1);
+    if (std::regex_match("bough_klu", wanted_solver)) add_step_row("bough_klu", c, scene::SolverForm::monolithic, 1);
     if (!c.name.starts_with("chain")) continue;
     if (std::regex_match("klu", wanted_solver))
       klu_rows.push_back(add_klu_row("klu", c, make_problem(c.name + "_u", c.make(c.size), Values::unsymmetric)));

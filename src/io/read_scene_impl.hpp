@@ -99,6 +99,7 @@ class Converter : private ValueConverter {
   void warn_of_thick_beams();
   void warn_of_degrees(const laws::Law& angle, const std::string& at);
   using ValueConverter::warn_of_degrees;
+  scene::SolverForm read_form(const Value& solver);
   void warn_of_idle_settings(const Value& analysis);
 
   std::string own_name(const Value& v, const char* stem);

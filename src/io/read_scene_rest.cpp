@@ -90,6 +90,7 @@ void Converter::sensor(const Value& v, const std::string& at) {
   s.joint = text_or(v, "joint");
   s.coordinate = text_or(v, "coordinate");
   s.signal = text_or(v, "signal");
+  s.subdomain = text_or(v, "subdomain");
   s.axes = axes(v);
   s.frame = frame_name(v);
   if (const Value* chain = v.find("frames"))
@@ -192,6 +193,20 @@ void Converter::read_measured_names(const Value& v, const std::string& at, scene
 }
 
 /// Warns of keys that have no effect with the other choices.
+scene::SolverForm Converter::read_form(const Value& solver) {
+  const auto form_named = [](const std::string& name) {
+    return name == "augmented"    ? scene::SolverForm::augmented
+           : name == "global"     ? scene::SolverForm::global
+           : name == "hybrid"     ? scene::SolverForm::hybrid
+           : name == "monolithic" ? scene::SolverForm::monolithic
+                                  : scene::SolverForm::local;
+  };
+  const std::string form = text_or(solver, "form"), kind = text_or(solver, "kind");
+  if (!form.empty() && !kind.empty() && form_named(form) != form_named(kind))
+    fault("/solver/kind", "is the former name of form, which is \"" + form + "\": leave one of them out");
+  return form_named(form.empty() ? kind : form);
+}
+
 void Converter::warn_of_idle_settings(const Value& analysis) {
   const auto is_given = [&analysis](const char* key) {
     const Value* v = analysis.find(key);
@@ -266,12 +281,7 @@ void Converter::settings() {
     defective.push_back("/analysis");
   }
   if (const Value* s = sound("solver")) {
-    const std::string& kind = s->find("kind")->text;
-    scene.solver.kind = kind == "automatic"      ? scene::SolverKind::automatic
-                        : kind == "hierarchical" ? scene::SolverKind::hierarchical
-                        : kind == "global"       ? scene::SolverKind::global
-                        : kind == "hybrid"       ? scene::SolverKind::hybrid
-                                                 : scene::SolverKind::monolithic;
+    scene.solver.form = read_form(*s);
     const std::string& library = s->find("library")->text;
     scene.solver.library = library == "klu"         ? scene::SolverLibrary::klu
                            : library == "sparse_lu" ? scene::SolverLibrary::sparse_lu
@@ -280,7 +290,10 @@ void Converter::settings() {
     scene.solver.iterate_interface = s->find("interface_solution")->text == "iterative";
     scene.solver.leaf_size = static_cast<int>(number_or(*s, "leaf_size", 0.0));
     scene.solver.depth = static_cast<int>(number_or(*s, "depth", -1.0));
-    scene.solver.penalty_factor = s->find("penalty_factor")->number;
+    scene.solver.penalty_factor = number_or(*s, "penalty_factor", 1.0);
+    if (scene.solver.form != scene::SolverForm::augmented && s->find("penalty_factor") != nullptr)
+      fault("/solver/penalty_factor", "only the form \"augmented\" adds a penalty",
+            "leave it out, or choose that form");
     scene.solver.tasks = s->find("tasks")->truth;
     scene.solver.threads = static_cast<int>(s->find("threads")->number);
   }

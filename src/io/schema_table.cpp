@@ -242,6 +242,9 @@ Rule sensor_rule(const scene::SensorType& type) {
     fields.push_back(need("station", station, "Fraction of its length from its start [-]."));
   } else if (type.of == SensorOf::signal) {
     fields.push_back(need("signal", reference, "The signal."));
+  } else if (type.of == SensorOf::subdomain) {
+    fields.push_back(need("subdomain", text_rule(""),
+                          "Its path in the tree of the solver: the number of the child at each level, as \"0.1\"."));
   } else if (type.of != SensorOf::whole) {
     fields.push_back(need("joint", reference, "The joint."));
   }
@@ -285,19 +288,24 @@ void add_settings(RuleTable& t) {
   add_analysis_rules(t, frame);
   t.named["solver"] = made(object_of(
       "Linear solver. What is left out is chosen from the scene.",
-      {may("kind", word_rule("", {"automatic", "hierarchical", "global", "hybrid", "monolithic"}),
-           "Hierarchy of sub-domains; sub-domains torn apart and tied to each other (global), or some of "
-           "their nodes kept on an interface mesh (hybrid), for comparison; or one factorization.",
-           "\"automatic\""),
+      {may("form", word_rule("", {"local", "augmented", "global", "hybrid", "monolithic"}),
+           "Sub-domains condensed to their interfaces along a tree (local, the default); the same through the "
+           "flexibilities of interfaces with a penalty (augmented), sub-domains torn apart and tied to each other "
+           "(global), or some of their nodes kept on an interface mesh (hybrid), for comparison; or one factorization "
+           "(monolithic)."),
+       may("kind", word_rule("", {"automatic", "hierarchical", "global", "hybrid", "monolithic"}),
+           "Former name of `form`: \"automatic\" and \"hierarchical\" are \"local\"."),
        may("library", word_rule("", {"klu", "sparse_lu", "umfpack", "cholmod"}),
-           "Who factors the one matrix of kind \"monolithic\". UMFPACK and CHOLMOD (symmetric only) are in "
+           "Who factors the one matrix of form \"monolithic\". UMFPACK and CHOLMOD (symmetric only) are in "
            "programs built with BOUGH_WITH_GPL.",
            "\"klu\""),
        may("interface_solution", word_rule("", {"direct", "iterative"}),
-           "Of the interface problem of kinds \"global\" and \"hybrid\"; iterative for comparison only.", "\"direct\""),
+           "Of the interface problem of forms \"global\" and \"hybrid\"; iterative for comparison only.", "\"direct\""),
        may("leaf_size", integer_rule("", 1, 1e6), "Elements in a sub-domain at the bottom. Default: chosen."),
        may("depth", integer_rule("", 0, 40), "Levels of the hierarchy. Default: chosen."),
-       may("penalty_factor", positive(""), "Times the interface's own stiffness [-].", "1"),
+       may("penalty_factor", positive(""),
+           "Penalty of the form \"augmented\", times the interface's own stiffness [-]. Default: 1. Other forms have "
+           "none."),
        may("tasks", boolean_rule(""), "Run as tasks on several threads.", "true"),
        may("threads", integer_rule("", 1, 1024),
            "That a case of a batch or sweep asks for; it gets no more than these have in all.", "1")}));

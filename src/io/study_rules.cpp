@@ -140,7 +140,7 @@ const std::vector<KnownAxis>& known_axes() {
                                               {"load steps", "/analysis/load_steps", true},
                                               {"elements", "/beams/*/elements", true},
                                               {"element order", "/beams/*/order", false},
-                                              {"solver", "/solver/kind", false},
+                                              {"form of the solver", "/solver/form", false},
                                               {"depth", "/solver/depth", false},
                                               {"leaf size", "/solver/leaf_size", false},
                                               {"penalty factor", "/solver/penalty_factor", false},

@@ -151,6 +151,7 @@ void Builder::add_sensors() {
     p.beam = index_in(beam_of, s.beam);
     p.joint = index_in(joint_of, s.joint);
     if (!s.signal.empty()) p.signal = law_of_signal.at(s.signal);
+    if (!s.subdomain.empty()) p.subdomain = scene::read_path(s.subdomain).value();
     if (p.beam < 0 && scene::type_of(s.kind).of == scene::SensorOf::point) p.port = port_at(s.at);
     p.frame = port_at(s.frame, Frame<double>::identity());
     for (const std::string& name : s.chain) p.chain.push_back(port_at(name, Frame<double>::identity()));

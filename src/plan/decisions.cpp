@@ -132,11 +132,10 @@ void Builder::settle() {
       edges += std::max(0, ends - 1);
     });
   const int loops = edges - static_cast<int>(plan.nodes.size()) + 1;
-  const bool hierarchical =
-      scene.solver.kind == scene::SolverKind::automatic || scene.solver.kind == scene::SolverKind::hierarchical;
+  const bool is_local = scene.solver.form == scene::SolverForm::local;
   if (obstacle.empty() && plan.is_dynamic && scene.analysis.integrator == scene::Integrator::variational)
     obstacle = "the variational integrator's matrix is not symmetric";
-  if (obstacle.empty() && !hierarchical) obstacle = "the solver is not the hierarchical one";
+  if (obstacle.empty() && !is_local) obstacle = "the form of the solver is not \"local\"";
   const bool conservative = obstacle.empty();
   std::snprintf(text, sizeof text, "%d loops, symmetric parts pay from %d on", std::max(0, loops), loops_of_lattices);
   decide("symmetric",
@@ -155,16 +154,19 @@ void Builder::settle() {
          !obstacle.empty() ? obstacle
          : dynamic         ? "every node has mass, and there are no constraint rows"
                            : "the structure is supported, and there are no constraint rows");
-  const bool one_matrix = scene.solver.kind == scene::SolverKind::monolithic;
+  const bool one_matrix = scene.solver.form == scene::SolverForm::monolithic;
+  const bool is_augmented = scene.solver.form == scene::SolverForm::augmented;
   std::snprintf(
       text, sizeof text,
       "one evaluation of the elements in space is about %.0f us of work; lanes are worth filling above %.0f us",
       1e-3 * work, 1e-3 * lanes_break_even);
   decide("lanes",
-         "equal sub-domains are analysed once, and factored eight at a time. Taken unless the solver is monolithic or "
-         "the scene small: a "
-         "few sub-domains leave most lanes empty",
-         !one_matrix && work >= lanes_break_even, one_matrix ? "the solver is monolithic" : text);
+         "equal sub-domains are analysed once, and factored eight at a time. Taken unless the solver is of form "
+         "\"monolithic\" or \"augmented\" or the scene small: a few sub-domains leave most lanes empty",
+         !one_matrix && !is_augmented && work >= lanes_break_even,
+         one_matrix     ? "the solver is monolithic"
+         : is_augmented ? "the form \"augmented\" condenses one interface at a time"
+                        : text);
   const double own_work = plan.with_group([]<class G>() { return elements::residual_part<G>; }) * work;
   std::snprintf(text, sizeof text, "one evaluation of the elements is about %.0f us of work; tasks pay above %.0f us",
                 1e-3 * own_work, 1e-3 * task_break_even);

@@ -3,6 +3,7 @@
 
 #include "bough/motion/frame_chain.hpp"
 #include "bough/scene/sensor_kinds.hpp"
+#include "interface_force.hpp"
 #include "observe_parts.hpp"
 
 namespace bough::results {
@@ -151,6 +152,11 @@ constexpr Kernel kernels[] = {
     {acceleration_split, [](Look& l, const SensorPlan& s, Values& to) { append_split(l, s, to); }},
     {relative_position, [](Look& l, const SensorPlan& s, Values& to) { append(to, l.point(s).pose.x); }},
     {signal, [](Look& l, const SensorPlan& s, Values& to) { to.push_back(l.field.around.laws[s.signal]); }},
+    {interface_force,
+     [](Look& l, const SensorPlan& s, Values& to) {
+       append(to,
+              eval_interface_force(l.system, l.state, l.field, subdomain_at(l.system.linear().tree(), s.subdomain)));
+     }},
 };
 constexpr bool is_in_order() {
   for (std::size_t k = 0; k < std::size(kernels); ++k)

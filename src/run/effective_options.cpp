@@ -76,17 +76,19 @@ records::EffectiveOptions effective_options(const scene::Scene& scene, const ste
   list.emplace_back("analysis/tolerance", number(o.tolerance));
   list.emplace_back("analysis/max_iterations", std::to_string(o.max_iterations));
   list.emplace_back("analysis/max_cuts", std::to_string(o.max_cuts));
-  static const char* const kinds[] = {"hierarchical", "hierarchical", "global", "hybrid", "monolithic"};
-  list.emplace_back("solver/kind", quoted(kinds[static_cast<int>(scene.solver.kind)]));
-  if (scene.solver.kind == scene::SolverKind::monolithic) {
+  static const char* const forms[] = {"local", "augmented", "global", "hybrid", "monolithic"};
+  const scene::SolverForm form = scene.solver.form;
+  list.emplace_back("solver/form", quoted(forms[static_cast<int>(form)]));
+  if (form == scene::SolverForm::monolithic) {
     static const char* const libraries[] = {"klu", "sparse_lu", "umfpack", "cholmod"};
     list.emplace_back("solver/library", quoted(libraries[static_cast<int>(scene.solver.library)]));
   }
-  if (scene.solver.kind == scene::SolverKind::global || scene.solver.kind == scene::SolverKind::hybrid)
+  if (form == scene::SolverForm::global || form == scene::SolverForm::hybrid)
     list.emplace_back("solver/interface_solution", quoted(scene.solver.iterate_interface ? "iterative" : "direct"));
   list.emplace_back("solver/leaf_size", std::to_string(scene.solver.leaf_size));
   list.emplace_back("solver/depth", std::to_string(scene.solver.depth));
-  list.emplace_back("solver/penalty_factor", number(scene.solver.penalty_factor));
+  if (form == scene::SolverForm::augmented)
+    list.emplace_back("solver/penalty_factor", number(scene.solver.penalty_factor));
   list.emplace_back("solver/tasks", scene.solver.tasks ? "true" : "false");
   list.emplace_back("output/stride", std::to_string(scene.output.stride));
   list.emplace_back("output/checks", scene.output.checks ? "true" : "false");

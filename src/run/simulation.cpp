@@ -60,6 +60,11 @@ struct Simulation::Impl {
   bool start() {
     if (stage != Stage::made) return stage == Stage::going;
     recorder.begin(recording->summary().header);
+    if (const auto unknown = results::unknown_subdomain(system)) {
+      (void)recording->account().fail(*unknown);
+      stage = Stage::ended;
+      return false;
+    }
     stage = analysis->begin() ? Stage::going : Stage::ended;
     return stage == Stage::going;
   }

@@ -60,6 +60,12 @@ void check_sensor(ProblemList& list, std::size_t i) {
     list.check_place("sensors", i, "frame", s.frame, true);
   if (type.takes(SensorField::chain)) check_chain(list, i);
   if (type.of == SensorOf::whole || type.of == SensorOf::signal) return;
+  if (type.of == SensorOf::subdomain) {
+    if (!read_path(s.subdomain))
+      list.add("sensors", i, "subdomain", s.subdomain, "is no path in the tree of sub-domains",
+               "write the number of the child at each level, as \"0\" or \"0.1\"");
+    return;
+  }
   if (type.of == SensorOf::point && s.beam.empty()) {
     list.check_place("sensors", i, "at", s.at.to, true);
     return;

@@ -1,6 +1,7 @@
 #include "bough/scene/sensor_kinds.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 namespace bough::scene {
 namespace {
@@ -117,6 +118,14 @@ std::vector<SensorType> make_types() {
        {F::axes_of},
        "Position of a point from the origin of another part, in the axes of that part, which is given as `frame`."},
       {SensorKind::signal, "signal", SensorOf::signal, force, in("", {""}), {}, "Value of a signal, in its own unit."},
+      {SensorKind::interface_force,
+       "interface_force",
+       subdomain,
+       force,
+       in("N", {"fx", "fy", "fz"}) + in("N m", {"mx", "my", "mz"}),
+       {},
+       "Force of the rest of the structure on a sub-domain of the solver's tree at its interface, and its moment about "
+       "the mean position of the interface's nodes, in the ground's axes."},
   };
 }
 
@@ -129,6 +138,19 @@ bool SensorType::takes(SensorField field) const {
 const std::vector<SensorType>& sensor_types() {
   static const std::vector<SensorType>& types = *new std::vector<SensorType>(make_types());  // as joint_types()
   return types;
+}
+
+std::optional<std::vector<int>> read_path(const std::string& path) {
+  std::vector<int> children;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    int child = -1;
+    const auto [last, error] = std::from_chars(path.data() + begin, path.data() + end, child);
+    if (error != std::errc{} || last != path.data() + end || child < 0) return std::nullopt;
+    children.push_back(child);
+    begin = end + 1;
+  }
+  return children;
 }
 
 const SensorType& type_of(SensorKind kind) { return sensor_types().at(static_cast<std::size_t>(kind)); }

@@ -33,11 +33,11 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   fronts.resize(num_fronts);
   enlarged.resize(num_fronts);
   symmetry.declared = symmetry.used = options.symmetry;
-  if (is_symmetric() && options.elimination == Elimination::plain) {
+  if (is_symmetric() && options.elimination == Elimination::augmented) {
     symmetry.used = Symmetry::general;
-    symmetry.loss = SymmetryLoss::plain_elimination;
+    symmetry.loss = SymmetryLoss::augmented_elimination;
   }
-  keeps_all = keep_all || options.elimination == Elimination::plain;
+  keeps_all = keep_all || options.elimination == Elimination::augmented;
   vector_begin.assign(1, 0);
   index_begin.assign(1, 0);
   own_begin.assign(1, 0);
@@ -64,7 +64,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   schur_pool.resize(at(schur_places.pool));
   vector_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));
-  if (options.elimination == Elimination::plain) plain.resize(at(tree.num_subdomains()));
+  if (options.elimination == Elimination::augmented) augmented.resize(at(tree.num_subdomains()));
   lane_vectors.assign(lanes.unknowns.size(), 0.0);
   lane_tops.assign(at(std::max<std::int64_t>(lanes.top_size, 1) * lanes_wide),
                    0.0);  // tops without unknowns also point into it

@@ -102,7 +102,7 @@ struct RootCopy {
 constexpr double suspect_pivot = 1e-5;
 
 /// Textbook condensation of one interface: F and F^-1 as they were computed.
-struct PlainInterface {
+struct AugmentedInterface {
   std::vector<double> flexibility, inverse, penalty, work;
   bool used = false;
 };
@@ -148,8 +148,8 @@ struct Hierarchical::State {
   std::vector<int> index_pool;
   std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool)
   std::vector<Run> runs;
-  std::vector<tree::FrontId> scalar_fronts;  ///< fronts that are never in lanes or registers
-  std::vector<PlainInterface> plain;         ///< by sub-domain; empty unless elimination is plain
+  std::vector<tree::FrontId> scalar_fronts;   ///< fronts that are never in lanes or registers
+  std::vector<AugmentedInterface> augmented;  ///< by sub-domain; empty unless elimination is augmented
   NullSpace null_space;
   std::vector<char> leaves_to_root;  ///< by front: its rows turned out not to be dependent, in the present scales
   RootCopy root_copy;                ///< SolveOptions::inertia

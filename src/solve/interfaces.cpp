@@ -61,7 +61,7 @@ std::vector<double> Hierarchical::State::interface_stiffness(tree::SubdomainId s
 /// For comparison only.
 void Hierarchical::State::condense_through_flexibility(tree::SubdomainId s) {
   FrontData& d = data(tree.subdomains[at(s)].top());
-  PlainInterface& interface = plain[at(s)];
+  AugmentedInterface& interface = augmented[at(s)];
   const int n = d.size - d.full;
   interface.used = false;
   if (d.failed || n == 0 || d.num_delayed() > 0) return;
@@ -84,7 +84,7 @@ void Hierarchical::State::condense_through_flexibility(tree::SubdomainId s) {
 
 /// g <- s^2 F^-1 (F g / s^2): the load that the textbook form condenses.
 void Hierarchical::State::correct_forward(tree::SubdomainId s) {
-  PlainInterface& interface = plain[at(s)];
+  AugmentedInterface& interface = augmented[at(s)];
   if (!interface.used) return;
   FrontData& d = data(tree.subdomains[at(s)].top());
   const int n = d.size - d.full;

@@ -142,7 +142,7 @@ void Hierarchical::State::forward_group(int index) {
   }
   for (tree::FrontId f = tree.subdomains[at(s)].front_begin; f < tree.subdomains[at(s)].front_end; ++f)
     forward_front(f);
-  if (options.elimination == Elimination::plain && s != tree.root()) correct_forward(s);
+  if (options.elimination == Elimination::augmented && s != tree.root()) correct_forward(s);
 }
 
 void Hierarchical::State::backward_group(int index) {

@@ -117,7 +117,7 @@ std::optional<Trouble> LinearSolution::solve(const double* rhs, double* x, bool 
   if (!last_solution_.interface_converged)
     return Trouble{"the iteration on the interface problem gave up after " +
                    std::to_string(last_solution_.interface_iterations) +
-                   " iterations: choose \"direct\" for /solver/interface_solution, or another /solver/kind"};
+                   " iterations: choose \"direct\" for /solver/interface_solution, or another /solver/form"};
   if (!last_solution_.finite) return Trouble{"the solution of the linear system is not finite"};
   if (last_solution_.backward_error > counts_.backward_error_max)
     counts_.backward_error_max = last_solution_.backward_error;

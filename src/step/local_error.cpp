@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bough/motion/vectors_on.hpp"
+#include "bough/scene/sensor_kinds.hpp"
 #include "bough/step/step_control.hpp"
 
 namespace bough::step {
@@ -23,16 +24,10 @@ struct Largest {
   double angular() const { return std::max({most[3], most[4], most[5]}); }
 };
 
-bool shows_force_or_acceleration(scene::SensorKind kind) {
-  using Kind = scene::SensorKind;
-  return kind == Kind::acceleration || kind == Kind::acceleration_split || kind == Kind::section_force ||
-         kind == Kind::section_strain || kind == Kind::joint_reaction;
-}
-
-bool shows_energy(scene::SensorKind kind) {
-  using Kind = scene::SensorKind;
-  return kind == Kind::kinetic_energy || kind == Kind::strain_energy || kind == Kind::potential_energy ||
-         kind == Kind::total_energy;
+/// Whether values of a sensor depend on the motion of the whole mechanism, not on that of its point or joint alone.
+bool is_seen_whole(const plan::SensorPlan& s) {
+  const scene::SensorShows shows = scene::type_of(s.sensor.kind).shows;
+  return shows == scene::SensorShows::force || shows == scene::SensorShows::energy;
 }
 
 }  // namespace
@@ -64,9 +59,6 @@ void LocalError::watch(const plan::Plan& plan) {
   if (plan.sensors.empty()) return;
   std::fill(watched_.begin(), watched_.end(), Watched{});
   for (const plan::SensorPlan& s : plan.sensors) watch(plan, s);
-  const auto is_seen_whole = [](const plan::SensorPlan& s) {
-    return shows_force_or_acceleration(s.sensor.kind) || shows_energy(s.sensor.kind);
-  };
   if (std::any_of(plan.sensors.begin(), plan.sensors.end(), is_seen_whole)) watch_mechanism(plan);
 }
 
@@ -87,11 +79,11 @@ void LocalError::watch_mechanism(const plan::Plan& plan) {
 }
 
 void LocalError::watch(const plan::Plan& plan, const plan::SensorPlan& sensor) {
-  using Kind = scene::SensorKind;
-  const Kind kind = sensor.sensor.kind;
-  if (shows_energy(kind)) return;  // their error is given by set_energy_error()
-  const bool turns = kind != Kind::position && kind != Kind::joint_displacement;
-  const bool velocity = turns && kind != Kind::rotation && kind != Kind::quaternion && kind != Kind::joint_angle;
+  const scene::SensorType& type = scene::type_of(sensor.sensor.kind);
+  if (type.shows == scene::SensorShows::energy) return;  // their error is given by set_energy_error()
+  const bool velocity = type.shows != scene::SensorShows::pose;
+  const bool is_length = !velocity && type.components.front().unit == "m";
+  const bool turns = !is_length || type.takes(scene::SensorField::axes_of);  // of a part that turns
   if (sensor.beam >= 0) {
     const plan::BeamPlan& beam = plan.beams[static_cast<std::size_t>(sensor.beam)];
     const std::size_t count = beam.elements.size(), order = (beam.nodes.size() - 1) / count;
@@ -104,7 +96,7 @@ void LocalError::watch(const plan::Plan& plan, const plan::SensorPlan& sensor) {
     plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(element)], [&](const auto& e) {
       for (const elements::Port& port : e.ports) {
         watch(port, turns, velocity);
-        if (kind == Kind::joint_reaction) watch_ends(plan, port.node);
+        if (type.of == scene::SensorOf::reaction) watch_ends(plan, port.node);
       }
     });
   } else {

@@ -30,6 +30,10 @@ solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solv
   solve::SolveOptions options;
   options.penalty_factor = given.penalty_factor;
   options.lanes = plan.took("lanes");
+  if (given.form == scene::SolverForm::augmented) {
+    options.elimination = solve::Elimination::augmented;
+    options.refinement_steps = 0;  // the digits that a penalty costs are shown, not recovered
+  }
   options.inertia = !plan.is_dynamic;  // needed by Stability
   if (plan.took("symmetric")) options.symmetry = solve::Symmetry::symmetric;
   if (plan.took("definite")) options.symmetry = solve::Symmetry::definite;
@@ -39,10 +43,10 @@ solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solv
 std::unique_ptr<solve::AnySolver> make_solver(const plan::Plan& plan, const tree::Tree& tree,
                                               const scene::Solver& given) {
   const solve::SolveOptions options = make_solve_options(plan, given);
-  if (given.kind == scene::SolverKind::monolithic) return make_monolithic(plan, tree, given.library, options);
-  if (given.kind == scene::SolverKind::global || given.kind == scene::SolverKind::hybrid) {
+  if (given.form == scene::SolverForm::monolithic) return make_monolithic(plan, tree, given.library, options);
+  if (given.form == scene::SolverForm::global || given.form == scene::SolverForm::hybrid) {
     const solve::DualOptions form{
-        .form = given.kind == scene::SolverKind::global ? solve::DualForm::global : solve::DualForm::hybrid,
+        .form = given.form == scene::SolverForm::global ? solve::DualForm::global : solve::DualForm::hybrid,
         .solution = given.iterate_interface ? solve::InterfaceSolution::iterative : solve::InterfaceSolution::direct};
     return std::make_unique<solve::AnySolver>(solve::Dual(plan.graph, tree, form, options));
   }
@@ -53,7 +57,7 @@ const char* explain_backend(solve::FactorOutcome outcome) {
   if (outcome == solve::FactorOutcome::backend)
     return "the library of /solver/library is not part of this program (KLU needs BOUGH_WITH_KLU, UMFPACK and CHOLMOD "
            "need "
-           "BOUGH_WITH_GPL when it is built), or it failed: choose \"sparse_lu\", or another /solver/kind";
+           "BOUGH_WITH_GPL when it is built), or it failed: choose \"sparse_lu\", or another /solver/form";
   if (outcome == solve::FactorOutcome::unsymmetric)
     return "the tangent is not symmetric, and /solver/library \"cholmod\" solves symmetric systems only: choose "
            "another "

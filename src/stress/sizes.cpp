@@ -53,10 +53,10 @@ void floating(Bench& bench) {
     worst = std::max(worst, largest_difference(whole, bench.run(s, "depth " + std::to_string(depth)), 10.0));
   }
   bench.round_off_error("places at depths 1 to 5 against one domain", worst, 1e-10);
-  for (const scene::SolverKind kind : {scene::SolverKind::global, scene::SolverKind::hybrid}) {
-    s.solver.kind = kind;
+  for (const scene::SolverForm form : {scene::SolverForm::global, scene::SolverForm::hybrid}) {
+    s.solver.form = form;
     s.solver.depth = 3;
-    const bool is_global = kind == scene::SolverKind::global;
+    const bool is_global = form == scene::SolverForm::global;
     bench.round_off_error(is_global ? "places with global multipliers" : "places with the hybrid",
                           largest_difference(whole, bench.run(s), 10.0), 1e-10);
   }

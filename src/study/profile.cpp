@@ -259,10 +259,8 @@ void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun
 }  // namespace
 
 std::string cannot_profile(const scene::Scene& scene) {
-  using scene::SolverKind;
-  if (scene.solver.kind == SolverKind::automatic || scene.solver.kind == SolverKind::hierarchical) return {};
-  return "only the hierarchical solver walks the tree of sub-domains: profile with --set "
-         "/solver/kind='\"hierarchical\"'";
+  if (scene.solver.form == scene::SolverForm::local) return {};
+  return "only the solver of form \"local\" takes the walks that are profiled: profile with --set /solver/form=local";
 }
 
 records::Profile profile(const scene::Scene& given, const ProfileOptions& options, records::Recorder& recorder,

@@ -4,15 +4,15 @@
 namespace bough::study {
 
 std::string solver_block(const scene::Solver& s) {
-  static constexpr const char* kinds[] = {"automatic", "hierarchical", "global", "hybrid", "monolithic"};
+  static constexpr const char* forms[] = {"local", "augmented", "global", "hybrid", "monolithic"};
   static constexpr const char* libraries[] = {"klu", "sparse_lu", "umfpack", "cholmod"};
-  std::string text = std::string("{\"kind\": \"") + kinds[static_cast<int>(s.kind)] + "\"";
-  if (s.kind == scene::SolverKind::monolithic)
+  std::string text = std::string("{\"form\": \"") + forms[static_cast<int>(s.form)] + "\"";
+  if (s.form == scene::SolverForm::monolithic)
     text += std::string(", \"library\": \"") + libraries[static_cast<int>(s.library)] + "\"";
   if (s.iterate_interface) text += ", \"interface_solution\": \"iterative\"";
   if (s.leaf_size > 0) text += ", \"leaf_size\": " + std::to_string(s.leaf_size);
   if (s.depth >= 0) text += ", \"depth\": " + std::to_string(s.depth);
-  if (s.penalty_factor != 1.0) {
+  if (s.penalty_factor != 1.0 && s.form == scene::SolverForm::augmented) {
     text += ", \"penalty_factor\": ";
     io::append_number(text, s.penalty_factor);
   }

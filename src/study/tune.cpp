@@ -16,7 +16,7 @@ namespace bough::study {
 namespace {
 
 using scene::Solver;
-using scene::SolverKind;
+using scene::SolverForm;
 
 constexpr double too_slow = 2.5;     // relative to the fastest of the first round
 constexpr double least_gain = 0.02;  // a smaller gain is noise, or not worth a change
@@ -28,7 +28,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-bool has_tree(SolverKind kind) { return kind != SolverKind::monolithic; }
+bool has_tree(SolverForm form) { return form != SolverForm::monolithic; }
 
 /// Seconds of a step in one short run; fills `failure` instead where the run fails or there is no step.
 double time_run(const scene::Scene& scene, const TuneOptions& options, std::string& failure) {
@@ -104,10 +104,10 @@ class Tuner {
   /// Adds a candidate unless another one has the same tree.
   void add(Solver solver) {
     Shape shape;
-    if (has_tree(solver.kind)) {
+    if (has_tree(solver.form)) {
       shape = shape_of(plan_, solver);
       for (std::size_t k = 0; k < shapes_.size(); ++k)
-        if (list_[k].solver.tasks == solver.tasks && has_tree(list_[k].solver.kind) && shapes_[k] == shape) return;
+        if (list_[k].solver.tasks == solver.tasks && has_tree(list_[k].solver.form) && shapes_[k] == shape) return;
     }
     TuneCandidate c{.solver = solver, .num_subdomains = shape.subdomains, .num_levels = shape.levels};
     c.is_present = list_.empty();
@@ -118,8 +118,7 @@ class Tuner {
   void propose() {
     add(scene_.solver);
     Solver tree = scene_.solver;
-    if (!has_tree(tree.kind) || tree.kind == SolverKind::global || tree.kind == SolverKind::hybrid)
-      tree.kind = SolverKind::hierarchical;
+    tree.form = SolverForm::local;
     tree.leaf_size = 0;
     tree.depth = -1;
     const Shape chosen = shape_of(plan_, tree);
@@ -138,11 +137,11 @@ class Tuner {
       add(tree);
     }
     Solver whole = scene_.solver;
-    whole.kind = SolverKind::monolithic;
+    whole.form = SolverForm::monolithic;
     for (scene::SolverLibrary library : {scene::SolverLibrary::klu, scene::SolverLibrary::sparse_lu}) {
       if (library == scene::SolverLibrary::klu && !solve::Monolithic::available()) continue;
       whole.library = library;
-      if (scene_.solver.kind != SolverKind::monolithic || scene_.solver.library != library) add(whole);
+      if (scene_.solver.form != SolverForm::monolithic || scene_.solver.library != library) add(whole);
     }
   }
 
@@ -169,7 +168,7 @@ class Tuner {
     if (options_.threads == 1) return true;
     const TuneCandidate* best = nullptr;
     for (const TuneCandidate& c : list_)
-      if (c.failure.empty() && has_tree(c.solver.kind) && (best == nullptr || c.seconds.back() < best->seconds.back()))
+      if (c.failure.empty() && has_tree(c.solver.form) && (best == nullptr || c.seconds.back() < best->seconds.back()))
         best = &c;
     if (best == nullptr) return true;
     Solver solver = best->solver;

@@ -48,7 +48,7 @@ inline const std::string& base_scene() {
     { "name": "energy", "kind": "total_energy" }
   ],
   "analysis": { "kind": "dynamic", "end_time": 1, "step_size": 1e-3, "spectral_radius": 0.9 },
-  "solver": { "kind": "automatic" },
+  "solver": { "form": "local" },
   "output": { "stride": 2 },
   "expected": [ { "quantity": "tip.x", "time": 1, "value": 1, "tolerance": 5 } ]
 }

@@ -43,7 +43,7 @@ TEST(SceneRead, what_is_left_out_takes_the_defaults_of_the_scene) {
   EXPECT_EQ(s.analysis.max_iterations, d.analysis.max_iterations);
   EXPECT_EQ(s.analysis.max_cuts, d.analysis.max_cuts);
   EXPECT_EQ(s.analysis.load_steps, d.analysis.load_steps);
-  EXPECT_EQ(s.solver.kind, d.solver.kind);
+  EXPECT_EQ(s.solver.form, d.solver.form);
   EXPECT_EQ(s.solver.leaf_size, d.solver.leaf_size);
   EXPECT_EQ(s.solver.depth, d.solver.depth);
   EXPECT_EQ(s.solver.penalty_factor, d.solver.penalty_factor);
@@ -52,6 +52,18 @@ TEST(SceneRead, what_is_left_out_takes_the_defaults_of_the_scene) {
   EXPECT_EQ(s.output.motion, d.output.motion);
   EXPECT_EQ(s.output.motion_stride, d.output.motion_stride);
   EXPECT_EQ(s.output.checks, d.output.checks);
+}
+
+TEST(SceneRead, the_former_name_of_the_form_of_the_solver_is_still_read) {
+  using scene::SolverForm;
+  for (const auto& [kind, form] :
+       {std::pair{"automatic", SolverForm::local}, std::pair{"hierarchical", SolverForm::local},
+        std::pair{"global", SolverForm::global}, std::pair{"hybrid", SolverForm::hybrid},
+        std::pair{"monolithic", SolverForm::monolithic}})
+    EXPECT_EQ(good(test::base_scene(), {std::string("/solver={\"kind\": \"") + kind + "\"}"}).solver.form, form)
+        << kind;
+  EXPECT_EQ(good(test::base_scene(), {"/solver={\"form\": \"augmented\", \"penalty_factor\": 10}"}).solver.form,
+            SolverForm::augmented);
 }
 
 TEST(SceneRead, the_name_of_a_scene_is_that_of_its_file) {
@@ -189,12 +201,12 @@ TEST(SceneRead, damping_by_a_time_is_that_multiple_of_the_stiffness) {
 
 TEST(SceneRead, overrides_change_values_make_keys_and_reach_items_by_name) {
   const scene::Scene s =
-      good(test::base_scene(), {"/analysis/step_size=2e-3", "/beams/upper/elements=7", "/solver/kind=monolithic",
+      good(test::base_scene(), {"/analysis/step_size=2e-3", "/beams/upper/elements=7", "/solver/form=monolithic",
                                 "/solver/library=sparse_lu", "/solver/leaf_size=3", "/gravity=[0, 0, 0]",
                                 "/nodes/1/position/0=1.5", "/output/motion=true"});
   EXPECT_EQ(s.analysis.step_size, 2e-3);
   EXPECT_EQ(s.beams[0].elements, 7);
-  EXPECT_EQ(s.solver.kind, scene::SolverKind::monolithic);
+  EXPECT_EQ(s.solver.form, scene::SolverForm::monolithic);
   EXPECT_EQ(s.solver.library, scene::SolverLibrary::sparse_lu);
   EXPECT_EQ(s.solver.leaf_size, 3);
   EXPECT_EQ(s.gravity[2], 0.0);

@@ -151,7 +151,7 @@ TEST(MovingFrame, at_rest_in_the_inertial_frame_gives_the_same_bits) {
 TEST(MovingFrame, is_the_same_for_elements_in_lockstep) {
   const std::vector<std::string> many = {"/beams/0/elements=64", "/solver/leaf_size=2"};
   std::vector<std::string> alone = many;
-  alone.push_back("/solver/kind=monolithic");
+  alone.push_back("/solver/form=monolithic");
   const Outcome lockstep = run_of(gallery("rotating_cantilever", many)),
                 plain = run_of(gallery("rotating_cantilever", alone));
   for (const std::string& c : plain.history.columns)

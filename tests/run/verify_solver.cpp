@@ -216,17 +216,6 @@ TEST_P(VerifySolver, threads_change_no_bit) {
   for (const int threads : {2, 3, 8}) EXPECT_TRUE(equal_bits(one, run(s, threads))) << threads << " threads";
 }
 
-TEST_P(VerifySolver, penalty_factors_change_no_bit) {
-  scene::Scene s = short_gallery(GetParam());
-  s.solver.leaf_size = 2;
-  const Outcome one = run(s);
-  ASSERT_TRUE(one.ok()) << one.text();
-  for (const double factor : {1e-6, 1e12}) {
-    s.solver.penalty_factor = factor;
-    EXPECT_TRUE(equal_bits(one, run(s))) << "penalty factor " << factor;
-  }
-}
-
 TEST_P(VerifySolver, leaf_sizes_depths_and_the_monolithic_solver_agree) {
   const scene::Scene s = sharp_gallery(GetParam());
   const Bar bar(s);
@@ -245,24 +234,25 @@ TEST_P(VerifySolver, leaf_sizes_depths_and_the_monolithic_solver_agree) {
   }
   if (solve::Monolithic::available()) {
     scene::Scene v = s;
-    v.solver.kind = scene::SolverKind::monolithic;
+    v.solver.form = scene::SolverForm::monolithic;
     compare(bar, run(v), "monolithic", needed, most);
   }
   print_clauses(GetParam(), bar, needed, most);
 }
 
 /// Sub-domains small enough that several are torn apart in most scenes.
-TEST_P(VerifySolver, global_and_hybrid_forms_agree) {
+TEST_P(VerifySolver, all_forms_agree) {
   scene::Scene s = sharp_gallery(GetParam());
   s.solver.leaf_size = 4;
   const Bar bar(s);
   ASSERT_TRUE(bar.base.ok()) << bar.base.text();
   std::vector<int> needed(bar.base.header.columns.size(), 0);
   std::vector<double> most(needed.size(), 0.0);
-  for (const auto& [kind, what] :
-       {std::pair{scene::SolverKind::global, "global"}, std::pair{scene::SolverKind::hybrid, "hybrid"}}) {
+  for (const auto& [form, what] :
+       {std::pair{scene::SolverForm::augmented, "augmented"}, std::pair{scene::SolverForm::global, "global"},
+        std::pair{scene::SolverForm::hybrid, "hybrid"}}) {
     scene::Scene v = s;
-    v.solver.kind = kind;
+    v.solver.form = form;
     compare(bar, run(v), what, needed, most);
   }
   print_clauses(GetParam(), bar, needed, most);

@@ -48,12 +48,12 @@ TEST(Penalty, ConditionOfTheScaledFlexibilityTendsToOne) {
   EXPECT_LE(last, 1.0 + 1e-9);
 }
 
-TEST(Penalty, PlainEliminationIsTheSameOnPaperAndLosesADigitPerDecade) {
+TEST(Penalty, AugmentedEliminationIsTheSameOnPaperAndLosesADigitPerDecade) {
   const Scene scene = make_chain(3, 6, 6);
   const Outcome flat = run(scene, 1.0, solve::Elimination::flat);
-  EXPECT_LE(run(scene, 1.0, solve::Elimination::plain).error, 1e4 * (flat.error + 1e-16));
-  const double error_6 = run(scene, 1e6, solve::Elimination::plain).backward;
-  const double error_12 = run(scene, 1e12, solve::Elimination::plain).backward;
+  EXPECT_LE(run(scene, 1.0, solve::Elimination::augmented).error, 1e4 * (flat.error + 1e-16));
+  const double error_6 = run(scene, 1e6, solve::Elimination::augmented).backward;
+  const double error_12 = run(scene, 1e12, solve::Elimination::augmented).backward;
   EXPECT_GT(error_12, 1e3 * error_6);  // six decades of penalty cost at least three digits (in the mean six)
   EXPECT_GT(error_12, 1e6 * flat.backward);
 }

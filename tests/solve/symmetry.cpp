@@ -148,12 +148,12 @@ TEST(Symmetry, IsLookedAtInEveryFactorizationAndMatricesAreEvaluatedOnce) {
       }
 }
 
-TEST(Symmetry, IsGivenUpByNameWhereThePlainFormulaCondenses) {
+TEST(Symmetry, IsGivenUpByNameWhereAugmentedEliminationCondenses) {
   const Scene scene = make_symmetric(make_chain(4, 6, 2));
-  Solved s(scene, {}, {.elimination = solve::Elimination::plain, .symmetry = Symmetry::symmetric});
+  Solved s(scene, {}, {.elimination = solve::Elimination::augmented, .symmetry = Symmetry::symmetric});
   ASSERT_TRUE(s.factor().ok());
   EXPECT_EQ(s.solver.symmetry().used, Symmetry::general);
-  EXPECT_EQ(s.solver.symmetry().loss, SymmetryLoss::plain_elimination);
+  EXPECT_EQ(s.solver.symmetry().loss, SymmetryLoss::augmented_elimination);
 }
 
 TEST(Symmetry, HasNoVerdictOnWhatIsNotFinite) {

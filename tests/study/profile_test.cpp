@@ -306,8 +306,8 @@ TEST(Profile, a_run_that_fails_shows_what_ran) {
 TEST(Profile, other_solvers_are_refused_in_words) {
   scene::Scene s = make_scene(4);
   EXPECT_EQ(study::cannot_profile(s), "");
-  s.solver.kind = scene::SolverKind::monolithic;
-  EXPECT_NE(study::cannot_profile(s).find("/solver/kind"), std::string::npos);
+  s.solver.form = scene::SolverForm::monolithic;
+  EXPECT_NE(study::cannot_profile(s).find("/solver/form"), std::string::npos);
 }
 
 TEST(Tune, proposes_trees_that_differ_and_writes_a_block_that_reads_back) {
@@ -330,18 +330,20 @@ TEST(Tune, proposes_trees_that_differ_and_writes_a_block_that_reads_back) {
   EXPECT_TRUE(r.candidates[r.present].is_present);
   EXPECT_TRUE(r.candidates[r.best].failure.empty());
   scene::Solver given;
-  given.kind = scene::SolverKind::hybrid;
+  given.form = scene::SolverForm::hybrid;
   given.iterate_interface = true;
   given.leaf_size = 12;
-  given.penalty_factor = 0.1;
   given.tasks = false;
   const scene::Scene read = support::gallery("pendulum", {"/solver=" + study::solver_block(given)});
-  EXPECT_EQ(read.solver.kind, given.kind);
+  EXPECT_EQ(read.solver.form, given.form);
   EXPECT_EQ(read.solver.iterate_interface, given.iterate_interface);
   EXPECT_EQ(read.solver.leaf_size, given.leaf_size);
   EXPECT_EQ(read.solver.depth, given.depth);
-  EXPECT_EQ(read.solver.penalty_factor, given.penalty_factor);
   EXPECT_EQ(read.solver.tasks, given.tasks);
+  given.form = scene::SolverForm::augmented;
+  given.iterate_interface = false;
+  given.penalty_factor = 0.1;
+  EXPECT_EQ(support::gallery("pendulum", {"/solver=" + study::solver_block(given)}).solver.penalty_factor, 0.1);
 }
 
 TEST(Profile, does_not_change_a_bit_of_the_results) {

@@ -176,7 +176,7 @@ Outcome run(const scene::Scene& scene, const run::ProgressCallback& progress) {
   Memory memory(outcome.history);
   outcome.summary = run::simulate(scene, {}, memory, progress);
   // The external solvers serve as oracles; their pivoting does not suit dependent rows.
-  if (outcome.ok() && scene.solver.kind != scene::SolverKind::monolithic)
+  if (outcome.ok() && scene.solver.form != scene::SolverForm::monolithic)
     for (const auto& [name, value] : outcome.summary.solver)
       if (name == "unknowns") expect_sound_solutions(outcome.summary.checks.linear_backward_error_max, value);
   return outcome;

@@ -167,6 +167,7 @@ struct SensorPlan {
   int beam = -1;                        ///< index in Plan::beams
   int joint = -1;                       ///< index in Plan::joints (reaction, coordinate)
   int signal = -1;                      ///< its place among the values of laws
+  std::vector<int> subdomain;           ///< the child to take at each level of the tree of the solver
   motion::RowKind coordinate = {};      ///< of the joint, if that is measured
   elements::Port frame;                 ///< port of the frame of the observer, or in whose axes the result is resolved
   std::vector<elements::Port> chain;    ///< parts on whose motions values depend, besides the sensor's point: of an

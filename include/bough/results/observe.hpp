@@ -1,6 +1,8 @@
 #pragma once
 /// Results of a state: values of sensors, and the moving structure for pictures. States are read, never changed.
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "bough/records/run.hpp"
@@ -16,6 +18,9 @@ void eval_sensors(const step::System& system, const step::State& state, EnergyMe
 /// Values of the sensors with the given indices in Plan::sensors, in that order.
 void eval_sensors(const step::System& system, const step::State& state, EnergyMeter& meter,
                   std::span<const int> sensors, std::vector<double>& values);
+
+/// A message if a sensor names a sub-domain that the tree of the solver does not have.
+std::optional<std::string> unknown_subdomain(const step::System& system);
 
 /// Whether a sensor shows positions, rotations and velocities only. Such sensors can be interpolated between two steps
 /// with step::eval_between. Forces, strains, energies and accelerations cannot: in a stiff part, they respond to the

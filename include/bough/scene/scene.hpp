@@ -258,6 +258,7 @@ enum class SensorKind : std::uint8_t {
   acceleration_split,
   relative_position,
   signal,
+  interface_force,
 };
 
 struct Sensor {
@@ -273,6 +274,7 @@ struct Sensor {
   /// an acceleration_split only the axes.
   std::string frame;
   std::string signal;              ///< signal: its name
+  std::string subdomain;           ///< interface_force: the child to take at each level of the tree, as "0.1"
   std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the previous one
 };
 
@@ -335,16 +337,23 @@ struct Analysis {
   int max_cuts = 10;  ///< halvings of a step before the run fails
 };
 
-enum class SolverKind : std::uint8_t { automatic, hierarchical, global, hybrid, monolithic };
+/// How the linear system is solved along the tree of sub-domains, or as a whole.
+enum class SolverForm : std::uint8_t {
+  local,      ///< sub-domains are condensed to their interfaces, boundary last, without a penalty
+  augmented,  ///< the same through the flexibility of each interface, to which a penalty is added
+  global,     ///< sub-domains torn apart and tied to each other by multipliers
+  hybrid,     ///< the same, with some nodes kept on an interface mesh
+  monolithic  ///< one factorization by a library
+};
 enum class SolverLibrary : std::uint8_t { klu, sparse_lu, umfpack, cholmod };
 
 struct Solver {
-  SolverKind kind = SolverKind::automatic;
-  SolverLibrary library = SolverLibrary::klu;  ///< of kind monolithic
-  bool iterate_interface = false;              ///< of kinds global and hybrid
+  SolverForm form = SolverForm::local;
+  SolverLibrary library = SolverLibrary::klu;  ///< of form monolithic
+  bool iterate_interface = false;              ///< of forms global and hybrid
   int leaf_size = 0;                           ///< elements; 0 = chosen
   int depth = -1;                              ///< -1 = chosen
-  double penalty_factor = 1.0;                 ///< times the interface's own stiffness
+  double penalty_factor = 1.0;                 ///< of form augmented, times the interface's own stiffness
   bool tasks = true;
   int threads = 1;  ///< threads for this scene where several scenes share the machine; results do not depend on it
 };

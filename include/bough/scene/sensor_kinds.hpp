@@ -16,6 +16,7 @@ enum class SensorOf : std::uint8_t {
   reaction,    ///< a joint
   coordinate,  ///< a coordinate of a joint
   signal,      ///< a signal of the scene
+  subdomain,   ///< a sub-domain of the tree of the solver
   whole,       ///< nothing: it measures the whole structure
 };
 
@@ -69,6 +70,8 @@ std::string components_text(const SensorType& type);
 std::vector<std::string> components_of(SensorKind kind);
 /// Unit of a component of a sensor, by its place; empty: a pure number. The coordinate of a joint has to be named.
 std::string unit_of(const Sensor& sensor, std::size_t component);
+/// The children to take from the root, of a path as "0.1"; nothing where it is none.
+std::optional<std::vector<int>> read_path(const std::string& path);
 /// Columns "<sensor>.<component>", or "<sensor>".
 std::vector<std::string> columns_of(const Sensor& sensor);
 

@@ -8,9 +8,9 @@ namespace bough::solve {
 /// How a sub-domain is condensed to its interface.
 enum class Elimination {
   flat,  ///< boundary last: S is formed without adding the penalty; no digit depends on it.
-  /// Through the interface flexibility, S = s^2 F^-1 - P: the textbook form, which loses a digit for each decade of
-  /// penalty.
-  plain,
+  /// Through the interface flexibility, S = s^2 F^-1 - P, on the scalar path: the method as it is written, which loses
+  /// a digit for each decade of penalty.
+  augmented,
 };
 
 /// Checks of a solution in solve().

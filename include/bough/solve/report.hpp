@@ -55,9 +55,9 @@ struct SolveReport {
 
 /// Why values that were declared symmetric are not factored as such.
 enum class SymmetryLoss {
-  none,               ///< they are, or they were not declared symmetric.
-  values,             ///< an element matrix differs from its transpose: SymmetryReport::element.
-  plain_elimination,  ///< Elimination::plain condenses by general inverses.
+  none,                   ///< they are, or they were not declared symmetric.
+  values,                 ///< an element matrix differs from its transpose: SymmetryReport::element.
+  augmented_elimination,  ///< Elimination::augmented condenses by general inverses.
 };
 
 /// The factorization that a solver uses, and why.

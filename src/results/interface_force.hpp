@@ -1,0 +1,22 @@
+#pragma once
+/// Forces at the interfaces of sub-domains.
+#include <optional>
+#include <span>
+#include <string>
+
+#include "observe_parts.hpp"
+
+namespace bough::results {
+
+/// The sub-domain that is reached from the root by taking a certain child at each level; none: there is no such child.
+tree::SubdomainId subdomain_at(const tree::Tree& tree, std::span<const int> path);
+
+/// The wrench with which the rest of the structure holds a sub-domain at the nodes of its interface, in the axes of the
+/// ground: the force, and the moment about the mean position of these nodes. It is the sum of the residuals, at these
+/// nodes, of the elements inside; these are the local multipliers l of the sub-domain, (2) in src/solve/README.md, at a
+/// state in equilibrium. In statics residuals include the first-order change f + K eta that the last correction leaves
+/// (State::unsettled). Precondition: the sub-domain is not the root.
+motion::Vec6<double> eval_interface_force(const step::System& system, const step::State& state,
+                                          const elements::Field& field, tree::SubdomainId subdomain);
+
+}  // namespace bough::results
