@@ -1,7 +1,7 @@
 /// bench_lean [--case=REGEX] [--checks=yes] [options of Google Benchmark]
 /// Rows taken/CASE and barred/CASE: the same scene with a decision of its plan taken and excluded, interleaved; CASE
-/// begins with the name of the decision. One iteration is one accepted step; for symmetric_... and definite_... it is
-/// one factorization.
+/// begins with the name of the decision. One iteration is one accepted step; for symmetric_... it is one
+/// factorization.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -162,9 +162,6 @@ std::vector<LeanCase> make_cases() {
           {"symmetric", "lattice_50", 50, 5, make_sprung_lattice},
           {"symmetric", "lattice_100", 100, 3, make_sprung_lattice},
           {"symmetric", "lattice_3d_12", 12, 3, make_lattice_3d},
-          {"definite", "lattice_50", 50, 5, make_sprung_lattice},
-          {"definite", "lattice_100", 100, 3, make_sprung_lattice},
-          {"definite", "lattice_3d_12", 12, 3, make_lattice_3d},
           {"small", "chain_4", 4, 200, make_chain},
           {"lanes", "chain_128", 128, 50, make_chain}};
 }
@@ -177,7 +174,7 @@ class NoRecorder final : public records::Recorder {
   void end(const records::Summary&) override {}
 };
 
-bool is_of_factors(const LeanCase& c) { return c.decision == "symmetric" || c.decision == "definite"; }
+bool is_of_factors(const LeanCase& c) { return c.decision == "symmetric"; }
 
 scene::Scene make_scene(const LeanCase& c, bool barred, bool checks) {
   scene::Scene s = c.make(c.size);

@@ -29,10 +29,7 @@ struct BoughStorage {
   solve::Hierarchical solver;
   explicit BoughStorage(const Problem& p)
       : tree(tree::make_tree(p.graph)),
-        solver(p.graph, tree,
-               {.symmetry = !p.is_symmetric() ? solve::Symmetry::general
-                            : p.is_definite   ? solve::Symmetry::definite
-                                              : solve::Symmetry::symmetric}) {
+        solver(p.graph, tree, {.symmetry = p.is_symmetric() ? solve::Symmetry::symmetric : solve::Symmetry::general}) {
     write_elements(p, solver);
     solver.trust_symmetry(p.is_symmetric());  // the peers read one triangle as well
   }

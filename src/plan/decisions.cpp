@@ -45,32 +45,6 @@ std::string count_of(std::size_t n, const std::string& one, const std::string& m
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-/// Why the matrix may not be positive definite: rows of constraints, or a node that has neither mass nor, in statics,
-/// any support.
-std::string obstacle_to_definite(const Plan& plan, std::size_t rows) {
-  if (rows > 0) return "joints have multipliers: " + count_of(rows, "constraint row", "constraint rows");
-  bool is_supported = !plan.held.empty();
-  std::vector<bool> bears_mass(plan.nodes.size(), false);
-  for_each_array(plan.elements, [&](const auto& array) {
-    using E = typename std::decay_t<decltype(array)>::value_type;
-    for (const E& e : array) {
-      const bool is_mass = has_mass(e);
-      for (const Port& p : e.ports) {
-        if (p.node != elements::ground) {
-          if (is_mass) bears_mass[static_cast<std::size_t>(p.node)] = true;
-        } else if (E::role == elements::Role::coupling) {
-          is_supported = true;
-        }
-      }
-    }
-  });
-  if (!plan.is_dynamic) return is_supported ? "" : "no node is held and no spring leads to the ground";
-  for (const HeldNode& h : plan.held) bears_mass[static_cast<std::size_t>(h.node)] = true;  // not part of the matrix
-  for (std::size_t n = 0; n < plan.nodes.size(); ++n)
-    if (!bears_mass[n]) return "'" + plan.nodes[n].name + "' has no mass";
-  return "";
-}
-
 /// Loads without a potential: loads that follow rotations, moments that do not, and the Coriolis terms of a moving
 /// frame in which the scene is described. In a plane a moment has a potential in either case.
 std::string obstacle_to_potential(const Plan& plan, bool in_plane) {
@@ -144,16 +118,6 @@ void Builder::settle() {
          "follows, no dead moment acts, no frame moves and loops make factorizations heavy; given up in a run where "
          "Newton's iteration suffers",
          conservative && loops >= loops_of_lattices, conservative ? text : obstacle);
-  obstacle = plan.took("symmetric") ? obstacle_to_definite(plan, rows) : "tangents are not taken as symmetric";
-  decide("definite",
-         "the symmetric parts are factored as those of a positive definite matrix: no search for pivots; a part of it "
-         "that is not, since forces take its stiffness away, is factored by pivoting. Taken where symmetric parts are, "
-         "no joint has a row that is solved for, and in dynamics every node has mass, in statics a node is held or a "
-         "spring leads to the ground",
-         obstacle.empty(),
-         !obstacle.empty() ? obstacle
-         : dynamic         ? "every node has mass, and there are no constraint rows"
-                           : "the structure is supported, and there are no constraint rows");
   const bool one_matrix = scene.solver.form == scene::SolverForm::monolithic;
   const bool is_augmented = scene.solver.form == scene::SolverForm::augmented;
   std::snprintf(

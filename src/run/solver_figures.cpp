@@ -165,8 +165,6 @@ decltype(records::Summary::solver) solver_figures(step::System& system, int depe
     figures.emplace_back("interface_iterations", i.iterations);
   }
   const solve::Hierarchical* hierarchical = system.linear().solver().hierarchical();
-  if (hierarchical != nullptr && hierarchical->symmetry().declared == solve::Symmetry::definite)
-    figures.emplace_back("indefinite_fronts", static_cast<double>(counters.indefinite_fronts));
   if (hierarchical == nullptr || system.counts().factorizations == 0) return figures;
   int widest = 0;
   for (const tree::Subdomain& s : tree.subdomains)

@@ -3,13 +3,13 @@
 namespace bough::scene {
 
 const std::vector<std::string>& decision_names() {
-  static const std::vector<std::string> names{"welded",    "line",     "translation", "planar", "held",
-                                              "symmetric", "definite", "reuse",       "lanes",  "small"};
+  static const std::vector<std::string> names{"welded",    "line",  "translation", "planar", "held",
+                                              "symmetric", "reuse", "lanes",       "small"};
   return names;
 }
 
 const std::vector<std::string>& retired_decision_names() {
-  static const std::vector<std::string> names{"driven"};
+  static const std::vector<std::string> names{"driven", "definite"};
   return names;
 }
 

@@ -74,13 +74,6 @@ int eliminate_with_threshold(FrontMatrix& front, const PivotRule& rule, const tr
 /// the largest entries of its columns stays below 1 / threshold [Duff, Reid 1983].
 int eliminate_symmetric(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
 
-/// The same for a front that is expected to be positive definite: no search, no exchange, D diagonal. Stops at a pivot
-/// that is not finite, below `least`, or below `least` times its original value, and if a panel subtracts more than 1 /
-/// threshold from a diagonal below it. This cannot occur in a definite matrix with a diagonal of about one, and no
-/// entry grows by more. Returns the number of pivots. If it is below `full`, the front has been overwritten and must be
-/// assembled once more.
-int eliminate_definite(FrontMatrix& front, const PivotRule& rule, const tree::Walker* walker = nullptr);
-
 /// Continues from `pivots` up to `most` with complete pivoting over the remaining fully summed block (precondition: no
 /// boundary), as long as the largest entry reaches `least`. row_weight, column_weight: one factor for each remaining
 /// row and column by which entries are compared, permuted along; or null for ones. Returns the number of pivots

@@ -155,7 +155,6 @@ void Hierarchical::State::count_front(tree::FrontId f) {
   }
   if (d.delayed_in > 0) ++counters.enlarged_fronts;
   if (d.allocated) ++counters.enlarging_allocations;
-  if (d.is_indefinite) ++counters.indefinite_fronts;
   if (f + 1 < tree.num_fronts()) status.delayed_pivots += d.num_delayed();
 }
 

@@ -42,12 +42,11 @@ struct FrontData {
   int* columns = nullptr;
   int* row_from = nullptr;  ///< full: row before pivoting
   int size = 0, full = 0, pivots = 0;
-  int dependent = 0;           ///< of those without a pivot: rows and columns decided here, the last ones
-  int delayed_in = 0;          ///< unknowns that children could not eliminate: they come first
-  int delayed_to = 0;          ///< row of the parent of the first unknown that it delays itself
-  bool failed = false;         ///< not finite here or below
-  bool is_indefinite = false;  ///< declared definite, and a pivot was not
-  bool allocated = false;      ///< enlarging it allocated memory in this factorization
+  int dependent = 0;       ///< of those without a pivot: rows and columns decided here, the last ones
+  int delayed_in = 0;      ///< unknowns that children could not eliminate: they come first
+  int delayed_to = 0;      ///< row of the parent of the first unknown that it delays itself
+  bool failed = false;     ///< not finite here or below
+  bool allocated = false;  ///< enlarging it allocated memory in this factorization
   int num_delayed() const { return full - pivots - dependent; }
   bool is_symmetric() const { return d != nullptr; }
   void set_parts(const FrontShape& shape, double* factor, double* schur);
@@ -210,7 +209,7 @@ struct Hierarchical::State {
   void prefetch_factor(int front, bool downward) const;
   void factor_lane_front(int index, double* factor, Transfers& transfers);
   void factor_lanes_alone(int index, double* factor, LaneSet alone);
-  void leave_lanes(int index, const double* factor, LaneSet alone, LaneSet refused);
+  void leave_lanes(int index, const double* factor, LaneSet alone);
   void add_children_vectors(const LaneFront& f, double* v);
   void forward_lane_front(int index, const double* factor);
   void backward_lane_front(int index);
@@ -231,7 +230,7 @@ struct Hierarchical::State {
 
   // lane_handover.cpp
   LaneSet lanes_to_leave(const LaneFront& f) const;
-  void factor_lane_alone(int index, int lane, bool is_indefinite);
+  void factor_lane_alone(int index, int lane);
   void add_lane_child(tree::FrontId child, FrontData& parent);
   void add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent);
   void hand_down(tree::FrontId f);
@@ -250,7 +249,6 @@ struct Hierarchical::State {
   void size_factors();
   bool is_symmetric() const { return symmetry.used != Symmetry::general; }
   bool compares_triangles() const { return is_symmetric() && !trusts_symmetry; }
-  bool is_definite() const { return symmetry.used == Symmetry::definite; }
   void lose_symmetry(const Asymmetry& found);
   void check_all_symmetric();
   void check_visits_symmetric();

@@ -28,11 +28,10 @@ LaneSet Hierarchical::State::lanes_to_leave(const LaneFront& f) const {
 }
 
 /// Scalar elimination with pivoting for one lane. Its Schur complement returns to the lane if no unknown is delayed.
-void Hierarchical::State::factor_lane_alone(int index, int lane, bool is_indefinite) {
+void Hierarchical::State::factor_lane_alone(int index, int lane) {
   const LaneFront& f = lanes.fronts[at(index)];
   const tree::FrontId id = f.front[at(lane)];
   size_front(id);
-  data(id).is_indefinite = is_indefinite;
   assemble_front(id);
   eliminate_front(id);
   const FrontData& d = data(id);

@@ -34,11 +34,6 @@ LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const doubl
 /// diagonal; entries above are undefined.
 LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, const double* scale,
                                   const double* inverse_scale, const LanePivotRule& rule, Transfers& beside);
-/// The same for fronts that are expected to be positive definite: pivots must be positive, at least `least`, scaled,
-/// and at least `least` times their original values, and no panel may subtract more than 1 / threshold, scaled, from a
-/// diagonal below.
-LaneSet eliminate_lanes_definite(double* factor, double* schur, int n, int e, const double* scale,
-                                 const double* inverse_scale, const LanePivotRule& rule, Transfers& beside);
 int elimination_steps(int n, int e);
 constexpr int most_lane_rows = 2 * lanes_wide * lanes_wide;  ///< no front in lanes has more rows
 

@@ -190,7 +190,7 @@ constexpr int panel_width = 6;  ///< pivots of one update
 
 /// LU of the K x K block at (k0, k0), in place; the inverse pivots on the diagonal. `refused`: lanes whose pivot is
 /// tiny, not finite, or small relative to the block's part of its column. Symmetric: entries above the diagonal are not
-/// read. Definite: `inverse_column_scale` contains the lower limit of each pivot.
+/// read.
 template <int K, Symmetry symmetry>
 inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
                                 const LanePivotRule& rule) {
@@ -206,23 +206,18 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
           symmetry != Symmetry::general && i < j ? load(block + i * ld + j * wide) : load(block + j * ld + i * wide);
 #pragma GCC unroll 8
   for (int k = 0; k < K; ++k) {
-    // Compared as bits: a NaN or infinity on either side rejects without a trap, and so does a negative sign. The pivot
-    // is compared with its column in parallel with the division, which would otherwise wait for the result.
-    Real size = a[k][k], least = load(inverse_column_scale + (k0 + k) * wide);
-    if constexpr (symmetry != Symmetry::definite) {
-      size = magnitude(size * load(row_scale + (k0 + k) * wide));
-      least = rule.least * least;
-    }
+    // Compared as bits: a NaN or infinity on either side rejects without a trap. The pivot is compared with its column
+    // in parallel with the division, which would otherwise wait for the result.
+    const Real size = magnitude(a[k][k] * load(row_scale + (k0 + k) * wide));
+    const Real least = rule.least * load(inverse_column_scale + (k0 + k) * wide);
     const Flag divides = (bits_of(size) >= bits_of(least)) & (bits_of(size) < Flag{} + infinite_bits);
     good &= divides;
     const Real inverse = 1.0 / (divides ? a[k][k] : Real{} + 1.0);
-    if constexpr (symmetry != Symmetry::definite) {
-      Real largest = {};
+    Real largest = {};
 #pragma GCC unroll 8
-      for (int i = k + 1; i < K; ++i)
-        largest = greater_of(largest, magnitude(a[k][i] * load(row_scale + (k0 + i) * wide)));
-      good &= bits_of(size) >= bits_of(rule.threshold * largest);
-    }
+    for (int i = k + 1; i < K; ++i)
+      largest = greater_of(largest, magnitude(a[k][i] * load(row_scale + (k0 + i) * wide)));
+    good &= bits_of(size) >= bits_of(rule.threshold * largest);
 #pragma GCC unroll 8
     for (int i = k + 1; i < K; ++i) a[k][i] *= inverse;
 #pragma GCC unroll 8
@@ -240,13 +235,12 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
   return refused;
 }
 
-/// L of R rows below the block, and the largest entry of each column, rows scaled; definite: the largest amount
-/// subtracted from a diagonal, scaled. Symmetric: L D is written to `products`, row by row, six packs per row.
+/// L of R rows below the block, and the largest entry of each column, rows scaled. Symmetric: L D is written to
+/// `products`, row by row, six packs per row.
 template <int K, Symmetry symmetry, int R>
 inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld, const double* row_scale, Real* largest,
                            [[maybe_unused]] double* products) {
   Real l[K][R];
-  [[maybe_unused]] Real lost[R] = {};
 #pragma GCC unroll 8
   for (int k = 0; k < K; ++k)
 #pragma GCC unroll 8
@@ -263,21 +257,11 @@ inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld,
 #pragma GCC unroll 8
     for (int i = 0; i < R; ++i) {
       if constexpr (symmetry != Symmetry::general) store(products + (i * panel_width + k) * wide, l[k][i]);
-      const Real product = l[k][i];
       l[k][i] *= inverse;
       store(rows + k * ld + i * wide, l[k][i]);
-      if constexpr (symmetry == Symmetry::definite)
-        lost[i] = plus_product(lost[i], product, l[k][i]);
-      else
-        largest[k] = greater_of(largest[k], magnitude(l[k][i] * load(row_scale + i * wide)));
+      largest[k] = greater_of(largest[k], magnitude(l[k][i] * load(row_scale + i * wide)));
     }
   }
-  if constexpr (symmetry == Symmetry::definite)
-#pragma GCC unroll 8
-    for (int i = 0; i < R; ++i) {
-      const Real scale = load(row_scale + i * wide);
-      largest[0] = greater_of(largest[0], lost[i] * scale * scale);
-    }
 }
 
 /// The columns of a panel: their block, and L below. Rejected lanes are replaced by an identity and returned. beside:
@@ -302,14 +286,10 @@ inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale,
   for (; i + 4 <= f.n; i += 4) rows(i, std::integral_constant<int, 4>{});
   for (; i + 2 <= f.n; i += 2) rows(i, std::integral_constant<int, 2>{});
   for (; i < f.n; ++i) rows(i, std::integral_constant<int, 1>{});
-  // A pivot is small relative to its column if an entry of L, rows scaled, is above 1 / threshold; definite: if more
-  // than this is subtracted from a diagonal.
+  // A pivot is small relative to its column if an entry of L, rows scaled, is above 1 / threshold.
   Flag good = ~Flag{};
-  if constexpr (symmetry == Symmetry::definite)
-    good = bits_of(rule.threshold * largest[0]) <= bits_of(Real{} + 1.0);
-  else
-    for (int k = 0; k < K; ++k)
-      good &= bits_of(rule.threshold * largest[k]) <= bits_of(load(row_scale + (k0 + k) * wide));
+  for (int k = 0; k < K; ++k)
+    good &= bits_of(rule.threshold * largest[k]) <= bits_of(load(row_scale + (k0 + k) * wide));
   unsigned grown = 0;
   for (int l = 0; l < width; ++l) grown |= good[l] == 0 ? 1u << l : 0u;
   if (grown != 0) neutralise(f, grown);

@@ -43,9 +43,8 @@ inline void update(const Front& f, int k0, int column, const double* products) {
   subtract_columns<C>(f.n - column - C, K, l + C * wide, ld, u, of_row, target + C * wide, step);
 }
 
-/// One register of lanes. bar: the inverse scales; definite: the lower limit of each pivot.
-template <Symmetry symmetry>
-unsigned eliminate_register(const Front& f, const double* scale, const double* bar, const LanePivotRule& rule,
+/// One register of lanes.
+unsigned eliminate_register(const Front& f, const double* scale, const double* inverse_scale, const LanePivotRule& rule,
                             Transfers& beside) {
   alignas(64) double products[most_lane_rows * panel_width * wide];
   unsigned failed = 0;
@@ -53,7 +52,7 @@ unsigned eliminate_register(const Front& f, const double* scale, const double* b
     const int k1 = std::min(k0 + panel_width, f.e);
     with_size(k1 - k0, [&](auto size) {
       constexpr int pivots = decltype(size)::value;
-      failed |= eliminate_panel<pivots, symmetry>(f, k0, scale, bar, rule, products, beside);
+      failed |= eliminate_panel<pivots, Symmetry::symmetric>(f, k0, scale, inverse_scale, rule, products, beside);
       const auto catch_up = [&](int j, auto c) {
         beside.step();
         update<pivots, decltype(c)::value>(f, k0, j, products);
@@ -64,16 +63,6 @@ unsigned eliminate_register(const Front& f, const double* scale, const double* b
     k0 = k1;
   }
   return failed;
-}
-
-/// Definite: lower limits of the pivots, relative to the unknown's scale and to its diagonal before the front is
-/// eliminated.
-void eval_bars(const Front& f, const double* scale, const double* inverse_scale, double least, double* bar) {
-  for (int k = 0; k < f.e; ++k) {
-    const Real diagonal = load(f.left + k * (f.ld() + wide));
-    const Real of_scale = load(inverse_scale + k * wide) / load(scale + k * wide);
-    store(bar + k * wide, least * greater_of(diagonal, of_scale));
-  }
 }
 
 /// y = L^-T y for K rows, L unit.
@@ -93,19 +82,7 @@ LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, c
   unsigned failed = 0;
   for (int l = 0; l < wide; l += width) {
     const Front f = register_of(factor, schur, n, e, l, Symmetry::symmetric);
-    failed |= eliminate_register<Symmetry::symmetric>(f, scale + l, inverse_scale + l, rule, beside) << l;
-  }
-  return static_cast<LaneSet>(failed);
-}
-
-LaneSet eliminate_lanes_definite(double* factor, double* schur, int n, int e, const double* scale,
-                                 const double* inverse_scale, const LanePivotRule& rule, Transfers& beside) {
-  alignas(64) double bar[most_lane_rows * wide];
-  unsigned failed = 0;
-  for (int l = 0; l < wide; l += width) {
-    const Front f = register_of(factor, schur, n, e, l, Symmetry::definite);
-    eval_bars(f, scale + l, inverse_scale + l, rule.least, bar);
-    failed |= eliminate_register<Symmetry::definite>(f, scale + l, bar, rule, beside) << l;
+    failed |= eliminate_register(f, scale + l, inverse_scale + l, rule, beside) << l;
   }
   return static_cast<LaneSet>(failed);
 }

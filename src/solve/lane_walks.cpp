@@ -207,14 +207,12 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
   if (alone != 0) neutralise_lanes(factor, schur, n, e, alone, symmetry.used);
   mark(tree::Stage::assemble);
   const LanePivotRule rule{options.pivot_threshold, options.tiny_pivot};
-  const auto eliminate = is_definite()    ? eliminate_lanes_definite
-                         : f.is_symmetric ? eliminate_lanes_symmetric
-                                          : eliminate_lanes;
+  const auto eliminate = f.is_symmetric ? eliminate_lanes_symmetric : eliminate_lanes;
   const LaneSet refused =
       eliminate(factor, schur, n, e, lane_scales.row(index), lane_scales.inverse_column(f, index), rule, transfers);
   alone = static_cast<LaneSet>(alone | refused);
   scalar_lanes[at(index)] = alone;
-  leave_lanes(index, factor, alone, refused);
+  leave_lanes(index, factor, alone);
 }
 
 /// All lanes leave: the front is an identity in each of them.
@@ -226,16 +224,15 @@ void Hierarchical::State::factor_lanes_alone(int index, double* factor, LaneSet 
     std::fill_n(factor + static_cast<std::int64_t>(k) * (f.size() + 1) * wide, wide, 1.0);
   scalar_lanes[at(index)] = alone;
   mark(tree::Stage::assemble);
-  leave_lanes(index, factor, alone, 0);
+  leave_lanes(index, factor, alone);
 }
 
 /// Factors lanes by themselves. One with dependent rows does not try to stay in the next factorization in these scales.
-void Hierarchical::State::leave_lanes(int index, const double* factor, LaneSet alone, LaneSet refused) {
+void Hierarchical::State::leave_lanes(int index, const double* factor, LaneSet alone) {
   LaneSet& leaving = leaving_lanes[at(index)];
   for (int l = 0; alone != 0 && l < wide; ++l) {
     if ((alone >> l & 1) == 0) continue;
-    const bool is_indefinite = is_definite() && ((refused | leaving) >> l & 1) != 0;
-    factor_lane_alone(index, l, is_indefinite);
+    factor_lane_alone(index, l);
     const FrontData& d = data(lanes.fronts[at(index)].front[at(l)]);
     const auto lane = static_cast<LaneSet>(1u << l);
     leaving = static_cast<LaneSet>(d.dependent > 0 ? leaving | lane : leaving & ~lane);

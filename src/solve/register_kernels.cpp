@@ -31,11 +31,10 @@ struct Panel {
   double* schur;
   int schur_step;
   const double *column, *inverse_column, *least;
-  std::uint64_t magnitude;  ///< bits of a pivot that are compared
   double threshold;
-  bool is_definite;
 };
 
+constexpr std::uint64_t all_but_sign = ~std::uint64_t{0} >> 1;
 constexpr Mask last_lane = 1 << (eight - 1);  ///< of a row's last register: the right-hand side
 constexpr Mask above(int lane) { return static_cast<Mask>(0xff << (lane + 1)); }
 constexpr Mask first_lanes(int count) {
@@ -107,9 +106,8 @@ bool eliminate_panel(const Panel& given) {
   Eight z = {};
 #pragma GCC unroll 8
   for (int k = 0; k < K; ++k) {
-    // Compared as bits: a NaN or infinity rejects the pivot without a trap, and so does a negative sign if pivots must
-    // be positive.
-    const auto size = std::bit_cast<std::uint64_t>(pivot) & f.magnitude;
+    // Compared as bits: a NaN or infinity rejects the pivot without a trap.
+    const auto size = std::bit_cast<std::uint64_t>(pivot) & all_but_sign;
     const auto least = std::bit_cast<std::uint64_t>(f.least[k]);
     if (size - least >= static_cast<std::uint64_t>(packs::infinite_bits) - least) return false;
     const double inverse_pivot = 1.0 / pivot;
@@ -119,17 +117,16 @@ bool eliminate_panel(const Panel& given) {
       pivot = is_symmetric ? tiles::take_product(u, beside, rows::lane_of(p[k + 1][0], k + 1))
                            : tiles::take_product(rows::lane_of(p[k + 1][0], k), u, rows::lane_of(p[k + 1][0], k + 1));
     }
-    // Growth of rows: squares of the entries of U, scaled; definite: amounts subtracted from the diagonals.
-    const packs::Real weight = packs::Real{} + f.inverse_column[k], column = packs::Real{} + f.column[k];
+    // Growth of rows: squares of the entries of U, scaled.
+    const packs::Real weight = packs::Real{} + f.inverse_column[k];
     Eight u[R];
 #pragma GCC unroll 8
     for (int r = 0; r < R; ++r) {
       u[r] = r == 0 ? rows::product(p[k][0], above(k), inverse) : rows::product(p[k][r], 0xff, inverse);
       const Mask asked = static_cast<Mask>((r == 0 ? above(k) : 0xff) & (r == R - 1 ? ~last_lane : 0xff));
       const Eight scaled = rows::product_or_zero(u[r], asked, weight);
-      const Eight other = is_symmetric && f.is_definite ? rows::product_or_zero(p[k][r], asked, column) : scaled;
       for (int i = 0; i < rows::parts; ++i)
-        growth[r].r[i] = packs::plus_product(growth[r].r[i], scaled.r[i], other.r[i]);
+        growth[r].r[i] = packs::plus_product(growth[r].r[i], scaled.r[i], scaled.r[i]);
     }
     if constexpr (is_symmetric) {
 #pragma GCC unroll 8
@@ -165,7 +162,7 @@ bool eliminate_panel(const Panel& given) {
   for (; i < f.count; ++i) update_rows<R, K, 1, is_symmetric>(f, p, i);
   long long grown = 0;
   const double most = 1.0 / f.threshold;
-  const packs::Real bound = packs::Real{} + (is_symmetric && f.is_definite ? most : most * most);
+  const packs::Real bound = packs::Real{} + most * most;
 #pragma GCC unroll 8
   for (int r = 0; r < R; ++r) {
     const Eight scale = rows::load(f.column + r * eight);
@@ -256,7 +253,7 @@ void add_right_hand_side(int count, const double* b, int step, double* front) {
   }
 }
 
-bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScales& scales, double threshold,
+bool eliminate_in_registers(int n, int e, bool is_symmetric, const RegisterScales& scales, double threshold,
                             const RegisterParts& parts) {
   const int registers = n / eight + 1, step = registers * eight, b = n - e;
   const int schur_step = (b / eight + 1) * eight;
@@ -264,7 +261,6 @@ bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScale
     std::copy_n(parts.rows, static_cast<std::ptrdiff_t>(n) * step, parts.schur);  // rows of the same length
     return true;
   }
-  const bool is_symmetric = kind != RegisterKind::general;
   for (int k0 = 0; k0 < e; k0 += eight) {
     const int pivots = std::min(eight, e - k0);
     Panel f;
@@ -281,10 +277,8 @@ bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScale
     f.schur_step = schur_step;
     f.column = scales.column + k0;
     f.least = scales.least + k0;
-    f.magnitude = kind == RegisterKind::definite ? ~std::uint64_t{0} : ~std::uint64_t{0} >> 1;
     f.inverse_column = scales.inverse_column + k0;
     f.threshold = threshold;
-    f.is_definite = kind == RegisterKind::definite;
     if (!table.of[is_symmetric ? 1 : 0][registers - k0 / eight - 1][pivots - 1](f)) return false;
   }
   return true;

@@ -3,18 +3,11 @@
 /// exchanged. Internal to solve.
 /// A = L U, U unit upper with the pivots in L: rows of U are divided, so that multipliers are unchanged entries of L.
 /// A pivot must reach `least`. For each panel of up to eight pivots the squares of the entries of U are summed by
-/// columns, scaled: a sum above 1 / threshold^2 rejects them, so that no entry of U is larger than 1 / threshold
-/// (definite: RegisterKind).
+/// columns, scaled: a sum above 1 / threshold^2 rejects them, so that no entry of U is larger than 1 / threshold.
+/// Symmetric: U^T D U, entries below the diagonal are not used.
 #include "register_plan.hpp"
 
 namespace bough::solve {
-
-enum class RegisterKind {
-  general,    ///< L U
-  symmetric,  ///< U^T D U: entries below the diagonal are not used
-  /// The same; pivots must be positive, and no panel may subtract more than 1 / threshold, scaled, from a diagonal.
-  definite,
-};
 
 /// Scales of a front: columns (zero in unused lanes), and for eliminated unknowns 1 / column and the lower limit of the
 /// magnitude of the pivot.
@@ -37,7 +30,7 @@ void move_rows(const RegisterMove& move, int step, const double* source, double*
 void add_right_hand_side(int count, const double* b, int step, double* front);
 
 /// False: a pivot is rejected or not finite; factor and schur are then undefined.
-bool eliminate_in_registers(int n, int e, RegisterKind kind, const RegisterScales& scales, double threshold,
+bool eliminate_in_registers(int n, int e, bool is_symmetric, const RegisterScales& scales, double threshold,
                             const RegisterParts& parts);
 
 /// t: n numbers. The first `e` become L^-1 t, and their part is subtracted from the others. symmetric: the rows of U

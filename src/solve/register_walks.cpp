@@ -21,9 +21,6 @@ constexpr int largest_step = (largest_in_registers / row_register + 1) * row_reg
 /// False: a pivot was rejected. The whole leaf is then factored with pivoting, from its element matrices.
 bool Hierarchical::State::factor_registers(int group, const double* b) {
   const RegisterGroup& own = registers.groups[at(group)];
-  const RegisterKind kind = is_definite()    ? RegisterKind::definite
-                            : is_symmetric() ? RegisterKind::symmetric
-                                             : RegisterKind::general;
   alignas(64) double rows[largest_in_registers * largest_step];
   double* place = register_schur.data() + own.schur;
   alignas(64) double aside[2][largest_factor];
@@ -56,7 +53,7 @@ bool Hierarchical::State::factor_registers(int group, const double* b) {
     mark(tree::Stage::assemble);
     double* const factor = register_factors.data() + f.factor;
     double* const written = exceeds_caches ? aside[k % 2] : factor;
-    const bool stands = eliminate_in_registers(f.size(), f.eliminated, kind, register_scales.of(f, k),
+    const bool stands = eliminate_in_registers(f.size(), f.eliminated, is_symmetric(), register_scales.of(f, k),
                                                options.pivot_threshold, {rows, written, vector, place + f.schur});
     if (exceeds_caches) {
       transfers.finish();
@@ -97,7 +94,7 @@ void Hierarchical::State::export_schur(const RegisterFront& f, const double* sch
   d.size = f.size();
   d.full = d.pivots = f.eliminated;
   d.delayed_in = d.delayed_to = d.dependent = 0;
-  d.failed = d.allocated = d.is_indefinite = false;
+  d.failed = d.allocated = false;
   d.vector = vector_pool.data() + vector_begin[at(f.front)];
   // No pivot is delayed, so the factor is not read, and its address is arbitrary.
   d.set_parts(FrontShape(d.size, d.full, is_symmetric()), d.vector, schur_place(f.front));

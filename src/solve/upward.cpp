@@ -29,7 +29,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   const tree::Front& shape = front(f);
   FrontData& d = data(f);
   d.delayed_in = 0;
-  d.failed = d.allocated = d.is_indefinite = false;
+  d.failed = d.allocated = false;
   for (tree::FrontId c : tree.children(shape)) {
     if (!is_scalar(c)) continue;
     d.delayed_in += data(c).num_delayed();
@@ -102,13 +102,6 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
                  is_root ? 1e-2 : options.tiny_pivot};
   rule.marked = is_constraint.get();
   rule.least_of_marked = least_of_multipliers;
-  if (is_definite() && !d.is_indefinite && d.delayed_in == 0) {
-    // Also at the root: if all pivots are positive, the matrix is definite and has full rank.
-    d.pivots = eliminate_definite(matrix, {options.pivot_threshold, options.tiny_pivot}, &factor_walker);
-    if (d.pivots == d.full) return;
-    d.is_indefinite = true;
-    assemble_front(f);
-  }
   if (d.is_symmetric()) {
     d.pivots = eliminate_symmetric(matrix, {rule.threshold, is_root ? suspect_pivot : rule.least}, &factor_walker);
     if (d.pivots >= 0 && d.pivots < d.full && is_root) {  // the rank is found by complete pivoting

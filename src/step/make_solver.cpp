@@ -36,7 +36,6 @@ solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solv
   }
   options.inertia = !plan.is_dynamic;  // needed by Stability
   if (plan.took("symmetric")) options.symmetry = solve::Symmetry::symmetric;
-  if (plan.took("definite")) options.symmetry = solve::Symmetry::definite;
   return options;
 }
 

@@ -237,59 +237,6 @@ TEST(DenseKernels, SymmetricUnknownsWithoutAPivotWait) {
   }
 }
 
-MatrixXd definite(std::mt19937& random, int n) {
-  const MatrixXd a = uniform(random, n, n);
-  return a * a.transpose() / n + 0.1 * MatrixXd::Identity(n, n);
-}
-
-TEST(DenseKernels, DefiniteFactorsReproduceTheFrontForEverySizeAndSplit) {
-  std::mt19937 random(12);
-  for (int n : {1, 2, 3, 5, 7, 8, 9, 12, 13, 24, 25, 31, 64, 72, 96, 97, 98, 130, 161, 250})
-    for (int full : {0, 1, n / 3, n / 2, n}) {
-      const MatrixXd a = definite(random, n);
-      SymmetricFront f(a, full);
-      ASSERT_EQ(solve::eliminate_definite(f.matrix, {.threshold = 0.01, .least = 1e-10}), full) << n;
-      EXPECT_LE(f.defect(a, full), 1e-14 * n * a.cwiseAbs().maxCoeff()) << n << " " << full;
-      if (full < n) continue;
-      const Eigen::VectorXd b = uniform(random, n, 1);
-      Eigen::VectorXd x = b;
-      solve::substitute_forward(f.matrix, n, x.data());
-      solve::substitute_backward(f.matrix, n, x.data());
-      EXPECT_LE((a * x - b).cwiseAbs().maxCoeff(), 1e-12 * n * a.cwiseAbs().maxCoeff() * x.cwiseAbs().maxCoeff());
-    }
-}
-
-TEST(DenseKernels, DefiniteFactorsStopAtAPivotThatIsNotPositiveOrLostAllItsDigits) {
-  std::mt19937 random(13);
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (int n : {1, 7, 8, 30, 100, 180}) {
-    const int last = n - 1, full = n == 180 ? 140 : n;
-    for (int k : {0, n / 2, full - 1}) {
-      MatrixXd a = definite(random, n);
-      a(k, k) = -1.0;
-      SymmetricFront negative(a, full);
-      EXPECT_EQ(solve::eliminate_definite(negative.matrix, {}), k) << n;
-      a(k, k) = nan;
-      SymmetricFront lost(a, full);
-      EXPECT_EQ(solve::eliminate_definite(lost.matrix, {}), k) << n;
-      if (k == 0) continue;
-      // Large, and equal to another to twelve digits: what is left of the second is far above `least` itself.
-      a = 1e6 * MatrixXd::Identity(n, n);
-      a(k, 0) = a(0, k) = 1e6 * (1.0 - 1e-12);
-      SymmetricFront cancelled(a, full);
-      EXPECT_EQ(solve::eliminate_definite(cancelled.matrix, {.threshold = 1e-8, .least = 1e-10}), k) << n;
-    }
-    if (full == n) continue;
-    MatrixXd a = definite(random, n);
-    a(last, 3) = nan;  // in a row of the boundary
-    SymmetricFront f(a, full);
-    EXPECT_LT(solve::eliminate_definite(f.matrix, {}), full);
-    a(last, 3) = 100.0;  // all pivots are positive, but this row has no such diagonal
-    SymmetricFront grown(a, full);
-    EXPECT_LT(solve::eliminate_definite(grown.matrix, {.threshold = 1e-3, .least = 1e-10}), full);
-  }
-}
-
 TEST(DenseKernels, TilesOfLargeFrontsComeInAnyOrder) {
   static int calls = 0;
   const tree::Walker backwards{nullptr, nullptr,
@@ -312,12 +259,6 @@ TEST(DenseKernels, TilesOfLargeFrontsComeInAnyOrder) {
   EXPECT_EQ(solve::eliminate_symmetric(second.matrix, rule, &backwards), full);
   EXPECT_EQ(first.a, second.a);
   EXPECT_EQ(first.s, second.s);
-  const MatrixXd c = definite(random, n);
-  SymmetricFront forwards(c, full), shared(c, full);
-  EXPECT_EQ(solve::eliminate_definite(forwards.matrix, rule), full);
-  EXPECT_EQ(solve::eliminate_definite(shared.matrix, rule, &backwards), full);
-  EXPECT_EQ(forwards.a, shared.a);
-  EXPECT_EQ(forwards.s, shared.s);
   EXPECT_EQ(first.d, second.d);
   EXPECT_GE(calls, 4);
 }

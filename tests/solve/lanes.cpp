@@ -150,63 +150,6 @@ TEST(Lanes, a_pivot_that_is_small_against_rows_of_the_boundary_is_refused) {
   EXPECT_EQ(f.eliminate(), 1 << 2);
 }
 
-/// Factors and Schur complements of eight symmetric fronts whose diagonals dominate.
-struct SymmetricFronts {
-  int n, e;
-  std::vector<double> factor, schur, ones;
-  SymmetricFronts(int n_, int e_, unsigned seed) : n(n_), e(e_) {
-    Fronts f(n, e, seed);
-    const int b = n - e;
-    for (int l = 0; l < lanes_wide; ++l)
-      for (int j = 0; j < n; ++j)
-        for (int i = j; i < n; ++i) f.at(l, i, j) += i == j ? n : 0.0;
-    factor.assign(f.factor.begin(), f.factor.begin() + lanes_wide * n * e);
-    schur.assign(f.schur.begin(), f.schur.begin() + lanes_wide * b * b);
-    ones = f.ones;
-  }
-  double& diagonal(int lane, int k) { return factor[static_cast<std::size_t>(k * (n + 1) * lanes_wide + lane)]; }
-  solve::LaneSet eliminate_symmetric() {
-    solve::Transfers none;
-    return solve::eliminate_lanes_symmetric(factor.data(), schur.data(), n, e, ones.data(), ones.data(), {}, none);
-  }
-  solve::LaneSet eliminate_definite() {
-    solve::Transfers none;
-    return solve::eliminate_lanes_definite(factor.data(), schur.data(), n, e, ones.data(), ones.data(), {}, none);
-  }
-};
-
-TEST(Lanes, definite_kernels_give_the_bits_of_symmetric_ones) {
-  for (int e : {1, 2, 5, 6, 7, 11, 12, 18, 23})
-    for (int b : {0, 1, 3, 6, 7, 12, 17}) {
-      SymmetricFronts symmetric(e + b, e, 5), definite = symmetric;
-      ASSERT_EQ(symmetric.eliminate_symmetric(), 0);
-      ASSERT_EQ(definite.eliminate_definite(), 0);
-      EXPECT_EQ(symmetric.factor, definite.factor);
-      EXPECT_EQ(symmetric.schur, definite.schur);
-    }
-}
-
-TEST(Lanes, a_lane_that_is_not_definite_is_told_and_changes_no_other) {
-  for (int e : {6, 11, 17}) {
-    SymmetricFronts good(e + 12, e, 7), bad = good;
-    bad.diagonal(1, e - 2) = -1.0;
-    bad.diagonal(3, 0) = std::nan("");
-    const std::size_t second = static_cast<std::size_t>(bad.n) * lanes_wide;  // large, and equal but for twelve digits
-    bad.diagonal(4, 0) = bad.diagonal(4, 1) = 1e12;
-    bad.factor[lanes_wide + 4] = 1e12 * (1.0 - 1e-12);
-    for (int i = 2; i < bad.n; ++i)
-      bad.factor[static_cast<std::size_t>(i * lanes_wide + 4)] =
-          bad.factor[second + static_cast<std::size_t>(i * lanes_wide + 4)] = 0.0;
-    bad.factor[static_cast<std::size_t>((bad.n - 1) * lanes_wide + 6)] = std::nan("");  // a row of the boundary
-    EXPECT_EQ(bad.eliminate_definite(), (1 << 1) | (1 << 3) | (1 << 4) | (1 << 6));
-    ASSERT_EQ(good.eliminate_definite(), 0);
-    for (std::size_t i = 0; i < good.factor.size(); i += lanes_wide)
-      for (std::size_t l : {0, 2, 5, 7}) EXPECT_EQ(bad.factor[i + l], good.factor[i + l]);
-    for (double x : bad.schur) EXPECT_TRUE(std::isfinite(x));
-    for (double x : bad.factor) EXPECT_TRUE(std::isfinite(x));
-  }
-}
-
 TEST(Lanes, long_chains_go_in_lanes_and_give_the_solution_of_the_scalar_path) {
   for (int links : {24, 40, 67}) {
     const Scene scene = make_chain(3, links, 4);

@@ -49,7 +49,7 @@ TEST(LoopRows, MultipliersAreTheLeastOnesForAnyTreeAndForm) {
   for (const LoopOptions& options : make_cases())
     for (const int leaf : {1, 4, 1000})
       for (const bool lanes : {false, true})
-        for (const auto symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric, solve::Symmetry::definite}) {
+        for (const auto symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric}) {
           SCOPED_TRACE(testing::Message() << options.columns << " x " << options.floors << ", leaf " << leaf
                                           << ", lanes " << lanes << ", symmetry " << static_cast<int>(symmetry));
           const Scene scene = make_loops(options);

@@ -26,16 +26,13 @@ enum class SolveCheck {
 enum class Symmetry {
   general,    ///< structure symmetric, values not: L U.
   symmetric,  ///< every element matrix is symmetric, definite or not: L D L^T.
-  definite,   ///< the same, and their sum is expected to be positive definite: L D L^T without a search for pivots.
 };
 
 struct SolveOptions {
   Elimination elimination = Elimination::flat;
   /// Symmetric: half the work, less memory (flat elimination only). Every factorization checks every element matrix
   /// (unless Hierarchical::trust_symmetry() is set). If one differs from its transpose, the solver permanently changes
-  /// to general and reports it in Hierarchical::symmetry(). Definite: a front with a pivot that is not positive, or
-  /// below tiny_pivot, is factored as a symmetric one; the declaration remains in force
-  /// (SolverCounters::indefinite_fronts).
+  /// to general and reports it in Hierarchical::symmetry().
   Symmetry symmetry = Symmetry::general;
   /// The root's front is stored as assembled, for Hierarchical::inertia().
   bool inertia = false;

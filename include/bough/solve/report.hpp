@@ -114,9 +114,6 @@ struct SolverCounters {
       0;  ///< leaves of those that were factored by pivoting instead, over all factorizations.
   std::int64_t lanes_left =
       0;  ///< fronts that left their lane for scalar elimination with pivoting, over all factorizations.
-  /// Declared definite: fronts with a pivot that was not positive or too small, which were factored by pivoting
-  /// instead, over all factorizations.
-  std::int64_t indefinite_fronts = 0;
 };
 
 /// Called at the start of a visit, before the elements are assembled, so that one task evaluates and eliminates them.
